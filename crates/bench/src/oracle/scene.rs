@@ -1,0 +1,207 @@
+//! Which stroke or surface a sample shows.
+
+use super::segment::{Depth, Segment};
+use super::triangle::Triangle;
+use glam::DVec2;
+use render::{Disc, Drawing, Order};
+use std::cmp::Reverse;
+
+/// What may cover the samples of one part of the screen.
+#[derive(Debug)]
+pub struct Scene {
+    /// By rising id.
+    strands: Vec<Strand>,
+    triangles: Vec<Triangle>,
+    background: Option<[f64; 3]>,
+    order: Order,
+}
+
+#[derive(Debug)]
+struct Strand {
+    clump: Vec<Segment>,
+    /// The one that hides the others first.
+    strokes: Vec<Stroke>,
+}
+
+#[derive(Debug)]
+struct Stroke {
+    precedence: Precedence,
+    /// Of all the strand's runs.
+    segments: Vec<Segment>,
+}
+
+/// Which stroke of a strand hides which: the larger. Fields in order of weight.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Eq, Ord)]
+struct Precedence {
+    rank: i32,
+    layer: usize,
+    instance: usize,
+}
+
+impl Scene {
+    /// The whole drawing.
+    pub fn new(drawing: &Drawing) -> Self {
+        let strands = drawing.runs.chunk_by(|a, b| a.strand == b.strand);
+        Self {
+            strands: strands.map(|runs| Strand::new(drawing, runs)).collect(),
+            triangles: drawing.surfaces.iter().flat_map(Triangle::of).collect(),
+            background: drawing.background.map(|color| color.map(f64::from)),
+            order: drawing.order,
+        }
+    }
+
+    /// What of it may touch the box from `min` to `max`.
+    pub fn within(&self, min: DVec2, max: DVec2) -> Self {
+        let strands = self.strands.iter().map(|strand| strand.within(min, max));
+        let triangles = self.triangles.iter().copied();
+        Self {
+            strands: strands.filter(|s| !s.strokes.is_empty()).collect(),
+            triangles: triangles.filter(|t| t.touches(min, max)).collect(),
+            ..*self
+        }
+    }
+
+    /// The colour at `point`, or nothing where the picture is transparent.
+    pub fn color(&self, point: DVec2) -> Option<[f64; 3]> {
+        let surface = self.nearest_surface(point);
+        let behind = surface.map_or(f64::NEG_INFINITY, |(inv_depth, _)| inv_depth);
+        let stroke = match self.order {
+            Order::StrandFirst => self.nearest_strand(point, behind),
+            Order::Shifted => self.nearest_stroke(point, behind),
+        };
+        stroke
+            .and_then(|stroke| stroke.color(point))
+            .or(surface.map(|(_, color)| color))
+            .or(self.background)
+    }
+
+    /// The inverse depth and colour of the nearest triangle, the first among equals.
+    fn nearest_surface(&self, point: DVec2) -> Option<(f64, [f64; 3])> {
+        let hits = self.triangles.iter().filter_map(|t| t.hit(point));
+        hits.reduce(|best, next| if next.0 > best.0 { next } else { best })
+    }
+
+    /// [`Order::StrandFirst`]: each strand settles what it shows, then the nearest strand is seen,
+    /// the lower id among equals. Strands behind the inverse depth `behind` are not.
+    fn nearest_strand(&self, point: DVec2, behind: f64) -> Option<&Stroke> {
+        let shown = self.strands.iter().filter_map(|strand| strand.shown(point));
+        shown
+            .filter(|(depth, _)| depth.biased >= behind)
+            .reduce(|best, next| {
+                if next.0.inv_depth > best.0.inv_depth {
+                    next
+                } else {
+                    best
+                }
+            })
+            .map(|(_, stroke)| stroke)
+    }
+
+    /// [`Order::Shifted`]: the nearest stroke; among equals the one with precedence, then of the
+    /// lower id. Strokes behind the inverse depth `behind` are not seen.
+    fn nearest_stroke(&self, point: DVec2, behind: f64) -> Option<&Stroke> {
+        let strokes = self.strands.iter().flat_map(|strand| &strand.strokes);
+        strokes
+            .filter_map(|stroke| Some((depth(&stroke.segments, point)?, stroke)))
+            .filter(|(depth, _)| depth.biased >= behind)
+            .reduce(|best, next| {
+                let key = |(depth, stroke): &(Depth, &Stroke)| (depth.inv_depth, stroke.precedence);
+                if key(&next) > key(&best) { next } else { best }
+            })
+            .map(|(_, stroke)| stroke)
+    }
+}
+
+impl Strand {
+    /// The strand that has `runs`.
+    fn new(drawing: &Drawing, runs: &[render::Run]) -> Self {
+        let joints = drawing.clump.len();
+        let no_colors = vec![[0.0; 3]; joints];
+        let mut strokes: Vec<Stroke> = Vec::new();
+        for (layer, strokes_of_layer) in drawing.layers.iter().enumerate() {
+            for instance in 0..strokes_of_layer.instances {
+                let of_instance = instance * joints..(instance + 1) * joints;
+                strokes.push(Stroke {
+                    precedence: Precedence {
+                        rank: strokes_of_layer.rank,
+                        layer,
+                        instance,
+                    },
+                    segments: segments(
+                        runs,
+                        &strokes_of_layer.discs[of_instance.clone()],
+                        &strokes_of_layer.colors[of_instance],
+                    ),
+                });
+            }
+        }
+        strokes.sort_by_key(|stroke| Reverse(stroke.precedence));
+        Self {
+            clump: segments(runs, &drawing.clump, &no_colors),
+            strokes,
+        }
+    }
+
+    /// What of it may touch the box from `min` to `max`.
+    fn within(&self, min: DVec2, max: DVec2) -> Self {
+        let touching = |segments: &[Segment]| -> Vec<Segment> {
+            let segments = segments.iter().copied();
+            segments.filter(|s| s.touches(min, max)).collect()
+        };
+        let strokes = self.strokes.iter().map(|stroke| Stroke {
+            precedence: stroke.precedence,
+            segments: touching(&stroke.segments),
+        });
+        Self {
+            clump: touching(&self.clump),
+            strokes: strokes.filter(|s| !s.segments.is_empty()).collect(),
+        }
+    }
+
+    /// The stroke that the strand shows at `point`, and how deep: in the clump the highest at the
+    /// clump's depth, outside it the highest below the base stroke at its own.
+    fn shown(&self, point: DVec2) -> Option<(Depth, &Stroke)> {
+        let clump = depth(&self.clump, point);
+        self.strokes
+            .iter()
+            .filter(|stroke| clump.is_some() || stroke.precedence.rank < 0)
+            .find_map(|stroke| {
+                let own = depth(&stroke.segments, point)?;
+                Some((clump.unwrap_or(own), stroke))
+            })
+    }
+}
+
+impl Stroke {
+    /// The colour of the axis point nearest to `point`: least distance over radius.
+    fn color(&self, point: DVec2) -> Option<[f64; 3]> {
+        let nearest = self.segments.iter().map(|segment| {
+            let (ratio, t) = segment.nearest_axis_point(point);
+            (ratio, t, segment)
+        });
+        nearest
+            .reduce(|best, next| if next.0 < best.0 { next } else { best })
+            .map(|(_, t, segment)| segment.color(t))
+    }
+}
+
+/// The segments of all `runs`, in order along the strand.
+fn segments(runs: &[render::Run], discs: &[Disc], colors: &[[f32; 3]]) -> Vec<Segment> {
+    let segment = |from, to| Segment::new([&discs[from], &discs[to]], [colors[from], colors[to]]);
+    let mut segments = Vec::new();
+    for run in runs {
+        match run.joints.len() {
+            0 => {}
+            1 => segments.push(segment(run.joints.start, run.joints.start)),
+            _ => segments
+                .extend((run.joints.start + 1..run.joints.end).map(|to| segment(to - 1, to))),
+        }
+    }
+    segments
+}
+
+/// The nearest depth of the discs that cover `point`, or nothing where none does.
+fn depth(segments: &[Segment], point: DVec2) -> Option<Depth> {
+    let depths = segments.iter().filter_map(|segment| segment.depth(point));
+    depths.reduce(Depth::nearest)
+}

@@ -1,0 +1,131 @@
+//! One triangle of a surface.
+
+use glam::DVec2;
+use render::{Surface, SurfaceVertex};
+
+/// A triangle in two tones, seen from both sides, its edges included.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle {
+    corners: [Corner; 3],
+    light: [f64; 3],
+    shadow: [f64; 3],
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    position: DVec2,
+    inv_depth: f64,
+    tone: f64,
+}
+
+impl From<SurfaceVertex> for Corner {
+    fn from(vertex: SurfaceVertex) -> Self {
+        Self {
+            position: vertex.position.as_dvec2(),
+            inv_depth: vertex.inv_depth.into(),
+            tone: vertex.tone.into(),
+        }
+    }
+}
+
+impl Triangle {
+    /// The triangles of a surface, in its order.
+    pub fn of(surface: &Surface) -> impl Iterator<Item = Self> {
+        surface.triangles.iter().map(|corners| Self {
+            corners: corners.map(|index| surface.vertices[index as usize].into()),
+            light: surface.light.map(f64::from),
+            shadow: surface.shadow.map(f64::from),
+        })
+    }
+
+    /// Whether the triangle may touch the box from `min` to `max`.
+    pub fn touches(&self, min: DVec2, max: DVec2) -> bool {
+        let [a, b, c] = self.corners.map(|corner| corner.position);
+        a.min(b).min(c).cmple(max).all() && a.max(b).max(c).cmpge(min).all()
+    }
+
+    /// The inverse depth (1/m) and the colour at `point`, or nothing outside the triangle.
+    pub fn hit(&self, point: DVec2) -> Option<(f64, [f64; 3])> {
+        let [a, b, c] = self.corners.map(|corner| corner.position);
+        let area = (b - a).perp_dot(c - a);
+        // Twice the signed area opposite each corner, over the triangle's own: barycentric weights.
+        let weights =
+            [(b, c), (c, a), (a, b)].map(|(from, to)| (from - point).perp_dot(to - point) / area);
+        if area == 0.0 || !weights.iter().all(|weight| *weight >= 0.0) {
+            return None;
+        }
+        let interpolate = |value: fn(&Corner) -> f64| -> f64 {
+            let terms = self.corners.iter().zip(weights);
+            terms.map(|(corner, weight)| weight * value(corner)).sum()
+        };
+        let lit = interpolate(|corner| corner.tone) >= 0.0;
+        let color = if lit { self.light } else { self.shadow };
+        Some((interpolate(|corner| corner.inv_depth), color))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec2;
+
+    const LIGHT: [f64; 3] = [1.0, 0.5, 0.25];
+    const SHADOW: [f64; 3] = [0.0, 0.125, 0.0];
+
+    /// (0, 0), (8, 0), (0, 8), with inverse depths 1, 2, 3 and tones -1, 1, 1.
+    fn triangle(order: [u32; 3]) -> Triangle {
+        let vertex = |x, y, inv_depth, tone| SurfaceVertex {
+            position: Vec2::new(x, y),
+            inv_depth,
+            tone,
+        };
+        let surface = Surface {
+            vertices: vec![
+                vertex(0.0, 0.0, 1.0, -1.0),
+                vertex(8.0, 0.0, 2.0, 1.0),
+                vertex(0.0, 8.0, 3.0, 1.0),
+            ],
+            triangles: vec![order],
+            light: LIGHT.map(|v| v as f32),
+            shadow: SHADOW.map(|v| v as f32),
+        };
+        Triangle::of(&surface).next().unwrap()
+    }
+
+    #[test]
+    fn seen_from_both_sides_with_linear_depth() {
+        for order in [[0, 1, 2], [0, 2, 1]] {
+            let (inv_depth, color) = triangle(order).hit(DVec2::new(4.0, 2.0)).unwrap();
+            assert!((inv_depth - 2.0).abs() < 1e-12);
+            assert_eq!(color, LIGHT);
+            assert!(triangle(order).hit(DVec2::new(5.0, 5.0)).is_none());
+        }
+    }
+
+    #[test]
+    fn tone_changes_at_zero_which_is_lit() {
+        let triangle = triangle([0, 1, 2]);
+        assert_eq!(triangle.hit(DVec2::new(1.9, 2.0)).unwrap().1, SHADOW);
+        assert_eq!(triangle.hit(DVec2::new(2.0, 2.0)).unwrap().1, LIGHT);
+    }
+
+    #[test]
+    fn edges_and_corners_belong_to_it() {
+        for point in [
+            [0.0, 0.0],
+            [8.0, 0.0],
+            [0.0, 8.0],
+            [4.0, 4.0],
+            [4.0, 0.0],
+            [0.0, 4.0],
+        ] {
+            assert!(triangle([0, 1, 2]).hit(point.into()).is_some(), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn no_area_covers_nothing() {
+        assert!(triangle([0, 1, 1]).hit(DVec2::new(4.0, 0.0)).is_none());
+        assert!(triangle([1, 1, 1]).hit(DVec2::new(8.0, 0.0)).is_none());
+    }
+}

@@ -1,0 +1,193 @@
+//! What an effect may contain: valid WGSL, the right entry function, and only those builtins whose
+//! answers on the CPU are tested to be WGSL's.
+
+use crate::compose::{Entry, Source};
+use crate::error::{BuildError, at};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::{BinaryOperator, Expression, Handle, MathFunction as Math, Module, TypeInner};
+
+/// Parses and validates a composed source.
+pub(crate) fn parse(source: &Source) -> Result<Module, BuildError> {
+    let mut options = naga::front::wgsl::Options::new();
+    options.parse_doc_comments = true;
+    let module = naga::front::wgsl::Frontend::new_with_options(options)
+        .parse(&source.text)
+        .map_err(|e| BuildError::Naga(e.emit_to_string_with_path(&source.text, &source.path)))?;
+    validate(&module)
+        .map_err(|e| BuildError::Naga(e.emit_to_string_with_path(&source.text, &source.path)))?;
+    Ok(module)
+}
+
+pub(crate) fn validate(
+    module: &Module,
+) -> Result<naga::valid::ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
+    Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module)
+}
+
+/// The type of a struct by its name.
+pub(crate) fn named_type(module: &Module, name: &str) -> Option<Handle<naga::Type>> {
+    module
+        .types
+        .iter()
+        .find(|(_, ty)| ty.name.as_deref() == Some(name))
+        .map(|(handle, _)| handle)
+}
+
+/// Checks that the entry function is there, with the arguments that the callers give.
+pub(crate) fn entry_point(
+    module: &Module,
+    source: &Source,
+    entry: Entry,
+) -> Result<(), BuildError> {
+    let (name, arguments, result) = match entry {
+        Entry::Effect => ("stroke", &["Inputs", "u32", "Params"][..], "Stroke"),
+        Entry::Clump => ("clump", &["Inputs", "Params"][..], "Clump"),
+    };
+    let names = ["joint", "instance", "params"];
+    let expected = || {
+        let list = arguments.iter().map(|ty| {
+            let name = if *ty == "Params" {
+                names[2]
+            } else if *ty == "u32" {
+                names[1]
+            } else {
+                names[0]
+            };
+            format!("{name}: {ty}")
+        });
+        format!(
+            "fn {name}({}) -> {result}",
+            list.collect::<Vec<_>>().join(", ")
+        )
+    };
+    let Some((handle, function)) = module
+        .functions
+        .iter()
+        .find(|(_, f)| f.name.as_deref() == Some(name))
+    else {
+        return Err(BuildError::Message(format!(
+            "{}:1:1: an effect needs the function `{}`",
+            source.path,
+            expected()
+        )));
+    };
+    let type_name = |ty: Handle<naga::Type>| match &module.types[ty] {
+        naga::Type {
+            name: Some(name), ..
+        } => name.clone(),
+        naga::Type {
+            inner: TypeInner::Scalar(naga::Scalar::U32),
+            ..
+        } => "u32".to_owned(),
+        _ => "another type".to_owned(),
+    };
+    let found: Vec<String> = function.arguments.iter().map(|a| type_name(a.ty)).collect();
+    let returned = function.result.as_ref().map(|r| type_name(r.ty));
+    if found != arguments || returned.as_deref() != Some(result) {
+        let span = module.functions.get_span(handle);
+        return Err(at(
+            source,
+            span,
+            format!("this function must be `{}`", expected()),
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses what the CPU would answer differently, or not at all.
+pub(crate) fn builtins(module: &Module, source: &Source) -> Result<(), BuildError> {
+    if let Some((handle, _)) = module.global_variables.iter().next() {
+        let span = module.global_variables.get_span(handle);
+        return Err(at(
+            source,
+            span,
+            "an effect has no variables outside its functions",
+        ));
+    }
+    for (_, function) in module.functions.iter() {
+        for (handle, expression) in function.expressions.iter() {
+            let refuse =
+                |message: String| Err(at(source, function.expressions.get_span(handle), message));
+            match *expression {
+                Expression::Math { fun, .. } if !is_tested(fun) => {
+                    return refuse(format!(
+                        "`{}` is not available in effects: {}",
+                        format!("{fun:?}").to_lowercase(),
+                        instead_of(fun)
+                    ));
+                }
+                Expression::Swizzle { size, pattern, .. } if !is_permutation(size, &pattern) => {
+                    return refuse(
+                        "this swizzle is not available in effects: write its components out, \
+                         as in `vec2<f32>(v.z, v.x)`"
+                            .to_owned(),
+                    );
+                }
+                Expression::As { convert: None, .. } => {
+                    return refuse("`bitcast` is not available in effects".to_owned());
+                }
+                Expression::Binary {
+                    op: BinaryOperator::ShiftLeft | BinaryOperator::ShiftRight,
+                    right,
+                    ..
+                } if !matches!(
+                    function.expressions[right],
+                    Expression::Literal(_) | Expression::Constant(_) | Expression::Splat { .. }
+                ) =>
+                {
+                    return refuse("a shift needs a constant number of bits in effects".to_owned());
+                }
+                _ => {}
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a swizzle only reorders the first components: those are all that the runtime has.
+fn is_permutation(size: naga::VectorSize, pattern: &[naga::SwizzleComponent; 4]) -> bool {
+    let size = size as usize;
+    (0..size).all(|component| pattern[..size].iter().any(|c| *c as usize == component))
+}
+
+/// The builtins whose translation is tested in `effects` against their definition.
+fn is_tested(fun: Math) -> bool {
+    matches!(
+        fun,
+        Math::Abs
+            | Math::Min
+            | Math::Max
+            | Math::Clamp
+            | Math::Saturate
+            | Math::Ceil
+            | Math::Floor
+            | Math::Trunc
+            | Math::Dot
+            | Math::Cross
+            | Math::Distance
+            | Math::Length
+            | Math::Normalize
+            | Math::Sign
+            | Math::Mix
+            | Math::SmoothStep
+            | Math::Sqrt
+    )
+}
+
+fn instead_of(fun: Math) -> &'static str {
+    match fun {
+        Math::Sin | Math::Cos | Math::Tan => {
+            "WGSL's is good to 2^-11 only; use `sin_pi(x)`, which is sin(pi x)"
+        }
+        Math::Fract => "use `x - floor(x)`",
+        Math::Round => "use `floor(x + 0.5)`",
+        Math::InverseSqrt => "use `1.0 / sqrt(x)`",
+        Math::Step => "use `select(0.0, 1.0, x >= edge)`",
+        Math::Fma => "its rounding differs from driver to driver; use `a * b + c`",
+        Math::Reflect => "use `v - 2.0 * dot(n, v) * n`",
+        _ => {
+            "use abs, min, max, clamp, saturate, ceil, floor, trunc, dot, cross, distance, length, \
+             normalize, sign, mix, smoothstep, sqrt, select, and the prelude's functions"
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! The Rust source of an effect: the translator's output less what the prelude gives to all, and an
+//! implementation of `effects::Program` over it.
+
+use crate::PRELUDE;
+use crate::check;
+use crate::compose::{Entry, Source};
+use crate::error::BuildError;
+use crate::params::{Kind, Param};
+use crate::repair;
+use naga::Module;
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use std::collections::HashSet;
+use syn::Item;
+
+/// Rust items for the prelude alone, all public, for `effects::wgsl`.
+pub(crate) fn prelude() -> Result<String, BuildError> {
+    let docs = prelude_docs()?;
+    let mut items = prelude_items()?;
+    for item in &mut items {
+        let (visibility, attributes, name) = match item {
+            Item::Fn(f) => (&mut f.vis, &mut f.attrs, f.sig.ident.to_string()),
+            Item::Struct(s) => (&mut s.vis, &mut s.attrs, s.ident.to_string()),
+            Item::Const(c) => (&mut c.vis, &mut c.attrs, c.ident.to_string()),
+            _ => continue,
+        };
+        *visibility = syn::parse_quote!(pub);
+        if let Some((_, doc)) = docs.iter().find(|(documented, _)| *documented == name) {
+            attributes.push(syn::parse_quote!(#[doc = #doc]));
+        }
+        if name.starts_with("v_") {
+            attributes.push(syn::parse_quote!(#[doc(hidden)]));
+            attributes.push(syn::parse_quote!(#[inline]));
+        }
+    }
+    Ok(print(items))
+}
+
+/// Rust items for an effect, or for the clump.
+pub(crate) fn effect(
+    mut module: Module,
+    source: &Source,
+    params: &[Param],
+    entry: Entry,
+) -> Result<String, BuildError> {
+    repair::for_translation(&mut module);
+    let shared: HashSet<String> = prelude_items()?.iter().filter_map(item_name).collect();
+    let mut items = translate(&module, &source.path)?;
+    items.retain(|item| item_name(item).is_none_or(|name| !shared.contains(&name)));
+    for item in &mut items {
+        document(item, params);
+    }
+    let own = quote! { #(#items)* };
+    let program = match entry {
+        Entry::Effect => effect_program(source, params),
+        Entry::Clump => clump_program(source, params),
+    };
+    let file: syn::File = syn::parse2(quote! {
+        pub use self::translated::{Inputs, Params};
+        #[allow(
+            missing_docs,
+            unused,
+            non_upper_case_globals,
+            unused_qualifications,
+            clippy::all
+        )]
+        mod translated {
+            use ::effects::wgsl::*;
+            #own
+        }
+        #program
+    })
+    .map_err(|e| BuildError::Message(format!("{}: {e}", source.path)))?;
+    Ok(prettyplease::unparse(&file))
+}
+
+fn effect_program(source: &Source, params: &[Param]) -> TokenStream {
+    let (common, gather) = (program_items(source, params), gather(source));
+    quote! {
+        /// The effect's WGSL, and the same in Rust.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Program;
+        impl ::effects::Parameters for Program {
+            #common
+        }
+        impl ::effects::Program for Program {
+            fn stroke(
+                joints: &::effects::Joints,
+                index: usize,
+                instance: u32,
+                seed: u32,
+                params: &Params,
+            ) -> ::effects::wgsl::Stroke {
+                let _ = (joints, index, seed);
+                translated::stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
+            }
+        }
+    }
+}
+
+fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
+    let (common, gather) = (program_items(source, params), gather(source));
+    quote! {
+        /// The clump's WGSL, and the same in Rust.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Program;
+        impl Program {
+            #[doc = "The joint's clump."]
+            #[must_use]
+            pub fn clump(
+                joints: &::effects::Joints,
+                index: usize,
+                seed: u32,
+                params: &Params,
+            ) -> ::effects::wgsl::Clump {
+                translated::clump(Inputs { #gather }, *params)
+            }
+        }
+        impl ::effects::Parameters for Program {
+            #common
+        }
+    }
+}
+
+/// What both kinds of source share: the parameters, the inputs and the text for the GPU.
+fn program_items(source: &Source, params: &[Param]) -> TokenStream {
+    let text = &source.text;
+    let inputs = source.inputs.iter().map(|input| input.name);
+    let table = params.iter().map(table_row);
+    let fields = params.iter().map(|p| {
+        let (field, name) = (format_ident!("{}", p.name), &p.name);
+        let value = match p.kind {
+            Kind::Number { .. } => quote!(values.number(#name)),
+            Kind::Integer { .. } => quote!(values.integer(#name).unsigned_abs()),
+            Kind::Choice { .. } => quote!(values.choice(#name)),
+            Kind::Color { .. } => quote!(::effects::wgsl::vec3(values.color(#name))),
+        };
+        quote!(#field: #value)
+    });
+    quote! {
+        type Params = Params;
+        const PARAMS: &'static [::effects::Param] = &[#(#table),*];
+        const INPUTS: &'static [&'static str] = &[#(#inputs),*];
+        const WGSL: &'static str = #text;
+        fn params(values: &::effects::Values) -> Params {
+            let _ = values;
+            Params { #(#fields),* }
+        }
+    }
+}
+
+fn table_row(param: &Param) -> TokenStream {
+    let Param {
+        name, doc, unit, ..
+    } = param;
+    let kind = match &param.kind {
+        Kind::Number { min, max, default } => {
+            quote!(Number { min: #min, max: #max, default: #default })
+        }
+        Kind::Integer { min, max, default } => {
+            quote!(Integer { min: #min, max: #max, default: #default })
+        }
+        Kind::Choice { names, default } => {
+            let default = *default as usize;
+            quote!(Choice { names: &[#(#names),*], default: #default })
+        }
+        Kind::Color { default } => quote!(Color { default: #default }),
+    };
+    quote!(::effects::Param {
+        name: #name,
+        doc: #doc,
+        unit: #unit,
+        kind: ::effects::ParamKind::#kind
+    })
+}
+
+/// The declared inputs' values at joint `index`.
+fn gather(source: &Source) -> TokenStream {
+    let fields = source.inputs.iter().map(|input| {
+        let field = format_ident!("{}", input.name);
+        match input.name {
+            "seed" => quote!(seed: ::effects::strand_seed(seed, joints.strand[index])),
+            "unit" => quote!(unit: joints.unit(index)),
+            _ => quote!(#field: joints.#field[index]),
+        }
+    });
+    quote!(#(#fields),*)
+}
+
+/// Gives the fields of `Params` their documentation.
+fn document(item: &mut Item, params: &[Param]) {
+    let Item::Struct(structure) = item else {
+        return;
+    };
+    if structure.ident != "Params" {
+        return;
+    }
+    for (field, param) in structure.fields.iter_mut().zip(params) {
+        let doc = if param.unit.is_empty() {
+            param.doc.clone()
+        } else {
+            format!("{} Unit: {}.", param.doc, param.unit)
+        };
+        field.attrs.push(syn::parse_quote!(#[doc = #doc]));
+    }
+}
+
+fn prelude_items() -> Result<Vec<Item>, BuildError> {
+    let mut module = naga::front::wgsl::parse_str(PRELUDE)
+        .map_err(|e| BuildError::Naga(e.emit_to_string_with_path(PRELUDE, "prelude.wgsl")))?;
+    repair::for_translation(&mut module);
+    translate(&module, "prelude.wgsl")
+}
+
+/// Names in the prelude with their comments.
+fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
+    let source = Source {
+        path: "prelude.wgsl".to_owned(),
+        text: PRELUDE.to_owned(),
+        inputs: Vec::new(),
+    };
+    let module = check::parse(&source)?;
+    let Some(comments) = &module.doc_comments else {
+        return Ok(Vec::new());
+    };
+    let text = |lines: &Vec<String>| {
+        let lines = lines
+            .iter()
+            .map(|line| line.trim().trim_start_matches('/').trim_end());
+        lines.collect::<Vec<_>>().join("\n")
+    };
+    let functions = comments
+        .functions
+        .iter()
+        .map(|(f, doc)| (&module.functions[*f].name, doc));
+    let types = comments
+        .types
+        .iter()
+        .map(|(t, doc)| (&module.types[*t].name, doc));
+    Ok(functions
+        .chain(types)
+        .filter_map(|(name, doc)| Some((name.clone()?, text(doc))))
+        .collect())
+}
+
+fn translate(module: &Module, path: &str) -> Result<Vec<Item>, BuildError> {
+    let info = check::validate(module)
+        .map_err(|e| BuildError::Message(format!("{path}: {e:?} (after repair)")))?;
+    let config = naga_rust_back::Config::new()
+        .public_items(true)
+        .runtime_path("::effects::rt");
+    let rust = naga_rust_back::write_string(module, &info, config)
+        .map_err(|e| BuildError::Message(format!("{path}: {e}")))?;
+    let file: syn::File = syn::parse_str(&rust)
+        .map_err(|e| BuildError::Message(format!("{path}: the translation is not Rust: {e}")))?;
+    Ok(file.items)
+}
+
+fn item_name(item: &Item) -> Option<String> {
+    match item {
+        Item::Fn(f) => Some(f.sig.ident.to_string()),
+        Item::Struct(s) => Some(s.ident.to_string()),
+        Item::Const(c) => Some(c.ident.to_string()),
+        Item::Impl(i) => match &*i.self_ty {
+            syn::Type::Path(path) => Some(path.path.segments.last()?.ident.to_string()),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn print(items: Vec<Item>) -> String {
+    prettyplease::unparse(&syn::parse_quote!(#(#items)*))
+}

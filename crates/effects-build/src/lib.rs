@@ -1,0 +1,106 @@
+//! One WGSL source per effect: this crate runs in an effect crate's `build.rs`, validates the effect
+//! with naga and translates it to Rust, so that the same text draws on the GPU and on the CPU.
+//!
+//! ```no_run
+//! // build.rs of an effect crate
+//! effects_build::effect("src/backlight.wgsl");
+//! ```
+//!
+//! The effect's `.rs` then begins with `effects::effect!("backlight");`. What a source looks like:
+//!
+//! ```wgsl
+//! //! inputs: clump_radius, clump_color
+//! struct Params {
+//!     /// Width of the line.
+//!     /// @unit 1/300 head height @range 0..100 @default 2.2
+//!     width: f32,
+//! }
+//! fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
+//!     return Stroke(vec2<f32>(0.0), joint.clump_radius + params.width, 0.0, joint.clump_color);
+//! }
+//! ```
+
+mod check;
+mod compose;
+mod error;
+mod generate;
+mod params;
+mod repair;
+
+use std::path::{Path, PathBuf};
+
+pub use compose::{INPUTS, Input};
+pub use error::BuildError;
+
+/// The WGSL that every effect is composed with.
+const PRELUDE: &str = include_str!("../../../shaders/prelude.wgsl");
+
+/// Translates the effect at `path` (relative to the crate) into `$OUT_DIR/NAME.rs`.
+///
+/// Ends the build with naga's message at the author's own file, line and column when the source is
+/// not a valid effect. For use in `build.rs` only.
+pub fn effect(path: &str) {
+    build(path, compose::Entry::Effect);
+}
+
+/// Translates the clump's source at `path` into `$OUT_DIR/NAME.rs`. For the crate `effects` alone.
+pub fn clump(path: &str) {
+    build(path, compose::Entry::Clump);
+}
+
+/// Translates the prelude into `$OUT_DIR/prelude.rs`. For the crate `effects` alone.
+pub fn prelude() {
+    let path = Path::new(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../shaders/prelude.wgsl"
+    ));
+    println!("cargo::rerun-if-changed={}", path.display());
+    write("prelude", generate::prelude());
+}
+
+fn build(path: &str, entry: compose::Entry) {
+    let file = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default()).join(path);
+    println!("cargo::rerun-if-changed={}", file.display());
+    let name = file
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let translated = std::fs::read_to_string(&file)
+        .map_err(|error| BuildError::Message(format!("{path}: {error}")))
+        .and_then(|author| translate(&author, path, entry));
+    write(&name, translated);
+}
+
+fn write(name: &str, translated: Result<String, BuildError>) {
+    let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default());
+    let written = translated.and_then(|rust| {
+        let file = out.join(format!("{name}.rs"));
+        std::fs::write(&file, rust)
+            .map_err(|error| BuildError::Message(format!("{}: {error}", file.display())))
+    });
+    if let Err(error) = written {
+        for line in error.to_string().lines() {
+            println!("cargo::error={line}");
+        }
+        std::process::exit(1);
+    }
+}
+
+/// The effect `author` (named `path` in messages) as Rust source.
+///
+/// # Errors
+///
+/// When naga refuses it, it uses what the CPU cannot answer alike, or its parameters lack a default.
+pub fn translate_effect(author: &str, path: &str) -> Result<String, BuildError> {
+    translate(author, path, compose::Entry::Effect)
+}
+
+fn translate(author: &str, path: &str, entry: compose::Entry) -> Result<String, BuildError> {
+    let source = compose::compose(author, path, entry)?;
+    let module = check::parse(&source)?;
+    check::entry_point(&module, &source, entry)?;
+    check::builtins(&module, &source)?;
+    let params = params::read(&module, &source)?;
+    generate::effect(module, &source, &params, entry)
+}

@@ -1,0 +1,180 @@
+//! The parameters of a source, from `struct Params` and its comments:
+//!
+//! ```wgsl
+//! /// What it does, in words.
+//! /// @unit 1/300 head height @range 0..100 @default 2.2
+//! width: f32,
+//! ```
+//!
+//! A `vec3<f32>` is a colour (`@default "RRGGBB"`), a `u32` a whole number or, with `@choices a b c`,
+//! one of these names.
+
+use crate::check::named_type;
+use crate::compose::Source;
+use crate::error::{BuildError, at};
+use naga::{Module, Scalar, TypeInner, VectorSize};
+
+/// One parameter.
+pub(crate) struct Param {
+    pub name: String,
+    pub doc: String,
+    pub unit: String,
+    pub kind: Kind,
+}
+
+/// What values a parameter takes.
+pub(crate) enum Kind {
+    Number { min: f32, max: f32, default: f32 },
+    Integer { min: i32, max: i32, default: i32 },
+    Choice { names: Vec<String>, default: u32 },
+    Color { default: String },
+}
+
+/// The `@key value` parts of a comment, and the words before them.
+struct Annotations {
+    words: String,
+    keys: Vec<(String, String)>,
+}
+
+impl Annotations {
+    fn read(comments: &[String]) -> Self {
+        let text = comments
+            .iter()
+            .map(|line| line.trim().trim_start_matches('/').trim())
+            .collect::<Vec<_>>()
+            .join(" ");
+        let mut parts = text.split('@');
+        let words = parts.next().unwrap_or_default().trim().to_owned();
+        let keys = parts
+            .map(|part| {
+                let (key, value) = part.trim().split_once(' ').unwrap_or((part.trim(), ""));
+                (key.to_owned(), value.trim().to_owned())
+            })
+            .collect();
+        Self { words, keys }
+    }
+
+    fn get(&self, key: &str) -> Option<&str> {
+        self.keys
+            .iter()
+            .find(|(k, _)| k == key)
+            .map(|(_, value)| value.as_str())
+    }
+}
+
+/// Reads the parameters of a validated source; a source without `struct Params` has none.
+pub(crate) fn read(module: &Module, source: &Source) -> Result<Vec<Param>, BuildError> {
+    let Some(handle) = named_type(module, "Params") else {
+        return Ok(Vec::new());
+    };
+    let TypeInner::Struct { members, .. } = &module.types[handle].inner else {
+        return Ok(Vec::new());
+    };
+    let span = module.types.get_span(handle);
+    let none = Vec::new();
+    members
+        .iter()
+        .enumerate()
+        .map(|(index, member)| {
+            let name = member.name.clone().unwrap_or_default();
+            let comments = module
+                .doc_comments
+                .as_ref()
+                .and_then(|docs| docs.struct_members.get(&(handle, index)))
+                .unwrap_or(&none);
+            read_one(
+                &name,
+                &module.types[member.ty].inner,
+                &Annotations::read(comments),
+            )
+            .map_err(|message| at(source, span, format!("Params.{name}: {message}")))
+        })
+        .collect()
+}
+
+fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, String> {
+    if name.ends_with(|c: char| c.is_ascii_digit()) {
+        return Err("a parameter's name can't end in a digit".to_owned());
+    }
+    if notes.words.is_empty() {
+        return Err("a `///` comment must say what it does".to_owned());
+    }
+    if let Some((key, _)) = notes
+        .keys
+        .iter()
+        .find(|(k, _)| !["unit", "range", "default", "choices"].contains(&k.as_str()))
+    {
+        return Err(format!(
+            "there is no `@{key}`; there are @unit, @range, @default, @choices"
+        ));
+    }
+    let default = notes
+        .get("default")
+        .ok_or("its comment needs `@default VALUE`")?;
+    let kind = match *ty {
+        TypeInner::Scalar(Scalar::F32) => {
+            let (min, max) = range(notes)?;
+            let default = within(default, min, max)?;
+            Kind::Number { min, max, default }
+        }
+        TypeInner::Scalar(Scalar::U32) => match notes.get("choices") {
+            Some(choices) => {
+                let names: Vec<String> = choices.split_whitespace().map(str::to_owned).collect();
+                let index = names.iter().position(|n| n == default);
+                let index = index.ok_or("@default must be one of @choices")?;
+                Kind::Choice {
+                    names,
+                    default: index as u32,
+                }
+            }
+            None => {
+                let (min, max) = range(notes)?;
+                if min < 0 {
+                    return Err("a u32 is 0 or more".to_owned());
+                }
+                let default = within(default, min, max)?;
+                Kind::Integer { min, max, default }
+            }
+        },
+        TypeInner::Vector {
+            size: VectorSize::Tri,
+            scalar: Scalar::F32,
+        } => {
+            let hex = default.trim_matches('"');
+            if hex.len() != 6 || !hex.chars().all(|c| c.is_ascii_hexdigit()) {
+                return Err(format!("@default {default}: a colour is \"RRGGBB\""));
+            }
+            Kind::Color {
+                default: hex.to_owned(),
+            }
+        }
+        _ => return Err("a parameter is an f32, a u32, or a vec3<f32> (a colour)".to_owned()),
+    };
+    let unit = notes.get("unit").unwrap_or_default().to_owned();
+    Ok(Param {
+        name: name.to_owned(),
+        doc: notes.words.clone(),
+        unit,
+        kind,
+    })
+}
+
+fn range<T: std::str::FromStr + PartialOrd>(notes: &Annotations) -> Result<(T, T), String> {
+    let text = notes
+        .get("range")
+        .ok_or("its comment needs `@range MIN..MAX`")?;
+    let bounds = text.split_once("..").and_then(|(min, max)| {
+        Some((min.trim().parse::<T>().ok()?, max.trim().parse::<T>().ok()?))
+    });
+    match bounds {
+        Some((min, max)) if min <= max => Ok((min, max)),
+        _ => Err(format!("@range {text}: a range is `MIN..MAX`")),
+    }
+}
+
+fn within<T: std::str::FromStr + PartialOrd>(text: &str, min: T, max: T) -> Result<T, String> {
+    match text.parse::<T>() {
+        Ok(value) if value >= min && value <= max => Ok(value),
+        _ => Err(format!("@default {text}: not a number in its range")),
+    }
+}

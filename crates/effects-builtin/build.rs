@@ -1,0 +1,6 @@
+//! Translates the effects.
+
+fn main() {
+    effects_build::effect("src/base.wgsl");
+    effects_build::effect("src/silhouette.wgsl");
+}

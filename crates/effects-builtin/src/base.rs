@@ -1,0 +1,13 @@
+//! The base stroke (5.1): the clump in its basic colour.
+
+effects::effect!("base");
+
+/// `hair.base`: draws the clump as the preset's `clump` section makes it.
+pub struct Base;
+
+impl effects::StrokeEffect for Base {
+    type Program = Program;
+    const ID: &'static str = "hair.base";
+    const DOC: &'static str = "the hair itself: each strand's clump in its basic colour";
+    const RANK: i32 = 0;
+}

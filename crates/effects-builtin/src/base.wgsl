@@ -1,0 +1,11 @@
+//! inputs: clump_radius, clump_color
+
+struct Params {
+    /// Factor on the clump's brightness; 1 leaves the basic colour as it is.
+    /// @range 0..4 @default 1
+    brightness: f32,
+}
+
+fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
+    return Stroke(vec2<f32>(0.0), joint.clump_radius, 0.0, joint.clump_color * params.brightness);
+}

@@ -1,0 +1,19 @@
+//! The stroke effects that inkstrand ships, each one `.rs` beside its `.wgsl`.
+
+mod base;
+mod silhouette;
+
+pub use base::Base;
+pub use silhouette::Silhouette;
+
+use effects::{Registry, RegistryError};
+
+/// Registers all of them.
+///
+/// # Errors
+///
+/// When the registry already has an effect of the same id.
+pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
+    registry.register::<Silhouette>()?;
+    registry.register::<Base>()
+}

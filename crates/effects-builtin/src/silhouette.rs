@@ -1,0 +1,15 @@
+//! The silhouette stroke (5.2): the base stroke enlarged, in the line's colour, shifted farther.
+
+effects::effect!("silhouette");
+
+/// `hair.silhouette`: outlines around clumps. The depth offset sets their density (Fig 5.7): large,
+/// only the outer boundary; small, every clump.
+pub struct Silhouette;
+
+impl effects::StrokeEffect for Silhouette {
+    type Program = Program;
+    const ID: &'static str = "hair.silhouette";
+    const DOC: &'static str = "outlines; a larger depth_offset leaves only the outer boundary";
+    const RANK: i32 = -100;
+    const DEPTH_OFFSET: f32 = 0.05;
+}

@@ -1,0 +1,4 @@
+//! The clump: size profile, normal and basic colour of a strand, shared by all layers
+//! (`shaders/clump.wgsl`).
+
+effects::effect!("clump");

@@ -1,0 +1,157 @@
+//! What an effect is.
+
+use crate::param::{Param, Values};
+use crate::wgsl::Stroke;
+use crate::{InputSet, Joints};
+use std::ops::Range;
+
+/// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
+pub trait Parameters: Send + Sync + 'static {
+    /// The parameters as the WGSL has them.
+    type Params: Clone + Send + Sync + std::fmt::Debug + PartialEq + 'static;
+    /// What parameters there are.
+    const PARAMS: &'static [Param];
+    /// The names of the inputs that are read.
+    const INPUTS: &'static [&'static str];
+    /// The composed WGSL, for the GPU.
+    const WGSL: &'static str;
+    /// The parameters of these values.
+    fn params(values: &Values) -> Self::Params;
+}
+
+/// An effect's WGSL in Rust. Implemented by the translated code.
+pub trait Program: Parameters {
+    /// The disc of stroke `instance` at joint `index`. `seed` is the layer's.
+    fn stroke(
+        joints: &Joints,
+        index: usize,
+        instance: u32,
+        seed: u32,
+        params: &Self::Params,
+    ) -> Stroke;
+}
+
+/// A stroke effect, as its author writes it.
+///
+/// ```ignore
+/// effects::effect!("outline"); // src/outline.wgsl, translated by build.rs
+///
+/// /// A line around the hair.
+/// pub struct Outline;
+///
+/// impl effects::StrokeEffect for Outline {
+///     type Program = Program;
+///     const ID: &'static str = "mine.outline";
+///     const DOC: &'static str = "a line around the hair";
+/// }
+/// ```
+pub trait StrokeEffect: Send + Sync + 'static {
+    /// The translated WGSL.
+    type Program: Program;
+    /// A stable id: `hair.` for inkstrand's own, `vendor.` for others.
+    const ID: &'static str;
+    /// One line for people.
+    const DOC: &'static str;
+    /// Drawing order within a strand, low first; the base stroke is 0. From 0 on, strokes are
+    /// clipped to the clump.
+    const RANK: i32 = 100;
+    /// How much farther from the eye the strokes are than their strand, in head heights.
+    const DEPTH_OFFSET: f32 = 0.0;
+
+    /// How many strokes there are for each strand (feathers). At least 1.
+    fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
+        let _ = params;
+        1
+    }
+}
+
+/// A [`StrokeEffect`] without its types, as the registry keeps it.
+pub trait AnyEffect: Send + Sync {
+    /// [`StrokeEffect::ID`].
+    fn id(&self) -> &'static str;
+    /// [`StrokeEffect::DOC`].
+    fn doc(&self) -> &'static str;
+    /// [`StrokeEffect::RANK`].
+    fn rank(&self) -> i32;
+    /// [`StrokeEffect::DEPTH_OFFSET`].
+    fn depth_offset(&self) -> f32;
+    /// [`Parameters::PARAMS`].
+    fn params(&self) -> &'static [Param];
+    /// [`Parameters::INPUTS`].
+    fn inputs(&self) -> &'static [&'static str];
+    /// [`Parameters::WGSL`].
+    fn wgsl(&self) -> &'static str;
+    /// The effect with these values.
+    fn program(&self, values: &Values) -> Box<dyn LayerProgram>;
+}
+
+/// An effect with its parameters, ready to be evaluated.
+pub trait LayerProgram: Send + Sync {
+    /// Strokes per strand, 1 or more.
+    fn instances(&self) -> u32;
+    /// What is read of a joint.
+    fn inputs(&self) -> InputSet;
+    /// Appends the discs of stroke `instance` at these joints. `seed` is the layer's.
+    fn evaluate(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+        strokes: &mut Vec<Stroke>,
+    );
+}
+
+/// The erasure of an effect `E`.
+pub(crate) struct Erased<E>(pub std::marker::PhantomData<fn() -> E>);
+
+impl<E: StrokeEffect> AnyEffect for Erased<E> {
+    fn id(&self) -> &'static str {
+        E::ID
+    }
+    fn doc(&self) -> &'static str {
+        E::DOC
+    }
+    fn rank(&self) -> i32 {
+        E::RANK
+    }
+    fn depth_offset(&self) -> f32 {
+        E::DEPTH_OFFSET
+    }
+    fn params(&self) -> &'static [Param] {
+        E::Program::PARAMS
+    }
+    fn inputs(&self) -> &'static [&'static str] {
+        E::Program::INPUTS
+    }
+    fn wgsl(&self) -> &'static str {
+        E::Program::WGSL
+    }
+    fn program(&self, values: &Values) -> Box<dyn LayerProgram> {
+        Box::new(WithParams::<E>(E::Program::params(values)))
+    }
+}
+
+struct WithParams<E: StrokeEffect>(<E::Program as Parameters>::Params);
+
+impl<E: StrokeEffect> LayerProgram for WithParams<E> {
+    fn instances(&self) -> u32 {
+        E::instances(&self.0).max(1)
+    }
+
+    fn inputs(&self) -> InputSet {
+        InputSet::of(E::Program::INPUTS)
+    }
+
+    fn evaluate(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+        strokes: &mut Vec<Stroke>,
+    ) {
+        let params = &self.0;
+        strokes.extend(range.map(|i| E::Program::stroke(joints, i, instance, seed, params)));
+    }
+}

@@ -1,0 +1,37 @@
+//! The boundary for stroke effects: what an effect is, the registry of effects, and presets.
+//!
+//! An effect is a WGSL function of one stroke joint, translated to Rust at build time by
+//! `effects-build`, so that the same text runs on both backends. See [`StrokeEffect`] for how one is
+//! written, and [`Joints`] for what a joint offers.
+
+// The translated WGSL names this crate by its name, here as everywhere.
+extern crate self as effects;
+
+pub mod clump;
+mod color;
+mod effect;
+mod joints;
+mod layer;
+mod param;
+pub mod preset;
+mod registry;
+pub mod wgsl;
+
+pub use color::{linear_from_srgb, parse_hex};
+pub use effect::{AnyEffect, LayerProgram, Parameters, Program, StrokeEffect};
+pub use joints::{InputSet, Joints, strand_seed};
+pub use layer::{Layer, Units, layer_seed};
+pub use param::{Param, ParamKind, Value, Values};
+pub use registry::{Registry, RegistryError};
+
+/// The runtime of the translated WGSL.
+pub use naga_rust_rt as rt;
+
+/// Includes the effect that `effects_build::effect("src/NAME.wgsl")` translated: `Params`, `Inputs`
+/// and `Program`.
+#[macro_export]
+macro_rules! effect {
+    ($name:literal) => {
+        include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
+    };
+}

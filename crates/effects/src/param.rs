@@ -1,0 +1,256 @@
+//! Parameters: what there is, what it means, what values it takes. One table serves the parser, the
+//! error messages, `inkstrand effects` and the documentation.
+
+use crate::color::parse_hex;
+
+/// One parameter of an effect or of a section of a preset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Param {
+    /// Its name in the preset.
+    pub name: &'static str,
+    /// What it does.
+    pub doc: &'static str,
+    /// Its unit, empty where it has none.
+    pub unit: &'static str,
+    /// The values it takes.
+    pub kind: ParamKind,
+}
+
+/// The values that a parameter takes, and its default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParamKind {
+    /// A finite number in a range.
+    Number {
+        /// Least value.
+        min: f32,
+        /// Largest value.
+        max: f32,
+        /// Value where the preset says nothing.
+        default: f32,
+    },
+    /// A whole number in a range.
+    Integer {
+        /// Least value.
+        min: i32,
+        /// Largest value.
+        max: i32,
+        /// Value where the preset says nothing.
+        default: i32,
+    },
+    /// One of several names.
+    Choice {
+        /// The names.
+        names: &'static [&'static str],
+        /// Index of the default.
+        default: usize,
+    },
+    /// An sRGB colour, `"RRGGBB"`.
+    Color {
+        /// Value where the preset says nothing.
+        default: &'static str,
+    },
+    /// An sRGB colour, or `none`.
+    OptionalColor {
+        /// Value where the preset says nothing.
+        default: Option<&'static str>,
+    },
+    /// A text, such as a file's name; `None` where the preset says nothing.
+    Text,
+    /// Three numbers `(x, y, z)`, each in the range.
+    Triple {
+        /// Least value.
+        min: f32,
+        /// Largest value.
+        max: f32,
+        /// Value where the preset says nothing.
+        default: [f32; 3],
+    },
+    /// Width and height `(w, h)`, whole numbers in the range.
+    Size {
+        /// Least value.
+        min: u32,
+        /// Largest value.
+        max: u32,
+        /// Value where the preset says nothing.
+        default: [u32; 2],
+    },
+}
+
+/// A parameter's value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// For [`ParamKind::Number`].
+    Number(f32),
+    /// For [`ParamKind::Integer`].
+    Integer(i32),
+    /// For [`ParamKind::Choice`]: the name's index.
+    Choice(u32),
+    /// For both kinds of colour: linear light.
+    Color(Option<[f32; 3]>),
+    /// For [`ParamKind::Text`].
+    Text(Option<String>),
+    /// For [`ParamKind::Triple`].
+    Triple([f32; 3]),
+    /// For [`ParamKind::Size`].
+    Size([u32; 2]),
+}
+
+impl ParamKind {
+    /// The value where the preset says nothing.
+    #[must_use]
+    pub fn default_value(&self) -> Value {
+        match *self {
+            Self::Number { default, .. } => Value::Number(default),
+            Self::Integer { default, .. } => Value::Integer(default),
+            Self::Choice { default, .. } => Value::Choice(default as u32),
+            Self::Color { default } => Value::Color(parse_hex(default)),
+            Self::OptionalColor { default } => Value::Color(default.and_then(parse_hex)),
+            Self::Text => Value::Text(None),
+            Self::Triple { default, .. } => Value::Triple(default),
+            Self::Size { default, .. } => Value::Size(default),
+        }
+    }
+
+    /// What may be written, in words: `a number from 0 to 100`.
+    #[must_use]
+    pub fn expected(&self) -> String {
+        match self {
+            Self::Number { min, max, .. } => format!("a number from {min} to {max}"),
+            Self::Integer { min, max, .. } => format!("a whole number from {min} to {max}"),
+            Self::Choice { names, .. } => format!("one of {}", names.join(", ")),
+            Self::Color { .. } => "a colour such as \"3FC1C0\"".to_owned(),
+            Self::OptionalColor { .. } => "a colour such as \"3FC1C0\", or none".to_owned(),
+            Self::Text => "a text such as \"hair.tfx\"".to_owned(),
+            Self::Triple { min, max, .. } => {
+                format!("three numbers (x, y, z), each from {min} to {max}")
+            }
+            Self::Size { min, max, .. } => {
+                format!("width and height (w, h), whole numbers from {min} to {max}")
+            }
+        }
+    }
+}
+
+/// The values of one section: every parameter of its table has one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values {
+    table: &'static [Param],
+    values: Vec<Value>,
+    given: Vec<bool>,
+}
+
+impl Values {
+    /// The defaults of `table`.
+    #[must_use]
+    pub fn defaults(table: &'static [Param]) -> Self {
+        let values = table.iter().map(|p| p.kind.default_value()).collect();
+        Self {
+            table,
+            values,
+            given: vec![false; table.len()],
+        }
+    }
+
+    /// The table.
+    #[must_use]
+    pub fn table(&self) -> &'static [Param] {
+        self.table
+    }
+
+    /// Sets the value of parameter `index` of the table.
+    pub fn set(&mut self, index: usize, value: Value) {
+        self.values[index] = value;
+        self.given[index] = true;
+    }
+
+    /// Whether the preset gives this parameter, rather than its default being used.
+    #[must_use]
+    pub fn is_given(&self, name: &str) -> bool {
+        self.table
+            .iter()
+            .position(|p| p.name == name)
+            .is_some_and(|index| self.given[index])
+    }
+
+    fn get(&self, name: &str) -> &Value {
+        let index = self.table.iter().position(|p| p.name == name);
+        &self.values[index.unwrap_or_else(|| panic!("no parameter `{name}` in this table"))]
+    }
+
+    /// A number's value.
+    ///
+    /// # Panics
+    ///
+    /// Like all of these, when the table has no such parameter of that kind: a mistake in the
+    /// program, not in a preset.
+    #[must_use]
+    pub fn number(&self, name: &str) -> f32 {
+        match self.get(name) {
+            Value::Number(value) => *value,
+            other => panic!("`{name}` is {other:?}, not a number"),
+        }
+    }
+
+    /// A whole number's value.
+    #[must_use]
+    pub fn integer(&self, name: &str) -> i32 {
+        match self.get(name) {
+            Value::Integer(value) => *value,
+            other => panic!("`{name}` is {other:?}, not a whole number"),
+        }
+    }
+
+    /// A choice's index.
+    #[must_use]
+    pub fn choice(&self, name: &str) -> u32 {
+        match self.get(name) {
+            Value::Choice(value) => *value,
+            other => panic!("`{name}` is {other:?}, not a choice"),
+        }
+    }
+
+    /// A colour, linear light.
+    #[must_use]
+    pub fn color(&self, name: &str) -> [f32; 3] {
+        match self.get(name) {
+            Value::Color(Some(value)) => *value,
+            other => panic!("`{name}` is {other:?}, not a colour"),
+        }
+    }
+
+    /// A colour or none.
+    #[must_use]
+    pub fn optional_color(&self, name: &str) -> Option<[f32; 3]> {
+        match self.get(name) {
+            Value::Color(value) => *value,
+            other => panic!("`{name}` is {other:?}, not a colour"),
+        }
+    }
+
+    /// A text or nothing.
+    #[must_use]
+    pub fn text(&self, name: &str) -> Option<&str> {
+        match self.get(name) {
+            Value::Text(value) => value.as_deref(),
+            other => panic!("`{name}` is {other:?}, not a text"),
+        }
+    }
+
+    /// Three numbers.
+    #[must_use]
+    pub fn triple(&self, name: &str) -> [f32; 3] {
+        match self.get(name) {
+            Value::Triple(value) => *value,
+            other => panic!("`{name}` is {other:?}, not three numbers"),
+        }
+    }
+
+    /// Width and height.
+    #[must_use]
+    pub fn size(&self, name: &str) -> [u32; 2] {
+        match self.get(name) {
+            Value::Size(value) => *value,
+            other => panic!("`{name}` is {other:?}, not a size"),
+        }
+    }
+}

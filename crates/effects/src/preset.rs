@@ -1,0 +1,12 @@
+//! Presets: reading RON so that every mistake is named at its place, all of a file's at once.
+//!
+//! Each section of a preset belongs to a crate. [`Reader`] holds the file's text; sections are read
+//! from the text's own slices, so that every error has the file's line and column.
+
+mod error;
+mod layers;
+mod reader;
+
+pub use error::{PresetError, PresetErrors, nearest};
+pub use layers::{LAYER, LayerSpec};
+pub use reader::{Field, Reader};

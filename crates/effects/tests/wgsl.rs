@@ -1,0 +1,214 @@
+//! The translation of WGSL to Rust held against WGSL's definitions, and the prelude against the
+//! functions it stands for.
+
+use effects::rt::Scalar;
+use effects::wgsl::{self, vec2, vec3};
+use effects::{ParamKind, Parameters, Value, Values};
+use proptest::prelude::*;
+
+mod built {
+    effects::effect!("builtins");
+
+    pub mod functions {
+        pub use super::translated::*;
+    }
+}
+
+use built::functions as t;
+
+#[test]
+fn builtins_are_wgsls() {
+    // x is last in WGSL and first in the runtime.
+    assert_eq!(t::t_smoothstep(1.0, 3.0, 0.0), 0.0);
+    assert_eq!(t::t_smoothstep(1.0, 3.0, 2.0), 0.5);
+    assert_eq!(t::t_smoothstep(1.0, 3.0, 1.5), 0.15625);
+    assert_eq!(t::t_smoothstep(1.0, 3.0, 9.0), 1.0);
+    let smooth = t::t_smoothstep_vec(vec3([0.0; 3]), vec3([2.0; 3]), vec3([1.0, 0.5, 4.0]));
+    assert_eq!(smooth, vec3([0.5, 0.15625, 1.0]));
+    assert_eq!(t::t_sqrt(2.25), 1.5);
+    assert_eq!(
+        [t::t_clamp(-1.0, 0.0, 2.0), t::t_clamp(3.0, 0.0, 2.0)],
+        [0.0, 2.0]
+    );
+    assert_eq!(
+        [t::t_saturate(-0.5), t::t_saturate(0.5), t::t_saturate(1.5)],
+        [0.0, 0.5, 1.0]
+    );
+    assert_eq!(
+        [
+            t::t_abs(-2.0),
+            t::t_sign(-2.0),
+            t::t_sign(0.0),
+            t::t_sign(7.0)
+        ],
+        [2.0, -1.0, 0.0, 1.0]
+    );
+    assert_eq!(
+        [t::t_floor(-1.5), t::t_ceil(-1.5), t::t_trunc(-1.5)],
+        [-2.0, -1.0, -1.0]
+    );
+    assert_eq!(
+        [
+            t::t_min(1.0, 2.0),
+            t::t_max(1.0, 2.0),
+            t::t_mix(1.0, 5.0, 0.25)
+        ],
+        [1.0, 2.0, 2.0]
+    );
+    assert_eq!(
+        t::t_mix_vec(vec3([0.0; 3]), vec3([4.0; 3]), 0.5),
+        vec3([2.0; 3])
+    );
+    assert_eq!(t::t_dot(vec3([1.0, 2.0, 3.0]), vec3([4.0, 5.0, 6.0])), 32.0);
+    assert_eq!(
+        t::t_cross(vec3([1.0, 0.0, 0.0]), vec3([0.0, 1.0, 0.0])),
+        vec3([0.0, 0.0, 1.0])
+    );
+    assert_eq!(t::t_length(vec3([2.0, 3.0, 6.0])), 7.0);
+    assert_eq!(t::t_distance(vec2([1.0, 1.0]), vec2([4.0, 5.0])), 5.0);
+    assert_eq!(t::t_normalize(vec3([0.0, 8.0, 0.0])), vec3([0.0, 1.0, 0.0]));
+    assert_eq!(
+        [
+            t::t_select(1.0, 2.0, Scalar(false)),
+            t::t_select(1.0, 2.0, Scalar(true))
+        ],
+        [1.0, 2.0]
+    );
+}
+
+#[test]
+fn constructs_are_wgsls() {
+    assert_eq!(
+        [t::t_zeroed(Scalar(false)), t::t_zeroed(Scalar(true))],
+        [0.0, 4.0]
+    );
+    assert_eq!(t::t_loop_sum(5u32), 1 + 2 + 4);
+    assert_eq!(t::t_loop_sum(50u32), 1 + 2 + 4 + 5 + 6 + 7);
+    assert_eq!(
+        [t::t_switch(0u32), t::t_switch(2u32), t::t_switch(9u32)],
+        [10.0, 20.0, 30.0]
+    );
+    assert_eq!(
+        t::t_wrap(5u32),
+        5u32.wrapping_mul(0x7feb_352d).wrapping_sub(1)
+    );
+    assert_eq!(t::t_shift(0x8000_0001u32), 8 ^ 1);
+    assert_eq!([t::t_to_u(3.9), t::t_to_u(-1.0)], [3, 0]);
+    assert_eq!(t::t_to_f(16_777_217u32), 16_777_216.0);
+    assert_eq!(t::t_swizzle(vec3([1.0, 2.0, 3.0])), vec3([3.0, 1.0, 2.0]));
+    assert_eq!(t::t_component(vec3([1.0, 2.0, 3.0])), vec3([1.0, 9.0, 3.0]));
+}
+
+#[test]
+fn parameters_come_from_the_comments() {
+    let params = built::Program::PARAMS;
+    assert_eq!(params.len(), 4);
+    assert_eq!(params[0].name, "number");
+    assert_eq!(params[0].doc, "A number.");
+    assert_eq!(params[0].unit, "metres");
+    assert_eq!(
+        params[0].kind,
+        ParamKind::Number {
+            min: -1.0,
+            max: 2.5,
+            default: 0.5
+        }
+    );
+    assert_eq!(
+        params[1].kind,
+        ParamKind::Integer {
+            min: 1,
+            max: 9,
+            default: 3
+        }
+    );
+    assert_eq!(
+        params[2].kind,
+        ParamKind::Choice {
+            names: &["first", "second"],
+            default: 1
+        }
+    );
+    assert_eq!(params[3].kind, ParamKind::Color { default: "FF0000" });
+
+    let mut values = Values::defaults(params);
+    values.set(0, Value::Number(2.0));
+    let made = built::Program::params(&values);
+    assert_eq!((made.number, made.count, made.kind), (2.0, 3, 1));
+    assert_eq!(made.color, vec3([1.0, 0.0, 0.0]));
+    assert_eq!(built::Program::INPUTS, ["u"]);
+    assert!(built::Program::WGSL.starts_with(include_str!("builtins.wgsl")));
+}
+
+#[test]
+fn random_numbers_are_even_and_apart() {
+    let n = 10_000;
+    let draws: Vec<f32> = (0..n).map(|i| wgsl::random(7u32, i)).collect();
+    assert!(draws.iter().all(|x| (0.0..1.0).contains(x)));
+    for tenth in 0..10 {
+        let share = draws
+            .iter()
+            .filter(|x| (**x * 10.0) as u32 == tenth)
+            .count();
+        assert!(
+            (850..1150).contains(&share),
+            "{share} of {n} in tenth {tenth}"
+        );
+    }
+    let neighbours: f32 = draws
+        .windows(2)
+        .map(|w| (w[0] - 0.5) * (w[1] - 0.5))
+        .sum::<f32>()
+        / n as f32;
+    assert!(neighbours.abs() < 0.003, "correlation {neighbours}");
+    assert_ne!(wgsl::random(7u32, 1u32), wgsl::random(8u32, 1u32));
+    assert_eq!(wgsl::random(7u32, 1u32), wgsl::random(7u32, 1u32));
+}
+
+#[test]
+fn size_functions_at_their_ends() {
+    // 5.1: full before the start, half way down half way to the tip, a point at the tip.
+    let shrink = [0.1, 0.35, 0.675, 1.0].map(|u: f32| wgsl::shrink_to_tail(u, 0.35));
+    assert_eq!(shrink[0], 1.0);
+    assert_eq!(shrink[1], 1.0);
+    assert!((shrink[2] - 0.5).abs() < 1e-6);
+    assert_eq!(shrink[3], 0.0);
+    assert_eq!(
+        wgsl::shrink_to_tail(1.0, 1.0),
+        1.0,
+        "a start at the tip never shrinks"
+    );
+    // 5.2: sin(offset pi) at the root, a point at the tip.
+    assert!((wgsl::swell(0.0, 0.25) - std::f32::consts::FRAC_1_SQRT_2).abs() < 1e-6);
+    assert!((wgsl::swell(0.5, 0.0) - 1.0).abs() < 1e-6);
+    assert_eq!(
+        wgsl::swell(1.0, 0.25),
+        0.0,
+        "sin(pi) is not 0 in f32, a tip is"
+    );
+    assert_eq!(wgsl::swell(0.5, 1.0), 0.0);
+}
+
+proptest! {
+    #[test]
+    fn sin_pi_is_the_sine(x in -1000.0f32..1000.0) {
+        let exact = (f64::from(x) * std::f64::consts::PI).sin();
+        let got = f64::from(wgsl::sin_pi(x));
+        prop_assert!((got - exact).abs() < 3e-7, "sin_pi({x}) = {got}, not {exact}");
+    }
+
+    #[test]
+    fn perpendicular_is_across_and_unit(v in prop::array::uniform3(-1.0f32..1.0)) {
+        let along = wgsl::unit_or(vec3(v), vec3([0.0, 0.0, 1.0]));
+        let across = wgsl::perpendicular(along);
+        prop_assert!(across.dot(along).0.abs() < 1e-6);
+        prop_assert!((across.length().0 - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn unit_or_never_fails(v in prop::array::uniform3(any::<f32>())) {
+        let finite = v.map(|x| if x.is_finite() { x.clamp(-1e15, 1e15) } else { 0.0 });
+        let unit = wgsl::unit_or(vec3(finite), vec3([0.0, 1.0, 0.0]));
+        prop_assert!((unit.length().0 - 1.0).abs() < 1e-5, "{unit:?} of {finite:?}");
+    }
+}

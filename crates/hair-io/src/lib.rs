@@ -1,0 +1,20 @@
+//! Hair and head files in, plain strands and meshes out: Y up, metres.
+//!
+//! [`read_hair`] and [`read_head`] choose the reader, settle axes and units ([`orient`]) and say what
+//! they guessed. [`tfx`], [`strands_ron`] and [`obj`] are the formats; [`guides`] thins a dense
+//! groom; [`HeadFrame`] is where the head is and how large.
+
+mod file;
+pub mod guides;
+mod head;
+mod mesh;
+mod nearest;
+pub mod obj;
+pub mod orient;
+mod sphere;
+pub mod strands_ron;
+pub mod tfx;
+
+pub use file::{HairError, HairFile, HairOptions, HeadFile, read_hair, read_head, write_strands};
+pub use head::HeadFrame;
+pub use mesh::Mesh;

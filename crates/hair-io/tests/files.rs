@@ -1,0 +1,153 @@
+//! Files of our own: choosing readers, writing, keeping guides with their motion.
+
+use std::fs;
+use std::path::PathBuf;
+
+use glam::Vec3;
+use hair_io::orient::{Axes, Given};
+use hair_io::{HairError, HairOptions, read_hair, read_head, write_strands};
+use hair_sim::{Motion, Strands};
+
+/// A fresh folder for one test.
+fn folder(test: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("hair-io-{test}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn moving() -> (Strands, Motion) {
+    let mut strands = Strands::new();
+    for i in 0..5 {
+        let root = Vec3::new(i as f32 * 0.01, 1.7, 0.0);
+        let points: Vec<Vec3> = (0..=i).map(|k| root - Vec3::Y * k as f32 * 0.1).collect();
+        strands
+            .push(i, &points, (i % 2 == 0).then_some(i as f32))
+            .unwrap();
+    }
+    let sample = |t: f32| {
+        (
+            t,
+            strands.points().iter().map(|p| *p + Vec3::X * t).collect(),
+        )
+    };
+    let motion = Motion::new(vec![sample(0.0), sample(0.5), sample(2.0)]).unwrap();
+    (strands, motion)
+}
+
+#[test]
+fn written_strands_are_read_again_and_thinned_with_their_motion() {
+    let path = folder("round-trip").join("a.strands.ron");
+    let (strands, motion) = moving();
+    write_strands(&path, &strands, Some(&motion)).unwrap();
+    assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+    let mut file = read_hair(&path, &HairOptions::default()).unwrap();
+    assert_eq!(
+        (&file.strands, file.motion.as_ref()),
+        (&strands, Some(&motion))
+    );
+    assert_eq!(file.notes, ["hair: 5 strands, Y up, metres"]);
+
+    file.keep(&[1, 4]);
+    assert_eq!((file.strands.id(0), file.strands.id(1)), (1, 4));
+    let mut points = vec![Vec3::ZERO; 7];
+    file.motion.unwrap().sample(2.0, &mut points);
+    let expected: Vec<Vec3> = file
+        .strands
+        .points()
+        .iter()
+        .map(|p| *p + Vec3::X * 2.0)
+        .collect();
+    assert_eq!(points, expected);
+}
+
+#[test]
+fn given_axes_and_units_hold_for_motion_too() {
+    let path = folder("given").join("a.strands.ron");
+    let (strands, motion) = moving();
+    write_strands(&path, &strands, Some(&motion)).unwrap();
+    let given = Given {
+        up: Some(Axes::Z),
+        scale: Some(2.0),
+        offset: Some(Vec3::ONE),
+    };
+    let file = read_hair(&path, &HairOptions { given, head: None }).unwrap();
+    let mut points = vec![Vec3::ZERO; strands.points().len()];
+    file.motion.unwrap().sample(0.0, &mut points);
+    assert_eq!(points, file.strands.points());
+    assert_eq!(points[0], Vec3::new(1.0, 1.0, 1.0 - 3.4));
+    for scale in [f32::NAN, 0.0, -1.0, f32::INFINITY, 1e38] {
+        let given = Given {
+            scale: Some(scale),
+            ..Given::default()
+        };
+        let error = read_hair(&path, &HairOptions { given, head: None });
+        let large = scale == 1e38; // 1.7e38 m is still a number
+        assert_eq!(error.is_ok(), large, "{scale}");
+        if !large {
+            assert!(matches!(error, Err(HairError::Scale { .. })));
+        }
+    }
+}
+
+#[test]
+fn messages_name_the_file_and_what_is_read() {
+    let folder = folder("messages");
+    let message = |name: &str, bytes: &[u8]| {
+        let path = folder.join(name);
+        fs::write(&path, bytes).unwrap();
+        let error = read_hair(&path, &HairOptions::default())
+            .unwrap_err()
+            .to_string();
+        let (file, message) = error.split_once(": ").unwrap();
+        assert!(file.ends_with(name));
+        message.to_string()
+    };
+    let reads = "is not a format that this build reads; it reads TressFX (.tfx) and own strands (.strands.ron)";
+    assert_eq!(message("a.abc", b"Ogawa"), format!("Alembic {reads}"));
+    assert_eq!(
+        message("a.hair", b"x"),
+        format!("Cem Yuksel's .hair {reads}")
+    );
+    assert_eq!(
+        message("a.bin", b"HAIR..."),
+        format!("Cem Yuksel's .hair {reads}")
+    );
+    assert_eq!(message("a.png", b"?"), format!("\".png\" {reads}"));
+    for name in ["a.usd", "a.usdc", "a.glb", "a.data", "a.ply"] {
+        assert!(message(name, b"").ends_with(reads), "{name}");
+    }
+    assert_eq!(
+        message("a.tfx", b"abc"),
+        "byte 0: a header of 160 bytes was expected, the file has 3 bytes"
+    );
+    assert!(message("named.otherwise", &4.0f32.to_le_bytes()).starts_with("byte 0: a header"));
+    assert_eq!(message("a.ron", b"(\xff"), "byte 1: the text is not UTF-8");
+    assert!(message("b.ron", b"(version: 1,\n strands: 3)").starts_with("line 2, column "));
+    let missing = read_hair(&folder.join("none.tfx"), &HairOptions::default()).unwrap_err();
+    assert!(missing.to_string().contains("none.tfx: "));
+
+    let broken = folder.join("broken.obj");
+    fs::write(&broken, "v 0 0 0\nf 1 2 3\n").unwrap();
+    let error = read_head(&broken, None, None).unwrap_err();
+    assert!(error.to_string().contains("broken.obj: "), "{error}");
+    let error = read_head(&folder.join("a.tfx"), None, None)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.ends_with(
+            "TressFX is not a format that this build reads; it reads Wavefront OBJ (.obj)"
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_written_leaves_nothing() {
+    let folder = folder("unwritable");
+    let taken = folder.join("taken.ron");
+    fs::create_dir(&taken).unwrap();
+    let error = write_strands(&taken, &moving().0, None).unwrap_err();
+    assert!(matches!(error, HairError::Open { .. }));
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+}

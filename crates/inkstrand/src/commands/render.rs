@@ -1,0 +1,197 @@
+//! `inkstrand render`: a preset to pictures.
+
+use super::read_preset;
+use crate::cli::{Backend, Numbers, RenderOptions};
+use crate::output::{Output, write_whole};
+use crate::stats::{Bytes, FrameStats, Milliseconds, StrandCounts, buffer_bytes, layer_counts};
+use crate::{Failure, not_built};
+use effects::Registry;
+use indicatif::{ProgressBar, ProgressStyle};
+use render::Drawing;
+use render::cpu::{Evaluator, Rasterizer};
+use stage::{Files, Preset, Stage};
+use std::io::IsTerminal as _;
+use std::path::Path;
+use std::time::Instant;
+
+pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
+    if options.backend == Backend::Gpu {
+        return Err(not_built("the gpu backend"));
+    }
+    let text = read_preset(&options.preset)?;
+    let file = options.preset.display().to_string();
+    let mut preset = Preset::parse(&file, &text, registry)?;
+    apply(options, &mut preset).map_err(Failure::Usage)?;
+
+    let files = Files {
+        preset_folder: options.preset.parent().unwrap_or(Path::new("")).to_owned(),
+        hair: options.hair.clone(),
+        head: options.head.clone(),
+    };
+    let mut stage = Stage::new(&preset, &files)?;
+    if !options.quiet {
+        for note in stage.notes() {
+            eprintln!("{note}");
+        }
+    }
+
+    let fps = preset.scene.number("fps");
+    let samples = preset.scene.integer("samples").unsigned_abs();
+    let transparent = preset.scene.optional_color("background").is_none();
+    let sequence = options.frames.is_some();
+    let output = Output::new(
+        options.output.as_deref(),
+        &options.preset,
+        sequence,
+        transparent,
+    );
+    let mut painter = Painter::new(samples, options.threads)?;
+
+    let (first, last) = options.frames.unwrap_or((0, 0));
+    let bar = progress_bar(options, u64::from(last - first) + 1);
+    let mut stats = String::new();
+    for frame in first..=last {
+        let time = options.time.unwrap_or(frame as f32 / fps);
+        let (picture, line) = painter.paint(&mut stage, frame, time)?;
+        let path = output.write(&picture, frame)?;
+        if options.stats.is_some() {
+            stats.push_str(&serde_json::to_string(&line)?);
+            stats.push('\n');
+        }
+        bar.inc(1);
+        if !options.quiet && !sequence {
+            eprintln!("wrote {}", path.display());
+        }
+    }
+    bar.finish_and_clear();
+    if !options.quiet && sequence {
+        let (from, to) = (output.path(first), output.path(last));
+        eprintln!("wrote {} to {}", from.display(), to.display());
+    }
+    if let Some(path) = &options.stats {
+        write_whole(path, stats.as_bytes())
+            .map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
+    }
+    Ok(())
+}
+
+/// What turns a scene into pictures, kept from frame to frame.
+struct Painter {
+    evaluator: Evaluator,
+    rasterizer: Rasterizer,
+    drawing: Drawing,
+    samples: u32,
+}
+
+impl Painter {
+    fn new(samples: u32, threads: Option<u32>) -> Result<Self, Failure> {
+        Ok(Self {
+            evaluator: Evaluator::default(),
+            rasterizer: Rasterizer::new(samples, threads.map(|n| n as usize))?,
+            drawing: Drawing::default(),
+            samples,
+        })
+    }
+
+    fn paint(
+        &mut self,
+        stage: &mut Stage,
+        frame: u32,
+        time: f32,
+    ) -> Result<(render::Picture, FrameStats), Failure> {
+        let mut milliseconds = Milliseconds::default();
+        let started = Instant::now();
+        let mut lap = started;
+        let mut since_last = || {
+            let now = Instant::now();
+            let passed = now.duration_since(lap);
+            lap = now;
+            passed.as_secs_f64() * 1e3
+        };
+        stage.advance_to(time);
+        milliseconds.simulate = since_last();
+        let described = stage.frame()?;
+        milliseconds.paths = since_last();
+        self.evaluator.evaluate(&described, &mut self.drawing);
+        milliseconds.effects = since_last();
+        let picture = self.rasterizer.draw(&self.drawing)?;
+        milliseconds.raster = since_last();
+        milliseconds.total = started.elapsed().as_secs_f64() * 1e3;
+
+        let stats = FrameStats {
+            frame,
+            backend: "cpu",
+            size: self.drawing.size,
+            samples: self.samples,
+            milliseconds,
+            strands: StrandCounts {
+                total: stage.strand_count(),
+                culled: stage.culled(),
+                asleep: 0,
+            },
+            layers: layer_counts(&self.drawing),
+            bytes: Bytes {
+                buffers: buffer_bytes(&self.drawing),
+            },
+            reused: false,
+        };
+        Ok((picture, stats))
+    }
+}
+
+/// Puts the command line's options in place of the preset's.
+fn apply(options: &RenderOptions, preset: &mut Preset) -> Result<(), String> {
+    let mut set = |name: &str, text: String| preset.set(name, &text);
+    if let Some(guides) = options.guides {
+        set("hair.guides", guides.to_string())?;
+    }
+    if let Some((width, height)) = options.size {
+        set("scene.size", format!("({width}, {height})"))?;
+    }
+    if let Some(samples) = options.samples {
+        set("scene.samples", samples.to_string())?;
+    }
+    if let Some(background) = &options.background {
+        set("scene.background", background.clone())?;
+    }
+    if let Some(Numbers(numbers)) = &options.camera {
+        if !(2..=3).contains(&numbers.len()) {
+            return Err("--camera takes YAW,PITCH or YAW,PITCH,DISTANCE".to_owned());
+        }
+        for (name, number) in ["yaw", "pitch", "distance"].iter().zip(numbers) {
+            set(&format!("camera.{name}"), number.to_string())?;
+        }
+    }
+    if let Some(Numbers(numbers)) = &options.light {
+        let [yaw, pitch] = numbers[..] else {
+            return Err("--light takes YAW,PITCH".to_owned());
+        };
+        set("light.yaw", yaw.to_string())?;
+        set("light.pitch", pitch.to_string())?;
+    }
+    for assignment in &options.set {
+        let (name, value) = assignment
+            .split_once('=')
+            .ok_or_else(|| format!("--set {assignment}: it takes LAYER.PARAM=VALUE"))?;
+        set(name.trim(), value.trim().to_owned())
+            .map_err(|e| format!("--set {assignment}: {e}"))?;
+    }
+    if !options.only.is_empty() {
+        preset
+            .keep_only(&options.only)
+            .map_err(|e| format!("--only: {e}"))?;
+    }
+    Ok(())
+}
+
+/// A bar for sequences on a terminal; nothing on a pipe.
+fn progress_bar(options: &RenderOptions, frames: u64) -> ProgressBar {
+    if options.quiet || frames < 2 || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(frames);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}

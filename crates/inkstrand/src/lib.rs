@@ -1,0 +1,73 @@
+//! The command line of inkstrand, as a library: a third party's program is its own effects plus one
+//! line.
+//!
+//! ```no_run
+//! let mut registry = effects::Registry::new();
+//! effects_builtin::register(&mut registry).unwrap();
+//! // registry.register::<backlight::Backlight>().unwrap();
+//! std::process::exit(if inkstrand::run(&registry) == std::process::ExitCode::SUCCESS { 0 } else { 1 });
+//! ```
+
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "this is what a program talks with"
+)]
+
+mod cli;
+mod commands;
+mod output;
+mod stats;
+
+use clap::Parser as _;
+use effects::Registry;
+use std::process::ExitCode;
+
+/// Why a command did not do its work.
+pub(crate) enum Failure {
+    /// The command line asks for something that cannot be: exit 2.
+    Usage(String),
+    /// Anything else: exit 1.
+    Failed(String),
+}
+
+impl<E: std::error::Error> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+/// Runs the program with these effects on the process's arguments: 0 done, 1 failed, 2 wrong usage.
+#[must_use]
+pub fn run(registry: &Registry) -> ExitCode {
+    let arguments = cli::Arguments::parse();
+    let done = match &arguments.command {
+        cli::Command::Render(options) => commands::render(options, registry),
+        cli::Command::Check { presets } => commands::check(presets, registry),
+        cli::Command::Effects { id } => commands::effects(id.as_deref(), registry),
+        cli::Command::New { .. } => Err(not_built("`new`")),
+        cli::Command::Simulate { .. } => Err(not_built("`simulate`")),
+        cli::Command::Convert { .. } => Err(not_built("`convert`")),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Failed(message)) => {
+            fail(&message);
+            ExitCode::FAILURE
+        }
+        Err(Failure::Usage(message)) => {
+            fail(&message);
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Prints a failure's message on the standard error.
+pub fn fail(message: &dyn std::fmt::Display) {
+    eprintln!("inkstrand: {message}");
+}
+
+/// A part of the command line whose program is still to be written.
+pub(crate) fn not_built(what: &str) -> Failure {
+    Failure::Failed(format!("{what} is not built yet"))
+}

@@ -1,0 +1,125 @@
+//! Picture files: their names, their bytes, and how they come to be whole or not at all.
+
+use render::Picture;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Where pictures go.
+pub(crate) struct Output {
+    pattern: PathBuf,
+    transparent: bool,
+}
+
+impl Output {
+    /// Pictures at `given`, or named after the preset in the current folder. A sequence gets frame
+    /// numbers, also where the name has no `#` for them.
+    pub fn new(given: Option<&Path>, preset: &Path, sequence: bool, transparent: bool) -> Self {
+        let mut pattern = match given {
+            Some(path) => path.to_owned(),
+            None => PathBuf::from(preset.file_stem().unwrap_or_default()).with_extension("png"),
+        };
+        let numbered = |path: &Path| file_name(path).contains('#');
+        if sequence && !numbered(&pattern) {
+            let ending = pattern
+                .extension()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            pattern.set_extension(format!("####.{ending}").trim_end_matches('.'));
+        }
+        Self {
+            pattern,
+            transparent,
+        }
+    }
+
+    /// The file of a frame: its number stands where the last run of `#` is, padded with zeros.
+    pub fn path(&self, frame: u32) -> PathBuf {
+        let name = file_name(&self.pattern);
+        let Some(end) = name.rfind('#').map(|i| i + 1) else {
+            return self.pattern.clone();
+        };
+        let start = name[..end].trim_end_matches('#').len();
+        let width = end - start;
+        let name = format!("{}{frame:0width$}{}", &name[..start], &name[end..]);
+        self.pattern.with_file_name(name)
+    }
+
+    /// Writes a picture as PNG: sRGB, straight alpha where it is transparent.
+    pub fn write(&self, picture: &Picture, frame: u32) -> io::Result<PathBuf> {
+        let path = self.path(frame);
+        let bytes = encode(picture, self.transparent)?;
+        write_whole(&path, &bytes)
+            .map_err(|e| io::Error::new(e.kind(), format!("{}: {e}", path.display())))?;
+        Ok(path)
+    }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}
+
+fn encode(picture: &Picture, transparent: bool) -> io::Result<Vec<u8>> {
+    let rgba = picture.to_srgb8();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_color(if transparent {
+        png::ColorType::Rgba
+    } else {
+        png::ColorType::Rgb
+    });
+    let mut writer = encoder.write_header()?;
+    if transparent {
+        writer.write_image_data(&rgba)?;
+    } else {
+        let rgb: Vec<u8> = rgba
+            .chunks_exact(4)
+            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+            .collect();
+        writer.write_image_data(&rgb)?;
+    }
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// Writes a file beside its place and renames it, so that nobody ever sees half of it.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let part = path.with_file_name(format!(".{}.{}.part", file_name(path), std::process::id()));
+    fs::write(&part, bytes)
+        .and_then(|()| fs::rename(&part, path))
+        .inspect_err(|_| {
+            // The first error is the one to tell; the part may not even exist.
+            let _ = fs::remove_file(&part);
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn path(given: Option<&str>, sequence: bool, frame: u32) -> String {
+        let output = Output::new(
+            given.map(Path::new),
+            Path::new("a/look.ron"),
+            sequence,
+            false,
+        );
+        output.path(frame).to_string_lossy().into_owned()
+    }
+
+    #[test]
+    fn names() {
+        assert_eq!(path(None, false, 0), "look.png");
+        assert_eq!(path(None, true, 12), "look.0012.png");
+        assert_eq!(path(Some("out/x.png"), false, 5), "out/x.png");
+        assert_eq!(path(Some("out/x.png"), true, 5), "out/x.0005.png");
+        assert_eq!(path(Some("out/x_##.png"), true, 123), "out/x_123.png");
+        assert_eq!(path(Some("x#y###.png"), true, 7), "x#y007.png");
+    }
+}

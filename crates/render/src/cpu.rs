@@ -1,0 +1,257 @@
+//! The exact rasteriser: no driver, any number of samples, the same bits on any machine.
+//!
+//! A drawing is checked ([`DrawError`]) and taken apart into segments, which are sorted into bands of
+//! tile rows and these into tiles. Bands are drawn in parallel; every band sees its segments in the
+//! same order, so threads can't change a bit. In a tile (see `tile`) come first the surfaces, then
+//! strand after strand: each segment's coverage, depth and colour (`stroke`), the strand's own order,
+//! then the strand against what is there (`strand`).
+
+mod bin;
+mod check;
+mod evaluate;
+mod segment;
+mod strand;
+mod stroke;
+mod surface;
+mod tile;
+
+#[cfg(test)]
+mod tests;
+
+pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
+pub use evaluate::Evaluator;
+
+use crate::drawing::Drawing;
+use crate::picture::Picture;
+use crate::samples::{SampleCountError, sample_positions};
+use bin::{Bins, cells};
+use glam::Vec2;
+use rayon::prelude::*;
+use segment::{Segment, Stroke};
+use std::sync::{Mutex, PoisonError};
+use strand::{Scene, StrandPlanes};
+use surface::Triangle;
+use tile::{Sums, Target};
+
+/// Most threads of a rasteriser.
+pub const MAX_THREADS: usize = 1024;
+
+/// Why there is no rasteriser.
+#[derive(Debug, thiserror::Error)]
+pub enum RasterizerError {
+    /// No such number of samples.
+    #[error(transparent)]
+    Samples(#[from] SampleCountError),
+    /// No such number of threads.
+    #[error("{0} threads: 1 to {MAX_THREADS} are possible")]
+    Threads(usize),
+    /// The system gave no threads.
+    #[error("threads could not be started")]
+    Pool(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// Draws [`Drawing`]s. Keeps its threads and its memory from picture to picture.
+pub struct Rasterizer {
+    pool: rayon::ThreadPool,
+    samples: Vec<Vec2>,
+    parts: Parts,
+    /// One for each thread.
+    workers: Vec<Mutex<Worker>>,
+}
+
+/// What the drawing is taken apart into.
+#[derive(Default)]
+struct Parts {
+    segments: Vec<Segment>,
+    triangles: Vec<Triangle>,
+    segments_of_bands: Bins,
+    triangles_of_bands: Bins,
+}
+
+impl Rasterizer {
+    /// A rasteriser with that many samples in a pixel ([`sample_positions`]) and that many threads
+    /// (as many as there are cores if `None`).
+    ///
+    /// # Errors
+    ///
+    /// When there is no such number of samples or threads.
+    pub fn new(samples: u32, threads: Option<usize>) -> Result<Self, RasterizerError> {
+        let samples = sample_positions(samples)?;
+        if let Some(threads) = threads.filter(|t| !(1..=MAX_THREADS).contains(t)) {
+            return Err(RasterizerError::Threads(threads));
+        }
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.unwrap_or(0)) // 0 is rayon's own choice
+            .build()?;
+        let workers = (0..pool.current_num_threads())
+            .map(|_| Mutex::new(Worker::new()))
+            .collect();
+        Ok(Self {
+            pool,
+            samples,
+            parts: Parts::default(),
+            workers,
+        })
+    }
+
+    /// Draws a picture.
+    ///
+    /// A stroke of radius 0 covers nothing. Light beyond 0..1 is clamped for each sample.
+    ///
+    /// # Errors
+    ///
+    /// When the drawing is not a drawing (see [`DrawError`]); then nothing has been drawn.
+    pub fn draw(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
+        let Self {
+            pool,
+            samples,
+            parts,
+            workers,
+        } = self;
+        pool.install(|| {
+            check::check(drawing)?;
+            let mut picture = empty_picture(drawing.size)?;
+            let strokes = segment::strokes_in_order(drawing);
+            parts.collect(drawing, &strokes);
+            let frame = Frame {
+                drawing,
+                strokes: &strokes,
+                parts,
+                samples,
+            };
+            let band_length = drawing.size[0] as usize * tile::HEIGHT;
+            picture
+                .pixels
+                .par_chunks_mut(band_length)
+                .enumerate()
+                .for_each(|(band, pixels)| {
+                    let thread = rayon::current_thread_index().unwrap_or(0);
+                    // Its planes are cleared before use, so a panic elsewhere can't harm them.
+                    let mut worker = workers[thread]
+                        .lock()
+                        .unwrap_or_else(PoisonError::into_inner);
+                    worker.draw_band(&frame, band, pixels);
+                });
+            Ok(picture)
+        })
+    }
+}
+
+fn empty_picture([width, height]: [u32; 2]) -> Result<Picture, DrawError> {
+    let length = width as usize * height as usize;
+    let mut pixels = Vec::new();
+    pixels
+        .try_reserve_exact(length)
+        .map_err(|_| DrawError::Memory(width, height))?;
+    pixels.resize(length, [0.0; 4]);
+    Ok(Picture {
+        width,
+        height,
+        pixels,
+    })
+}
+
+impl Parts {
+    fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke]) {
+        segment::collect(drawing, strokes, &mut self.segments);
+        surface::collect(drawing, &mut self.triangles);
+        let bands = (drawing.size[1] as usize).div_ceil(tile::HEIGHT);
+        let rows = self.segments.iter().map(|s| &s.bounds.y).zip(0..);
+        self.segments_of_bands
+            .fill(bands, rows.map(|(y, i)| (i, cells(y, tile::HEIGHT))));
+        let rows = self.triangles.iter().map(|t| &t.bounds.y).zip(0..);
+        self.triangles_of_bands
+            .fill(bands, rows.map(|(y, i)| (i, cells(y, tile::HEIGHT))));
+    }
+}
+
+/// Everything that is needed to draw a part of a picture.
+struct Frame<'a> {
+    drawing: &'a Drawing,
+    strokes: &'a [Stroke],
+    parts: &'a Parts,
+    samples: &'a [Vec2],
+}
+
+/// A thread's own memory.
+struct Worker {
+    segments_of_tiles: Bins,
+    triangles_of_tiles: Bins,
+    target: Target,
+    strand: StrandPlanes,
+    sums: Sums,
+}
+
+impl Worker {
+    fn new() -> Self {
+        Self {
+            segments_of_tiles: Bins::default(),
+            triangles_of_tiles: Bins::default(),
+            target: Target::new(),
+            strand: StrandPlanes::new(),
+            sums: Sums::new(),
+        }
+    }
+
+    /// Draws a row of tiles into its pixels.
+    fn draw_band(&mut self, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
+        let width = frame.drawing.size[0] as usize;
+        let tiles = width.div_ceil(tile::WIDTH);
+        let Parts {
+            segments,
+            triangles,
+            segments_of_bands,
+            triangles_of_bands,
+        } = frame.parts;
+        let columns = segments_of_bands.bin(band).iter().map(|&i| {
+            let columns = &segments[i as usize].bounds.x;
+            (i, cells(columns, tile::WIDTH))
+        });
+        self.segments_of_tiles.fill(tiles, columns);
+        let columns = triangles_of_bands.bin(band).iter().map(|&i| {
+            let columns = &triangles[i as usize].bounds.x;
+            (i, cells(columns, tile::WIDTH))
+        });
+        self.triangles_of_tiles.fill(tiles, columns);
+        for tile in 0..tiles {
+            let x = tile * tile::WIDTH;
+            self.draw_tile(frame, tile, [x, band * tile::HEIGHT]);
+            let end = (x + tile::WIDTH).min(width);
+            for (row, pixels) in pixels.chunks_mut(width).enumerate() {
+                self.sums
+                    .write(row, frame.samples.len(), &mut pixels[x..end]);
+            }
+        }
+    }
+
+    /// Sums up the samples of the tile at `origin`.
+    fn draw_tile(&mut self, frame: &Frame, tile: usize, origin: [usize; 2]) {
+        self.sums.clear();
+        let background = frame.drawing.background;
+        for samples in frame.samples.chunks(tile::GROUP) {
+            self.target.clear(background);
+            for &triangle in self.triangles_of_tiles.bin(tile) {
+                let triangle = &frame.parts.triangles[triangle as usize];
+                triangle.draw(frame.drawing, origin, samples, &mut self.target);
+            }
+            let segments = &frame.parts.segments;
+            let scene = Scene {
+                order: frame.drawing.order,
+                strokes: frame.strokes,
+                segments,
+                origin,
+                samples,
+            };
+            let strand = |&i: &u32| segments[i as usize].strand;
+            for strand in self
+                .segments_of_tiles
+                .bin(tile)
+                .chunk_by(|a, b| strand(a) == strand(b))
+            {
+                self.strand.draw(&scene, strand, &mut self.target);
+            }
+            self.sums
+                .add(&self.target, samples.len(), background.is_some());
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Sorting what is drawn into the parts of the picture that it reaches.
+
+use glam::DVec2;
+use std::ops::Range;
+
+/// Room for rounding around everything that is drawn, in pixels.
+const MARGIN: f64 = 0.01;
+
+/// The pixels that something may reach: a range of columns and one of rows, neither empty.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Bounds {
+    pub(super) x: Range<usize>,
+    pub(super) y: Range<usize>,
+}
+
+impl Bounds {
+    /// The pixels of a picture of the given size that the box from `min` to `max` touches, if any.
+    pub(super) fn of_box(min: DVec2, max: DVec2, size: [u32; 2]) -> Option<Self> {
+        let range = |min: f64, max: f64, size: u32| {
+            let start = (min - MARGIN).max(0.0) as usize; // a cast rounds towards 0
+            let end = ((max + MARGIN).floor() + 1.0).clamp(0.0, f64::from(size)) as usize;
+            (start < end).then_some(start..end)
+        };
+        Some(Self {
+            x: range(min.x, max.x, size[0])?,
+            y: range(min.y, max.y, size[1])?,
+        })
+    }
+}
+
+/// Which cells of `size` pixels a range of pixels reaches.
+pub(super) fn cells(pixels: &Range<usize>, size: usize) -> Range<usize> {
+    pixels.start / size..pixels.end.div_ceil(size)
+}
+
+/// Items sorted into bins by counting. An item lies in each bin of a range; a bin keeps the order in
+/// which its items came.
+#[derive(Debug, Default)]
+pub(super) struct Bins {
+    /// `first[bin]..first[bin + 1]` are the bin's items.
+    first: Vec<usize>,
+    items: Vec<u32>,
+}
+
+impl Bins {
+    /// Sorts items, each with its range of bins, into `bins` bins in place of what was there.
+    pub(super) fn fill(
+        &mut self,
+        bins: usize,
+        items: impl Iterator<Item = (u32, Range<usize>)> + Clone,
+    ) {
+        // Counted two places ahead: after the sums `first[bin + 1]` is where the bin starts, and the
+        // second pass moves it to where it ends.
+        self.first.clear();
+        self.first.resize(bins + 2, 0);
+        for (_, range) in items.clone() {
+            for bin in range {
+                self.first[bin + 2] += 1;
+            }
+        }
+        for bin in 2..bins + 2 {
+            self.first[bin] += self.first[bin - 1];
+        }
+        self.items.clear();
+        self.items.resize(self.first[bins + 1], 0);
+        for (item, range) in items {
+            for bin in range {
+                let place = &mut self.first[bin + 1];
+                self.items[*place] = item;
+                *place += 1;
+            }
+        }
+    }
+
+    /// The items of a bin.
+    pub(super) fn bin(&self, bin: usize) -> &[u32] {
+        &self.items[self.first[bin]..self.first[bin + 1]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bins_keep_the_order_of_items() {
+        let mut bins = Bins::default();
+        for _ in 0..2 {
+            let items = [(7, 0..2), (3, 1..4), (5, 1..2), (9, 3..4)];
+            bins.fill(4, items.into_iter());
+            assert_eq!(bins.bin(0), [7]);
+            assert_eq!(bins.bin(1), [7, 3, 5]);
+            assert_eq!(bins.bin(2), [3]);
+            assert_eq!(bins.bin(3), [3, 9]);
+        }
+        bins.fill(1, std::iter::empty());
+        assert!(bins.bin(0).is_empty());
+    }
+
+    #[test]
+    fn bounds_hold_the_box_and_stay_in_the_picture() {
+        let of = |x0, y0, x1, y1| {
+            Bounds::of_box(DVec2::new(x0, y0), DVec2::new(x1, y1), [100, 50]).map(|b| (b.x, b.y))
+        };
+        assert_eq!(of(1.5, 2.5, 3.5, 3.5), Some((1..4, 2..4)));
+        assert_eq!(of(-9.0, -9.0, 999.0, 999.0), Some((0..100, 0..50)));
+        assert_eq!(of(-9.0, 0.0, -1.0, 5.0), None);
+        assert_eq!(of(0.0, 50.5, 5.0, 60.0), None);
+        // A box that ends at a pixel's edge reaches the next pixel: edges belong to strokes.
+        assert_eq!(of(1.0, 1.0, 2.0, 2.0), Some((0..3, 0..3)));
+    }
+}

@@ -1,0 +1,273 @@
+//! What a drawing must be before anything is drawn.
+
+use crate::drawing::{Disc, Drawing, LayerStrokes, Surface};
+use rayon::prelude::*;
+
+/// Largest width and height of a picture, in pixels.
+pub const MAX_SIZE: u32 = 16384;
+
+/// Largest coordinate and radius on the screen, in pixels, either side of 0.
+pub const MAX_COORDINATE: f32 = 1e9;
+
+/// Why a drawing can't be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DrawError {
+    /// A picture has from 1 to [`MAX_SIZE`] pixels a side.
+    #[error("the picture's size is {0} x {1}: each side must be 1 to {MAX_SIZE} pixels")]
+    Size(u32, u32),
+    /// The finished picture doesn't fit.
+    #[error("not enough memory for a picture of {0} x {1}")]
+    Memory(u32, u32),
+    /// The background is not a colour.
+    #[error("the background's colour is not finite")]
+    Background,
+    /// A run has no joint, or some that the drawing doesn't have.
+    #[error(
+        "run {run}: its joints are {start}..{end}, which is not a piece of the drawing's {joints}"
+    )]
+    RunJoints {
+        /// Index of the run.
+        run: usize,
+        /// Its first joint.
+        start: usize,
+        /// One beyond its last.
+        end: usize,
+        /// How many the drawing has.
+        joints: usize,
+    },
+    /// Some runs share joints.
+    #[error("the runs have {runs} joints in all, the drawing has {joints}: runs share joints")]
+    SharedJoints {
+        /// Sum of the runs' joints.
+        runs: usize,
+        /// How many the drawing has.
+        joints: usize,
+    },
+    /// Runs are sorted by the ids of their strands.
+    #[error("run {run} of strand {strand} comes after strand {before}: ids must not decrease")]
+    RunOrder {
+        /// Index of the run.
+        run: usize,
+        /// Its strand's id.
+        strand: u32,
+        /// The strand of the run before.
+        before: u32,
+    },
+    /// A layer's lists don't fit its joints and instances.
+    #[error(
+        "layer \"{layer}\": {discs} discs and {colors} colours for {instances} instances of {joints} joints"
+    )]
+    LayerLength {
+        /// The layer's name.
+        layer: String,
+        /// Length of its list of discs.
+        discs: usize,
+        /// Length of its list of colours.
+        colors: usize,
+        /// Its strokes per run.
+        instances: usize,
+        /// The drawing's joints.
+        joints: usize,
+    },
+    /// A disc of the clump is no disc.
+    #[error("clump, joint {joint}: {disc:?} is not a disc: {DISC_RULE}")]
+    ClumpDisc {
+        /// Index of the joint.
+        joint: usize,
+        /// As it was given.
+        disc: Disc,
+    },
+    /// A disc of a layer is no disc.
+    #[error(
+        "layer \"{layer}\", instance {instance}, joint {joint}: {disc:?} is not a disc: {DISC_RULE}"
+    )]
+    LayerDisc {
+        /// The layer's name.
+        layer: String,
+        /// Which of its strokes.
+        instance: usize,
+        /// Index of the joint.
+        joint: usize,
+        /// As it was given.
+        disc: Disc,
+    },
+    /// A colour of a layer is not finite.
+    #[error("layer \"{layer}\", instance {instance}, joint {joint}: the colour is not finite")]
+    LayerColor {
+        /// The layer's name.
+        layer: String,
+        /// Which of its strokes.
+        instance: usize,
+        /// Index of the joint.
+        joint: usize,
+    },
+    /// A surface's tone has no colour.
+    #[error("surface {surface}: a colour is not finite")]
+    SurfaceColor {
+        /// Index of the surface.
+        surface: usize,
+    },
+    /// A corner has no place.
+    #[error(
+        "surface {surface}, vertex {vertex}: its numbers must be finite, its position at most {MAX_COORDINATE} pixels away"
+    )]
+    Vertex {
+        /// Index of the surface.
+        surface: usize,
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// A triangle's corner doesn't exist.
+    #[error(
+        "surface {surface}, triangle {triangle}: there is no vertex {vertex}, only {vertices} vertices"
+    )]
+    TriangleIndex {
+        /// Index of the surface.
+        surface: usize,
+        /// Index of the triangle.
+        triangle: usize,
+        /// The index that is too large.
+        vertex: u32,
+        /// How many the surface has.
+        vertices: usize,
+    },
+    /// Only so many triangles can be numbered.
+    #[error("{0} triangles are more than can be drawn")]
+    TriangleCount(usize),
+}
+
+const DISC_RULE: &str =
+    "its numbers must be finite, its radius 0 or more, its place and radius at most 1e9 pixels";
+
+/// Looks at every number of the drawing, so that drawing itself can't fail.
+pub(super) fn check(drawing: &Drawing) -> Result<(), DrawError> {
+    let [width, height] = drawing.size;
+    if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
+        return Err(DrawError::Size(width, height));
+    }
+    if drawing.background.is_some_and(|color| !is_finite(&color)) {
+        return Err(DrawError::Background);
+    }
+    check_runs(drawing)?;
+    let joints = drawing.clump.len();
+    if let Some(joint) = drawing.clump.par_iter().position_first(|d| !is_disc(d)) {
+        let disc = drawing.clump[joint];
+        return Err(DrawError::ClumpDisc { joint, disc });
+    }
+    for layer in &drawing.layers {
+        check_layer(layer, joints)?;
+    }
+    for (index, surface) in drawing.surfaces.iter().enumerate() {
+        check_surface(index, surface)?;
+    }
+    let triangles = drawing.surfaces.iter().map(|s| s.triangles.len()).sum();
+    if u32::try_from(triangles).is_err() {
+        return Err(DrawError::TriangleCount(triangles));
+    }
+    Ok(())
+}
+
+fn check_runs(drawing: &Drawing) -> Result<(), DrawError> {
+    let joints = drawing.clump.len();
+    // Cannot overflow: no run is longer than a list, and one that would make the sum wrap stops it.
+    let mut total = 0_usize;
+    for (run, piece) in drawing.runs.iter().enumerate() {
+        let (start, end) = (piece.joints.start, piece.joints.end);
+        if start >= end || end > joints {
+            return Err(DrawError::RunJoints {
+                run,
+                start,
+                end,
+                joints,
+            });
+        }
+        total = total.saturating_add(end - start);
+    }
+    if total > joints {
+        return Err(DrawError::SharedJoints {
+            runs: total,
+            joints,
+        });
+    }
+    for (before, pair) in drawing.runs.windows(2).enumerate() {
+        if pair[1].strand < pair[0].strand {
+            return Err(DrawError::RunOrder {
+                run: before + 1,
+                strand: pair[1].strand,
+                before: pair[0].strand,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_layer(layer: &LayerStrokes, joints: usize) -> Result<(), DrawError> {
+    let length = layer.instances.checked_mul(joints);
+    if length != Some(layer.discs.len()) || length != Some(layer.colors.len()) {
+        return Err(DrawError::LayerLength {
+            layer: layer.name.clone(),
+            discs: layer.discs.len(),
+            colors: layer.colors.len(),
+            instances: layer.instances,
+            joints,
+        });
+    }
+    if let Some(index) = layer.discs.par_iter().position_first(|d| !is_disc(d)) {
+        return Err(DrawError::LayerDisc {
+            layer: layer.name.clone(),
+            instance: index / joints,
+            joint: index % joints,
+            disc: layer.discs[index],
+        });
+    }
+    if let Some(index) = layer.colors.par_iter().position_first(|c| !is_finite(c)) {
+        return Err(DrawError::LayerColor {
+            layer: layer.name.clone(),
+            instance: index / joints,
+            joint: index % joints,
+        });
+    }
+    Ok(())
+}
+
+fn check_surface(index: usize, surface: &Surface) -> Result<(), DrawError> {
+    if !is_finite(&surface.light) || !is_finite(&surface.shadow) {
+        return Err(DrawError::SurfaceColor { surface: index });
+    }
+    let bad_vertex = surface.vertices.iter().position(|v| {
+        let at_hand = v.position.abs().max_element() <= MAX_COORDINATE;
+        !(v.position.is_finite() && at_hand && v.inv_depth.is_finite() && v.tone.is_finite())
+    });
+    if let Some(vertex) = bad_vertex {
+        return Err(DrawError::Vertex {
+            surface: index,
+            vertex,
+        });
+    }
+    let vertices = surface.vertices.len();
+    for (triangle, corners) in surface.triangles.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
+            return Err(DrawError::TriangleIndex {
+                surface: index,
+                triangle,
+                vertex,
+                vertices,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn is_disc(disc: &Disc) -> bool {
+    let [x, y] = disc.center.to_array();
+    // Each comparison is false for NaN.
+    (x.abs() <= MAX_COORDINATE)
+        & (y.abs() <= MAX_COORDINATE)
+        & (0.0..=MAX_COORDINATE).contains(&disc.radius)
+        & disc.inv_depth.is_finite()
+        & disc.inv_depth_biased.is_finite()
+}
+
+fn is_finite(color: &[f32; 3]) -> bool {
+    color.iter().all(|channel| channel.is_finite())
+}

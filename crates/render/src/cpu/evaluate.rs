@@ -1,0 +1,234 @@
+//! Joints to strokes on the screen, by the layers' own WGSL in Rust.
+
+use crate::drawing::{Disc, Drawing, LayerStrokes, Run};
+use crate::frame::{FAR_LIGHT, Frame};
+use effects::wgsl::{Stroke, vec2, vec3};
+use effects::{InputSet, Joints, Layer, Parameters, Units, clump, layer_seed};
+use glam::{Vec2, Vec3};
+
+/// Turns frames into drawings, and keeps its lists from frame to frame.
+#[derive(Default)]
+pub struct Evaluator {
+    joints: Joints,
+    strokes: Vec<Stroke>,
+}
+
+impl Evaluator {
+    /// Makes all strokes of `frame`. Only what the active layers declare is worked out.
+    pub fn evaluate(&mut self, frame: &Frame, drawing: &mut Drawing) {
+        let read = frame
+            .layers
+            .iter()
+            .map(|layer| layer.program.inputs())
+            .fold(InputSet::of(clump::Program::INPUTS), InputSet::union);
+        self.fill_inputs(frame, read);
+        self.fill_clump(frame);
+
+        drawing.size = frame.camera.size_px();
+        drawing.background = frame.background;
+        drawing.order = frame.order;
+        drawing.surfaces.clone_from(&frame.surfaces);
+        drawing.runs.clear();
+        drawing.runs.extend(frame.paths.runs.iter().map(|run| Run {
+            strand: frame.strands[run.strand].id,
+            joints: run.joints.clone(),
+        }));
+        drawing.clump.clear();
+        let radii = &self.joints.clump_radius;
+        drawing
+            .clump
+            .extend((0..radii.len()).map(|i| disc(frame, i, Vec2::ZERO, radii[i], radii[i], 0.0)));
+
+        let mut spare = std::mem::take(&mut drawing.layers).into_iter();
+        for layer in frame.layers {
+            let lists = spare
+                .next()
+                .map(|l| (l.discs, l.colors))
+                .unwrap_or_default();
+            drawing.layers.push(self.layer(frame, layer, lists));
+        }
+    }
+
+    /// The strokes of one layer; `lists` are reused.
+    fn layer(
+        &mut self,
+        frame: &Frame,
+        layer: &Layer,
+        (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
+    ) -> LayerStrokes {
+        discs.clear();
+        colors.clear();
+        self.fill_pixel(frame, layer.units);
+        let seed = layer_seed(frame.seed, &layer.name);
+        let joints = frame.paths.len();
+        for instance in 0..layer.program.instances() {
+            self.strokes.clear();
+            layer
+                .program
+                .evaluate(&self.joints, 0..joints, instance, seed, &mut self.strokes);
+            discs.extend(self.strokes.iter().enumerate().map(|(i, stroke)| {
+                let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
+                let depth_offset = layer.depth_offset + stroke.depth_offset;
+                disc(
+                    frame,
+                    i,
+                    offset,
+                    stroke.radius,
+                    self.joints.clump_radius[i],
+                    depth_offset,
+                )
+            }));
+            colors.extend(self.strokes.iter().map(|stroke| stroke.color.to_array()));
+        }
+        LayerStrokes {
+            name: layer.name.clone(),
+            rank: layer.rank,
+            instances: layer.program.instances() as usize,
+            discs,
+            colors,
+        }
+    }
+
+    fn fill_inputs(&mut self, frame: &Frame, read: InputSet) {
+        let (paths, joints) = (frame.paths, &mut self.joints);
+        let world = |v: &Vec3| vec3(v.to_array());
+        fill(
+            &mut joints.position,
+            read.has("position"),
+            paths.position.iter().map(world),
+        );
+        fill(
+            &mut joints.forward,
+            read.has("forward"),
+            paths.forward.iter().map(world),
+        );
+        fill(
+            &mut joints.backward,
+            read.has("backward"),
+            paths.backward.iter().map(world),
+        );
+        fill(&mut joints.u, read.has("u"), paths.u.iter().copied());
+        fill(
+            &mut joints.arc_length,
+            read.has("arc_length"),
+            paths.arc_length.iter().copied(),
+        );
+        let across = paths.across.iter().map(|v| vec2(v.to_array()));
+        fill(&mut joints.across, read.has("across"), across);
+
+        let strand_of_joint = || {
+            let runs = paths.runs.iter();
+            runs.flat_map(|run| run.joints.clone().map(|_| &frame.strands[run.strand]))
+        };
+        // The seed of a strand's variations is made from its id.
+        let by_strand = read.has("strand") || read.has("seed");
+        fill(
+            &mut joints.strand,
+            by_strand,
+            strand_of_joint().map(|s| s.id),
+        );
+        let means = strand_of_joint().map(|s| vec3(s.mean.to_array()));
+        fill(&mut joints.strand_mean, read.has("strand_mean"), means);
+        fill(
+            &mut joints.strand_size,
+            read.has("strand_size"),
+            strand_of_joint().map(|s| s.size),
+        );
+        let center = vec3(frame.head.center.to_array());
+        let centers = paths.position.iter().map(|_| center);
+        fill(&mut joints.head_center, read.has("head_center"), centers);
+
+        let to_light = |point: &Vec3| frame.light.seen_from(*point);
+        let directions = paths
+            .position
+            .iter()
+            .map(|p| vec3(to_light(p).0.to_array()));
+        let lit = read.has("light_direction") || read.has("gray");
+        fill(&mut joints.light_direction, lit, directions);
+        let distances = paths.position.iter().map(|p| {
+            to_light(p)
+                .1
+                .map_or(FAR_LIGHT, |metres| metres / frame.head.height_m)
+        });
+        fill(
+            &mut joints.light_distance,
+            read.has("light_distance"),
+            distances,
+        );
+        let eye = frame.camera.eye();
+        let to_eye = paths
+            .position
+            .iter()
+            .map(|p| vec3((eye - *p).normalize_or(Vec3::Z).to_array()));
+        fill(
+            &mut joints.view_direction,
+            read.has("view_direction"),
+            to_eye,
+        );
+    }
+
+    /// The clump of every joint, once for all layers.
+    fn fill_clump(&mut self, frame: &Frame) {
+        let seed = layer_seed(frame.seed, "clump");
+        self.joints.normal.clear();
+        self.joints.clump_radius.clear();
+        self.joints.clump_color.clear();
+        self.joints.gray.clear();
+        for i in 0..frame.paths.len() {
+            let made = clump::Program::clump(&self.joints, i, seed, frame.clump);
+            let gray = made.normal.dot(self.joints.light_direction[i]).0.max(0.0);
+            self.joints.normal.push(made.normal);
+            self.joints.clump_radius.push(made.radius);
+            self.joints.clump_color.push(made.color);
+            self.joints.gray.push(gray);
+        }
+    }
+
+    /// The size of a pixel at 720 lines, for layers whose widths are pixels.
+    fn fill_pixel(&mut self, frame: &Frame, units: Units) {
+        let pixel_px = frame.camera.size_px()[1] as f32 / 720.0;
+        let unit_m = frame.head.unit_m();
+        let sizes = frame
+            .paths
+            .px_per_metre
+            .iter()
+            .map(|scale| pixel_px / (scale * unit_m));
+        fill(&mut self.joints.pixel, units == Units::Pixels, sizes);
+    }
+}
+
+fn fill<T>(list: &mut Vec<T>, wanted: bool, values: impl Iterator<Item = T>) {
+    list.clear();
+    if wanted {
+        list.extend(values);
+    }
+}
+
+/// A stroke's disc on the screen. Sizes in 1/300 of the head's height, the depth offset in head
+/// heights. The radius of the joint's clump is its bias against surfaces.
+fn disc(
+    frame: &Frame,
+    joint: usize,
+    offset: Vec2,
+    radius: f32,
+    clump_radius: f32,
+    depth_offset: f32,
+) -> Disc {
+    let unit_m = frame.head.unit_m();
+    let unit_px = unit_m * frame.paths.px_per_metre[joint];
+    // No depth is nearer than the near plane, whatever is taken from it.
+    let nearest = frame.camera.near_m();
+    let depth = (frame.paths.depth[joint] + depth_offset * frame.head.height_m).max(nearest);
+    let biased = (depth - clump_radius * unit_m).max(nearest);
+    Disc {
+        center: frame.paths.center[joint] + offset * unit_px,
+        radius: finite_or_zero(radius).max(0.0) * unit_px,
+        inv_depth: 1.0 / depth,
+        inv_depth_biased: 1.0 / biased,
+    }
+}
+
+/// A stroke whose size an effect failed to work out is not drawn.
+fn finite_or_zero(value: f32) -> f32 {
+    if value.is_finite() { value } else { 0.0 }
+}

@@ -1,0 +1,248 @@
+//! A drawing's strokes taken apart into segments, in the order in which they are drawn.
+
+use super::bin::Bounds;
+use crate::drawing::{Disc, Drawing, Order, Run};
+use glam::DVec2;
+use rayon::prelude::*;
+use std::ops::Range;
+use stroke_path::sweep::{Circle, Sweep, visible_part};
+
+/// A stroke of each strand. They sort as they lie, low first: by rank, layer, instance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Stroke {
+    pub(super) rank: i32,
+    pub(super) layer: usize,
+    pub(super) instance: usize,
+}
+
+/// A value that runs linearly along a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ramp {
+    /// At u = 0.
+    pub(super) start: f32,
+    /// At u = 1, less that at 0.
+    pub(super) rise: f32,
+}
+
+impl Ramp {
+    fn new(start: f32, end: f32) -> Self {
+        Self {
+            start,
+            rise: end - start,
+        }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, u: f32) -> f32 {
+        self.start + u * self.rise
+    }
+}
+
+/// A piece of a stroke between two joints; u as in [`Sweep`], from the larger disc to the smaller.
+#[derive(Clone, Debug)]
+pub(super) struct Segment {
+    /// The strand's place among the drawing's strands, which are in the order of their ids.
+    pub(super) strand: u32,
+    /// 0 for the clump, or 1 more than the place in [`strokes_in_order`].
+    pub(super) stroke: u32,
+    pub(super) bounds: Bounds,
+    pub(super) sweep: Sweep,
+    pub(super) inv_depth: Ramp,
+    pub(super) inv_depth_biased: Ramp,
+    pub(super) color: [Ramp; 3],
+}
+
+/// The strokes that a strand has, lowest first.
+pub(super) fn strokes_in_order(drawing: &Drawing) -> Vec<Stroke> {
+    if drawing.clump.is_empty() {
+        return Vec::new(); // with no joints any number of instances is legal
+    }
+    let mut strokes: Vec<Stroke> = drawing
+        .layers
+        .iter()
+        .enumerate()
+        .flat_map(|(layer, strokes)| {
+            (0..strokes.instances).map(move |instance| Stroke {
+                rank: strokes.rank,
+                layer,
+                instance,
+            })
+        })
+        .collect();
+    strokes.sort_unstable();
+    strokes
+}
+
+/// Replaces `segments` by those of a checked drawing that may be seen: by strand, then the clump and
+/// the strokes from the lowest to the highest.
+pub(super) fn collect(drawing: &Drawing, strokes: &[Stroke], segments: &mut Vec<Segment>) {
+    let strands: Vec<&[Run]> = drawing.runs.chunk_by(|a, b| a.strand == b.strand).collect();
+    segments.clear();
+    segments.par_extend(
+        strands
+            .par_iter()
+            .enumerate()
+            .flat_map_iter(|(strand, runs)| of_strand(drawing, strokes, strand as u32, runs)),
+    );
+}
+
+fn of_strand(drawing: &Drawing, strokes: &[Stroke], strand: u32, runs: &[Run]) -> Vec<Segment> {
+    let mut segments = Vec::new();
+    let joints = drawing.clump.len();
+    if drawing.order == Order::StrandFirst {
+        for run in runs {
+            let discs = &drawing.clump[run.joints.clone()];
+            push_run(&mut segments, (strand, 0), discs, None, drawing.size);
+        }
+    }
+    for (stroke, number) in strokes.iter().zip(1..) {
+        let layer = &drawing.layers[stroke.layer];
+        let first = stroke.instance * joints;
+        for run in runs {
+            let range = first + run.joints.start..first + run.joints.end;
+            let discs = &layer.discs[range.clone()];
+            let colors = layer.colors.get(range);
+            push_run(&mut segments, (strand, number), discs, colors, drawing.size);
+        }
+    }
+    segments
+}
+
+fn push_run(
+    segments: &mut Vec<Segment>,
+    (strand, stroke): (u32, u32),
+    discs: &[Disc],
+    colors: Option<&[[f32; 3]]>,
+    size: [u32; 2],
+) {
+    let joint = |i: usize| (discs[i], colors.map_or([0.0; 3], |colors| colors[i]));
+    let pair = |i: usize| (joint(i), joint((i + 1).min(discs.len() - 1)));
+    // One joint alone is a segment from itself to itself.
+    let pairs = 0..(discs.len() - 1).max(1);
+    segments.extend(
+        pairs
+            .map(pair)
+            .filter_map(|(a, b)| Segment::new(a, b, size))
+            .map(|segment| Segment {
+                strand,
+                stroke,
+                ..segment
+            }),
+    );
+}
+
+type Joint = (Disc, [f32; 3]);
+
+impl Segment {
+    /// The part of the segment between two joints that may be seen in a picture of that size, if
+    /// any. Its strand and stroke are left at 0.
+    fn new(a: Joint, b: Joint, size: [u32; 2]) -> Option<Self> {
+        if a.0.radius <= 0.0 && b.0.radius <= 0.0 {
+            return None;
+        }
+        // A pixel more than the picture makes up for rounding.
+        let min = DVec2::splat(-1.0);
+        let max = DVec2::new(f64::from(size[0]), f64::from(size[1])) + 1.0;
+        let [from, to] = visible_part(circle(&a.0), circle(&b.0), min, max)?;
+        let (a, b) = (between(a, b, from), between(a, b, to));
+        let (large, small) = if a.0.radius >= b.0.radius {
+            (a, b)
+        } else {
+            (b, a)
+        };
+        let sweep = Sweep::new(circle(&large.0), circle(&small.0))?;
+        let (min, max) = sweep.bounds();
+        Some(Self {
+            strand: 0,
+            stroke: 0,
+            bounds: Bounds::of_box(min, max, size)?,
+            sweep,
+            inv_depth: Ramp::new(large.0.inv_depth, small.0.inv_depth),
+            inv_depth_biased: Ramp::new(large.0.inv_depth_biased, small.0.inv_depth_biased),
+            color: [0, 1, 2].map(|i| Ramp::new(large.1[i], small.1[i])),
+        })
+    }
+
+    /// The columns and rows of the segment's bounds in the tile at `origin`, of `size` pixels.
+    pub(super) fn reach(&self, origin: [usize; 2], size: [usize; 2]) -> Bounds {
+        let clip = |range: &Range<usize>, origin: usize, size: usize| {
+            range.start.max(origin) - origin..range.end.min(origin + size) - origin
+        };
+        Bounds {
+            x: clip(&self.bounds.x, origin[0], size[0]),
+            y: clip(&self.bounds.y, origin[1], size[1]),
+        }
+    }
+
+    pub(super) fn is_one_color(&self) -> bool {
+        self.color.iter().all(|channel| channel.rise == 0.0)
+    }
+}
+
+fn circle(disc: &Disc) -> Circle {
+    Circle {
+        center: disc.center.as_dvec2(),
+        radius: f64::from(disc.radius),
+    }
+}
+
+/// What runs linearly between two joints, at `u` of the way. The ends stay bit for bit.
+fn between(a: Joint, b: Joint, u: f64) -> Joint {
+    if u == 0.0 {
+        return a;
+    }
+    if u == 1.0 {
+        return b;
+    }
+    let mix = |a: f32, b: f32| (f64::from(a) + u * (f64::from(b) - f64::from(a))) as f32;
+    let disc = Disc {
+        center: (a.0.center.as_dvec2().lerp(b.0.center.as_dvec2(), u)).as_vec2(),
+        radius: mix(a.0.radius, b.0.radius).max(0.0),
+        inv_depth: mix(a.0.inv_depth, b.0.inv_depth),
+        inv_depth_biased: mix(a.0.inv_depth_biased, b.0.inv_depth_biased),
+    };
+    (disc, [0, 1, 2].map(|i| mix(a.1[i], b.1[i])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec2;
+
+    fn disc(x: f32, radius: f32, inv_depth: f32) -> Disc {
+        Disc {
+            center: Vec2::new(x, 5.0),
+            radius,
+            inv_depth,
+            inv_depth_biased: inv_depth + 1.0,
+        }
+    }
+
+    #[test]
+    fn a_far_segment_keeps_its_depth_and_color_where_it_is_seen() {
+        let far = 1e6;
+        let a = (disc(-far, 1.0, 1.0), [0.0, 0.5, 1.0]);
+        let b = (disc(far, 3.0, 3.0), [1.0, 0.5, 0.0]);
+        let segment = Segment::new(a, b, [10, 10]).unwrap();
+        // The middle of the screen is the middle of the segment.
+        let local = segment.sweep.local(DVec2::new(5.0, 5.0)).as_vec2();
+        assert!(segment.sweep.covers(local.x, local.y));
+        let (u, ratio) = segment.sweep.attribute_point(local.x, local.y);
+        assert!(ratio < 1e-6);
+        assert!((segment.inv_depth.at(u) - 2.0).abs() < 1e-4);
+        assert!((segment.inv_depth_biased.at(u) - 3.0).abs() < 1e-4);
+        assert!((segment.color[0].at(u) - 0.5).abs() < 1e-4);
+        let across = segment.sweep.local(DVec2::new(5.0, 6.95)).as_vec2();
+        assert!(segment.sweep.covers(across.x, across.y));
+        let outside = segment.sweep.local(DVec2::new(5.0, 7.05)).as_vec2();
+        assert!(!segment.sweep.covers(outside.x, outside.y));
+    }
+
+    #[test]
+    fn what_is_not_seen_is_left_out() {
+        let new = |a, b| Segment::new((a, [0.0; 3]), (b, [0.0; 3]), [10, 10]);
+        assert!(new(disc(20.0, 1.0, 1.0), disc(30.0, 1.0, 1.0)).is_none());
+        assert!(new(disc(1.0, 0.0, 1.0), disc(9.0, 0.0, 1.0)).is_none());
+        assert!(new(disc(1.0, 0.0, 1.0), disc(9.0, 0.1, 1.0)).is_some());
+    }
+}

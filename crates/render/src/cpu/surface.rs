@@ -1,0 +1,177 @@
+//! One triangle in one tile: both sides, edges included, the nearest first.
+
+use super::bin::Bounds;
+use super::tile::{HEIGHT, LANE, LANES, Slope, Target, WIDTH, row_start};
+use crate::drawing::{Drawing, SurfaceVertex};
+use glam::{DVec2, Vec2};
+use std::ops::Range;
+
+/// A triangle of a drawing that may be seen.
+#[derive(Clone, Debug)]
+pub(super) struct Triangle {
+    corners: [SurfaceVertex; 3],
+    surface: u32,
+    pub(super) bounds: Bounds,
+}
+
+/// Replaces `triangles` by those of a checked drawing, in its order, that may be seen.
+pub(super) fn collect(drawing: &Drawing, triangles: &mut Vec<Triangle>) {
+    triangles.clear();
+    for (surface, number) in drawing.surfaces.iter().zip(0..) {
+        triangles.extend(surface.triangles.iter().filter_map(|indices| {
+            let corners = indices.map(|i| surface.vertices[i as usize]);
+            let [a, b, c] = corners.map(|corner| corner.position.as_dvec2());
+            let bounds = Bounds::of_box(a.min(b).min(c), a.max(b).max(c), drawing.size)?;
+            // Without area it would have no inside.
+            (twice_area([a, b, c]) != 0.0).then_some(Triangle {
+                corners,
+                surface: number,
+                bounds,
+            })
+        }));
+    }
+}
+
+fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+impl Triangle {
+    /// Draws the triangle's part of the tile at `origin` into the target's samples.
+    pub(super) fn draw(
+        &self,
+        drawing: &Drawing,
+        origin: [usize; 2],
+        samples: &[Vec2],
+        target: &mut Target,
+    ) {
+        let surface = &drawing.surfaces[self.surface as usize];
+        let (light, shadow) = (surface.light, surface.shadow);
+        let corner = DVec2::new(origin[0] as f64, origin[1] as f64);
+        let points = self.corners.map(|c| c.position.as_dvec2() - corner);
+        let area = twice_area(points);
+        let [a, b, c] = points;
+        let edges = [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::new(from, to));
+        let inside = edges.map(|edge| edge.slope(area.signum()));
+        let interpolate = |values: [f32; 3]| Interpolated::new(values, edges, area);
+        let depths = interpolate(self.corners.map(|c| c.inv_depth));
+        let tones = interpolate(self.corners.map(|c| c.tone));
+
+        let rows = clip(&self.bounds.y, origin[1], HEIGHT);
+        let columns = clip(&self.bounds.x, origin[0], WIDTH);
+        let chunks = columns.start / LANES..columns.end.div_ceil(LANES);
+        for (sample, offset) in samples.iter().enumerate() {
+            for row in rows.clone() {
+                for chunk in chunks.clone() {
+                    let cell = row_start(sample, row) + chunk;
+                    let first = *offset + Vec2::new((chunk * LANES) as f32, row as f32);
+                    let nearest = &mut target.surface[cell];
+                    let mut wins = [false; LANES];
+                    let mut is_lit = [false; LANES];
+                    for k in 0..LANES {
+                        let position = first + Vec2::new(LANE[k], 0.0);
+                        let is_inside = (inside[0].at(position) >= 0.0)
+                            & (inside[1].at(position) >= 0.0)
+                            & (inside[2].at(position) >= 0.0);
+                        let depth = depths.at(position);
+                        wins[k] = is_inside & (depth > nearest[k]);
+                        nearest[k] = if wins[k] { depth } else { nearest[k] };
+                        is_lit[k] = tones.at(position) >= 0.0;
+                    }
+                    for (channel, plane) in target.color.iter_mut().enumerate() {
+                        for k in 0..LANES {
+                            let color = if is_lit[k] {
+                                light[channel]
+                            } else {
+                                shadow[channel]
+                            };
+                            plane[cell][k] = if wins[k] { color } else { plane[cell][k] };
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn clip(range: &Range<usize>, origin: usize, size: usize) -> Range<usize> {
+    range.start.max(origin) - origin..range.end.min(origin + size) - origin
+}
+
+/// The signed, doubled area between an edge and a point: above 0 on the edge's one side. Worked out
+/// from the same end for both triangles at an edge, so that their values are exactly opposite, and no
+/// sample between them is lost.
+#[derive(Clone, Copy)]
+struct Edge {
+    corner: f64,
+    per_x: f64,
+    per_y: f64,
+}
+
+impl Edge {
+    /// Positions are seen from the tile's corner.
+    fn new(from: DVec2, to: DVec2) -> Self {
+        let is_turned = (to.x, to.y) < (from.x, from.y);
+        let (low, high) = if is_turned { (to, from) } else { (from, to) };
+        let along = high - low;
+        let sign = if is_turned { -1.0 } else { 1.0 };
+        Self {
+            corner: sign * -along.perp_dot(low),
+            per_x: sign * -along.y,
+            per_y: sign * along.x,
+        }
+    }
+
+    fn slope(&self, factor: f64) -> Slope {
+        Slope {
+            corner: (self.corner * factor) as f32,
+            per_x: (self.per_x * factor) as f32,
+            per_y: (self.per_y * factor) as f32,
+        }
+    }
+}
+
+/// A value of the corners that runs linearly on the screen, and never beyond them: a needle's slope
+/// is too steep for single precision.
+struct Interpolated {
+    slope: Slope,
+    least: f32,
+    greatest: f32,
+}
+
+impl Interpolated {
+    fn new(values: [f32; 3], edges: [Edge; 3], area: f64) -> Self {
+        let sum = |part: fn(&Edge) -> f64| {
+            let parts = edges.iter().zip(values);
+            (parts
+                .map(|(edge, value)| part(edge) * f64::from(value))
+                .sum::<f64>()
+                / area) as f32
+        };
+        let [a, b, c] = values;
+        Self {
+            slope: Slope {
+                corner: sum(|edge| edge.corner),
+                per_x: sum(|edge| edge.per_x),
+                per_y: sum(|edge| edge.per_y),
+            },
+            least: a.min(b).min(c),
+            greatest: a.max(b).max(c),
+        }
+    }
+
+    #[inline]
+    fn at(&self, position: Vec2) -> f32 {
+        let value = self.slope.at(position);
+        let value = if value > self.least {
+            value
+        } else {
+            self.least
+        };
+        if value < self.greatest {
+            value
+        } else {
+            self.greatest
+        }
+    }
+}

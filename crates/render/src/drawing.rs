@@ -1,0 +1,111 @@
+//! What a rasteriser draws: strokes and surfaces on the screen, already projected.
+//!
+//! The screen is in pixels, x to the right and y down, (0, 0) at the picture's upper left corner;
+//! pixel (i, j) covers i..i+1 by j..j+1. Depths are given as their inverse, 1/metres along the view
+//! axis, because that is what runs linearly along a projected segment; larger is nearer.
+//! Colours are linear light, red, green, blue.
+
+use glam::Vec2;
+use std::ops::Range;
+
+/// One disc of a stroke, at a joint of its path.
+///
+/// Between two joints of a run, `center`, `radius` and both inverse depths run linearly: the stroke
+/// is the union of all those discs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disc {
+    /// Centre on the screen, in pixels.
+    pub center: Vec2,
+    /// Radius in pixels, 0 or more.
+    pub radius: f32,
+    /// 1 / view depth (1/m), the stroke's depth offset applied: the order among strands.
+    pub inv_depth: f32,
+    /// 1 / (view depth less the clump's radius) (1/m): the order against surfaces, so that the scalp
+    /// does not eat the hair that lies on it.
+    pub inv_depth_biased: f32,
+}
+
+/// A connected piece of one strand's path. A strand that passes through the near plane has several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// The strand's id. All runs of a strand are neighbours, and ids never decrease.
+    pub strand: u32,
+    /// The joints, as a range of every per-joint list of the [`Drawing`]. One joint alone is a disc.
+    pub joints: Range<usize>,
+}
+
+/// The strokes of one layer: `instances` strokes for each run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerStrokes {
+    /// The layer's unique name.
+    pub name: String,
+    /// Drawing order within a strand, low first; 0 is the base stroke's. Below 0 a stroke shows
+    /// outside the clump; from 0 on it is clipped to the clump.
+    pub rank: i32,
+    /// Strokes per run (feathers); a later one lies over an earlier one.
+    pub instances: usize,
+    /// `discs[instance * joints + joint]`.
+    pub discs: Vec<Disc>,
+    /// Linear colours, parallel to `discs`; linear between joints.
+    pub colors: Vec<[f32; 3]>,
+}
+
+/// A corner of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceVertex {
+    /// On the screen, in pixels.
+    pub position: Vec2,
+    /// 1 / view depth (1/m).
+    pub inv_depth: f32,
+    /// The two-tone shading value times `inv_depth`: where its interpolation is 0 or more the
+    /// surface is lit. Divided by depth so that it runs linearly on the screen; only its sign counts.
+    pub tone: f32,
+}
+
+/// Triangles in two flat tones, drawn from both sides.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Corners.
+    pub vertices: Vec<SurfaceVertex>,
+    /// Indices into `vertices`.
+    pub triangles: Vec<[u32; 3]>,
+    /// Linear colour where the tone is 0 or more.
+    pub light: [f32; 3],
+    /// Linear colour where the tone is below 0.
+    pub shadow: [f32; 3],
+}
+
+/// Which stroke a sample shows where several cover it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// First within a strand by rank, then among strands and surfaces by depth.
+    ///
+    /// Within the strand's clump the highest rank that covers the sample gives the colour (the later
+    /// layer among equals, then the later instance) at the clump's depth; outside the clump only
+    /// ranks below 0 show, each at its own depth. Then a strand whose biased depth lies behind a
+    /// surface is dropped, and the nearest strand that is left wins (the lower id among equals).
+    #[default]
+    StrandFirst,
+    /// The source's plain shift: every stroke by its own depth against every other (5.2). Among
+    /// equal depths the higher rank, the later layer, the later instance, then the lower id.
+    Shifted,
+}
+
+/// Everything on the screen, ready to be drawn.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The pieces of all strands, sorted by strand id.
+    pub runs: Vec<Run>,
+    /// The clump of each strand: one disc a joint.
+    pub clump: Vec<Disc>,
+    /// The strokes, in the preset's order of layers.
+    pub layers: Vec<LayerStrokes>,
+    /// The head and its outline.
+    pub surfaces: Vec<Surface>,
+    /// Linear colour behind everything, or a transparent picture.
+    pub background: Option<[f32; 3]>,
+    /// Which stroke a sample shows.
+    pub order: Order,
+}

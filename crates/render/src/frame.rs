@@ -1,0 +1,92 @@
+//! A frame: everything that a backend needs to make strokes and draw them.
+
+use crate::drawing::{Order, Surface};
+use effects::{Layer, clump};
+use glam::Vec3;
+use stroke_path::{Camera, Paths};
+
+/// What is the same for all joints of a strand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrandInfo {
+    /// Stable id; ids increase from strand to strand of a frame.
+    pub id: u32,
+    /// Mean of the strand's particles, metres (c_mean in Fig 5.4a).
+    pub mean: Vec3,
+    /// Full size of its clump, 1/300 of the head's height.
+    pub size: f32,
+}
+
+/// Where the head is, and the measure of all sizes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Head {
+    /// Centre, metres (c_head).
+    pub center: Vec3,
+    /// Height in metres, above 0.
+    pub height_m: f32,
+}
+
+impl Head {
+    /// Metres in one unit of size, 1/300 of the head's height.
+    #[must_use]
+    pub fn unit_m(&self) -> f32 {
+        self.height_m / 300.0
+    }
+}
+
+/// The light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// The unit vector towards it, in the world.
+    Direction(Vec3),
+    /// Its place in the world, metres.
+    Point(Vec3),
+}
+
+/// Distance that effects are told for a light without a place, in head heights.
+pub(crate) const FAR_LIGHT: f32 = 1e6;
+
+impl Light {
+    /// The unit vector from `point` to the light, and the distance in metres.
+    #[must_use]
+    pub fn seen_from(&self, point: Vec3) -> (Vec3, Option<f32>) {
+        match *self {
+            Self::Direction(direction) => (direction, None),
+            Self::Point(place) => {
+                let to_light = place - point;
+                let distance = to_light.length();
+                let direction = if distance > 0.0 {
+                    to_light / distance
+                } else {
+                    Vec3::Y
+                };
+                (direction, Some(distance))
+            }
+        }
+    }
+}
+
+/// One frame.
+pub struct Frame<'a> {
+    /// The eye.
+    pub camera: &'a Camera,
+    /// The strands' paths on the screen.
+    pub paths: &'a Paths,
+    /// What is known of each strand; `paths.runs[i].strand` is an index of this list.
+    pub strands: &'a [StrandInfo],
+    /// The head.
+    pub head: Head,
+    /// The light.
+    pub light: Light,
+    /// The preset's clump section.
+    pub clump: &'a clump::Params,
+    /// Seed of the style's variations.
+    pub seed: u32,
+    /// The layers that are on, in the preset's order.
+    pub layers: &'a [Layer],
+    /// The head's surfaces on the screen.
+    pub surfaces: Vec<Surface>,
+    /// Linear colour behind everything, or a transparent picture.
+    pub background: Option<[f32; 3]>,
+    /// Which stroke a sample shows.
+    pub order: Order,
+}

@@ -1,0 +1,12 @@
+//! Frames of strokes to pictures. This crate never sees files, presets or simulation.
+
+pub mod cpu;
+mod drawing;
+mod frame;
+mod picture;
+mod samples;
+
+pub use drawing::{Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex};
+pub use frame::{Frame, Head, Light, StrandInfo};
+pub use picture::Picture;
+pub use samples::{MAX_SAMPLES, SampleCountError, sample_positions};

@@ -1,0 +1,247 @@
+//! The head on the screen: two flat tones and an outline.
+
+use glam::Vec3;
+use hair_io::Mesh;
+use render::{Light, Surface, SurfaceVertex};
+use stroke_path::Camera;
+
+/// How a head is painted. Colours are linear.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HeadPaint {
+    pub light: [f32; 3],
+    pub shadow: [f32; 3],
+    pub line: [f32; 3],
+    /// Width of the outline in metres; 0 is none.
+    pub width_m: f32,
+    /// The cosine to the light at which light turns to shadow.
+    pub threshold: f32,
+}
+
+/// A corner before it is projected: in view space, with its tone.
+#[derive(Clone, Copy)]
+struct Corner {
+    view: Vec3,
+    tone: f32,
+}
+
+/// Which way a triangle must face to be taken.
+#[derive(Clone, Copy, PartialEq)]
+enum Facing {
+    Front,
+    Back,
+}
+
+/// What the camera sees of the head: its outline, its inside through openings, its outside.
+pub(crate) fn surfaces(
+    mesh: &Mesh,
+    paint: &HeadPaint,
+    camera: &Camera,
+    light: &Light,
+) -> Vec<Surface> {
+    let corners: Vec<Corner> = mesh
+        .positions
+        .iter()
+        .zip(&mesh.normals)
+        .map(|(position, normal)| Corner {
+            view: camera.view_from_world(*position),
+            tone: normal.dot(light.seen_from(*position).0) - paint.threshold,
+        })
+        .collect();
+    let mut surfaces = vec![
+        surface(
+            camera,
+            mesh,
+            &corners,
+            Facing::Front,
+            paint.light,
+            paint.shadow,
+        ),
+        surface(
+            camera,
+            mesh,
+            &corners,
+            Facing::Back,
+            paint.shadow,
+            paint.shadow,
+        ),
+    ];
+    if paint.width_m > 0.0 {
+        // The inside of a slightly larger head, seen around the edges of the head itself.
+        let hull: Vec<Corner> = mesh
+            .positions
+            .iter()
+            .zip(&mesh.normals)
+            .map(|(position, normal)| Corner {
+                view: camera.view_from_world(*position + *normal * paint.width_m),
+                tone: 0.0,
+            })
+            .collect();
+        surfaces.push(surface(
+            camera,
+            mesh,
+            &hull,
+            Facing::Back,
+            paint.line,
+            paint.line,
+        ));
+    }
+    surfaces
+}
+
+/// The triangles that face this way, cut at the near plane.
+fn surface(
+    camera: &Camera,
+    mesh: &Mesh,
+    corners: &[Corner],
+    facing: Facing,
+    light: [f32; 3],
+    shadow: [f32; 3],
+) -> Surface {
+    let near = camera.near_m();
+    let project = |corner: &Corner| {
+        let inv_depth = 1.0 / corner.view.z;
+        SurfaceVertex {
+            position: camera.project(corner.view),
+            inv_depth,
+            tone: corner.tone * inv_depth,
+        }
+    };
+    // Corners behind the near plane are never indexed.
+    let in_front = |corner: &Corner| corner.view.z >= near;
+    let vertices: Vec<SurfaceVertex> = corners
+        .iter()
+        .map(|corner| {
+            let view = corner.view.with_z(corner.view.z.max(near));
+            project(&Corner { view, ..*corner })
+        })
+        .collect();
+    let mut surface = Surface {
+        vertices,
+        triangles: Vec::new(),
+        light,
+        shadow,
+    };
+    for triangle in &mesh.triangles {
+        let seen = triangle.map(|i| corners[i as usize]);
+        if faces(&seen) != facing {
+            continue;
+        }
+        match seen.iter().filter(|corner| in_front(corner)).count() {
+            0 => {}
+            3 => surface.triangles.push(*triangle),
+            _ => {
+                let first = surface.vertices.len() as u32;
+                surface
+                    .vertices
+                    .extend(cut(&seen, near).iter().map(&project));
+                for last in first + 2..surface.vertices.len() as u32 {
+                    surface.triangles.push([first, last - 1, last]);
+                }
+            }
+        }
+    }
+    surface
+}
+
+/// Which side of the triangle the eye, at the origin of view space, is on.
+fn faces([a, b, c]: &[Corner; 3]) -> Facing {
+    // View space is left-handed (z is depth), so outside triangles wind the other way around.
+    let normal = (b.view - a.view).cross(c.view - a.view);
+    if normal.dot(a.view) > 0.0 {
+        Facing::Front
+    } else {
+        Facing::Back
+    }
+}
+
+/// The part of a triangle at depth `near` or beyond: three or four corners.
+fn cut(triangle: &[Corner; 3], near: f32) -> Vec<Corner> {
+    let mut kept = Vec::with_capacity(4);
+    for i in 0..3 {
+        let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
+        if a.view.z >= near {
+            kept.push(a);
+        }
+        if (a.view.z >= near) != (b.view.z >= near) {
+            let t = (near - a.view.z) / (b.view.z - a.view.z);
+            kept.push(Corner {
+                view: a.view.lerp(b.view, t).with_z(near),
+                tone: a.tone + (b.tone - a.tone) * t,
+            });
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stroke_path::OrbitView;
+
+    fn camera(yaw_degrees: f32) -> Camera {
+        let view = OrbitView {
+            target: Vec3::ZERO,
+            yaw_degrees,
+            pitch_degrees: 0.0,
+            distance_m: 2.0,
+            vertical_fov_degrees: 30.0,
+        };
+        Camera::orbit(view, [100, 100], 0.01).unwrap()
+    }
+
+    /// One triangle that faces +Z, counter-clockwise from there.
+    fn plate() -> Mesh {
+        Mesh {
+            positions: vec![
+                Vec3::new(-1.0, -1.0, 0.0),
+                Vec3::new(1.0, -1.0, 0.0),
+                Vec3::Y,
+            ],
+            normals: vec![Vec3::Z; 3],
+            triangles: vec![[0, 1, 2]],
+        }
+    }
+
+    const PAINT: HeadPaint = HeadPaint {
+        light: [1.0; 3],
+        shadow: [0.5; 3],
+        line: [0.0; 3],
+        width_m: 0.01,
+        threshold: 0.1,
+    };
+
+    #[test]
+    fn the_outside_is_lit_and_the_inside_is_in_shadow() {
+        let light = Light::Direction(Vec3::Z);
+        let front = surfaces(&plate(), &PAINT, &camera(0.0), &light);
+        assert_eq!(front[0].triangles.len(), 1);
+        assert_eq!(front[1].triangles.len(), 0);
+        assert_eq!(
+            front[2].triangles.len(),
+            0,
+            "the hull shows its inside only"
+        );
+        assert!(front[0].vertices.iter().all(|v| v.tone > 0.0));
+
+        let behind = surfaces(&plate(), &PAINT, &camera(180.0), &light);
+        assert_eq!(behind[0].triangles.len(), 0);
+        assert_eq!(behind[1].triangles.len(), 1);
+        assert_eq!(behind[1].light, PAINT.shadow);
+        assert_eq!(behind[2].triangles.len(), 1);
+    }
+
+    #[test]
+    fn triangles_are_cut_at_the_near_plane() {
+        let mut mesh = plate();
+        mesh.positions[2].z = 5.0; // behind the eye
+        let cut = &surfaces(&mesh, &PAINT, &camera(0.0), &Light::Direction(Vec3::Z));
+        let all: usize = cut[..2].iter().map(|s| s.triangles.len()).sum();
+        assert_eq!(all, 2, "two corners in front leave a quadrilateral");
+        for surface in cut {
+            for index in surface.triangles.iter().flatten() {
+                let vertex = surface.vertices[*index as usize];
+                assert!(vertex.position.is_finite() && vertex.inv_depth <= 1.0 / 0.01 + 1e-3);
+            }
+        }
+    }
+}

@@ -1,0 +1,309 @@
+//! Stroke paths: the joints of strands as a camera sees them (thesis 4.2).
+
+use crate::camera::Camera;
+use crate::resample::{PathError, PathKind};
+use glam::{Vec2, Vec3};
+use std::ops::Range;
+
+/// Shorter segments have no direction of their own (m).
+const MIN_LENGTH_M: f32 = 1e-12;
+/// The least angle (rad, about) between a strand and the line of sight at which the strand has a direction
+/// on the screen. Rounding turns that direction by less than 1e-2 rad there.
+const MIN_ANGLE: f32 = 1e-4;
+
+/// A connected piece of one strand's path. A strand that passes through the near plane has several.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PathRun {
+    /// The strand's index, as it was given.
+    pub strand: usize,
+    /// Its joints in the lists of [`Paths`], from the root's side to the tip's. At least two, but for
+    /// a strand of a single particle, which has one.
+    pub joints: Range<usize>,
+}
+
+/// The visible joints of many strands' paths, as parallel lists.
+///
+/// Kept from frame to frame: [`Self::clear`] and [`Self::push_strand`] reuse the memory.
+#[derive(Clone, Debug, Default)]
+pub struct Paths {
+    /// Which joints belong together, by strand in the order given, from root to tip.
+    pub runs: Vec<PathRun>,
+    /// In the world, in metres.
+    pub position: Vec<Vec3>,
+    /// Position along the strand by particles, i / num, from 0 at the root to 1 at the tip (thesis
+    /// 5.1). 0 for a strand of one particle.
+    pub u: Vec<f32>,
+    /// Length of the path from the root to the joint, in metres.
+    pub arc_length: Vec<f32>,
+    /// F: the world's unit vector towards the next joint; at the tip that of the joint before.
+    ///
+    /// Joints that coincide count as one here. A strand without any length hangs down: -Y.
+    pub forward: Vec<Vec3>,
+    /// B: the world's unit vector towards the previous joint; at the root that of the next joint. A
+    /// strand without any length has +Y.
+    pub backward: Vec<Vec3>,
+    /// On the screen, in pixels.
+    pub center: Vec<Vec2>,
+    /// View depth in metres, at least the camera's near distance.
+    pub depth: Vec<f32>,
+    /// Pixels that a metre takes there ([`Camera::px_per_metre`]).
+    pub px_per_metre: Vec<f32>,
+    /// The screen's unit vector across the path (thesis 5.3, Fig 5.9): the projection of F turned by
+    /// +90 degrees, from x to y; as y points down, that is the right-hand side of who walks from root
+    /// to tip. For hair that hangs down it is -x.
+    ///
+    /// Where the strand runs along the line of sight it is that of the run's joint before, or +x.
+    pub across: Vec<Vec2>,
+    dropped: usize,
+    /// The strand in work, before clipping.
+    whole: Vec<Joint>,
+}
+
+/// What is known of a joint before it is projected.
+#[derive(Clone, Copy, Debug)]
+struct Joint {
+    position: Vec3,
+    view: Vec3,
+    u: f32,
+    arc_length: f32,
+    forward: Vec3,
+    backward: Vec3,
+}
+
+impl Paths {
+    /// No paths.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Forgets all paths, but keeps their memory.
+    pub fn clear(&mut self) {
+        self.runs.clear();
+        self.dropped = 0;
+        self.truncate(0);
+    }
+
+    /// The number of joints of all runs.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position.len()
+    }
+
+    /// Whether no joint is visible.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.position.is_empty()
+    }
+
+    /// How many strands were left out since [`Self::clear`], because their points are so far away
+    /// that lengths or screen positions exceed what an `f32` can hold.
+    #[must_use]
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// Appends what the camera sees of a strand: its particles from root to tip, in metres.
+    ///
+    /// What is nearer than the camera's near distance, or behind the eye, is cut off: where the path
+    /// crosses the near plane it gains a joint, with everything interpolated. What the joints hold
+    /// is worked out on the whole strand first, so cutting changes none of it. A strand that isn't
+    /// seen, or has no particle, adds no run.
+    ///
+    /// # Errors
+    ///
+    /// When the subdivision is not within 1 to 64. Nothing is appended then.
+    pub fn push_strand(
+        &mut self,
+        strand: usize,
+        particles: &[Vec3],
+        kind: PathKind,
+        camera: &Camera,
+    ) -> Result<(), PathError> {
+        self.place_joints(particles, kind, camera)?;
+        self.find_directions();
+        let (runs, joints) = (self.runs.len(), self.len());
+        let mut finite = self.whole.iter().all(Joint::is_finite);
+        if finite {
+            self.clip(strand, camera);
+            finite = self.center[joints..].iter().all(|c| c.is_finite());
+        }
+        if !finite {
+            self.runs.truncate(runs);
+            self.truncate(joints);
+            self.dropped += 1;
+        }
+        Ok(())
+    }
+
+    /// Fills `whole` with the strand's joints, but for their directions.
+    fn place_joints(
+        &mut self,
+        particles: &[Vec3],
+        kind: PathKind,
+        camera: &Camera,
+    ) -> Result<(), PathError> {
+        let subdivision = kind.subdivision()? as usize;
+        let last = particles.len().saturating_sub(1) * subdivision;
+        self.whole.clear();
+        if particles.is_empty() {
+            return Ok(());
+        }
+        for j in 0..=last {
+            let (interval, step) = (j / subdivision, j % subdivision);
+            let position = match step {
+                0 => particles[interval],
+                _ => kind.point(particles, interval, step as f32 / subdivision as f32),
+            };
+            let before = self.whole.last();
+            let arc_length = before.map_or(0.0, |b| b.arc_length + b.position.distance(position));
+            self.whole.push(Joint {
+                position,
+                view: camera.view_from_world(position),
+                u: (j as f64 / last.max(1) as f64) as f32,
+                arc_length,
+                forward: Vec3::NEG_Y,
+                backward: Vec3::Y,
+            });
+        }
+        Ok(())
+    }
+
+    /// Forward and backward of every joint: the direction of the next segment towards that end that
+    /// has a length, else of the nearest one towards the other end.
+    fn find_directions(&mut self) {
+        let joints = &mut self.whole;
+        let segments = joints.len().saturating_sub(1);
+        let mut before = None;
+        for i in 0..segments {
+            let step = joints[i].position - joints[i + 1].position;
+            if step.length() > MIN_LENGTH_M {
+                let backward = step.normalize();
+                // No segment was before: this is the nearest one of all joints so far.
+                if before.is_none() {
+                    joints[..=i].iter_mut().for_each(|j| j.backward = backward);
+                }
+                before = Some(backward);
+            }
+            if let Some(backward) = before {
+                joints[i + 1].backward = backward;
+            }
+        }
+        let mut after = None;
+        for i in (0..segments).rev() {
+            let step = joints[i + 1].position - joints[i].position;
+            if step.length() > MIN_LENGTH_M {
+                let forward = step.normalize();
+                if after.is_none() {
+                    joints[i + 1..].iter_mut().for_each(|j| j.forward = forward);
+                }
+                after = Some(forward);
+            }
+            if let Some(forward) = after {
+                joints[i].forward = forward;
+            }
+        }
+    }
+
+    /// Appends the runs of `whole` that are in front of the near plane.
+    fn clip(&mut self, strand: usize, camera: &Camera) {
+        let joints = std::mem::take(&mut self.whole);
+        let near = camera.near_m();
+        let mut start = self.len();
+        let mut seen_before = false;
+        for (i, joint) in joints.iter().enumerate() {
+            let seen = joint.view.z > near;
+            if seen && !seen_before {
+                start = self.len();
+            }
+            if i > 0 && seen != seen_before {
+                self.push_joint(&joints[i - 1].crossing(joint, near), start, camera);
+            }
+            if seen {
+                self.push_joint(joint, start, camera);
+            }
+            let ends = if seen {
+                i + 1 == joints.len()
+            } else {
+                seen_before
+            };
+            if ends {
+                self.runs.push(PathRun {
+                    strand,
+                    joints: start..self.len(),
+                });
+            }
+            seen_before = seen;
+        }
+        self.whole = joints;
+    }
+
+    /// Projects a joint of the run from joint `start` on, and appends it.
+    fn push_joint(&mut self, joint: &Joint, start: usize, camera: &Camera) {
+        let across = joint.across(camera);
+        let previous = self.across[start..].last().copied().unwrap_or(Vec2::X);
+        self.across.push(across.unwrap_or(previous));
+        self.position.push(joint.position);
+        self.u.push(joint.u);
+        self.arc_length.push(joint.arc_length);
+        self.forward.push(joint.forward);
+        self.backward.push(joint.backward);
+        self.center.push(camera.project(joint.view));
+        self.depth.push(joint.view.z);
+        self.px_per_metre.push(camera.px_per_metre(joint.view.z));
+    }
+
+    /// Keeps the first `len` joints.
+    fn truncate(&mut self, len: usize) {
+        self.position.truncate(len);
+        self.u.truncate(len);
+        self.arc_length.truncate(len);
+        self.forward.truncate(len);
+        self.backward.truncate(len);
+        self.center.truncate(len);
+        self.depth.truncate(len);
+        self.px_per_metre.truncate(len);
+        self.across.truncate(len);
+    }
+}
+
+impl Joint {
+    fn is_finite(&self) -> bool {
+        self.position.is_finite() && self.view.is_finite() && self.arc_length.is_finite()
+    }
+
+    /// The joint of the segment from here to `next` on the plane at view depth `near`, which the
+    /// segment crosses.
+    fn crossing(&self, next: &Self, near: f32) -> Self {
+        let t = (near - self.view.z) / (next.view.z - self.view.z);
+        // Rounding must not pass the end: what rises along the path keeps rising.
+        let between = |a: f32, b: f32| (a + (b - a) * t).min(b);
+        let direction = |a: Vec3, b: Vec3| a.lerp(b, t).normalize_or(a);
+        Self {
+            position: self.position.lerp(next.position, t),
+            view: self.view.lerp(next.view, t).with_z(near),
+            u: between(self.u, next.u),
+            arc_length: between(self.arc_length, next.arc_length),
+            forward: direction(self.forward, next.forward),
+            backward: direction(self.backward, next.backward),
+        }
+    }
+
+    /// The screen's unit vector across the path, where the path has a direction on the screen.
+    fn across(&self, camera: &Camera) -> Option<Vec2> {
+        // The derivative of the projection (x / z, -y / z) along the path, but for its scale. It is
+        // also two components of a cross product: the sine of the angle to the line of sight, if
+        // that is the view axis.
+        let sight = self.view.normalize_or(Vec3::Z);
+        let forward = camera.view_from_world_direction(self.forward);
+        let along = Vec2::new(
+            forward.x * sight.z - sight.x * forward.z,
+            sight.y * forward.z - forward.y * sight.z,
+        );
+        let length = along.length();
+        (length > MIN_ANGLE).then(|| along.perp() / length)
+    }
+}
+
+#[cfg(test)]
+mod tests;

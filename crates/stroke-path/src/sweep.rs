@@ -1,0 +1,449 @@
+//! The exact geometry of a swept stroke: the union of the discs between two joints.
+//!
+//! Centre and radius run linearly from the *larger* disc (u = 0) to the *smaller* one (u = 1).
+//! Everything is worked out in the segment's own frame: the origin at the larger disc's centre, x
+//! along the axis, y across it, in pixels. With length L, radii r0 >= r1 and dr = r0 - r1, a point
+//! (x, y) lies in the disc at u where
+//!
+//! `A u^2 + 2 B u + C <= 0`, `A = L^2 - dr^2`, `B = r0 dr - L x`, `C = x^2 + y^2 - r0^2`.
+//!
+//! The discriminant `B^2 - A C` is `R^2 - A y^2` with `R = L r0 - dr x`: in this form nothing cancels
+//! far from the origin. Written in u rather than in arc length, nothing is divided by L, so that
+//! strokes that point at the camera (one disc inside the other, down to L = 0) need no formula of
+//! their own: then A <= 0, the discs shrink one inside the other, and only the root of `-C / (B +
+//! sqrt(D))` is left.
+//!
+//! Two names that are easy to mix up: a point's *interval* is all u whose discs cover it; its
+//! *attribute point* is the single u where distance over radius is least, which colours it.
+
+use glam::{DVec2, Vec2};
+
+/// Below this length and difference of radii, in pixels, two discs are one.
+const SAME: f64 = 1e-6;
+/// One disc lies inside the other where the length exceeds the difference of radii by less than
+/// this part: by then the body between them is thinner than a rounding error.
+const NESTED: f64 = 1e-6;
+/// Keeps 0 / 0 from being one; far below every quantity it is added to.
+const TINY: f32 = 1e-30;
+
+/// A disc on the screen, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Circle {
+    /// Centre.
+    pub center: DVec2,
+    /// Radius, 0 or more.
+    pub radius: f64,
+}
+
+/// The union of the discs between two circles. Positions `u` run from 0 at the larger to 1 at the
+/// smaller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sweep {
+    origin: DVec2,
+    axis: DVec2,
+    length: f32,
+    /// 1 / length, or 0 where the circles are concentric.
+    inv_length: f32,
+    radius: f32,
+    smaller_radius: f32,
+    /// `radius - smaller_radius`, 0 or more.
+    shrink: f32,
+    /// `length^2 - shrink^2`; 0 or less where one disc lies inside the other.
+    a: f32,
+    /// 1 / a, or the largest number where one disc lies inside the other.
+    inv_a: f32,
+    /// Arc length of the attribute point where R is not above 0.
+    beyond_apex: f32,
+    /// Largest -B of the body between the discs: a, or -1 where there is no body.
+    body_end: f32,
+}
+
+impl Sweep {
+    /// The sweep between two circles with finite numbers of at most about 1e9 pixels, the larger
+    /// first. Nothing where both radii are 0: such a stroke covers no area.
+    #[must_use]
+    pub fn new(larger: Circle, smaller: Circle) -> Option<Self> {
+        debug_assert!(larger.radius >= smaller.radius);
+        if larger.radius <= 0.0 {
+            return None;
+        }
+        let along = smaller.center - larger.center;
+        let mut length = along.length();
+        let mut shrink = larger.radius - smaller.radius;
+        let mut axis = DVec2::X;
+        if length < SAME {
+            length = 0.0;
+            shrink = if shrink < SAME { 0.0 } else { shrink };
+        } else {
+            axis = along / length;
+        }
+        let nested = length - shrink <= NESTED * length;
+        let a = (length - shrink) * (length + shrink);
+        Some(Self {
+            origin: larger.center,
+            axis,
+            length: length as f32,
+            inv_length: if length > 0.0 {
+                (1.0 / length) as f32
+            } else {
+                0.0
+            },
+            radius: larger.radius as f32,
+            smaller_radius: smaller.radius as f32,
+            shrink: shrink as f32,
+            a: a as f32,
+            inv_a: if nested { f32::MAX } else { (1.0 / a) as f32 },
+            beyond_apex: if nested { 0.0 } else { length as f32 },
+            body_end: if nested { -1.0 } else { a as f32 },
+        })
+    }
+
+    /// A screen position in the segment's frame.
+    #[must_use]
+    pub fn local(&self, position: DVec2) -> DVec2 {
+        let from_origin = position - self.origin;
+        DVec2::new(from_origin.dot(self.axis), self.axis.perp_dot(from_origin))
+    }
+
+    /// The frame's x axis on the screen: a unit vector. The y axis is its [`Vec2::perp`].
+    #[must_use]
+    pub fn axis(&self) -> Vec2 {
+        self.axis.as_vec2()
+    }
+
+    /// Whether any disc covers the point (x, y) of the segment's frame; edges belong to the stroke.
+    #[inline]
+    #[must_use]
+    pub fn covers(&self, x: f32, y: f32) -> bool {
+        let beyond = x - self.length;
+        let in_larger = x * x + y * y <= self.radius * self.radius;
+        let in_smaller = beyond * beyond + y * y <= self.smaller_radius * self.smaller_radius;
+        // Between the discs, the disc at u = -B / A reaches farthest.
+        let to_vertex = self.length * x - self.radius * self.shrink;
+        let r = self.length * self.radius - self.shrink * x;
+        let in_body = (r * r >= self.a * y * y) & (to_vertex >= 0.0) & (to_vertex <= self.body_end);
+        in_larger | in_smaller | in_body
+    }
+
+    /// The least and the greatest u in 0..=1 whose discs cover a point that
+    /// [is covered](Self::covers). Elsewhere some numbers in 0..=1 without meaning.
+    #[inline]
+    #[must_use]
+    pub fn interval(&self, x: f32, y: f32) -> (f32, f32) {
+        let b = self.radius * self.shrink - self.length * x;
+        let c = x * x + y * y - self.radius * self.radius;
+        let r = self.length * self.radius - self.shrink * x;
+        let discriminant = r * r - self.a * y * y;
+        // The numerically stable roots: q adds two numbers of one sign.
+        let q = b.abs() + at_least_zero(discriminant).sqrt() + TINY;
+        let by_c = c / q;
+        let by_a = q * self.inv_a;
+        let (low, high) = if b > 0.0 {
+            (-by_a, -by_c)
+        } else {
+            (by_c, by_a)
+        };
+        (unit_clamp(low), unit_clamp(high))
+    }
+
+    /// The attribute point of (x, y), and the square of its distance over radius there.
+    ///
+    /// Distance over radius falls and then rises along the axis, least at the arc length
+    /// `x - dr y^2 / R` if R > 0; so the clamped value is the least of the segment. R <= 0 lies
+    /// beyond the cone's apex: there the ratio only rises from the larger disc on where that holds the
+    /// smaller one, and a stroke that ends in a point covers nothing but its tip.
+    #[inline]
+    #[must_use]
+    pub fn attribute_point(&self, x: f32, y: f32) -> (f32, f32) {
+        let r = self.length * self.radius - self.shrink * x;
+        let along = x - self.shrink * (y * y) / r;
+        let along = if r > 0.0 { along } else { self.beyond_apex };
+        let u = unit_clamp(along * self.inv_length);
+        let radius = self.radius - self.shrink * u;
+        let ahead = x - self.length * u;
+        (u, (ahead * ahead + y * y) / (radius * radius + TINY))
+    }
+
+    /// The box around the stroke on the screen, as least and greatest corner.
+    #[must_use]
+    pub fn bounds(&self) -> (DVec2, DVec2) {
+        let larger = DVec2::splat(f64::from(self.radius));
+        let smaller = DVec2::splat(f64::from(self.smaller_radius));
+        let end = self.origin + self.axis * f64::from(self.length);
+        (
+            (self.origin - larger).min(end - smaller),
+            (self.origin + larger).max(end + smaller),
+        )
+    }
+
+    /// Four half-planes that hold the whole stroke: its outer tangents and its two ends. A covered
+    /// screen position p has `normal . p <= offset` for each `(normal, offset)`.
+    #[must_use]
+    pub fn half_planes(&self) -> [(DVec2, f64); 4] {
+        let (radius, length) = (f64::from(self.radius), f64::from(self.length));
+        let taper = if self.body_end < 0.0 {
+            0.0
+        } else {
+            f64::from(self.shrink) / length
+        };
+        let side = (1.0 - taper * taper).max(0.0).sqrt();
+        let end = radius.max(length + f64::from(self.smaller_radius));
+        let across = self.axis.perp();
+        [
+            (self.axis * taper + across * side, radius),
+            (self.axis * taper - across * side, radius),
+            (-self.axis, radius),
+            (self.axis, end),
+        ]
+        .map(|(normal, offset)| (normal, offset + normal.dot(self.origin)))
+    }
+}
+
+/// The part `[from, to]` of 0..=1 from `first` (0) to `second` (1) whose discs can touch the box
+/// between `min` and `max`, or nothing. The part is a sweep again, so that strokes may reach
+/// thousands of pixels outside the screen and still be drawn in single precision.
+#[must_use]
+pub fn visible_part(first: Circle, second: Circle, min: DVec2, max: DVec2) -> Option<[f64; 2]> {
+    let reaches = |c: Circle| {
+        let (over, under) = (c.center - min + c.radius, max - c.center + c.radius);
+        [over.x, over.y, under.x, under.y]
+    };
+    let (at_first, at_second) = (reaches(first), reaches(second));
+    let [mut from, mut to] = [0.0_f64, 1.0];
+    for (a, b) in at_first.into_iter().zip(at_second) {
+        match (a < 0.0, b < 0.0) {
+            (true, true) => return None,
+            (true, false) => from = from.max(a / (a - b)),
+            (false, true) => to = to.min(a / (a - b)),
+            (false, false) => {}
+        }
+    }
+    (from <= to).then_some([from, to])
+}
+
+/// Written out so that it is one vector instruction, and 0 for NaN.
+#[inline]
+fn at_least_zero(value: f32) -> f32 {
+    if value > 0.0 { value } else { 0.0 }
+}
+
+#[inline]
+fn unit_clamp(value: f32) -> f32 {
+    let value = at_least_zero(value);
+    if value < 1.0 { value } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const STAMPS: usize = 4000;
+
+    fn circle(x: f64, y: f64, radius: f64) -> Circle {
+        Circle {
+            center: DVec2::new(x, y),
+            radius,
+        }
+    }
+
+    fn lerp(a: Circle, b: Circle, u: f64) -> Circle {
+        Circle {
+            center: a.center.lerp(b.center, u),
+            radius: a.radius + u * (b.radius - a.radius),
+        }
+    }
+
+    /// What 4001 stamped discs say of a point: the least of (distance less radius), the covered
+    /// interval, and the attribute point with its ratio.
+    struct Stamped {
+        gap: f64,
+        interval: Option<(f64, f64)>,
+        nearest: (f64, f64),
+    }
+
+    fn stamp(a: Circle, b: Circle, p: DVec2) -> Stamped {
+        let mut stamped = Stamped {
+            gap: f64::INFINITY,
+            interval: None,
+            nearest: (0.0, f64::INFINITY),
+        };
+        for i in 0..=STAMPS {
+            let u = i as f64 / STAMPS as f64;
+            let disc = lerp(a, b, u);
+            let distance = disc.center.distance(p);
+            stamped.gap = stamped.gap.min(distance - disc.radius);
+            if distance <= disc.radius {
+                let from = stamped.interval.map_or(u, |(from, _)| from);
+                stamped.interval = Some((from, u));
+            }
+            let ratio = distance / disc.radius.max(1e-9);
+            if ratio < stamped.nearest.1 {
+                stamped.nearest = (u, ratio);
+            }
+        }
+        stamped
+    }
+
+    fn check(a: Circle, b: Circle, p: DVec2) -> Result<(), TestCaseError> {
+        let sweep = Sweep::new(a, b).unwrap();
+        let local = sweep.local(p).as_vec2();
+        let stamped = stamp(a, b, p);
+        let scale = 1.0 + a.radius + a.center.distance(b.center);
+        // Stamps leave scallops between them, and single precision rounds.
+        let step = a.center.distance(b.center) / STAMPS as f64;
+        let slack = 2e-6 * scale + step;
+        let covers = sweep.covers(local.x, local.y);
+        if stamped.gap < -slack {
+            prop_assert!(covers, "not covered, gap {}", stamped.gap);
+        }
+        if stamped.gap > slack {
+            prop_assert!(!covers, "covered, gap {}", stamped.gap);
+        }
+        if let Some((from, to)) = stamped.interval.filter(|_| covers) {
+            let (low, high) = sweep.interval(local.x, local.y);
+            prop_assert!((0.0..=1.0).contains(&low) && (0.0..=1.0).contains(&high));
+            // An end's error is judged by how far outside its disc the point is: u itself is not
+            // well-defined where the discs' edges graze the point.
+            for (ours, stamped) in [(low, from), (high, to)] {
+                let near = (f64::from(ours) - stamped).abs() < 2.0 / STAMPS as f64;
+                let disc = lerp(a, b, f64::from(ours));
+                let gap = (disc.center.distance(p) - disc.radius).abs();
+                prop_assert!(
+                    near || gap < slack,
+                    "ends {low} {high}, stamped {from} {to}, gap {gap}"
+                );
+            }
+            let (u, ratio) = sweep.attribute_point(local.x, local.y);
+            let ratio = f64::from(ratio).sqrt();
+            let (stamped_u, least) = stamped.nearest;
+            prop_assert!(
+                (u as f64 - stamped_u).abs() < 2e-3 || ratio <= least + 1e-4,
+                "attribute {u} {ratio}, stamped {stamped_u} {least}"
+            );
+            prop_assert!((ratio - least).abs() < 2e-3 + slack / a.radius);
+        }
+        Ok(())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn agrees_with_stamped_discs(
+            (x, y) in (-50.0..50.0, -50.0..50.0),
+            (dx, dy) in (-20.0..20.0, -20.0..20.0),
+            r0 in 0.2..12.0_f64,
+            part in 0.0..=1.0_f64,
+            (px, py) in (-1.5..1.5, -1.5..1.5),
+            along in -0.2..1.2_f64,
+        ) {
+            let a = circle(x, y, r0);
+            let b = circle(x + dx, y + dy, r0 * part);
+            // A point near the stroke, so that most cases test something.
+            let p = a.center.lerp(b.center, along) + DVec2::new(px, py) * r0;
+            check(a, b, p)?;
+        }
+
+        #[test]
+        fn agrees_where_one_disc_nearly_holds_the_other(
+            r0 in 0.5..12.0_f64,
+            part in 0.0..1.0_f64,
+            excess in prop_oneof![Just(0.0), -1e-5..1e-5, -1e-2..1e-2],
+            angle in 0.0..std::f64::consts::TAU,
+            (px, py) in (-1.1..1.1, -1.1..1.1),
+        ) {
+            let shrink = r0 * (1.0 - part);
+            let length = (shrink * (1.0 + excess)).max(0.0);
+            let a = circle(3.0, 4.0, r0);
+            let b = Circle {
+                center: a.center + DVec2::from_angle(angle) * length,
+                radius: r0 * part,
+            };
+            check(a, b, a.center + DVec2::new(px, py) * r0)?;
+        }
+
+        #[test]
+        fn holds_its_points(
+            (dx, dy) in (-20.0..20.0, -20.0..20.0),
+            r0 in 0.1..12.0_f64,
+            part in 0.0..=1.0_f64,
+            (px, py) in (-40.0..40.0, -40.0..40.0),
+        ) {
+            let (a, b) = (circle(1.0, 2.0, r0), circle(1.0 + dx, 2.0 + dy, r0 * part));
+            let sweep = Sweep::new(a, b).unwrap();
+            let p = DVec2::new(px, py);
+            let local = sweep.local(p).as_vec2();
+            if sweep.covers(local.x, local.y) {
+                let (min, max) = sweep.bounds();
+                prop_assert!(p.cmpge(min - 1e-4).all() && p.cmple(max + 1e-4).all());
+                for (normal, offset) in sweep.half_planes() {
+                    prop_assert!(normal.dot(p) <= offset + 1e-4);
+                }
+            }
+        }
+
+        #[test]
+        fn what_is_clipped_away_is_not_visible(
+            (x0, y0, x1, y1) in (-100.0..100.0, -100.0..100.0, -100.0..100.0, -100.0..100.0),
+            (r0, r1) in (0.0..30.0_f64, 0.0..30.0_f64),
+        ) {
+            let (a, b) = (circle(x0, y0, r0), circle(x1, y1, r1));
+            let (min, max) = (DVec2::ZERO, DVec2::splat(20.0));
+            let part = visible_part(a, b, min, max);
+            for i in 0..=200 {
+                let u = f64::from(i) / 200.0;
+                let disc = lerp(a, b, u);
+                let touches = disc.center.clamp(min, max).distance(disc.center) <= disc.radius;
+                let kept = part.is_some_and(|[from, to]| from - 1e-9 <= u && u <= to + 1e-9);
+                prop_assert!(kept || !touches, "disc at {u} lost from {part:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn clips_the_far_part_away() {
+        let part = visible_part(
+            circle(-1e6, 5.0, 1.0),
+            circle(1e6, 5.0, 1.0),
+            DVec2::ZERO,
+            DVec2::splat(10.0),
+        );
+        let [from, to] = part.unwrap();
+        assert!((from * 2e6 - 1e6 + 1.0).abs() < 1e-6 && (to * 2e6 - 1e6 - 11.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn radius_zero_covers_nothing() {
+        assert_eq!(
+            Sweep::new(circle(0.0, 0.0, 0.0), circle(9.0, 0.0, 0.0)),
+            None
+        );
+    }
+
+    #[test]
+    fn a_tip_of_radius_zero_is_a_point() {
+        let sweep = Sweep::new(circle(0.0, 0.0, 2.0), circle(10.0, 0.0, 0.0)).unwrap();
+        assert!(sweep.covers(9.9, 0.01) && !sweep.covers(10.01, 0.0));
+        assert_eq!(sweep.interval(10.0, 0.0), (1.0, 1.0));
+        assert_eq!(sweep.attribute_point(10.0, 0.0).0, 1.0);
+    }
+
+    #[test]
+    fn equal_discs_without_length_cover_for_all_u() {
+        let sweep = Sweep::new(circle(0.0, 0.0, 2.0), circle(0.0, 0.0, 2.0)).unwrap();
+        for (x, y) in [(0.0, 0.0), (1.0, -1.0), (2.0, 0.0)] {
+            assert!(sweep.covers(x, y));
+            assert_eq!(sweep.interval(x, y), (0.0, 1.0));
+        }
+        assert!(!sweep.covers(2.001, 0.0) && !sweep.covers(0.0, 7.0));
+    }
+
+    #[test]
+    fn concentric_discs_cover_to_their_radius() {
+        let sweep = Sweep::new(circle(0.0, 0.0, 4.0), circle(0.0, 0.0, 2.0)).unwrap();
+        assert_eq!(sweep.interval(0.0, 3.0), (0.0, 0.5));
+        assert_eq!(sweep.interval(1.0, 0.0), (0.0, 1.0));
+        assert_eq!(sweep.attribute_point(3.0, 0.0), (0.0, 0.5625));
+    }
+}

@@ -1,0 +1,65 @@
+//! inputs: position, backward, u, strand_mean, head_center, strand_size, light_direction, seed
+// The clump: what all layers share of a strand. Size 5.1 to 5.3, normal 5.4, basic colour.
+
+struct Params {
+    /// Factor on every strand's own size.
+    /// @range 0..20 @default 1
+    size: f32,
+    /// How much sizes differ from strand to strand: 0.3 makes them 30 % smaller to 30 % larger.
+    /// @range 0..1 @default 0.2
+    size_variation: f32,
+    /// Where along the strand the first size function begins to shrink (x in 5.1).
+    /// @unit 0 root to 1 tip @range 0..1 @default 0.35
+    shrink_start: f32,
+    /// Where in the half turn of a sine the second size function begins (offset in 5.2); 0 is a point.
+    /// @range 0..1 @default 0.25
+    swell_offset: f32,
+    /// How much of the first function there is in the mix (weight in 5.3); the rest is the second.
+    /// @range 0..1 @default 0.5
+    mix: f32,
+    /// How much the mix differs from strand to strand.
+    /// @range 0..1 @default 0.15
+    mix_variation: f32,
+    /// How far the centre that normals point away from moves from the head towards the strand's mean
+    /// (Fig 5.4a).
+    /// @range 0..1 @default 0.4
+    center_shift: f32,
+    /// How far the normal is turned to be across the strand (K in 5.4); 1 is exactly across.
+    /// @range 0..1 @default 1
+    normal_correction: f32,
+    /// Basic colour.
+    /// @default "3FC1C0"
+    color: vec3<f32>,
+    /// One colour everywhere, or Phong's diffuse light on it.
+    /// @choices pure diffuse @default pure
+    shading: u32,
+    /// Brightness where no light falls, as a share of the colour; diffuse only.
+    /// @range 0..1 @default 0.45
+    ambient: f32,
+}
+
+/// Normal from 5.4, of unit length (the source leaves it as it falls).
+fn corrected_normal(joint: Inputs, params: Params) -> vec3<f32> {
+    let center = joint.head_center + params.center_shift * (joint.strand_mean - joint.head_center);
+    let outward = unit_or(joint.position - center, vec3<f32>(0.0, 1.0, 0.0));
+    let across = outward - params.normal_correction * dot(outward, joint.backward) * joint.backward;
+    // Where the strand runs straight outwards nothing is left of it: fade to a perpendicular.
+    let lost = max(0.01 - length(across), 0.0);
+    return unit_or(across + lost * perpendicular(joint.backward), outward);
+}
+
+fn clump(joint: Inputs, params: Params) -> Clump {
+    let weight = saturate(params.mix + params.mix_variation * random_signed(joint.seed, 0u));
+    let profile = weight * shrink_to_tail(joint.u, params.shrink_start)
+        + (1.0 - weight) * swell(joint.u, params.swell_offset);
+    let variation = 1.0 + params.size_variation * random_signed(joint.seed, 1u);
+    let radius = joint.strand_size * params.size * variation * profile;
+
+    let normal = corrected_normal(joint, params);
+    var color = params.color;
+    if (params.shading == 1u) {
+        let gray = max(dot(joint.light_direction, normal), 0.0);
+        color = params.color * (params.ambient + (1.0 - params.ambient) * gray);
+    }
+    return Clump(normal, max(radius, 0.0), color);
+}

@@ -1,0 +1,98 @@
+// What every effect can use: the stroke it returns, and functions whose answers are the same on every
+// processor. WGSL's own sin and pow are good to 2^-11 only, and differ from driver to driver.
+
+/// One disc of a stroke, at one joint of its path. All colours are linear light.
+struct Stroke {
+    /// Shift of the disc's centre on the screen (x right, y down), in 1/300 of the head's height.
+    offset: vec2<f32>,
+    /// Radius in 1/300 of the head's height. Below 0 counts as 0; 0 draws nothing.
+    radius: f32,
+    /// Added to the layer's own depth offset, in head heights; positive is farther.
+    depth_offset: f32,
+    /// Linear red, green and blue.
+    color: vec3<f32>,
+}
+
+/// What the layers share of a strand's joint: the preset's `clump` section makes it.
+struct Clump {
+    /// Unit normal (5.4), in the world.
+    normal: vec3<f32>,
+    /// Radius in 1/300 of the head's height (5.3).
+    radius: f32,
+    /// Linear basic colour.
+    color: vec3<f32>,
+}
+
+const PI: f32 = 3.1415927;
+
+/// A well mixed number from `value` (a 32-bit finaliser in the family of Murmur's).
+fn hash(value: u32) -> u32 {
+    var h = value;
+    h = (h ^ (h >> 16u)) * 0x7feb352du;
+    h = (h ^ (h >> 15u)) * 0x846ca68bu;
+    return h ^ (h >> 16u);
+}
+
+/// A number from 0 (included) to 1 (excluded), the same for the same `seed` and `index`.
+fn random(seed: u32, index: u32) -> f32 {
+    return f32(hash(seed ^ hash(index + 0x9e3779b9u)) >> 8u) * 0.000000059604645;
+}
+
+/// A number from -1 to 1, the same for the same `seed` and `index`.
+fn random_signed(seed: u32, index: u32) -> f32 {
+    return random(seed, index) * 2.0 - 1.0;
+}
+
+/// sin(pi x) within 2e-7, for |x| up to 1e6. Exactly 0 at whole numbers.
+fn sin_pi(x: f32) -> f32 {
+    // Fold to r in [-1/2, 1/2], where a Taylor polynomial of degree 11 is enough.
+    let turns = floor(x + 0.5);
+    let r = x - turns;
+    let odd = turns - 2.0 * floor(turns * 0.5);
+    let z = r * r;
+    let series = 3.1415927 + z * (-5.1677128 + z * (2.5501640
+        + z * (-0.5992645 + z * (0.0821459 + z * -0.0073704))));
+    return r * series * (1.0 - 2.0 * odd);
+}
+
+/// Size of a stroke that shrinks to its tail from a point on (5.1), as a share of its full size.
+///
+/// `u` and `start` are places along the strand, 0 at the root and 1 at the tip; `start` = 1 never
+/// shrinks. Erratum: the source prints (i - x) / (num - x), which would grow; its text and Fig 5.3a
+/// shrink, so this is (num - i) / (num - x).
+fn shrink_to_tail(u: f32, start: f32) -> f32 {
+    if (u < start || start >= 1.0) {
+        return 1.0;
+    }
+    return saturate((1.0 - u) / (1.0 - start));
+}
+
+/// Size of a stroke that swells and tapers as a sine (5.2), as a share of its full size.
+///
+/// `u` is the place along the strand, 0 at the root and 1 at the tip; `offset` is where in the
+/// sine's half turn the root lies, 0 to 1.
+fn swell(u: f32, offset: f32) -> f32 {
+    return max(sin_pi(offset + u * (1.0 - offset)), 0.0);
+}
+
+/// A unit vector across unit vector `along`, which turns steadily with it but at one pole, -z:
+/// no field of perpendiculars does without one, and few strands grow straight out of the face.
+fn perpendicular(along: vec3<f32>) -> vec3<f32> {
+    // Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization" (2012).
+    // 1 / (1 + z) would cancel near the pole; there it is (1 - z) / (x^2 + y^2).
+    let sideways = along.x * along.x + along.y * along.y;
+    if (sideways < 1e-20 && along.z < 0.0) {
+        return vec3<f32>(1.0, 0.0, 0.0);
+    }
+    let a = select((1.0 - along.z) / max(sideways, 1e-20), 1.0 / (1.0 + abs(along.z)), along.z >= 0.0);
+    return vec3<f32>(1.0 - along.x * along.x * a, -along.x * along.y * a, -along.x);
+}
+
+/// `v` at unit length, or `otherwise` where `v` has no length.
+fn unit_or(v: vec3<f32>, otherwise: vec3<f32>) -> vec3<f32> {
+    let squared = dot(v, v);
+    if (squared > 1e-30) {
+        return v / sqrt(squared);
+    }
+    return otherwise;
+}

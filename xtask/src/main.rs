@@ -1,0 +1,146 @@
+//! The project's own tasks, run as `cargo xtask TASK`.
+//!
+//! Plain Rust that imports no crate of the workspace: it runs the programs instead, so that it
+//! builds in seconds and says what is wrong even when a crate doesn't compile.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program for the terminal"
+)]
+
+mod layers;
+mod picture;
+mod presets;
+mod program;
+mod regress;
+mod report;
+mod setup;
+mod test;
+
+use std::process::ExitCode;
+
+use clap::{Arg, ArgAction, ArgMatches, Command};
+
+/// What a task returns; the text of the error is all that the maintainer gets to see.
+type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
+
+/// Tasks that have a name and no code yet.
+const NOT_BUILT: &[(&str, &str)] = &[
+    ("bench", "Measures time against error"),
+    ("gallery", "Draws contact sheets of all looks"),
+    ("figures", "Redraws the source's explanatory figures"),
+    ("fuzz", "Feeds random input to readers for hours"),
+    ("stress", "Runs random scenes for hours"),
+];
+
+fn command() -> Command {
+    let not_built = NOT_BUILT.iter().map(|&(name, does)| {
+        Command::new(name)
+            .about(format!("{does} (not built yet)"))
+            .arg(
+                Arg::new("anything")
+                    .num_args(0..)
+                    .trailing_var_arg(true)
+                    .allow_hyphen_values(true)
+                    .hide(true),
+            )
+    });
+    Command::new("xtask")
+        .bin_name("cargo xtask")
+        .about("The project's own tasks")
+        .subcommand_required(true)
+        .arg_required_else_help(true)
+        .subcommand(
+            Command::new("test")
+                .about("Checks everything that must hold")
+                .arg(
+                    Arg::new("step")
+                        .help("Only these steps [default: all]")
+                        .value_name("STEP")
+                        .value_parser(test::step_names())
+                        .num_args(0..),
+                ),
+        )
+        .subcommand(
+            Command::new("regress")
+                .about("Compares pictures with the golden ones in tests/golden")
+                .arg(
+                    Arg::new("filter")
+                        .help("Only cases whose name contains this")
+                        .long("filter")
+                        .value_name("S"),
+                )
+                .arg(
+                    Arg::new("backend")
+                        .help("The backend that draws; its pictures must be bit-exact")
+                        .long("backend")
+                        .value_parser(["cpu"])
+                        .default_value("cpu"),
+                )
+                .arg(
+                    Arg::new("bless")
+                        .help("Makes the pictures of now the golden ones; never where CI=true")
+                        .long("bless")
+                        .action(ArgAction::SetTrue),
+                ),
+        )
+        .subcommand(
+            Command::new("setup").about("Installs what the tests need and this machine lacks"),
+        )
+        .subcommands(not_built)
+}
+
+fn run(matches: &ArgMatches) -> Outcome {
+    match matches.subcommand() {
+        Some(("test", args)) => {
+            let only: Vec<&String> = args.get_many("step").unwrap_or_default().collect();
+            test::run(&only)
+        }
+        Some(("regress", args)) => {
+            let filter = args.get_one::<String>("filter").map_or("", String::as_str);
+            let backend = args.get_one::<String>("backend").map_or("", String::as_str);
+            regress::run(filter, backend, args.get_flag("bless"))
+        }
+        Some(("setup", _)) => setup::run(),
+        Some((name, _)) => Err(format!("{name} isn't built yet").into()),
+        None => Err("no task given".into()),
+    }
+}
+
+fn main() -> ExitCode {
+    match run(&command().get_matches()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("xtask: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        command().debug_assert();
+    }
+
+    #[test]
+    fn tasks_without_code_say_so_and_fail() {
+        for (name, _) in NOT_BUILT {
+            let line = ["xtask", name, "strokes", "--quick", "--hours", "2"];
+            let matches = command().try_get_matches_from(line).unwrap();
+            let error = run(&matches).unwrap_err().to_string();
+            assert_eq!(error, format!("{name} isn't built yet"));
+        }
+    }
+
+    #[test]
+    fn an_unknown_task_is_wrong_usage() {
+        let error = command()
+            .try_get_matches_from(["xtask", "tset"])
+            .unwrap_err();
+        assert_eq!(error.exit_code(), 2);
+    }
+}

@@ -1,0 +1,153 @@
+//! Runs cargo, and the inkstrand program that it builds.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+use crate::Outcome;
+
+/// The root of the project.
+pub fn root() -> &'static Path {
+    let xtask = Path::new(env!("CARGO_MANIFEST_DIR"));
+    xtask.parent().unwrap_or(xtask)
+}
+
+/// The cargo that runs this task, in the project's root.
+pub fn cargo(args: &[&str]) -> Command {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(args).current_dir(root());
+    command
+}
+
+/// True on the machines that test the project by themselves: `CI=true`.
+pub fn on_ci() -> bool {
+    env::var_os("CI").is_some_and(|value| value == "true")
+}
+
+/// Runs a command to its end, its output going where ours goes.
+pub fn succeed(mut command: Command) -> Outcome {
+    let status = command
+        .status()
+        .map_err(|error| format!("cannot start {}: {error}", line_of(&command)))?;
+    if status.success() {
+        return Ok(());
+    }
+    Err(format!("{}: {status}", line_of(&command)).into())
+}
+
+/// A command as one would type it.
+pub fn line_of(command: &Command) -> String {
+    let program = Path::new(command.get_program());
+    let name = program.file_stem().unwrap_or(program.as_os_str());
+    let mut line = name.to_string_lossy().into_owned();
+    for arg in command.get_args() {
+        line.push(' ');
+        line.push_str(&arg.to_string_lossy());
+    }
+    line
+}
+
+/// The inkstrand program, as the developers' profile builds it: its hot crates are optimised
+/// there too, and the tests use the same build.
+#[derive(Debug)]
+pub struct Inkstrand(PathBuf);
+
+impl Inkstrand {
+    /// Builds the program. Compiler messages go to our stderr.
+    ///
+    /// # Errors
+    /// The program doesn't compile, or cargo doesn't say where it put it.
+    pub fn build() -> Outcome<Self> {
+        let mut command = cargo(&[
+            "build",
+            "--package=inkstrand",
+            "--bin=inkstrand",
+            "--message-format=json-render-diagnostics",
+        ]);
+        let output = command.stderr(Stdio::inherit()).output()?;
+        if !output.status.success() {
+            return Err("inkstrand doesn't build".into());
+        }
+        // One JSON object a line; the last executable is the program asked for.
+        let program = String::from_utf8_lossy(&output.stdout)
+            .lines()
+            .filter_map(|line| serde_json::from_str::<Value>(line).ok())
+            .filter_map(|message| message["executable"].as_str().map(PathBuf::from))
+            .next_back();
+        match program {
+            Some(program) => Ok(Self(program)),
+            None => Err("cargo built inkstrand and named no program".into()),
+        }
+    }
+
+    /// `inkstrand render ARGS -o picture --quiet`, run in the project's root.
+    ///
+    /// # Errors
+    /// The program fails, with its own message, or writes no file at `picture`.
+    pub fn render<S: AsRef<str>>(&self, args: &[S], picture: &Path) -> Outcome {
+        let mut command = Command::new(&self.0);
+        command
+            .arg("render")
+            .args(args.iter().map(AsRef::as_ref))
+            .arg("-o")
+            .arg(picture)
+            .arg("--quiet")
+            .current_dir(root());
+        let output = command
+            .output()
+            .map_err(|error| format!("cannot start {}: {error}", self.0.display()))?;
+        finished(&output)?;
+        if picture.is_file() {
+            return Ok(());
+        }
+        Err(format!("{}: success, but no picture", line_of(&command)).into())
+    }
+}
+
+fn finished(output: &Output) -> Outcome {
+    if output.status.success() {
+        return Ok(());
+    }
+    let said = String::from_utf8_lossy(&output.stderr);
+    match said.trim() {
+        "" => Err(format!("{}, without a message", output.status).into()),
+        said => Err(said.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_root_is_the_workspace() {
+        let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
+        assert!(manifest.contains("[workspace]"));
+    }
+
+    #[test]
+    fn a_command_that_fails_is_named() {
+        let error = succeed(cargo(&["no-such-task"])).unwrap_err().to_string();
+        assert!(error.starts_with("cargo no-such-task: "), "{error}");
+    }
+
+    #[test]
+    fn a_failing_render_gives_the_programs_message() {
+        // rustc stands in for the program: it knows no option `-o` of ours either.
+        let program = Inkstrand("rustc".into());
+        let picture = tempfile::tempdir().unwrap().path().join("picture.png");
+        let error = program.render(&["no-such.ron"], &picture).unwrap_err();
+        assert!(error.to_string().contains("error"), "{error}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn success_without_a_picture_is_a_failure() {
+        let program = Inkstrand("true".into());
+        let picture = tempfile::tempdir().unwrap().path().join("picture.png");
+        let error = program.render(&["made.ron"], &picture).unwrap_err();
+        assert!(error.to_string().contains("no picture"), "{error}");
+    }
+}

@@ -1,0 +1,109 @@
+//! Everything that must hold, step by step. A step that fails doesn't keep the others from
+//! running, so that one run tells all there is to mend.
+
+use std::time::{Duration, Instant};
+
+use crate::program::{cargo, succeed};
+use crate::{Outcome, layers, presets, regress};
+
+/// A step's name, and what it does; its output goes to the terminal.
+type Step = (&'static str, fn() -> Outcome);
+
+const STEPS: &[Step] = &[
+    ("format", || succeed(cargo(&["fmt", "--all", "--check"]))),
+    ("layers", layers::check),
+    ("lints", || {
+        succeed(cargo(&[
+            "clippy",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "--deny=warnings",
+        ]))
+    }),
+    ("docs", || {
+        let mut doc = cargo(&["doc", "--workspace", "--no-deps"]);
+        doc.env("RUSTDOCFLAGS", "--deny=warnings");
+        succeed(doc)
+    }),
+    // Unit, property, conformance and command-line tests.
+    ("tests", || {
+        succeed(cargo(&["test", "--workspace", "--no-fail-fast"]))
+    }),
+    ("presets", presets::render_all),
+    ("regressions", || regress::run("", "cpu", false)),
+];
+
+/// The names of all steps, in the order in which they run.
+pub fn step_names() -> Vec<&'static str> {
+    STEPS.iter().map(|(name, _)| *name).collect()
+}
+
+/// Runs the steps named in `only`, or all of them.
+///
+/// # Errors
+/// The number of steps that failed; which and why is printed.
+pub fn run(only: &[&String]) -> Outcome {
+    let chosen = |step: &&Step| only.is_empty() || only.iter().any(|name| *name == step.0);
+    run_steps(STEPS.iter().filter(chosen))
+}
+
+fn run_steps<'a>(steps: impl Iterator<Item = &'a Step>) -> Outcome {
+    let start = Instant::now();
+    let mut lines = Vec::new();
+    let mut failed = 0;
+    for (name, step) in steps {
+        println!("\n== {name}");
+        let start = Instant::now();
+        let result = step();
+        let time = seconds(start.elapsed());
+        match result {
+            Ok(()) => {
+                println!("== {name}: passed in {time}");
+                lines.push(format!("  passed  {name} ({time})"));
+            }
+            Err(error) => {
+                println!("{error}\n== {name}: FAILED in {time}");
+                // The whole text stands above; here its first line is enough.
+                let text = error.to_string();
+                let reason = text.lines().next().unwrap_or_default();
+                let more = if text.lines().count() > 1 { " ..." } else { "" };
+                lines.push(format!("  FAILED  {name} ({time}): {reason}{more}"));
+                failed += 1;
+            }
+        }
+    }
+    println!("\n== summary, {}", seconds(start.elapsed()));
+    for line in &lines {
+        println!("{line}");
+    }
+    println!("{} passed, {failed} failed", lines.len() - failed);
+    match failed {
+        0 => Ok(()),
+        _ => Err("not everything holds".into()),
+    }
+}
+
+fn seconds(time: Duration) -> String {
+    format!("{:.1} s", time.as_secs_f32())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicU32, Ordering};
+
+    use super::*;
+
+    #[test]
+    fn a_failing_step_fails_the_run_and_stops_no_other() {
+        static RUNS: AtomicU32 = AtomicU32::new(0);
+        let passes: Step = ("passes", || {
+            RUNS.fetch_add(1, Ordering::Relaxed);
+            Ok(())
+        });
+        let fails: Step = ("fails", || Err("broken\nin two lines".into()));
+        assert!(run_steps([passes, fails, passes].iter()).is_err());
+        assert_eq!(RUNS.load(Ordering::Relaxed), 2);
+        assert!(run_steps([passes].iter()).is_ok());
+    }
+}
