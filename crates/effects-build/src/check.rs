@@ -4,20 +4,31 @@
 use crate::compose::{Entry, Source};
 use crate::error::{BuildError, at};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use naga::{BinaryOperator, Expression, Handle, MathFunction as Math, Module, TypeInner};
+use naga::{BinaryOperator, Expression, Handle, MathFunction as Math, Module, Span, TypeInner};
 
-/// Parses and validates a composed source.
+/// Parses and validates a composed source. Errors begin with the author's place, naga's own text
+/// and the source line follow.
 pub(crate) fn parse(source: &Source) -> Result<Module, BuildError> {
     let mut options = naga::front::wgsl::Options::new();
     options.parse_doc_comments = true;
     let module = naga::front::wgsl::Frontend::new_with_options(options)
         .parse(&source.text)
-        .map_err(|e| BuildError::Naga(e.emit_to_string_with_path(&source.text, &source.path)))?;
-    validate(&module)
-        .map_err(|e| BuildError::Naga(e.emit_to_string_with_path(&source.text, &source.path)))?;
+        .map_err(|error| {
+            let text = error.emit_to_string_with_path(&source.text, &source.path);
+            let span = error.labels().next().map(|(span, _)| span);
+            at(source, span.unwrap_or_default(), text)
+        })?;
+    validate(&module).map_err(|error| {
+        let text = error.emit_to_string_with_path(&source.text, &source.path);
+        // The innermost of the nested places that naga names.
+        let length = |span: &Span| span.to_range().map_or(usize::MAX, |range| range.len());
+        let span = error.spans().map(|(span, _)| *span).min_by_key(length);
+        at(source, span.unwrap_or_default(), text)
+    })?;
     Ok(module)
 }
 
+#[allow(clippy::result_large_err, reason = "naga's own type, once a build")]
 pub(crate) fn validate(
     module: &Module,
 ) -> Result<naga::valid::ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
@@ -65,7 +76,7 @@ pub(crate) fn entry_point(
         .iter()
         .find(|(_, f)| f.name.as_deref() == Some(name))
     else {
-        return Err(BuildError::Message(format!(
+        return Err(BuildError(format!(
             "{}:1:1: an effect needs the function `{}`",
             source.path,
             expected()

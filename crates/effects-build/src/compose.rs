@@ -124,7 +124,7 @@ fn declared_inputs(
             .join(", ")
     };
     let Some((line_number, line, names)) = declaration else {
-        return Err(BuildError::Message(format!(
+        return Err(BuildError(format!(
             "{path}:1:1: the first line must declare what is read of a joint, such as \
              `//! inputs: clump_radius, clump_color`; there are: {}",
             all_names()
@@ -134,7 +134,7 @@ fn declared_inputs(
     for name in &names {
         if !offered().any(|input| input.name == *name) {
             let column = line.find(name).unwrap_or(0) + 1;
-            return Err(BuildError::Message(format!(
+            return Err(BuildError(format!(
                 "{path}:{line_number}:{column}: there is no input `{name}`; there are: {}",
                 all_names()
             )));

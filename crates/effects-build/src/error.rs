@@ -3,21 +3,15 @@
 use crate::compose::Source;
 use naga::Span;
 
-/// Why an effect was not translated. The text names the author's file, line and column.
+/// Why an effect was not translated: `file:line:column: message`, in the author's own file.
 #[derive(Debug, thiserror::Error)]
-pub enum BuildError {
-    /// naga refused the source; its own message, with the source line.
-    #[error("{0}")]
-    Naga(String),
-    /// A rule of ours: `file:line:column: message`.
-    #[error("{0}")]
-    Message(String),
-}
+#[error("{0}")]
+pub struct BuildError(pub(crate) String);
 
-/// An error of ours at a place of the composed text.
+/// An error at a place of the composed text.
 pub(crate) fn at(source: &Source, span: Span, message: impl std::fmt::Display) -> BuildError {
     let place = span.location(&source.text);
-    BuildError::Message(format!(
+    BuildError(format!(
         "{}:{}:{}: {message}",
         source.path, place.line_number, place.line_position
     ))

@@ -70,7 +70,7 @@ pub(crate) fn effect(
         }
         #program
     })
-    .map_err(|e| BuildError::Message(format!("{}: {e}", source.path)))?;
+    .map_err(|e| BuildError(format!("{}: {e}", source.path)))?;
     Ok(prettyplease::unparse(&file))
 }
 
@@ -207,7 +207,7 @@ fn document(item: &mut Item, params: &[Param]) {
 
 fn prelude_items() -> Result<Vec<Item>, BuildError> {
     let mut module = naga::front::wgsl::parse_str(PRELUDE)
-        .map_err(|e| BuildError::Naga(e.emit_to_string_with_path(PRELUDE, "prelude.wgsl")))?;
+        .map_err(|e| BuildError(e.emit_to_string_with_path(PRELUDE, "prelude.wgsl")))?;
     repair::for_translation(&mut module);
     translate(&module, "prelude.wgsl")
 }
@@ -244,15 +244,15 @@ fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
 }
 
 fn translate(module: &Module, path: &str) -> Result<Vec<Item>, BuildError> {
-    let info = check::validate(module)
-        .map_err(|e| BuildError::Message(format!("{path}: {e:?} (after repair)")))?;
+    let info =
+        check::validate(module).map_err(|e| BuildError(format!("{path}: {e:?} (after repair)")))?;
     let config = naga_rust_back::Config::new()
         .public_items(true)
         .runtime_path("::effects::rt");
     let rust = naga_rust_back::write_string(module, &info, config)
-        .map_err(|e| BuildError::Message(format!("{path}: {e}")))?;
+        .map_err(|e| BuildError(format!("{path}: {e}")))?;
     let file: syn::File = syn::parse_str(&rust)
-        .map_err(|e| BuildError::Message(format!("{path}: the translation is not Rust: {e}")))?;
+        .map_err(|e| BuildError(format!("{path}: the translation is not Rust: {e}")))?;
     Ok(file.items)
 }
 

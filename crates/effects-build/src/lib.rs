@@ -20,6 +20,8 @@
 //! }
 //! ```
 
+#![allow(clippy::print_stdout, reason = "cargo reads what build scripts print")]
+
 mod check;
 mod compose;
 mod error;
@@ -67,7 +69,7 @@ fn build(path: &str, entry: compose::Entry) {
         .to_string_lossy()
         .into_owned();
     let translated = std::fs::read_to_string(&file)
-        .map_err(|error| BuildError::Message(format!("{path}: {error}")))
+        .map_err(|error| BuildError(format!("{path}: {error}")))
         .and_then(|author| translate(&author, path, entry));
     write(&name, translated);
 }
@@ -77,7 +79,7 @@ fn write(name: &str, translated: Result<String, BuildError>) {
     let written = translated.and_then(|rust| {
         let file = out.join(format!("{name}.rs"));
         std::fs::write(&file, rust)
-            .map_err(|error| BuildError::Message(format!("{}: {error}", file.display())))
+            .map_err(|error| BuildError(format!("{}: {error}", file.display())))
     });
     if let Err(error) = written {
         for line in error.to_string().lines() {

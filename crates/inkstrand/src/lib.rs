@@ -27,6 +27,8 @@ use std::process::ExitCode;
 pub(crate) enum Failure {
     /// The command line asks for something that cannot be: exit 2.
     Usage(String),
+    /// Presets with mistakes, each as a text that names its place: exit 1.
+    Mistakes(Vec<String>),
     /// Anything else: exit 1.
     Failed(String),
 }
@@ -51,6 +53,18 @@ pub fn run(registry: &Registry) -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Mistakes(mistakes)) => {
+            for mistake in &mistakes {
+                eprintln!("{mistake}\n");
+            }
+            let noun = if mistakes.len() == 1 {
+                "mistake"
+            } else {
+                "mistakes"
+            };
+            fail(&format!("{} {noun}", mistakes.len()));
+            ExitCode::FAILURE
+        }
         Err(Failure::Failed(message)) => {
             fail(&message);
             ExitCode::FAILURE

@@ -21,14 +21,16 @@ pub struct SampleCountError(pub u32);
 ///
 /// When the count is 0 or above [`MAX_SAMPLES`].
 pub fn sample_positions(samples: u32) -> Result<Vec<Vec2>, SampleCountError> {
+    if !(1..=MAX_SAMPLES).contains(&samples) {
+        return Err(SampleCountError(samples));
+    }
     let sixteenths: &[[u8; 2]] = match samples {
         1 => &[[8, 8]],
         2 => &[[12, 12], [4, 4]],
         4 => &[[6, 2], [14, 6], [2, 10], [10, 14]],
         8 => &STANDARD_8,
         16 => &STANDARD_16,
-        1..=MAX_SAMPLES => return Ok(r2_sequence(samples)),
-        _ => return Err(SampleCountError(samples)),
+        _ => return Ok(r2_sequence(samples)),
     };
     Ok(sixteenths
         .iter()

@@ -1,6 +1,6 @@
 //! `inkstrand render`: a preset to pictures.
 
-use super::read_preset;
+use super::{mistakes, read_preset};
 use crate::cli::{Backend, Numbers, RenderOptions};
 use crate::output::{Output, write_whole};
 use crate::stats::{Bytes, FrameStats, Milliseconds, StrandCounts, buffer_bytes, layer_counts};
@@ -18,9 +18,10 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
     if options.backend == Backend::Gpu {
         return Err(not_built("the gpu backend"));
     }
-    let text = read_preset(&options.preset)?;
+    let text = read_preset(&options.preset).map_err(Failure::Failed)?;
     let file = options.preset.display().to_string();
-    let mut preset = Preset::parse(&file, &text, registry)?;
+    let mut preset = Preset::parse(&file, &text, registry)
+        .map_err(|errors| Failure::Mistakes(mistakes(&errors).collect()))?;
     apply(options, &mut preset).map_err(Failure::Usage)?;
 
     let files = Files {

@@ -205,7 +205,10 @@ fn fill<T>(list: &mut Vec<T>, wanted: bool, values: impl Iterator<Item = T>) {
 }
 
 /// A stroke's disc on the screen. Sizes in 1/300 of the head's height, the depth offset in head
-/// heights. The radius of the joint's clump is its bias against surfaces.
+/// heights.
+///
+/// Against surfaces a stroke stands where its strand stands, less the radius of the clump there: the
+/// depth offset orders strands, and must not push an outline into the face behind it.
 fn disc(
     frame: &Frame,
     joint: usize,
@@ -218,12 +221,13 @@ fn disc(
     let unit_px = unit_m * frame.paths.px_per_metre[joint];
     // No depth is nearer than the near plane, whatever is taken from it.
     let nearest = frame.camera.near_m();
-    let depth = (frame.paths.depth[joint] + depth_offset * frame.head.height_m).max(nearest);
+    let depth = frame.paths.depth[joint];
+    let shifted = (depth + depth_offset * frame.head.height_m).max(nearest);
     let biased = (depth - clump_radius * unit_m).max(nearest);
     Disc {
         center: frame.paths.center[joint] + offset * unit_px,
         radius: finite_or_zero(radius).max(0.0) * unit_px,
-        inv_depth: 1.0 / depth,
+        inv_depth: 1.0 / shifted,
         inv_depth_biased: 1.0 / biased,
     }
 }

@@ -2,7 +2,9 @@
 
 use super::segment::{Segment, Stroke};
 use super::stroke::{Depths, Placed};
-use super::tile::{HEIGHT, LANES, NOTHING, Plane, Region, Target, WIDTH, plane};
+use super::tile::{
+    HEIGHT, LANES, Lanes, NOTHING, Plane, Region, Target, WIDTH, overwrite, plane, select,
+};
 use crate::drawing::Order;
 use glam::Vec2;
 
@@ -101,80 +103,83 @@ impl StrandPlanes {
                 placed.measure(scene.samples, &mut self.stroke);
             }
         }
-        if one_color {
-            for (plane, channel) in self.stroke_color.iter_mut().zip(first.color) {
-                region.fill(plane, channel.start);
+        let color = one_color.then(|| first.color.map(|channel| [channel.start; LANES]));
+        for span in region.spans() {
+            for cell in span {
+                self.settle(cell, clip, color);
             }
         }
-        self.settle(&region, clip);
     }
 
     /// Where the stroke may show, the strand takes on its colour: in the clump at the clump's depth,
-    /// outside it at the stroke's own.
-    fn settle(&mut self, region: &Region, clip: Clip) {
-        for cell in region.spans().flatten() {
-            let clump = self.clump.inv_depth[cell];
-            let clump_biased = self.clump.biased[cell];
-            let (own, own_biased) = match clip {
-                Clip::Nowhere => (self.stroke.inv_depth[cell], self.stroke.biased[cell]),
-                Clip::ToClump => ([NOTHING; LANES], [NOTHING; LANES]),
-            };
-            let ratio = self.ratio[cell];
-            let shows: [bool; LANES] = std::array::from_fn(|k| {
-                (ratio[k] < f32::INFINITY) & ((clump[k] > NOTHING) | (clip == Clip::Nowhere))
-            });
-            let depth = &mut self.shown.inv_depth[cell];
-            let biased = &mut self.shown.biased[cell];
-            for k in 0..LANES {
-                let inside = clump[k] > NOTHING;
-                let new_depth = if inside { clump[k] } else { own[k] };
-                let new_biased = if inside {
-                    clump_biased[k]
-                } else {
-                    own_biased[k]
-                };
-                depth[k] = if shows[k] { new_depth } else { depth[k] };
-                biased[k] = if shows[k] { new_biased } else { biased[k] };
-            }
-            for (color, new) in self.color.iter_mut().zip(&self.stroke_color) {
-                for k in 0..LANES {
-                    color[cell][k] = if shows[k] {
-                        new[cell][k]
-                    } else {
-                        color[cell][k]
-                    };
-                }
-            }
+    /// outside it at the stroke's own. `color` is that of a stroke of one colour.
+    #[inline]
+    fn settle(&mut self, cell: usize, clip: Clip, color: Option<[Lanes; 3]>) {
+        let ratio = self.ratio[cell];
+        if ratio == [f32::INFINITY; LANES] {
+            return;
+        }
+        let clump = self.clump.inv_depth[cell];
+        let clump_biased = self.clump.biased[cell];
+        let (own, own_biased) = match clip {
+            Clip::Nowhere => (self.stroke.inv_depth[cell], self.stroke.biased[cell]),
+            Clip::ToClump => ([NOTHING; LANES], [NOTHING; LANES]),
+        };
+        let mut depth = self.shown.inv_depth[cell];
+        let mut biased = self.shown.biased[cell];
+        let mut shows = [0.0; LANES];
+        for k in 0..LANES {
+            let is_inside = clump[k] > NOTHING;
+            let new = select(is_inside, clump[k], own[k]);
+            let new = select(ratio[k] < f32::INFINITY, new, NOTHING);
+            let new_biased = select(is_inside, clump_biased[k], own_biased[k]);
+            let is_shown = new > NOTHING;
+            depth[k] = select(is_shown, new, depth[k]);
+            biased[k] = select(is_shown, new_biased, biased[k]);
+            shows[k] = select(is_shown, 1.0, 0.0);
+        }
+        self.shown.inv_depth[cell] = depth;
+        self.shown.biased[cell] = biased;
+        for channel in 0..3 {
+            let new = color.map_or(self.stroke_color[channel][cell], |color| color[channel]);
+            overwrite(&mut self.color[channel][cell], &new, &shows);
         }
     }
 
     /// Puts what the strand shows into the picture: behind no surface, nearer than the strands
     /// before it, or as near but with a higher stroke.
     fn composite(&self, region: &Region, stroke: i32, target: &mut Target) {
-        for cell in region.spans().flatten() {
-            let depth = self.shown.inv_depth[cell];
-            let biased = self.shown.biased[cell];
-            let surface = target.surface[cell];
-            let nearest = &mut target.strand[cell];
-            let top = &mut target.stroke[cell];
-            let mut wins = [false; LANES];
-            for k in 0..LANES {
-                let is_seen = (depth[k] > NOTHING) & (surface[k] <= biased[k]);
-                let is_first =
-                    (depth[k] > nearest[k]) | ((depth[k] == nearest[k]) & (stroke > top[k]));
-                wins[k] = is_seen & is_first;
-                nearest[k] = if wins[k] { depth[k] } else { nearest[k] };
-                top[k] = if wins[k] { stroke } else { top[k] };
+        for span in region.spans() {
+            for cell in span {
+                self.composite_cell(cell, stroke, target);
             }
-            for (target, color) in target.color.iter_mut().zip(&self.color) {
-                for k in 0..LANES {
-                    target[cell][k] = if wins[k] {
-                        color[cell][k]
-                    } else {
-                        target[cell][k]
-                    };
-                }
-            }
+        }
+    }
+
+    #[inline]
+    fn composite_cell(&self, cell: usize, stroke: i32, target: &mut Target) {
+        let depth = self.shown.inv_depth[cell];
+        if depth == [NOTHING; LANES] {
+            return;
+        }
+        let biased = self.shown.biased[cell];
+        let surface = target.surface[cell];
+        let mut nearest = target.strand[cell];
+        let mut top = target.stroke[cell];
+        let mut wins = [0.0; LANES];
+        for k in 0..LANES {
+            let depth = select(surface[k] <= biased[k], depth[k], NOTHING);
+            // Where there is nothing, no stroke is higher than what is there.
+            let stroke = select(depth > NOTHING, stroke, -1);
+            let is_better = (depth > nearest[k]) | ((depth == nearest[k]) & (stroke > top[k]));
+            nearest[k] = select(is_better, depth, nearest[k]);
+            top[k] = select(is_better, stroke, top[k]);
+            wins[k] = select(is_better, 1.0, 0.0);
+        }
+        target.strand[cell] = nearest;
+        target.stroke[cell] = top;
+        for (target, color) in target.color.iter_mut().zip(&self.color) {
+            overwrite(&mut target[cell], &color[cell], &wins);
         }
     }
 }

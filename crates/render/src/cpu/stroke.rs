@@ -2,7 +2,7 @@
 
 use super::bin::Bounds;
 use super::segment::Segment;
-use super::tile::{LANE, LANES, Lanes, Plane, Slope, row_start};
+use super::tile::{LANE, LANES, Lanes, NOTHING, Plane, Slope, overwrite, row_start, select};
 use glam::{DVec2, Vec2};
 use std::ops::Range;
 
@@ -100,8 +100,11 @@ impl<'a> Placed<'a> {
                 for chunk in chunks.clone() {
                     let first = *offset + Vec2::new((chunk * LANES) as f32, row as f32);
                     let (x0, y0) = (self.x.at(first), self.y.at(first));
-                    let x = LANE.map(|k| x0 + k * self.x.per_x);
-                    let y = LANE.map(|k| y0 + k * self.y.per_x);
+                    let (mut x, mut y) = ([x0; LANES], [y0; LANES]);
+                    for k in 0..LANES {
+                        x[k] += LANE[k] * self.x.per_x;
+                        y[k] += LANE[k] * self.y.per_x;
+                    }
                     visit(start + chunk, &x, &y);
                 }
             }
@@ -117,25 +120,19 @@ impl<'a> Placed<'a> {
             ..
         } = *self.segment;
         self.for_each_chunk(samples, |cell, x, y| {
-            let near = &mut depths.inv_depth[cell];
-            let near_biased = &mut depths.biased[cell];
+            let mut near = depths.inv_depth[cell];
+            let mut near_biased = depths.biased[cell];
             for k in 0..LANES {
                 let covered = sweep.covers(x[k], y[k]);
                 let (low, high) = sweep.interval(x[k], y[k]);
                 // Linear, so the greatest is at one of the ends.
                 let depth = greater(inv_depth.at(low), inv_depth.at(high));
                 let biased = greater(inv_depth_biased.at(low), inv_depth_biased.at(high));
-                near[k] = if covered & (depth > near[k]) {
-                    depth
-                } else {
-                    near[k]
-                };
-                near_biased[k] = if covered & (biased > near_biased[k]) {
-                    biased
-                } else {
-                    near_biased[k]
-                };
+                near[k] = greater(select(covered, depth, NOTHING), near[k]);
+                near_biased[k] = greater(select(covered, biased, NOTHING), near_biased[k]);
             }
+            depths.inv_depth[cell] = near;
+            depths.biased[cell] = near_biased;
         });
     }
 
@@ -143,32 +140,30 @@ impl<'a> Placed<'a> {
     pub(super) fn cover(&self, samples: &[Vec2], ratio: &mut Plane) {
         let sweep = self.segment.sweep;
         self.for_each_chunk(samples, |cell, x, y| {
-            let ratio = &mut ratio[cell];
+            let mut least = ratio[cell];
             for k in 0..LANES {
-                ratio[k] = if sweep.covers(x[k], y[k]) {
-                    0.0
-                } else {
-                    ratio[k]
-                };
+                least[k] = select(sweep.covers(x[k], y[k]), 0.0, least[k]);
             }
+            ratio[cell] = least;
         });
     }
 
     /// Gives the covered samples the segment's colour where its ratio is the least so far.
     pub(super) fn shade(&self, samples: &[Vec2], ratio: &mut Plane, color: &mut [Plane; 3]) {
         let sweep = self.segment.sweep;
-        let [red, green, blue] = color;
-        let [red_ramp, green_ramp, blue_ramp] = self.segment.color;
         self.for_each_chunk(samples, |cell, x, y| {
-            let least = &mut ratio[cell];
-            let (red, green, blue) = (&mut red[cell], &mut green[cell], &mut blue[cell]);
+            let old = ratio[cell];
+            let (mut u, mut least, mut wins) = ([0.0; LANES], old, [0.0; LANES]);
             for k in 0..LANES {
-                let (u, ratio) = sweep.attribute_point(x[k], y[k]);
-                let better = sweep.covers(x[k], y[k]) & (ratio < least[k]);
-                least[k] = if better { ratio } else { least[k] };
-                red[k] = if better { red_ramp.at(u) } else { red[k] };
-                green[k] = if better { green_ramp.at(u) } else { green[k] };
-                blue[k] = if better { blue_ramp.at(u) } else { blue[k] };
+                let (at, ratio) = sweep.attribute_point(x[k], y[k]);
+                let ratio = select(sweep.covers(x[k], y[k]), ratio, f32::INFINITY);
+                u[k] = at;
+                wins[k] = select(ratio < old[k], 1.0, 0.0);
+                least[k] = select(ratio < old[k], ratio, old[k]);
+            }
+            ratio[cell] = least;
+            for (plane, ramp) in color.iter_mut().zip(self.segment.color) {
+                overwrite(&mut plane[cell], &u.map(|u| ramp.at(u)), &wins);
             }
         });
     }
@@ -180,7 +175,7 @@ impl Limit {
     }
 }
 
-/// The nearest of a stroke at each sample, 1/m; [`NOTHING`](super::tile::NOTHING) where it isn't.
+/// The nearest of a stroke at each sample, 1/m; [`NOTHING`] where it isn't.
 pub(super) struct Depths {
     pub(super) inv_depth: Plane,
     pub(super) biased: Plane,

@@ -1,7 +1,7 @@
 //! One triangle in one tile: both sides, edges included, the nearest first.
 
 use super::bin::Bounds;
-use super::tile::{HEIGHT, LANE, LANES, Slope, Target, WIDTH, row_start};
+use super::tile::{HEIGHT, LANE, LANES, Slope, Target, WIDTH, overwrite, row_start, select};
 use crate::drawing::{Drawing, SurfaceVertex};
 use glam::{DVec2, Vec2};
 use std::ops::Range;
@@ -65,28 +65,24 @@ impl Triangle {
                 for chunk in chunks.clone() {
                     let cell = row_start(sample, row) + chunk;
                     let first = *offset + Vec2::new((chunk * LANES) as f32, row as f32);
-                    let nearest = &mut target.surface[cell];
-                    let mut wins = [false; LANES];
-                    let mut is_lit = [false; LANES];
+                    let mut nearest = target.surface[cell];
+                    let (mut wins, mut is_lit) = ([0.0; LANES], [0.0; LANES]);
                     for k in 0..LANES {
                         let position = first + Vec2::new(LANE[k], 0.0);
                         let is_inside = (inside[0].at(position) >= 0.0)
                             & (inside[1].at(position) >= 0.0)
                             & (inside[2].at(position) >= 0.0);
                         let depth = depths.at(position);
-                        wins[k] = is_inside & (depth > nearest[k]);
-                        nearest[k] = if wins[k] { depth } else { nearest[k] };
-                        is_lit[k] = tones.at(position) >= 0.0;
+                        let is_first = is_inside & (depth > nearest[k]);
+                        nearest[k] = select(is_first, depth, nearest[k]);
+                        wins[k] = select(is_first, 1.0, 0.0);
+                        is_lit[k] = select(tones.at(position) >= 0.0, 1.0, 0.0);
                     }
+                    target.surface[cell] = nearest;
                     for (channel, plane) in target.color.iter_mut().enumerate() {
-                        for k in 0..LANES {
-                            let color = if is_lit[k] {
-                                light[channel]
-                            } else {
-                                shadow[channel]
-                            };
-                            plane[cell][k] = if wins[k] { color } else { plane[cell][k] };
-                        }
+                        let color =
+                            is_lit.map(|lit| select(lit != 0.0, light[channel], shadow[channel]));
+                        overwrite(&mut plane[cell], &color, &wins);
                     }
                 }
             }

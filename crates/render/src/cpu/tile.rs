@@ -37,6 +37,21 @@ pub(super) const LANE: Lanes = {
 /// Marks the depth of a sample where there is nothing.
 pub(super) const NOTHING: f32 = f32::NEG_INFINITY;
 
+/// Both values are worked out and one is taken: unlike `if` with a place in memory in a branch, this
+/// always compiles to vector instructions.
+#[inline]
+pub(super) fn select<T>(condition: bool, then: T, otherwise: T) -> T {
+    if condition { then } else { otherwise }
+}
+
+/// Takes on the new values where `mask` is not 0.
+#[inline]
+pub(super) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &Lanes) {
+    for k in 0..LANES {
+        old[k] = select(mask[k] != 0.0, new[k], old[k]);
+    }
+}
+
 /// One number of each sample.
 pub(super) type Plane = Vec<Lanes>;
 
@@ -142,16 +157,17 @@ impl Sums {
             let start = row_start(sample, 0);
             for (i, cell) in (start..start + HEIGHT * CHUNKS).enumerate() {
                 for (sum, color) in sums.iter_mut().zip(&target.color) {
+                    let (sum, color) = (&mut sum[i], color[cell]);
                     for k in 0..LANES {
-                        let value = color[cell][k];
-                        let value = if value > 0.0 { value } else { 0.0 };
-                        sum[i][k] += if value < 1.0 { value } else { 1.0 };
+                        let value = select(color[k] > 0.0, color[k], 0.0);
+                        sum[k] += select(value < 1.0, value, 1.0);
                     }
                 }
+                let (surface, strand) = (target.surface[cell], target.strand[cell]);
+                let sum = &mut alpha_sum[i];
                 for k in 0..LANES {
-                    let nearest = target.surface[cell][k].max(target.strand[cell][k]);
-                    let shows = is_opaque | (nearest > NOTHING);
-                    alpha_sum[i][k] += if shows { 1.0 } else { 0.0 };
+                    let shows = is_opaque | (surface[k] > NOTHING) | (strand[k] > NOTHING);
+                    sum[k] += select(shows, 1.0, 0.0);
                 }
             }
         }

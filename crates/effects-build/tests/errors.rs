@@ -1,0 +1,159 @@
+//! What an effect's author reads when the source is wrong: the author's own file, line and column.
+
+fn error(source: &str) -> String {
+    match effects_build::translate_effect(source, "src/mine.wgsl") {
+        Ok(_) => panic!("this should be refused:\n{source}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// An effect whose radius is this expression.
+fn with_radius(expression: &str) -> String {
+    format!(
+        "//! inputs: u\nfn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {{\n    \
+         return Stroke(vec2<f32>(0.0), {expression}, 0.0, vec3<f32>(1.0));\n}}\n\
+         struct Params {{\n    /// A width.\n    /// @range 0..1 @default 0.5\n    width: f32,\n}}\n"
+    )
+}
+
+#[track_caller]
+fn assert_error(source: &str, parts: &[&str]) {
+    let message = error(source);
+    for part in parts {
+        assert!(message.contains(part), "`{part}` is missing in:\n{message}");
+    }
+}
+
+#[test]
+fn a_right_effect_is_translated() {
+    let rust = effects_build::translate_effect(&with_radius("joint.u * params.width"), "a.wgsl");
+    let rust = rust.unwrap();
+    assert!(
+        rust.contains("impl ::effects::Program for Program"),
+        "{rust}"
+    );
+    assert!(rust.contains("u: joints.u[index]"), "{rust}");
+    assert!(
+        !rust.contains("pub struct Stroke"),
+        "the prelude's items are shared:\n{rust}"
+    );
+}
+
+#[test]
+fn undeclared_inputs_are_not_there() {
+    assert_error(
+        &with_radius("joint.gray"),
+        &["invalid field accessor `gray`", "src/mine.wgsl:3:"],
+    );
+}
+
+#[test]
+fn unknown_inputs_are_named_with_what_there_is() {
+    let source = with_radius("joint.u").replace("inputs: u", "inputs: u, normals");
+    assert_error(
+        &source,
+        &[
+            "src/mine.wgsl:1:16",
+            "no input `normals`",
+            "normal, clump_radius",
+        ],
+    );
+    let source = with_radius("1.0").replace("//! inputs: u", "// nothing");
+    assert_error(&source, &["src/mine.wgsl:1:1", "//! inputs:"]);
+}
+
+#[test]
+fn wgsl_errors_are_nagas() {
+    assert_error(&with_radius("1.0 +"), &["src/mine.wgsl:3:"]);
+    assert_error(&with_radius("joint.u + 1u"), &["src/mine.wgsl:3:"]);
+}
+
+#[test]
+fn builtins_that_differ_between_processors_are_refused_with_what_to_use() {
+    assert_error(
+        &with_radius("sin(joint.u)"),
+        &["src/mine.wgsl:3:", "`sin`", "sin_pi"],
+    );
+    assert_error(
+        &with_radius("fract(joint.u)"),
+        &["src/mine.wgsl:3:", "x - floor(x)"],
+    );
+    assert_error(
+        &with_radius("pow(joint.u, 2.0)"),
+        &["src/mine.wgsl:3:", "`pow`"],
+    );
+    assert_error(
+        &with_radius("bitcast<f32>(instance)"),
+        &["src/mine.wgsl:3:", "bitcast"],
+    );
+    assert_error(
+        &with_radius("f32(1u << instance)"),
+        &["src/mine.wgsl:3:", "constant number"],
+    );
+    assert_error(
+        &with_radius("vec3<f32>(joint.u).zz.x"),
+        &["src/mine.wgsl:3:", "swizzle"],
+    );
+}
+
+#[test]
+fn the_function_must_be_there_and_right() {
+    let source = with_radius("1.0").replace("fn stroke", "fn strokes");
+    assert_error(
+        &source,
+        &["fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke"],
+    );
+    let source = with_radius("1.0").replace("instance: u32, ", "");
+    assert_error(&source, &["src/mine.wgsl:2:", "must be `fn stroke("]);
+}
+
+#[test]
+fn parameters_need_words_range_and_default() {
+    let params = |text: &str| {
+        let source = with_radius("1.0");
+        let start = source.find("    /// A width.").unwrap();
+        format!("{}{text}\n}}\n", &source[..start])
+    };
+    let wrong: [(&str, &str); 9] = [
+        ("width: f32,", "must say what it does"),
+        ("/// W.\n/// @range 0..1\nwidth: f32,", "@default VALUE"),
+        ("/// W.\n/// @default 1\nwidth: f32,", "@range MIN..MAX"),
+        (
+            "/// W.\n/// @range 0..1 @default 2\nwidth: f32,",
+            "not a number in its range",
+        ),
+        (
+            "/// W.\n/// @range 1..0 @default 1\nwidth: f32,",
+            "a range is `MIN..MAX`",
+        ),
+        (
+            "/// W.\n/// @rnge 0..1 @default 1\nwidth: f32,",
+            "there is no `@rnge`",
+        ),
+        (
+            "/// W.\n/// @range 0..1 @default 1\nwidth1: f32,",
+            "can't end in a digit",
+        ),
+        (
+            "/// W.\n/// @default \"12345\"\ntint: vec3<f32>,",
+            "\"RRGGBB\"",
+        ),
+        (
+            "/// W.\n/// @choices a b @default c\nkind: u32,",
+            "one of @choices",
+        ),
+    ];
+    for (text, message) in wrong {
+        assert_error(&params(text), &["src/mine.wgsl:", message]);
+    }
+    assert_error(
+        &params("/// W.\n/// @default 1\nw: vec2<f32>,"),
+        &["an f32, a u32, or a vec3<f32>"],
+    );
+}
+
+#[test]
+fn nothing_outside_functions() {
+    let source = format!("{}var<private> state: f32;\n", with_radius("1.0"));
+    assert_error(&source, &["src/mine.wgsl:", "no variables outside"]);
+}

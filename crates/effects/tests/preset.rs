@@ -1,0 +1,215 @@
+//! Reading layers from a preset's text: values, and mistakes at their places.
+
+use effects::preset::Reader;
+use effects::wgsl::Stroke;
+use effects::{
+    Joints, Param, ParamKind, Parameters, Program, Registry, RegistryError, StrokeEffect, Values,
+};
+
+/// An effect without WGSL, to read layers with.
+struct Line;
+struct LineProgram;
+
+impl Parameters for LineProgram {
+    type Params = f32;
+    const PARAMS: &'static [Param] = &[
+        Param {
+            name: "width",
+            doc: "Width.",
+            unit: "",
+            kind: ParamKind::Number {
+                min: 0.0,
+                max: 9.0,
+                default: 2.0,
+            },
+        },
+        Param {
+            name: "kind",
+            doc: "Kind.",
+            unit: "",
+            kind: ParamKind::Choice {
+                names: &["plain", "double"],
+                default: 0,
+            },
+        },
+        Param {
+            name: "color",
+            doc: "Colour.",
+            unit: "",
+            kind: ParamKind::Color { default: "000000" },
+        },
+    ];
+    const INPUTS: &'static [&'static str] = &[];
+    const WGSL: &'static str = "";
+    fn params(values: &Values) -> f32 {
+        values.number("width")
+    }
+}
+
+impl Program for LineProgram {
+    fn stroke(_: &Joints, _: usize, _: u32, _: u32, width: &f32) -> Stroke {
+        let zero = effects::wgsl::vec3([0.0; 3]);
+        Stroke {
+            offset: effects::wgsl::vec2([0.0; 2]),
+            radius: *width,
+            depth_offset: 0.0,
+            color: zero,
+        }
+    }
+}
+
+impl StrokeEffect for Line {
+    type Program = LineProgram;
+    const ID: &'static str = "test.line";
+    const DOC: &'static str = "a line";
+    const RANK: i32 = 7;
+    const DEPTH_OFFSET: f32 = 0.5;
+}
+
+fn registry() -> Registry {
+    let mut registry = Registry::new();
+    registry.register::<Line>().unwrap();
+    registry
+}
+
+/// All messages for a list of layers, as a user reads them.
+fn messages(list: &str) -> String {
+    let registry = registry();
+    let mut reader = Reader::new("look.ron", list);
+    reader.layers(list, &registry);
+    reader.report().unwrap_err().to_string()
+}
+
+#[test]
+fn layers_take_the_effects_defaults_or_their_own() {
+    let registry = registry();
+    let text = r#"[
+        (effect: "test.line"),
+        (effect: "test.line", name: "thick", rank: -3, depth_offset: 0.25, units: pixels,
+         params: (width: 4.5, kind: double, color: "FF0000")),
+    ]"#;
+    let mut reader = Reader::new("look.ron", text);
+    let layers = reader.layers(text, &registry);
+    reader.report().unwrap();
+    assert_eq!(
+        (
+            layers[0].name.as_str(),
+            layers[0].rank,
+            layers[0].depth_offset
+        ),
+        ("test.line", 7, 0.5)
+    );
+    assert_eq!(layers[0].values.number("width"), 2.0);
+    assert_eq!(
+        (
+            layers[1].name.as_str(),
+            layers[1].rank,
+            layers[1].depth_offset
+        ),
+        ("thick", -3, 0.25)
+    );
+    assert_eq!(layers[1].values.number("width"), 4.5);
+    assert_eq!(layers[1].values.choice("kind"), 1);
+    assert_eq!(layers[1].values.color("color"), [1.0, 0.0, 0.0]);
+    assert_eq!(layers[1].build().units, effects::Units::Pixels);
+}
+
+#[test]
+fn every_mistake_has_its_place_and_what_would_be_right() {
+    let text = "[
+        (effect: \"test.lime\"),
+        (effect: \"test.line\", params: (widht: 3.0, width: -1.0)),
+        (effect: \"test.line\", name: \"b\", rnak: 3),
+        (effect: \"test.line\", name: \"c\", params: (kind: dubble, color: \"12345\")),
+        (effect: \"test.line\", name: \"c\"),
+        (name: \"d\"),
+        (effect: \"test.line\", name: \"e\", params: (width: NaN, width: 1e999)),
+    ]";
+    let messages = messages(text);
+    let expected = [
+        "look.ron:2:18: there is no effect `test.lime`, did you mean `test.line`?",
+        "look.ron:3:40: test.line has no `widht`, did you mean `width`?",
+        "look.ron:3:59: width: expected a number from 0 to 9, found `-1.0`",
+        "look.ron:4:42: a layer has no `rnak`, did you mean `rank`?",
+        "look.ron:5:57: kind: there is no `dubble`, did you mean `double`?",
+        "look.ron:5:72: color: expected a colour such as \"3FC1C0\", found `\"12345\"`",
+        "look.ron:6:9: there is already a layer `c`",
+        "look.ron:7:9: a layer needs `effect`",
+        "look.ron:8:58: width: expected a number from 0 to 9, found `NaN`",
+        "look.ron:8:63: test.line has `width` twice",
+        "look.ron:8:70: width: expected a number from 0 to 9, found `1e999`",
+    ];
+    for line in expected {
+        assert!(
+            messages.contains(line),
+            "`{line}` is missing in:\n{messages}"
+        );
+    }
+    assert_eq!(
+        messages.matches("look.ron:").count(),
+        expected.len(),
+        "{messages}"
+    );
+    assert!(messages.contains(" 4 |         (effect: \"test.line\", name: \"b\", rnak: 3),"));
+}
+
+#[test]
+fn syntax_errors_keep_the_files_line_and_column() {
+    let text = "[\n    (effect: \"test.line\" rank: 3),\n]";
+    assert!(
+        messages(text).starts_with("look.ron:2:2"),
+        "{}",
+        messages(text)
+    );
+    let text = "[\n    (effect: \"test.line\",\n     params: (width: 3.0 kind: plain)),\n]";
+    assert!(
+        messages(text).starts_with("look.ron:3:2"),
+        "{}",
+        messages(text)
+    );
+}
+
+#[test]
+fn set_takes_the_texts_that_presets_take() {
+    let registry = registry();
+    let text = "[(effect: \"test.line\")]";
+    let mut layers = Reader::new("look.ron", text).layers(text, &registry);
+    let layer = &mut layers[0];
+    layer.set("width", "3").unwrap();
+    layer.set("color", "00FF00").unwrap();
+    layer.set("kind", "double").unwrap();
+    assert_eq!(layer.values.number("width"), 3.0);
+    assert_eq!(layer.values.color("color"), [0.0, 1.0, 0.0]);
+    assert!(
+        layer
+            .set("width", "wide")
+            .unwrap_err()
+            .contains("a number from 0 to 9")
+    );
+    assert!(
+        layer
+            .set("withd", "1")
+            .unwrap_err()
+            .contains("did you mean `width`?")
+    );
+}
+
+#[test]
+fn ids_are_unique_and_have_a_vendor() {
+    struct Nameless;
+    impl StrokeEffect for Nameless {
+        type Program = LineProgram;
+        const ID: &'static str = "line";
+        const DOC: &'static str = "";
+    }
+    let mut registry = registry();
+    assert_eq!(
+        registry.register::<Line>(),
+        Err(RegistryError::Duplicate { id: "test.line" })
+    );
+    assert_eq!(
+        registry.register::<Nameless>(),
+        Err(RegistryError::Id { id: "line" })
+    );
+    assert_eq!(registry.iter().count(), 1);
+}

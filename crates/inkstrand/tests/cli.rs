@@ -1,0 +1,389 @@
+//! The program as its user has it: files in, pictures and messages out.
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use predicates::str::contains;
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+const STRANDS: &str = "(version: 1, strands: [
+    (size: 30.0, mirror: true, points: [(0.03, 0.1, 0.0), (0.1, 0.1, 0.02), (0.13, -0.1, 0.03)]),
+    (size: 25.0, points: [(0.0, 0.1, 0.0), (0.0, 0.12, 0.06), (0.02, 0.0, 0.1)]),
+], motion: [
+    (time: 0.0, strands: [[(0.03, 0.1, 0.0), (0.1, 0.1, 0.02), (0.13, -0.1, 0.03)], [(0.0, 0.1, 0.0), (0.0, 0.12, 0.06), (0.02, 0.0, 0.1)]]),
+    (time: 1.0, strands: [[(0.03, 0.1, 0.0), (0.1, 0.15, 0.02), (0.2, 0.1, 0.03)], [(0.0, 0.1, 0.0), (0.0, 0.12, 0.06), (0.06, 0.05, 0.1)]]),
+])";
+
+const PRESET: &str = "(
+    version: 1,
+    hair: (file: \"small.strands.ron\"),
+    scene: (size: (80, 60), samples: 4),
+    layers: [
+        (effect: \"hair.silhouette\"),
+        (effect: \"hair.base\"),
+    ],
+)";
+
+/// A folder with a small preset of its own.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("small.strands.ron"), STRANDS).unwrap();
+    fs::write(folder.path().join("small.ron"), PRESET).unwrap();
+    folder
+}
+
+fn inkstrand(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("inkstrand").unwrap();
+    command.current_dir(folder).args(arguments);
+    command
+}
+
+/// Width, height and RGB or RGBA bytes of a PNG file.
+fn pixels(path: &Path) -> (u32, u32, Vec<u8>) {
+    let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(path).unwrap()));
+    let mut reader = decoder.read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    bytes.truncate(info.buffer_size());
+    (info.width, info.height, bytes)
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<String> = entries
+        .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_preset_becomes_a_picture_named_after_it_in_the_current_folder() {
+    let folder = folder();
+    let here = tempfile::tempdir().unwrap();
+    let preset = folder.path().join("small.ron");
+    inkstrand(here.path(), &["render", preset.to_str().unwrap()])
+        .assert()
+        .success()
+        .stdout("")
+        .stderr(contains("wrote small.png"));
+    let (width, height, bytes) = pixels(&here.path().join("small.png"));
+    assert_eq!((width, height), (80, 60));
+    assert_eq!(
+        bytes.len(),
+        80 * 60 * 3,
+        "an opaque background needs no alpha"
+    );
+    let turquoise = bytes.chunks(3).filter(|p| *p == [0x3F, 0xC1, 0xC0]).count();
+    assert!(turquoise > 100, "{turquoise} pixels of the base colour");
+    assert_eq!(files(here.path()), ["small.png"], "nothing else is left");
+}
+
+#[test]
+fn options_take_the_place_of_the_presets() {
+    let folder = folder();
+    let options = [
+        "render",
+        "small.ron",
+        "-o",
+        "out.png",
+        "--size",
+        "40x30",
+        "--samples",
+        "1",
+        "--camera",
+        "-30,10,5",
+        "--light",
+        "0,-90",
+        "--background",
+        "none",
+        "--set",
+        "hair.silhouette.color=FF0000",
+        "--set",
+        "clump.size=1.5",
+        "--only",
+        "hair.silhouette",
+        "--guides",
+        "2",
+        "--threads",
+        "1",
+        "--quiet",
+        "--backend",
+        "cpu",
+    ];
+    inkstrand(folder.path(), &options)
+        .assert()
+        .success()
+        .stdout("")
+        .stderr("");
+    let (width, height, bytes) = pixels(&folder.path().join("out.png"));
+    assert_eq!((width, height), (40, 30));
+    assert_eq!(bytes.len(), 40 * 30 * 4);
+    for pixel in bytes.chunks(4) {
+        assert!(
+            pixel == [255, 0, 0, 255] || pixel[3] == 0,
+            "{pixel:?}: red or nothing"
+        );
+    }
+    assert!(bytes.chunks(4).any(|p| p[3] == 255));
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let folder = folder();
+    let mut pictures = Vec::new();
+    for threads in ["1", "2", "8"] {
+        inkstrand(
+            folder.path(),
+            &["render", "small.ron", "--threads", threads, "-o", "t.png"],
+        )
+        .assert()
+        .success();
+        pictures.push(fs::read(folder.path().join("t.png")).unwrap());
+    }
+    assert!(pictures.iter().all(|picture| *picture == pictures[0]));
+}
+
+#[test]
+fn sequences_have_numbers_and_move() {
+    let folder = folder();
+    let options = [
+        "render",
+        "small.ron",
+        "--frames",
+        "9-11",
+        "--stats",
+        "stats.jsonl",
+        "-o",
+        "a_##.png",
+    ];
+    inkstrand(folder.path(), &options).assert().success();
+    let names = ["a_09.png", "a_10.png", "a_11.png"];
+    let frames = names.map(|name| fs::read(folder.path().join(name)).unwrap());
+    assert!(frames[0] != frames[1] && frames[1] != frames[2]);
+
+    // A frame of a sequence is the picture at its time.
+    inkstrand(
+        folder.path(),
+        &["render", "small.ron", "--time", "0.375", "-o", "one.png"],
+    )
+    .assert()
+    .success();
+    assert!(
+        fs::read(folder.path().join("one.png")).unwrap() == frames[0],
+        "9 / 24 s"
+    );
+
+    let stats = fs::read_to_string(folder.path().join("stats.jsonl")).unwrap();
+    let lines: Vec<serde_json::Value> = stats
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert_eq!(lines.len(), 3);
+    assert_eq!(lines[1]["frame"], 10);
+    assert_eq!(lines[1]["backend"], "cpu");
+    assert_eq!(lines[1]["size"], serde_json::json!([80, 60]));
+    assert_eq!(lines[1]["samples"], 4);
+    assert_eq!(lines[1]["strands"]["total"], 3);
+    assert_eq!(lines[1]["layers"]["hair.base"]["joints"], 3 * 9);
+    assert_eq!(lines[1]["layers"]["hair.base"]["segments"], 3 * 8);
+    assert_eq!(lines[1]["reused"], false);
+    for stage in ["simulate", "paths", "effects", "raster", "total"] {
+        assert!(
+            lines[1]["milliseconds"][stage].as_f64().unwrap() >= 0.0,
+            "{stage}"
+        );
+    }
+    assert!(lines[1]["bytes"]["buffers"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn mistakes_in_presets_are_named_with_file_line_and_column() {
+    let folder = folder();
+    let broken = PRESET
+        .replace("hair.base", "hair.bass")
+        .replace("samples: 4", "samples: 400");
+    fs::write(folder.path().join("broken.ron"), broken).unwrap();
+    inkstrand(folder.path(), &["render", "broken.ron"])
+        .assert()
+        .code(1)
+        .stdout("")
+        .stderr(contains(
+            "broken.ron:4:38: samples: expected a whole number from 1 to 256, found `400`",
+        ))
+        .stderr(contains(
+            "broken.ron:7:18: there is no effect `hair.bass`, did you mean `hair.base`?",
+        ))
+        .stderr(contains(" 7 |         (effect: \"hair.bass\"),"));
+    assert_eq!(
+        files(folder.path()),
+        ["broken.ron", "small.ron", "small.strands.ron"]
+    );
+
+    inkstrand(folder.path(), &["check", "small.ron"])
+        .assert()
+        .success()
+        .stderr("");
+    inkstrand(
+        folder.path(),
+        &["check", "small.ron", "broken.ron", "gone.ron"],
+    )
+    .assert()
+    .code(1)
+    .stderr(
+        contains("broken.ron:7:18")
+            .and(contains("gone.ron"))
+            .and(contains("3 mistakes")),
+    );
+}
+
+#[test]
+fn wrong_usage_exits_2() {
+    let folder = folder();
+    let wrong: [(&[&str], &str); 9] = [
+        (&["render"], "PRESET"),
+        (&["render", "small.ron", "--size", "80"], "WxH"),
+        (
+            &["render", "small.ron", "--size", "0x60"],
+            "size: expected width and height",
+        ),
+        (&["render", "small.ron", "--camera", "1"], "YAW,PITCH"),
+        (
+            &["render", "small.ron", "--camera", "NaN,0"],
+            "not a number",
+        ),
+        (&["render", "small.ron", "--frames", "5-1"], "comes after"),
+        (
+            &["render", "small.ron", "--set", "hair.bse.x=1"],
+            "did you mean `hair.base`?",
+        ),
+        (
+            &["render", "small.ron", "--set", "hair.base.brightness=9"],
+            "a number from 0 to 4",
+        ),
+        (
+            &["render", "small.ron", "--only", "hair.cel"],
+            "there is no layer `hair.cel`",
+        ),
+    ];
+    for (arguments, message) in wrong {
+        inkstrand(folder.path(), arguments)
+            .assert()
+            .code(2)
+            .stderr(contains(message));
+    }
+}
+
+#[test]
+fn failures_exit_1_with_one_message_and_no_file() {
+    let folder = folder();
+    let fails: [(&[&str], &str); 6] = [
+        (&["render", "gone.ron"], "gone.ron"),
+        (&["render", "small.ron", "--hair", "gone.tfx"], "gone.tfx"),
+        (&["render", "small.ron", "--head", "small.ron"], "small.ron"),
+        (
+            &["render", "small.ron", "-o", "no/such/folder/a.png"],
+            "no/such/folder/a.png",
+        ),
+        (
+            &["render", "small.ron", "--backend", "gpu"],
+            "not built yet",
+        ),
+        (&["new", "mine.ron"], "not built yet"),
+    ];
+    for (arguments, message) in fails {
+        inkstrand(folder.path(), arguments)
+            .assert()
+            .code(1)
+            .stderr(contains(message).and(contains("panicked").not()));
+    }
+    assert_eq!(files(folder.path()), ["small.ron", "small.strands.ron"]);
+}
+
+#[test]
+fn effects_are_listed_with_their_parameters() {
+    let folder = folder();
+    inkstrand(folder.path(), &["effects"])
+        .assert()
+        .success()
+        .stdout(contains("hair.base").and(contains("hair.silhouette")));
+    inkstrand(folder.path(), &["effects", "hair.silhouette"])
+        .assert()
+        .success()
+        .stdout(contains("width: a number from 0 to 100").and(contains("default 2.2; unit:")));
+    inkstrand(folder.path(), &["effects", "hair.silhuette"])
+        .assert()
+        .code(2)
+        .stderr(contains("did you mean `hair.silhouette`?"));
+}
+
+/// The folder of real hair, where there is one.
+fn real_data() -> Option<PathBuf> {
+    let folder = std::env::var_os("INKSTRAND_DATA").map(PathBuf::from);
+    if folder.is_none() {
+        println!("SKIPPED 1 test of real hair: INKSTRAND_DATA is not set");
+    }
+    folder
+}
+
+#[test]
+fn real_hair_on_its_head() {
+    let Some(data) = real_data() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let preset = concat!(env!("CARGO_MANIFEST_DIR"), "/../../presets/outlined.ron");
+    let hair = data.join("sintel/sintel_hair_16points.tfx");
+    let head = data.join("sintel/sintel.obj");
+    let (hair, head) = (hair.to_str().unwrap(), head.to_str().unwrap());
+    let options = [
+        "render",
+        preset,
+        "--hair",
+        hair,
+        "--head",
+        head,
+        "--guides",
+        "150",
+        "--size",
+        "240x180",
+        "--samples",
+        "4",
+        "-o",
+        "sintel.png",
+    ];
+    inkstrand(folder.path(), &options)
+        .assert()
+        .success()
+        .stderr(contains("11,400 strands, guessed Y up, metres"));
+    let (_, _, bytes) = pixels(&folder.path().join("sintel.png"));
+    // The base colour is above the chin line, skin below and between: right way up.
+    let rows = |color: [u8; 3]| {
+        let hits = bytes
+            .chunks(3)
+            .enumerate()
+            .filter(move |(_, p)| *p == color);
+        let rows: Vec<usize> = hits.map(|(i, _)| i / 240).collect();
+        (
+            rows.len(),
+            rows.iter().sum::<usize>() as f64 / rows.len() as f64,
+        )
+    };
+    let (hair_pixels, hair_row) = rows([0xC9, 0x80, 0x4B]);
+    let (skin_pixels, skin_row) = rows([0xF8, 0xDC, 0xC8]);
+    assert!(
+        hair_pixels > 2000 && skin_pixels > 2000,
+        "{hair_pixels} {skin_pixels}"
+    );
+    assert!(
+        hair_row < skin_row,
+        "hair at row {hair_row}, skin at {skin_row}"
+    );
+
+    // Whole and cut in half.
+    let bytes = fs::read(hair).unwrap();
+    fs::write(folder.path().join("half.tfx"), &bytes[..bytes.len() / 2]).unwrap();
+    inkstrand(folder.path(), &["render", preset, "--hair", "half.tfx"])
+        .assert()
+        .code(1)
+        .stderr(contains("half.tfx"));
+}

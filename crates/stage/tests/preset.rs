@@ -1,0 +1,178 @@
+//! Whole presets: what they mean, and every mistake at its place.
+
+use effects::Registry;
+use stage::Preset;
+
+fn registry() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    registry
+}
+
+fn errors(text: &str) -> String {
+    let registry = registry();
+    match Preset::parse("look.ron", text, &registry) {
+        Ok(_) => panic!("this should be refused:\n{text}"),
+        Err(errors) => errors.to_string(),
+    }
+}
+
+const SMALL: &str = "(version: 1, layers: [(effect: \"hair.base\")])";
+
+#[test]
+fn a_preset_needs_little() {
+    let registry = registry();
+    let preset = Preset::parse("look.ron", SMALL, &registry).unwrap();
+    assert_eq!(preset.camera.number("fov"), 30.0);
+    assert_eq!(preset.scene.size("size"), [960, 720]);
+    assert_eq!(preset.layers[0].rank, 0);
+}
+
+#[test]
+fn comments_and_names_of_sections_do_not_move_errors() {
+    let text = "// a look\n(\n    version: 1,\n    /* é */ camera: (yaw: 20, pich: 3),\n    layers: [],\n)";
+    assert!(
+        errors(text).starts_with("look.ron:4:31: camera has no `pich`, did you mean `pitch`?"),
+        "{}",
+        errors(text)
+    );
+}
+
+#[test]
+fn all_mistakes_of_a_file_come_at_once() {
+    let text = r#"(
+    version: 1,
+    seed: -3,
+    hiar: (file: "a.tfx"),
+    scene: (size: (0, 720), background: "blue"),
+    camera: (target: (0, 1)),
+    light: (fixed_to: world, kind: sun),
+    clump: (mix: 2.0, shading: difuse),
+    layers: [(effect: "hair.bose")],
+)"#;
+    let errors = errors(text);
+    for line in [
+        "look.ron:3:11: seed: expected a whole number from 0",
+        "look.ron:4:5: a preset has no `hiar`, did you mean `hair`?",
+        "look.ron:5:19: size: expected width and height",
+        "look.ron:5:41: background: expected a colour such as \"3FC1C0\", or none",
+        "look.ron:6:22: target: expected three numbers",
+        "look.ron:7:36: kind: there is no `sun`; there are: direction, point",
+        "look.ron:8:18: mix: expected a number from 0 to 1, found `2.0`",
+        "look.ron:8:32: shading: there is no `difuse`, did you mean `diffuse`?",
+        "look.ron:9:23: there is no effect `hair.bose`, did you mean `hair.base`?",
+    ] {
+        assert!(errors.contains(line), "`{line}` is missing in:\n{errors}");
+    }
+}
+
+#[test]
+fn versions() {
+    assert!(
+        errors("(version: 2, unheard_of: 3)")
+            .contains("look.ron:1:11: this preset is of version 2, this build reads up to 1")
+    );
+    assert_eq!(
+        errors("(version: 2, unheard_of: 3)")
+            .matches("look.ron:")
+            .count(),
+        1
+    );
+    assert!(errors("(layers: [])").contains("needs `version: 1`"));
+    assert!(errors("(version: 0, layers: [])").contains("look.ron:1:11: version: expected"));
+    assert!(errors("(version: one, layers: [])").contains("look.ron:1:11: version: expected"));
+}
+
+#[test]
+fn hostile_texts_are_errors() {
+    let deep = "(".repeat(100_000);
+    let unclosed = SMALL.trim_end_matches(')');
+    for text in [
+        "",
+        "()",
+        "[]",
+        "3",
+        "(version: 1",
+        "\u{0}",
+        "(version: 1, layers: 3)",
+        &deep,
+        unclosed,
+        "\u{feff}(",
+    ] {
+        assert!(errors(text).starts_with("look.ron:"), "{text:.40}");
+    }
+    // Every beginning of a good preset is an error with a place, never a panic.
+    let preset = include_str!("../../../presets/twin-tails.ron");
+    for end in (0..preset.trim_end().len()).filter(|i| preset.is_char_boundary(*i)) {
+        assert!(
+            errors(&preset[..end]).starts_with("look.ron:"),
+            "cut at {end}"
+        );
+    }
+}
+
+#[test]
+fn set_reaches_layers_and_sections() {
+    let registry = registry();
+    let text = "(version: 1, layers: [(effect: \"hair.base\"), (effect: \"hair.silhouette\", name: \"line\")])";
+    let mut preset = Preset::parse("look.ron", text, &registry).unwrap();
+    preset.set("line.width", "4").unwrap();
+    preset.set("hair.base.brightness", "0.5").unwrap();
+    preset.set("clump.size", "2").unwrap();
+    preset.set("scene.background", "none").unwrap();
+    assert_eq!(preset.layers[1].values.number("width"), 4.0);
+    assert_eq!(preset.layers[0].values.number("brightness"), 0.5);
+    assert_eq!(preset.clump.number("size"), 2.0);
+    assert_eq!(preset.scene.optional_color("background"), None);
+    assert!(
+        preset
+            .set("lime.width", "4")
+            .unwrap_err()
+            .contains("did you mean `line`?")
+    );
+    assert!(
+        preset
+            .set("width", "4")
+            .unwrap_err()
+            .contains("LAYER.PARAM")
+    );
+
+    assert!(preset.keep_only(&["liine".to_owned()]).is_err());
+    preset.keep_only(&["line".to_owned()]).unwrap();
+    assert_eq!(preset.layers.len(), 1);
+}
+
+#[test]
+fn defaults_are_within_their_own_ranges() {
+    use effects::{Param, ParamKind};
+    fn legal(param: &Param) -> bool {
+        match param.kind {
+            ParamKind::Number { min, max, default } => (min..=max).contains(&default),
+            ParamKind::Integer { min, max, default } => (min..=max).contains(&default),
+            ParamKind::Choice { names, default } => default < names.len(),
+            ParamKind::Color { default } => effects::parse_hex(default).is_some(),
+            ParamKind::OptionalColor { default } => {
+                default.is_none_or(|hex| effects::parse_hex(hex).is_some())
+            }
+            ParamKind::Text => true,
+            ParamKind::Triple { min, max, default } => {
+                default.iter().all(|x| (min..=max).contains(x))
+            }
+            ParamKind::Size { min, max, default } => {
+                default.iter().all(|x| (min..=max).contains(x))
+            }
+        }
+    }
+    for (section, doc, table) in stage::SECTIONS {
+        assert!(!doc.is_empty());
+        for param in *table {
+            assert!(legal(param), "{section}.{}", param.name);
+            assert!(
+                param.doc.ends_with('.'),
+                "{section}.{}: {}",
+                param.name,
+                param.doc
+            );
+        }
+    }
+}

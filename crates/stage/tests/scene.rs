@@ -1,0 +1,157 @@
+//! Scenes: files and presets to frames.
+
+use effects::Registry;
+use glam::Vec3;
+use render::Light;
+use stage::{Files, Preset, Stage, StageError};
+use std::fs;
+use std::path::Path;
+
+const STRANDS: &str = "(version: 1, strands: [
+    (size: 30.0, points: [(0.0, 0.1, 0.0), (0.0, 0.15, 0.05), (0.0, 0.05, 0.12)]),
+    (mirror: true, points: [(0.05, 0.09, 0.0), (0.1, 0.1, 0.0), (0.14, 0.0, 0.0)]),
+])";
+
+fn registry() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    registry
+}
+
+/// A scene with these strands and these sections beside the layers.
+fn stage(folder: &Path, strands: &str, sections: &str) -> Result<Stage, StageError> {
+    fs::write(folder.join("a.strands.ron"), strands).unwrap();
+    let text = format!(
+        "(version: 1, hair: (file: \"a.strands.ron\"), {sections} layers: [(effect: \"hair.base\")])"
+    );
+    let registry = registry();
+    let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    let files = Files {
+        preset_folder: folder.to_owned(),
+        ..Files::default()
+    };
+    Stage::new(&preset, &files)
+}
+
+#[test]
+fn strands_come_sorted_by_id_with_their_sizes() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut stage = stage(
+        folder.path(),
+        STRANDS,
+        "path: (kind: linear, subdivision: 1),",
+    )
+    .unwrap();
+    assert_eq!(stage.strand_count(), 3);
+    let frame = stage.frame().unwrap();
+    assert!(frame.strands.is_sorted_by_key(|s| s.id));
+    assert_eq!(frame.strands[0].size, 30.0);
+    assert!(frame.strands[1].size > 0.0 && frame.strands[1].size == frame.strands[2].size);
+    assert_eq!(
+        frame.paths.len(),
+        9,
+        "linear paths of one subdivision are the particles"
+    );
+    let mean = Vec3::new(0.0, 0.1, 0.17 / 3.0);
+    assert!((frame.strands[0].mean - mean).length() < 1e-6);
+}
+
+#[test]
+fn motion_is_played_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let moving = "(version: 1, strands: [(points: [(0.0, 0.0, 0.0), (0.0, -0.1, 0.0)])], motion: [
+        (time: 0.0, strands: [[(0.0, 0.0, 0.0), (0.0, -0.1, 0.0)]]),
+        (time: 1.0, strands: [[(0.0, 0.0, 0.0), (0.1, 0.0, 0.0)]]),
+    ])";
+    let mut stage = stage(
+        folder.path(),
+        moving,
+        "path: (kind: linear, subdivision: 1),",
+    )
+    .unwrap();
+    stage.advance_to(0.5);
+    let tip = stage.frame().unwrap().paths.position[1];
+    assert!((tip - Vec3::new(0.05, -0.05, 0.0)).length() < 1e-6, "{tip}");
+    stage.advance_to(0.0);
+    assert_eq!(
+        stage.frame().unwrap().paths.position[1],
+        Vec3::new(0.0, -0.1, 0.0)
+    );
+}
+
+#[test]
+fn a_light_fixed_to_the_camera_turns_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let direction = |sections: &str| {
+        let mut stage = stage(folder.path(), STRANDS, sections).unwrap();
+        match stage.frame().unwrap().light {
+            Light::Direction(direction) => direction,
+            Light::Point(_) => panic!("the preset asks for a direction"),
+        }
+    };
+    let at_camera = direction("camera: (yaw: 90), light: (fixed_to: camera, yaw: 0, pitch: 0),");
+    assert!((at_camera - Vec3::X).length() < 1e-5, "{at_camera}");
+    let in_world = direction("camera: (yaw: 90), light: (yaw: 0, pitch: 0),");
+    assert!((in_world - Vec3::Z).length() < 1e-5, "{in_world}");
+    let above = direction("camera: (yaw: 90), light: (fixed_to: camera, yaw: 0, pitch: 90),");
+    assert!((above - Vec3::Y).length() < 1e-5, "{above}");
+}
+
+#[test]
+fn a_point_light_stands_in_head_heights() {
+    let folder = tempfile::tempdir().unwrap();
+    let sections = "light: (kind: point, yaw: 0, pitch: 0, distance: 2),";
+    let mut stage = stage(folder.path(), STRANDS, sections).unwrap();
+    let frame = stage.frame().unwrap();
+    let Light::Point(place) = frame.light else {
+        panic!("the preset asks for a point")
+    };
+    let expected = frame.head.center + Vec3::Z * 2.0 * frame.head.height_m;
+    assert!((place - expected).length() < 1e-5);
+}
+
+#[test]
+fn strands_behind_the_eye_are_culled() {
+    let folder = tempfile::tempdir().unwrap();
+    let far = STRANDS.replace(
+        "
+])",
+        "
+(points: [(0.0, 0.0, 50.0), (0.0, -0.1, 50.0)]),
+])",
+    );
+    let mut stage = stage(folder.path(), &far, "").unwrap();
+    stage.frame().unwrap();
+    assert_eq!(stage.culled(), 1);
+}
+
+#[test]
+fn missing_and_empty_files_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let empty = stage(folder.path(), "(version: 1, strands: [])", "");
+    let message = empty.err().unwrap().to_string();
+    assert!(message.contains("a.strands.ron"), "{message}");
+    assert!(message.contains("at least one strand"), "{message}");
+
+    let registry = registry();
+    let text = "(version: 1, hair: (file: \"gone.tfx\"), layers: [(effect: \"hair.base\")])";
+    let preset = Preset::parse("look.ron", text, &registry).unwrap();
+    let files = Files {
+        preset_folder: folder.path().to_owned(),
+        ..Files::default()
+    };
+    assert!(
+        Stage::new(&preset, &files)
+            .err()
+            .unwrap()
+            .to_string()
+            .contains("gone.tfx")
+    );
+
+    let text = "(version: 1, layers: [(effect: \"hair.base\")])";
+    let preset = Preset::parse("look.ron", text, &registry).unwrap();
+    assert!(matches!(
+        Stage::new(&preset, &files),
+        Err(StageError::NoHair)
+    ));
+}
