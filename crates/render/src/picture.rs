@@ -45,7 +45,7 @@ struct SrgbEncoder {
     /// `thresholds[code]` is the least linear value of `code + 1`; infinite for 255.
     thresholds: [f64; 256],
     /// The code of each bucket's least value.
-    first: [u8; BUCKETS + 1],
+    first: [u8; BUCKETS],
 }
 
 impl SrgbEncoder {
@@ -54,7 +54,7 @@ impl SrgbEncoder {
         for code in 0..255 {
             thresholds[code] = to_linear((code as f64 + 0.5) / 255.0);
         }
-        let mut first = [0; BUCKETS + 1];
+        let mut first = [0; BUCKETS];
         for (bucket, code) in first.iter_mut().enumerate() {
             let least = bucket as f64 / BUCKETS as f64;
             *code = thresholds.partition_point(|&t| t <= least) as u8;
@@ -64,8 +64,11 @@ impl SrgbEncoder {
 
     fn encode(&self, linear: f32) -> u8 {
         let linear = f64::from(linear);
+        if linear >= 1.0 {
+            return 255;
+        }
         // The cast sends NaN and negative numbers to 0.
-        let bucket = ((linear * BUCKETS as f64) as usize).min(BUCKETS);
+        let bucket = (linear * BUCKETS as f64) as usize;
         let mut code = self.first[bucket];
         while linear >= self.thresholds[usize::from(code)] {
             code += 1;

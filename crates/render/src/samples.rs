@@ -14,8 +14,8 @@ pub struct SampleCountError(pub u32);
 ///
 /// 1, 2, 4, 8 and 16 samples lie in Vulkan's standard positions (Vulkan specification, "Multisampling",
 /// table of standard sample locations), so that pictures can be compared with a graphics card's. Any
-/// other count up to [`MAX_SAMPLES`] takes the first points of the R2 sequence (M. Roberts, "The
-/// Unreasonable Effectiveness of Quasirandom Sequences", 2018).
+/// other count up to [`MAX_SAMPLES`] is a lattice by the golden section: even in both directions, and
+/// its mean close to the pixel's middle.
 ///
 /// # Errors
 ///
@@ -30,7 +30,7 @@ pub fn sample_positions(samples: u32) -> Result<Vec<Vec2>, SampleCountError> {
         4 => &[[6, 2], [14, 6], [2, 10], [10, 14]],
         8 => &STANDARD_8,
         16 => &STANDARD_16,
-        _ => return Ok(r2_sequence(samples)),
+        _ => return Ok(golden_lattice(samples)),
     };
     Ok(sixteenths
         .iter()
@@ -68,11 +68,15 @@ const STANDARD_16: [[u8; 2]; 16] = [
     [1, 0],
 ];
 
-fn r2_sequence(samples: u32) -> Vec<Vec2> {
-    // 1 / g and 1 / g^2, with g^3 = g + 1.
-    let step = DVec2::new(0.754_877_666_246_692_76, 0.569_840_290_998_053_27);
+/// One sample in each of so many columns, each row the golden section of 1 from the one before.
+fn golden_lattice(samples: u32) -> Vec<Vec2> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
     (0..samples)
-        .map(|i| (DVec2::splat(0.5) + f64::from(i) * step).fract().as_vec2())
+        .map(|i| {
+            let x = (f64::from(i) + 0.5) / f64::from(samples);
+            let y = (0.5 + f64::from(i) * GOLDEN).fract();
+            DVec2::new(x, y).as_vec2()
+        })
         .collect()
 }
 
@@ -87,12 +91,15 @@ mod tests {
             assert_eq!(positions.len(), samples as usize);
             for (i, p) in positions.iter().enumerate() {
                 assert!(p.cmpge(Vec2::ZERO).all() && p.cmplt(Vec2::ONE).all());
-                let apart = positions[..i].iter().all(|q| p.distance(*q) > 0.03);
+                let apart = positions[..i]
+                    .iter()
+                    .all(|q| p.distance(*q) > 0.6 / (samples as f32).sqrt());
                 assert!(apart, "{samples} samples: {p} lies on another");
             }
+            // The standard pattern of 16 has a mean of 15 / 32.
             let mean = positions.iter().sum::<Vec2>() / samples as f32;
             assert!(
-                mean.distance(Vec2::splat(0.5)) < 0.2,
+                mean.distance(Vec2::splat(0.5)) < 0.06,
                 "{samples} samples: mean {mean}"
             );
         }

@@ -38,9 +38,6 @@ pub enum StageError {
         "the preset names no hair: give one with --hair FILE, or hair: (file: \"...\") in the preset"
     )]
     NoHair,
-    /// A file without strands.
-    #[error("{0}: there are no strands in it")]
-    Empty(PathBuf),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),
@@ -306,9 +303,6 @@ fn load_hair(
     };
     let mut hair = hair_io::read_hair(&path, &HairOptions { given, head })?;
     notes.append(&mut hair.notes);
-    if hair.strands.is_empty() {
-        return Err(StageError::Empty(path));
-    }
     let guides = values.integer("guides").unsigned_abs() as usize;
     let mut kept: Vec<usize> = match guides {
         0 => (0..hair.strands.len()).collect(),

@@ -171,3 +171,26 @@ impl Interpolated {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What keeps a mesh without cracks: no sample is outside of both triangles at an edge.
+        #[test]
+        fn an_edge_seen_from_its_other_triangle_is_its_exact_opposite(
+            (x0, y0, x1, y1) in (-1e9..1e9_f64, -1e9..1e9_f64, -50.0..50.0_f64, -50.0..50.0_f64),
+            sign in prop::sample::select(vec![1.0, -1.0]),
+        ) {
+            let from = DVec2::new(x0, y0);
+            let to = DVec2::new(x1, y1);
+            let one = Edge::new(from, to).slope(sign);
+            let other = Edge::new(to, from).slope(sign);
+            prop_assert_eq!(one.corner, -other.corner);
+            prop_assert_eq!(one.per_x, -other.per_x);
+            prop_assert_eq!(one.per_y, -other.per_y);
+        }
+    }
+}
