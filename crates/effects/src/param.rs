@@ -116,11 +116,12 @@ impl ParamKind {
     pub fn expected(&self) -> String {
         match self {
             Self::Number { min, max, .. } => format!("a number from {min} to {max}"),
+            Self::Integer { min, max, .. } if min == max => min.to_string(),
             Self::Integer { min, max, .. } => format!("a whole number from {min} to {max}"),
             Self::Choice { names, .. } => format!("one of {}", names.join(", ")),
             Self::Color { .. } => "a colour such as \"3FC1C0\"".to_owned(),
             Self::OptionalColor { .. } => "a colour such as \"3FC1C0\", or none".to_owned(),
-            Self::Text => "a text such as \"hair.tfx\"".to_owned(),
+            Self::Text => "a text in double quotes".to_owned(),
             Self::Triple { min, max, .. } => {
                 format!("three numbers (x, y, z), each from {min} to {max}")
             }

@@ -6,7 +6,9 @@
 mod error;
 mod layers;
 mod reader;
+mod syntax;
+mod value;
 
-pub use error::{PresetError, PresetErrors, nearest};
-pub use layers::{LAYER, LayerSpec};
+pub use error::{Place, PresetError, PresetErrors, nearest, suggestion};
+pub use layers::{LAYER, LayerSpec, OF_THE_EFFECT};
 pub use reader::{Field, Reader};

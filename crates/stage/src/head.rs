@@ -13,6 +13,8 @@ pub(crate) struct HeadPaint {
     pub line: [f32; 3],
     /// Width of the outline in metres; 0 is none.
     pub width_m: f32,
+    /// How much nearer than the head's inside hair must be to be seen through an opening, metres.
+    pub hollow_m: f32,
     /// The cosine to the light at which light turns to shadow.
     pub threshold: f32,
 }
@@ -56,14 +58,17 @@ pub(crate) fn surfaces(
             paint.light,
             paint.shadow,
         ),
-        surface(
-            camera,
-            mesh,
-            &corners,
-            Facing::Back,
-            paint.shadow,
-            paint.shadow,
-        ),
+        Surface {
+            hollow_m: paint.hollow_m,
+            ..surface(
+                camera,
+                mesh,
+                &corners,
+                Facing::Back,
+                paint.shadow,
+                paint.shadow,
+            )
+        },
     ];
     if paint.width_m > 0.0 {
         // The inside of a slightly larger head, seen around the edges of the head itself.
@@ -118,6 +123,7 @@ fn surface(
     let mut surface = Surface {
         vertices,
         triangles: Vec::new(),
+        hollow_m: 0.0,
         light,
         shadow,
     };
@@ -207,6 +213,7 @@ mod tests {
         shadow: [0.5; 3],
         line: [0.0; 3],
         width_m: 0.01,
+        hollow_m: 0.05,
         threshold: 0.1,
     };
 

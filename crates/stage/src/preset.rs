@@ -1,293 +1,19 @@
 //! Presets: one RON file that says what is drawn and how.
 
-use effects::preset::{Field, LayerSpec, PresetErrors, Reader};
-use effects::{Param, ParamKind, Parameters, Registry, Values, clump};
+mod sections;
+
+pub use sections::{CAMERA, HAIR, HEAD, LIGHT, PATH, SCENE, SECTIONS};
+
+use crate::scene::Files;
+use effects::preset::{
+    Field, LayerSpec, Place, PresetError, PresetErrors, Reader, nearest, suggestion,
+};
+use effects::{Param, Registry, Values};
+use sections::TOP;
+use std::path::Path;
 
 /// The newest version of presets that this build reads.
 pub const VERSION: i32 = 1;
-
-const fn number(
-    name: &'static str,
-    doc: &'static str,
-    unit: &'static str,
-    range: std::ops::RangeInclusive<f32>,
-    default: f32,
-) -> Param {
-    let kind = ParamKind::Number {
-        min: *range.start(),
-        max: *range.end(),
-        default,
-    };
-    Param {
-        name,
-        doc,
-        unit,
-        kind,
-    }
-}
-
-const fn param(name: &'static str, doc: &'static str, kind: ParamKind) -> Param {
-    Param {
-        name,
-        doc,
-        unit: "",
-        kind,
-    }
-}
-
-const fn color(name: &'static str, doc: &'static str, default: &'static str) -> Param {
-    param(name, doc, ParamKind::Color { default })
-}
-
-const fn choice(
-    name: &'static str,
-    doc: &'static str,
-    names: &'static [&'static str],
-    default: usize,
-) -> Param {
-    param(name, doc, ParamKind::Choice { names, default })
-}
-
-/// The section `hair`.
-pub const HAIR: &[Param] = &[
-    param(
-        "file",
-        "Strands to draw, relative to the preset: .tfx or .strands.ron.",
-        ParamKind::Text,
-    ),
-    param(
-        "guides",
-        "How many strands to keep, spread evenly over the scalp; 0 keeps all.",
-        ParamKind::Integer {
-            min: 0,
-            max: 1_000_000,
-            default: 0,
-        },
-    ),
-    choice("up", "The file's upward axis.", &["guess", "y", "z"], 0),
-    number(
-        "scale",
-        "Metres in one unit of the file; 0 guesses.",
-        "m",
-        0.0..=1e4,
-        0.0,
-    ),
-    number(
-        "size",
-        "Clump size of strands that bring none; 0 takes it from the spacing of the roots.",
-        "1/300 head height",
-        0.0..=300.0,
-        0.0,
-    ),
-];
-
-/// The section `head`.
-pub const HEAD: &[Param] = &[
-    param(
-        "file",
-        "The head, relative to the preset: .obj.",
-        ParamKind::Text,
-    ),
-    choice("up", "The file's upward axis.", &["guess", "y", "z"], 0),
-    number(
-        "scale",
-        "Metres in one unit of the file; 0 guesses.",
-        "m",
-        0.0..=1e4,
-        0.0,
-    ),
-    color("light", "Colour of the lit side.", "F8DCC8"),
-    color(
-        "shadow",
-        "Colour of the side away from the light.",
-        "E3B49C",
-    ),
-    color("line", "Colour of the outline.", "6B4438"),
-    number(
-        "width",
-        "Width of the outline; 0 is none.",
-        "1/300 head height",
-        0.0..=50.0,
-        1.6,
-    ),
-    number(
-        "threshold",
-        "Where light turns to shadow: the cosine to the light.",
-        "",
-        -1.0..=1.0,
-        0.1,
-    ),
-];
-
-/// The section `scene`.
-pub const SCENE: &[Param] = &[
-    param(
-        "size",
-        "Width and height of the picture.",
-        ParamKind::Size {
-            min: 1,
-            max: 16_384,
-            default: [960, 720],
-        },
-    ),
-    param(
-        "samples",
-        "Samples a pixel.",
-        ParamKind::Integer {
-            min: 1,
-            max: 256,
-            default: 16,
-        },
-    ),
-    param(
-        "background",
-        "Colour behind everything, or none for a transparent picture.",
-        ParamKind::OptionalColor {
-            default: Some("FFFFFF"),
-        },
-    ),
-    number("fps", "Frames a second.", "1/s", 1.0..=1000.0, 24.0),
-    choice(
-        "order",
-        "Within a strand by rank, then by depth; or every stroke by its shifted depth.",
-        &["strand_first", "shifted"],
-        0,
-    ),
-];
-
-/// The section `camera`.
-pub const CAMERA: &[Param] = &[
-    number(
-        "yaw",
-        "0 looks at the face; positive moves to the viewer's right.",
-        "degrees",
-        -360.0..=360.0,
-        0.0,
-    ),
-    number(
-        "pitch",
-        "Positive looks from above.",
-        "degrees",
-        -90.0..=90.0,
-        0.0,
-    ),
-    number(
-        "distance",
-        "From the target to the eye.",
-        "head heights",
-        0.01..=1000.0,
-        4.48,
-    ),
-    number(
-        "fov",
-        "Vertical field of view.",
-        "degrees",
-        1.0..=150.0,
-        30.0,
-    ),
-    Param {
-        name: "target",
-        doc: "What the camera looks at, from the head's centre.",
-        unit: "head heights",
-        kind: ParamKind::Triple {
-            min: -1000.0,
-            max: 1000.0,
-            default: [0.0; 3],
-        },
-    },
-];
-
-/// The section `light`.
-pub const LIGHT: &[Param] = &[
-    choice(
-        "kind",
-        "A light from far away, or one at a place.",
-        &["direction", "point"],
-        0,
-    ),
-    choice(
-        "fixed_to",
-        "What the light turns with.",
-        &["world", "camera"],
-        0,
-    ),
-    number(
-        "yaw",
-        "0 shines at the face; positive comes from the viewer's right.",
-        "degrees",
-        -360.0..=360.0,
-        35.0,
-    ),
-    number(
-        "pitch",
-        "Positive shines from above.",
-        "degrees",
-        -90.0..=90.0,
-        40.0,
-    ),
-    number(
-        "distance",
-        "A point light's distance from the head's centre.",
-        "head heights",
-        0.01..=1000.0,
-        3.0,
-    ),
-];
-
-/// The section `path`.
-pub const PATH: &[Param] = &[
-    choice(
-        "kind",
-        "How particles are joined.",
-        &["linear", "catmull_rom"],
-        1,
-    ),
-    param(
-        "subdivision",
-        "Joints from one particle to the next.",
-        ParamKind::Integer {
-            min: 1,
-            max: 64,
-            default: 4,
-        },
-    ),
-];
-
-/// A preset's sections by name, with what each is about. `clump` and `layers` come from effects.
-pub const SECTIONS: &[(&str, &str, &[Param])] = &[
-    ("hair", "Which strands are drawn.", HAIR),
-    ("head", "The head under the hair.", HEAD),
-    ("scene", "The picture.", SCENE),
-    ("camera", "The eye.", CAMERA),
-    ("light", "The light.", LIGHT),
-    ("path", "How a strand becomes a stroke's path.", PATH),
-    (
-        "clump",
-        "What all layers share of a strand: size, normal, basic colour.",
-        clump::Program::PARAMS,
-    ),
-];
-
-const TOP: &[Param] = &[
-    param(
-        "version",
-        "Version of the preset's format.",
-        ParamKind::Integer {
-            min: 1,
-            max: VERSION,
-            default: VERSION,
-        },
-    ),
-    param(
-        "seed",
-        "Seed of all variations.",
-        ParamKind::Integer {
-            min: 0,
-            max: i32::MAX,
-            default: 1,
-        },
-    ),
-];
 
 /// A preset, read and checked.
 pub struct Preset<'r> {
@@ -309,9 +35,16 @@ pub struct Preset<'r> {
     pub clump: Values,
     /// The layers, in the order of the file.
     pub layers: Vec<LayerSpec<'r>>,
+    /// Where the file names the hair.
+    hair_place: Option<Place>,
+    /// Where the file names the head.
+    head_place: Option<Place>,
 }
 
 impl<'r> Preset<'r> {
+    /// What stands in a preset beside its sections and layers.
+    pub const TOP: &'static [Param] = TOP;
+
     /// Reads the preset `text`, which messages call `file`.
     ///
     /// # Errors
@@ -319,28 +52,29 @@ impl<'r> Preset<'r> {
     /// All mistakes of the file, each with its line and column.
     pub fn parse(file: &str, text: &str, registry: &'r Registry) -> Result<Self, PresetErrors> {
         let mut reader = Reader::new(file, text);
-        let fields = reader.fields(text, "the preset");
-        reader.report()?;
-        // Nothing else in a file of another version means what it seems to mean.
-        check_version(&mut reader, &fields);
-        reader.report()?;
+        let fields = reader.fields(reader.text(), "the preset");
+        if fields.is_empty() {
+            reader.report()?;
+        }
+        if let Some(newer) = newer_version(&reader, &fields) {
+            return Err(PresetErrors(vec![newer]));
+        }
         let sections = SECTIONS.iter().map(|(name, ..)| *name).chain(["layers"]);
         let known: Vec<&str> = TOP.iter().map(|p| p.name).chain(sections).collect();
-        let (plain, other): (Vec<Field>, Vec<Field>) = fields
-            .iter()
-            .partition(|field| TOP.iter().any(|p| p.name == field.name));
+        for field in fields.iter().filter(|f| !known.contains(&f.name)) {
+            let hint = suggestion(field.name, known.iter().copied());
+            reader.error(
+                field.name,
+                format!("a preset has no `{}`{hint}", field.name),
+            );
+        }
+        let field = |name: &str| fields.iter().find(|field| field.name == name);
+        let plain: Vec<Field> = TOP.iter().filter_map(|p| field(p.name)).copied().collect();
         let top = reader.values(&plain, TOP, "the preset");
-        for field in &other {
-            if !known.contains(&field.name) {
-                let hint = match effects::preset::nearest(field.name, known.iter().copied()) {
-                    Some(name) => format!(", did you mean `{name}`?"),
-                    None => format!("; there are: {}", known.join(", ")),
-                };
-                reader.error(
-                    field.name,
-                    format!("a preset has no `{}`{hint}", field.name),
-                );
-            }
+        if !top.is_given("version") && field("version").is_none() {
+            let message =
+                format!("the preset needs `version: {VERSION}`, the version of its format");
+            reader.error(reader.text(), message);
         }
 
         let mut section = |name: &str| {
@@ -348,18 +82,22 @@ impl<'r> Preset<'r> {
                 .iter()
                 .find(|(known, ..)| *known == name)
                 .unwrap_or_else(|| panic!("no section `{name}`"));
-            match other.iter().find(|field| field.name == name) {
-                Some(field) => reader.section(field.value, table, name),
-                None => Values::defaults(table),
-            }
+            let Some(field) = field(name) else {
+                return (Values::defaults(table), None);
+            };
+            let fields = reader.fields(field.value, name);
+            let file = fields.iter().find(|field| field.name == "file");
+            let place = file.map(|file| reader.place(file.value));
+            (reader.values(&fields, table, name), place)
         };
-        let (hair, head, scene) = (section("hair"), section("head"), section("scene"));
-        let (camera, light, path) = (section("camera"), section("light"), section("path"));
-        let clump = section("clump");
-        let layers = match other.iter().find(|field| field.name == "layers") {
+        let ((hair, hair_place), (head, head_place)) = (section("hair"), section("head"));
+        let (scene, camera, light) = (section("scene").0, section("camera").0, section("light").0);
+        let (path, clump) = (section("path").0, section("clump").0);
+        let layers = match field("layers") {
             Some(field) => reader.layers(field.value, registry),
             None => {
-                reader.error(text, "the preset has no `layers`, so it would draw nothing");
+                let message = "the preset has no `layers`, so it would draw nothing";
+                reader.error(reader.text(), message);
                 Vec::new()
             }
         };
@@ -375,7 +113,36 @@ impl<'r> Preset<'r> {
             path,
             clump,
             layers,
+            hair_place,
+            head_place,
         })
+    }
+
+    /// Looks for the files that the preset names and the caller gives no others for.
+    ///
+    /// # Errors
+    ///
+    /// For each that is not there, at its place in the preset, with the nearest name in its folder.
+    pub fn check_files(&self, files: &Files) -> Result<(), PresetErrors> {
+        let named = [
+            (&self.hair_place, &self.hair, &files.hair),
+            (&self.head_place, &self.head, &files.head),
+        ];
+        let mut errors: Vec<PresetError> = named
+            .into_iter()
+            .filter(|(_, _, given)| given.is_none())
+            .filter_map(|(place, values, _)| {
+                let message = missing(&files.preset_folder, values.text("file")?)?;
+                let place = place.clone()?;
+                Some(PresetError { place, message })
+            })
+            .collect();
+        errors.sort_by_key(|e| (e.place.line, e.place.column));
+        if errors.is_empty() {
+            Ok(())
+        } else {
+            Err(PresetErrors(errors))
+        }
     }
 
     /// Sets a layer's parameter, or one of a section, from its text: `hair.silhouette.width`, `3`.
@@ -385,7 +152,9 @@ impl<'r> Preset<'r> {
     /// When there is no such layer, section or parameter, or the text is not one of its values.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), String> {
         let Some((owner, param)) = name.rsplit_once('.') else {
-            return Err(format!("`{name}` is not LAYER.PARAM"));
+            return Err(format!(
+                "`{name}` is not LAYER.PARAM, such as hair.base.brightness or clump.size"
+            ));
         };
         if let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == owner) {
             return layer.set(param, text);
@@ -400,7 +169,14 @@ impl<'r> Preset<'r> {
             "clump" => &mut self.clump,
             _ => return Err(self.unknown_layer(owner)),
         };
-        section.set_text(owner, param, text)
+        section.set_text(owner, param, text)?;
+        // What the file says is no longer what is meant.
+        match name {
+            "hair.file" => self.hair_place = None,
+            "head.file" => self.head_place = None,
+            _ => {}
+        }
+        Ok(())
     }
 
     /// Keeps only the layers of these names.
@@ -424,29 +200,54 @@ impl<'r> Preset<'r> {
             .iter()
             .map(|layer| layer.name.as_str())
             .collect();
-        match effects::preset::nearest(name, layers.iter().copied()) {
-            Some(near) => format!("there is no layer `{name}`, did you mean `{near}`?"),
-            None => format!(
-                "there is no layer `{name}`; there are: {}",
-                layers.join(", ")
-            ),
-        }
+        let hint = suggestion(name, layers.iter().copied());
+        format!("there is no layer `{name}`{hint}")
     }
 }
 
-/// Notes where the file is not of a version that this build reads.
-fn check_version<'a>(reader: &mut Reader<'a>, fields: &[Field<'a>]) {
-    let Some(field) = fields.iter().find(|field| field.name == "version") else {
-        let message = format!("the preset needs `version: {VERSION}`, the version of its format");
-        reader.error(reader.text(), message);
-        return;
-    };
-    if let Ok(version) = field.value.parse::<i64>()
-        && version > i64::from(VERSION)
-    {
-        let message = format!(
+/// The error of a file of a version that this build doesn't read: nothing else in it means what it
+/// seems to mean.
+fn newer_version(reader: &Reader, fields: &[Field]) -> Option<PresetError> {
+    let version = fields.iter().find(|field| field.name == "version")?.value;
+    (version.parse::<f64>().ok()? > f64::from(VERSION)).then(|| PresetError {
+        place: reader.place(version),
+        message: format!(
             "this preset is of version {version}, this build reads up to {VERSION}: update inkstrand"
-        );
-        reader.error(field.value, message);
+        ),
+    })
+}
+
+/// What is wrong with a file name of the preset, where there is no such file.
+fn missing(folder: &Path, name: &str) -> Option<String> {
+    let path = folder.join(name);
+    if path.is_file() {
+        return None;
     }
+    let shown = path.display();
+    if path.is_dir() {
+        return Some(format!("file: `{shown}` is a folder, not a file"));
+    }
+    let parent = path.parent().unwrap_or(Path::new(""));
+    let parent = if parent.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        parent
+    };
+    let Ok(entries) = std::fs::read_dir(parent) else {
+        return Some(format!(
+            "file: there is no `{shown}`, nor a folder `{}`; file names are relative to the preset",
+            parent.display()
+        ));
+    };
+    let mut names: Vec<String> = entries
+        .flatten()
+        .filter(|entry| entry.path().is_file())
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let wrong = path.file_name().unwrap_or_default().to_string_lossy();
+    Some(match nearest(&wrong, names.iter().map(String::as_str)) {
+        Some(near) => format!("file: there is no `{shown}`, did you mean `{near}`?"),
+        None => format!("file: there is no `{shown}`; file names are relative to the preset"),
+    })
 }

@@ -13,6 +13,10 @@ use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
 /// How near the eye strokes are cut, in head heights.
 const NEAR: f32 = 0.05;
 
+/// How much nearer than the inside of the head hair must be to be seen through an opening, in head
+/// heights: more than the clumps around the skull reach into it.
+const HOLLOW: f32 = 0.3;
+
 /// Radius of a clump in units of the spacing of the roots: neighbours overlap and hide the scalp.
 const RADIUS_IN_SPACINGS: f32 = 0.75;
 
@@ -226,6 +230,7 @@ impl Settings {
                 shadow: paint.color("shadow"),
                 line: paint.color("line"),
                 width_m: paint.number("width") * head.unit_m(),
+                hollow_m: HOLLOW * head.height_m,
                 threshold: paint.number("threshold"),
             },
         })

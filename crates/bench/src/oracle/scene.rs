@@ -1,7 +1,7 @@
 //! Which stroke or surface a sample shows.
 
 use super::segment::{Depth, Segment};
-use super::triangle::Triangle;
+use super::triangle::{Hit, Triangle};
 use glam::DVec2;
 use render::{Disc, Drawing, Order};
 use std::cmp::Reverse;
@@ -64,29 +64,34 @@ impl Scene {
     /// The colour at `point`, or nothing where the picture is transparent.
     pub fn color(&self, point: DVec2) -> Option<[f64; 3]> {
         let surface = self.nearest_surface(point);
-        let behind = surface.map_or(f64::NEG_INFINITY, |(inv_depth, _)| inv_depth);
         let stroke = match self.order {
-            Order::StrandFirst => self.nearest_strand(point, behind),
-            Order::Shifted => self.nearest_stroke(point, behind),
+            Order::StrandFirst => self.nearest_strand(point, surface.as_ref()),
+            Order::Shifted => self.nearest_stroke(point, surface.as_ref()),
         };
         stroke
             .and_then(|stroke| stroke.color(point))
-            .or(surface.map(|(_, color)| color))
+            .or(surface.map(|hit| hit.color))
             .or(self.background)
     }
 
-    /// The inverse depth and colour of the nearest triangle, the first among equals.
-    fn nearest_surface(&self, point: DVec2) -> Option<(f64, [f64; 3])> {
+    /// The nearest triangle, the first among equals.
+    fn nearest_surface(&self, point: DVec2) -> Option<Hit> {
         let hits = self.triangles.iter().filter_map(|t| t.hit(point));
-        hits.reduce(|best, next| if next.0 > best.0 { next } else { best })
+        hits.reduce(|best, next| {
+            if next.inv_depth > best.inv_depth {
+                next
+            } else {
+                best
+            }
+        })
     }
 
     /// [`Order::StrandFirst`]: each strand settles what it shows, then the nearest strand is seen,
-    /// the lower id among equals. Strands behind the inverse depth `behind` are not.
-    fn nearest_strand(&self, point: DVec2, behind: f64) -> Option<&Stroke> {
+    /// the lower id among equals. Strands that `surface` hides are not.
+    fn nearest_strand(&self, point: DVec2, surface: Option<&Hit>) -> Option<&Stroke> {
         let shown = self.strands.iter().filter_map(|strand| strand.shown(point));
         shown
-            .filter(|(depth, _)| depth.biased >= behind)
+            .filter(|(depth, _)| is_seen(depth, surface))
             .reduce(|best, next| {
                 if next.0.inv_depth > best.0.inv_depth {
                     next
@@ -98,12 +103,12 @@ impl Scene {
     }
 
     /// [`Order::Shifted`]: the nearest stroke; among equals the one with precedence, then of the
-    /// lower id. Strokes behind the inverse depth `behind` are not seen.
-    fn nearest_stroke(&self, point: DVec2, behind: f64) -> Option<&Stroke> {
+    /// lower id. Strokes that `surface` hides are not seen.
+    fn nearest_stroke(&self, point: DVec2, surface: Option<&Hit>) -> Option<&Stroke> {
         let strokes = self.strands.iter().flat_map(|strand| &strand.strokes);
         strokes
             .filter_map(|stroke| Some((depth(&stroke.segments, point)?, stroke)))
-            .filter(|(depth, _)| depth.biased >= behind)
+            .filter(|(depth, _)| is_seen(depth, surface))
             .reduce(|best, next| {
                 let key = |(depth, stroke): &(Depth, &Stroke)| (depth.inv_depth, stroke.precedence);
                 if key(&next) > key(&best) { next } else { best }
@@ -204,4 +209,15 @@ fn segments(runs: &[render::Run], discs: &[Disc], colors: &[[f32; 3]]) -> Vec<Se
 fn depth(segments: &[Segment], point: DVec2) -> Option<Depth> {
     let depths = segments.iter().filter_map(|segment| segment.depth(point));
     depths.reduce(Depth::nearest)
+}
+
+/// Whether a stroke of that depth is not hidden by the surface there.
+fn is_seen(depth: &Depth, surface: Option<&Hit>) -> bool {
+    surface.is_none_or(|hit| {
+        if hit.hollow_m > 0.0 {
+            1.0 / depth.inv_depth + hit.hollow_m <= 1.0 / hit.inv_depth
+        } else {
+            depth.biased >= hit.inv_depth
+        }
+    })
 }

@@ -7,6 +7,7 @@ use render::{Surface, SurfaceVertex};
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
     corners: [Corner; 3],
+    hollow_m: f64,
     light: [f64; 3],
     shadow: [f64; 3],
 }
@@ -28,11 +29,23 @@ impl From<SurfaceVertex> for Corner {
     }
 }
 
+/// What a triangle shows at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// 1 / view depth (1/m).
+    pub inv_depth: f64,
+    /// How much nearer a stroke must be if it is the wall of a hollow (m), else 0.
+    pub hollow_m: f64,
+    /// Linear.
+    pub color: [f64; 3],
+}
+
 impl Triangle {
     /// The triangles of a surface, in its order.
     pub fn of(surface: &Surface) -> impl Iterator<Item = Self> {
         surface.triangles.iter().map(|corners| Self {
             corners: corners.map(|index| surface.vertices[index as usize].into()),
+            hollow_m: surface.hollow_m.into(),
             light: surface.light.map(f64::from),
             shadow: surface.shadow.map(f64::from),
         })
@@ -44,8 +57,8 @@ impl Triangle {
         a.min(b).min(c).cmple(max).all() && a.max(b).max(c).cmpge(min).all()
     }
 
-    /// The inverse depth (1/m) and the colour at `point`, or nothing outside the triangle.
-    pub fn hit(&self, point: DVec2) -> Option<(f64, [f64; 3])> {
+    /// What is seen of it at `point`, or nothing outside the triangle.
+    pub fn hit(&self, point: DVec2) -> Option<Hit> {
         let [a, b, c] = self.corners.map(|corner| corner.position);
         let area = (b - a).perp_dot(c - a);
         // Twice the signed area opposite each corner, over the triangle's own: barycentric weights.
@@ -60,7 +73,11 @@ impl Triangle {
         };
         let lit = interpolate(|corner| corner.tone) >= 0.0;
         let color = if lit { self.light } else { self.shadow };
-        Some((interpolate(|corner| corner.inv_depth), color))
+        Some(Hit {
+            inv_depth: interpolate(|corner| corner.inv_depth),
+            hollow_m: self.hollow_m,
+            color,
+        })
     }
 }
 
@@ -80,6 +97,7 @@ mod tests {
             tone,
         };
         let surface = Surface {
+            hollow_m: 0.0,
             vertices: vec![
                 vertex(0.0, 0.0, 1.0, -1.0),
                 vertex(8.0, 0.0, 2.0, 1.0),
@@ -95,7 +113,9 @@ mod tests {
     #[test]
     fn seen_from_both_sides_with_linear_depth() {
         for order in [[0, 1, 2], [0, 2, 1]] {
-            let (inv_depth, color) = triangle(order).hit(DVec2::new(4.0, 2.0)).unwrap();
+            let Hit {
+                inv_depth, color, ..
+            } = triangle(order).hit(DVec2::new(4.0, 2.0)).unwrap();
             assert!((inv_depth - 2.0).abs() < 1e-12);
             assert_eq!(color, LIGHT);
             assert!(triangle(order).hit(DVec2::new(5.0, 5.0)).is_none());
@@ -105,8 +125,8 @@ mod tests {
     #[test]
     fn tone_changes_at_zero_which_is_lit() {
         let triangle = triangle([0, 1, 2]);
-        assert_eq!(triangle.hit(DVec2::new(1.9, 2.0)).unwrap().1, SHADOW);
-        assert_eq!(triangle.hit(DVec2::new(2.0, 2.0)).unwrap().1, LIGHT);
+        assert_eq!(triangle.hit(DVec2::new(1.9, 2.0)).unwrap().color, SHADOW);
+        assert_eq!(triangle.hit(DVec2::new(2.0, 2.0)).unwrap().color, LIGHT);
     }
 
     #[test]

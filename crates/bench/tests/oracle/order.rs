@@ -173,6 +173,21 @@ fn bias_does_not_count_among_strands() {
 }
 
 #[test]
+fn before_the_wall_of_a_hollow_strokes_must_be_nearer() {
+    let biased = Disc {
+        inv_depth_biased: 9.0,
+        ..at(1.0)
+    };
+    for (wall_m, expected) in [(1.3, WHITE), (1.26, WHITE), (1.24, BLUE), (1.0, BLUE)] {
+        let mut drawing = strokes(&[&[biased]]);
+        add_wall(&mut drawing, 1.0 / wall_m, 1.0, [BLUE; 2]);
+        drawing.surfaces[0].hollow_m = 0.25;
+        assert_eq!(shown(&drawing), opaque(expected), "{wall_m} m");
+        assert_eq!(shown_shifted(&drawing), opaque(expected), "{wall_m} m");
+    }
+}
+
+#[test]
 fn a_strand_that_a_surface_hides_does_not_hide_others() {
     // The nearer strand has the smaller bias and is dropped; the farther is left.
     let near = Disc {
@@ -234,6 +249,7 @@ fn a_stroke_sinks_into_a_slanted_surface_along_its_line() {
         tone: 1.0,
     };
     drawing.surfaces.push(Surface {
+        hollow_m: 0.0,
         vertices: vec![vertex(0.0, 0.0), vertex(128.0, 0.0), vertex(0.0, 128.0)],
         triangles: vec![[0, 2, 1]],
         light: BLUE,

@@ -1,7 +1,8 @@
 //! The layers of a preset.
 
 use super::error::suggestion;
-use super::reader::{Field, Reader, parse_value};
+use super::reader::{Field, Reader};
+use super::value::parse_value;
 use crate::effect::AnyEffect;
 use crate::layer::{Layer, Units};
 use crate::param::{Param, ParamKind, Values};
@@ -51,6 +52,9 @@ pub const LAYER: &[Param] = &[
         },
     },
 ];
+
+/// What of [`LAYER`] is the effect's own where the layer says nothing, in place of the table's default.
+pub const OF_THE_EFFECT: &[&str] = &["name", "rank", "depth_offset"];
 
 /// A layer as the preset describes it.
 pub struct LayerSpec<'r> {

@@ -1,17 +1,21 @@
 //! Reading sections of a preset from its text.
 
-use super::error::{PresetError, PresetErrors, suggestion};
-use crate::color::parse_hex;
-use crate::param::{Param, ParamKind, Value, Values};
-use ron::value::RawValue;
-use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
-use std::fmt;
+use super::error::{Place, PresetError, PresetErrors, suggestion};
+use super::syntax::{self, Kind, Piece, pieces};
+use super::value::{parse_value, shown};
+use crate::param::{Param, Value, Values};
+use std::collections::HashSet;
+
+/// How many mistakes of a file are told: a file that is no preset at all has any number.
+const MOST_ERRORS: usize = 100;
 
 /// A preset's text, and the mistakes found in it so far.
 pub struct Reader<'a> {
     file: String,
     text: &'a str,
     errors: Vec<PresetError>,
+    /// Whether brackets match, so that the text has parts.
+    whole: bool,
 }
 
 /// One `name: value` of a section.
@@ -24,39 +28,67 @@ pub struct Field<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// A reader of `text`, which messages call `file`.
+    /// A reader of `text`, which messages call `file`. Brackets, texts and comments that have no end
+    /// are noted as mistakes; then the text has no sections and no lists.
     #[must_use]
     pub fn new(file: &str, text: &'a str) -> Self {
-        Self {
+        let mut reader = Self {
             file: file.to_owned(),
             text,
             errors: Vec::new(),
+            whole: true,
+        };
+        if let Err(mistake) = syntax::check_brackets(text) {
+            reader.error(mistake.at, mistake.message);
+            reader.whole = false;
         }
+        reader
     }
 
-    /// The whole text.
+    /// The text from its first bracket on, without the comments before it.
     #[must_use]
     pub fn text(&self) -> &'a str {
-        self.text
+        syntax::skip_blank(self.text).unwrap_or(self.text)
     }
 
     /// Reports the mistakes that were found, if there are any.
     ///
     /// # Errors
     ///
-    /// All of them, in the order of the file.
+    /// All of them (up to a hundred), in the order of the file.
     pub fn report(&mut self) -> Result<(), PresetErrors> {
         if self.errors.is_empty() {
             return Ok(());
         }
         let mut errors = std::mem::take(&mut self.errors);
-        errors.sort_by_key(|e| (e.line, e.column));
+        errors.sort_by_key(|e| (e.place.line, e.place.column));
         Err(PresetErrors(errors))
     }
 
     /// Notes a mistake at the place where `slice`, a part of the text, begins.
     pub fn error(&mut self, slice: &str, message: impl Into<String>) {
-        self.error_at(self.offset(slice), message.into());
+        if self.errors.len() < MOST_ERRORS {
+            let place = self.place(slice);
+            let message = message.into();
+            self.errors.push(PresetError { place, message });
+        }
+    }
+
+    /// The place where `slice`, a part of the text, begins.
+    #[must_use]
+    pub fn place(&self, slice: &str) -> Place {
+        let before = &self.text[..self.offset(slice)];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        Place {
+            file: self.file.clone(),
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+            source_line: self.text[line_start..]
+                .lines()
+                .next()
+                .unwrap_or_default()
+                .to_owned(),
+        }
     }
 
     /// Where in the text `slice` begins: a pointer difference, 0 for a slice of something else.
@@ -69,86 +101,186 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn error_at(&mut self, offset: usize, message: String) {
-        let before = &self.text[..offset];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        self.errors.push(PresetError {
-            file: self.file.clone(),
-            line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-            message,
-            source_line: self.text[line_start..]
-                .lines()
-                .next()
-                .unwrap_or_default()
-                .to_owned(),
-        });
-    }
-
-    /// Notes a mistake that RON found in `slice`.
-    fn syntax_error(&mut self, slice: &str, error: &ron::error::SpannedError) {
-        let place = &error.span.start;
-        let lines: usize = slice
-            .split_inclusive('\n')
-            .take(place.line.saturating_sub(1))
-            .map(str::len)
-            .sum();
-        let column: usize = slice[lines..]
-            .chars()
-            .take(place.col.saturating_sub(1))
-            .map(char::len_utf8)
-            .sum();
-        self.error_at(self.offset(slice) + lines + column, error.code.to_string());
-    }
-
     /// The fields of a section `(name: value, ...)`. `what` names the section in messages.
     pub fn fields(&mut self, section: &'a str, what: &str) -> Vec<Field<'a>> {
-        match ron::from_str::<Fields<'a>>(section) {
-            Ok(Fields(fields)) => {
-                let fields: Vec<_> = fields
-                    .into_iter()
-                    .map(|(name, raw)| (self.own(name), raw.trim().get_ron()))
-                    .map(|(name, value)| Field { name, value })
-                    .collect();
-                self.report_twins(&fields, what);
-                fields
-            }
-            Err(error) => {
-                self.syntax_error(section, &error);
-                Vec::new()
+        if !self.whole {
+            return Vec::new();
+        }
+        let Some(inside) = inside(section, '(') else {
+            self.not_a_section(section, what);
+            return Vec::new();
+        };
+        let mut fields: Vec<Field<'a>> = Vec::new();
+        for item in self.items(inside) {
+            self.field(&item, &mut fields);
+        }
+        let mut names = HashSet::new();
+        for field in &fields {
+            if !names.insert(field.name) {
+                self.error(field.name, format!("{what} has `{}` twice", field.name));
             }
         }
+        fields
     }
 
-    /// The slice of the text that `name` points to.
-    fn own(&self, name: Name) -> &'a str {
-        let offset = name.address.wrapping_sub(self.text.as_ptr() as usize);
-        self.text
-            .get(offset..offset.saturating_add(name.length))
-            .unwrap_or_default()
+    fn not_a_section(&mut self, text: &'a str, what: &str) {
+        let message = match pieces(text)[..] {
+            [] => format!("{what} is empty: it is written ( ... )"),
+            [name, group] if name.kind == Kind::Word && group.text.starts_with('(') => {
+                format!(
+                    "{what} begins with `(`, without `{}` before it",
+                    shown(name.text)
+                )
+            }
+            [
+                Piece {
+                    kind: Kind::Group,
+                    text,
+                },
+            ] => {
+                format!(
+                    "{what} is written (name: value, ...), not in `{}`",
+                    &text[..1]
+                )
+            }
+            _ => format!(
+                "{what} is written (name: value, ...), found `{}`",
+                shown(text)
+            ),
+        };
+        self.error(text, message);
     }
 
-    fn report_twins(&mut self, fields: &[Field<'a>], what: &str) {
-        for (i, field) in fields.iter().enumerate() {
-            if fields[..i].iter().any(|other| other.name == field.name) {
-                self.error(field.name, format!("{what} has `{}` twice", field.name));
+    /// What stands between the commas. The last comma may be left out.
+    fn items(&mut self, inside: &'a str) -> Vec<Vec<Piece<'a>>> {
+        let mut items = Vec::new();
+        let mut item = Vec::new();
+        for piece in pieces(inside) {
+            if piece.kind != Kind::Comma {
+                item.push(piece);
+            } else if item.is_empty() {
+                self.error(piece.text, "there is a comma too many");
+            } else {
+                items.push(std::mem::take(&mut item));
+            }
+        }
+        if !item.is_empty() {
+            items.push(item);
+        }
+        items
+    }
+
+    /// Reads `name: value`, and what follows where its comma is missing.
+    fn field(&mut self, item: &[Piece<'a>], fields: &mut Vec<Field<'a>>) {
+        let name = item[0];
+        if name.kind != Kind::Word {
+            let message = match (name.kind, item.get(1)) {
+                (Kind::Text, Some(colon)) if colon.kind == Kind::Colon => {
+                    format!(
+                        "a name has no quotes: {}",
+                        name.text.trim_matches(['"', '\''])
+                    )
+                }
+                _ => format!("expected `name: value`, found `{}`", shown(name.text)),
+            };
+            return self.error(name.text, message);
+        }
+        let rest = match item.get(1) {
+            Some(colon) if colon.kind == Kind::Colon => &item[2..],
+            Some(stray) if stray.text == "=" => {
+                let message = format!("write `{}: value`, with `:` in place of `=`", name.text);
+                self.error(stray.text, message);
+                &item[2..]
+            }
+            Some(_) => {
+                self.error(
+                    name.text,
+                    format!("a `:` is missing after `{}`", shown(name.text)),
+                );
+                &item[1..]
+            }
+            None => {
+                let after_a_number = fields.last().is_some_and(|last| is_number(last.value));
+                let message = if after_a_number && is_number(name.text) {
+                    "expected `name: value`; numbers have a point, not a comma: 0.5".to_owned()
+                } else {
+                    format!(
+                        "`{}` has no value; expected `name: value`",
+                        shown(name.text)
+                    )
+                };
+                return self.error(name.text, message);
+            }
+        };
+        let Some(value) = rest.first() else {
+            return self.error(name.text, format!("`{}` has no value", shown(name.text)));
+        };
+        fields.push(Field {
+            name: name.text,
+            value: value.text,
+        });
+        match &rest[1..] {
+            [] => {}
+            [next, after, ..]
+                if matches!(next.kind, Kind::Word | Kind::Text) && is_assigned(after) =>
+            {
+                self.error(
+                    next.text,
+                    format!("a comma is missing before `{}`", shown(next.text)),
+                );
+                self.field(&rest[1..], fields);
+            }
+            [stray, after @ ..] if stray.text == ";" => {
+                self.error(stray.text, "write `,` in place of `;`");
+                if !after.is_empty() {
+                    self.field(after, fields);
+                }
+            }
+            [next, ..] => {
+                let message = format!(
+                    "`{}` has one value, `{}`: found `{}` after it",
+                    shown(name.text),
+                    shown(value.text),
+                    shown(next.text)
+                );
+                self.error(next.text, message);
             }
         }
     }
 
     /// The items of a list `[a, b]`, as slices of the text.
     pub fn list(&mut self, list: &'a str, what: &str) -> Vec<&'a str> {
-        if !list.starts_with('[') {
-            self.error(list, format!("{what} is a list: [..., ...]"));
+        if !self.whole {
             return Vec::new();
         }
-        match ron::from_str::<Vec<&'a RawValue>>(list) {
-            Ok(items) => items.into_iter().map(|raw| raw.trim().get_ron()).collect(),
-            Err(error) => {
-                self.syntax_error(list, &error);
-                Vec::new()
+        let Some(inside) = inside(list, '[') else {
+            let found = shown(list.get(..1).unwrap_or_default());
+            let message = if list.starts_with(['(', '{']) {
+                format!("{what} is a list, written [..., ...], not in `{found}`")
+            } else {
+                format!(
+                    "{what} is a list, written [..., ...], found `{}`",
+                    shown(list)
+                )
+            };
+            self.error(list, message);
+            return Vec::new();
+        };
+        let mut items = Vec::new();
+        for item in self.items(inside) {
+            items.push(item[0].text);
+            if let Some(next) = item.get(1) {
+                let message = if next.kind == Kind::Group {
+                    "a comma is missing before this".to_owned()
+                } else {
+                    format!("expected a comma, found `{}`", shown(next.text))
+                };
+                self.error(next.text, message);
+                let groups = item[1..].iter().filter(|p| p.kind == Kind::Group);
+                items.extend(groups.map(|p| p.text));
             }
         }
+        items
     }
 
     /// A section whose fields are those of `table`.
@@ -190,113 +322,23 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The value that `text` gives a parameter of this kind.
-pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String> {
-    let shown: String = text.chars().take(40).collect();
-    let wrong = || format!("expected {}, found `{shown}`", kind.expected());
-    match *kind {
-        ParamKind::Number { min, max, .. } => {
-            let value = ron::from_str::<f32>(text).map_err(|_| wrong())?;
-            (value >= min && value <= max)
-                .then_some(Value::Number(value))
-                .ok_or_else(wrong)
-        }
-        ParamKind::Integer { min, max, .. } => {
-            let value = ron::from_str::<i32>(text).map_err(|_| wrong())?;
-            (value >= min && value <= max)
-                .then_some(Value::Integer(value))
-                .ok_or_else(wrong)
-        }
-        ParamKind::Choice { names, .. } => match names.iter().position(|name| *name == text) {
-            Some(index) => Ok(Value::Choice(index as u32)),
-            None => Err(format!(
-                "there is no `{shown}`{}",
-                suggestion(text, names.iter().copied())
-            )),
-        },
-        ParamKind::OptionalColor { .. } if text == "none" => Ok(Value::Color(None)),
-        ParamKind::Color { .. } | ParamKind::OptionalColor { .. } => {
-            let hex = ron::from_str::<String>(text).map_err(|_| wrong())?;
-            let color = parse_hex(&hex).ok_or_else(wrong)?;
-            Ok(Value::Color(Some(color)))
-        }
-        ParamKind::Text => {
-            let text = ron::from_str::<String>(text).map_err(|_| wrong())?;
-            Ok(Value::Text(Some(text)))
-        }
-        ParamKind::Triple { min, max, .. } => {
-            let triple = ron::from_str::<[f32; 3]>(text).map_err(|_| wrong())?;
-            let legal = triple.iter().all(|x| *x >= min && *x <= max);
-            legal.then_some(Value::Triple(triple)).ok_or_else(wrong)
-        }
-        ParamKind::Size { min, max, .. } => {
-            let size = ron::from_str::<[u32; 2]>(text).map_err(|_| wrong())?;
-            let legal = size.iter().all(|x| *x >= min && *x <= max);
-            legal.then_some(Value::Size(size)).ok_or_else(wrong)
-        }
+/// What stands between the brackets of the one group that `text` is.
+fn inside(text: &str, open: char) -> Option<&str> {
+    match pieces(text)[..] {
+        [
+            Piece {
+                kind: Kind::Group,
+                text,
+            },
+        ] if text.starts_with(open) => Some(&text[1..text.len() - 1]),
+        _ => None,
     }
 }
 
-/// A RON struct with any fields, their values unread.
-struct Fields<'a>(Vec<(Name, &'a RawValue)>);
-
-/// Where a field's name stands.
-struct Name {
-    address: usize,
-    length: usize,
+fn is_assigned(piece: &Piece) -> bool {
+    piece.kind == Kind::Colon || piece.text == "="
 }
 
-impl<'de> Deserialize<'de> for Fields<'de> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct FieldsVisitor;
-        impl<'de> Visitor<'de> for FieldsVisitor {
-            type Value = Fields<'de>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a section (name: value, ...)")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-                let mut fields = Vec::new();
-                while let Some(name) = map.next_key::<Name>()? {
-                    fields.push((name, map.next_value::<&'de RawValue>()?));
-                }
-                Ok(Fields(fields))
-            }
-
-            // An empty section `()`.
-            fn visit_unit<E: de::Error>(self) -> Result<Self::Value, E> {
-                Ok(Fields(Vec::new()))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
-                match seq.next_element::<de::IgnoredAny>()? {
-                    None => Ok(Fields(Vec::new())),
-                    Some(_) => Err(de::Error::custom("expected `name: value` here")),
-                }
-            }
-        }
-        deserializer.deserialize_any(FieldsVisitor)
-    }
-}
-
-impl<'de> Deserialize<'de> for Name {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NameVisitor;
-        impl Visitor<'_> for NameVisitor {
-            type Value = Name;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a field's name")
-            }
-
-            fn visit_str<E: de::Error>(self, name: &str) -> Result<Name, E> {
-                Ok(Name {
-                    address: name.as_ptr() as usize,
-                    length: name.len(),
-                })
-            }
-        }
-        deserializer.deserialize_identifier(NameVisitor)
-    }
+fn is_number(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
 }

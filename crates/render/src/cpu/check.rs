@@ -101,6 +101,14 @@ pub enum DrawError {
         /// Index of the joint.
         joint: usize,
     },
+    /// The depth of a hollow is a length.
+    #[error("surface {surface}: hollow_m is {hollow_m}, not a number of 0 or more")]
+    Hollow {
+        /// The surface's index.
+        surface: usize,
+        /// As it was given, metres.
+        hollow_m: f32,
+    },
     /// A surface's tone has no colour.
     #[error("surface {surface}: a colour is not finite")]
     SurfaceColor {
@@ -233,6 +241,12 @@ fn check_layer(layer: &LayerStrokes, joints: usize) -> Result<(), DrawError> {
 fn check_surface(index: usize, surface: &Surface) -> Result<(), DrawError> {
     if !is_finite(&surface.light) || !is_finite(&surface.shadow) {
         return Err(DrawError::SurfaceColor { surface: index });
+    }
+    if !(surface.hollow_m.is_finite() && surface.hollow_m >= 0.0) {
+        return Err(DrawError::Hollow {
+            surface: index,
+            hollow_m: surface.hollow_m,
+        });
     }
     let bad_vertex = surface.vertices.iter().position(|v| {
         let at_hand = v.position.abs().max_element() <= MAX_COORDINATE;

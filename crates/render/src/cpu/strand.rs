@@ -163,12 +163,14 @@ impl StrandPlanes {
             return;
         }
         let biased = self.shown.biased[cell];
-        let surface = target.surface[cell];
+        let (surface, hollow) = (target.surface[cell], target.hollow[cell]);
         let mut nearest = target.strand[cell];
         let mut top = target.stroke[cell];
         let mut wins = [0.0; LANES];
         for k in 0..LANES {
-            let depth = select(surface[k] <= biased[k], depth[k], NOTHING);
+            let before_wall = depth[k] / (1.0 + hollow[k] * depth[k]);
+            let against = select(hollow[k] > 0.0, before_wall, biased[k]);
+            let depth = select(surface[k] <= against, depth[k], NOTHING);
             // Where there is nothing, no stroke is higher than what is there.
             let stroke = select(depth > NOTHING, stroke, -1);
             let is_better = (depth > nearest[k]) | ((depth == nearest[k]) & (stroke > top[k]));

@@ -109,6 +109,8 @@ impl Region {
 pub(super) struct Target {
     /// Nearest surface, 1/m.
     pub(super) surface: Plane,
+    /// That surface's [`hollow_m`](crate::Surface::hollow_m).
+    pub(super) hollow: Plane,
     /// Nearest strand that no surface hides, 1/m.
     pub(super) strand: Plane,
     /// The stroke there, by its place in the order of strokes.
@@ -120,6 +122,7 @@ impl Target {
     pub(super) fn new() -> Self {
         Self {
             surface: plane(),
+            hollow: plane(),
             strand: plane(),
             stroke: vec![[0; LANES]; CELLS],
             color: [plane(), plane(), plane()],
@@ -128,6 +131,7 @@ impl Target {
 
     pub(super) fn clear(&mut self, background: Option<[f32; 3]>) {
         self.surface.fill([NOTHING; LANES]);
+        self.hollow.fill([0.0; LANES]);
         self.strand.fill([NOTHING; LANES]);
         self.stroke.fill([0; LANES]);
         for (plane, value) in self.color.iter_mut().zip(background.unwrap_or_default()) {

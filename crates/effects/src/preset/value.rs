@@ -1,0 +1,140 @@
+//! One value from its text, or what is wrong with it and what would be right.
+
+use super::error::suggestion;
+use crate::color::parse_hex;
+use crate::param::{ParamKind, Value};
+
+/// The value that `text` gives a parameter of this kind.
+pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String> {
+    read(text, kind).ok_or_else(|| match *kind {
+        ParamKind::Choice { names, .. } => {
+            let bare = unquoted(text);
+            match hint(text, kind) {
+                Some(hint) => format!("{hint}, found `{}`", shown(text)),
+                None => {
+                    let hint = suggestion(bare, names.iter().copied());
+                    format!("there is no `{}`{hint}", shown(bare))
+                }
+            }
+        }
+        _ => {
+            let hint = hint(text, kind).map_or(String::new(), |hint| format!(": {hint}"));
+            format!(
+                "expected {}, found `{}`{hint}",
+                kind.expected(),
+                shown(text)
+            )
+        }
+    })
+}
+
+fn read(text: &str, kind: &ParamKind) -> Option<Value> {
+    match *kind {
+        ParamKind::Number { min, max, .. } => {
+            let number = ron::from_str::<f32>(text).ok()?;
+            (number >= min && number <= max).then_some(Value::Number(number))
+        }
+        ParamKind::Integer { min, max, .. } => {
+            let number = ron::from_str::<i32>(text).ok()?;
+            (number >= min && number <= max).then_some(Value::Integer(number))
+        }
+        ParamKind::Choice { names, .. } => {
+            let index = names.iter().position(|name| *name == text)?;
+            Some(Value::Choice(index as u32))
+        }
+        ParamKind::OptionalColor { .. } if text == "none" => Some(Value::Color(None)),
+        ParamKind::Color { .. } | ParamKind::OptionalColor { .. } => {
+            let hex = ron::from_str::<String>(text).ok()?;
+            Some(Value::Color(Some(parse_hex(&hex)?)))
+        }
+        ParamKind::Text => {
+            let text = ron::from_str::<String>(text).ok()?;
+            (!text.is_empty()).then_some(Value::Text(Some(text)))
+        }
+        ParamKind::Triple { min, max, .. } => {
+            let triple = ron::from_str::<[f32; 3]>(text).ok()?;
+            let legal = triple.iter().all(|x| *x >= min && *x <= max);
+            legal.then_some(Value::Triple(triple))
+        }
+        ParamKind::Size { min, max, .. } => {
+            let size = ron::from_str::<[u32; 2]>(text).ok()?;
+            let legal = size.iter().all(|x| *x >= min && *x <= max);
+            legal.then_some(Value::Size(size))
+        }
+    }
+}
+
+/// A value as a message shows it: on one line, and not too much of it.
+pub(super) fn shown(text: &str) -> String {
+    let mut shown: String = text
+        .chars()
+        .take(40)
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    if shown.len() < text.len() {
+        shown.push_str("...");
+    }
+    shown
+}
+
+/// The text without quotes of any sort around it.
+fn unquoted(text: &str) -> &str {
+    text.trim_matches(['"', '\'', '“', '”', '„', '‘', '’', '«', '»'])
+}
+
+/// What an author who wrote this may have meant.
+fn hint(text: &str, kind: &ParamKind) -> Option<String> {
+    let bare = unquoted(text);
+    let in_quotes = bare.len() < text.len();
+    let double_quotes = in_quotes && text.starts_with('"');
+    match *kind {
+        ParamKind::Number { .. } | ParamKind::Integer { .. } => {
+            if in_quotes && read(bare, kind).is_some() {
+                return Some(format!("write {bare}, without quotes"));
+            }
+            let number = number_at_start(text)?;
+            read(number, kind).map(|_| format!("write {number} alone"))
+        }
+        ParamKind::Choice { names, .. } => {
+            (in_quotes && names.contains(&bare)).then(|| format!("write {bare}, without quotes"))
+        }
+        ParamKind::Color { .. } | ParamKind::OptionalColor { .. } => {
+            let optional = matches!(kind, ParamKind::OptionalColor { .. });
+            if ["none", "null", "transparent"].contains(&bare.to_lowercase().as_str()) {
+                return Some(if optional {
+                    "write none, in lower case and without quotes".to_owned()
+                } else {
+                    "there must be a colour here".to_owned()
+                });
+            }
+            if !double_quotes && parse_hex(bare).is_some() {
+                return Some(format!("write \"{bare}\", in double quotes"));
+            }
+            Some("a colour is six hexadecimal digits RRGGBB in double quotes".to_owned())
+        }
+        ParamKind::Text if double_quotes && bare.is_empty() => Some("it is empty".to_owned()),
+        ParamKind::Text if double_quotes && text.contains('\\') => {
+            Some("write / for each \\ in it".to_owned())
+        }
+        ParamKind::Text if text.starts_with(['(', '[', '{']) => None,
+        ParamKind::Text => Some(format!("write \"{}\"", shown(bare))),
+        ParamKind::Triple { .. } | ParamKind::Size { .. } => {
+            if text.starts_with(['[', '{']) {
+                return Some("write it in ( )".to_owned());
+            }
+            let (w, h) = bare.split_once(['x', 'X'])?;
+            let pair = format!("({}, {})", w.trim(), h.trim());
+            read(&pair, kind).map(|_| format!("write {pair}"))
+        }
+    }
+}
+
+/// The number that `45deg`, `50%` or `3.0f32` begins with.
+fn number_at_start(text: &str) -> Option<&str> {
+    let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c)))?;
+    let (number, unit) = text.split_at(end);
+    let is_unit = unit
+        .chars()
+        .all(|c| c.is_alphanumeric() || "°%\"_".contains(c));
+    (is_unit && number.ends_with(|c: char| c.is_ascii_digit())).then_some(number)
+}
