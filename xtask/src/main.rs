@@ -16,6 +16,7 @@ mod regress;
 mod report;
 mod setup;
 mod test;
+mod wasm;
 
 use std::process::ExitCode;
 

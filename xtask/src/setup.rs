@@ -1,4 +1,4 @@
-//! Installs what the tests need and the machine lacks: cargo's own tools, and a Vulkan driver
+//! Installs what the tests need and the machine lacks: cargo's own tools, the web's target, and a Vulkan driver
 //! that needs no GPU, for the tests of the GPU backend.
 
 use std::env;
@@ -9,6 +9,7 @@ use std::process::{Command, Stdio};
 
 use crate::Outcome;
 use crate::program::{cargo, line_of, succeed};
+use crate::wasm;
 
 /// Debian's software Vulkan driver, and the loader that finds it.
 const DEBIAN_VULKAN: &[&str] = &["mesa-vulkan-drivers", "libvulkan1"];
@@ -28,6 +29,15 @@ pub fn run() -> Outcome {
             println!("cargo {tool}: missing; runs {}", line_of(&rustup));
             succeed(rustup)?;
         }
+    }
+
+    if wasm::is_installed() {
+        println!("{}: found", wasm::TARGET);
+    } else {
+        let mut rustup = Command::new("rustup");
+        rustup.args(["target", "add", wasm::TARGET]);
+        println!("{}: missing; runs {}", wasm::TARGET, line_of(&rustup));
+        succeed(rustup)?;
     }
 
     if vulkan_driver_in(&driver_folders(|name| env::var_os(name))) {

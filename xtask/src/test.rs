@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use crate::program::{cargo, succeed};
-use crate::{Outcome, layers, presets, regress};
+use crate::{Outcome, layers, presets, regress, wasm};
 
 /// A step's name, and what it does; its output goes to the terminal.
 type Step = (&'static str, fn() -> Outcome);
@@ -30,6 +30,7 @@ const STEPS: &[Step] = &[
     ("tests", || {
         succeed(cargo(&["test", "--workspace", "--no-fail-fast"]))
     }),
+    ("wasm", wasm::build),
     ("presets", presets::render_all),
     ("regressions", || regress::run("", "cpu", false)),
 ];

@@ -1,0 +1,43 @@
+//! Everything below the programs builds for the web as well.
+
+use std::process::Command;
+
+use crate::Outcome;
+use crate::program::{cargo, on_ci, succeed};
+
+/// The web's target.
+pub const TARGET: &str = "wasm32-unknown-unknown";
+
+/// The tops of the layers below the programs: they pull in all the others.
+const TOPS: &[&str] = &["stage", "effects-builtin"];
+
+/// Builds them, where the target is installed.
+///
+/// # Errors
+/// The build fails, or the target is missing where `CI=true`.
+pub fn build() -> Outcome {
+    if !is_installed() {
+        let message = format!("{TARGET} is not installed: `cargo xtask setup` installs it");
+        if on_ci() {
+            return Err(message.into());
+        }
+        println!("SKIPPED: {message}");
+        return Ok(());
+    }
+    let mut build = cargo(&["build", "--target", TARGET]);
+    for top in TOPS {
+        build.args(["--package", top]);
+    }
+    succeed(build)
+}
+
+/// True if the toolchain that runs this task can build for the web.
+pub fn is_installed() -> bool {
+    let folder = Command::new("rustc")
+        .args(["--print", "target-libdir", "--target", TARGET])
+        .output();
+    folder.is_ok_and(|output| {
+        let path = String::from_utf8_lossy(&output.stdout);
+        std::path::Path::new(path.trim()).is_dir()
+    })
+}
