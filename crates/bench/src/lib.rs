@@ -1,4 +1,8 @@
-//! The reference picture, and how far other pictures are from it.
+//! The reference picture, how far other pictures are from it, and the suites that measure time
+//! against that error.
 
 pub mod compare;
 pub mod oracle;
+pub mod results;
+pub mod strokes;
+pub mod timing;

@@ -173,20 +173,22 @@ impl Values {
             .is_some_and(|index| self.given[index])
     }
 
-    fn get(&self, name: &str) -> &Value {
+    /// The value of any kind.
+    ///
+    /// # Panics
+    ///
+    /// Like all of these, when the table has no such parameter (of that kind): a mistake in the
+    /// program, not in a preset.
+    #[must_use]
+    pub fn value(&self, name: &str) -> &Value {
         let index = self.table.iter().position(|p| p.name == name);
         &self.values[index.unwrap_or_else(|| panic!("no parameter `{name}` in this table"))]
     }
 
     /// A number's value.
-    ///
-    /// # Panics
-    ///
-    /// Like all of these, when the table has no such parameter of that kind: a mistake in the
-    /// program, not in a preset.
     #[must_use]
     pub fn number(&self, name: &str) -> f32 {
-        match self.get(name) {
+        match self.value(name) {
             Value::Number(value) => *value,
             other => panic!("`{name}` is {other:?}, not a number"),
         }
@@ -195,7 +197,7 @@ impl Values {
     /// A whole number's value.
     #[must_use]
     pub fn integer(&self, name: &str) -> i32 {
-        match self.get(name) {
+        match self.value(name) {
             Value::Integer(value) => *value,
             other => panic!("`{name}` is {other:?}, not a whole number"),
         }
@@ -204,7 +206,7 @@ impl Values {
     /// A choice's index.
     #[must_use]
     pub fn choice(&self, name: &str) -> u32 {
-        match self.get(name) {
+        match self.value(name) {
             Value::Choice(value) => *value,
             other => panic!("`{name}` is {other:?}, not a choice"),
         }
@@ -213,7 +215,7 @@ impl Values {
     /// A colour, linear light.
     #[must_use]
     pub fn color(&self, name: &str) -> [f32; 3] {
-        match self.get(name) {
+        match self.value(name) {
             Value::Color(Some(value)) => *value,
             other => panic!("`{name}` is {other:?}, not a colour"),
         }
@@ -222,7 +224,7 @@ impl Values {
     /// A colour or none.
     #[must_use]
     pub fn optional_color(&self, name: &str) -> Option<[f32; 3]> {
-        match self.get(name) {
+        match self.value(name) {
             Value::Color(value) => *value,
             other => panic!("`{name}` is {other:?}, not a colour"),
         }
@@ -231,7 +233,7 @@ impl Values {
     /// A text or nothing.
     #[must_use]
     pub fn text(&self, name: &str) -> Option<&str> {
-        match self.get(name) {
+        match self.value(name) {
             Value::Text(value) => value.as_deref(),
             other => panic!("`{name}` is {other:?}, not a text"),
         }
@@ -240,7 +242,7 @@ impl Values {
     /// Three numbers.
     #[must_use]
     pub fn triple(&self, name: &str) -> [f32; 3] {
-        match self.get(name) {
+        match self.value(name) {
             Value::Triple(value) => *value,
             other => panic!("`{name}` is {other:?}, not three numbers"),
         }
@@ -249,7 +251,7 @@ impl Values {
     /// Width and height.
     #[must_use]
     pub fn size(&self, name: &str) -> [u32; 2] {
-        match self.get(name) {
+        match self.value(name) {
             Value::Size(value) => *value,
             other => panic!("`{name}` is {other:?}, not a size"),
         }

@@ -3,6 +3,7 @@
 //! Each section of a preset belongs to a crate. [`Reader`] holds the file's text; sections are read
 //! from the text's own slices, so that every error has the file's line and column.
 
+mod brackets;
 mod error;
 mod layers;
 mod reader;

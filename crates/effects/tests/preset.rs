@@ -170,6 +170,65 @@ fn syntax_errors_keep_the_files_line_and_column() {
 }
 
 #[test]
+fn reading_goes_on_after_a_mistake_of_punctuation() {
+    let text = "[
+        (effect: \"test.line\" name: \"a\", rank = 3; units: inches)
+        (effect: \"test.line\", name: \"b\", params: (width 3, kind: dubble)),,
+    ]";
+    let messages = messages(text);
+    let expected = [
+        "look.ron:2:30: a comma is missing before `name`",
+        "look.ron:2:46: write `rank: value`, with `:` in place of `=`",
+        "look.ron:2:49: write `,` in place of `;`",
+        "look.ron:2:58: units: there is no `inches`; there are: world, pixels",
+        "look.ron:3:9: a comma is missing before this",
+        "look.ron:3:52: a `:` is missing after `width`",
+        "look.ron:3:67: kind: there is no `dubble`, did you mean `double`?",
+        "look.ron:3:76: there is a comma too many",
+    ];
+    for line in expected {
+        assert!(
+            messages.contains(line),
+            "`{line}` is missing in:\n{messages}"
+        );
+    }
+    assert_eq!(
+        messages.matches("look.ron:").count(),
+        expected.len(),
+        "{messages}"
+    );
+}
+
+#[test]
+fn comments_and_raw_texts_are_read_as_ron_reads_them() {
+    let registry = registry();
+    let text = "[ // (
+        (/* [ /* ( */ \" */ effect: r#\"test.line\"#, // ]
+         name: \"a // no comment \\\" ) \", params: ( /**/ width/**/:/**/3/**/ ),),
+    ] /* ) */ // end";
+    let mut reader = Reader::new("look.ron", text);
+    let layers = reader.layers(reader.text(), &registry);
+    reader.report().unwrap();
+    assert_eq!(layers[0].name, "a // no comment \" ) ");
+    assert_eq!(layers[0].values.number("width"), 3.0);
+}
+
+#[test]
+fn a_file_of_mistakes_is_cut_short_and_read_quickly() {
+    let text = format!("[{}]", "(effect: 3),".repeat(100_000));
+    assert_eq!(messages(&text).matches("look.ron:").count(), 100);
+    let fields = (0..100_000).fold(String::new(), |text, i| text + &format!("a{i}: 3,"));
+    let text = format!("[(effect: \"test.line\", {fields})]");
+    assert_eq!(messages(&text).matches("look.ron:").count(), 100);
+    for deep in [
+        "(".repeat(200_000),
+        "([".repeat(100_000) + &"])".repeat(100_000),
+    ] {
+        assert!(messages(&deep).starts_with("look.ron:1:"));
+    }
+}
+
+#[test]
 fn set_takes_the_texts_that_presets_take() {
     let registry = registry();
     let text = "[(effect: \"test.line\")]";

@@ -14,7 +14,50 @@ Examples:
   inkstrand check presets/*.ron
       names every mistake in these presets
   inkstrand effects hair.silhouette
-      lists an effect's parameters with units, ranges and defaults";
+      lists an effect's parameters with units, ranges and defaults
+  inkstrand new look.ron
+      writes a preset to start from, with strands to draw
+
+Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (nothing half written is left)";
+
+const RENDER_EXAMPLES: &str = "\
+Options take the place of what the preset says. What neither says has its default, which
+`inkstrand effects SECTION` tells.
+
+Units: degrees for angles, head heights (from chin to top) for distances, 1/300 of a head height
+for widths of strokes. Frame N shows the hair at N / fps seconds.
+
+Examples:
+  inkstrand render presets/twin-tails.ron
+      writes twin-tails.png in this folder
+  inkstrand render look.ron --camera 35,10,6 --light -40,30
+      seen from the viewer's right and a little above, six head heights away; lit from the left
+  inkstrand render look.ron --frames 0-47 -o shot_####.png
+      two seconds at 24 frames a second: shot_0000.png to shot_0047.png
+  inkstrand render look.ron --size 480x360 --samples 4 -o quick.png
+      a quick look
+  inkstrand render look.ron --background none --only hair.silhouette
+      the lines alone, on nothing
+  inkstrand render look.ron --set hair.silhouette.width=3 --set clump.color=C9804B
+      thicker lines, other hair
+  inkstrand render look.ron --hair groom.tfx --head head.obj --guides 150
+      this look on another groom, of which 150 strands are drawn";
+
+const EFFECTS_JSON: &str = "\
+--json writes an object {version, sections, effects}; with NAME, that section or effect alone:
+  section    {id, meaning, parameters}; \"preset\" is what stands beside the sections, \"layers\" what
+             each layer may say beside its effect's own parameters (in its `params`)
+  effect     {id, meaning, rank, depth_offset, parameters}
+  parameter  {name, meaning, type, default, unit?, min?, max?, choices?}
+Types and their defaults in JSON, and how a preset writes them:
+  number, integer   0.5             0.5
+  choice            \"linear\"        linear
+  color             \"3FC1C0\"        \"3FC1C0\"
+  color or none     \"none\"          none, or \"3FC1C0\"
+  text              null            \"hair.tfx\"
+  three numbers     [0, 0, 0]       (0, 0, 0)
+  size              [960, 720]      (960, 720)
+A default of null means that there is none, or for a layer that it is the effect's own.";
 
 /// Draws animated hair as comics and cartoons do.
 #[derive(Parser)]
@@ -27,6 +70,7 @@ pub(crate) struct Arguments {
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Draw a preset: one picture, or a sequence
+    #[command(after_help = RENDER_EXAMPLES)]
     Render(Box<RenderOptions>),
     /// Name every mistake in presets
     Check {
@@ -34,14 +78,19 @@ pub(crate) enum Command {
         #[arg(required = true)]
         presets: Vec<PathBuf>,
     },
-    /// List the effects, or one effect's parameters
+    /// List effects and sections, or the parameters of one
+    #[command(after_help = EFFECTS_JSON)]
     Effects {
-        /// An effect's id, such as hair.base
-        id: Option<String>,
+        /// An effect's id such as hair.base, or a section such as clump, camera or layers
+        name: Option<String>,
+        /// Write the same as JSON, for programs
+        #[arg(long)]
+        json: bool,
     },
-    /// Write a commented preset to start from (not built yet)
+    /// Write a commented preset to start from, and NAME.strands.ron beside it
     New {
-        /// The preset to write
+        /// The preset to write; neither file may be there already
+        #[arg(value_name = "NAME.ron")]
         file: PathBuf,
     },
     /// Bake the strands of a sequence (not built yet)
@@ -69,7 +118,7 @@ pub(crate) struct RenderOptions {
     /// The preset, a .ron file
     pub preset: PathBuf,
 
-    /// Picture to write; `#` marks become the frame's number [default: the preset's name, here]
+    /// Picture to write, .png; `#` marks become the frame's number [default: the preset's name, in the current folder]
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
 
@@ -81,43 +130,43 @@ pub(crate) struct RenderOptions {
     #[arg(long, value_name = "FILE")]
     pub head: Option<PathBuf>,
 
-    /// Strands to keep, spread evenly over the scalp, the same ones every time; 0 keeps all
+    /// Strands to keep, spread evenly over the scalp, the same ones every time; 0 keeps all [default: the preset's]
     #[arg(long, value_name = "N")]
     pub guides: Option<u32>,
 
-    /// Frames to draw, at the preset's frame rate
+    /// Frames to draw, first and last, at the preset's frame rate (fps)
     #[arg(long, value_name = "A-B", conflicts_with = "time", value_parser = parse_frames)]
     pub frames: Option<(u32, u32)>,
 
-    /// Moment to draw
+    /// Moment to draw, in seconds [default: 0]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = parse_finite)]
     pub time: Option<f32>,
 
-    /// Width and height in pixels
+    /// Width and height in pixels, 1 to 16384 [default: the preset's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
 
-    /// Samples a pixel, 1 to 256
+    /// Samples a pixel, 1 to 256 [default: the preset's]
     #[arg(long, value_name = "N")]
     pub samples: Option<u32>,
 
-    /// What draws: auto takes a real GPU where there is one, else the CPU
+    /// What draws
     #[arg(long, value_enum, default_value = "auto")]
     pub backend: Backend,
 
-    /// Where the eye stands, in degrees: 0,0 looks at the face; distance in head heights
+    /// Where the eye stands: 0,0 looks at the face; positive degrees move it right and up; distance in head heights [default: the preset's]
     #[arg(long, value_name = "YAW,PITCH[,DISTANCE]", allow_hyphen_values = true, value_parser = parse_numbers)]
     pub camera: Option<Numbers>,
 
-    /// Where the light comes from, in degrees: 0,0 shines at the face
+    /// Where the light comes from, in degrees: 0,0 shines at the face; positive is from the right and above [default: the preset's]
     #[arg(long, value_name = "YAW,PITCH", allow_hyphen_values = true, value_parser = parse_numbers)]
     pub light: Option<Numbers>,
 
-    /// Colour behind everything, or none for a transparent picture
+    /// sRGB colour behind everything, or none for a transparent picture [default: the preset's]
     #[arg(long, value_name = "none|RRGGBB")]
     pub background: Option<String>,
 
-    /// Set a parameter of a layer or section, such as hair.silhouette.width=3 or clump.size=1.2
+    /// Set a parameter of a layer (by its name) or section, such as hair.silhouette.width=3 or clump.size=1.2 (repeatable)
     #[arg(long, value_name = "LAYER.PARAM=VALUE")]
     pub set: Vec<String>,
 
@@ -129,7 +178,7 @@ pub(crate) struct RenderOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
 
-    /// Write a line of JSON a frame: times, counts, bytes
+    /// Write a line of JSON a frame: milliseconds, counts, bytes
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
 
@@ -140,8 +189,11 @@ pub(crate) struct RenderOptions {
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Backend {
+    /// A real GPU where there is one, else the CPU
     Auto,
+    /// The CPU: exact, any number of samples
     Cpu,
+    /// A GPU, or fail (not built yet)
     Gpu,
 }
 

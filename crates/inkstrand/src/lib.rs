@@ -18,8 +18,9 @@ mod cli;
 mod commands;
 mod output;
 mod stats;
+mod whole_file;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
 use effects::Registry;
 use std::process::ExitCode;
 
@@ -39,15 +40,23 @@ impl<E: std::error::Error> From<E> for Failure {
     }
 }
 
+/// The command line's definition: for completions of a shell, manuals and tests.
+#[must_use]
+pub fn command() -> clap::Command {
+    cli::Arguments::command()
+}
+
 /// Runs the program with these effects on the process's arguments: 0 done, 1 failed, 2 wrong usage.
+/// Interrupted (Ctrl-C, or asked to end) it removes what is half written and exits with 130.
 #[must_use]
 pub fn run(registry: &Registry) -> ExitCode {
     let arguments = cli::Arguments::parse();
+    whole_file::leave_no_parts();
     let done = match &arguments.command {
         cli::Command::Render(options) => commands::render(options, registry),
         cli::Command::Check { presets } => commands::check(presets, registry),
-        cli::Command::Effects { id } => commands::effects(id.as_deref(), registry),
-        cli::Command::New { .. } => Err(not_built("`new`")),
+        cli::Command::Effects { name, json } => commands::effects(name.as_deref(), *json, registry),
+        cli::Command::New { file } => commands::new(file),
         cli::Command::Simulate { .. } => Err(not_built("`simulate`")),
         cli::Command::Convert { .. } => Err(not_built("`convert`")),
     };

@@ -1,7 +1,7 @@
-//! Picture files: their names, their bytes, and how they come to be whole or not at all.
+//! Picture files: their names and their bytes.
 
+use crate::whole_file::{file_name, write_whole};
 use render::Picture;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -50,17 +50,9 @@ impl Output {
     pub fn write(&self, picture: &Picture, frame: u32) -> io::Result<PathBuf> {
         let path = self.path(frame);
         let bytes = encode(picture, self.transparent)?;
-        write_whole(&path, &bytes)
-            .map_err(|e| io::Error::new(e.kind(), format!("{}: {e}", path.display())))?;
+        write_whole(&path, &bytes)?;
         Ok(path)
     }
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
 }
 
 fn encode(picture: &Picture, transparent: bool) -> io::Result<Vec<u8>> {
@@ -86,17 +78,6 @@ fn encode(picture: &Picture, transparent: bool) -> io::Result<Vec<u8>> {
     }
     writer.finish()?;
     Ok(bytes)
-}
-
-/// Writes a file beside its place and renames it, so that nobody ever sees half of it.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let part = path.with_file_name(format!(".{}.{}.part", file_name(path), std::process::id()));
-    fs::write(&part, bytes)
-        .and_then(|()| fs::rename(&part, path))
-        .inspect_err(|_| {
-            // The first error is the one to tell; the part may not even exist.
-            let _ = fs::remove_file(&part);
-        })
 }
 
 #[cfg(test)]

@@ -278,7 +278,7 @@ fn wrong_usage_exits_2() {
 #[test]
 fn failures_exit_1_with_one_message_and_no_file() {
     let folder = folder();
-    let fails: [(&[&str], &str); 6] = [
+    let fails: [(&[&str], &str); 4] = [
         (&["render", "gone.ron"], "gone.ron"),
         (&["render", "small.ron", "--hair", "gone.tfx"], "gone.tfx"),
         (&["render", "small.ron", "--head", "small.ron"], "small.ron"),
@@ -286,11 +286,6 @@ fn failures_exit_1_with_one_message_and_no_file() {
             &["render", "small.ron", "-o", "no/such/folder/a.png"],
             "no/such/folder/a.png",
         ),
-        (
-            &["render", "small.ron", "--backend", "gpu"],
-            "not built yet",
-        ),
-        (&["new", "mine.ron"], "not built yet"),
     ];
     for (arguments, message) in fails {
         inkstrand(folder.path(), arguments)
@@ -302,20 +297,53 @@ fn failures_exit_1_with_one_message_and_no_file() {
 }
 
 #[test]
-fn effects_are_listed_with_their_parameters() {
+fn files_that_a_preset_names_are_looked_for() {
     let folder = folder();
-    inkstrand(folder.path(), &["effects"])
+    let wrong = PRESET.replace("small.strands.ron", "smal.strands.ron");
+    fs::write(folder.path().join("wrong.ron"), wrong).unwrap();
+    let message =
+        "wrong.ron:3:18: file: there is no `smal.strands.ron`, did you mean `small.strands.ron`?";
+    for command in ["check", "render"] {
+        inkstrand(folder.path(), &[command, "wrong.ron"])
+            .assert()
+            .code(1)
+            .stderr(contains(message).and(contains("1 mistake")));
+    }
+    // Other hair in its place, by option or by `--set`.
+    for option in [
+        ["--hair", "small.strands.ron"],
+        ["--set", "hair.file=small.strands.ron"],
+    ] {
+        inkstrand(
+            folder.path(),
+            &["render", "wrong.ron", "-o", "a.png", option[0], option[1]],
+        )
         .assert()
-        .success()
-        .stdout(contains("hair.base").and(contains("hair.silhouette")));
-    inkstrand(folder.path(), &["effects", "hair.silhouette"])
+        .success();
+    }
+}
+
+#[test]
+fn presets_from_any_editor_are_read() {
+    let folder = folder();
+    let marked = format!(
+        "\u{feff}{}",
+        PRESET.replace('\n', "\r\n").replace("    ", "\t")
+    );
+    fs::write(folder.path().join("marked.ron"), marked).unwrap();
+    inkstrand(folder.path(), &["check", "marked.ron"])
         .assert()
-        .success()
-        .stdout(contains("width: a number from 0 to 100").and(contains("default 2.2; unit:")));
-    inkstrand(folder.path(), &["effects", "hair.silhuette"])
+        .success();
+
+    fs::write(
+        folder.path().join("latin.ron"),
+        b"(\n// caf\xe9\nversion: 1)",
+    )
+    .unwrap();
+    inkstrand(folder.path(), &["check", "latin.ron"])
         .assert()
-        .code(2)
-        .stderr(contains("did you mean `hair.silhouette`?"));
+        .code(1)
+        .stderr(contains("latin.ron: line 2 is not UTF-8 text"));
 }
 
 /// The folder of real hair, where there is one.

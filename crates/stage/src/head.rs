@@ -1,9 +1,39 @@
 //! The head on the screen: two flat tones and an outline.
 
 use glam::Vec3;
+use groom::{Ink, Patch};
 use hair_io::Mesh;
 use render::{Light, Surface, SurfaceVertex};
 use stroke_path::Camera;
+
+/// A head's shape, and what is drawn on it.
+pub(crate) struct HeadModel {
+    pub mesh: Mesh,
+    pub face: Vec<Patch>,
+}
+
+impl HeadModel {
+    /// The bust that comes with inkstrand.
+    pub(crate) fn bust() -> Self {
+        let bust = groom::bust();
+        let mesh = Mesh {
+            positions: bust.positions,
+            normals: bust.normals,
+            triangles: bust.triangles,
+        };
+        Self {
+            mesh,
+            face: bust.face,
+        }
+    }
+}
+
+impl From<Mesh> for HeadModel {
+    fn from(mesh: Mesh) -> Self {
+        let face = Vec::new();
+        Self { mesh, face }
+    }
+}
 
 /// How a head is painted. Colours are linear.
 #[derive(Clone, Copy, Debug)]
@@ -11,12 +41,25 @@ pub(crate) struct HeadPaint {
     pub light: [f32; 3],
     pub shadow: [f32; 3],
     pub line: [f32; 3],
+    pub iris: [f32; 3],
+    pub iris_shadow: [f32; 3],
     /// Width of the outline in metres; 0 is none.
     pub width_m: f32,
     /// How much nearer than the head's inside hair must be to be seen through an opening, metres.
     pub hollow_m: f32,
     /// The cosine to the light at which light turns to shadow.
     pub threshold: f32,
+}
+
+impl HeadPaint {
+    fn of(&self, ink: Ink) -> [f32; 3] {
+        match ink {
+            Ink::Line => self.line,
+            Ink::White => [1.0; 3],
+            Ink::Iris => self.iris,
+            Ink::IrisShadow => self.iris_shadow,
+        }
+    }
 }
 
 /// A corner before it is projected: in view space, with its tone.
@@ -31,11 +74,12 @@ struct Corner {
 enum Facing {
     Front,
     Back,
+    Any,
 }
 
-/// What the camera sees of the head: its outline, its inside through openings, its outside.
+/// What the camera sees of the head: its outside, its inside through openings, its outline, its face.
 pub(crate) fn surfaces(
-    mesh: &Mesh,
+    HeadModel { mesh, face }: &HeadModel,
     paint: &HeadPaint,
     camera: &Camera,
     light: &Light,
@@ -52,7 +96,7 @@ pub(crate) fn surfaces(
     let mut surfaces = vec![
         surface(
             camera,
-            mesh,
+            &mesh.triangles,
             &corners,
             Facing::Front,
             paint.light,
@@ -62,7 +106,7 @@ pub(crate) fn surfaces(
             hollow_m: paint.hollow_m,
             ..surface(
                 camera,
-                mesh,
+                &mesh.triangles,
                 &corners,
                 Facing::Back,
                 paint.shadow,
@@ -83,20 +127,30 @@ pub(crate) fn surfaces(
             .collect();
         surfaces.push(surface(
             camera,
-            mesh,
+            &mesh.triangles,
             &hull,
             Facing::Back,
             paint.line,
             paint.line,
         ));
     }
+    surfaces.extend(face.iter().map(|patch| {
+        let corner = |position: &Vec3| Corner {
+            view: camera.view_from_world(*position),
+            tone: 0.0,
+        };
+        let corners: Vec<Corner> = patch.positions.iter().map(corner).collect();
+        let color = paint.of(patch.ink);
+        let triangles = &patch.triangles;
+        surface(camera, triangles, &corners, Facing::Any, color, color)
+    }));
     surfaces
 }
 
 /// The triangles that face this way, cut at the near plane.
 fn surface(
     camera: &Camera,
-    mesh: &Mesh,
+    triangles: &[[u32; 3]],
     corners: &[Corner],
     facing: Facing,
     light: [f32; 3],
@@ -127,9 +181,9 @@ fn surface(
         light,
         shadow,
     };
-    for triangle in &mesh.triangles {
+    for triangle in triangles {
         let seen = triangle.map(|i| corners[i as usize]);
-        if faces(&seen) != facing {
+        if facing != Facing::Any && faces(&seen) != facing {
             continue;
         }
         match seen.iter().filter(|corner| in_front(corner)).count() {
@@ -212,6 +266,8 @@ mod tests {
         light: [1.0; 3],
         shadow: [0.5; 3],
         line: [0.0; 3],
+        iris: [0.2; 3],
+        iris_shadow: [0.1; 3],
         width_m: 0.01,
         hollow_m: 0.05,
         threshold: 0.1,
@@ -220,7 +276,7 @@ mod tests {
     #[test]
     fn the_outside_is_lit_and_the_inside_is_in_shadow() {
         let light = Light::Direction(Vec3::Z);
-        let front = surfaces(&plate(), &PAINT, &camera(0.0), &light);
+        let front = surfaces(&plate().into(), &PAINT, &camera(0.0), &light);
         assert_eq!(front[0].triangles.len(), 1);
         assert_eq!(front[1].triangles.len(), 0);
         assert_eq!(
@@ -230,7 +286,7 @@ mod tests {
         );
         assert!(front[0].vertices.iter().all(|v| v.tone > 0.0));
 
-        let behind = surfaces(&plate(), &PAINT, &camera(180.0), &light);
+        let behind = surfaces(&plate().into(), &PAINT, &camera(180.0), &light);
         assert_eq!(behind[0].triangles.len(), 0);
         assert_eq!(behind[1].triangles.len(), 1);
         assert_eq!(behind[1].light, PAINT.shadow);
@@ -241,7 +297,12 @@ mod tests {
     fn triangles_are_cut_at_the_near_plane() {
         let mut mesh = plate();
         mesh.positions[2].z = 5.0; // behind the eye
-        let cut = &surfaces(&mesh, &PAINT, &camera(0.0), &Light::Direction(Vec3::Z));
+        let cut = &surfaces(
+            &mesh.into(),
+            &PAINT,
+            &camera(0.0),
+            &Light::Direction(Vec3::Z),
+        );
         let all: usize = cut[..2].iter().map(|s| s.triangles.len()).sum();
         assert_eq!(all, 2, "two corners in front leave a quadrilateral");
         for surface in cut {

@@ -1,6 +1,6 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
-use crate::head::{self, HeadPaint};
+use crate::head::{self, HeadModel, HeadPaint};
 use crate::preset::Preset;
 use effects::{Layer, Parameters, clump};
 use glam::Vec3;
@@ -55,7 +55,7 @@ pub struct Stage {
     hair: HairFile,
     /// The strands' sizes, and ids increasing.
     strands: Vec<StrandInfo>,
-    mesh: Option<Mesh>,
+    model: Option<HeadModel>,
     head: Head,
     /// Sentences for the user: what was guessed.
     notes: Vec<String>,
@@ -93,10 +93,11 @@ impl Stage {
     /// When hair or head cannot be read, or camera and path settings contradict each other.
     pub fn new(preset: &Preset, files: &Files) -> Result<Self, StageError> {
         let mut notes = Vec::new();
-        let mesh = load_head(preset, files, &mut notes)?;
-        let hair = load_hair(preset, files, mesh.as_ref(), &mut notes)?;
+        let model = load_head(preset, files, &mut notes)?;
+        let mesh = model.as_ref().map(|model| &model.mesh);
+        let hair = load_hair(preset, files, mesh, &mut notes)?;
         let roots: Vec<Vec3> = hair.strands.roots().collect();
-        let frame = HeadFrame::find(mesh.as_ref(), &roots);
+        let frame = HeadFrame::find(mesh, &roots);
         let head = Head {
             center: frame.center,
             height_m: frame.height,
@@ -107,7 +108,7 @@ impl Stage {
             points: hair.strands.points().to_vec(),
             hair,
             strands,
-            mesh,
+            model,
             head,
             notes,
             seed: preset.seed,
@@ -174,8 +175,8 @@ impl Stage {
                 .push_strand(i, particles, settings.path, camera)?;
         }
         let light = settings.light(camera, self.head);
-        let surfaces = match &self.mesh {
-            Some(mesh) => head::surfaces(mesh, &settings.paint, camera, &light),
+        let surfaces = match &self.model {
+            Some(model) => head::surfaces(model, &settings.paint, camera, &light),
             None => Vec::new(),
         };
         Ok(Frame {
@@ -229,6 +230,8 @@ impl Settings {
                 light: paint.color("light"),
                 shadow: paint.color("shadow"),
                 line: paint.color("line"),
+                iris: paint.color("iris"),
+                iris_shadow: paint.color("iris_shadow"),
                 width_m: paint.number("width") * head.unit_m(),
                 hollow_m: HOLLOW * head.height_m,
                 threshold: paint.number("threshold"),
@@ -269,14 +272,15 @@ fn load_head(
     preset: &Preset,
     files: &Files,
     notes: &mut Vec<String>,
-) -> Result<Option<Mesh>, StageError> {
+) -> Result<Option<HeadModel>, StageError> {
     let values = &preset.head;
     let Some(path) = chosen(
         files.head.as_ref(),
         values.text("file"),
         &files.preset_folder,
     ) else {
-        return Ok(None);
+        let is_bust = values.choice("shape") == 1;
+        return Ok(is_bust.then(HeadModel::bust));
     };
     let file = hair_io::read_head(
         &path,
@@ -284,7 +288,7 @@ fn load_head(
         scale(values.number("scale")),
     )?;
     notes.extend(file.notes);
-    Ok(Some(file.mesh))
+    Ok(Some(file.mesh.into()))
 }
 
 /// The hair with the strands that are kept, sorted by id.

@@ -1,7 +1,7 @@
 //! Whole presets: what they mean, and every mistake at its place.
 
 use effects::Registry;
-use stage::Preset;
+use stage::{Files, Preset};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -109,6 +109,43 @@ fn hostile_texts_are_errors() {
             "cut at {end}"
         );
     }
+}
+
+#[test]
+fn missing_files_are_named_at_their_place_in_the_preset() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bob.tfx"), "").unwrap();
+    let files = Files {
+        preset_folder: folder.path().to_owned(),
+        ..Files::default()
+    };
+    let registry = registry();
+    let text = "(version: 1, layers: [],\n head: (file: \"b.obj\"), hair: (file: \"bab.tfx\"))";
+    let mut preset = Preset::parse("look.ron", text, &registry).unwrap();
+    let errors = preset.check_files(&files).unwrap_err();
+    let places: Vec<_> = errors
+        .0
+        .iter()
+        .map(|e| (e.place.line, e.place.column))
+        .collect();
+    assert_eq!(places, [(2, 15), (2, 38)]);
+    assert!(
+        errors.0[1]
+            .message
+            .ends_with("bab.tfx`, did you mean `bob.tfx`?"),
+        "{errors}"
+    );
+
+    // What the caller gives instead is looked for by whoever reads it.
+    let given = Files {
+        hair: Some("other.tfx".into()),
+        ..files.clone()
+    };
+    assert_eq!(preset.check_files(&given).unwrap_err().0.len(), 1);
+    preset.set("head.file", "other.obj").unwrap();
+    assert!(preset.check_files(&given).is_ok());
+    preset.set("hair.file", "bob.tfx").unwrap();
+    assert!(preset.check_files(&files).is_ok());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::error::suggestion;
 use super::reader::{Field, Reader};
-use super::value::parse_value;
+use super::value::{parse_value, shown};
 use crate::effect::AnyEffect;
 use crate::layer::{Layer, Units};
 use crate::param::{Param, ParamKind, Values};
@@ -12,7 +12,7 @@ use crate::registry::Registry;
 pub const LAYER: &[Param] = &[
     Param {
         name: "effect",
-        doc: "The effect's id, such as \"hair.base\".",
+        doc: "The effect's id, such as \"hair.base\"; every layer has one.",
         unit: "",
         kind: ParamKind::Text,
     },
@@ -155,9 +155,28 @@ impl<'a> Reader<'a> {
     }
 
     fn layer<'r>(&mut self, item: &'a str, registry: &'r Registry) -> Option<LayerSpec<'r>> {
+        if !item.starts_with('(') {
+            let found = shown(item);
+            let message =
+                format!("a layer is written (effect: \"hair.base\", ...), found `{found}`");
+            self.error(item, message);
+            return None;
+        }
         let fields = self.fields(item, "a layer");
-        let (params, own): (Vec<Field>, Vec<Field>) =
+        let (params, mut own): (Vec<Field>, Vec<Field>) =
             fields.into_iter().partition(|field| field.name == "params");
+        let effect = own.iter().find(|field| field.name == "effect");
+        let table = effect
+            .and_then(|field| ron::from_str::<String>(field.value).ok())
+            .and_then(|id| registry.get(&id))
+            .map_or(&[][..], AnyEffect::params);
+        own.retain(|field| {
+            let known = LAYER.iter().any(|param| param.name == field.name);
+            if !known {
+                self.unknown_field(field, table);
+            }
+            known
+        });
         let layer = self.values(&own, LAYER, "a layer");
         let Some(id) = layer.text("effect") else {
             if own.iter().all(|field| field.name != "effect") {
@@ -178,7 +197,20 @@ impl<'a> Reader<'a> {
             return None;
         };
         let values = match params.first() {
-            Some(field) => self.section(field.value, effect.params(), id),
+            Some(field) => {
+                let mut fields = self.fields(field.value, id);
+                fields.retain(|field| {
+                    let owned = effect.params().iter().any(|param| param.name == field.name);
+                    let misplaced = !owned && LAYER.iter().any(|param| param.name == field.name);
+                    if misplaced {
+                        let name = field.name;
+                        let message = format!("`{name}` belongs to the layer, outside of `params`");
+                        self.error(name, message);
+                    }
+                    !misplaced
+                });
+                self.values(&fields, effect.params(), id)
+            }
             None => Values::defaults(effect.params()),
         };
         Some(LayerSpec {
@@ -197,5 +229,20 @@ impl<'a> Reader<'a> {
             units: [Units::World, Units::Pixels][layer.choice("units") as usize],
             values,
         })
+    }
+
+    /// A field that no layer has: perhaps one of the effect's parameters, whose table this is.
+    fn unknown_field(&mut self, field: &Field, table: &[Param]) {
+        let name = field.name;
+        let message = if table.iter().any(|param| param.name == name) {
+            format!(
+                "`{name}` belongs to the effect: params: ({name}: {})",
+                shown(field.value)
+            )
+        } else {
+            let names = LAYER.iter().map(|param| param.name).chain(["params"]);
+            format!("a layer has no `{name}`{}", suggestion(name, names))
+        };
+        self.error(name, message);
     }
 }

@@ -1,5 +1,6 @@
 //! Reading sections of a preset from its text.
 
+use super::brackets::check_brackets;
 use super::error::{Place, PresetError, PresetErrors, suggestion};
 use super::syntax::{self, Kind, Piece, pieces};
 use super::value::{parse_value, shown};
@@ -38,7 +39,7 @@ impl<'a> Reader<'a> {
             errors: Vec::new(),
             whole: true,
         };
-        if let Err(mistake) = syntax::check_brackets(text) {
+        if let Err(mistake) = check_brackets(text) {
             reader.error(mistake.at, mistake.message);
             reader.whole = false;
         }
@@ -212,14 +213,19 @@ impl<'a> Reader<'a> {
                 return self.error(name.text, message);
             }
         };
-        let Some(value) = rest.first() else {
-            return self.error(name.text, format!("`{}` has no value", shown(name.text)));
+        let (value, rest) = match rest {
+            [] => return self.error(name.text, format!("`{}` has no value", shown(name.text))),
+            // `Some(1)` and `rgb(1, 2, 3)` are one value, and wrong as one.
+            [word, group, rest @ ..] if word.kind == Kind::Word && group.kind == Kind::Group => {
+                (between(word.text, group.text, self.text), rest)
+            }
+            [value, rest @ ..] => (value.text, rest),
         };
         fields.push(Field {
             name: name.text,
-            value: value.text,
+            value,
         });
-        match &rest[1..] {
+        match rest {
             [] => {}
             [next, after, ..]
                 if matches!(next.kind, Kind::Word | Kind::Text) && is_assigned(after) =>
@@ -228,7 +234,7 @@ impl<'a> Reader<'a> {
                     next.text,
                     format!("a comma is missing before `{}`", shown(next.text)),
                 );
-                self.field(&rest[1..], fields);
+                self.field(rest, fields);
             }
             [stray, after @ ..] if stray.text == ";" => {
                 self.error(stray.text, "write `,` in place of `;`");
@@ -240,7 +246,7 @@ impl<'a> Reader<'a> {
                 let message = format!(
                     "`{}` has one value, `{}`: found `{}` after it",
                     shown(name.text),
-                    shown(value.text),
+                    shown(value),
                     shown(next.text)
                 );
                 self.error(next.text, message);
@@ -268,16 +274,14 @@ impl<'a> Reader<'a> {
         };
         let mut items = Vec::new();
         for item in self.items(inside) {
-            items.push(item[0].text);
-            if let Some(next) = item.get(1) {
-                let message = if next.kind == Kind::Group {
-                    "a comma is missing before this".to_owned()
-                } else {
-                    format!("expected a comma, found `{}`", shown(next.text))
-                };
-                self.error(next.text, message);
-                let groups = item[1..].iter().filter(|p| p.kind == Kind::Group);
-                items.extend(groups.map(|p| p.text));
+            if item.iter().all(|piece| piece.kind == Kind::Group) {
+                for piece in &item[1..] {
+                    self.error(piece.text, "a comma is missing before this");
+                }
+                items.extend(item.iter().map(|piece| piece.text));
+            } else {
+                let last = item[item.len() - 1];
+                items.push(between(item[0].text, last.text, self.text));
             }
         }
         items
@@ -333,6 +337,13 @@ fn inside(text: &str, open: char) -> Option<&str> {
         ] if text.starts_with(open) => Some(&text[1..text.len() - 1]),
         _ => None,
     }
+}
+
+/// The part of `text` from the beginning of its slice `first` to the end of its slice `last`.
+fn between<'a>(first: &str, last: &str, text: &'a str) -> &'a str {
+    let start = (first.as_ptr() as usize).wrapping_sub(text.as_ptr() as usize);
+    let end = (last.as_ptr() as usize + last.len()).wrapping_sub(text.as_ptr() as usize);
+    text.get(start..end).unwrap_or_default()
 }
 
 fn is_assigned(piece: &Piece) -> bool {

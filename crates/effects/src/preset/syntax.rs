@@ -36,13 +36,13 @@ pub(super) struct Mistake<'a> {
     pub message: String,
 }
 
-fn mistake<'a, T>(at: &'a str, message: impl Into<String>) -> Result<T, Mistake<'a>> {
+pub(super) fn mistake<'a, T>(at: &'a str, message: impl Into<String>) -> Result<T, Mistake<'a>> {
     let message = message.into();
     Err(Mistake { at, message })
 }
 
 /// The next token of `text`, and what comes after it. `None` at the end.
-fn token(text: &str) -> Result<Option<(Piece<'_>, &str)>, Mistake<'_>> {
+pub(super) fn token(text: &str) -> Result<Option<(Piece<'_>, &str)>, Mistake<'_>> {
     let text = skip_blank(text)?;
     let Some(first) = text.chars().next() else {
         return Ok(None);
@@ -111,7 +111,7 @@ fn quoted(text: &str, quote: char) -> Result<usize, Mistake<'_>> {
     }
     mistake(
         text,
-        format!("this text has no end: a {quote} is missing in this line"),
+        format!("this text has no end: a {quote} is missing on this line"),
     )
 }
 
@@ -130,7 +130,7 @@ fn raw(text: &str) -> Result<usize, Mistake<'_>> {
         Some(i) => Ok(start + i + end.len()),
         None => mistake(
             text,
-            format!("this text has no end: {end} is missing in this line"),
+            format!("this text has no end: {end} is missing on this line"),
         ),
     }
 }
@@ -140,99 +140,6 @@ fn word(text: &str) -> usize {
     text.char_indices()
         .find(|(i, c)| ends(*c) || text[*i..].starts_with("//") || text[*i..].starts_with("/*"))
         .map_or(text.len(), |(i, _)| i)
-}
-
-/// Checks that all brackets, texts and comments of the preset are closed, and that nothing comes
-/// after its end: without that there are no parts to look at.
-pub(super) fn check_brackets(preset: &str) -> Result<(), Mistake<'_>> {
-    let line = |at: &str| 1 + preset[..preset.len() - at.len()].matches('\n').count();
-    let mut open: Vec<&str> = Vec::new();
-    // Brackets whose lines are indented differently: where one was forgotten.
-    let mut suspect = None;
-    let mut ended = None;
-    let mut rest = preset;
-    while let Some((piece, after)) = token(rest)? {
-        let at = &rest[rest.len() - after.len() - piece.text.len()..];
-        rest = after;
-        if let Some(end) = ended {
-            return mistake(
-                at,
-                format!(
-                    "the preset already ended, with the `)` of line {}: is that one too many?",
-                    line(end)
-                ),
-            );
-        }
-        match piece.kind {
-            Kind::Open => open.push(at),
-            Kind::Close => {
-                let Some(opened) = open.pop() else {
-                    return mistake(at, format!("this `{}` closes nothing", piece.text));
-                };
-                if closing(opened) != piece.text {
-                    return mistake(
-                        opened,
-                        format!(
-                            "this `{}` is not closed before the `{}` of line {}: is a `{}` missing?",
-                            &opened[..1],
-                            piece.text,
-                            line(at),
-                            closing(opened)
-                        ),
-                    );
-                }
-                let indentation = indentation(preset, at);
-                if indentation.is_some_and(|here| here < indentation_of_line(preset, opened)) {
-                    suspect.get_or_insert((opened, at));
-                }
-                if open.is_empty() {
-                    ended = Some(at);
-                }
-            }
-            _ => {}
-        }
-    }
-    match (open.pop(), suspect) {
-        (None, _) => Ok(()),
-        (Some(_), Some((opened, at))) => mistake(
-            opened,
-            format!(
-                "is this `{}` not closed? By the indentation, the `{}` of line {} closes another one",
-                &opened[..1],
-                closing(opened),
-                line(at)
-            ),
-        ),
-        (Some(opened), None) => mistake(
-            opened,
-            format!(
-                "this `{}` is not closed before the file ends: a `{}` is missing",
-                &opened[..1],
-                closing(opened)
-            ),
-        ),
-    }
-}
-
-fn closing(opened: &str) -> &'static str {
-    match opened.as_bytes().first() {
-        Some(b'(') => ")",
-        Some(b'[') => "]",
-        _ => "}",
-    }
-}
-
-/// The white space before `at`, where nothing else is before it on its line.
-fn indentation(preset: &str, at: &str) -> Option<usize> {
-    let before = &preset[..preset.len() - at.len()];
-    let line = &before[before.rfind('\n').map_or(0, |i| i + 1)..];
-    line.trim().is_empty().then_some(line.len())
-}
-
-fn indentation_of_line(preset: &str, at: &str) -> usize {
-    let before = &preset[..preset.len() - at.len()];
-    let line = &preset[before.rfind('\n').map_or(0, |i| i + 1)..];
-    line.len() - line.trim_start_matches([' ', '\t']).len()
 }
 
 /// What stands in `text`, groups as a whole. The text's brackets are known to be closed.

@@ -10,7 +10,7 @@ pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String>
         ParamKind::Choice { names, .. } => {
             let bare = unquoted(text);
             match hint(text, kind) {
-                Some(hint) => format!("{hint}, found `{}`", shown(text)),
+                Some(hint) => format!("found `{}`: {hint}", shown(text)),
                 None => {
                     let hint = suggestion(bare, names.iter().copied());
                     format!("there is no `{}`{hint}", shown(bare))
@@ -129,12 +129,10 @@ fn hint(text: &str, kind: &ParamKind) -> Option<String> {
     }
 }
 
-/// The number that `45deg`, `50%` or `3.0f32` begins with.
+/// The number that `45deg` or `50%` begins with.
 fn number_at_start(text: &str) -> Option<&str> {
     let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c)))?;
     let (number, unit) = text.split_at(end);
-    let is_unit = unit
-        .chars()
-        .all(|c| c.is_alphanumeric() || "°%\"_".contains(c));
+    let is_unit = unit.chars().all(|c| c.is_alphabetic() || "°%".contains(c));
     (is_unit && number.ends_with(|c: char| c.is_ascii_digit())).then_some(number)
 }

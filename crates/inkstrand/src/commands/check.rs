@@ -1,26 +1,36 @@
 //! `inkstrand check`: every mistake of every preset.
 
-use super::{mistakes, read_preset};
+use super::{mistakes, preset_folder, read_preset};
 use crate::Failure;
 use effects::Registry;
-use stage::Preset;
-use std::path::PathBuf;
+use stage::{Files, Preset};
+use std::path::{Path, PathBuf};
 
 pub(crate) fn check(presets: &[PathBuf], registry: &Registry) -> Result<(), Failure> {
-    let mut found = Vec::new();
-    for path in presets {
-        match read_preset(path) {
-            Ok(text) => {
-                if let Err(errors) = Preset::parse(&path.display().to_string(), &text, registry) {
-                    found.extend(mistakes(&errors));
-                }
-            }
-            Err(message) => found.push(message),
-        }
-    }
+    let found: Vec<String> = presets
+        .iter()
+        .flat_map(|path| mistakes_of(path, registry))
+        .collect();
     if found.is_empty() {
         Ok(())
     } else {
         Err(Failure::Mistakes(found))
+    }
+}
+
+fn mistakes_of(path: &Path, registry: &Registry) -> Vec<String> {
+    let text = match read_preset(path) {
+        Ok(text) => text,
+        Err(message) => return vec![message],
+    };
+    let files = Files {
+        preset_folder: preset_folder(path),
+        ..Files::default()
+    };
+    let checked = Preset::parse(&path.display().to_string(), &text, registry)
+        .and_then(|preset| preset.check_files(&files));
+    match checked {
+        Ok(()) => Vec::new(),
+        Err(errors) => mistakes(&errors).collect(),
     }
 }

@@ -1,72 +1,134 @@
 //! `inkstrand effects`: what there is to build a look from.
 
+use super::schema::{self, Section, sections};
 use crate::Failure;
-use effects::preset::nearest;
+use effects::preset::{OF_THE_EFFECT, suggestion};
 use effects::{AnyEffect, Param, ParamKind, Registry};
+use std::io::{ErrorKind, Write as _};
 
-pub(crate) fn effects(id: Option<&str>, registry: &Registry) -> Result<(), Failure> {
-    match id {
-        None => {
-            list(registry);
-            Ok(())
+/// Lists effects and sections, or what one of them takes.
+pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Result<(), Failure> {
+    let text = if json {
+        let schema = match find(name, registry)? {
+            Found::All => schema::all(registry),
+            Found::Effect(effect) => schema::effect(effect),
+            Found::Section(section) => schema::section(&section),
+        };
+        serde_json::to_string_pretty(&schema)? + "\n"
+    } else {
+        match find(name, registry)? {
+            Found::All => list(registry),
+            Found::Effect(effect) => effect_text(effect),
+            Found::Section(section) => section_text(&section),
         }
-        Some(id) => match registry.get(id) {
-            Some(effect) => {
-                describe(effect);
-                Ok(())
-            }
-            None => Err(Failure::Usage(unknown(id, registry))),
-        },
+    };
+    match std::io::stdout().write_all(text.as_bytes()) {
+        // Who reads it has seen enough, such as `head`.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => Ok(written?),
     }
 }
 
-fn unknown(id: &str, registry: &Registry) -> String {
-    let ids: Vec<&str> = registry.iter().map(AnyEffect::id).collect();
-    match nearest(id, ids.iter().copied()) {
-        Some(near) => format!("there is no effect `{id}`, did you mean `{near}`?"),
-        None => format!("there is no effect `{id}`; there are: {}", ids.join(", ")),
-    }
+/// What a name means.
+enum Found<'r> {
+    All,
+    Effect(&'r dyn AnyEffect),
+    Section(Section),
 }
 
-fn list(registry: &Registry) {
+fn find<'r>(name: Option<&str>, registry: &'r Registry) -> Result<Found<'r>, Failure> {
+    let Some(name) = name else {
+        return Ok(Found::All);
+    };
+    if let Some(effect) = registry.get(name) {
+        return Ok(Found::Effect(effect));
+    }
+    if let Some(section) = sections().into_iter().find(|section| section.name == name) {
+        return Ok(Found::Section(section));
+    }
+    let effects = registry.iter().map(AnyEffect::id);
+    let sections = sections();
+    let names = effects.chain(sections.iter().map(|section| section.name));
+    let hint = suggestion(name, names);
+    Err(Failure::Usage(format!(
+        "there is no effect or section `{name}`{hint}"
+    )))
+}
+
+fn list(registry: &Registry) -> String {
     let mut effects: Vec<&dyn AnyEffect> = registry.iter().collect();
     effects.sort_by_key(|effect| (effect.rank(), effect.id()));
-    println!(
-        "{:<20} {:>5} {:>13}  what it draws",
+    let mut text = format!(
+        "{:<20} {:>5} {:>13}  what it draws\n",
         "effect", "rank", "depth_offset"
     );
     for effect in effects {
-        println!(
-            "{:<20} {:>5} {:>13}  {}",
+        text += &format!(
+            "{:<20} {:>5} {:>13}  {}\n",
             effect.id(),
             effect.rank(),
             effect.depth_offset(),
             effect.doc()
         );
     }
+    text += &format!("\n{:<20} what it says\n", "section");
+    for section in sections() {
+        text += &format!("{:<20} {}\n", section.name, section.doc);
+    }
+    text + "\n`inkstrand effects NAME` lists the parameters of an effect or a section.\n"
 }
 
-fn describe(effect: &dyn AnyEffect) {
-    println!("{}: {}", effect.id(), effect.doc());
-    println!(
-        "rank {}, depth_offset {} head heights",
+fn effect_text(effect: &dyn AnyEffect) -> String {
+    let id = effect.id();
+    let mut text = format!(
+        "{id}: {}\nrank {}, depth_offset {} head heights\n",
+        effect.doc(),
         effect.rank(),
         effect.depth_offset()
     );
+    text += &format!("In a preset's layers: (effect: \"{id}\", params: (name: value, ...))\n");
     for param in effect.params() {
-        println!();
-        println!("  {}: {}", param.name, param.kind.expected());
-        println!("      default {}{}", default(param), unit(param));
-        println!("      {}", param.doc);
+        text += &param_text(param, &default(param));
     }
+    text
 }
 
-fn unit(param: &Param) -> String {
-    if param.unit.is_empty() {
-        String::new()
-    } else {
-        format!("; unit: {}", param.unit)
+fn section_text(section: &Section) -> String {
+    let is_layer = section.name == "layers";
+    let example = match section.name {
+        "preset" => "(name: value, ..., layers: [...])".to_owned(),
+        "layers" => "layers: [(effect: \"hair.base\", name: value, ...), ...]".to_owned(),
+        name => format!("{name}: (name: value, ...)"),
+    };
+    let mut text = format!(
+        "{}: {}\nIn a preset: {example}\n",
+        section.name, section.doc
+    );
+    for param in section.table {
+        text += &if is_layer && OF_THE_EFFECT.contains(&param.name) {
+            param_text(param, "the effect's own")
+        } else {
+            param_text(param, &default(param))
+        };
     }
+    if is_layer {
+        text += "\n  params: (name: value, ...)\n";
+        text += "      The effect's own parameters: `inkstrand effects ID`.\n";
+    }
+    text
+}
+
+fn param_text(param: &Param, default: &str) -> String {
+    let unit = match param.unit {
+        "" => String::new(),
+        unit => format!("; unit: {unit}"),
+    };
+    format!(
+        "\n  {}: {}\n      default {default}{unit}\n      {}\n",
+        param.name,
+        param.kind.expected(),
+        param.doc
+    )
 }
 
 /// A parameter's default as a preset would write it.
@@ -77,7 +139,8 @@ fn default(param: &Param) -> String {
         ParamKind::Choice { names, default } => names[default].to_owned(),
         ParamKind::Color { default } => format!("\"{default}\""),
         ParamKind::OptionalColor { default: Some(hex) } => format!("\"{hex}\""),
-        ParamKind::OptionalColor { default: None } | ParamKind::Text => "none".to_owned(),
+        ParamKind::OptionalColor { default: None } => "none".to_owned(),
+        ParamKind::Text => "nothing".to_owned(),
         ParamKind::Triple {
             default: [x, y, z], ..
         } => format!("({x}, {y}, {z})"),

@@ -1,17 +1,17 @@
 //! `inkstrand render`: a preset to pictures.
 
-use super::{mistakes, read_preset};
+use super::{mistakes, preset_folder, read_preset};
 use crate::cli::{Backend, Numbers, RenderOptions};
-use crate::output::{Output, write_whole};
+use crate::output::Output;
 use crate::stats::{Bytes, FrameStats, Milliseconds, StrandCounts, buffer_bytes, layer_counts};
+use crate::whole_file::WholeFile;
 use crate::{Failure, not_built};
 use effects::Registry;
 use indicatif::{ProgressBar, ProgressStyle};
 use render::Drawing;
 use render::cpu::{Evaluator, Rasterizer};
 use stage::{Files, Preset, Stage};
-use std::io::IsTerminal as _;
-use std::path::Path;
+use std::io::{IsTerminal as _, Write as _};
 use std::time::Instant;
 
 pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
@@ -25,10 +25,13 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
     apply(options, &mut preset).map_err(Failure::Usage)?;
 
     let files = Files {
-        preset_folder: options.preset.parent().unwrap_or(Path::new("")).to_owned(),
+        preset_folder: preset_folder(&options.preset),
         hair: options.hair.clone(),
         head: options.head.clone(),
     };
+    preset
+        .check_files(&files)
+        .map_err(|errors| Failure::Mistakes(mistakes(&errors).collect()))?;
     let mut stage = Stage::new(&preset, &files)?;
     if !options.quiet {
         for note in stage.notes() {
@@ -50,14 +53,18 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
 
     let (first, last) = options.frames.unwrap_or((0, 0));
     let bar = progress_bar(options, u64::from(last - first) + 1);
-    let mut stats = String::new();
+    let mut stats = match &options.stats {
+        Some(path) => Some(WholeFile::create(path)?),
+        None => None,
+    };
     for frame in first..=last {
         let time = options.time.unwrap_or(frame as f32 / fps);
         let (picture, line) = painter.paint(&mut stage, frame, time)?;
         let path = output.write(&picture, frame)?;
-        if options.stats.is_some() {
-            stats.push_str(&serde_json::to_string(&line)?);
-            stats.push('\n');
+        if let Some(stats) = &mut stats {
+            // A line as its frame is there, for whoever watches the file grow.
+            writeln!(stats, "{}", serde_json::to_string(&line)?)?;
+            stats.flush()?;
         }
         bar.inc(1);
         if !options.quiet && !sequence {
@@ -69,9 +76,8 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
         let (from, to) = (output.path(first), output.path(last));
         eprintln!("wrote {} to {}", from.display(), to.display());
     }
-    if let Some(path) = &options.stats {
-        write_whole(path, stats.as_bytes())
-            .map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
+    if let Some(stats) = stats {
+        stats.finish()?;
     }
     Ok(())
 }

@@ -85,6 +85,12 @@ pub const HEAD: &[Param] = &[
         "The head, relative to the preset: .obj.",
         ParamKind::Text,
     ),
+    choice(
+        "shape",
+        "The head where no file is named: none, or the bust that comes with inkstrand.",
+        &["none", "bust"],
+        0,
+    ),
     choice("up", "The file's upward axis.", &["guess", "y", "z"], 0),
     number(
         "scale",
@@ -100,6 +106,12 @@ pub const HEAD: &[Param] = &[
         "E3B49C",
     ),
     color("line", "Colour of the outline.", "6B4438"),
+    color("iris", "Colour of the bust's eyes.", "3A9CA6"),
+    color(
+        "iris_shadow",
+        "Colour of the pupils and of the irises under the lids.",
+        "1B4F5C",
+    ),
     number(
         "width",
         "Width of the outline; 0 is none.",
@@ -253,10 +265,14 @@ pub const PATH: &[Param] = &[
 /// A preset's sections by name, with what each is about. `clump` and `layers` come from effects.
 pub const SECTIONS: &[(&str, &str, &[Param])] = &[
     ("hair", "Which strands are drawn.", HAIR),
-    ("head", "The head under the hair.", HEAD),
-    ("scene", "The picture.", SCENE),
-    ("camera", "The eye.", CAMERA),
-    ("light", "The light.", LIGHT),
+    ("head", "The head under the hair, and its colours.", HEAD),
+    (
+        "scene",
+        "The picture: size, samples, background, frame rate.",
+        SCENE,
+    ),
+    ("camera", "From where it is seen.", CAMERA),
+    ("light", "Where the light comes from.", LIGHT),
     ("path", "How a strand becomes a stroke's path.", PATH),
     (
         "clump",

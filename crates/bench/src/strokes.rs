@@ -1,0 +1,319 @@
+//! Suite `strokes`: time against error of the exact sweep, of stamping, and of libraries that fill
+//! outlines, on the same strokes.
+
+pub mod contenders;
+pub mod order;
+pub mod outline;
+pub mod plot;
+pub mod scenes;
+pub mod stamping;
+pub mod targets;
+
+use crate::compare::{self, Difference};
+use crate::oracle;
+use crate::results::{self, Row};
+use crate::timing::{Effort, medians};
+use contenders::{Contender, Library, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order};
+use indicatif::ProgressBar;
+use render::{Drawing, Order, Picture};
+use scenes::Scene;
+use stamping::Stamping;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use targets::{PATHS_ALONE, STAMPING, SWEEP, SWEEP_SHIFTED, Target, VELLO};
+
+/// Samples a side of a pixel of the reference.
+const GRID: u32 = 16;
+
+/// What the user asks for.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The project's folder, for its presets.
+    pub root: PathBuf,
+    /// Where the files go.
+    pub out: PathBuf,
+    /// Fewer scenes, stamps and rounds: done within two minutes on two cores.
+    pub quick: bool,
+    /// Threads of whatever can use several.
+    pub threads: usize,
+}
+
+/// All that was measured.
+pub struct Measured {
+    /// A row a method, knob and scene.
+    pub rows: Vec<Row>,
+    /// Scene, method, knob and distance from the reference of each picture.
+    pub differences: Vec<(String, String, usize, Difference)>,
+    /// The ratios of times.
+    pub targets: Vec<Target>,
+    /// What a reader of the numbers must know.
+    pub comments: Vec<String>,
+}
+
+/// A way to draw one scene.
+struct Entry {
+    method: String,
+    knob: usize,
+    order: Order,
+    contender: Box<dyn Contender>,
+}
+
+/// Measures and writes `strokes.csv`, `strokes-errors.csv` and `strokes.svg`.
+///
+/// # Errors
+///
+/// When a preset cannot be read, nothing can be drawn, or a file cannot be written.
+pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
+    let mut scenes = scenes::all(&options.root)?;
+    if options.quick {
+        scenes.truncate(2);
+    }
+    let mut entries_of_scenes = Vec::new();
+    for scene in &scenes {
+        entries_of_scenes.push(entries(scene, options)?);
+    }
+    let effort = effort(options);
+    let entries = entries_of_scenes.iter().map(Vec::len).sum::<usize>();
+    progress.set_length(((effort.rounds + 1) * entries) as u64);
+
+    let mut measured = Measured {
+        rows: Vec::new(),
+        differences: Vec::new(),
+        targets: Vec::new(),
+        comments: comments(&scenes, options.threads),
+    };
+    for (scene, mut entries) in scenes.iter().zip(entries_of_scenes) {
+        progress.set_message(format!("{}: times", scene.name));
+        let times = times(scene, &mut entries, effort, progress)?;
+        progress.set_message(format!("{}: errors", scene.name));
+        let differences = differences(scene, &entries, progress)?;
+        for ((entry, seconds), difference) in entries.iter().zip(times).zip(differences) {
+            measured.rows.push(Row {
+                scene: scene.name.to_owned(),
+                method: entry.method.clone(),
+                knob: entry.knob,
+                seconds,
+                error: difference.map(|difference| difference.mean),
+            });
+            measured.differences.extend(difference.map(|difference| {
+                let method = entry.method.clone();
+                (scene.name.to_owned(), method, entry.knob, difference)
+            }));
+        }
+    }
+    let stamps: Vec<_> = scenes.iter().map(|s| (s.name, s.source_stamps)).collect();
+    measured.targets = targets::targets(&measured.rows, &stamps);
+    write(&measured, &options.out)?;
+    Ok(measured)
+}
+
+/// Everything that draws a scene.
+fn entries(scene: &Scene, options: &Options) -> Result<Vec<Entry>, String> {
+    let threads = options.threads;
+    let mut entries = Vec::new();
+    let mut add = |method: String, knob, order, contender: Box<dyn Contender>| {
+        entries.push(Entry {
+            method,
+            knob,
+            order,
+            contender,
+        });
+    };
+    for samples in [1, 2, 4, 8, 16] {
+        for (method, order) in [(SWEEP, Order::StrandFirst), (SWEEP_SHIFTED, Order::Shifted)] {
+            let sweep = Box::new(Sweep::new(samples, threads)?);
+            add(method.to_owned(), samples as usize, order, sweep);
+        }
+    }
+    for (samples, stamps) in stamps(options.quick) {
+        for &stamps in stamps {
+            let stamping = Box::new(Stamping::new(stamps, samples, threads)?);
+            let method = format!("{STAMPING}{samples}");
+            add(method, stamps, Order::Shifted, stamping);
+        }
+    }
+    let [width, height] = scene.drawing.size;
+    let small = |side| u16::try_from(side).map_err(|_| format!("{side} pixels are too many"));
+    let size = [small(width)?, small(height)?];
+    let order = Order::StrandFirst;
+    for outlines in [Outlines::Segments, Outlines::Strokes] {
+        if outlines == Outlines::Strokes && !scene.is_apart {
+            continue;
+        }
+        let name = match outlines {
+            Outlines::Segments => "segments",
+            Outlines::Strokes => "strokes",
+        };
+        // With a core for the thread that records and without; at least on two cores also alone.
+        let mut workers = vec![0, threads - 1, threads];
+        workers.dedup();
+        for workers in workers {
+            let vello = Vello::new(size, outlines, u16::try_from(workers).unwrap_or(u16::MAX));
+            add(format!("{VELLO}{name}"), workers, order, Box::new(vello));
+        }
+        let tiny_skia = TinySkia::new(size, outlines)?;
+        add(format!("tiny-skia-{name}"), 1, order, Box::new(tiny_skia));
+        for (library, prefix) in [(Library::Vello, VELLO), (Library::TinySkia, "tiny-skia-")] {
+            let paths = Box::new(PathsAlone::new(library, outlines));
+            add(format!("{prefix}{name}{PATHS_ALONE}"), 1, order, paths);
+        }
+    }
+    Ok(entries)
+}
+
+/// Samples a pixel, and stamps an interval with them.
+fn stamps(quick: bool) -> [(u32, &'static [usize]); 3] {
+    if quick {
+        [(4, &[2, 10, 32]), (8, &[32]), (16, &[32, 64])]
+    } else {
+        [
+            (4, &[1, 2, 4, 10, 16, 32, 64, 128]),
+            (8, &[10, 16, 32, 64, 128]),
+            (16, &[10, 16, 32, 64, 128]),
+        ]
+    }
+}
+
+fn effort(options: &Options) -> Effort {
+    if options.quick {
+        Effort {
+            rounds: 5,
+            each: Duration::from_millis(300),
+        }
+    } else {
+        Effort {
+            rounds: 12,
+            each: Duration::from_secs(2),
+        }
+    }
+}
+
+fn times(
+    scene: &Scene,
+    entries: &mut [Entry],
+    effort: Effort,
+    progress: &ProgressBar,
+) -> Result<Vec<f64>, String> {
+    let strand_first = in_order(&scene.drawing, Order::StrandFirst);
+    let shifted = in_order(&scene.drawing, Order::Shifted);
+    let mut runs: Vec<_> = entries
+        .iter_mut()
+        .map(|entry| {
+            let drawing = match entry.order {
+                Order::StrandFirst => &strand_first,
+                Order::Shifted => &shifted,
+            };
+            let contender = &mut entry.contender;
+            move || contender.draw(drawing)
+        })
+        .collect();
+    medians(&mut runs, effort, || progress.inc(1))
+}
+
+/// How far the last picture of each is from the reference in its order.
+fn differences(
+    scene: &Scene,
+    entries: &[Entry],
+    progress: &ProgressBar,
+) -> Result<Vec<Option<Difference>>, String> {
+    let reference = |order| oracle::picture(&in_order(&scene.drawing, order), GRID);
+    let strand_first = reference(Order::StrandFirst);
+    let shifted = reference(Order::Shifted);
+    // Both orders show strokes at the same pixels but where strokes are clipped to clumps.
+    let masks = [compare::mask(&strand_first), compare::mask(&shifted)];
+    let mut differences = Vec::new();
+    for entry in entries {
+        let (reference, mask) = match entry.order {
+            Order::StrandFirst => (&strand_first, &masks[0]),
+            Order::Shifted => (&shifted, &masks[1]),
+        };
+        let difference = match entry.contender.picture() {
+            Some(picture) => {
+                let error = compare::error(&picture, reference, mask);
+                Some(error.map_err(|error| format!("{}: {error}", entry.method))?)
+            }
+            None => None,
+        };
+        differences.push(difference);
+        progress.inc(1);
+    }
+    Ok(differences)
+}
+
+fn comments(scenes: &[Scene], threads: usize) -> Vec<String> {
+    let mut comments = results::machine(threads, &["bench", "vello_cpu", "tiny-skia"]);
+    let text = [
+        "seconds: median time from the drawing to its pixels, in memory",
+        "error: mean over the strokes' pixels (and 2 pixels around) of the largest difference of a \
+         channel, linear and premultiplied, 0 to 1, from the f64 reference of 16 x 16 samples",
+        "sweep, sweep-shifted: exact, in the order by strands and in the source's; knob: samples a \
+         pixel",
+        "stamping-4, -8, -16: the source's method in the source's order with that many samples a \
+         pixel; knob: stamps between two joints",
+        "vello-*: knob: worker threads beside the caller's (0: that alone); tiny-skia-*: one thread",
+        "*-segments: an outline each segment, *-strokes: each stroke; filled in painter's order, far \
+         strands first, in linear colours",
+        "of painter's order the order itself is an error where strands cross (all scenes but curtain)",
+        "*-paths: the share of the method that sorts strands and builds paths; no picture, no error",
+    ];
+    comments.extend(text.map(str::to_owned));
+    comments.extend(scenes.iter().map(|scene| {
+        format!(
+            "scene {}: {} strands, {} segments with ink, the source's stamps an interval: {}",
+            scene.name,
+            scene.drawing.runs.len(),
+            scene.segments(),
+            scene.source_stamps
+        )
+    }));
+    comments
+}
+
+fn write(measured: &Measured, out: &Path) -> Result<(), String> {
+    let save = |name: &str, text: &str| {
+        let path = out.join(name);
+        results::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    let lines = measured.differences.iter().map(|row| {
+        let (scene, method, knob, of) = row;
+        format!(
+            "strokes,{scene},{method},{knob},{:.3e},{:.3e},{:.5}",
+            of.mean, of.percentile_99, of.ink_ratio
+        )
+    });
+    let columns = "suite,scene,method,knob,mean,percentile_99,ink_ratio";
+    save(
+        "strokes.csv",
+        &results::csv("strokes", &measured.comments, &measured.rows),
+    )?;
+    save(
+        "strokes-errors.csv",
+        &results::table(&measured.comments, columns, lines),
+    )?;
+    save("strokes.svg", &plot::time_against_error(&measured.rows)?)
+}
+
+/// What was set as a target and is not measured here.
+pub const NOT_MEASURED: &str = "Not measured: stamping and sweeping on a graphics device (that backend isn't built yet)\n\
+    and whole frames of the looks of table 6.1 (suite `frame`, not built yet).";
+
+/// The rows as a table to read.
+#[must_use]
+pub fn summary(rows: &[Row]) -> String {
+    let header = format!(
+        "{:12} {:26} {:>5} {:>10} {:>10}",
+        "scene", "method", "knob", "ms", "error"
+    );
+    let lines = rows.iter().map(|row| {
+        let error = row
+            .error
+            .map_or(String::new(), |error| format!("{error:.5}"));
+        let milliseconds = 1e3 * row.seconds;
+        format!(
+            "{:12} {:26} {:5} {milliseconds:10.2} {error:>10}",
+            row.scene, row.method, row.knob
+        )
+    });
+    let lines: Vec<String> = std::iter::once(header).chain(lines).collect();
+    lines.join("\n") + "\n"
+}

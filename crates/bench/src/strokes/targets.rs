@@ -1,0 +1,309 @@
+//! What the measured times and errors are held to.
+
+use crate::results::Row;
+use std::fmt::Write as _;
+
+/// The sweep in the order by strands; its knob is samples a pixel.
+pub const SWEEP: &str = "sweep";
+/// The sweep in the source's order; its knob is samples a pixel.
+pub const SWEEP_SHIFTED: &str = "sweep-shifted";
+/// Stamping with 4 samples a pixel; its knob is stamps an interval.
+pub const STAMPING_4: &str = "stamping-4";
+/// Starts the names of all methods of stamping.
+pub const STAMPING: &str = "stamping-";
+/// Starts the names of all methods of `vello_cpu`; its knob is worker threads.
+pub const VELLO: &str = "vello-";
+/// Ends the names of what is only a part of a method.
+pub const PATHS_ALONE: &str = "-paths";
+
+/// A scene and the source's number of stamps an interval there.
+pub type SceneStamps<'a> = (&'a str, usize);
+
+/// A ratio of two times, and what it should be at most.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Of what to what, on which scene.
+    pub text: String,
+    /// Measured; infinite if our method never gets there, nothing if a row is missing.
+    pub ratio: Option<Ratio>,
+    /// At most.
+    pub limit: f64,
+}
+
+/// A measured ratio.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ratio {
+    /// As measured.
+    Is(f64),
+    /// The other method didn't get there within its knob, so its time is longer than its longest.
+    Below(f64),
+}
+
+impl Target {
+    /// True if it was measured and reached.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        match self.ratio {
+            Some(Ratio::Is(ratio) | Ratio::Below(ratio)) => ratio <= self.limit,
+            None => false,
+        }
+    }
+}
+
+/// All targets of all scenes.
+#[must_use]
+pub fn targets(rows: &[Row], scenes: &[SceneStamps]) -> Vec<Target> {
+    scenes
+        .iter()
+        .flat_map(|&(scene, source_stamps)| {
+            let rows: Vec<&Row> = rows.iter().filter(|row| row.scene == scene).collect();
+            of_scene(&rows, scene, source_stamps)
+        })
+        .collect()
+}
+
+fn of_scene(rows: &[&Row], scene: &str, source_stamps: usize) -> Vec<Target> {
+    let seconds = |method: &str, knob: usize| {
+        let row = rows.iter().find(|r| r.method == method && r.knob == knob);
+        row.map(|row| row.seconds)
+    };
+    let ratio = |ours: Option<f64>, theirs: Option<f64>| Some(Ratio::Is(ours? / theirs?));
+    let target = |text: String, ratio, limit| Target {
+        text: format!("{scene}: {text}"),
+        ratio,
+        limit,
+    };
+
+    let vello = fastest_vello(rows);
+    let best = vello.iter().map(|row| row.seconds).reduce(f64::min);
+    let mut targets = vec![target(
+        "sweep at 4 samples / vello_cpu at its fastest".to_owned(),
+        ratio(seconds(SWEEP, 4), best),
+        1.0 / 3.0,
+    )];
+    let sweep = curve(rows, SWEEP);
+    for row in vello {
+        let at_its_error = row.error.and_then(|error| time_at(&sweep, error));
+        // Never as good as that: no time is short enough.
+        let at_its_error = at_its_error.unwrap_or(f64::INFINITY);
+        targets.push(target(
+            format!("sweep / {}, at its error", row.method),
+            ratio(Some(at_its_error), Some(row.seconds)),
+            1.0,
+        ));
+    }
+    let ours = seconds(SWEEP_SHIFTED, 4);
+    targets.push(target(
+        format!("sweep at 4 samples / {source_stamps} stamps an interval at 4 samples"),
+        ratio(ours, seconds(STAMPING_4, source_stamps)),
+        0.25,
+    ));
+    targets.push(target(
+        "sweep at 4 samples / stamping at its error".to_owned(),
+        against_stamping(rows),
+        0.05,
+    ));
+    targets
+}
+
+/// For each way to use `vello_cpu` its fastest row.
+fn fastest_vello<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
+    let mut fastest: Vec<&Row> = Vec::new();
+    for row in rows {
+        if !row.method.starts_with(VELLO) || row.method.ends_with(PATHS_ALONE) {
+            continue;
+        }
+        match fastest.iter_mut().find(|best| best.method == row.method) {
+            Some(best) if row.seconds < best.seconds => *best = row,
+            Some(_) => {}
+            None => fastest.push(row),
+        }
+    }
+    fastest
+}
+
+/// The sweep at 4 samples against the fastest stamping, at any number of samples from 4, whose error
+/// is as small.
+fn against_stamping(rows: &[&Row]) -> Option<Ratio> {
+    let sweep = rows
+        .iter()
+        .find(|row| row.method == SWEEP_SHIFTED && row.knob == 4)?;
+    let mut methods: Vec<&str> = rows.iter().map(|row| row.method.as_str()).collect();
+    methods.retain(|method| method.starts_with(STAMPING));
+    methods.sort_unstable();
+    methods.dedup();
+    let curves: Vec<Vec<Point>> = methods.iter().map(|method| curve(rows, method)).collect();
+    let error = sweep.error?;
+    let reached = curves.iter().filter_map(|curve| time_at(curve, error));
+    if let Some(seconds) = reached.reduce(f64::min) {
+        return Some(Ratio::Is(sweep.seconds / seconds));
+    }
+    // Each would have to go on beyond its last point.
+    let last = curves.iter().filter_map(|curve| curve.last());
+    let least = last.map(|point| point.seconds).reduce(f64::min)?;
+    Some(Ratio::Below(sweep.seconds / least))
+}
+
+/// A point of a method's curve.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    seconds: f64,
+    error: f64,
+}
+
+/// A method's times and errors by rising knob.
+fn curve(rows: &[&Row], method: &str) -> Vec<Point> {
+    let mut rows: Vec<&&Row> = rows.iter().filter(|row| row.method == method).collect();
+    rows.sort_by_key(|row| row.knob);
+    rows.iter()
+        .filter_map(|row| {
+            Some(Point {
+                seconds: row.seconds,
+                error: row.error?,
+            })
+        })
+        .collect()
+}
+
+/// The time at which a curve first comes down to `error`, between two points along a straight line
+/// in logarithms; the first point's time where that is good enough already.
+fn time_at(curve: &[Point], error: f64) -> Option<f64> {
+    let place = curve.iter().position(|point| point.error <= error)?;
+    let after = curve[place];
+    let Some(before) = place.checked_sub(1).map(|place| curve[place]) else {
+        return Some(after.seconds);
+    };
+    if after.error <= 0.0 || error <= 0.0 {
+        return Some(after.seconds); // zero has no logarithm
+    }
+    let way = (error / before.error).ln() / (after.error / before.error).ln();
+    Some(before.seconds * (after.seconds / before.seconds).powf(way))
+}
+
+/// The table of all targets, a line each.
+#[must_use]
+pub fn report(targets: &[Target]) -> String {
+    let width = targets.iter().map(|t| t.text.chars().count()).max();
+    let width = width.unwrap_or(0);
+    let mut text = format!("{:width$}   ratio    to reach\n", "");
+    for target in targets {
+        let ratio = match target.ratio {
+            Some(Ratio::Is(ratio)) if ratio.is_infinite() => "  never".to_owned(),
+            Some(Ratio::Is(ratio)) => format!("  {ratio:.3}"),
+            Some(Ratio::Below(ratio)) => format!("< {ratio:.3}"),
+            None => "  not measured".to_owned(),
+        };
+        let verdict = if target.is_met() { "met" } else { "MISSED" };
+        let _ = writeln!(
+            text,
+            "{:width$} {ratio:>9}  <= {:.3}   {verdict}",
+            target.text, target.limit
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(method: &str, knob: usize, seconds: f64, error: f64) -> Row {
+        Row {
+            scene: "s".to_owned(),
+            method: method.to_owned(),
+            knob,
+            seconds,
+            error: Some(error),
+        }
+    }
+
+    /// Numbers that reach everything.
+    fn good() -> Vec<Row> {
+        vec![
+            row("sweep", 1, 1.0, 0.16),
+            row("sweep", 4, 2.0, 0.04),
+            row("sweep-shifted", 4, 2.0, 0.04),
+            row("vello-segments", 0, 9.0, 0.08),
+            row("vello-segments", 2, 6.0, 0.08),
+            row("stamping-4", 1, 4.0, 0.4),
+            row("stamping-4", 10, 8.0, 0.1),
+            row("stamping-4", 64, 400.0, 0.05),
+            row("stamping-16", 64, 100.0, 0.05),
+            row("stamping-16", 256, 400.0, 0.0125),
+        ]
+    }
+
+    fn ratios(rows: &[Row]) -> Vec<Option<Ratio>> {
+        let targets = targets(rows, &[("s", 10)]);
+        targets.iter().map(|target| target.ratio).collect()
+    }
+
+    fn is_close(ratio: Option<Ratio>, expected: f64) {
+        let Some(Ratio::Is(ratio)) = ratio else {
+            panic!("{ratio:?} is no measured ratio");
+        };
+        assert!((ratio - expected).abs() < 1e-9, "{ratio}, not {expected}");
+    }
+
+    #[test]
+    fn ratios_of_known_numbers() {
+        let ratios = ratios(&good());
+        assert_eq!(ratios.len(), 4);
+        is_close(ratios[0], 2.0 / 6.0);
+        // Half way between 1 and 4 samples, in logarithms.
+        is_close(ratios[1], 2f64.sqrt() / 6.0);
+        is_close(ratios[2], 2.0 / 8.0);
+        // From 0.05 to 0.0125 in 300 s of logarithms: to 0.04 it is the share ln 0.8 / ln 0.25.
+        let way = 0.8f64.ln() / 0.25f64.ln();
+        is_close(ratios[3], 2.0 / (100.0 * 4f64.powf(way)));
+    }
+
+    #[test]
+    fn good_numbers_are_met() {
+        let targets = targets(&good(), &[("s", 10)]);
+        assert!(targets.iter().all(Target::is_met), "{}", report(&targets));
+        assert!(!report(&targets).contains("MISSED"));
+    }
+
+    #[test]
+    fn each_bad_number_is_missed() {
+        // Which row becomes bad, by which factors of time and error, and the targets that it costs.
+        let cases: [(usize, f64, f64, &[usize]); 4] = [
+            (1, 1.1, 1.0, &[0]),
+            (4, 0.2, 1.0, &[0, 1]),
+            (2, 1.1, 1.0, &[2]),
+            (8, 0.1, 0.5, &[3]),
+        ];
+        for (place, slower, worse, expected) in cases {
+            let mut rows = good();
+            rows[place].seconds *= slower;
+            rows[place].error = rows[place].error.map(|error| error * worse);
+            let targets = targets(&rows, &[("s", 10)]);
+            let missed: Vec<usize> = (0..targets.len())
+                .filter(|&target| !targets[target].is_met())
+                .collect();
+            assert_eq!(missed, expected, "{}", report(&targets));
+            assert!(report(&targets).contains("MISSED"));
+        }
+    }
+
+    #[test]
+    fn an_error_that_is_never_reached() {
+        let mut rows = good();
+        rows[4].error = Some(1e-6);
+        rows[3].error = Some(1e-6);
+        let found = ratios(&rows);
+        assert_eq!(found[1], Some(Ratio::Is(f64::INFINITY)));
+        // Stamping that never gets there is slower than its last point.
+        rows.retain(|row| row.knob < 256);
+        assert_eq!(ratios(&rows)[3], Some(Ratio::Below(2.0 / 100.0)));
+    }
+
+    #[test]
+    fn what_was_not_measured_is_missed() {
+        let targets = targets(&[], &[("s", 10)]);
+        assert_eq!(targets.len(), 3);
+        assert!(targets.iter().all(|target| !target.is_met()));
+        assert!(report(&targets).contains("not measured"));
+    }
+}

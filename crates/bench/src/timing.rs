@@ -1,0 +1,121 @@
+//! Times that can be compared: medians of runs that take turns.
+
+use std::time::{Duration, Instant};
+
+/// How long to measure.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Times that everything gets its turn, at most.
+    pub rounds: usize,
+    /// What has used up this much gets no more turns.
+    pub each: Duration,
+}
+
+/// Runs in a turn: the caches belong to the others when a turn begins, so the first run of a turn is
+/// not counted.
+const TURN: usize = 3;
+
+/// The median time of each of `runs`, in seconds. They take turns, so that whatever else the machine
+/// does meets all of them alike. `done` is called after each turn.
+///
+/// # Errors
+///
+/// The first error of a run.
+pub fn medians<R, E>(runs: &mut [R], effort: Effort, mut done: impl FnMut()) -> Result<Vec<f64>, E>
+where
+    R: FnMut() -> Result<(), E>,
+{
+    let mut times: Vec<Vec<f64>> = vec![Vec::new(); runs.len()];
+    for _ in 0..effort.rounds.max(1) {
+        for (run, times) in runs.iter_mut().zip(&mut times) {
+            if times.iter().sum::<f64>() < effort.each.as_secs_f64() {
+                for turn in 0..TURN {
+                    let start = Instant::now();
+                    run()?;
+                    let seconds = start.elapsed().as_secs_f64();
+                    // What is this slow is not slow for its caches.
+                    let is_slow = 2.0 * seconds > effort.each.as_secs_f64();
+                    if turn > 0 || is_slow {
+                        times.push(seconds);
+                    }
+                    if is_slow {
+                        break;
+                    }
+                }
+            }
+            done();
+        }
+    }
+    Ok(times.into_iter().map(median).collect())
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    let middle = times.len() / 2;
+    if times.len() % 2 == 1 {
+        times[middle]
+    } else {
+        0.5 * (times[middle - 1] + times[middle])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn median_of_odd_and_even_numbers() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(median(vec![4.0, 1.0, 2.0, 9.0]), 3.0);
+    }
+
+    #[test]
+    fn runs_take_turns_and_all_are_timed() {
+        let order = std::cell::RefCell::new(String::new());
+        let run = |name: char| {
+            let order = &order;
+            move || {
+                order.borrow_mut().push(name);
+                Ok::<(), ()>(())
+            }
+        };
+        let effort = Effort {
+            rounds: 2,
+            each: Duration::from_secs(100),
+        };
+        let mut turns = 0;
+        let times = medians(&mut [run('a'), run('b')], effort, || turns += 1).unwrap();
+        assert_eq!(*order.borrow(), "aaabbbaaabbb");
+        assert_eq!((times.len(), turns), (2, 4));
+        assert!(times.iter().all(|seconds| (0.0..1.0).contains(seconds)));
+    }
+
+    #[test]
+    fn what_is_slow_gets_one_run() {
+        let mut count = 0;
+        let effort = Effort {
+            rounds: 9,
+            each: Duration::from_micros(1),
+        };
+        let run = || {
+            count += 1;
+            std::thread::sleep(Duration::from_millis(1));
+            Ok::<(), ()>(())
+        };
+        let times = medians(&mut [run], effort, || ()).unwrap();
+        assert!(times[0] >= 1e-3);
+        assert_eq!(count, 1);
+    }
+
+    #[test]
+    fn a_failure_ends_it() {
+        let effort = Effort {
+            rounds: 1,
+            each: Duration::from_secs(1),
+        };
+        assert_eq!(
+            medians(&mut [|| Err("broken")], effort, || ()),
+            Err("broken")
+        );
+    }
+}

@@ -1,0 +1,109 @@
+//! All that a preset may say, as data: the tables that the parser reads by.
+
+use effects::preset::{LAYER, OF_THE_EFFECT};
+use effects::{AnyEffect, Param, ParamKind, Registry};
+use serde_json::{Value, json};
+use stage::{Preset, SECTIONS};
+
+/// A section of a preset as `inkstrand effects` shows it.
+pub(super) struct Section {
+    pub name: &'static str,
+    pub doc: &'static str,
+    pub table: &'static [Param],
+}
+
+/// The sections in their order: what stands beside them, their own, and a layer's fields.
+pub(super) fn sections() -> Vec<Section> {
+    let top = ("preset", "What stands beside the sections.", Preset::TOP);
+    let layers = ("layers", "What is drawn: effects, in a list.", LAYER);
+    [top]
+        .iter()
+        .chain(SECTIONS)
+        .chain(&[layers])
+        .map(|&(name, doc, table)| Section { name, doc, table })
+        .collect()
+}
+
+/// The whole schema.
+pub(super) fn all(registry: &Registry) -> Value {
+    json!({
+        "version": stage::VERSION,
+        "sections": sections().iter().map(section).collect::<Vec<_>>(),
+        "effects": registry.iter().map(effect).collect::<Vec<_>>(),
+    })
+}
+
+/// A section's schema.
+pub(super) fn section(section: &Section) -> Value {
+    let own = |param: &Param| section.name == "layers" && OF_THE_EFFECT.contains(&param.name);
+    let parameters = section.table.iter().map(|param| {
+        let mut value = parameter(param);
+        if own(param) {
+            value["default"] = Value::Null;
+        }
+        value
+    });
+    json!({
+        "id": section.name,
+        "meaning": section.doc,
+        "parameters": parameters.collect::<Vec<_>>(),
+    })
+}
+
+/// An effect's schema.
+pub(super) fn effect(effect: &dyn AnyEffect) -> Value {
+    json!({
+        "id": effect.id(),
+        "meaning": effect.doc(),
+        "rank": effect.rank(),
+        "depth_offset": number(effect.depth_offset()),
+        "parameters": effect.params().iter().map(parameter).collect::<Vec<_>>(),
+    })
+}
+
+fn parameter(param: &Param) -> Value {
+    let mut value = json!({ "name": param.name, "meaning": param.doc });
+    if !param.unit.is_empty() {
+        value["unit"] = json!(param.unit);
+    }
+    let mut range = |min: Value, max: Value| {
+        value["min"] = min;
+        value["max"] = max;
+    };
+    let (kind, default) = match param.kind {
+        ParamKind::Number { min, max, default } => {
+            range(number(min), number(max));
+            ("number", number(default))
+        }
+        ParamKind::Integer { min, max, default } => {
+            range(json!(min), json!(max));
+            ("integer", json!(default))
+        }
+        ParamKind::Choice { names, default } => {
+            value["choices"] = json!(names);
+            ("choice", json!(names[default]))
+        }
+        ParamKind::Color { default } => ("color", json!(default)),
+        ParamKind::OptionalColor { default } => ("color or none", json!(default.unwrap_or("none"))),
+        ParamKind::Text => ("text", Value::Null),
+        ParamKind::Triple { min, max, default } => {
+            range(number(min), number(max));
+            ("three numbers", json!(default.map(number)))
+        }
+        ParamKind::Size { min, max, default } => {
+            range(json!(min), json!(max));
+            ("size", json!(default))
+        }
+    };
+    value["type"] = json!(kind);
+    value["default"] = default;
+    value
+}
+
+/// A number with the digits that a preset would give it: 0.1, not 0.10000000149.
+fn number(number: f32) -> Value {
+    number
+        .to_string()
+        .parse::<f64>()
+        .map_or(Value::Null, |n| json!(n))
+}

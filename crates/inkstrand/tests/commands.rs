@@ -1,0 +1,250 @@
+//! Every command and option that the program's own definition has: it works, or it is in the list of
+//! what is not built yet, exits 1 and says so.
+
+use assert_cmd::Command;
+use predicates::str::contains;
+use std::collections::BTreeSet;
+use std::fs;
+use tempfile::TempDir;
+
+const STRANDS: &str = "(version: 1, strands: [
+    (size: 30.0, mirror: true, points: [(0.03, 0.1, 0.0), (0.1, 0.1, 0.02), (0.13, -0.1, 0.03)]),
+])";
+const PRESET: &str = "(
+    version: 1,
+    hair: (file: \"small.strands.ron\"),
+    scene: (size: (40, 30), samples: 1),
+    layers: [(effect: \"hair.silhouette\"), (effect: \"hair.base\")],
+)";
+const HEAD: &str = "v -0.1 -0.1 0\nv 0.1 -0.1 0\nv 0 0.1 0.05\nv 0 0 -0.1\n\
+    f 1 2 3\nf 2 1 4\nf 3 2 4\nf 1 3 4\n";
+
+/// Commands and options whose part is still to be built, with a command line for each.
+const NOT_BUILT: &[(&str, &[&str])] = &[
+    (
+        "simulate PRESET",
+        &["simulate", "small.ron", "-o", "bake.bin"],
+    ),
+    (
+        "simulate --output",
+        &["simulate", "small.ron", "--output", "bake.bin"],
+    ),
+    (
+        "simulate --frames",
+        &["simulate", "small.ron", "-o", "bake.bin", "--frames", "0-3"],
+    ),
+    (
+        "convert INPUT",
+        &["convert", "small.strands.ron", "out.tfx"],
+    ),
+    (
+        "convert OUTPUT",
+        &["convert", "small.strands.ron", "out.tfx"],
+    ),
+    (
+        "render --backend gpu",
+        &["render", "small.ron", "--backend", "gpu"],
+    ),
+];
+
+/// Everything else, with a command line that uses it.
+const BUILT: &[(&str, &[&str])] = &[
+    ("check PRESETS", &["check", "small.ron"]),
+    ("effects NAME", &["effects", "hair.base"]),
+    ("effects --json", &["effects", "--json"]),
+    ("new NAME.ron", &["new", "fresh.ron"]),
+    ("render PRESET", &["render", "small.ron"]),
+    (
+        "render --output",
+        &["render", "small.ron", "--output", "a.png"],
+    ),
+    (
+        "render --hair",
+        &["render", "small.ron", "--hair", "small.strands.ron"],
+    ),
+    (
+        "render --head",
+        &["render", "small.ron", "--head", "head.obj"],
+    ),
+    ("render --guides", &["render", "small.ron", "--guides", "1"]),
+    (
+        "render --frames",
+        &["render", "small.ron", "--frames", "0-1"],
+    ),
+    ("render --time", &["render", "small.ron", "--time", "-0.5"]),
+    ("render --size", &["render", "small.ron", "--size", "8x6"]),
+    (
+        "render --samples",
+        &["render", "small.ron", "--samples", "2"],
+    ),
+    (
+        "render --backend auto",
+        &["render", "small.ron", "--backend", "auto"],
+    ),
+    (
+        "render --backend cpu",
+        &["render", "small.ron", "--backend", "cpu"],
+    ),
+    (
+        "render --camera",
+        &["render", "small.ron", "--camera", "-10,5,6"],
+    ),
+    (
+        "render --light",
+        &["render", "small.ron", "--light", "-10,5"],
+    ),
+    (
+        "render --background",
+        &["render", "small.ron", "--background", "102030"],
+    ),
+    (
+        "render --set",
+        &["render", "small.ron", "--set", "clump.size=2"],
+    ),
+    (
+        "render --only",
+        &["render", "small.ron", "--only", "hair.base"],
+    ),
+    (
+        "render --threads",
+        &["render", "small.ron", "--threads", "2"],
+    ),
+    (
+        "render --stats",
+        &["render", "small.ron", "--stats", "stats.jsonl"],
+    ),
+    ("render --quiet", &["render", "small.ron", "--quiet"]),
+];
+
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [
+        ("small.strands.ron", STRANDS),
+        ("small.ron", PRESET),
+        ("head.obj", HEAD),
+    ] {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+fn inkstrand(folder: &TempDir, arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("inkstrand").unwrap();
+    command.current_dir(folder.path()).args(arguments);
+    command
+}
+
+/// What the program's definition has: `render --size`, `render PRESET`, `render --backend gpu`.
+fn defined() -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    let program = inkstrand::command();
+    assert_eq!(
+        program.get_arguments().count(),
+        0,
+        "no options before the command"
+    );
+    for command in program.get_subcommands() {
+        assert_eq!(command.get_subcommands().count(), 0);
+        for argument in command.get_arguments() {
+            let name = match argument.get_long() {
+                Some(long) => format!("--{long}"),
+                None => match argument.get_value_names() {
+                    Some([name]) => name.to_string(),
+                    _ => argument.get_id().as_str().to_uppercase(),
+                },
+            };
+            let name = format!("{} {name}", command.get_name());
+            let choices = argument.get_possible_values();
+            if choices.is_empty() || !argument.get_action().takes_values() {
+                names.insert(name);
+            } else {
+                names.extend(
+                    choices
+                        .iter()
+                        .map(|choice| format!("{name} {}", choice.get_name())),
+                );
+            }
+        }
+    }
+    names
+}
+
+#[test]
+fn nothing_of_the_definition_is_forgotten() {
+    let listed: Vec<&str> = NOT_BUILT
+        .iter()
+        .chain(BUILT)
+        .map(|(name, _)| *name)
+        .collect();
+    let unique: BTreeSet<String> = listed.iter().map(|name| (*name).to_owned()).collect();
+    assert_eq!(unique.len(), listed.len(), "one list, once each");
+    assert_eq!(defined(), unique);
+    for (name, line) in NOT_BUILT.iter().chain(BUILT) {
+        let option = name.split(' ').nth(1).unwrap();
+        assert!(
+            !option.starts_with("--") || line.contains(&option),
+            "{name}: {line:?}"
+        );
+    }
+}
+
+#[test]
+fn what_is_not_built_exits_1_and_says_so() {
+    let folder = folder();
+    let before = fs::read_dir(folder.path()).unwrap().count();
+    for (_, line) in NOT_BUILT {
+        inkstrand(&folder, line)
+            .assert()
+            .code(1)
+            .stdout("")
+            .stderr(contains("is not built yet"));
+        // So does its help.
+        inkstrand(&folder, &["help", line[0]])
+            .assert()
+            .success()
+            .stdout(contains("(not built yet)"));
+    }
+    assert_eq!(
+        fs::read_dir(folder.path()).unwrap().count(),
+        before,
+        "nothing is written"
+    );
+}
+
+#[test]
+fn everything_else_works() {
+    let folder = folder();
+    for (name, line) in BUILT {
+        let output = inkstrand(&folder, line).output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{name}: {told}");
+        assert!(!told.contains("not built"), "{name}: {told}");
+    }
+}
+
+#[test]
+fn help_has_examples_that_parse() {
+    let folder = folder();
+    let output = inkstrand(&folder, &["help", "render"]).output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+    for word in [
+        "Examples:",
+        "degrees",
+        "head heights",
+        "1/300",
+        "[default: ",
+    ] {
+        assert!(help.contains(word), "`{word}` in:\n{help}");
+    }
+    let mut program = inkstrand::command();
+    let examples: Vec<&str> = help
+        .lines()
+        .map(str::trim)
+        .filter(|line| line.starts_with("inkstrand render "))
+        .collect();
+    assert!(examples.len() >= 5, "{help}");
+    for example in examples {
+        let parsed = program.try_get_matches_from_mut(example.split(' '));
+        assert!(parsed.is_ok(), "{example}: {}", parsed.unwrap_err());
+    }
+}

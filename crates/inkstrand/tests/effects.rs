@@ -1,0 +1,238 @@
+//! `inkstrand effects`: what it lists is what the parser reads by, as text and as JSON.
+
+use assert_cmd::Command;
+use effects::preset::{LAYER, OF_THE_EFFECT};
+use effects::{Param, ParamKind, Registry, Values};
+use predicates::prelude::*;
+use predicates::str::contains;
+use serde_json::{Value, json};
+use stage::{Preset, SECTIONS};
+
+fn registry() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    registry
+}
+
+fn effects(arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("inkstrand").unwrap();
+    command.arg("effects").args(arguments);
+    command
+}
+
+/// What the program writes as JSON.
+fn schema(arguments: &[&str]) -> Value {
+    let output = effects(arguments).arg("--json").output().unwrap();
+    assert!(output.status.success());
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn effects_and_sections_are_listed() {
+    let mut all = contains("`inkstrand effects NAME`").count(1);
+    effects(&[]).assert().success().stdout(all);
+    for name in [
+        "hair.base",
+        "hair.silhouette",
+        "preset",
+        "clump",
+        "camera",
+        "layers",
+    ] {
+        all = contains(format!("\n{name} ")).count(1);
+        effects(&[]).assert().success().stdout(all);
+    }
+}
+
+#[test]
+fn one_effect_or_section_is_described() {
+    effects(&["hair.silhouette"])
+        .assert()
+        .success()
+        .stdout(contains("width: a number from 0 to 100").and(contains("default 2.2; unit:")));
+    effects(&["camera"])
+        .assert()
+        .success()
+        .stdout(contains("camera: (name: value, ...)"))
+        .stdout(contains(
+            "yaw: a number from -360 to 360\n      default 0; unit: degrees",
+        ));
+    effects(&["layers"])
+        .assert()
+        .success()
+        .stdout(contains("rank: a whole number").and(contains("default the effect's own")));
+    for (wrong, right) in [("hair.silhuette", "hair.silhouette"), ("camrea", "camera")] {
+        effects(&[wrong])
+            .assert()
+            .code(2)
+            .stderr(contains(format!("did you mean `{right}`?")));
+    }
+}
+
+/// Holds the parameters of a schema against their table.
+fn assert_is_table(schema: &Value, table: &[Param]) {
+    let parameters = schema["parameters"].as_array().unwrap();
+    assert_eq!(parameters.len(), table.len(), "{schema}");
+    for (value, param) in parameters.iter().zip(table) {
+        assert_eq!(value["name"], param.name);
+        assert_eq!(value["meaning"], param.doc);
+        assert_eq!(value["unit"].as_str().unwrap_or_default(), param.unit);
+        let close = |name: &str, number: f32| {
+            let given = value[name].as_f64().unwrap();
+            assert_eq!(given as f32, number, "{}.{name}", param.name);
+        };
+        let kind = match param.kind {
+            ParamKind::Number { min, max, .. } => {
+                close("min", min);
+                close("max", max);
+                "number"
+            }
+            ParamKind::Integer { min, max, .. } => {
+                assert_eq!((&value["min"], &value["max"]), (&json!(min), &json!(max)));
+                "integer"
+            }
+            ParamKind::Choice { names, .. } => {
+                assert_eq!(value["choices"], json!(names));
+                "choice"
+            }
+            ParamKind::Color { .. } => "color",
+            ParamKind::OptionalColor { .. } => "color or none",
+            ParamKind::Text => "text",
+            ParamKind::Triple { min, max, .. } => {
+                close("min", min);
+                close("max", max);
+                "three numbers"
+            }
+            ParamKind::Size { min, max, .. } => {
+                assert_eq!((&value["min"], &value["max"]), (&json!(min), &json!(max)));
+                "size"
+            }
+        };
+        assert_eq!(value["type"], kind);
+    }
+}
+
+/// The fields of a schema at their defaults, as a preset writes them.
+fn defaults(schema: &Value) -> String {
+    let parameters = schema["parameters"].as_array().unwrap();
+    let fields = parameters.iter().filter_map(|value| {
+        let default = &value["default"];
+        let text = match value["type"].as_str().unwrap() {
+            "number" | "integer" => default.to_string(),
+            "choice" => default.as_str().unwrap().to_owned(),
+            "color or none" if default == "none" => "none".to_owned(),
+            "color" | "color or none" => default.to_string(),
+            "three numbers" | "size" => default.to_string().replace('[', "(").replace(']', ")"),
+            "text" => default.to_string(),
+            other => panic!("type {other}"),
+        };
+        let name = value["name"].as_str().unwrap();
+        (!default.is_null()).then(|| format!("{name}: {text}"))
+    });
+    fields.collect::<Vec<_>>().join(", ")
+}
+
+#[test]
+fn the_schema_is_the_tables() {
+    let registry = registry();
+    let schema = schema(&[]);
+    assert_eq!(schema["version"], stage::VERSION);
+    let sections = schema["sections"].as_array().unwrap();
+    assert_eq!(sections.len(), SECTIONS.len() + 2);
+    assert_eq!(sections[0]["id"], "preset");
+    assert_is_table(&sections[0], Preset::TOP);
+    for (section, (name, doc, table)) in sections[1..].iter().zip(SECTIONS) {
+        assert_eq!(
+            (&section["id"], &section["meaning"]),
+            (&json!(name), &json!(doc))
+        );
+        assert_is_table(section, table);
+    }
+    let layers = &sections[SECTIONS.len() + 1];
+    assert_eq!(layers["id"], "layers");
+    assert_is_table(layers, LAYER);
+    for value in layers["parameters"].as_array().unwrap() {
+        let own = OF_THE_EFFECT.contains(&value["name"].as_str().unwrap());
+        assert!(!own || value["default"].is_null(), "{value}");
+    }
+    let effects = schema["effects"].as_array().unwrap();
+    assert_eq!(effects.len(), registry.iter().count());
+    for (value, effect) in effects.iter().zip(registry.iter()) {
+        assert_eq!(
+            (&value["id"], &value["rank"]),
+            (&json!(effect.id()), &json!(effect.rank()))
+        );
+        assert_eq!(
+            value["depth_offset"].as_f64().unwrap() as f32,
+            effect.depth_offset()
+        );
+        assert_is_table(value, effect.params());
+    }
+}
+
+#[test]
+fn a_part_of_the_schema_is_the_same_part() {
+    let all = schema(&[]);
+    for part in ["sections", "effects"] {
+        for value in all[part].as_array().unwrap() {
+            assert_eq!(schema(&[value["id"].as_str().unwrap()]), *value);
+        }
+    }
+}
+
+/// All values of a section, whether the preset gives them or not.
+fn values(values: &Values) -> Vec<effects::Value> {
+    let table = values.table();
+    table
+        .iter()
+        .map(|param| values.value(param.name).clone())
+        .collect()
+}
+
+#[test]
+fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
+    let registry = registry();
+    let schema = schema(&[]);
+    let mut text = "(".to_owned();
+    let mut layer_fields = String::new();
+    for section in schema["sections"].as_array().unwrap() {
+        let fields = defaults(section);
+        match section["id"].as_str().unwrap() {
+            "preset" => text += &format!("{fields}, "),
+            "layers" => layer_fields = fields,
+            name => text += &format!("{name}: ({fields}), "),
+        }
+    }
+    let layers = schema["effects"].as_array().unwrap().iter().map(|effect| {
+        let params = defaults(effect);
+        format!(
+            "(effect: {}, {layer_fields}, params: ({params}))",
+            effect["id"]
+        )
+    });
+    text += &format!("layers: [{}])", layers.collect::<Vec<_>>().join(", "));
+
+    let preset = match Preset::parse("all.ron", &text, &registry) {
+        Ok(preset) => preset,
+        Err(errors) => panic!("{errors}"),
+    };
+    let layers = registry
+        .iter()
+        .map(|effect| format!("(effect: \"{}\")", effect.id()));
+    let layers = layers.collect::<Vec<_>>().join(", ");
+    let small = format!("(version: 1, layers: [{layers}])");
+    let small = Preset::parse("small.ron", &small, &registry).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(preset.seed, small.seed);
+    let sections = |p: &Preset| {
+        [
+            &p.hair, &p.head, &p.scene, &p.camera, &p.light, &p.path, &p.clump,
+        ]
+        .map(values)
+    };
+    assert_eq!(sections(&preset), sections(&small));
+    for (all, none) in preset.layers.iter().zip(&small.layers) {
+        assert_eq!(values(&all.values), values(&none.values));
+        assert_eq!((&all.name, all.rank), (&none.name, none.rank));
+        assert_eq!(all.depth_offset, none.depth_offset);
+    }
+}
