@@ -70,12 +70,12 @@ fn shoulders(p: Vec3, side: Vec3) -> f32 {
     let neck = cone(p, v(0.0, 1.43, -0.018), v(0.0, 1.28, -0.028), 0.031, 0.038);
     let shoulder = cone(
         side,
-        v(0.02, 1.265, -0.03),
-        v(0.105, 1.242, -0.035),
+        v(0.02, 1.282, -0.03),
+        v(0.105, 1.262, -0.035),
         0.043,
         0.038,
     );
-    let chest = ellipsoid(p, v(0.0, 1.19, -0.03), v(0.122, 0.12, 0.070));
+    let chest = ellipsoid(p, v(0.0, 1.20, -0.03), v(0.122, 0.125, 0.070));
     melt(melt(shoulder, chest, 0.05), neck, 0.035)
 }
 

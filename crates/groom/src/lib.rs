@@ -1,13 +1,19 @@
-//! The bust: a stylised head with neck and shoulders, made by code, with a drawn face.
+//! Hair styles made by description, and the bust they are tried on.
 //!
-//! Metres, Y up, the face towards +Z: the head is 0.24 m high, from the chin at 1.38 m to the top at
-//! 1.62 m, a person's 1.62 m above the ground.
+//! [`bust`] is a stylised head with neck and shoulders, made by code, with a drawn face: metres, Y up,
+//! the face towards +Z, 0.24 m from the chin at 1.38 m to the top at 1.62 m. [`grow`] grows a [`Style`]
+//! on the [`Shell`] of that or any other head.
 
 mod bust;
 mod face;
+mod random;
 mod ribbon;
+mod shell;
 mod solid;
+mod style;
 mod surface_nets;
 
 pub use bust::{Bust, bust};
 pub use face::{Ink, Patch};
+pub use shell::{Place, Shell, direction};
+pub use style::{MOST_CLUMPS, Style, Zone, grow};

@@ -4,6 +4,8 @@
 mod head;
 mod preset;
 mod scene;
+mod style;
 
 pub use preset::{CAMERA, HAIR, HEAD, LIGHT, PATH, Preset, SCENE, SECTIONS, VERSION};
 pub use scene::{Files, Stage, StageError};
+pub use style::ZONE;

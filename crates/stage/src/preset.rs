@@ -52,11 +52,43 @@ impl<'r> Preset<'r> {
     /// All mistakes of the file, each with its line and column.
     pub fn parse(file: &str, text: &str, registry: &'r Registry) -> Result<Self, PresetErrors> {
         let mut reader = Reader::new(file, text);
+        let preset = Self::read(&mut reader, registry)?;
+        reader.report()?;
+        Ok(preset)
+    }
+
+    /// Looks for all that is wrong with the preset `text`, also for the files that it names.
+    ///
+    /// # Errors
+    ///
+    /// As [`Preset::parse`] and [`Preset::check_files`] together.
+    pub fn check(
+        file: &str,
+        text: &str,
+        registry: &'r Registry,
+        files: &Files,
+    ) -> Result<(), PresetErrors> {
+        let mut reader = Reader::new(file, text);
+        let preset = Self::read(&mut reader, registry)?;
+        let mut errors = Vec::new();
+        for found in [reader.report(), preset.check_files(files)] {
+            errors.extend(found.err().into_iter().flat_map(|errors| errors.0));
+        }
+        errors.sort_by_key(|e: &PresetError| (e.place.line, e.place.column));
+        if errors.is_empty() {
+            Ok(())
+        } else {
+            Err(PresetErrors(errors))
+        }
+    }
+
+    /// Reads what can be read, and notes mistakes; those after which nothing can be read are returned.
+    fn read(reader: &mut Reader, registry: &'r Registry) -> Result<Self, PresetErrors> {
         let fields = reader.fields(reader.text(), "the preset");
         if fields.is_empty() {
             reader.report()?;
         }
-        if let Some(newer) = newer_version(&reader, &fields) {
+        if let Some(newer) = newer_version(reader, &fields) {
             return Err(PresetErrors(vec![newer]));
         }
         let sections = SECTIONS.iter().map(|(name, ..)| *name).chain(["layers"]);
@@ -101,7 +133,6 @@ impl<'r> Preset<'r> {
                 Vec::new()
             }
         };
-        reader.report()?;
         let seed = top.integer("seed").unsigned_abs();
         Ok(Self {
             seed,

@@ -2,6 +2,7 @@
 
 use crate::head::{self, HeadModel, HeadPaint};
 use crate::preset::Preset;
+use crate::style;
 use effects::{Layer, Parameters, clump};
 use glam::Vec3;
 use hair_io::orient::Axes;
@@ -42,6 +43,20 @@ pub enum StageError {
         "the preset names no hair: give one with --hair FILE, or hair: (file: \"...\") in the preset"
     )]
     NoHair,
+    /// A style grows on a head.
+    #[error("{}: a style needs a head to grow on: --head FILE, or head: (shape: bust) in the preset", .0.display())]
+    NoHead(PathBuf),
+    /// A style cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A style has mistakes.
+    #[error(transparent)]
+    Style(#[from] effects::preset::PresetErrors),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),
@@ -305,6 +320,9 @@ fn load_hair(
         &files.preset_folder,
     )
     .ok_or(StageError::NoHair)?;
+    if path.to_string_lossy().ends_with(".style.ron") {
+        return grow(&path, head);
+    }
     let given = hair_io::orient::Given {
         up: axes(values.choice("up")),
         scale: scale(values.number("scale")),
@@ -323,6 +341,34 @@ fn load_hair(
     kept.sort_by_key(|&i| hair.strands.id(i));
     hair.keep(&kept);
     Ok(hair)
+}
+
+/// The hair of a style, grown on the head.
+fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairFile, StageError> {
+    let head = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
+    let text = std::fs::read_to_string(path).map_err(|source| StageError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    let style = style::parse(&path.display().to_string(), &text)?;
+    let frame = HeadFrame::find(Some(head), &[]);
+    let shell = groom::Shell::new(
+        &head.positions,
+        &head.normals,
+        &head.triangles,
+        frame.center,
+        frame.height,
+    );
+    let strands = groom::grow(&style, &shell);
+    let notes = vec![format!(
+        "hair: {} clumps, grown from the style",
+        strands.len()
+    )];
+    Ok(HairFile {
+        strands,
+        motion: None,
+        notes,
+    })
 }
 
 /// Each strand's id and size: its own, the preset's, or from the spacing of the roots.

@@ -136,6 +136,13 @@ fn missing_files_are_named_at_their_place_in_the_preset() {
         "{errors}"
     );
 
+    // Together with all other mistakes, in the file's order.
+    let wrong = text.replace("layers", "sed: 1, layers");
+    let errors = Preset::check("look.ron", &wrong, &registry, &files).unwrap_err();
+    let lines: Vec<_> = errors.0.iter().map(|e| e.place.line).collect();
+    assert_eq!(lines, [1, 2, 2], "{errors}");
+    assert!(Preset::check("look.ron", SMALL, &registry, &files).is_ok());
+
     // What the caller gives instead is looked for by whoever reads it.
     let given = Files {
         hair: Some("other.tfx".into()),
