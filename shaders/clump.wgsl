@@ -14,6 +14,13 @@ struct Params {
     /// Where in the half turn of a sine the second size function begins (offset in 5.2); 0 is a point.
     /// @range 0..1 @default 0.25
     swell_offset: f32,
+    /// Size at the root, as a share of what the functions give there: below 1 a clump leaves the scalp
+    /// narrow, hidden by its neighbours (not in the source, whose strokes begin blunt).
+    /// @range 0..1 @default 1
+    root_size: f32,
+    /// How far along the strand the root's size has grown to the functions' own.
+    /// @unit 0 root to 1 tip @range 0..1 @default 0.2
+    root_length: f32,
     /// How much of the first function there is in the mix (weight in 5.3); the rest is the second.
     /// @range 0..1 @default 0.5
     mix: f32,
@@ -45,15 +52,18 @@ fn corrected_normal(joint: Inputs, params: Params) -> vec3<f32> {
     let across = outward - params.normal_correction * dot(outward, joint.backward) * joint.backward;
     // Where the strand runs straight outwards nothing is left of it: fade to a perpendicular.
     let lost = max(0.01 - length(across), 0.0);
-    return unit_or(across + lost * perpendicular(joint.backward), outward);
+    return unit_or(across + lost * perpendicular(joint.backward), perpendicular(joint.backward));
 }
 
 fn clump(joint: Inputs, params: Params) -> Clump {
     let weight = saturate(params.mix + params.mix_variation * random_signed(joint.seed, 0u));
     let profile = weight * shrink_to_tail(joint.u, params.shrink_start)
         + (1.0 - weight) * swell(joint.u, params.swell_offset);
+    // A step where root_length is 0: the root alone is narrow.
+    let from_root = select(1.0, smoothstep(0.0, params.root_length, joint.u), joint.u < params.root_length);
+    let root = mix(params.root_size, 1.0, from_root);
     let variation = 1.0 + params.size_variation * random_signed(joint.seed, 1u);
-    let radius = joint.strand_size * params.size * variation * profile;
+    let radius = joint.strand_size * params.size * variation * profile * root;
 
     let normal = corrected_normal(joint, params);
     var color = params.color;

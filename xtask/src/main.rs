@@ -8,6 +8,7 @@
     reason = "a program for the terminal"
 )]
 
+mod bench;
 mod layers;
 mod picture;
 mod presets;
@@ -27,7 +28,6 @@ type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
 /// Tasks that have a name and no code yet.
 const NOT_BUILT: &[(&str, &str)] = &[
-    ("bench", "Measures time against error"),
     ("gallery", "Draws contact sheets of all looks"),
     ("figures", "Redraws the source's explanatory figures"),
     ("fuzz", "Feeds random input to readers for hours"),
@@ -88,6 +88,7 @@ fn command() -> Command {
         .subcommand(
             Command::new("setup").about("Installs what the tests need and this machine lacks"),
         )
+        .subcommand(bench::command())
         .subcommands(not_built)
 }
 
@@ -102,6 +103,7 @@ fn run(matches: &ArgMatches) -> Outcome {
             let backend = args.get_one::<String>("backend").map_or("", String::as_str);
             regress::run(filter, backend, args.get_flag("bless"))
         }
+        Some(("bench", args)) => bench::run(args),
         Some(("setup", _)) => setup::run(),
         Some((name, _)) => Err(format!("{name} isn't built yet").into()),
         None => Err("no task given".into()),

@@ -15,7 +15,7 @@ use crate::results::{self, Row};
 use crate::timing::{Effort, medians};
 use contenders::{Contender, Library, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order};
 use indicatif::ProgressBar;
-use render::{Drawing, Order, Picture};
+use render::Order;
 use scenes::Scene;
 use stamping::Stamping;
 use std::path::{Path, PathBuf};
@@ -258,11 +258,12 @@ fn comments(scenes: &[Scene], threads: usize) -> Vec<String> {
     ];
     comments.extend(text.map(str::to_owned));
     comments.extend(scenes.iter().map(|scene| {
+        let [all, inked] = scene.segments();
         format!(
-            "scene {}: {} strands, {} segments with ink, the source's stamps an interval: {}",
+            "scene {}: {} strands, {all} segments, {inked} of them with ink; the source's stamps an \
+             interval: {}",
             scene.name,
             scene.drawing.runs.len(),
-            scene.segments(),
             scene.source_stamps
         )
     }));

@@ -76,7 +76,7 @@ fn registry() -> Registry {
 fn messages(list: &str) -> String {
     let registry = registry();
     let mut reader = Reader::new("look.ron", list);
-    reader.layers(list, &registry);
+    reader.layers(list, &registry, &["clump"]);
     reader.report().unwrap_err().to_string()
 }
 
@@ -89,7 +89,7 @@ fn layers_take_the_effects_defaults_or_their_own() {
          params: (width: 4.5, kind: double, color: "FF0000")),
     ]"#;
     let mut reader = Reader::new("look.ron", text);
-    let layers = reader.layers(text, &registry);
+    let layers = reader.layers(text, &registry, &["clump"]);
     reader.report().unwrap();
     assert_eq!(
         (
@@ -182,9 +182,9 @@ fn reading_goes_on_after_a_mistake_of_punctuation() {
         "look.ron:2:49: write `,` in place of `;`",
         "look.ron:2:58: units: there is no `inches`; there are: world, pixels",
         "look.ron:3:9: a comma is missing before this",
-        "look.ron:3:52: a `:` is missing after `width`",
-        "look.ron:3:67: kind: there is no `dubble`, did you mean `double`?",
-        "look.ron:3:76: there is a comma too many",
+        "look.ron:3:51: a `:` is missing after `width`",
+        "look.ron:3:66: kind: there is no `dubble`, did you mean `double`?",
+        "look.ron:3:75: there is a comma too many",
     ];
     for line in expected {
         assert!(
@@ -207,7 +207,7 @@ fn comments_and_raw_texts_are_read_as_ron_reads_them() {
          name: \"a // no comment \\\" ) \", params: ( /**/ width/**/:/**/3/**/ ),),
     ] /* ) */ // end";
     let mut reader = Reader::new("look.ron", text);
-    let layers = reader.layers(reader.text(), &registry);
+    let layers = reader.layers(reader.text(), &registry, &[]);
     reader.report().unwrap();
     assert_eq!(layers[0].name, "a // no comment \" ) ");
     assert_eq!(layers[0].values.number("width"), 3.0);
@@ -232,13 +232,19 @@ fn a_file_of_mistakes_is_cut_short_and_read_quickly() {
 fn set_takes_the_texts_that_presets_take() {
     let registry = registry();
     let text = "[(effect: \"test.line\")]";
-    let mut layers = Reader::new("look.ron", text).layers(text, &registry);
+    let mut layers = Reader::new("look.ron", text).layers(text, &registry, &["clump"]);
     let layer = &mut layers[0];
     layer.set("width", "3").unwrap();
     layer.set("color", "00FF00").unwrap();
     layer.set("kind", "double").unwrap();
     assert_eq!(layer.values.number("width"), 3.0);
     assert_eq!(layer.values.color("color"), [0.0, 1.0, 0.0]);
+    layer.set("depth_offset", "0.25").unwrap();
+    layer.set("rank", "-2").unwrap();
+    layer.set("units", "pixels").unwrap();
+    assert_eq!((layer.depth_offset, layer.rank), (0.25, -2));
+    assert_eq!(layer.units, effects::Units::Pixels);
+    assert!(layer.set("rank", "2.5").is_err());
     assert!(
         layer
             .set("width", "wide")
@@ -250,6 +256,16 @@ fn set_takes_the_texts_that_presets_take() {
             .set("withd", "1")
             .unwrap_err()
             .contains("did you mean `width`?")
+    );
+}
+
+#[test]
+fn layers_keep_off_the_names_of_sections() {
+    let text = "[(effect: \"test.line\", name: \"clump\")]";
+    let message = messages(text);
+    assert!(
+        message.starts_with("look.ron:1:2: `clump` is a section's name"),
+        "{message}"
     );
 }
 

@@ -108,13 +108,15 @@ mod tests {
     #[test]
     fn it_is_closed_mirrored_and_evenly_shaded() {
         let bust = bust();
-        let mut open = std::collections::HashMap::new();
+        let mut edges = std::collections::HashMap::new();
         for [a, b, c] in &bust.triangles {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                *open.entry((from.min(to), from.max(to))).or_insert(0) += 1;
+            for edge in [(a, b), (b, c), (c, a)] {
+                *edges.entry(edge).or_insert(0) += 1;
             }
         }
-        assert!(open.values().all(|count| *count == 2));
+        for ((a, b), count) in &edges {
+            assert_eq!(edges.get(&(*b, *a)), Some(count), "each edge has two sides");
+        }
         for (triangle, normals) in bust.triangles.iter().map(|t| {
             let corners = t.map(|i| bust.positions[i as usize]);
             (corners, t.map(|i| bust.normals[i as usize]))

@@ -36,8 +36,8 @@ Examples:
       two seconds at 24 frames a second: shot_0000.png to shot_0047.png
   inkstrand render look.ron --size 480x360 --samples 4 -o quick.png
       a quick look
-  inkstrand render look.ron --background none --only hair.silhouette
-      the lines alone, on nothing
+  inkstrand render look.ron --background none --only hair.base
+      the flat colour alone, on nothing
   inkstrand render look.ron --set hair.silhouette.width=3 --set clump.color=C9804B
       thicker lines, other hair
   inkstrand render look.ron --hair groom.tfx --head head.obj --guides 150

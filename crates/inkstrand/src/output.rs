@@ -14,24 +14,37 @@ pub(crate) struct Output {
 impl Output {
     /// Pictures at `given`, or named after the preset in the current folder. A sequence gets frame
     /// numbers, also where the name has no `#` for them.
-    pub fn new(given: Option<&Path>, preset: &Path, sequence: bool, transparent: bool) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// When the name promises another format than PNG.
+    pub fn new(
+        given: Option<&Path>,
+        preset: &Path,
+        sequence: bool,
+        transparent: bool,
+    ) -> Result<Self, String> {
         let mut pattern = match given {
             Some(path) => path.to_owned(),
             None => PathBuf::from(preset.file_stem().unwrap_or_default()).with_extension("png"),
         };
+        let is_png = pattern
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+        if !is_png {
+            let name = pattern.display();
+            return Err(format!(
+                "-o {name}: pictures are PNG, so the name must end in .png"
+            ));
+        }
         let numbered = |path: &Path| file_name(path).contains('#');
         if sequence && !numbered(&pattern) {
-            let ending = pattern
-                .extension()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned();
-            pattern.set_extension(format!("####.{ending}").trim_end_matches('.'));
+            pattern.set_extension("####.png");
         }
-        Self {
+        Ok(Self {
             pattern,
             transparent,
-        }
+        })
     }
 
     /// The file of a frame: its number stands where the last run of `#` is, padded with zeros.
@@ -90,7 +103,8 @@ mod tests {
             Path::new("a/look.ron"),
             sequence,
             false,
-        );
+        )
+        .unwrap();
         output.path(frame).to_string_lossy().into_owned()
     }
 

@@ -30,20 +30,34 @@ pub(crate) fn leave_no_parts() {
 /// A file under way. Dropped before [`WholeFile::finish`] it leaves nothing.
 pub(crate) struct WholeFile {
     path: PathBuf,
-    part: PathBuf,
+    /// Where it is until it is whole.
+    part: Option<PathBuf>,
     writer: BufWriter<File>,
 }
 
 impl WholeFile {
-    /// A file that will be at `path`.
+    /// A file that will be at `path`, or where a link there points. What is there but no file (a
+    /// pipe, a device) is written to as it is.
     pub fn create(path: &Path) -> io::Result<Self> {
+        let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+            let file = File::options()
+                .write(true)
+                .open(path)
+                .map_err(|e| named(path, &e))?;
+            return Ok(Self {
+                path: path.clone(),
+                part: None,
+                writer: BufWriter::new(file),
+            });
+        }
         let part = path.with_file_name(format!(".{}.{}.part", file_name(path), std::process::id()));
         let mut parts = parts();
         let file = File::create(&part).map_err(|e| named(path, &e))?;
         parts.push(part.clone());
         Ok(Self {
             path: path.to_owned(),
-            part,
+            part: Some(part),
             writer: BufWriter::new(file),
         })
     }
@@ -52,7 +66,10 @@ impl WholeFile {
     pub fn finish(mut self) -> io::Result<()> {
         self.flush()?;
         let _parts = parts();
-        fs::rename(&self.part, &self.path).map_err(|e| named(&self.path, &e))
+        match &self.part {
+            Some(part) => fs::rename(part, &self.path).map_err(|e| named(&self.path, &e)),
+            None => Ok(()),
+        }
     }
 }
 
@@ -68,10 +85,11 @@ impl Write for WholeFile {
 
 impl Drop for WholeFile {
     fn drop(&mut self) {
+        let Some(own) = &self.part else { return };
         let mut parts = parts();
         // The first error is the one to tell; a finished part is no longer there.
-        let _ = fs::remove_file(&self.part);
-        parts.retain(|part| *part != self.part);
+        let _ = fs::remove_file(own);
+        parts.retain(|part| part != own);
     }
 }
 
@@ -98,6 +116,21 @@ pub(crate) fn file_name(path: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    #[cfg(unix)]
+    fn links_and_devices_stay_what_they_are() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("a.txt"), folder.path().join("b.txt"));
+        fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write_whole(&link, b"new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+
+        write_whole(Path::new("/dev/null"), b"gone").unwrap();
+        assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
 
     #[test]
     fn a_file_is_whole_or_not_there() {

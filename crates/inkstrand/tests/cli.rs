@@ -1,5 +1,7 @@
 //! The program as its user has it: files in, pictures and messages out.
 
+#![allow(clippy::print_stdout, reason = "what is skipped is said")]
+
 use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::contains;

@@ -8,6 +8,7 @@ use ron::value::RawValue;
 use stage::{Preset, SECTIONS};
 use std::fmt::Write as _;
 use std::ops::Range;
+use std::path::Path;
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -21,7 +22,9 @@ fn presets(registry: &Registry) -> Vec<(String, String)> {
     let mut presets: Vec<(String, String)> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())
+        // Not hair styles or strands, whose names end in `.style.ron` and `.strands.ron`.
         .filter(|path| path.extension().is_some_and(|e| e == "ron"))
+        .filter(|path| Path::new(path.file_stem().unwrap()).extension().is_none())
         .map(|path| {
             let text = std::fs::read_to_string(&path).unwrap();
             (path.display().to_string(), text)

@@ -162,7 +162,9 @@ fn raster(criterion: &mut Criterion) {
     let scenes = [("flat", flat()), ("shaded", shaded()), ("thin", thin())];
     for (name, drawing) in scenes {
         let mut group = criterion.benchmark_group(name);
-        group.sample_size(10).warm_up_time(Duration::from_millis(500));
+        group
+            .sample_size(10)
+            .warm_up_time(Duration::from_millis(500));
         group.measurement_time(Duration::from_secs(2));
         for samples in [1, 4, 16] {
             let mut rasterizer = Rasterizer::new(samples, Some(THREADS)).unwrap();

@@ -155,29 +155,52 @@ fn thin() -> Drawing {
     })
 }
 
+fn cpu() -> f64 {
+    let mut sum = 0.0;
+    for t in std::fs::read_dir("/proc/self/task").unwrap() {
+        let text = std::fs::read_to_string(t.unwrap().path().join("schedstat")).unwrap();
+        sum += text.split(' ').next().unwrap().parse::<f64>().unwrap();
+    }
+    sum / 1e6
+}
 fn main() {
     let args: Vec<String> = std::env::args().collect();
     let only = args.get(1).map_or("", |s| s.as_str());
     let reps: usize = args.get(2).map_or(10, |s| s.parse().unwrap());
     let dump = args.get(3);
     for (name, drawing) in [("flat", flat()), ("shaded", shaded()), ("thin", thin())] {
-        if !only.is_empty() && only != name && only != "all" { continue; }
+        if !only.is_empty() && only != name && only != "all" {
+            continue;
+        }
         for samples in [1, 4, 16] {
             let mut rasterizer = Rasterizer::new(samples, Some(THREADS)).unwrap();
             let mut best = f64::INFINITY;
+            let mut best_cpu = f64::INFINITY;
             let mut last = None;
             for _ in 0..reps {
+                let c = cpu();
                 let t = std::time::Instant::now();
                 let p = rasterizer.draw(&drawing).unwrap();
                 best = best.min(t.elapsed().as_secs_f64());
+                best_cpu = best_cpu.min(cpu() - c);
                 last = Some(p);
             }
             let p = last.unwrap();
             let mut h = 0xcbf29ce484222325u64;
-            for v in p.pixels.iter().flatten() { h = (h ^ u64::from(v.to_bits())).wrapping_mul(0x100000001b3); }
-            println!("{name} {samples}: {:.2} ms  {h:016x}", best * 1e3);
+            for v in p.pixels.iter().flatten() {
+                h = (h ^ u64::from(v.to_bits())).wrapping_mul(0x100000001b3);
+            }
+            println!(
+                "{name} {samples}: wall {:.1} cpu {best_cpu:.1} ms  {h:016x}",
+                best * 1e3
+            );
             if let Some(dir) = dump {
-                let bytes: Vec<u8> = p.pixels.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
+                let bytes: Vec<u8> = p
+                    .pixels
+                    .iter()
+                    .flatten()
+                    .flat_map(|v| v.to_le_bytes())
+                    .collect();
                 std::fs::write(format!("{dir}/{name}{samples}"), bytes).unwrap();
             }
         }

@@ -9,6 +9,8 @@
 mod bin;
 mod check;
 mod evaluate;
+mod instructions;
+mod rows;
 mod segment;
 mod strand;
 mod stroke;
@@ -26,10 +28,11 @@ use crate::picture::Picture;
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
 use glam::Vec2;
+use instructions::Instructions;
 use rayon::prelude::*;
 use segment::{Segment, Stroke};
 use std::sync::{Mutex, PoisonError};
-use strand::{Scene, StrandPlanes};
+use strand::{Part, Scene, StrandPlanes};
 use surface::Triangle;
 use tile::{Sums, Target};
 
@@ -55,6 +58,7 @@ pub struct Rasterizer {
     pool: rayon::ThreadPool,
     samples: Vec<Vec2>,
     parts: Parts,
+    instructions: Instructions,
     /// One for each thread.
     workers: Vec<Mutex<Worker>>,
 }
@@ -86,9 +90,11 @@ impl Rasterizer {
         let workers = (0..pool.current_num_threads())
             .map(|_| Mutex::new(Worker::new()))
             .collect();
+        let available = Instructions::available();
         Ok(Self {
             pool,
             samples,
+            instructions: *available.last().unwrap_or(&Instructions::Compiled),
             parts: Parts::default(),
             workers,
         })
@@ -106,6 +112,7 @@ impl Rasterizer {
             pool,
             samples,
             parts,
+            instructions,
             workers,
         } = self;
         pool.install(|| {
@@ -130,7 +137,7 @@ impl Rasterizer {
                     let mut worker = workers[thread]
                         .lock()
                         .unwrap_or_else(PoisonError::into_inner);
-                    worker.draw_band(&frame, band, pixels);
+                    instructions.draw_band(&mut worker, &frame, band, pixels);
                 });
             Ok(picture)
         })
@@ -143,7 +150,8 @@ fn empty_picture([width, height]: [u32; 2]) -> Result<Picture, DrawError> {
     pixels
         .try_reserve_exact(length)
         .map_err(|_| DrawError::Memory(width, height))?;
-    pixels.resize(length, [0.0; 4]);
+    // In parallel: most of the time goes into the memory's first touch.
+    pixels.par_extend(rayon::iter::repeat_n([0.0; 4], length));
     Ok(Picture {
         width,
         height,
@@ -178,6 +186,7 @@ struct Worker {
     segments_of_tiles: Bins,
     triangles_of_tiles: Bins,
     target: Target,
+    parts: Vec<Part>,
     strand: StrandPlanes,
     sums: Sums,
 }
@@ -188,12 +197,14 @@ impl Worker {
             segments_of_tiles: Bins::default(),
             triangles_of_tiles: Bins::default(),
             target: Target::new(),
+            parts: Vec::new(),
             strand: StrandPlanes::new(),
             sums: Sums::new(),
         }
     }
 
     /// Draws a row of tiles into its pixels.
+    #[inline(always)] // compiled for each set of `Instructions`
     fn draw_band(&mut self, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
         let width = frame.drawing.size[0] as usize;
         let tiles = width.div_ceil(tile::WIDTH);
@@ -213,8 +224,18 @@ impl Worker {
             (i, cells(columns, tile::WIDTH))
         });
         self.triangles_of_tiles.fill(tiles, columns);
+        let empty = tile::empty_pixel(frame.drawing.background, frame.samples.len());
         for tile in 0..tiles {
             let x = tile * tile::WIDTH;
+            let is_empty = self.segments_of_tiles.bin(tile).is_empty()
+                && self.triangles_of_tiles.bin(tile).is_empty();
+            if is_empty {
+                for pixels in pixels.chunks_mut(width) {
+                    let end = (x + tile::WIDTH).min(width);
+                    pixels[x..end].fill(empty);
+                }
+                continue;
+            }
             self.draw_tile(frame, tile, [x, band * tile::HEIGHT]);
             let end = (x + tile::WIDTH).min(width);
             for (row, pixels) in pixels.chunks_mut(width).enumerate() {
@@ -225,30 +246,33 @@ impl Worker {
     }
 
     /// Sums up the samples of the tile at `origin`.
+    #[inline(always)]
     fn draw_tile(&mut self, frame: &Frame, tile: usize, origin: [usize; 2]) {
         self.sums.clear();
         let background = frame.drawing.background;
+        let segments_of_tile = self.segments_of_tiles.bin(tile);
+        let mut scene = Scene {
+            order: frame.drawing.order,
+            strokes: frame.strokes,
+            segments: &frame.parts.segments,
+            origin,
+            samples: frame.samples,
+        };
+        scene.strands(segments_of_tile, &mut self.parts);
         for samples in frame.samples.chunks(tile::GROUP) {
-            self.target.clear(background);
-            for &triangle in self.triangles_of_tiles.bin(tile) {
-                let triangle = &frame.parts.triangles[triangle as usize];
-                triangle.draw(frame.drawing, origin, samples, &mut self.target);
+            scene.samples = samples;
+            self.target.clear(samples.len(), background);
+            let triangles = self.triangles_of_tiles.bin(tile);
+            if !triangles.is_empty() {
+                for &triangle in triangles {
+                    let triangle = &frame.parts.triangles[triangle as usize];
+                    triangle.draw(frame.drawing, origin, samples, &mut self.target);
+                }
+                self.target.finish_surfaces();
             }
-            let segments = &frame.parts.segments;
-            let scene = Scene {
-                order: frame.drawing.order,
-                strokes: frame.strokes,
-                segments,
-                origin,
-                samples,
-            };
-            let strand = |&i: &u32| segments[i as usize].strand;
-            for strand in self
-                .segments_of_tiles
-                .bin(tile)
-                .chunk_by(|a, b| strand(a) == strand(b))
-            {
-                self.strand.draw(&scene, strand, &mut self.target);
+            for part in &self.parts {
+                self.strand
+                    .draw(&scene, segments_of_tile, part, &mut self.target);
             }
             self.sums
                 .add(&self.target, samples.len(), background.is_some());

@@ -1,5 +1,6 @@
 //! A finished picture in linear light, and its way to 8 bits.
 
+use rayon::prelude::*;
 use std::sync::LazyLock;
 
 /// A picture: linear light, premultiplied alpha, row by row from the upper left.
@@ -19,18 +20,20 @@ impl Picture {
     #[must_use]
     pub fn to_srgb8(&self) -> Vec<u8> {
         let encoder = &*ENCODER;
-        self.pixels
-            .iter()
-            .flat_map(|&[red, green, blue, alpha]| {
+        let mut bytes = vec![[0; 4]; self.pixels.len()];
+        bytes
+            .par_iter_mut()
+            .with_min_len(1024)
+            .zip(&self.pixels)
+            .for_each(|(bytes, &[red, green, blue, alpha])| {
                 // Also 0 for NaN, which no rasteriser makes.
                 let alpha8 = (alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-                if alpha8 == 0 {
-                    return [0; 4];
+                if alpha8 > 0 {
+                    let [red, green, blue] = [red, green, blue].map(|c| encoder.encode(c / alpha));
+                    *bytes = [red, green, blue, alpha8];
                 }
-                let [red, green, blue] = [red, green, blue].map(|c| encoder.encode(c / alpha));
-                [red, green, blue, alpha8]
-            })
-            .collect()
+            });
+        bytes.into_flattened()
     }
 }
 

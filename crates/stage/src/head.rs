@@ -1,6 +1,6 @@
 //! The head on the screen: two flat tones and an outline.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use groom::{Ink, Patch};
 use hair_io::Mesh;
 use render::{Light, Surface, SurfaceVertex};
@@ -165,43 +165,59 @@ fn surface(
             tone: corner.tone * inv_depth,
         }
     };
-    // Corners behind the near plane are never indexed.
-    let in_front = |corner: &Corner| corner.view.z >= near;
-    let vertices: Vec<SurfaceVertex> = corners
-        .iter()
-        .map(|corner| {
-            let view = corner.view.with_z(corner.view.z.max(near));
-            project(&Corner { view, ..*corner })
-        })
-        .collect();
     let mut surface = Surface {
-        vertices,
+        vertices: Vec::new(),
         triangles: Vec::new(),
         hollow_m: 0.0,
         light,
         shadow,
     };
+    // Only corners that are seen are projected; this is where they went.
+    let mut entered = vec![u32::MAX; corners.len()];
     for triangle in triangles {
         let seen = triangle.map(|i| corners[i as usize]);
         if facing != Facing::Any && faces(&seen) != facing {
             continue;
         }
-        match seen.iter().filter(|corner| in_front(corner)).count() {
-            0 => {}
-            3 => surface.triangles.push(*triangle),
-            _ => {
-                let first = surface.vertices.len() as u32;
-                surface
-                    .vertices
-                    .extend(cut(&seen, near).iter().map(&project));
-                for last in first + 2..surface.vertices.len() as u32 {
-                    surface.triangles.push([first, last - 1, last]);
+        let first = surface.vertices.len();
+        let polygon: Vec<u32> = if seen.iter().all(|corner| corner.view.z >= near) {
+            let enter = |i: &u32| {
+                let index = &mut entered[*i as usize];
+                if *index == u32::MAX {
+                    *index = surface.vertices.len() as u32;
+                    surface.vertices.push(project(&corners[*i as usize]));
                 }
+                *index
+            };
+            triangle.iter().map(enter).collect()
+        } else {
+            surface
+                .vertices
+                .extend(cut(&seen, near).iter().map(project));
+            (first as u32..surface.vertices.len() as u32).collect()
+        };
+        let is_at_hand = |i: &u32| {
+            let position = surface.vertices[*i as usize].position;
+            position.abs().max_element() <= FARTHEST_PX
+        };
+        // No picture can mean a corner that far away.
+        if polygon.iter().all(is_at_hand) {
+            for pair in polygon.windows(2).skip(1) {
+                surface.triangles.push([polygon[0], pair[0], pair[1]]);
             }
+        }
+    }
+    // What no triangle uses any more may lie anywhere.
+    for vertex in &mut surface.vertices {
+        if vertex.position.abs().max_element() > FARTHEST_PX || !vertex.position.is_finite() {
+            vertex.position = Vec2::ZERO;
         }
     }
     surface
 }
+
+/// Triangles with a corner farther from the picture's corner are left out, px.
+const FARTHEST_PX: f32 = 1e8;
 
 /// Which side of the triangle the eye, at the origin of view space, is on.
 fn faces([a, b, c]: &[Corner; 3]) -> Facing {

@@ -2,6 +2,7 @@
 //! strokes.
 
 mod head;
+mod load;
 mod preset;
 mod scene;
 mod style;

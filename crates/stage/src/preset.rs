@@ -126,7 +126,7 @@ impl<'r> Preset<'r> {
         let (scene, camera, light) = (section("scene").0, section("camera").0, section("light").0);
         let (path, clump) = (section("path").0, section("clump").0);
         let layers = match field("layers") {
-            Some(field) => reader.layers(field.value, registry),
+            Some(field) => reader.layers(field.value, registry, &known),
             None => {
                 let message = "the preset has no `layers`, so it would draw nothing";
                 reader.error(reader.text(), message);

@@ -1,14 +1,13 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
 use crate::head::{self, HeadModel, HeadPaint};
+use crate::load;
 use crate::preset::Preset;
-use crate::style;
 use effects::{Layer, Parameters, clump};
-use glam::Vec3;
-use hair_io::orient::Axes;
-use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
+use glam::{Vec2, Vec3};
+use hair_io::{HairFile, HeadFrame};
 use render::{Frame, Head, Light, Order, StrandInfo};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
 
 /// How near the eye strokes are cut, in head heights.
@@ -16,10 +15,7 @@ const NEAR: f32 = 0.05;
 
 /// How much nearer than the inside of the head hair must be to be seen through an opening, in head
 /// heights: more than the clumps around the skull reach into it.
-const HOLLOW: f32 = 0.3;
-
-/// Radius of a clump in units of the spacing of the roots: neighbours overlap and hide the scalp.
-const RADIUS_IN_SPACINGS: f32 = 0.75;
+const HOLLOW: f32 = 0.6;
 
 /// Files that the caller gives in place of the preset's.
 #[derive(Clone, Debug, Default)]
@@ -108,17 +104,19 @@ impl Stage {
     /// When hair or head cannot be read, or camera and path settings contradict each other.
     pub fn new(preset: &Preset, files: &Files) -> Result<Self, StageError> {
         let mut notes = Vec::new();
-        let model = load_head(preset, files, &mut notes)?;
+        let model = load::head(preset, files, &mut notes)?;
         let mesh = model.as_ref().map(|model| &model.mesh);
-        let hair = load_hair(preset, files, mesh, &mut notes)?;
+        let mut hair = load::hair(preset, files, mesh, &mut notes)?;
+        // Before strands are chosen: how many are kept moves neither the camera nor any size.
         let roots: Vec<Vec3> = hair.strands.roots().collect();
         let frame = HeadFrame::find(mesh, &roots);
         let head = Head {
             center: frame.center,
             height_m: frame.height,
         };
+        load::keep_guides(preset, &mut hair);
         let settings = Settings::new(preset, head)?;
-        let strands = sizes(preset, &hair, &roots, head);
+        let strands = load::strand_infos(preset, &hair, head);
         Ok(Self {
             points: hair.strands.points().to_vec(),
             hair,
@@ -147,16 +145,33 @@ impl Stage {
         self.strands.len()
     }
 
-    /// Strands that no part of the last frame's paths shows: behind the eye, or too far to be drawn.
+    /// Strands of the last frame that are behind the eye or wholly off the picture.
     #[must_use]
     pub fn culled(&self) -> usize {
+        let Some(camera) = &self.camera else { return 0 };
+        let [width, height] = camera.size_px().map(|size| size as f32);
+        let picture = Vec2::new(width, height);
         let mut seen = 0;
-        let mut last = None;
-        for run in &self.paths.runs {
-            seen += usize::from(last != Some(run.strand));
-            last = Some(run.strand);
+        for runs in self.paths.runs.chunk_by(|a, b| a.strand == b.strand) {
+            let size_m = self.strands[runs[0].strand].size * self.head.unit_m();
+            let joints = runs.iter().flat_map(|run| run.joints.clone());
+            let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+            for joint in joints {
+                // Room for a clump twice its size, outline and all.
+                let reach = Vec2::splat(2.0 * size_m * self.paths.px_per_metre[joint]);
+                low = low.min(self.paths.center[joint] - reach);
+                high = high.max(self.paths.center[joint] + reach);
+            }
+            let is_seen = high.cmpge(Vec2::ZERO).all() && low.cmple(picture).all();
+            seen += usize::from(is_seen);
         }
         self.strands.len() - seen
+    }
+
+    /// Strands of the last frame that were left out because they are too far away to be drawn.
+    #[must_use]
+    pub fn left_out(&self) -> usize {
+        self.paths.dropped()
     }
 
     /// Moves the hair to `time` (seconds).
@@ -268,127 +283,4 @@ impl Settings {
             Light::Direction(direction)
         }
     }
-}
-
-fn axes(choice: u32) -> Option<Axes> {
-    [None, Some(Axes::Y), Some(Axes::Z)][choice as usize]
-}
-
-fn scale(number: f32) -> Option<f32> {
-    (number > 0.0).then_some(number)
-}
-
-/// The caller's file, or the preset's beside the preset.
-fn chosen(given: Option<&PathBuf>, own: Option<&str>, folder: &Path) -> Option<PathBuf> {
-    given.cloned().or_else(|| own.map(|name| folder.join(name)))
-}
-
-fn load_head(
-    preset: &Preset,
-    files: &Files,
-    notes: &mut Vec<String>,
-) -> Result<Option<HeadModel>, StageError> {
-    let values = &preset.head;
-    let Some(path) = chosen(
-        files.head.as_ref(),
-        values.text("file"),
-        &files.preset_folder,
-    ) else {
-        let is_bust = values.choice("shape") == 1;
-        return Ok(is_bust.then(HeadModel::bust));
-    };
-    let file = hair_io::read_head(
-        &path,
-        axes(values.choice("up")),
-        scale(values.number("scale")),
-    )?;
-    notes.extend(file.notes);
-    Ok(Some(file.mesh.into()))
-}
-
-/// The hair with the strands that are kept, sorted by id.
-fn load_hair(
-    preset: &Preset,
-    files: &Files,
-    head: Option<&Mesh>,
-    notes: &mut Vec<String>,
-) -> Result<HairFile, StageError> {
-    let values = &preset.hair;
-    let path = chosen(
-        files.hair.as_ref(),
-        values.text("file"),
-        &files.preset_folder,
-    )
-    .ok_or(StageError::NoHair)?;
-    if path.to_string_lossy().ends_with(".style.ron") {
-        return grow(&path, head);
-    }
-    let given = hair_io::orient::Given {
-        up: axes(values.choice("up")),
-        scale: scale(values.number("scale")),
-        offset: None,
-    };
-    let mut hair = hair_io::read_hair(&path, &HairOptions { given, head })?;
-    notes.append(&mut hair.notes);
-    let guides = values.integer("guides").unsigned_abs() as usize;
-    let mut kept: Vec<usize> = match guides {
-        0 => (0..hair.strands.len()).collect(),
-        _ => {
-            let roots: Vec<Vec3> = hair.strands.roots().collect();
-            hair_io::guides::spread_evenly(&roots, guides)
-        }
-    };
-    kept.sort_by_key(|&i| hair.strands.id(i));
-    hair.keep(&kept);
-    Ok(hair)
-}
-
-/// The hair of a style, grown on the head.
-fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairFile, StageError> {
-    let head = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
-    let text = std::fs::read_to_string(path).map_err(|source| StageError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
-    let style = style::parse(&path.display().to_string(), &text)?;
-    let frame = HeadFrame::find(Some(head), &[]);
-    let shell = groom::Shell::new(
-        &head.positions,
-        &head.normals,
-        &head.triangles,
-        frame.center,
-        frame.height,
-    );
-    let strands = groom::grow(&style, &shell);
-    let notes = vec![format!(
-        "hair: {} clumps, grown from the style",
-        strands.len()
-    )];
-    Ok(HairFile {
-        strands,
-        motion: None,
-        notes,
-    })
-}
-
-/// Each strand's id and size: its own, the preset's, or from the spacing of the roots.
-fn sizes(preset: &Preset, hair: &HairFile, roots: &[Vec3], head: Head) -> Vec<StrandInfo> {
-    let strands = &hair.strands;
-    let set = preset.hair.number("size");
-    let needs_spacing = set <= 0.0 && (0..strands.len()).any(|i| strands.size(i).is_none());
-    let spacing = if needs_spacing {
-        hair_io::guides::spacing(roots)
-    } else {
-        Vec::new()
-    };
-    let from_spacing = |i: usize| RADIUS_IN_SPACINGS * spacing[i] / head.unit_m();
-    (0..strands.len())
-        .map(|i| StrandInfo {
-            id: strands.id(i),
-            mean: Vec3::ZERO,
-            size: strands
-                .size(i)
-                .unwrap_or_else(|| if set > 0.0 { set } else { from_spacing(i) }),
-        })
-        .collect()
 }

@@ -182,6 +182,12 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
     };
     match zones.first() {
         Some(list) => {
+            if list.value.trim_start_matches('[').trim_start() == "]" {
+                reader.error(
+                    list.value,
+                    "there are no zones in it, so no hair would grow",
+                );
+            }
             for item in reader.list(list.value, "zones") {
                 let zone = zone(&mut reader, item);
                 if style.zones.iter().any(|other| other.name == zone.name) {

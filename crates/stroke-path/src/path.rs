@@ -7,6 +7,8 @@ use std::ops::Range;
 
 /// Shorter segments have no direction of their own (m).
 const MIN_LENGTH_M: f32 = 1e-12;
+/// Joints farther from the picture's corner (px) belong to strands that no picture can mean.
+const FARTHEST_PX: f32 = 1e8;
 /// The least angle (rad, about) between a strand and the line of sight at which the strand has a direction
 /// on the screen. Rounding turns that direction by less than 1e-2 rad there.
 const MIN_ANGLE: f32 = 1e-4;
@@ -97,7 +99,7 @@ impl Paths {
     }
 
     /// How many strands were left out since [`Self::clear`], because their points are so far away
-    /// that lengths or screen positions exceed what an `f32` can hold.
+    /// that lengths exceed what an `f32` can hold, or screen positions 1e8 pixels.
     #[must_use]
     pub fn dropped(&self) -> usize {
         self.dropped
@@ -126,7 +128,9 @@ impl Paths {
         let mut finite = self.whole.iter().all(Joint::is_finite);
         if finite {
             self.clip(strand, camera);
-            finite = self.center[joints..].iter().all(|c| c.is_finite());
+            finite = self.center[joints..]
+                .iter()
+                .all(|c| c.abs().max_element() <= FARTHEST_PX);
         }
         if !finite {
             self.runs.truncate(runs);

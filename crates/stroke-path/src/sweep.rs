@@ -17,6 +17,7 @@
 //! *attribute point* is the single u where distance over radius is least, which colours it.
 
 use glam::{DVec2, Vec2};
+use std::hint::select_unpredictable; // an `if` may become a branch, which vectors don't have
 
 /// Below this length and difference of radii, in pixels, two discs are one.
 const SAME: f64 = 1e-6;
@@ -127,7 +128,7 @@ impl Sweep {
 
     /// The least and the greatest u in 0..=1 whose discs cover a point that
     /// [is covered](Self::covers). Elsewhere some numbers in 0..=1 without meaning.
-    #[inline]
+    #[inline(always)] // into kernels that are compiled for several instruction sets
     #[must_use]
     pub fn interval(&self, x: f32, y: f32) -> (f32, f32) {
         let b = self.radius * self.shrink - self.length * x;
@@ -138,11 +139,8 @@ impl Sweep {
         let q = b.abs() + at_least_zero(discriminant).sqrt() + TINY;
         let by_c = c / q;
         let by_a = q * self.inv_a;
-        let (low, high) = if b > 0.0 {
-            (-by_a, -by_c)
-        } else {
-            (by_c, by_a)
-        };
+        let low = select_unpredictable(b > 0.0, -by_a, by_c);
+        let high = select_unpredictable(b > 0.0, -by_c, by_a);
         (unit_clamp(low), unit_clamp(high))
     }
 
@@ -152,12 +150,12 @@ impl Sweep {
     /// `x - dr y^2 / R` if R > 0; so the clamped value is the least of the segment. R <= 0 lies
     /// beyond the cone's apex: there the ratio only rises from the larger disc on where that holds the
     /// smaller one, and a stroke that ends in a point covers nothing but its tip.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn attribute_point(&self, x: f32, y: f32) -> (f32, f32) {
         let r = self.length * self.radius - self.shrink * x;
         let along = x - self.shrink * (y * y) / r;
-        let along = if r > 0.0 { along } else { self.beyond_apex };
+        let along = select_unpredictable(r > 0.0, along, self.beyond_apex);
         let u = unit_clamp(along * self.inv_length);
         let radius = self.radius - self.shrink * u;
         let ahead = x - self.length * u;
@@ -176,26 +174,23 @@ impl Sweep {
         )
     }
 
-    /// Four half-planes that hold the whole stroke: its outer tangents and its two ends. A covered
-    /// screen position p has `normal . p <= offset` for each `(normal, offset)`.
+    /// Centre and radius of the larger and of the smaller disc.
     #[must_use]
-    pub fn half_planes(&self) -> [(DVec2, f64); 4] {
-        let (radius, length) = (f64::from(self.radius), f64::from(self.length));
-        let taper = if self.body_end < 0.0 {
-            0.0
-        } else {
-            f64::from(self.shrink) / length
-        };
-        let side = (1.0 - taper * taper).max(0.0).sqrt();
-        let end = radius.max(length + f64::from(self.smaller_radius));
-        let across = self.axis.perp();
-        [
-            (self.axis * taper + across * side, radius),
-            (self.axis * taper - across * side, radius),
-            (-self.axis, radius),
-            (self.axis, end),
-        ]
-        .map(|(normal, offset)| (normal, offset + normal.dot(self.origin)))
+    pub fn ends(&self) -> [(DVec2, f32); 2] {
+        let end = self.origin + self.axis * f64::from(self.length);
+        [(self.origin, self.radius), (end, self.smaller_radius)]
+    }
+
+    /// The outward unit normals of the two outer tangents, or nothing where one disc lies inside the
+    /// other. A tangent touches each disc at its centre plus its radius times the normal.
+    #[must_use]
+    pub fn tangent_normals(&self) -> Option<[Vec2; 2]> {
+        if self.body_end < 0.0 {
+            return None;
+        }
+        let along = self.axis() * (self.shrink * self.inv_length);
+        let across = self.axis().perp() * (self.a.sqrt() * self.inv_length);
+        Some([along + across, along - across])
     }
 }
 
@@ -221,16 +216,16 @@ pub fn visible_part(first: Circle, second: Circle, min: DVec2, max: DVec2) -> Op
     (from <= to).then_some([from, to])
 }
 
-/// Written out so that it is one vector instruction, and 0 for NaN.
-#[inline]
+/// Also 0 for NaN.
+#[inline(always)]
 fn at_least_zero(value: f32) -> f32 {
-    if value > 0.0 { value } else { 0.0 }
+    select_unpredictable(value > 0.0, value, 0.0)
 }
 
-#[inline]
+#[inline(always)]
 fn unit_clamp(value: f32) -> f32 {
     let value = at_least_zero(value);
-    if value < 1.0 { value } else { 1.0 }
+    select_unpredictable(value < 1.0, value, 1.0)
 }
 
 #[cfg(test)]
@@ -377,8 +372,10 @@ mod tests {
             if sweep.covers(local.x, local.y) {
                 let (min, max) = sweep.bounds();
                 prop_assert!(p.cmpge(min - 1e-4).all() && p.cmple(max + 1e-4).all());
-                for (normal, offset) in sweep.half_planes() {
-                    prop_assert!(normal.dot(p) <= offset + 1e-4);
+                for normal in sweep.tangent_normals().into_iter().flatten() {
+                    let [(center, radius), _] = sweep.ends();
+                    let ahead = normal.as_dvec2().dot(p - center);
+                    prop_assert!(ahead <= f64::from(radius) + 1e-4);
                 }
             }
         }

@@ -2,166 +2,209 @@
 
 use super::syntax::{Kind, Mistake, mistake, token};
 
-/// Two brackets that fit, as the ends of the preset that begin with them.
+/// A bracket: the end of the preset that begins with it, and where it stands.
 #[derive(Clone, Copy)]
-struct Pair<'a> {
-    open: &'a str,
-    close: &'a str,
+struct Bracket<'a> {
+    at: &'a str,
+    line: usize,
+    /// Of its line.
+    indentation: usize,
+    /// Whether nothing but white space is before it on its line.
+    is_first: bool,
 }
+
+impl<'a> Bracket<'a> {
+    fn text(&self) -> &'a str {
+        &self.at[..1]
+    }
+
+    fn closing(&self) -> &'static str {
+        match self.text() {
+            "(" => ")",
+            "[" => "]",
+            _ => "}",
+        }
+    }
+}
+
+/// An opening bracket and the one that closes it, or should.
+type Pair<'a> = (Bracket<'a>, Bracket<'a>);
 
 /// Checks that all brackets, texts and comments of the preset are closed, and that nothing comes
 /// after its end: without that there are no parts to look at.
 pub(super) fn check_brackets(preset: &str) -> Result<(), Mistake<'_>> {
-    let mut open: Vec<&str> = Vec::new();
+    let mut open: Vec<Bracket> = Vec::new();
     // The first pairs that look wrong, to be named where the whole does not fit.
-    let mut missing = None;
-    let mut extra = None;
-    let mut end = None;
+    let mut missing: Option<Pair> = None;
+    let mut extra: Option<Pair> = None;
+    let mut end: Option<Bracket> = None;
+    let mut lines = Lines::new(preset);
     let mut rest = preset;
     while let Some((piece, after)) = token(rest)? {
-        let at = &rest[rest.len() - after.len() - piece.text.len()..];
+        let here = lines.bracket(rest.len() - after.len() - piece.text.len());
+        lines.pass(piece.text.len());
         rest = after;
         if let Some(end) = end {
-            if let Some(pair) = extra {
-                return too_many(preset, pair);
-            }
-            let last = line(preset, end);
-            return mistake(
-                at,
-                format!("this comes after the end of the preset, the bracket of line {last}"),
-            );
+            return match extra {
+                Some(pair) => too_many(pair),
+                None => mistake(
+                    here.at,
+                    format!(
+                        "this comes after the end of the preset, the bracket of line {}",
+                        end.line
+                    ),
+                ),
+            };
         }
         match piece.kind {
-            Kind::Open => open.push(at),
+            Kind::Open => open.push(here),
             Kind::Close => {
                 let Some(opened) = open.pop() else {
-                    return mistake(at, format!("this `{}` closes nothing", piece.text));
+                    return mistake(here.at, format!("this `{}` closes nothing", piece.text));
                 };
-                let pair = Pair {
-                    open: opened,
-                    close: at,
-                };
-                if closing(opened) != piece.text {
+                let pair = (opened, here);
+                if opened.closing() != piece.text {
                     return match (missing, extra) {
-                        (Some(pair), _) => forgotten(preset, pair),
-                        (None, Some(pair)) => too_many(preset, pair),
-                        (None, None) => mismatch(preset, pair),
+                        (Some(pair), _) => forgotten(pair),
+                        (None, Some(pair)) => too_many(pair),
+                        (None, None) => mismatch(pair),
                     };
                 }
-                match indentation(preset, at) {
-                    Some(here) if here < indentation_of_line(preset, opened) => {
-                        missing.get_or_insert(pair);
-                    }
-                    None if opened[..opened.len() - at.len()].contains('\n') => {
-                        extra.get_or_insert(pair);
-                    }
-                    _ => {}
+                if here.is_first && here.indentation < opened.indentation {
+                    missing.get_or_insert(pair);
+                } else if !here.is_first && opened.line < here.line {
+                    extra.get_or_insert(pair);
                 }
                 if open.is_empty() {
-                    end = Some(at);
+                    end = Some(here);
                 }
             }
             _ if open.is_empty() => {
                 let found: String = piece.text.chars().take(40).collect();
-                return mistake(at, format!("a preset begins with `(`, found `{found}`"));
+                return mistake(
+                    here.at,
+                    format!("a preset begins with `(`, found `{found}`"),
+                );
             }
             _ => {}
         }
     }
     match (open.pop(), missing) {
         (None, _) => Ok(()),
-        (Some(_), Some(pair)) => forgotten(preset, pair),
+        (Some(_), Some(pair)) => forgotten(pair),
         (Some(opened), None) => mistake(
-            opened,
+            opened.at,
             format!(
                 "this `{}` is not closed before the file ends: a `{}` is missing",
-                &opened[..1],
-                closing(opened)
+                opened.text(),
+                opened.closing()
             ),
         ),
     }
 }
 
+/// Lines and indentations on a walk through the preset, each character looked at once.
+struct Lines<'a> {
+    rest: &'a str,
+    line: usize,
+    indentation: usize,
+    is_first: bool,
+}
+
+impl<'a> Lines<'a> {
+    fn new(preset: &'a str) -> Self {
+        Self {
+            rest: preset,
+            line: 1,
+            indentation: indentation(preset),
+            is_first: true,
+        }
+    }
+
+    /// Walks on by `length`.
+    fn pass(&mut self, length: usize) {
+        let (passed, rest) = self.rest.split_at(length);
+        self.rest = rest;
+        if let Some(end) = passed.rfind('\n') {
+            self.line += passed.matches('\n').count();
+            let line = &passed[end + 1..];
+            self.is_first = line.trim().is_empty();
+            self.indentation = if self.is_first {
+                line.len() + indentation(rest)
+            } else {
+                indentation(line)
+            };
+        } else {
+            self.is_first &= passed.trim().is_empty();
+        }
+    }
+
+    /// The place `distance` from here.
+    fn bracket(&mut self, distance: usize) -> Bracket<'a> {
+        self.pass(distance);
+        Bracket {
+            at: self.rest,
+            line: self.line,
+            indentation: self.indentation,
+            is_first: self.is_first,
+        }
+    }
+}
+
+fn indentation(line: &str) -> usize {
+    line.len() - line.trim_start_matches([' ', '\t']).len()
+}
+
 /// A pair whose second is indented less than the line of its first: that one belongs to another.
-fn forgotten<'a>(preset: &str, pair: Pair<'a>) -> Result<(), Mistake<'a>> {
-    let (open, close) = (&pair.open[..1], &pair.close[..1]);
-    let second = line(preset, pair.close);
+fn forgotten((open, close): Pair<'_>) -> Result<(), Mistake<'_>> {
     mistake(
-        pair.open,
+        open.at,
         format!(
-            "is this `{open}` not closed? By its indentation, the `{close}` of line {second} closes \
-             another one"
+            "is this `{}` not closed? By its indentation, the `{}` of line {} closes another one",
+            open.text(),
+            close.text(),
+            close.line
+        ),
+    )
+}
+
+/// A pair whose second stands within a later line, where a bracket was perhaps written once too often.
+fn too_many((open, close): Pair<'_>) -> Result<(), Mistake<'_>> {
+    mistake(
+        close.at,
+        format!(
+            "is this `{}` one too many? It closes the `{}` of line {}, and what comes later does \
+             not fit",
+            close.text(),
+            open.text(),
+            open.line
         ),
     )
 }
 
 /// Two brackets that don't fit. Where the second stands tells which one the author meant otherwise.
-fn mismatch<'a>(preset: &str, pair: Pair<'a>) -> Result<(), Mistake<'a>> {
-    let Pair {
-        open: opened,
-        close: at,
-    } = pair;
-    let (open, close, right) = (&opened[..1], &at[..1], closing(opened));
-    let (first, second) = (line(preset, opened), line(preset, at));
-    let here = indentation(preset, at);
-    if here == Some(indentation_of_line(preset, opened)) {
-        let message = format!("write `{right}`, for the `{open}` of line {first}, not `{close}`");
-        mistake(at, message)
-    } else if here.is_none() && first != second {
+fn mismatch((open, close): Pair<'_>) -> Result<(), Mistake<'_>> {
+    let (opening, closing, right) = (open.text(), close.text(), open.closing());
+    let (first, second) = (open.line, close.line);
+    if close.is_first && close.indentation == open.indentation {
+        let message =
+            format!("write `{right}`, for the `{opening}` of line {first}, not `{closing}`");
+        mistake(close.at, message)
+    } else if !close.is_first && first != second {
         mistake(
-            at,
+            close.at,
             format!(
-                "this `{close}` comes before the `{open}` of line {first} is closed: is it one too \
-                 many, or a `{right}` missing?"
+                "this `{closing}` comes before the `{opening}` of line {first} is closed: is it one \
+                 too many, or a `{right}` missing?"
             ),
         )
     } else {
         mistake(
-            opened,
+            open.at,
             format!(
-                "this `{open}` is not closed before the `{close}` of line {second}: is a `{right}` \
-                 missing?"
+                "this `{opening}` is not closed before the `{closing}` of line {second}: is a \
+                 `{right}` missing?"
             ),
         )
     }
-}
-
-/// A pair whose second stands within a later line, where a bracket was perhaps written once too often.
-fn too_many<'a>(preset: &str, pair: Pair<'a>) -> Result<(), Mistake<'a>> {
-    let (open, close) = (&pair.open[..1], &pair.close[..1]);
-    let first = line(preset, pair.open);
-    mistake(
-        pair.close,
-        format!(
-            "is this `{close}` one too many? It closes the `{open}` of line {first}, and what comes \
-             later does not fit"
-        ),
-    )
-}
-
-/// The line that `at`, an end of the preset, begins in.
-fn line(preset: &str, at: &str) -> usize {
-    1 + preset[..preset.len() - at.len()].matches('\n').count()
-}
-
-fn closing(opened: &str) -> &'static str {
-    match opened.as_bytes().first() {
-        Some(b'(') => ")",
-        Some(b'[') => "]",
-        _ => "}",
-    }
-}
-
-/// The white space before `at`, where nothing else is before it on its line.
-fn indentation(preset: &str, at: &str) -> Option<usize> {
-    let before = &preset[..preset.len() - at.len()];
-    let spaces = before.len() - before.trim_end_matches([' ', '\t']).len();
-    let line = &before[..before.len() - spaces];
-    (line.is_empty() || line.ends_with('\n')).then_some(spaces)
-}
-
-fn indentation_of_line(preset: &str, at: &str) -> usize {
-    let before = &preset[..preset.len() - at.len()];
-    let line = &preset[before.rfind('\n').map_or(0, |i| i + 1)..];
-    line.len() - line.trim_start_matches([' ', '\t']).len()
 }

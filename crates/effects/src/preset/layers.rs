@@ -1,11 +1,11 @@
 //! The layers of a preset.
 
 use super::error::suggestion;
-use super::reader::{Field, Reader};
+use super::reader::{Field, Reader, unknown};
 use super::value::{parse_value, shown};
 use crate::effect::AnyEffect;
 use crate::layer::{Layer, Units};
-use crate::param::{Param, ParamKind, Values};
+use crate::param::{Param, ParamKind, Value, Values};
 use crate::registry::Registry;
 
 /// What a layer may say, beside the effect's own parameters.
@@ -72,14 +72,30 @@ pub struct LayerSpec<'r> {
     pub values: Values,
 }
 
+/// In the order of `units` in [`LAYER`].
+const UNITS: [Units; 2] = [Units::World, Units::Pixels];
+
 impl LayerSpec<'_> {
-    /// Sets one parameter from its text, as `--set` gives it.
+    /// Sets one parameter of the effect, or the layer's own `rank`, `depth_offset` or `units`, from
+    /// its text, as `--set` gives it.
     ///
     /// # Errors
     ///
     /// When there is no such parameter, or the text is not one of its values.
     pub fn set(&mut self, param: &str, text: &str) -> Result<(), String> {
-        set_value(&mut self.values, &self.name, param, text)
+        let own = ["rank", "depth_offset", "units"];
+        let is_own = own.contains(&param) && self.effect.params().iter().all(|p| p.name != param);
+        if !is_own {
+            return set_value(&mut self.values, &self.name, param, text);
+        }
+        let mut layer = Values::defaults(LAYER);
+        set_value(&mut layer, &self.name, param, text)?;
+        match param {
+            "rank" => self.rank = layer.integer("rank"),
+            "depth_offset" => self.depth_offset = layer.number("depth_offset"),
+            _ => self.units = UNITS[layer.choice("units") as usize],
+        }
+        Ok(())
     }
 
     /// The layer, ready to be evaluated.
@@ -109,8 +125,7 @@ pub(crate) fn set_value(
 ) -> Result<(), String> {
     let table = values.table();
     let Some(index) = table.iter().position(|p| p.name == param) else {
-        let hint = suggestion(param, table.iter().map(|p| p.name));
-        return Err(format!("{what} has no `{param}`{hint}"));
+        return Err(unknown(param, table, what));
     };
     let kind = &table[index].kind;
     let value = parse_value(text, kind)
@@ -132,14 +147,28 @@ impl Values {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads the list of layers, each by the effect that owns it. Mistakes are noted.
-    pub fn layers<'r>(&mut self, list: &'a str, registry: &'r Registry) -> Vec<LayerSpec<'r>> {
+    /// Reads the list of layers, each by the effect that owns it. Mistakes are noted; a layer must not
+    /// have one of the `reserved` names, those of sections.
+    pub fn layers<'r>(
+        &mut self,
+        list: &'a str,
+        registry: &'r Registry,
+        reserved: &[&str],
+    ) -> Vec<LayerSpec<'r>> {
         let mut layers: Vec<LayerSpec<'r>> = Vec::new();
         for item in self.list(list, "layers") {
             let Some(layer) = self.layer(item, registry) else {
                 continue;
             };
-            if layers.iter().any(|other| other.name == layer.name) {
+            if reserved.contains(&layer.name.as_str()) {
+                self.error(
+                    item,
+                    format!(
+                        "`{}` is a section's name; give this layer another",
+                        layer.name
+                    ),
+                );
+            } else if layers.iter().any(|other| other.name == layer.name) {
                 self.error(
                     item,
                     format!(
@@ -162,59 +191,28 @@ impl<'a> Reader<'a> {
             self.error(item, message);
             return None;
         }
-        let fields = self.fields(item, "a layer");
-        let (params, mut own): (Vec<Field>, Vec<Field>) =
-            fields.into_iter().partition(|field| field.name == "params");
-        let effect = own.iter().find(|field| field.name == "effect");
-        let table = effect
-            .and_then(|field| ron::from_str::<String>(field.value).ok())
-            .and_then(|id| registry.get(&id))
-            .map_or(&[][..], AnyEffect::params);
-        own.retain(|field| {
-            let known = LAYER.iter().any(|param| param.name == field.name);
-            if !known {
-                self.unknown_field(field, table);
+        let (params, own): (Vec<Field>, Vec<Field>) = self
+            .fields(item, "a layer")
+            .into_iter()
+            .partition(|field| field.name == "params");
+        let effect = self.effect(item, &own, registry);
+        let table = effect.map_or(&[][..], AnyEffect::params);
+        let layer = self.values_or(&own, LAYER, |field| {
+            let name = field.name;
+            if has(table, name) {
+                let value = shown(field.value);
+                return format!("`{name}` belongs to the effect: params: ({name}: {value})");
             }
-            known
+            let names = LAYER.iter().map(|param| param.name).chain(["params"]);
+            format!("a layer has no `{name}`{}", suggestion(name, names))
         });
-        let layer = self.values(&own, LAYER, "a layer");
-        let Some(id) = layer.text("effect") else {
-            if own.iter().all(|field| field.name != "effect") {
-                self.error(
-                    item,
-                    "a layer needs `effect`, such as effect: \"hair.base\"",
-                );
-            }
-            return None;
-        };
-        let Some(effect) = registry.get(id) else {
-            let value = own
-                .iter()
-                .find(|f| f.name == "effect")
-                .map_or(item, |f| f.value);
-            let hint = suggestion(id, registry.iter().map(AnyEffect::id));
-            self.error(value, format!("there is no effect `{id}`{hint}"));
-            return None;
-        };
+        let effect = effect?;
         let values = match params.first() {
-            Some(field) => {
-                let mut fields = self.fields(field.value, id);
-                fields.retain(|field| {
-                    let owned = effect.params().iter().any(|param| param.name == field.name);
-                    let misplaced = !owned && LAYER.iter().any(|param| param.name == field.name);
-                    if misplaced {
-                        let name = field.name;
-                        let message = format!("`{name}` belongs to the layer, outside of `params`");
-                        self.error(name, message);
-                    }
-                    !misplaced
-                });
-                self.values(&fields, effect.params(), id)
-            }
+            Some(field) => self.params(field.value, effect),
             None => Values::defaults(effect.params()),
         };
         Some(LayerSpec {
-            name: layer.text("name").unwrap_or(id).to_owned(),
+            name: layer.text("name").unwrap_or(effect.id()).to_owned(),
             effect,
             rank: if layer.is_given("rank") {
                 layer.integer("rank")
@@ -226,23 +224,48 @@ impl<'a> Reader<'a> {
             } else {
                 effect.depth_offset()
             },
-            units: [Units::World, Units::Pixels][layer.choice("units") as usize],
+            units: UNITS[layer.choice("units") as usize],
             values,
         })
     }
 
-    /// A field that no layer has: perhaps one of the effect's parameters, whose table this is.
-    fn unknown_field(&mut self, field: &Field, table: &[Param]) {
-        let name = field.name;
-        let message = if table.iter().any(|param| param.name == name) {
-            format!(
-                "`{name}` belongs to the effect: params: ({name}: {})",
-                shown(field.value)
-            )
-        } else {
-            let names = LAYER.iter().map(|param| param.name).chain(["params"]);
-            format!("a layer has no `{name}`{}", suggestion(name, names))
+    /// The effect that a layer names. Where its `effect` is no text, that is told with the other values.
+    fn effect<'r>(
+        &mut self,
+        item: &'a str,
+        fields: &[Field<'a>],
+        registry: &'r Registry,
+    ) -> Option<&'r dyn AnyEffect> {
+        let Some(field) = fields.iter().find(|field| field.name == "effect") else {
+            self.error(
+                item,
+                "a layer needs `effect`, such as effect: \"hair.base\"",
+            );
+            return None;
         };
-        self.error(name, message);
+        let Ok(Value::Text(Some(id))) = parse_value(field.value, &ParamKind::Text) else {
+            return None;
+        };
+        let effect = registry.get(&id);
+        if effect.is_none() {
+            let hint = suggestion(&id, registry.iter().map(AnyEffect::id));
+            self.error(field.value, format!("there is no effect `{id}`{hint}"));
+        }
+        effect
     }
+
+    fn params(&mut self, section: &'a str, effect: &dyn AnyEffect) -> Values {
+        let fields = self.fields(section, effect.id());
+        self.values_or(&fields, effect.params(), |field| {
+            if has(LAYER, field.name) {
+                format!("`{}` belongs to the layer, outside of `params`", field.name)
+            } else {
+                unknown(field.name, effect.params(), effect.id())
+            }
+        })
+    }
+}
+
+fn has(table: &[Param], name: &str) -> bool {
+    table.iter().any(|param| param.name == name)
 }

@@ -295,20 +295,25 @@ impl<'a> Reader<'a> {
 
     /// The values of these fields by `table`. A field that the table lacks is a mistake.
     pub fn values(&mut self, fields: &[Field<'a>], table: &'static [Param], what: &str) -> Values {
+        self.values_or(fields, table, |field| unknown(field.name, table, what))
+    }
+
+    /// The values of these fields by `table`; what is said of a field that the table lacks.
+    pub(super) fn values_or(
+        &mut self,
+        fields: &[Field<'a>],
+        table: &'static [Param],
+        unknown: impl Fn(&Field) -> String,
+    ) -> Values {
         let mut values = Values::defaults(table);
         for field in fields {
-            let Some(index) = table.iter().position(|p| p.name == field.name) else {
-                let names = table.iter().map(|p| p.name);
-                let hint = if table.is_empty() {
-                    "; it has no parameters".to_owned()
-                } else {
-                    suggestion(field.name, names)
-                };
-                self.error(field.name, format!("{what} has no `{}`{hint}", field.name));
-                continue;
-            };
-            if let Some(value) = self.value(field, &table[index]) {
-                values.set(index, value);
+            match table.iter().position(|p| p.name == field.name) {
+                Some(index) => {
+                    if let Some(value) = self.value(field, &table[index]) {
+                        values.set(index, value);
+                    }
+                }
+                None => self.error(field.name, unknown(field)),
             }
         }
         values
@@ -323,6 +328,16 @@ impl<'a> Reader<'a> {
                 None
             }
         }
+    }
+}
+
+/// The message for a name that the table of `what` lacks.
+pub(super) fn unknown(name: &str, table: &[Param], what: &str) -> String {
+    if table.is_empty() {
+        format!("{what} has no `{name}`; it has no parameters")
+    } else {
+        let hint = suggestion(name, table.iter().map(|p| p.name));
+        format!("{what} has no `{name}`{hint}")
     }
 }
 

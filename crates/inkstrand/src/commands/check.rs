@@ -27,9 +27,8 @@ fn mistakes_of(path: &Path, registry: &Registry) -> Vec<String> {
         preset_folder: preset_folder(path),
         ..Files::default()
     };
-    let checked = Preset::parse(&path.display().to_string(), &text, registry)
-        .and_then(|preset| preset.check_files(&files));
-    match checked {
+    let name = path.display().to_string();
+    match Preset::check(&name, &text, registry, &files) {
         Ok(()) => Vec::new(),
         Err(errors) => mistakes(&errors).collect(),
     }

@@ -48,7 +48,8 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
         &options.preset,
         sequence,
         transparent,
-    );
+    )
+    .map_err(Failure::Usage)?;
     let mut painter = Painter::new(samples, options.threads)?;
 
     let (first, last) = options.frames.unwrap_or((0, 0));

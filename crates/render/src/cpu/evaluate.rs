@@ -66,6 +66,7 @@ impl Evaluator {
             layer
                 .program
                 .evaluate(&self.joints, 0..joints, instance, seed, &mut self.strokes);
+            self.strokes.iter_mut().for_each(drop_if_not_finite);
             discs.extend(self.strokes.iter().enumerate().map(|(i, stroke)| {
                 let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
                 let depth_offset = layer.depth_offset + stroke.depth_offset;
@@ -226,13 +227,33 @@ fn disc(
     let biased = (depth - clump_radius * unit_m).max(nearest);
     Disc {
         center: frame.paths.center[joint] + offset * unit_px,
-        radius: finite_or_zero(radius).max(0.0) * unit_px,
+        radius: (radius.max(0.0) * unit_px).min(LARGEST_PX),
         inv_depth: 1.0 / shifted,
         inv_depth_biased: 1.0 / biased,
     }
 }
 
-/// A stroke whose size an effect failed to work out is not drawn.
-fn finite_or_zero(value: f32) -> f32 {
-    if value.is_finite() { value } else { 0.0 }
+/// No disc is larger, in pixels: it already covers any picture.
+const LARGEST_PX: f32 = 1e8;
+
+/// A stroke that an effect failed to work out is not drawn.
+fn drop_if_not_finite(stroke: &mut Stroke) {
+    let numbers = [
+        stroke.offset.x,
+        stroke.offset.y,
+        stroke.radius,
+        stroke.depth_offset,
+    ];
+    let all = numbers
+        .iter()
+        .chain(&stroke.color.to_array())
+        .all(|x| x.is_finite());
+    if !all {
+        *stroke = Stroke {
+            offset: vec2([0.0; 2]),
+            radius: 0.0,
+            depth_offset: 0.0,
+            color: vec3([0.0; 3]),
+        };
+    }
 }

@@ -1,6 +1,7 @@
 //! A drawing's strokes taken apart into segments, in the order in which they are drawn.
 
 use super::bin::Bounds;
+use super::tile;
 use crate::drawing::{Disc, Drawing, Order, Run};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -32,7 +33,13 @@ impl Ramp {
         }
     }
 
-    #[inline]
+    /// The least and the greatest value that [`at`](Self::at) takes on from 0 to 1.
+    pub(super) fn range(&self) -> [f32; 2] {
+        let (a, b) = (self.at(0.0), self.at(1.0));
+        [a.min(b), a.max(b)]
+    }
+
+    #[inline(always)]
     pub(super) fn at(&self, u: f32) -> f32 {
         self.start + u * self.rise
     }
@@ -163,15 +170,11 @@ impl Segment {
         })
     }
 
-    /// The columns and rows of the segment's bounds in the tile at `origin`, of `size` pixels.
-    pub(super) fn reach(&self, origin: [usize; 2], size: [usize; 2]) -> Bounds {
-        let clip = |range: &Range<usize>, origin: usize, size: usize| {
-            range.start.max(origin) - origin..range.end.min(origin + size) - origin
-        };
-        Bounds {
-            x: clip(&self.bounds.x, origin[0], size[0]),
-            y: clip(&self.bounds.y, origin[1], size[1]),
-        }
+    /// The rows, of the tile whose first one is `top`, that the segment may reach.
+    #[inline(always)]
+    pub(super) fn rows_in(&self, top: usize) -> Range<usize> {
+        let rows = &self.bounds.y;
+        rows.start.max(top) - top..rows.end.min(top + tile::HEIGHT) - top
     }
 
     pub(super) fn is_one_color(&self) -> bool {

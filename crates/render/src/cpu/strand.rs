@@ -1,12 +1,21 @@
 //! One strand in one tile: its strokes in their order, then the strand against what is there.
+//!
+//! What can't be seen is not worked out. First come the masks of what each stroke covers; from the
+//! highest stroke down each takes the samples that are left. Only these get a depth, and only those
+//! that then show in the picture get a colour.
 
 use super::segment::{Segment, Stroke};
 use super::stroke::{Depths, Placed};
 use super::tile::{
-    HEIGHT, LANES, Lanes, NOTHING, Plane, Region, Target, WIDTH, overwrite, plane, select,
+    HEIGHT, LANES, Lanes, Mask, NO_SAMPLES, Plane, ROWS, Target, both, cells, has, is_empty, plane,
+    select, without,
 };
 use crate::drawing::Order;
 use glam::Vec2;
+use std::ops::Range;
+
+/// Part of an inverse depth below which two are the same: the rounding of a ramp's ends.
+const SAME_DEPTH: f32 = 1e-6;
 
 /// What stays the same from strand to strand.
 pub(super) struct Scene<'a> {
@@ -19,203 +28,319 @@ pub(super) struct Scene<'a> {
     pub(super) samples: &'a [Vec2],
 }
 
-/// The planes of one strand; each strand clears what it touches.
+/// The working memory of one strand.
 pub(super) struct StrandPlanes {
-    /// The clump, which the strokes of rank 0 and above are clipped to.
-    clump: Depths,
-    /// The stroke that is being drawn.
-    stroke: Depths,
-    /// The least ratio of the stroke, or infinity where it doesn't cover.
+    /// The strand's segments that cover something, in drawing order.
+    placed: Vec<Placed>,
+    /// Its strokes, lowest first; the clump before them.
+    strokes: Vec<Covered>,
+    depths: Depths,
+    /// The least ratio of the stroke that is being shaded.
     ratio: Plane,
-    stroke_color: [Plane; 3],
-    /// What the strand shows.
-    shown: Depths,
-    color: [Plane; 3],
+    /// Segments of a stroke from the nearest to the farthest.
+    by_depth: Vec<Near>,
+}
+
+/// A stroke in the tile.
+struct Covered {
+    /// 0 for the clump, or 1 more than the stroke's place in the order of strokes.
+    number: u32,
+    /// Its segments among the placed ones.
+    segments: Range<usize>,
+    /// The samples that it covers; then those of them that it gives its colour.
+    samples: Mask,
+}
+
+/// A segment's range of depths.
+struct Near {
+    placed: usize,
+    /// Least and greatest.
+    inv_depth: [f32; 2],
+    biased: [f32; 2],
+    /// The greatest of this and all farther segments.
+    biased_from_here: f32,
 }
 
 impl StrandPlanes {
     pub(super) fn new() -> Self {
-        let depths = || Depths {
-            inv_depth: plane(),
-            biased: plane(),
-        };
         Self {
-            clump: depths(),
-            stroke: depths(),
+            placed: Vec::new(),
+            strokes: Vec::new(),
+            depths: Depths {
+                inv_depth: plane(),
+                biased: plane(),
+            },
             ratio: plane(),
-            stroke_color: [plane(), plane(), plane()],
-            shown: depths(),
-            color: [plane(), plane(), plane()],
+            by_depth: Vec::new(),
         }
     }
 
-    /// Draws the segments of one strand, given by their indices in drawing order.
-    pub(super) fn draw(&mut self, scene: &Scene, strand: &[u32], target: &mut Target) {
-        let region = scene.region(strand);
-        clear(&region, &mut self.clump);
-        clear(&region, &mut self.shown);
-        let mut has_clump = false;
-        for stroke in strand.chunk_by(|&a, &b| scene.number(a) == scene.number(b)) {
-            let number = scene.number(stroke[0]);
-            let Some(place) = number.checked_sub(1) else {
-                for placed in scene.placed(stroke) {
-                    placed.measure(scene.samples, &mut self.clump);
-                }
-                has_clump = true;
-                continue;
-            };
-            let rank = scene.strokes[place as usize].rank;
-            match scene.order {
-                Order::StrandFirst if rank < 0 => self.stroke(scene, stroke, Clip::Nowhere),
-                Order::StrandFirst if has_clump => self.stroke(scene, stroke, Clip::ToClump),
-                Order::StrandFirst => {}
-                Order::Shifted => {
-                    self.stroke(scene, stroke, Clip::Nowhere);
-                    self.composite(&region, number as i32, target);
-                    clear(&region, &mut self.shown);
-                }
-            }
-        }
-        if scene.order == Order::StrandFirst {
-            self.composite(&region, 0, target);
-        }
-    }
-
-    /// Lays one stroke over what the strand shows so far.
-    fn stroke(&mut self, scene: &Scene, stroke: &[u32], clip: Clip) {
-        let region = scene.region(stroke);
-        region.fill(&mut self.ratio, f32::INFINITY);
-        let first = &scene.segments[stroke[0] as usize];
-        let one_color = stroke.iter().all(|&i| {
-            let segment = &scene.segments[i as usize];
-            segment.is_one_color() && segment.color == first.color
-        });
-        for placed in scene.placed(stroke) {
-            if one_color {
-                placed.cover(scene.samples, &mut self.ratio);
-            } else {
-                placed.shade(scene.samples, &mut self.ratio, &mut self.stroke_color);
-            }
-        }
-        if clip == Clip::Nowhere {
-            clear(&region, &mut self.stroke);
-            for placed in scene.placed(stroke) {
-                placed.measure(scene.samples, &mut self.stroke);
-            }
-        }
-        let color = one_color.then(|| first.color.map(|channel| [channel.start; LANES]));
-        for span in region.spans() {
-            for cell in span {
-                self.settle(cell, clip, color);
-            }
-        }
-    }
-
-    /// Where the stroke may show, the strand takes on its colour: in the clump at the clump's depth,
-    /// outside it at the stroke's own. `color` is that of a stroke of one colour.
-    #[inline]
-    fn settle(&mut self, cell: usize, clip: Clip, color: Option<[Lanes; 3]>) {
-        let ratio = self.ratio[cell];
-        if ratio == [f32::INFINITY; LANES] {
+    /// Draws a strand of the tile with those segments.
+    #[inline(always)]
+    pub(super) fn draw(&mut self, scene: &Scene, tile: &[u32], part: &Part, target: &mut Target) {
+        let strand = &tile[part.segments.clone()];
+        let open = scene.open(part, target);
+        if is_empty(&open) {
             return;
         }
-        let clump = self.clump.inv_depth[cell];
-        let clump_biased = self.clump.biased[cell];
-        let (own, own_biased) = match clip {
-            Clip::Nowhere => (self.stroke.inv_depth[cell], self.stroke.biased[cell]),
-            Clip::ToClump => ([NOTHING; LANES], [NOTHING; LANES]),
+        self.place(scene, strand, &open);
+        match scene.order {
+            Order::StrandFirst => {
+                let id = scene.segments[strand[0] as usize].strand;
+                self.draw_as_one(scene, u32::MAX - id, target);
+            }
+            Order::Shifted => self.draw_each(scene, target),
+        }
+    }
+
+    /// Finds which of the open samples each stroke covers.
+    #[inline(always)]
+    fn place(&mut self, scene: &Scene, strand: &[u32], open: &Mask) {
+        self.placed.clear();
+        self.strokes.clear();
+        let number = |i: u32| scene.segments[i as usize].stroke;
+        for stroke in strand.chunk_by(|&a, &b| number(a) == number(b)) {
+            let first = self.placed.len();
+            let mut samples = NO_SAMPLES;
+            for &index in stroke {
+                let segment = &scene.segments[index as usize];
+                let placed = Placed::new(index, segment, scene.origin, scene.samples);
+                for row in 0..ROWS {
+                    samples[row] |= placed.covered[row] & open[row];
+                }
+                self.placed.push(placed);
+            }
+            self.strokes.push(Covered {
+                number: number(stroke[0]),
+                segments: first..self.placed.len(),
+                samples,
+            });
+        }
+    }
+
+    /// Within the clump at the clump's depth, outside it strokes of negative rank at their own; then
+    /// all of it against what is there.
+    #[inline(always)]
+    fn draw_as_one(&mut self, scene: &Scene, priority: u32, target: &mut Target) {
+        let (clump, strokes) = match self.strokes.split_first_mut() {
+            Some((clump, strokes)) if clump.number == 0 => (Some(clump), strokes),
+            _ => (None, &mut self.strokes[..]),
         };
-        let mut depth = self.shown.inv_depth[cell];
-        let mut biased = self.shown.biased[cell];
-        let mut shows = [0.0; LANES];
-        for k in 0..LANES {
-            let is_inside = clump[k] > NOTHING;
-            let new = select(is_inside, clump[k], own[k]);
-            let new = select(ratio[k] < f32::INFINITY, new, NOTHING);
-            let new_biased = select(is_inside, clump_biased[k], own_biased[k]);
-            let is_shown = new > NOTHING;
-            depth[k] = select(is_shown, new, depth[k]);
-            biased[k] = select(is_shown, new_biased, biased[k]);
-            shows[k] = select(is_shown, 1.0, 0.0);
-        }
-        self.shown.inv_depth[cell] = depth;
-        self.shown.biased[cell] = biased;
-        for channel in 0..3 {
-            let new = color.map_or(self.stroke_color[channel][cell], |color| color[channel]);
-            overwrite(&mut self.color[channel][cell], &new, &shows);
-        }
-    }
-
-    /// Puts what the strand shows into the picture: behind no surface, nearer than the strands
-    /// before it, or as near but with a higher stroke.
-    fn composite(&self, region: &Region, stroke: i32, target: &mut Target) {
-        for span in region.spans() {
-            for cell in span {
-                self.composite_cell(cell, stroke, target);
+        let clump_samples = clump.as_ref().map_or(NO_SAMPLES, |clump| clump.samples);
+        let rank = |stroke: &Covered| scene.strokes[stroke.number as usize - 1].rank;
+        let mut shown = NO_SAMPLES;
+        for stroke in strokes.iter_mut().rev() {
+            let is_clipped = rank(stroke) >= 0;
+            for row in 0..ROWS {
+                let may = select(is_clipped, clump_samples[row], u32::MAX);
+                stroke.samples[row] &= may & !shown[row];
+                shown[row] |= stroke.samples[row];
             }
         }
+        self.depths.clear(&shown);
+        for stroke in strokes.iter().filter(|stroke| rank(stroke) < 0) {
+            let outside = without(&stroke.samples, &clump_samples);
+            measure(
+                scene,
+                &self.placed[stroke.segments.clone()],
+                outside,
+                &mut self.by_depth,
+                &mut self.depths,
+            );
+        }
+        if let Some(clump) = clump {
+            let inside = both(&shown, &clump_samples);
+            measure(
+                scene,
+                &self.placed[clump.segments.clone()],
+                inside,
+                &mut self.by_depth,
+                &mut self.depths,
+            );
+        }
+        composite(&self.depths, &mut shown, priority, target);
+        for stroke in strokes {
+            stroke.samples = both(&stroke.samples, &shown);
+            shade(
+                scene,
+                &self.placed[stroke.segments.clone()],
+                &stroke.samples,
+                &mut self.ratio,
+                target,
+            );
+        }
     }
 
-    #[inline]
-    fn composite_cell(&self, cell: usize, stroke: i32, target: &mut Target) {
-        let depth = self.shown.inv_depth[cell];
-        if depth == [NOTHING; LANES] {
-            return;
-        }
-        let biased = self.shown.biased[cell];
-        let (surface, hollow) = (target.surface[cell], target.hollow[cell]);
-        let mut nearest = target.strand[cell];
-        let mut top = target.stroke[cell];
-        let mut wins = [0.0; LANES];
-        for k in 0..LANES {
-            let before_wall = depth[k] / (1.0 + hollow[k] * depth[k]);
-            let against = select(hollow[k] > 0.0, before_wall, biased[k]);
-            let depth = select(surface[k] <= against, depth[k], NOTHING);
-            // Where there is nothing, no stroke is higher than what is there.
-            let stroke = select(depth > NOTHING, stroke, -1);
-            let is_better = (depth > nearest[k]) | ((depth == nearest[k]) & (stroke > top[k]));
-            nearest[k] = select(is_better, depth, nearest[k]);
-            top[k] = select(is_better, stroke, top[k]);
-            wins[k] = select(is_better, 1.0, 0.0);
-        }
-        target.strand[cell] = nearest;
-        target.stroke[cell] = top;
-        for (target, color) in target.color.iter_mut().zip(&self.color) {
-            overwrite(&mut target[cell], &color[cell], &wins);
+    /// Each stroke by itself against what is there.
+    #[inline(always)]
+    fn draw_each(&mut self, scene: &Scene, target: &mut Target) {
+        for stroke in &mut self.strokes {
+            let placed = &self.placed[stroke.segments.clone()];
+            self.depths.clear(&stroke.samples);
+            measure(
+                scene,
+                placed,
+                stroke.samples,
+                &mut self.by_depth,
+                &mut self.depths,
+            );
+            composite(&self.depths, &mut stroke.samples, stroke.number, target);
+            shade(scene, placed, &stroke.samples, &mut self.ratio, target);
         }
     }
 }
 
-/// Where a stroke may show.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Clip {
-    Nowhere,
-    ToClump,
-}
-
-impl<'a> Scene<'a> {
-    fn number(&self, segment: u32) -> u32 {
-        self.segments[segment as usize].stroke
+/// Works out the depths of the samples, which the segments cover.
+///
+/// From the nearest segment to the farthest: a sample that one covers needs no other that is farther
+/// all along.
+#[inline(always)]
+fn measure(
+    scene: &Scene,
+    placed: &[Placed],
+    mut samples: Mask,
+    by_depth: &mut Vec<Near>,
+    depths: &mut Depths,
+) {
+    if is_empty(&samples) {
+        return;
     }
-
-    fn placed(&self, segments: &[u32]) -> impl Iterator<Item = Placed<'a>> {
-        segments.iter().map(|&i| {
-            let segment = &self.segments[i as usize];
-            let bounds = segment.reach(self.origin, [WIDTH, HEIGHT]);
-            Placed::new(segment, bounds, self.origin)
-        })
+    by_depth.clear();
+    by_depth.extend(placed.iter().enumerate().map(|(i, placed)| {
+        let segment = &scene.segments[placed.segment as usize];
+        let biased = segment.inv_depth_biased.range();
+        Near {
+            placed: i,
+            inv_depth: segment.inv_depth.range(),
+            biased,
+            biased_from_here: biased[1],
+        }
+    }));
+    by_depth.sort_by(|a, b| b.inv_depth[1].total_cmp(&a.inv_depth[1]));
+    for i in (1..by_depth.len()).rev() {
+        by_depth[i - 1].biased_from_here = by_depth[i - 1]
+            .biased_from_here
+            .max(by_depth[i].biased_from_here);
     }
-
-    fn region(&self, segments: &[u32]) -> Region {
-        let bounds = segments.iter().map(|&i| {
-            let segment = &self.segments[i as usize];
-            segment.reach(self.origin, [WIDTH, HEIGHT])
+    let reaches = |least: f32, greatest: f32| least + SAME_DEPTH * least.abs() >= greatest;
+    for (i, near) in by_depth.iter().enumerate() {
+        let placed = &placed[near.placed];
+        let segment = &scene.segments[placed.segment as usize];
+        placed.measure(segment, scene.samples, &samples, depths);
+        let hides_the_rest = by_depth.get(i + 1).is_some_and(|next| {
+            reaches(near.inv_depth[0], next.inv_depth[1])
+                & reaches(near.biased[0], next.biased_from_here)
         });
-        Region::around(bounds, self.samples.len())
+        if hides_the_rest {
+            samples = without(&samples, &placed.covered);
+        }
     }
 }
 
-fn clear(region: &Region, depths: &mut Depths) {
-    region.fill(&mut depths.inv_depth, NOTHING);
-    region.fill(&mut depths.biased, NOTHING);
+/// Puts the samples into the picture; those that don't show are taken away.
+#[inline(always)]
+fn composite(depths: &Depths, samples: &mut Mask, priority: u32, target: &mut Target) {
+    let offered = *samples;
+    for cell in cells(&offered) {
+        let (depth, biased) = (&depths.inv_depth[cell.index], &depths.biased[cell.index]);
+        let shown = target.offer(cell, depth, biased, priority);
+        samples[cell.row] &= !((cell.bits & !shown) << cell.column);
+    }
+}
+
+/// Gives the samples, which the stroke covers, its colour.
+#[inline(always)]
+fn shade(scene: &Scene, placed: &[Placed], samples: &Mask, ratio: &mut Plane, target: &mut Target) {
+    if is_empty(samples) {
+        return;
+    }
+    let segment = |placed: &Placed| &scene.segments[placed.segment as usize];
+    let first = segment(&placed[0]);
+    let is_one_color = placed.iter().all(|placed| {
+        let segment = segment(placed);
+        segment.is_one_color() && segment.color == first.color
+    });
+    if is_one_color {
+        let color = first.color.map(|channel| channel.start);
+        for cell in cells(samples) {
+            for (plane, value) in target.color.iter_mut().zip(color) {
+                fill(&mut plane[cell.index], value, cell.bits);
+            }
+        }
+        return;
+    }
+    for cell in cells(samples) {
+        ratio[cell.index] = [f32::INFINITY; LANES];
+    }
+    for placed in placed {
+        placed.shade(
+            segment(placed),
+            scene.samples,
+            samples,
+            ratio,
+            &mut target.color,
+        );
+    }
+}
+
+#[inline(always)]
+fn fill(lanes: &mut Lanes, value: f32, bits: u32) {
+    for k in 0..LANES {
+        lanes[k] = select(has(bits, k), value, lanes[k]);
+    }
+}
+
+/// A strand's part of a tile.
+pub(super) struct Part {
+    /// Its segments in drawing order, among the tile's.
+    pub(super) segments: Range<usize>,
+    /// No disc of it is nearer than these.
+    inv_depth: f32,
+    biased: f32,
+    /// Rows that it may reach.
+    rows: Range<usize>,
+}
+
+impl Scene<'_> {
+    /// Replaces `parts` by the strands of a tile, in the order in which they are best drawn.
+    #[inline(always)]
+    pub(super) fn strands(&self, tile: &[u32], parts: &mut Vec<Part>) {
+        let segment = |i: u32| &self.segments[i as usize];
+        parts.clear();
+        let mut start = 0;
+        for strand in tile.chunk_by(|&a, &b| segment(a).strand == segment(b).strand) {
+            let mut part = Part {
+                segments: start..start + strand.len(),
+                inv_depth: f32::NEG_INFINITY,
+                biased: f32::NEG_INFINITY,
+                rows: HEIGHT..0,
+            };
+            start = part.segments.end;
+            for &index in strand {
+                let segment = segment(index);
+                part.inv_depth = part.inv_depth.max(segment.inv_depth.range()[1]);
+                part.biased = part.biased.max(segment.inv_depth_biased.range()[1]);
+                let rows = segment.rows_in(self.origin[1]);
+                part.rows = part.rows.start.min(rows.start)..part.rows.end.max(rows.end);
+            }
+            parts.push(part);
+        }
+        // What lies behind the nearer ones is then seen to be hidden. Shifted strokes of equal depth
+        // need their strands' order.
+        if self.order == Order::StrandFirst {
+            parts.sort_by(|a, b| b.inv_depth.total_cmp(&a.inv_depth));
+        }
+    }
+
+    /// The samples, in whole chunks, where the strand is not sure to be hidden.
+    #[inline(always)]
+    fn open(&self, part: &Part, target: &Target) -> Mask {
+        let mut open = NO_SAMPLES;
+        for sample in 0..self.samples.len() {
+            for row in sample * HEIGHT + part.rows.start..sample * HEIGHT + part.rows.end {
+                open[row] = target.open(row, part.inv_depth, part.biased);
+            }
+        }
+        open
+    }
 }

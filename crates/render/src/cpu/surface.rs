@@ -1,7 +1,9 @@
 //! One triangle in one tile: both sides, edges included, the nearest first.
 
 use super::bin::Bounds;
-use super::tile::{HEIGHT, LANE, LANES, Slope, Target, WIDTH, overwrite, row_start, select};
+use super::tile::{
+    HEIGHT, LANE, LANES, Slope, Target, WIDTH, greater, lesser, overwrite, row_start, select,
+};
 use crate::drawing::{Drawing, SurfaceVertex};
 use glam::{DVec2, Vec2};
 use std::ops::Range;
@@ -38,6 +40,7 @@ fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
 
 impl Triangle {
     /// Draws the triangle's part of the tile at `origin` into the target's samples.
+    #[inline(always)]
     pub(super) fn draw(
         &self,
         drawing: &Drawing,
@@ -64,7 +67,7 @@ impl Triangle {
         for (sample, offset) in samples.iter().enumerate() {
             for row in rows.clone() {
                 for chunk in chunks.clone() {
-                    let cell = row_start(sample, row) + chunk;
+                    let cell = row_start(sample * HEIGHT + row) + chunk;
                     let first = *offset + Vec2::new((chunk * LANES) as f32, row as f32);
                     let mut nearest = target.surface[cell];
                     let (mut wins, mut is_lit) = ([0.0; LANES], [0.0; LANES]);
@@ -158,19 +161,10 @@ impl Interpolated {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn at(&self, position: Vec2) -> f32 {
         let value = self.slope.at(position);
-        let value = if value > self.least {
-            value
-        } else {
-            self.least
-        };
-        if value < self.greatest {
-            value
-        } else {
-            self.greatest
-        }
+        lesser(greater(value, self.least), self.greatest)
     }
 }
 

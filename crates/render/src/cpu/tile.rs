@@ -4,9 +4,7 @@
 //! for each row its pixels in chunks of [`LANES`] neighbours. So a chunk is one sample position in
 //! eight neighbouring pixels, and every loop over a chunk's lanes compiles to vector instructions.
 
-use super::bin::Bounds;
 use glam::Vec2;
-use std::ops::Range;
 
 /// Width of a tile in pixels.
 pub(super) const WIDTH: usize = 32;
@@ -37,15 +35,27 @@ pub(super) const LANE: Lanes = {
 /// Marks the depth of a sample where there is nothing.
 pub(super) const NOTHING: f32 = f32::NEG_INFINITY;
 
-/// Both values are worked out and one is taken: unlike `if` with a place in memory in a branch, this
-/// always compiles to vector instructions.
-#[inline]
+/// Both values are worked out and one is taken. Never `if`: where a condition is used twice it becomes
+/// a branch, and a loop with a branch is no vector instruction.
+#[inline(always)]
 pub(super) fn select<T>(condition: bool, then: T, otherwise: T) -> T {
-    if condition { then } else { otherwise }
+    std::hint::select_unpredictable(condition, then, otherwise)
+}
+
+/// The lesser of two numbers, neither NaN.
+#[inline(always)]
+pub(super) fn lesser(a: f32, b: f32) -> f32 {
+    select(a < b, a, b)
+}
+
+/// The greater of two numbers, neither NaN.
+#[inline(always)]
+pub(super) fn greater(a: f32, b: f32) -> f32 {
+    select(a > b, a, b)
 }
 
 /// Takes on the new values where `mask` is not 0.
-#[inline]
+#[inline(always)]
 pub(super) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &Lanes) {
     for k in 0..LANES {
         old[k] = select(mask[k] != 0.0, new[k], old[k]);
@@ -59,49 +69,115 @@ pub(super) fn plane() -> Plane {
     vec![[0.0; LANES]; CELLS]
 }
 
-/// Where the chunks of a sample's row lie in a plane.
-#[inline]
-pub(super) fn row_start(sample: usize, row: usize) -> usize {
-    (sample * HEIGHT + row) * CHUNKS
+/// Rows of samples in a tile: for each sample of a pixel the tile's rows.
+pub(super) const ROWS: usize = GROUP * HEIGHT;
+
+/// Some of a tile's samples: a word for each row of samples, in it a bit for each column.
+pub(super) type Mask = [u32; ROWS];
+
+const _: () = assert!(WIDTH == u32::BITS as usize);
+
+/// No samples at all.
+pub(super) const NO_SAMPLES: Mask = [0; ROWS];
+
+/// The bits of the first chunk of a row.
+const CHUNK: u32 = (1 << LANES) - 1;
+
+/// Whether a lane's bit is set.
+#[inline(always)]
+pub(super) fn has(bits: u32, lane: usize) -> bool {
+    bits & (1 << lane) != 0
 }
 
-/// A rectangle of a tile: some rows of some chunks, of each of `samples` samples.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Region {
-    samples: usize,
-    rows: Range<usize>,
-    chunks: Range<usize>,
+/// Where the chunks of a row of samples lie in a plane.
+#[inline(always)]
+pub(super) fn row_start(row: usize) -> usize {
+    row * CHUNKS
 }
 
-impl Region {
-    /// The smallest that holds all of some bounds within a tile.
-    pub(super) fn around(bounds: impl Iterator<Item = Bounds>, samples: usize) -> Self {
-        let around = bounds.reduce(|a, b| Bounds {
-            x: a.x.start.min(b.x.start)..a.x.end.max(b.x.end),
-            y: a.y.start.min(b.y.start)..a.y.end.max(b.y.end),
-        });
-        let Bounds { x, y } = around.unwrap_or(Bounds { x: 0..0, y: 0..0 });
-        Self {
-            samples,
-            rows: y,
-            chunks: x.start / LANES..x.end.div_ceil(LANES),
-        }
+/// The samples of both.
+#[inline(always)]
+pub(super) fn both(a: &Mask, b: &Mask) -> Mask {
+    let mut both = *a;
+    for row in 0..ROWS {
+        both[row] &= b[row];
     }
+    both
+}
 
-    /// The indices of the region's chunks in every plane, as runs of neighbours.
-    pub(super) fn spans(&self) -> impl Iterator<Item = Range<usize>> {
-        (0..self.samples).flat_map(move |sample| {
-            self.rows.clone().map(move |row| {
-                let start = row_start(sample, row);
-                start + self.chunks.start..start + self.chunks.end
-            })
+/// Those of `a` that `b` doesn't have.
+#[inline(always)]
+pub(super) fn without(a: &Mask, b: &Mask) -> Mask {
+    let mut rest = *a;
+    for row in 0..ROWS {
+        rest[row] &= !b[row];
+    }
+    rest
+}
+
+#[inline(always)]
+pub(super) fn is_empty(mask: &Mask) -> bool {
+    let mut any = 0;
+    for row in 0..ROWS {
+        any |= mask[row];
+    }
+    any == 0
+}
+
+/// A chunk of a row of samples, and some of its samples.
+#[derive(Clone, Copy)]
+pub(super) struct Cell {
+    /// Index of the chunk in every plane.
+    pub(super) index: usize,
+    /// Row of samples.
+    pub(super) row: usize,
+    /// Column of its first lane.
+    pub(super) column: usize,
+    /// A bit for each lane.
+    pub(super) bits: u32,
+}
+
+/// All chunks that hold one of some samples.
+///
+/// An iterator of its own, because closures are not sure to be compiled for their caller's
+/// instruction set.
+pub(super) struct Cells<'a> {
+    mask: &'a Mask,
+    row: usize,
+    left: u32,
+}
+
+#[inline(always)]
+pub(super) fn cells(mask: &Mask) -> Cells<'_> {
+    Cells {
+        mask,
+        row: 0,
+        left: mask[0],
+    }
+}
+
+impl Iterator for Cells<'_> {
+    type Item = Cell;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Cell> {
+        while self.left == 0 {
+            self.row += 1;
+            if self.row >= ROWS {
+                return None;
+            }
+            self.left = self.mask[self.row];
+        }
+        let chunk = self.left.trailing_zeros() as usize / LANES;
+        let column = chunk * LANES;
+        let bits = self.left >> column & CHUNK;
+        self.left &= !(CHUNK << column);
+        Some(Cell {
+            index: row_start(self.row) + chunk,
+            row: self.row,
+            column,
+            bits,
         })
-    }
-
-    pub(super) fn fill(&self, plane: &mut Plane, value: f32) {
-        for span in self.spans() {
-            plane[span].fill([value; LANES]);
-        }
     }
 }
 
@@ -113,9 +189,13 @@ pub(super) struct Target {
     pub(super) hollow: Plane,
     /// Nearest strand that no surface hides, 1/m.
     pub(super) strand: Plane,
-    /// The stroke there, by its place in the order of strokes.
-    pub(super) stroke: Vec<[i32; LANES]>,
+    /// What decides there among equals: the higher one lies on top.
+    pub(super) priority: Vec<[u32; LANES]>,
     pub(super) color: [Plane; 3],
+    /// For each cell the farthest of `strand`.
+    farthest_strand: Vec<f32>,
+    /// For each cell the farthest of `surface`; [`NOTHING`] beside hollows, which don't count here.
+    farthest_surface: Vec<f32>,
 }
 
 impl Target {
@@ -124,20 +204,114 @@ impl Target {
             surface: plane(),
             hollow: plane(),
             strand: plane(),
-            stroke: vec![[0; LANES]; CELLS],
+            priority: vec![[0; LANES]; CELLS],
             color: [plane(), plane(), plane()],
+            farthest_strand: vec![NOTHING; CELLS],
+            farthest_surface: vec![NOTHING; CELLS],
         }
     }
 
-    pub(super) fn clear(&mut self, background: Option<[f32; 3]>) {
-        self.surface.fill([NOTHING; LANES]);
-        self.hollow.fill([0.0; LANES]);
-        self.strand.fill([NOTHING; LANES]);
-        self.stroke.fill([0; LANES]);
+    /// Forgets the first `samples` samples of each pixel.
+    #[inline(always)]
+    pub(super) fn clear(&mut self, samples: usize, background: Option<[f32; 3]>) {
+        let cells = ..row_start(samples * HEIGHT);
+        self.surface[cells].fill([NOTHING; LANES]);
+        self.hollow[cells].fill([0.0; LANES]);
+        self.strand[cells].fill([NOTHING; LANES]);
+        self.priority[cells].fill([0; LANES]);
         for (plane, value) in self.color.iter_mut().zip(background.unwrap_or_default()) {
-            plane.fill([value; LANES]);
+            plane[cells].fill([value; LANES]);
+        }
+        self.farthest_strand[cells].fill(NOTHING);
+        self.farthest_surface[cells].fill(NOTHING);
+    }
+
+    /// To be called when all surfaces have been drawn.
+    #[inline(always)]
+    pub(super) fn finish_surfaces(&mut self) {
+        for (cell, farthest) in self.farthest_surface.iter_mut().enumerate() {
+            let (surface, hollow) = (self.surface[cell], self.hollow[cell]);
+            let mut solid = surface;
+            for k in 0..LANES {
+                solid[k] = select(hollow[k] > 0.0, NOTHING, surface[k]);
+            }
+            *farthest = least(&solid);
         }
     }
+
+    /// The chunks of a row of samples that don't hide all that is as far as the given inverse depths,
+    /// with all their bits.
+    #[inline(always)]
+    pub(super) fn open(&self, row: usize, inv_depth: f32, biased: f32) -> u32 {
+        let start = row_start(row);
+        let mut open = 0;
+        for chunk in 0..CHUNKS {
+            let is_hidden = (self.farthest_strand[start + chunk] > inv_depth)
+                | (self.farthest_surface[start + chunk] > biased);
+            open |= select(is_hidden, 0, CHUNK << (chunk * LANES));
+        }
+        open
+    }
+
+    /// Offers a strand to some samples of a cell: it shows where it lies behind no surface, and is
+    /// nearer than the strands before it, or as near but of higher priority. Returns the bits of the
+    /// samples where it does; their colour is the caller's to set.
+    #[inline(always)]
+    pub(super) fn offer(
+        &mut self,
+        cell: Cell,
+        depth: &Lanes,
+        biased: &Lanes,
+        priority: u32,
+    ) -> u32 {
+        let (surface, hollow) = (self.surface[cell.index], self.hollow[cell.index]);
+        let mut nearest = self.strand[cell.index];
+        let mut top = self.priority[cell.index];
+        let mut wins = [0_u32; LANES];
+        for k in 0..LANES {
+            let before_wall = depth[k] / (1.0 + hollow[k] * depth[k]);
+            let against = select(hollow[k] > 0.0, before_wall, biased[k]);
+            let is_better =
+                (depth[k] > nearest[k]) | ((depth[k] == nearest[k]) & (priority > top[k]));
+            let is_shown = has(cell.bits, k) & (surface[k] <= against) & is_better;
+            nearest[k] = select(is_shown, depth[k], nearest[k]);
+            top[k] = select(is_shown, priority, top[k]);
+            wins[k] = select(is_shown, 1 << k, 0);
+        }
+        self.strand[cell.index] = nearest;
+        self.priority[cell.index] = top;
+        self.farthest_strand[cell.index] = least(&nearest);
+        let mut bits = 0;
+        for win in wins {
+            bits |= win;
+        }
+        bits
+    }
+}
+
+#[inline(always)]
+fn least(lanes: &Lanes) -> f32 {
+    let mut least = *lanes;
+    let mut half = LANES / 2;
+    while half > 0 {
+        for k in 0..half {
+            least[k] = select(least[k] < least[k + half], least[k], least[k + half]);
+        }
+        half /= 2;
+    }
+    least[0]
+}
+
+/// A pixel of so many samples that nothing covers.
+pub(super) fn empty_pixel(background: Option<[f32; 3]>, samples: usize) -> [f32; 4] {
+    let Some([red, green, blue]) = background else {
+        return [0.0; 4];
+    };
+    // As in `Sums`, so that a pixel is the same beside strokes and far from them.
+    [red, green, blue, 1.0].map(|value| {
+        let value = value.clamp(0.0, 1.0);
+        (0..samples).fold(0.0, |sum, _| sum + value) / samples as f32
+    })
 }
 
 /// The sums over the samples of a tile's pixels: red, green, blue and alpha.
@@ -148,6 +322,7 @@ impl Sums {
         Self([(); 4].map(|()| vec![[0.0; LANES]; HEIGHT * CHUNKS]))
     }
 
+    #[inline(always)]
     pub(super) fn clear(&mut self) {
         for plane in &mut self.0 {
             plane.fill([0.0; LANES]);
@@ -155,10 +330,11 @@ impl Sums {
     }
 
     /// Adds the first `samples` samples of the target. Light beyond 0..1 counts as 0 or 1.
+    #[inline(always)]
     pub(super) fn add(&mut self, target: &Target, samples: usize, is_opaque: bool) {
         let [sums @ .., alpha_sum] = &mut self.0;
         for sample in 0..samples {
-            let start = row_start(sample, 0);
+            let start = row_start(sample * HEIGHT);
             for (i, cell) in (start..start + HEIGHT * CHUNKS).enumerate() {
                 for (sum, color) in sums.iter_mut().zip(&target.color) {
                     let (sum, color) = (&mut sum[i], color[cell]);
@@ -178,6 +354,7 @@ impl Sums {
     }
 
     /// The means, as the pixels of one row.
+    #[inline(always)]
     pub(super) fn write(&self, row: usize, samples: usize, pixels: &mut [[f32; 4]]) {
         let count = samples as f32;
         for (x, pixel) in pixels.iter_mut().enumerate() {
@@ -198,7 +375,7 @@ pub(super) struct Slope {
 
 impl Slope {
     /// At the first lane of a chunk that begins at `position`; the others follow in steps of `per_x`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, position: Vec2) -> f32 {
         self.corner + position.x * self.per_x + position.y * self.per_y
     }

@@ -264,6 +264,19 @@ proptest! {
     }
 
     #[test]
+    fn instructions_change_no_bit(drawing in any_drawing()) {
+        let mut rasterizer = Rasterizer::new(5, Some(1)).unwrap();
+        let mut pictures = Instructions::available().into_iter().map(|instructions| {
+            rasterizer.instructions = instructions;
+            rasterizer.draw(&drawing).unwrap()
+        });
+        let first = pictures.next().unwrap();
+        for picture in pictures {
+            prop_assert!(picture == first);
+        }
+    }
+
+    #[test]
     fn threads_change_no_bit(drawing in any_drawing()) {
         let with = |threads| Rasterizer::new(3, Some(threads)).unwrap().draw(&drawing).unwrap();
         let one = with(1);

@@ -1,0 +1,72 @@
+//! The instruction set that a picture is drawn with: the same source compiled for each of several.
+//!
+//! Only widths differ, never the arithmetic: additions and products are not contracted, roots and
+//! quotients are rounded as IEEE 754 says. So every set draws the same bits.
+
+use super::{Frame, Worker};
+
+/// Vector instructions that this machine has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Instructions {
+    /// Those that the program was compiled for.
+    Compiled,
+    /// Eight numbers at once.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// The same, and masks with a bit for each.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Instructions {
+    /// All that this machine has, the best last.
+    pub(super) fn available() -> Vec<Self> {
+        #[allow(unused_mut)]
+        let mut available = vec![Self::Compiled];
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx2") {
+                available.push(Self::Avx2);
+            }
+            if is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512vl")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512bw")
+            {
+                available.push(Self::Avx512);
+            }
+        }
+        available
+    }
+
+    /// [`Worker::draw_band`] in these instructions.
+    #[allow(unsafe_code)]
+    pub(super) fn draw_band(
+        self,
+        worker: &mut Worker,
+        frame: &Frame,
+        band: usize,
+        pixels: &mut [[f32; 4]],
+    ) {
+        match self {
+            Self::Compiled => worker.draw_band(frame, band, pixels),
+            // SAFETY: a value of this type is made by `available` only, which looked for each.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => unsafe { avx2(worker, frame, band, pixels) },
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => unsafe { avx512(worker, frame, band, pixels) },
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn avx2(worker: &mut Worker, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
+    worker.draw_band(frame, band, pixels);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
+fn avx512(worker: &mut Worker, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
+    worker.draw_band(frame, band, pixels);
+}

@@ -1,0 +1,153 @@
+//! Which samples of a tile a segment covers: one run of columns in each row of samples.
+//!
+//! A swept segment is the convex hull of its two discs, so each row of samples meets it in one
+//! interval. Its ends are the least and the greatest of where the row meets the discs and the two
+//! outer tangents between them. That is a few operations a row in place of some for each sample, and
+//! the interval's columns are the bits of one word.
+
+use super::segment::Segment;
+use super::tile::{HEIGHT, LANE, LANES, Lanes, Mask, WIDTH, greater, lesser, select};
+use glam::{DVec2, Vec2};
+use std::ops::Range;
+
+/// A disc, from the tile's corner.
+#[derive(Clone, Copy)]
+struct Disc {
+    center: Vec2,
+    radius: f32,
+}
+
+/// An outer tangent from where it touches one disc to where it touches the other.
+#[derive(Clone, Copy)]
+struct Tangent {
+    start: Vec2,
+    /// From the start to the end.
+    along: Vec2,
+    /// 1 / `along.y`.
+    inv_height: f32,
+    top: f32,
+    bottom: f32,
+}
+
+impl Tangent {
+    fn new(start: Vec2, end: Vec2) -> Self {
+        let along = end - start;
+        Self {
+            start,
+            along,
+            inv_height: 1.0 / along.y,
+            top: start.y.min(end.y),
+            bottom: start.y.max(end.y),
+        }
+    }
+}
+
+/// The interval of x of each of some rows; empty where the least is above the greatest.
+struct Intervals {
+    least: Lanes,
+    greatest: Lanes,
+}
+
+impl Intervals {
+    #[inline(always)]
+    fn add_disc(&mut self, disc: &Disc, y: &Lanes) {
+        for k in 0..LANES {
+            let dy = y[k] - disc.center.y;
+            // Written so that nothing cancels at the top and the bottom.
+            let square = (disc.radius - dy) * (disc.radius + dy);
+            let half = select(square > 0.0, square, 0.0).sqrt();
+            let (left, right) = (disc.center.x - half, disc.center.x + half);
+            self.least[k] = lesser(select(square >= 0.0, left, f32::INFINITY), self.least[k]);
+            self.greatest[k] = greater(
+                select(square >= 0.0, right, f32::NEG_INFINITY),
+                self.greatest[k],
+            );
+        }
+    }
+
+    /// All of the tangent is part of the hull, so it may widen both ends.
+    #[inline(always)]
+    fn add_tangent(&mut self, tangent: &Tangent, y: &Lanes) {
+        for k in 0..LANES {
+            let is_beside = (y[k] >= tangent.top) & (y[k] <= tangent.bottom);
+            // Kept between the ends, so that a flat tangent's steep slope can't lead astray.
+            let t = (y[k] - tangent.start.y) * tangent.inv_height;
+            let t = select(t > 0.0, t, 0.0);
+            let x = tangent.start.x + select(t < 1.0, t, 1.0) * tangent.along.x;
+            self.least[k] = lesser(select(is_beside, x, f32::INFINITY), self.least[k]);
+            self.greatest[k] = greater(select(is_beside, x, f32::NEG_INFINITY), self.greatest[k]);
+        }
+    }
+
+    /// The columns whose samples, `offset` to the right of them, lie in the intervals; ends included.
+    #[inline(always)]
+    fn columns(&self, offset: f32) -> [u32; LANES] {
+        let mut columns = [0; LANES];
+        for k in 0..LANES {
+            let from = greater(self.least[k] - offset, 0.0);
+            let from = lesser(from, WIDTH as f32);
+            let to = lesser(self.greatest[k] - offset, (WIDTH - 1) as f32);
+            let to = greater(to, -1.0);
+            let ((first, at_first), (last, at_last)) = (round(from), round(to));
+            let first = first + select(at_first < from, 1, 0);
+            let end = last + select(at_last > to, 0, 1);
+            columns[k] = lowest(end) & !lowest(first);
+        }
+        columns
+    }
+}
+
+/// The nearest whole number, also as a float, of a small number that is finite.
+///
+/// By the sum with a number whose last bit is 1: a cast would look for infinities, and keep the loop
+/// from compiling to vector instructions.
+#[inline(always)]
+fn round(value: f32) -> (i32, f32) {
+    const WHOLE: f32 = 8_388_608.0 + 64.0;
+    let sum = value + WHOLE;
+    (sum.to_bits() as i32 - WHOLE.to_bits() as i32, sum - WHOLE)
+}
+
+/// The lowest `number` bits, of 0 to 32.
+#[inline(always)]
+fn lowest(number: i32) -> u32 {
+    let some = 1_u32.wrapping_shl(number as u32).wrapping_sub(1);
+    select(number >= 32, u32::MAX, some)
+}
+
+/// Sets the bits of the samples in the tile at `origin` that the segment covers. Only `rows` are
+/// looked at, which begin and end at multiples of [`LANES`].
+#[inline(always)]
+pub(super) fn cover(
+    segment: &Segment,
+    origin: DVec2,
+    rows: &Range<usize>,
+    samples: &[Vec2],
+    mask: &mut Mask,
+) {
+    let discs = segment.sweep.ends().map(|(center, radius)| Disc {
+        // From double precision, so that long strokes stay exact in every tile.
+        center: (center - origin).as_vec2(),
+        radius,
+    });
+    let tangents = segment.sweep.tangent_normals().map(|normals| {
+        let touch = |disc: &Disc, normal: Vec2| disc.center + disc.radius * normal;
+        normals.map(|normal| Tangent::new(touch(&discs[0], normal), touch(&discs[1], normal)))
+    });
+    for (sample, offset) in samples.iter().enumerate() {
+        for first in rows.clone().step_by(LANES) {
+            let y = LANE.map(|k| first as f32 + k + offset.y);
+            let mut intervals = Intervals {
+                least: [f32::INFINITY; LANES],
+                greatest: [f32::NEG_INFINITY; LANES],
+            };
+            intervals.add_disc(&discs[0], &y);
+            intervals.add_disc(&discs[1], &y);
+            for tangent in tangents.iter().flatten() {
+                intervals.add_tangent(tangent, &y);
+            }
+            let start = sample * HEIGHT + first;
+            mask[start..start + LANES].copy_from_slice(&intervals.columns(offset.x));
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! A frame's joints become discs of the right place, size and depth.
+
+use effects::preset::Reader;
+use effects::{Layer, Parameters, Registry, Values, clump};
+use glam::{Vec2, Vec3};
+use render::cpu::Evaluator;
+use render::{Drawing, Frame, Head, Light, Order, StrandInfo};
+use stroke_path::{Camera, OrbitView, PathKind, Paths};
+
+/// The picture is 200 x 360, the eye 2 m in front of the origin, a 0.3 m head: a unit is 1 mm.
+fn camera() -> Camera {
+    let view = OrbitView {
+        target: Vec3::ZERO,
+        yaw_degrees: 0.0,
+        pitch_degrees: 0.0,
+        distance_m: 2.0,
+        vertical_fov_degrees: 30.0,
+    };
+    Camera::orbit(view, [200, 360], 0.01).unwrap()
+}
+
+fn layers(text: &str) -> Vec<Layer> {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let mut reader = Reader::new("test", text);
+    let specs = reader.layers(text, &registry, &[]);
+    reader.report().unwrap();
+    specs.iter().map(|spec| spec.build()).collect()
+}
+
+/// The drawing of two strands that hang at x = 0 and x = 0.1, of size 20, drawn by these layers.
+fn drawing(list: &str, clump: &[(&str, &str)], seed: u32) -> (Drawing, Camera) {
+    let camera = camera();
+    let mut paths = Paths::new();
+    let kind = PathKind::Linear { subdivision: 1 };
+    for (i, x) in [0.0, 0.1].into_iter().enumerate() {
+        let points = [Vec3::new(x, 0.1, 0.0), Vec3::new(x, 0.0, 0.5)];
+        paths.push_strand(i, &points, kind, &camera).unwrap();
+    }
+    let strand = |id| StrandInfo {
+        id,
+        mean: Vec3::ZERO,
+        size: 20.0,
+    };
+    let mut values = Values::defaults(clump::Program::PARAMS);
+    let plain = [
+        ("size_variation", "0"),
+        ("mix", "1"),
+        ("mix_variation", "0"),
+        ("shrink_start", "1"),
+    ];
+    for (name, text) in plain.iter().chain(clump) {
+        values.set_text("clump", name, text).unwrap();
+    }
+    let layers = layers(list);
+    let frame = Frame {
+        camera: &camera,
+        paths: &paths,
+        strands: &[strand(3), strand(8)],
+        head: Head {
+            center: Vec3::ZERO,
+            height_m: 0.3,
+        },
+        light: Light::Direction(Vec3::Z),
+        clump: &clump::Program::params(&values),
+        seed,
+        layers: &layers,
+        surfaces: Vec::new(),
+        background: None,
+        order: Order::StrandFirst,
+    };
+    let mut drawing = Drawing::default();
+    Evaluator::default().evaluate(&frame, &mut drawing);
+    (drawing, camera)
+}
+
+#[track_caller]
+fn assert_near(a: f32, b: f32) {
+    assert!((a - b).abs() <= 1e-4 * b.abs().max(1e-3), "{a} is not {b}");
+}
+
+#[test]
+fn discs_lie_where_the_joints_are_seen() {
+    let (drawing, camera) = drawing("[(effect: \"hair.base\")]", &[], 1);
+    assert_eq!(drawing.size, [200, 360]);
+    let ids: Vec<u32> = drawing.runs.iter().map(|run| run.strand).collect();
+    assert_eq!(ids, [3, 8]);
+    let root = drawing.layers[0].discs[0];
+    let place = camera.project(camera.view_from_world(Vec3::new(0.0, 0.1, 0.0)));
+    assert_eq!(root.center, place);
+    // 20 units of 1 mm, 2 m away.
+    assert_near(root.radius, 0.020 * camera.focal_px() / 2.0);
+    assert_near(root.inv_depth, 1.0 / 2.0);
+    // Against surfaces it stands nearer by the clump's radius.
+    assert_near(root.inv_depth_biased, 1.0 / (2.0 - 0.020));
+    let tip = drawing.layers[0].discs[1];
+    assert_near(tip.radius, 0.020 * camera.focal_px() / 1.5);
+    assert_eq!(drawing.clump[1], tip, "the base is the clump");
+}
+
+#[test]
+fn depth_offsets_count_among_strands_and_not_against_the_head() {
+    let list = "[(effect: \"hair.silhouette\", depth_offset: 0.1)]";
+    let (drawing, _) = drawing(list, &[], 1);
+    let root = drawing.layers[0].discs[0];
+    assert_near(root.inv_depth, 1.0 / (2.0 + 0.1 * 0.3));
+    assert_near(root.inv_depth_biased, 1.0 / (2.0 - 0.020));
+    assert_eq!(drawing.layers[0].rank, -100);
+}
+
+#[test]
+fn widths_are_units_of_the_head_or_pixels_at_720_lines() {
+    let radii = |units: &str, joint: usize| {
+        let list = format!(
+            "[(effect: \"hair.silhouette\", units: {units}, params: (width: 4, ratio: 10))]"
+        );
+        let (drawing, _) = drawing(&list, &[], 1);
+        let discs = &drawing.layers[0].discs;
+        (discs[joint].radius, drawing.clump[joint].radius)
+    };
+    for joint in [0, 1] {
+        let (with_line, clump) = radii("world", joint);
+        assert_near(with_line - clump, 4.0 / 20.0 * clump);
+        let (with_line, clump) = radii("pixels", joint);
+        assert_near(with_line - clump, 4.0 * 360.0 / 720.0);
+    }
+}
+
+#[test]
+fn lines_are_never_wider_than_their_share_of_the_clump() {
+    let list = "[(effect: \"hair.silhouette\", params: (width: 100, ratio: 0.5))]";
+    let (drawing, _) = drawing(list, &[], 1);
+    let line = drawing.layers[0].discs[0].radius;
+    assert_near(line, 1.5 * drawing.clump[0].radius);
+}
+
+#[test]
+fn variations_hang_on_seed_and_strand() {
+    let radii = |seed: u32| {
+        let varied = [("size_variation", "0.5")];
+        let (drawing, _) = drawing("[(effect: \"hair.base\")]", &varied, seed);
+        [0, 2].map(|joint| drawing.clump[joint].radius)
+    };
+    let [first, second] = radii(1);
+    assert_ne!(first, second, "strands differ");
+    assert_eq!(radii(1), [first, second], "and stay the same");
+    assert_ne!(radii(2), [first, second], "but for another seed");
+}
+
+#[test]
+fn what_faces_the_light_is_bright() {
+    let diffuse = [
+        ("shading", "diffuse"),
+        ("ambient", "0"),
+        ("color", "FFFFFF"),
+        ("center_shift", "0"),
+    ];
+    let list = "[(effect: \"hair.base\", params: (brightness: 0.5))]";
+    let (drawing, _) = drawing(list, &diffuse, 1);
+    // At the tip O points forward, and so does B's reverse, a little down: what is left of O across
+    // the strand points up, and forward by the sine of the slope.
+    let sine = Vec2::new(0.5, 0.1).normalize().y;
+    let [red, green, blue] = drawing.layers[0].colors[1];
+    assert_near(red, 0.5 * sine);
+    assert_eq!([green, blue], [red; 2]);
+    assert_eq!(drawing.layers[0].colors.len(), 4);
+}

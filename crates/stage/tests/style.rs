@@ -1,0 +1,175 @@
+//! Hair styles on heads: what grows, and that no scalp shows.
+
+use effects::Registry;
+use glam::Vec3;
+use render::Drawing;
+use render::cpu::{Evaluator, Rasterizer};
+use stage::{Files, Preset, Stage};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn presets() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets")
+}
+
+fn registry() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    registry
+}
+
+/// The message that a style is refused with.
+fn refusal(style: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.style.ron"), style).unwrap();
+    let text = "(version: 1, hair: (file: \"a.style.ron\"), head: (shape: bust), \
+                layers: [(effect: \"hair.base\")])";
+    let registry = registry();
+    let preset = Preset::parse("look.ron", text, &registry).unwrap();
+    let files = Files {
+        preset_folder: folder.path().to_owned(),
+        ..Files::default()
+    };
+    match Stage::new(&preset, &files) {
+        Ok(_) => panic!("this should be refused:\n{style}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn mistakes_in_styles_have_their_places() {
+    let style = "(
+    version: 1,
+    zones: [
+        (name: \"a\", roots: [(0, 50), (0, 95)], tips: [(0, 0)], cuont: 3),
+        (name: \"b\", tips: [(0, 0)], size: -1),
+        (name: \"c\", roots: [(10, 10)]),
+        (name: \"c\", roots: [], hang: 1, mirror: yes),
+    ],
+)";
+    let message = refusal(style);
+    for line in [
+        "a.style.ron:4:38: roots: expected (longitude from -360 to 360",
+        "a.style.ron:4:64: a zone has no `cuont`, did you mean `count`?",
+        "a.style.ron:5:9: a zone needs `roots`",
+        "a.style.ron:5:43: size: expected a number from 0 to 200, found `-1`",
+        "a.style.ron:6:9: a zone needs `tips` to lead to, or a length to `hang`",
+        "a.style.ron:7:9: there is already a zone `c`",
+        "a.style.ron:7:28: roots needs at least one place",
+        "there is no `yes`",
+    ] {
+        assert!(message.contains(line), "`{line}` is missing in:\n{message}");
+    }
+    assert!(refusal("(zones: [])").contains("needs `version: 1`"));
+    assert!(refusal("(version: 1)").contains("has no `zones`"));
+    assert!(refusal("(version: 1, zones: [])").contains("no zones in it"));
+}
+
+#[test]
+fn a_style_needs_a_head() {
+    let text = "(version: 1, hair: (file: \"styles/bob.style.ron\"), \
+                layers: [(effect: \"hair.base\")])";
+    let registry = registry();
+    let preset = Preset::parse("look.ron", text, &registry).unwrap();
+    let files = Files {
+        preset_folder: presets(),
+        ..Files::default()
+    };
+    let message = Stage::new(&preset, &files).err().unwrap().to_string();
+    assert!(message.contains("needs a head to grow on"), "{message}");
+}
+
+/// The styles that come with inkstrand, in presets that use them.
+const STYLES: [&str; 1] = ["long-pink"];
+
+/// Views all around, as yaw and pitch.
+const VIEWS: [[f32; 2]; 10] = [
+    [0.0, 0.0],
+    [45.0, 10.0],
+    [90.0, 0.0],
+    [135.0, 10.0],
+    [180.0, 0.0],
+    [-135.0, 10.0],
+    [-90.0, 0.0],
+    [-45.0, 10.0],
+    [0.0, 60.0],
+    [180.0, 85.0],
+];
+
+/// Pixels of skin on the hairy part of the head: above a plane from the forehead to the nape.
+fn scalp_pixels(style: &str, [yaw, pitch]: [f32; 2]) -> usize {
+    let registry = registry();
+    let text = fs::read_to_string(presets().join(format!("{style}.ron"))).unwrap();
+    let mut preset = Preset::parse(style, &text, &registry).unwrap();
+    for (name, value) in [
+        ("head.light", "FF00FF".to_owned()),
+        ("head.shadow", "FF00FF".to_owned()),
+        ("head.width", "0".to_owned()),
+        ("clump.color", "00FF00".to_owned()),
+        ("clump.shading", "pure".to_owned()),
+        ("scene.size", "(300, 300)".to_owned()),
+        ("camera.yaw", yaw.to_string()),
+        ("camera.pitch", pitch.to_string()),
+        ("camera.distance", "2.6".to_owned()),
+        ("camera.target", "(0, 0.1, 0)".to_owned()),
+    ] {
+        preset.set(name, &value).unwrap();
+    }
+    preset.keep_only(&["hair.base".to_owned()]).unwrap();
+    let files = Files {
+        preset_folder: presets(),
+        ..Files::default()
+    };
+    let mut stage = Stage::new(&preset, &files).unwrap();
+    let frame = stage.frame().unwrap();
+    let mut drawing = Drawing::default();
+    Evaluator::default().evaluate(&frame, &mut drawing);
+
+    // Without hair, to know which pixels are scalp: those whose nearest surface point lies above the
+    // plane. Its depth is in the drawing, so cut the head itself at the plane.
+    let (camera, head) = (frame.camera.clone(), frame.head);
+    let bust = groom::bust();
+    let is_scalp = |p: Vec3| {
+        let place = (p - head.center) / head.height_m;
+        // From the hairline over the forehead down to the nape; ears and temples are skin.
+        place.y > 0.31 - 0.6 * (0.4 - place.z) && place.x.abs() < 0.33
+    };
+    let mut scalp = drawing.surfaces[0].clone();
+    scalp.vertices.clear();
+    scalp.triangles.clear();
+    for triangle in &bust.triangles {
+        let corners = triangle.map(|i| bust.positions[i as usize]);
+        if corners.into_iter().all(is_scalp) {
+            let first = scalp.vertices.len() as u32;
+            scalp.vertices.extend(corners.map(|p| {
+                let view = camera.view_from_world(p);
+                render::SurfaceVertex {
+                    position: camera.project(view),
+                    inv_depth: 1.0001 / view.z,
+                    tone: 1.0,
+                }
+            }));
+            scalp.triangles.push([first, first + 1, first + 2]);
+        }
+    }
+    scalp.light = [0.0, 0.0, 1.0];
+    drawing.surfaces.push(scalp);
+    let picture = Rasterizer::new(1, Some(1)).unwrap().draw(&drawing).unwrap();
+    picture
+        .pixels
+        .iter()
+        .filter(|p| p[..3] == [0.0, 0.0, 1.0])
+        .count()
+}
+
+#[test]
+fn no_scalp_shows_from_any_side() {
+    for style in STYLES {
+        let seen = VIEWS.map(|view| scalp_pixels(style, view));
+        assert_eq!(
+            seen,
+            [0; VIEWS.len()],
+            "{style}: pixels of scalp in {VIEWS:?}"
+        );
+    }
+}

@@ -1,0 +1,89 @@
+//! Builds the `bench` program in release and runs one of its suites.
+
+use clap::{Arg, ArgAction, ArgMatches, Command};
+
+use crate::Outcome;
+use crate::program::{cargo, succeed};
+
+/// Suites that have a name; the flag is true if the program has it.
+const SUITES: &[(&str, bool)] = &[
+    ("strokes", true),
+    ("dynamics", false),
+    ("coherence", false),
+    ("skip", false),
+    ("scale", false),
+    ("frame", false),
+    ("all", false),
+];
+
+/// The task's part of the command line.
+pub fn command() -> Command {
+    let flag = |name: &'static str| Arg::new(name).long(name).action(ArgAction::SetTrue);
+    Command::new("bench")
+        .about("Measures time against error: target/bench/SUITE.csv and a plot")
+        .arg(
+            Arg::new("suite")
+                .help("Built so far: strokes")
+                .value_name("SUITE")
+                .value_parser(SUITES.iter().map(|suite| suite.0).collect::<Vec<_>>())
+                .required(true),
+        )
+        .arg(flag("quick").help("Within two minutes on two cores"))
+        .arg(flag("check").help("Fails if a target is missed"))
+        .arg(flag("peers").help("Other programs too (not built yet)"))
+}
+
+/// Runs the suite of `args`, its table going where ours goes.
+///
+/// # Errors
+/// The suite isn't built yet, or its program fails: with `--check` also for a missed target.
+pub fn run(args: &ArgMatches) -> Outcome {
+    let name = args.get_one::<String>("suite").map_or("", String::as_str);
+    if !SUITES.contains(&(name, true)) {
+        return Err(format!("bench {name} isn't built yet").into());
+    }
+    if args.get_flag("peers") {
+        return Err("bench --peers isn't built yet".into());
+    }
+    let mut command = cargo(&[
+        "run",
+        "--quiet",
+        "--release",
+        "--package=bench",
+        "--bin=bench",
+    ]);
+    command.args(["--", name]);
+    for flag in ["quick", "check"] {
+        if args.get_flag(flag) {
+            command.arg(format!("--{flag}"));
+        }
+    }
+    succeed(command)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_built_says_so() {
+        let error = |line: &[&str]| {
+            let matches = command().try_get_matches_from(line).unwrap();
+            run(&matches).unwrap_err().to_string()
+        };
+        assert_eq!(
+            error(&["bench", "scale", "--quick"]),
+            "bench scale isn't built yet"
+        );
+        assert_eq!(
+            error(&["bench", "strokes", "--peers"]),
+            "bench --peers isn't built yet"
+        );
+    }
+
+    #[test]
+    fn an_unknown_suite_is_wrong_usage() {
+        let error = command().try_get_matches_from(["bench", "stroke"]);
+        assert_eq!(error.unwrap_err().exit_code(), 2);
+    }
+}
