@@ -3,8 +3,10 @@
 //! A drawing is checked ([`DrawError`]) and taken apart into segments, which are sorted into bands of
 //! tile rows and these into tiles. Bands are drawn in parallel; every band sees its segments in the
 //! same order, so threads can't change a bit. In a tile (see `tile`) come first the surfaces, then
-//! strand after strand: each segment's coverage, depth and colour (`stroke`), the strand's own order,
-//! then the strand against what is there (`strand`).
+//! strand after strand from the nearest on: what each segment covers (`rows`), the strand's own order
+//! and the strand against what is there (`strand`), then depth and colour (`stroke`) of what shows.
+//! All of a band is compiled for several instruction sets (`instructions`); what is called there is
+//! `inline(always)`, or it would be compiled without them.
 
 mod bin;
 mod check;
@@ -12,6 +14,7 @@ mod evaluate;
 mod instructions;
 mod rows;
 mod segment;
+mod stamp;
 mod strand;
 mod stroke;
 mod surface;
@@ -22,6 +25,7 @@ mod tests;
 
 pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use evaluate::Evaluator;
+pub use stamp::Stamper;
 
 use crate::drawing::Drawing;
 use crate::picture::Picture;

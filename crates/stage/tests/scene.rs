@@ -155,3 +155,98 @@ fn missing_and_empty_files_are_named() {
         Err(StageError::NoHair)
     ));
 }
+
+#[test]
+fn how_many_strands_are_kept_moves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let ball: String = (0..60)
+        .map(|i| {
+            let turn = i as f32 * 2.4;
+            let height = 1.0 - i as f32 / 30.0;
+            let flat = (1.0 - height * height).max(0.0).sqrt();
+            let (x, y, z) = (
+                0.1 * flat * turn.cos(),
+                0.1 * height,
+                0.1 * flat * turn.sin(),
+            );
+            format!(
+                "(points: [({x}, {y}, {z}), ({}, {}, {})]),",
+                x * 3.0,
+                y * 3.0,
+                z * 3.0
+            )
+        })
+        .collect();
+    let strands = format!("(version: 1, strands: [{ball}])");
+    let mut view = |guides: u32| {
+        fs::write(folder.path().join("a.strands.ron"), &strands).unwrap();
+        let text = format!(
+            "(version: 1, hair: (file: \"a.strands.ron\", guides: {guides}), \
+             layers: [(effect: \"hair.base\")])"
+        );
+        let registry = registry();
+        let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+        let files = Files {
+            preset_folder: folder.path().to_owned(),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let frame = stage.frame().unwrap();
+        (frame.head, frame.camera.eye(), frame.strands.to_vec())
+    };
+    let (head, eye, all) = view(0);
+    for guides in [1, 7, 30] {
+        let (kept_head, kept_eye, kept) = view(guides);
+        assert_eq!((kept_head, kept_eye), (head, eye));
+        assert_eq!(kept.len(), guides as usize);
+        // Fewer strands stand for more hair each, but none is a ball the size of the head.
+        assert!(
+            kept.iter().all(|s| s.size >= all[0].size && s.size <= 40.0),
+            "{kept:?}"
+        );
+    }
+}
+
+#[test]
+fn strands_that_no_picture_can_mean_are_left_out_and_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let far = STRANDS.replace(
+        "\n])",
+        "\n(points: [(0.0, 0.0, 0.0), (1e20, -0.1, 0.0)]),\n])",
+    );
+    let mut stage = stage(folder.path(), &far, "").unwrap();
+    let frame = stage.frame().unwrap();
+    assert_eq!(frame.strands.len(), 4);
+    assert!(frame.paths.center.iter().all(|center| center.is_finite()));
+    assert_eq!(stage.left_out(), 1);
+}
+
+#[test]
+fn a_head_that_faces_inwards_is_turned_around() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.strands.ron"), STRANDS).unwrap();
+    let corners = "v 0 0.1 0\nv -0.1 -0.1 0.1\nv 0.1 -0.1 0.1\nv 0 -0.1 -0.1\n";
+    let mut surfaces = |faces: &str| {
+        fs::write(folder.path().join("head.obj"), format!("{corners}{faces}")).unwrap();
+        let text = "(version: 1, hair: (file: \"a.strands.ron\"), \
+                    head: (file: \"head.obj\", up: y, scale: 1), layers: [(effect: \"hair.base\")])";
+        let registry = registry();
+        let preset = Preset::parse("look.ron", text, &registry).unwrap();
+        let files = Files {
+            preset_folder: folder.path().to_owned(),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let turned = stage
+            .notes()
+            .iter()
+            .any(|note| note.contains("face inwards"));
+        let outside = stage.frame().unwrap().surfaces[0].triangles.len();
+        (turned, outside)
+    };
+    let outwards = surfaces("f 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n");
+    let inwards = surfaces("f 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n");
+    assert!(!outwards.0 && inwards.0);
+    assert_eq!(outwards.1, inwards.1);
+    assert!(outwards.1 > 0);
+}

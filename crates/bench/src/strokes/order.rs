@@ -100,18 +100,18 @@ mod tests {
         let strokes = [(3, 0), (1, 0), (0, 0), (0, 1), (2, 0)];
         let mut expected = Vec::new();
         // Strand 9's mean of 2 is strand 3's too.
-        let far_to_near: [&[Range<usize>]; 3] = [&[2..3, 3..4], &[4..6], &[0..2]];
+        let far_to_near = [1..3, 3..4, 0..1].map(|runs| &drawing.runs[runs]);
         for runs in far_to_near {
             for (layer, instance) in strokes {
-                expected.extend(runs.iter().cloned().map(|joints| Piece {
+                expected.extend(runs.iter().map(|run| Piece {
                     layer,
                     instance,
-                    joints,
+                    joints: run.joints.clone(),
                 }));
             }
         }
         assert_eq!(pieces, expected);
-        assert_eq!(pieces[6].places(&drawing), 3..4);
-        assert_eq!(pieces[4].places(&drawing), 8..9);
+        assert_eq!(pieces[6].places(&drawing), 8..9);
+        assert_eq!(pieces[5].places(&drawing), 3..4);
     }
 }

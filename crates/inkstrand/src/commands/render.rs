@@ -73,6 +73,12 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
         }
     }
     bar.finish_and_clear();
+    if !options.quiet && stage.left_out() > 0 {
+        eprintln!(
+            "hair: {} strands reach too far away to be drawn and are left out",
+            stage.left_out()
+        );
+    }
     if !options.quiet && sequence {
         let (from, to) = (output.path(first), output.path(last));
         eprintln!("wrote {} to {}", from.display(), to.display());

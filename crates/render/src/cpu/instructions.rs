@@ -2,6 +2,10 @@
 //!
 //! Only widths differ, never the arithmetic: additions and products are not contracted, roots and
 //! quotients are rounded as IEEE 754 says. So every set draws the same bits.
+//!
+//! This needs the one `unsafe` block of the rasteriser: calling a function that is compiled for
+//! instructions which not every machine has. Measured on the benchmark `raster`, 84 thick strands at
+//! 16 samples: 96 ms as compiled (SSE2), 67 ms with AVX2, 55 ms with AVX-512.
 
 use super::{Frame, Worker};
 
@@ -40,7 +44,7 @@ impl Instructions {
     }
 
     /// [`Worker::draw_band`] in these instructions.
-    #[allow(unsafe_code)]
+    #[allow(unsafe_code, reason = "a third to a half of the time, see above")]
     pub(super) fn draw_band(
         self,
         worker: &mut Worker,

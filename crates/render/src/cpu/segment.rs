@@ -52,6 +52,9 @@ pub(super) struct Segment {
     pub(super) strand: u32,
     /// 0 for the clump, or 1 more than the place in [`strokes_in_order`].
     pub(super) stroke: u32,
+    /// Of a clump's segment: the stroke that is the same discs, and has no segments of its own. 0 if
+    /// there is none. The colour is that stroke's.
+    pub(super) drawn_as: u32,
     pub(super) bounds: Bounds,
     pub(super) sweep: Sweep,
     pub(super) inv_depth: Ramp,
@@ -95,47 +98,67 @@ pub(super) fn collect(drawing: &Drawing, strokes: &[Stroke], segments: &mut Vec<
 
 fn of_strand(drawing: &Drawing, strokes: &[Stroke], strand: u32, runs: &[Run]) -> Vec<Segment> {
     let mut segments = Vec::new();
-    let joints = drawing.clump.len();
+    let mut push = |discs, colors, segment_of: (u32, u32)| {
+        let (stroke, drawn_as) = segment_of;
+        segments.extend(of_run(discs, colors, drawing.size).map(|segment| Segment {
+            strand,
+            stroke,
+            drawn_as,
+            ..segment
+        }));
+    };
+    let mut drawn_as = 0;
     if drawing.order == Order::StrandFirst {
+        let base = strokes.iter().zip(1..).find(|(stroke, _)| {
+            stroke.rank >= 0 && runs.iter().all(|run| is_clump(drawing, stroke, run))
+        });
+        drawn_as = base.map_or(0, |(_, number)| number);
         for run in runs {
             let discs = &drawing.clump[run.joints.clone()];
-            push_run(&mut segments, (strand, 0), discs, None, drawing.size);
+            let colors = base.map(|(stroke, _)| {
+                &drawing.layers[stroke.layer].colors[joints_of(drawing, stroke, run)]
+            });
+            push(discs, colors, (0, drawn_as));
         }
     }
-    for (stroke, number) in strokes.iter().zip(1..) {
+    for (stroke, number) in strokes.iter().zip(1..).filter(|&(_, n)| n != drawn_as) {
         let layer = &drawing.layers[stroke.layer];
-        let first = stroke.instance * joints;
         for run in runs {
-            let range = first + run.joints.start..first + run.joints.end;
-            let discs = &layer.discs[range.clone()];
-            let colors = layer.colors.get(range);
-            push_run(&mut segments, (strand, number), discs, colors, drawing.size);
+            let joints = joints_of(drawing, stroke, run);
+            let colors = Some(&layer.colors[joints.clone()]);
+            push(&layer.discs[joints], colors, (number, 0));
         }
     }
     segments
 }
 
-fn push_run(
-    segments: &mut Vec<Segment>,
-    (strand, stroke): (u32, u32),
-    discs: &[Disc],
-    colors: Option<&[[f32; 3]]>,
+/// A run's joints in the lists of a stroke's layer.
+fn joints_of(drawing: &Drawing, stroke: &Stroke, run: &Run) -> Range<usize> {
+    let first = stroke.instance * drawing.clump.len();
+    first + run.joints.start..first + run.joints.end
+}
+
+/// Whether a stroke covers what the clump covers, disc for disc.
+fn is_clump(drawing: &Drawing, stroke: &Stroke, run: &Run) -> bool {
+    let discs = &drawing.layers[stroke.layer].discs[joints_of(drawing, stroke, run)];
+    let clump = &drawing.clump[run.joints.clone()];
+    let is_same = |(a, b): (&Disc, &Disc)| a.center == b.center && a.radius == b.radius;
+    discs.iter().zip(clump).all(is_same)
+}
+
+/// Strand and stroke of the segments are left open.
+fn of_run<'a>(
+    discs: &'a [Disc],
+    colors: Option<&'a [[f32; 3]]>,
     size: [u32; 2],
-) {
-    let joint = |i: usize| (discs[i], colors.map_or([0.0; 3], |colors| colors[i]));
-    let pair = |i: usize| (joint(i), joint((i + 1).min(discs.len() - 1)));
+) -> impl Iterator<Item = Segment> + 'a {
+    let joint = move |i: usize| (discs[i], colors.map_or([0.0; 3], |colors| colors[i]));
     // One joint alone is a segment from itself to itself.
     let pairs = 0..(discs.len() - 1).max(1);
-    segments.extend(
-        pairs
-            .map(pair)
-            .filter_map(|(a, b)| Segment::new(a, b, size))
-            .map(|segment| Segment {
-                strand,
-                stroke,
-                ..segment
-            }),
-    );
+    pairs.filter_map(move |i| {
+        let next = (i + 1).min(discs.len() - 1);
+        Segment::new(joint(i), joint(next), size)
+    })
 }
 
 type Joint = (Disc, [f32; 3]);
@@ -162,6 +185,7 @@ impl Segment {
         Some(Self {
             strand: 0,
             stroke: 0,
+            drawn_as: 0,
             bounds: Bounds::of_box(min, max, size)?,
             sweep,
             inv_depth: Ramp::new(large.0.inv_depth, small.0.inv_depth),

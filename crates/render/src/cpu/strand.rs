@@ -116,6 +116,19 @@ impl StrandPlanes {
                 samples,
             });
         }
+        if let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) {
+            let index = self.placed[clump.segments.start].segment;
+            let number = scene.segments[index as usize].drawn_as;
+            if number > 0 {
+                let base = Covered {
+                    number,
+                    segments: clump.segments.clone(),
+                    samples: clump.samples,
+                };
+                let place = self.strokes.partition_point(|s| s.number < number);
+                self.strokes.insert(place, base);
+            }
+        }
     }
 
     /// Within the clump at the clump's depth, outside it strokes of negative rank at their own; then
@@ -313,7 +326,7 @@ impl Scene<'_> {
                 segments: start..start + strand.len(),
                 inv_depth: f32::NEG_INFINITY,
                 biased: f32::NEG_INFINITY,
-                rows: HEIGHT..0,
+                rows: segment(strand[0]).rows_in(self.origin[1]),
             };
             start = part.segments.end;
             for &index in strand {

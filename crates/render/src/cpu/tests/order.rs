@@ -264,7 +264,8 @@ proptest! {
     }
 
     #[test]
-    fn instructions_change_no_bit(drawing in any_drawing()) {
+    fn instructions_change_no_bit(mut drawing in any_drawing()) {
+        drawing.surfaces = vec![square(1.0)];
         let mut rasterizer = Rasterizer::new(5, Some(1)).unwrap();
         let mut pictures = Instructions::available().into_iter().map(|instructions| {
             rasterizer.instructions = instructions;

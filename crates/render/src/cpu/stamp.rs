@@ -1,0 +1,299 @@
+//! The source's own way of drawing, to measure the exact one against: each stroke is stamped disc by
+//! disc, and each disc is tested for depth. It shares the rasteriser's tiles, lanes and threads.
+
+use super::bin::{Bins, Bounds, cells};
+use super::instructions::Instructions;
+use super::tile::{self, LANE, LANES, NOTHING, Sums, Target, overwrite, row_start, select};
+use super::{DrawError, RasterizerError, check, empty_picture, segment};
+use crate::drawing::{Drawing, Run};
+use crate::picture::Picture;
+use crate::samples::sample_positions;
+use glam::Vec2;
+use rayon::prelude::*;
+use segment::Stroke;
+use std::sync::{Mutex, PoisonError};
+
+/// Stamps the strokes of [`Drawing`]s.
+///
+/// The order is the source's ([`Order::Shifted`](crate::Order::Shifted)) whatever the drawing says,
+/// and the disc in front gives the colour. Surfaces are left out.
+pub struct Stamper {
+    pool: rayon::ThreadPool,
+    samples: Vec<Vec2>,
+    stamps: Vec<Stamp>,
+    bands: Bins,
+    instructions: Instructions,
+    /// One for each thread.
+    workers: Vec<Mutex<Worker>>,
+}
+
+/// A disc of one colour.
+#[derive(Clone, Copy, Debug)]
+struct Stamp {
+    center: Vec2,
+    radius_squared: f32,
+    inv_depth: f32,
+    color: [f32; 3],
+    /// The first and one beyond the last pixel that it may reach; pictures have at most
+    /// [`MAX_SIZE`](super::MAX_SIZE).
+    columns: [u16; 2],
+    rows: [u16; 2],
+}
+
+/// What a row of tiles shows.
+struct Band<'a> {
+    drawing: &'a Drawing,
+    samples: &'a [Vec2],
+    stamps: &'a [Stamp],
+    /// Indices of those stamps that reach it.
+    in_band: &'a [u32],
+    index: usize,
+}
+
+struct Worker {
+    tiles: Bins,
+    target: Target,
+    sums: Sums,
+}
+
+impl Stamper {
+    /// With that many samples in a pixel and threads, as a [`Rasterizer`](super::Rasterizer).
+    ///
+    /// # Errors
+    ///
+    /// When there is no such number of samples, or the system gives no threads.
+    pub fn new(samples: u32, threads: Option<usize>) -> Result<Self, RasterizerError> {
+        let samples = sample_positions(samples)?;
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.unwrap_or(0))
+            .build()?;
+        let worker = || Worker {
+            tiles: Bins::default(),
+            target: Target::new(),
+            sums: Sums::new(),
+        };
+        Ok(Self {
+            samples,
+            stamps: Vec::new(),
+            bands: Bins::default(),
+            instructions: Instructions::available()
+                .pop()
+                .unwrap_or(Instructions::Compiled),
+            workers: (0..pool.current_num_threads())
+                .map(|_| Mutex::new(worker()))
+                .collect(),
+            pool,
+        })
+    }
+
+    /// Draws a picture with `per_interval` stamps (at least 1) from each joint on to the next, and
+    /// one at the last.
+    ///
+    /// # Errors
+    ///
+    /// When the drawing is not a drawing.
+    pub fn draw(&mut self, drawing: &Drawing, per_interval: usize) -> Result<Picture, DrawError> {
+        let Self {
+            pool,
+            samples,
+            stamps,
+            bands,
+            instructions,
+            workers,
+        } = self;
+        pool.install(|| {
+            check::check(drawing)?;
+            let mut picture = empty_picture(drawing.size)?;
+            collect(drawing, per_interval.max(1), stamps);
+            let rows = stamps.iter().map(|stamp| stamp.rows).zip(0..);
+            let count = (drawing.size[1] as usize).div_ceil(tile::HEIGHT);
+            bands.fill(count, rows.map(|(rows, i)| (i, range(rows, tile::HEIGHT))));
+            let band_length = drawing.size[0] as usize * tile::HEIGHT;
+            let chunks = picture.pixels.par_chunks_mut(band_length);
+            chunks.enumerate().for_each(|(index, pixels)| {
+                let band = Band {
+                    drawing,
+                    samples,
+                    stamps,
+                    in_band: bands.bin(index),
+                    index,
+                };
+                let thread = rayon::current_thread_index().unwrap_or(0);
+                let mut worker = workers[thread]
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner);
+                worker.draw_band_with(*instructions, &band, pixels);
+            });
+            Ok(picture)
+        })
+    }
+}
+
+/// The bins of `size` pixels that a stamp reaches.
+fn range([start, end]: [u16; 2], size: usize) -> std::ops::Range<usize> {
+    cells(&(start.into()..end.into()), size)
+}
+
+/// Replaces `stamps` by those of a checked drawing that may be seen: the highest stroke of all strands
+/// first, in a stroke by strand. So the first is in front where depths are equal.
+fn collect(drawing: &Drawing, per_interval: usize, stamps: &mut Vec<Stamp>) {
+    let strokes = segment::strokes_in_order(drawing);
+    let pieces: Vec<(&Stroke, &Run)> = strokes
+        .iter()
+        .rev()
+        .flat_map(|stroke| drawing.runs.iter().map(move |run| (stroke, run)))
+        .collect();
+    stamps.clear();
+    stamps.par_extend(
+        pieces
+            .par_iter()
+            .flat_map_iter(|(stroke, run)| of_run(drawing, stroke, run, per_interval)),
+    );
+}
+
+fn of_run<'a>(
+    drawing: &'a Drawing,
+    stroke: &Stroke,
+    run: &Run,
+    per_interval: usize,
+) -> impl Iterator<Item = Stamp> + use<'a> {
+    let layer = &drawing.layers[stroke.layer];
+    let first = stroke.instance * drawing.clump.len();
+    let (start, last) = (first + run.joints.start, first + run.joints.end - 1);
+    let size = drawing.size;
+    let between = (start..last).flat_map(move |i| {
+        (0..per_interval).map(move |k| (i, i + 1, k as f32 / per_interval as f32))
+    });
+    between
+        .chain([(last, last, 0.0)])
+        .filter_map(move |(i, j, way)| {
+            let (a, b) = (&layer.discs[i], &layer.discs[j]);
+            let mix = |a: f32, b: f32| a + way * (b - a);
+            let center = a.center + way * (b.center - a.center);
+            let radius = mix(a.radius, b.radius).max(0.0);
+            if radius <= 0.0 {
+                return None;
+            }
+            let (middle, reach) = (center.as_dvec2(), f64::from(radius));
+            let bounds = Bounds::of_box(middle - reach, middle + reach, size)?;
+            let (from, to) = (layer.colors[i], layer.colors[j]);
+            let ends = |range: std::ops::Range<usize>| [range.start as u16, range.end as u16];
+            Some(Stamp {
+                center,
+                radius_squared: radius * radius,
+                inv_depth: mix(a.inv_depth, b.inv_depth),
+                color: [0, 1, 2].map(|channel| mix(from[channel], to[channel])),
+                columns: ends(bounds.x),
+                rows: ends(bounds.y),
+            })
+        })
+}
+
+impl Worker {
+    /// In instructions that this machine has, as the rasteriser.
+    #[allow(unsafe_code)]
+    fn draw_band_with(&mut self, instructions: Instructions, band: &Band, pixels: &mut [[f32; 4]]) {
+        match instructions {
+            Instructions::Compiled => self.draw_band(band, pixels),
+            // SAFETY: a value of this type is made by `available` only, which looked for each.
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx2 => unsafe { avx2(self, band, pixels) },
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512 => unsafe { avx512(self, band, pixels) },
+        }
+    }
+
+    #[inline(always)] // compiled for each set of `Instructions`
+    fn draw_band(&mut self, band: &Band, pixels: &mut [[f32; 4]]) {
+        let Band {
+            drawing,
+            samples,
+            stamps,
+            in_band,
+            index,
+        } = *band;
+        let width = drawing.size[0] as usize;
+        let tiles = width.div_ceil(tile::WIDTH);
+        let columns = in_band
+            .iter()
+            .map(|&i| (i, range(stamps[i as usize].columns, tile::WIDTH)));
+        self.tiles.fill(tiles, columns);
+        for tile in 0..tiles {
+            let origin = [tile * tile::WIDTH, index * tile::HEIGHT];
+            self.sums.clear();
+            for samples in samples.chunks(tile::GROUP) {
+                self.target.clear(samples.len(), drawing.background);
+                for &stamp in self.tiles.bin(tile) {
+                    stamps[stamp as usize].draw(origin, samples, &mut self.target);
+                }
+                let is_opaque = drawing.background.is_some();
+                self.sums.add(&self.target, samples.len(), is_opaque);
+            }
+            let end = (origin[0] + tile::WIDTH).min(width);
+            for (row, pixels) in pixels.chunks_mut(width).enumerate() {
+                self.sums
+                    .write(row, samples.len(), &mut pixels[origin[0]..end]);
+            }
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn avx2(worker: &mut Worker, band: &Band, pixels: &mut [[f32; 4]]) {
+    worker.draw_band(band, pixels);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
+fn avx512(worker: &mut Worker, band: &Band, pixels: &mut [[f32; 4]]) {
+    worker.draw_band(band, pixels);
+}
+
+impl Stamp {
+    /// Where the stamp covers a sample and is nearer than what is there, it takes its place.
+    #[inline(always)]
+    fn draw(&self, origin: [usize; 2], samples: &[Vec2], target: &mut Target) {
+        let clip = |[start, end]: [u16; 2], origin: usize, size: usize| {
+            let (start, end) = (usize::from(start), usize::from(end));
+            start.max(origin) - origin..end.min(origin + size) - origin
+        };
+        let columns = clip(self.columns, origin[0], tile::WIDTH);
+        let chunks = columns.start / LANES..columns.end.div_ceil(LANES);
+        let center = self.center - Vec2::new(origin[0] as f32, origin[1] as f32);
+        for row in clip(self.rows, origin[1], tile::HEIGHT) {
+            for (sample, offset) in samples.iter().enumerate() {
+                let y = row as f32 + offset.y - center.y;
+                let room = self.radius_squared - y * y;
+                if room < 0.0 {
+                    continue;
+                }
+                let start = row_start(sample * tile::HEIGHT + row);
+                for chunk in chunks.clone() {
+                    let x = (chunk * LANES) as f32 + offset.x - center.x;
+                    self.draw_chunk(x, room, start + chunk, target);
+                }
+            }
+        }
+    }
+
+    /// `x` is the first lane's distance from the centre, `room` the largest square of one that is covered.
+    #[inline(always)]
+    fn draw_chunk(&self, x: f32, room: f32, cell: usize, target: &mut Target) {
+        let mut nearest = target.strand[cell];
+        let mut wins = [0.0; LANES];
+        for k in 0..LANES {
+            let x = x + LANE[k];
+            let depth = select(x * x <= room, self.inv_depth, NOTHING);
+            wins[k] = select(depth > nearest[k], 1.0, 0.0);
+            nearest[k] = select(depth > nearest[k], depth, nearest[k]);
+        }
+        if wins == [0.0; LANES] {
+            return;
+        }
+        target.strand[cell] = nearest;
+        for (plane, color) in target.color.iter_mut().zip(self.color) {
+            overwrite(&mut plane[cell], &[color; LANES], &wins);
+        }
+    }
+}
