@@ -22,9 +22,6 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 use targets::{PATHS_ALONE, STAMPING, SWEEP, SWEEP_SHIFTED, Target, VELLO};
 
-/// Samples a side of a pixel of the reference.
-const GRID: u32 = 16;
-
 /// Most stamps an interval, times the source's.
 const MOST_STAMPS: usize = 13;
 
@@ -39,6 +36,13 @@ pub struct Options {
     pub quick: bool,
     /// Threads of whatever can use several.
     pub threads: usize,
+}
+
+impl Options {
+    /// Samples a side of a pixel of the reference.
+    fn grid(&self) -> u32 {
+        if self.quick { 12 } else { 16 }
+    }
 }
 
 /// All that was measured.
@@ -83,13 +87,13 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
         rows: Vec::new(),
         differences: Vec::new(),
         targets: Vec::new(),
-        comments: comments(&scenes, options.threads),
+        comments: comments(&scenes, options),
     };
     for (scene, mut entries) in scenes.iter().zip(entries_of_scenes) {
         progress.set_message(format!("{}: times", scene.name));
         let times = times(scene, &mut entries, effort, progress)?;
         progress.set_message(format!("{}: errors", scene.name));
-        let differences = differences(scene, &entries, progress)?;
+        let differences = differences(scene, &entries, options.grid(), progress)?;
         for ((entry, seconds), difference) in entries.iter().zip(times).zip(differences) {
             measured.rows.push(Row {
                 scene: scene.name.to_owned(),
@@ -218,9 +222,10 @@ fn times(
 fn differences(
     scene: &Scene,
     entries: &[Entry],
+    grid: u32,
     progress: &ProgressBar,
 ) -> Result<Vec<Option<Difference>>, String> {
-    let reference = |order| oracle::picture(&in_order(&scene.drawing, order), GRID);
+    let reference = |order| oracle::picture(&in_order(&scene.drawing, order), grid);
     let strand_first = reference(Order::StrandFirst);
     let shifted = reference(Order::Shifted);
     // Both orders show strokes at the same pixels but where strokes are clipped to clumps.
@@ -244,12 +249,16 @@ fn differences(
     Ok(differences)
 }
 
-fn comments(scenes: &[Scene], threads: usize) -> Vec<String> {
-    let mut comments = results::machine(threads, &["bench", "vello_cpu", "tiny-skia"]);
+fn comments(scenes: &[Scene], options: &Options) -> Vec<String> {
+    let packages = ["bench", "vello_cpu", "tiny-skia"];
+    let mut comments = results::machine(options.threads, &packages);
+    let grid = options.grid();
+    comments.push(format!(
+        "error: mean over the strokes' pixels (and 2 pixels around) of the largest difference of a \
+         channel, linear and premultiplied, 0 to 1, from the f64 reference of {grid} x {grid} samples"
+    ));
     let text = [
         "seconds: median time from the drawing to its pixels, in memory",
-        "error: mean over the strokes' pixels (and 2 pixels around) of the largest difference of a \
-         channel, linear and premultiplied, 0 to 1, from the f64 reference of 16 x 16 samples",
         "sweep, sweep-shifted: exact, in the order by strands and in the source's; knob: samples a \
          pixel",
         "stamping-4, -8, -16: the source's method in the source's order with that many samples a \

@@ -98,12 +98,12 @@ fn surface(extent: f32) -> impl Strategy<Value = Surface> {
     (
         vec(vertex, 4),
         vec(prop::array::uniform3(0..4u32), 0..4),
-        prop_oneof![Just(0.0), 0.01..0.5f32],
+        prop_oneof![Just(0.0), 0.01..0.5f32, -0.2..-0.01f32],
         color(),
         color(),
     )
-        .prop_map(|(vertices, triangles, hollow_m, light, shadow)| Surface {
-            hollow_m,
+        .prop_map(|(vertices, triangles, margin_m, light, shadow)| Surface {
+            margin_m,
             vertices,
             triangles,
             light,

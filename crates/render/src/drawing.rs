@@ -69,10 +69,12 @@ pub struct Surface {
     pub vertices: Vec<SurfaceVertex>,
     /// Indices into `vertices`.
     pub triangles: Vec<[u32; 3]>,
-    /// Above 0 for the far wall of a hollow, seen from within through an opening (an eye's, the
-    /// neck's). Hair grows on its other side, so its bias does not count here: a stroke must be this
-    /// much nearer than the wall, in metres, to show before it.
-    pub hollow_m: f32,
+    /// How much nearer than the surface a stroke must be to show before it, in metres, whatever its
+    /// own bias; below 0, how much farther it may be. 0: the stroke's biased depth counts.
+    ///
+    /// For the head's inside, seen through an opening (an eye's, the neck's), on whose other side hair
+    /// grows, and for its outline, which hair behind it must not eat.
+    pub margin_m: f32,
     /// Linear colour where the tone is 0 or more.
     pub light: [f32; 3],
     /// Linear colour where the tone is below 0.
@@ -87,7 +89,7 @@ pub enum Order {
     /// Within the strand's clump the highest rank that covers the sample gives the colour (the later
     /// layer among equals, then the later instance) at the clump's depth; outside the clump only
     /// ranks below 0 show, each at its own depth. Then a strand whose biased depth lies behind a
-    /// surface (see [`Surface::hollow_m`] for inside walls) is dropped, and the nearest strand that is left
+    /// surface (or that breaks its [`Surface::margin_m`]) is dropped, and the nearest strand that is left
     /// wins (the lower id among equals). Light beyond 0 to 1 is cut in each sample.
     #[default]
     StrandFirst,

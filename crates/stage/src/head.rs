@@ -46,7 +46,10 @@ pub(crate) struct HeadPaint {
     /// Width of the outline in metres; 0 is none.
     pub width_m: f32,
     /// How much nearer than the head's inside hair must be to be seen through an opening, metres.
-    pub hollow_m: f32,
+    pub inside_margin_m: f32,
+    /// How much farther than the outline hair may be, metres: hair on the skin covers it, hair behind
+    /// the head does not.
+    pub outline_margin_m: f32,
     /// The cosine to the light at which light turns to shadow.
     pub threshold: f32,
 }
@@ -103,7 +106,7 @@ pub(crate) fn surfaces(
             paint.shadow,
         ),
         Surface {
-            hollow_m: paint.hollow_m,
+            margin_m: paint.inside_margin_m,
             ..surface(
                 camera,
                 &mesh.triangles,
@@ -125,14 +128,17 @@ pub(crate) fn surfaces(
                 tone: 0.0,
             })
             .collect();
-        surfaces.push(surface(
-            camera,
-            &mesh.triangles,
-            &hull,
-            Facing::Back,
-            paint.line,
-            paint.line,
-        ));
+        surfaces.push(Surface {
+            margin_m: -paint.outline_margin_m,
+            ..surface(
+                camera,
+                &mesh.triangles,
+                &hull,
+                Facing::Back,
+                paint.line,
+                paint.line,
+            )
+        });
     }
     surfaces.extend(face.iter().map(|patch| {
         let corner = |position: &Vec3| Corner {
@@ -168,7 +174,7 @@ fn surface(
     let mut surface = Surface {
         vertices: Vec::new(),
         triangles: Vec::new(),
-        hollow_m: 0.0,
+        margin_m: 0.0,
         light,
         shadow,
     };
@@ -285,7 +291,8 @@ mod tests {
         iris: [0.2; 3],
         iris_shadow: [0.1; 3],
         width_m: 0.01,
-        hollow_m: 0.05,
+        inside_margin_m: 0.05,
+        outline_margin_m: 0.01,
         threshold: 0.1,
     };
 

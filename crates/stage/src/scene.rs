@@ -15,7 +15,11 @@ const NEAR: f32 = 0.05;
 
 /// How much nearer than the inside of the head hair must be to be seen through an opening, in head
 /// heights: more than the clumps around the skull reach into it.
-const HOLLOW: f32 = 0.6;
+const INSIDE_MARGIN: f32 = 0.6;
+
+/// How much farther than the head's outline hair may be, in head heights, to cover it: hair that lies
+/// on the skin.
+const OUTLINE_MARGIN: f32 = 0.04;
 
 /// Files that the caller gives in place of the preset's.
 #[derive(Clone, Debug, Default)]
@@ -263,7 +267,8 @@ impl Settings {
                 iris: paint.color("iris"),
                 iris_shadow: paint.color("iris_shadow"),
                 width_m: paint.number("width") * head.unit_m(),
-                hollow_m: HOLLOW * head.height_m,
+                inside_margin_m: INSIDE_MARGIN * head.height_m,
+                outline_margin_m: OUTLINE_MARGIN * head.height_m,
                 threshold: paint.number("threshold"),
             },
         })

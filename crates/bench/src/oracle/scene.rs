@@ -214,8 +214,8 @@ fn depth(segments: &[Segment], point: DVec2) -> Option<Depth> {
 /// Whether a stroke of that depth is not hidden by the surface there.
 fn is_seen(depth: &Depth, surface: Option<&Hit>) -> bool {
     surface.is_none_or(|hit| {
-        if hit.hollow_m > 0.0 {
-            1.0 / depth.inv_depth + hit.hollow_m <= 1.0 / hit.inv_depth
+        if hit.margin_m != 0.0 {
+            1.0 / depth.inv_depth + hit.margin_m <= 1.0 / hit.inv_depth
         } else {
             depth.biased >= hit.inv_depth
         }

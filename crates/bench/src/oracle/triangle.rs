@@ -7,7 +7,7 @@ use render::{Surface, SurfaceVertex};
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
     corners: [Corner; 3],
-    hollow_m: f64,
+    margin_m: f64,
     light: [f64; 3],
     shadow: [f64; 3],
 }
@@ -34,8 +34,8 @@ impl From<SurfaceVertex> for Corner {
 pub struct Hit {
     /// 1 / view depth (1/m).
     pub inv_depth: f64,
-    /// How much nearer a stroke must be if it is the wall of a hollow (m), else 0.
-    pub hollow_m: f64,
+    /// How much nearer a stroke must be (m); 0 where its biased depth counts.
+    pub margin_m: f64,
     /// Linear.
     pub color: [f64; 3],
 }
@@ -45,7 +45,7 @@ impl Triangle {
     pub fn of(surface: &Surface) -> impl Iterator<Item = Self> {
         surface.triangles.iter().map(|corners| Self {
             corners: corners.map(|index| surface.vertices[index as usize].into()),
-            hollow_m: surface.hollow_m.into(),
+            margin_m: surface.margin_m.into(),
             light: surface.light.map(f64::from),
             shadow: surface.shadow.map(f64::from),
         })
@@ -75,7 +75,7 @@ impl Triangle {
         let color = if lit { self.light } else { self.shadow };
         Some(Hit {
             inv_depth: interpolate(|corner| corner.inv_depth),
-            hollow_m: self.hollow_m,
+            margin_m: self.margin_m,
             color,
         })
     }
@@ -97,7 +97,7 @@ mod tests {
             tone,
         };
         let surface = Surface {
-            hollow_m: 0.0,
+            margin_m: 0.0,
             vertices: vec![
                 vertex(0.0, 0.0, 1.0, -1.0),
                 vertex(8.0, 0.0, 2.0, 1.0),

@@ -64,7 +64,7 @@ pub fn add_wall(drawing: &mut Drawing, inv_depth: f32, tone: f32, [light, shadow
         tone,
     };
     drawing.surfaces.push(Surface {
-        hollow_m: 0.0,
+        margin_m: 0.0,
         vertices: vec![
             vertex(-10.0, -10.0),
             vertex(300.0, -10.0),

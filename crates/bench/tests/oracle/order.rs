@@ -173,15 +173,20 @@ fn bias_does_not_count_among_strands() {
 }
 
 #[test]
-fn before_the_wall_of_a_hollow_strokes_must_be_nearer() {
+fn before_a_surface_with_a_margin_strokes_must_be_nearer() {
     let biased = Disc {
         inv_depth_biased: 9.0,
         ..at(1.0)
     };
-    for (wall_m, expected) in [(1.3, WHITE), (1.26, WHITE), (1.24, BLUE), (1.0, BLUE)] {
+    for (wall_m, margin_m, expected) in [
+        (1.26, 0.25, WHITE),
+        (1.24, 0.25, BLUE),
+        (0.76, -0.25, WHITE),
+        (0.74, -0.25, BLUE),
+    ] {
         let mut drawing = strokes(&[&[biased]]);
         add_wall(&mut drawing, 1.0 / wall_m, 1.0, [BLUE; 2]);
-        drawing.surfaces[0].hollow_m = 0.25;
+        drawing.surfaces[0].margin_m = margin_m;
         assert_eq!(shown(&drawing), opaque(expected), "{wall_m} m");
         assert_eq!(shown_shifted(&drawing), opaque(expected), "{wall_m} m");
     }
@@ -249,7 +254,7 @@ fn a_stroke_sinks_into_a_slanted_surface_along_its_line() {
         tone: 1.0,
     };
     drawing.surfaces.push(Surface {
-        hollow_m: 0.0,
+        margin_m: 0.0,
         vertices: vec![vertex(0.0, 0.0), vertex(128.0, 0.0), vertex(0.0, 128.0)],
         triangles: vec![[0, 2, 1]],
         light: BLUE,

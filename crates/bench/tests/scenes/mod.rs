@@ -182,7 +182,7 @@ fn head(projection: &Projection) -> Surface {
     const RINGS: u32 = 24;
     const SECTORS: u32 = 32;
     let mut surface = Surface {
-        hollow_m: 0.0,
+        margin_m: 0.0,
         light: [0.9, 0.7, 0.6],
         shadow: [0.5, 0.3, 0.3],
         ..Surface::default()

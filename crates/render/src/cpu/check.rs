@@ -101,13 +101,13 @@ pub enum DrawError {
         /// Index of the joint.
         joint: usize,
     },
-    /// The depth of a hollow is a length.
-    #[error("surface {surface}: hollow_m is {hollow_m}, not a number of 0 or more")]
-    Hollow {
+    /// A margin is a length.
+    #[error("surface {surface}: margin_m is {margin_m}, not a finite number")]
+    Margin {
         /// The surface's index.
         surface: usize,
         /// As it was given, metres.
-        hollow_m: f32,
+        margin_m: f32,
     },
     /// A surface's tone has no colour.
     #[error("surface {surface}: a colour is not finite")]
@@ -242,10 +242,10 @@ fn check_surface(index: usize, surface: &Surface) -> Result<(), DrawError> {
     if !is_finite(&surface.light) || !is_finite(&surface.shadow) {
         return Err(DrawError::SurfaceColor { surface: index });
     }
-    if !(surface.hollow_m.is_finite() && surface.hollow_m >= 0.0) {
-        return Err(DrawError::Hollow {
+    if !surface.margin_m.is_finite() {
+        return Err(DrawError::Margin {
             surface: index,
-            hollow_m: surface.hollow_m,
+            margin_m: surface.margin_m,
         });
     }
     let bad_vertex = surface.vertices.iter().position(|v| {

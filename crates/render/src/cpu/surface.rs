@@ -50,7 +50,7 @@ impl Triangle {
     ) {
         let surface = &drawing.surfaces[self.surface as usize];
         let (light, shadow) = (surface.light, surface.shadow);
-        let hollow = [surface.hollow_m; LANES];
+        let margin = [surface.margin_m; LANES];
         let corner = DVec2::new(origin[0] as f64, origin[1] as f64);
         let points = self.corners.map(|c| c.position.as_dvec2() - corner);
         let area = twice_area(points);
@@ -83,7 +83,7 @@ impl Triangle {
                         is_lit[k] = select(tones.at(position) >= 0.0, 1.0, 0.0);
                     }
                     target.surface[cell] = nearest;
-                    overwrite(&mut target.hollow[cell], &hollow, &wins);
+                    overwrite(&mut target.margin[cell], &margin, &wins);
                     for (channel, plane) in target.color.iter_mut().enumerate() {
                         let color =
                             is_lit.map(|lit| select(lit != 0.0, light[channel], shadow[channel]));

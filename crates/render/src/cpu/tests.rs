@@ -268,7 +268,7 @@ fn vertex(x: f32, y: f32, inv_depth: f32, tone: f32) -> SurfaceVertex {
 /// A square of two triangles from (0, 0) to (20, 20), lit on the left and dark on the right.
 fn square(inv_depth: f32) -> Surface {
     Surface {
-        hollow_m: 0.0,
+        margin_m: 0.0,
         vertices: vec![
             vertex(0.0, 0.0, inv_depth, 1.0),
             vertex(20.0, 0.0, inv_depth, -1.0),
@@ -304,7 +304,7 @@ fn a_sample_on_an_edge_is_inside_and_a_flat_triangle_is_nothing() {
     let mut drawing = one_strand([9, 9], &[]);
     drawing.runs.clear();
     let surface = |a, b, c| Surface {
-        hollow_m: 0.0,
+        margin_m: 0.0,
         vertices: vec![a, b, c],
         triangles: vec![[0, 1, 2]],
         light: GREEN,
@@ -334,7 +334,7 @@ fn nearer_surface_wins_and_the_earlier_among_equals() {
     let mut drawing = one_strand([10, 10], &[]);
     drawing.runs.clear();
     let surface = |inv_depth, light| Surface {
-        hollow_m: 0.0,
+        margin_m: 0.0,
         light,
         shadow: light,
         ..square(inv_depth)
@@ -358,7 +358,7 @@ fn biased_depth_decides_against_surfaces() {
         discs[0].inv_depth_biased = biased;
         let mut drawing = one_strand([10, 10], &discs);
         drawing.surfaces = vec![Surface {
-            hollow_m: 0.0,
+            margin_m: 0.0,
             shadow: GREEN,
             ..square(surface)
         }];
@@ -373,15 +373,20 @@ fn biased_depth_decides_against_surfaces() {
     }
 }
 
-/// A wall seen from within hides what grows on its other side: the bias does not count.
+/// Such a surface's margin counts in place of the bias.
 #[test]
-fn before_the_wall_of_a_hollow_strokes_must_be_nearer() {
+fn before_a_surface_with_a_margin_strokes_must_be_nearer() {
     let mut discs = [disc(5.0, 5.0, 3.0, 1.0)];
     discs[0].inv_depth_biased = 9.0;
-    for (wall_m, expected) in [(1.3, RED), (1.26, RED), (1.24, GREEN), (1.0, GREEN)] {
+    for (wall_m, margin_m, expected) in [
+        (1.26, 0.25, RED),
+        (1.24, 0.25, GREEN),
+        (0.76, -0.25, RED),
+        (0.74, -0.25, GREEN),
+    ] {
         let mut drawing = one_strand([10, 10], &discs);
         drawing.surfaces = vec![Surface {
-            hollow_m: 0.25,
+            margin_m,
             shadow: GREEN,
             ..square(1.0 / wall_m)
         }];

@@ -185,8 +185,8 @@ impl Iterator for Cells<'_> {
 pub(super) struct Target {
     /// Nearest surface, 1/m.
     pub(super) surface: Plane,
-    /// That surface's [`hollow_m`](crate::Surface::hollow_m).
-    pub(super) hollow: Plane,
+    /// That surface's [`margin_m`](crate::Surface::margin_m).
+    pub(super) margin: Plane,
     /// Nearest strand that no surface hides, 1/m.
     pub(super) strand: Plane,
     /// What decides there among equals: the higher one lies on top.
@@ -194,7 +194,7 @@ pub(super) struct Target {
     pub(super) color: [Plane; 3],
     /// For each cell the farthest of `strand`.
     farthest_strand: Vec<f32>,
-    /// For each cell the farthest of `surface`; [`NOTHING`] beside hollows, which don't count here.
+    /// For each cell the farthest of `surface`; [`NOTHING`] beside surfaces of their own margin, which don't count here.
     farthest_surface: Vec<f32>,
 }
 
@@ -202,7 +202,7 @@ impl Target {
     pub(super) fn new() -> Self {
         Self {
             surface: plane(),
-            hollow: plane(),
+            margin: plane(),
             strand: plane(),
             priority: vec![[0; LANES]; CELLS],
             color: [plane(), plane(), plane()],
@@ -216,7 +216,7 @@ impl Target {
     pub(super) fn clear(&mut self, samples: usize, background: Option<[f32; 3]>) {
         let cells = ..row_start(samples * HEIGHT);
         self.surface[cells].fill([NOTHING; LANES]);
-        self.hollow[cells].fill([0.0; LANES]);
+        self.margin[cells].fill([0.0; LANES]);
         self.strand[cells].fill([NOTHING; LANES]);
         self.priority[cells].fill([0; LANES]);
         for (plane, value) in self.color.iter_mut().zip(background.unwrap_or_default()) {
@@ -230,10 +230,10 @@ impl Target {
     #[inline(always)]
     pub(super) fn finish_surfaces(&mut self) {
         for (cell, farthest) in self.farthest_surface.iter_mut().enumerate() {
-            let (surface, hollow) = (self.surface[cell], self.hollow[cell]);
+            let (surface, margin) = (self.surface[cell], self.margin[cell]);
             let mut solid = surface;
             for k in 0..LANES {
-                solid[k] = select(hollow[k] > 0.0, NOTHING, surface[k]);
+                solid[k] = select(margin[k] != 0.0, NOTHING, surface[k]);
             }
             *farthest = least(&solid);
         }
@@ -264,13 +264,13 @@ impl Target {
         biased: &Lanes,
         priority: u32,
     ) -> u32 {
-        let (surface, hollow) = (self.surface[cell.index], self.hollow[cell.index]);
+        let (surface, margin) = (self.surface[cell.index], self.margin[cell.index]);
         let mut nearest = self.strand[cell.index];
         let mut top = self.priority[cell.index];
         let mut wins = [0_u32; LANES];
         for k in 0..LANES {
-            let before_wall = depth[k] / (1.0 + hollow[k] * depth[k]);
-            let against = select(hollow[k] > 0.0, before_wall, biased[k]);
+            let before_wall = depth[k] / (1.0 + margin[k] * depth[k]);
+            let against = select(margin[k] != 0.0, before_wall, biased[k]);
             let is_better =
                 (depth[k] > nearest[k]) | ((depth[k] == nearest[k]) & (priority > top[k]));
             let is_shown = has(cell.bits, k) & (surface[k] <= against) & is_better;

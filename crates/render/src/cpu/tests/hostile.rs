@@ -185,7 +185,7 @@ fn any_surface() -> impl Strategy<Value = Surface> {
         .prop_map(|(x, y, inv_depth, tone)| vertex(x, y, inv_depth, tone));
     let triangles = proptest::collection::vec([0..5_u32, 0..5, 0..5], 0..4);
     (proptest::collection::vec(corner, 5), triangles).prop_map(|(vertices, triangles)| Surface {
-        hollow_m: if triangles.len() == 1 { f32::MAX } else { 0.0 },
+        margin_m: if triangles.len() == 1 { f32::MAX } else { 0.0 },
         vertices,
         triangles,
         light: RED,
