@@ -1,7 +1,7 @@
 //! The drawn face: flat shapes and strokes that lie on the bust's skin.
 
-use crate::bust::distance;
 use crate::ribbon::{Flat, curve, ellipse, fill, stroke};
+use crate::shape::distance;
 use glam::{Vec2, Vec3};
 
 /// What a patch is painted with.

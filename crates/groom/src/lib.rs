@@ -8,6 +8,7 @@ mod bust;
 mod face;
 mod random;
 mod ribbon;
+mod shape;
 mod shell;
 mod solid;
 mod style;

@@ -253,7 +253,8 @@ fn enter(radii: &mut [f32], [a, b, c]: [Vec3; 3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bust::{bust, distance};
+    use crate::bust::bust;
+    use crate::shape::distance;
 
     #[test]
     fn directions_and_cells_agree() {

@@ -1,12 +1,14 @@
 //! A scene (hair, head, camera, light, style, time) to a frame: the only place where simulation meets
 //! strokes.
 
+mod files;
 mod head;
 mod load;
 mod preset;
 mod scene;
 mod style;
 
+pub use files::{Files, StageError};
 pub use preset::{CAMERA, HAIR, HEAD, LIGHT, PATH, Preset, SCENE, SECTIONS, VERSION};
-pub use scene::{Files, Stage, StageError};
+pub use scene::Stage;
 pub use style::ZONE;

@@ -1,8 +1,8 @@
 //! The preset's files: hair and head in, strands with their sizes out.
 
+use crate::files::{Files, StageError};
 use crate::head::HeadModel;
 use crate::preset::Preset;
-use crate::scene::{Files, StageError};
 use crate::style;
 use glam::Vec3;
 use hair_io::orient::Axes;

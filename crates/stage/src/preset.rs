@@ -4,7 +4,7 @@ mod sections;
 
 pub use sections::{CAMERA, HAIR, HEAD, LIGHT, PATH, SCENE, SECTIONS};
 
-use crate::scene::Files;
+use crate::files::Files;
 use effects::preset::{
     Field, LayerSpec, Place, PresetError, PresetErrors, Reader, nearest, suggestion,
 };

@@ -1,5 +1,6 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
+use crate::files::{Files, StageError};
 use crate::head::{self, HeadModel, HeadPaint};
 use crate::load;
 use crate::preset::Preset;
@@ -7,7 +8,6 @@ use effects::{Layer, Parameters, clump};
 use glam::{Vec2, Vec3};
 use hair_io::{HairFile, HeadFrame};
 use render::{Frame, Head, Light, Order, StrandInfo};
-use std::path::PathBuf;
 use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
 
 /// How near the eye strokes are cut, in head heights.
@@ -20,50 +20,6 @@ const INSIDE_MARGIN: f32 = 0.6;
 /// How much farther than the head's outline hair may be, in head heights, to cover it: hair that lies
 /// on the skin.
 const OUTLINE_MARGIN: f32 = 0.04;
-
-/// Files that the caller gives in place of the preset's.
-#[derive(Clone, Debug, Default)]
-pub struct Files {
-    /// The folder that the preset's own file names are relative to.
-    pub preset_folder: PathBuf,
-    /// Hair, relative to the current folder.
-    pub hair: Option<PathBuf>,
-    /// Head, relative to the current folder.
-    pub head: Option<PathBuf>,
-}
-
-/// Why there is no frame.
-#[derive(Debug, thiserror::Error)]
-pub enum StageError {
-    /// The hair or head could not be read.
-    #[error(transparent)]
-    File(#[from] hair_io::HairError),
-    /// Neither the preset nor the caller names strands.
-    #[error(
-        "the preset names no hair: give one with --hair FILE, or hair: (file: \"...\") in the preset"
-    )]
-    NoHair,
-    /// A style grows on a head.
-    #[error("{}: a style needs a head to grow on: --head FILE, or head: (shape: bust) in the preset", .0.display())]
-    NoHead(PathBuf),
-    /// A style cannot be read.
-    #[error("{}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// A style has mistakes.
-    #[error(transparent)]
-    Style(#[from] effects::preset::PresetErrors),
-    /// The camera cannot look like that.
-    #[error(transparent)]
-    Camera(#[from] stroke_path::CameraError),
-    /// The paths cannot be made.
-    #[error(transparent)]
-    Path(#[from] stroke_path::PathError),
-}
 
 /// A scene that makes frames. What a frame needs is kept and reused.
 pub struct Stage {

@@ -178,7 +178,7 @@ fn how_many_strands_are_kept_moves_nothing() {
         })
         .collect();
     let strands = format!("(version: 1, strands: [{ball}])");
-    let mut view = |guides: u32| {
+    let view = |guides: u32| {
         fs::write(folder.path().join("a.strands.ron"), &strands).unwrap();
         let text = format!(
             "(version: 1, hair: (file: \"a.strands.ron\", guides: {guides}), \
@@ -226,7 +226,7 @@ fn a_head_that_faces_inwards_is_turned_around() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.strands.ron"), STRANDS).unwrap();
     let corners = "v 0 0.1 0\nv -0.1 -0.1 0.1\nv 0.1 -0.1 0.1\nv 0 -0.1 -0.1\n";
-    let mut surfaces = |faces: &str| {
+    let surfaces = |faces: &str| {
         fs::write(folder.path().join("head.obj"), format!("{corners}{faces}")).unwrap();
         let text = "(version: 1, hair: (file: \"a.strands.ron\"), \
                     head: (file: \"head.obj\", up: y, scale: 1), layers: [(effect: \"hair.base\")])";

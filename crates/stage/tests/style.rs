@@ -136,7 +136,7 @@ fn pixels(style: &str, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
 
     // Without hair, to know which pixels are scalp: those whose nearest surface point lies above the
     // plane. Its depth is in the drawing, so cut the head itself at the plane.
-    let (camera, head) = (frame.camera.clone(), frame.head);
+    let (camera, head) = (*frame.camera, frame.head);
     let bust = groom::bust();
     let is_scalp = |p: Vec3| {
         let place = (p - head.center) / head.height_m;

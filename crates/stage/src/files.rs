@@ -1,0 +1,47 @@
+//! What the caller gives a scene beside the preset, and why there is none.
+
+use std::path::PathBuf;
+
+/// Files that the caller gives in place of the preset's.
+#[derive(Clone, Debug, Default)]
+pub struct Files {
+    /// The folder that the preset's own file names are relative to.
+    pub preset_folder: PathBuf,
+    /// Hair, relative to the current folder.
+    pub hair: Option<PathBuf>,
+    /// Head, relative to the current folder.
+    pub head: Option<PathBuf>,
+}
+
+/// Why there is no frame.
+#[derive(Debug, thiserror::Error)]
+pub enum StageError {
+    /// The hair or head could not be read.
+    #[error(transparent)]
+    File(#[from] hair_io::HairError),
+    /// Neither the preset nor the caller names strands.
+    #[error(
+        "the preset names no hair: give one with --hair FILE, or hair: (file: \"...\") in the preset"
+    )]
+    NoHair,
+    /// A style grows on a head.
+    #[error("{}: a style needs a head to grow on: --head FILE, or head: (shape: bust) in the preset", .0.display())]
+    NoHead(PathBuf),
+    /// A style cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A style has mistakes.
+    #[error(transparent)]
+    Style(#[from] effects::preset::PresetErrors),
+    /// The camera cannot look like that.
+    #[error(transparent)]
+    Camera(#[from] stroke_path::CameraError),
+    /// The paths cannot be made.
+    #[error(transparent)]
+    Path(#[from] stroke_path::PathError),
+}
