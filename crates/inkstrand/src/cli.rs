@@ -16,7 +16,7 @@ Examples:
   inkstrand effects hair.silhouette
       lists an effect's parameters with units, ranges and defaults
   inkstrand new look.ron
-      writes a preset to start from, with strands to draw
+      writes a preset to start from, with a hair style
 
 Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (nothing half written is left)";
 
@@ -87,7 +87,7 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Write a commented preset to start from, and NAME.strands.ron beside it
+    /// Write a commented preset to start from, and NAME.style.ron, its hair style, beside it
     New {
         /// The preset to write; neither file may be there already
         #[arg(value_name = "NAME.ron")]
@@ -122,7 +122,7 @@ pub(crate) struct RenderOptions {
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
 
-    /// Hair in place of the preset's: .tfx or .strands.ron
+    /// Hair in place of the preset's: .tfx, .strands.ron or .style.ron
     #[arg(long, value_name = "FILE")]
     pub hair: Option<PathBuf>,
 

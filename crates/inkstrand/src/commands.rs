@@ -5,7 +5,6 @@ mod effects;
 mod new;
 mod render;
 mod schema;
-mod starter;
 
 pub(crate) use check::check;
 pub(crate) use effects::effects;

@@ -26,7 +26,7 @@ fn the_starter_renders_from_an_empty_folder() {
         .success()
         .stdout("")
         .stderr(contains("inkstrand render bob.ron"));
-    assert_eq!(names(folder.path()), ["bob.ron", "bob.strands.ron"]);
+    assert_eq!(names(folder.path()), ["bob.ron", "bob.style.ron"]);
     inkstrand(folder.path(), &["check", "bob.ron"])
         .success()
         .stderr("");
@@ -36,7 +36,7 @@ fn the_starter_renders_from_an_empty_folder() {
     let options = ["render", preset.to_str().unwrap()];
     inkstrand(here.path(), &options)
         .success()
-        .stderr(contains("24 strands"));
+        .stderr(contains("grown from the style"));
 
     let file = fs::File::open(here.path().join("bob.png")).unwrap();
     let mut reader = png::Decoder::new(std::io::BufReader::new(file))
@@ -50,11 +50,11 @@ fn the_starter_renders_from_an_empty_folder() {
     };
     let (turquoise, outline) = (share([0x3F, 0xC1, 0xC0]), share([0x12, 0x4A, 0x57]));
     assert!(
-        (0.1..0.5).contains(&turquoise),
+        (0.05..0.5).contains(&turquoise),
         "{turquoise} of the picture is hair"
     );
     assert!(
-        (0.005..0.1).contains(&outline),
+        (0.002..0.1).contains(&outline),
         "{outline} of the picture is outline"
     );
 }
@@ -84,7 +84,7 @@ fn the_starter_shows_every_section() {
 
 #[test]
 fn files_are_never_overwritten() {
-    for taken in ["look.ron", "look.strands.ron"] {
+    for taken in ["look.ron", "look.style.ron"] {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join(taken), "mine").unwrap();
         inkstrand(folder.path(), &["new", "look.ron"])
@@ -101,13 +101,20 @@ fn files_are_never_overwritten() {
 #[test]
 fn names_that_are_no_presets() {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["look", "look.png", ".ron", "a.strands.ron", ".."] {
+    for name in [
+        "look",
+        "look.png",
+        ".ron",
+        "a.strands.ron",
+        "a.style.ron",
+        "..",
+    ] {
         inkstrand(folder.path(), &["new", name])
             .code(2)
             .stderr(contains(".ron"));
     }
     inkstrand(folder.path(), &["new", "no/such/look.ron"])
         .code(1)
-        .stderr(contains("no/such/look.strands.ron"));
+        .stderr(contains("no/such/look.style.ron"));
     assert!(names(folder.path()).is_empty());
 }

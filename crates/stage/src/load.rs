@@ -91,7 +91,9 @@ pub(crate) fn hair(
     )
     .ok_or(StageError::NoHair)?;
     if path.to_string_lossy().ends_with(".style.ron") {
-        return grow(&path, head);
+        let mut hair = grow(&path, head)?;
+        notes.append(&mut hair.notes);
+        return Ok(hair);
     }
     let given = hair_io::orient::Given {
         up: axes(values.choice("up")),
