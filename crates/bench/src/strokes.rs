@@ -41,7 +41,7 @@ pub struct Options {
 impl Options {
     /// Samples a side of a pixel of the reference.
     fn grid(&self) -> u32 {
-        if self.quick { 12 } else { 16 }
+        if self.quick { 10 } else { 16 }
     }
 }
 
