@@ -1,16 +1,20 @@
 //! Colours: sRGB in files, linear light everywhere else.
 
-/// The linear value of an sRGB byte, 0 to 1 (IEC 61966-2-1).
+/// The linear value of an sRGB one, both from 0 to 1 (IEC 61966-2-1). No `powf`: it has different bits
+/// on different machines.
 #[must_use]
-pub fn linear_from_srgb(byte: u8) -> f32 {
-    let encoded = f64::from(byte) / 255.0;
-    let linear = if encoded <= 0.04045 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    };
-    // Seven digits, so that the last bits of a platform's `powf` do not show.
-    ((linear * 1e7).round() / 1e7) as f32
+pub fn linear_from_srgb(encoded: f64) -> f64 {
+    if encoded <= 0.04045 {
+        return encoded / 12.92;
+    }
+    // b^2.4 = b^2 (b^2)^(1/5)
+    let square = ((encoded + 0.055) / 1.055) * ((encoded + 0.055) / 1.055);
+    square * fifth_root(square)
+}
+
+/// By Newton's method from above, for values from 0.005 to 1; 16 steps are twice what those need.
+fn fifth_root(value: f64) -> f64 {
+    (0..16).fold(1.0, |y: f64, _| (4.0 * y + value / (y * y * y * y)) / 5.0)
 }
 
 /// The linear colour of `RRGGBB` (a leading `#` is allowed), or `None` when it is not that.
@@ -23,7 +27,7 @@ pub fn parse_hex(text: &str) -> Option<[f32; 3]> {
     let channel = |i: usize| {
         u8::from_str_radix(&hex[i..i + 2], 16)
             .ok()
-            .map(linear_from_srgb)
+            .map(|byte| linear_from_srgb(f64::from(byte) / 255.0) as f32)
     };
     Some([channel(0)?, channel(2)?, channel(4)?])
 }
@@ -31,6 +35,15 @@ pub fn parse_hex(text: &str) -> Option<[f32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn fifth_root_is_exact(value in 0.005..=1.0_f64) {
+            let root = fifth_root(value);
+            prop_assert!((root.powi(5) - value).abs() < 1e-14);
+        }
+    }
 
     #[test]
     fn hex_colours() {

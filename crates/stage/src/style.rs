@@ -1,5 +1,6 @@
 //! Hair styles as text, `*.style.ron`: zones of clumps that grow on any head.
 
+use crate::preset::{number, param};
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::{Param, ParamKind, Values};
 use groom::{MOST_CLUMPS, Place, Style, Zone};
@@ -7,41 +8,15 @@ use groom::{MOST_CLUMPS, Place, Style, Zone};
 /// The newest version of styles that this build reads.
 const VERSION: i32 = 1;
 
-const fn number(
-    name: &'static str,
-    doc: &'static str,
-    unit: &'static str,
-    range: [f32; 2],
-    default: f32,
-) -> Param {
-    let [min, max] = range;
-    let kind = ParamKind::Number { min, max, default };
-    Param {
-        name,
-        doc,
-        unit,
-        kind,
-    }
-}
-
-const fn plain(name: &'static str, doc: &'static str, kind: ParamKind) -> Param {
-    Param {
-        name,
-        doc,
-        unit: "",
-        kind,
-    }
-}
-
 /// What a zone may say, beside `roots` and `tips`: lists of places (longitude, latitude) in degrees;
 /// longitude 0 is the face, 90 the character's left ear, 180 the back; latitude 90 the top.
 pub const ZONE: &[Param] = &[
-    plain(
+    param(
         "name",
         "A name, unique in the style; the zone's variations hang on it.",
         ParamKind::Text,
     ),
-    plain(
+    param(
         "count",
         "Clumps, on each side where it is mirrored.",
         ParamKind::Integer {
@@ -50,7 +25,7 @@ pub const ZONE: &[Param] = &[
             default: 8,
         },
     ),
-    plain(
+    param(
         "mirror",
         "Whether the zone stands on both sides, each with variations of its own.",
         ParamKind::Choice {
@@ -62,83 +37,83 @@ pub const ZONE: &[Param] = &[
         "root_lift",
         "Height above the skin at the roots.",
         "head heights",
-        [0.0, 1.0],
+        0.0..=1.0,
         0.01,
     ),
     number(
         "lift",
         "Height above the skin in the middle of the way to the tips.",
         "head heights",
-        [0.0, 1.0],
+        0.0..=1.0,
         0.06,
     ),
     number(
         "hang",
         "Length that hangs from the tips, or from the roots.",
         "head heights",
-        [0.0, 20.0],
+        0.0..=20.0,
         0.0,
     ),
     number(
         "weight",
         "How soon hanging hair turns down: 0 never, 1 at once.",
         "",
-        [0.0, 1.0],
+        0.0..=1.0,
         0.35,
     ),
     number(
         "spread",
         "Lean away from the head while it hangs.",
         "",
-        [-2.0, 2.0],
+        -2.0..=2.0,
         0.0,
     ),
     number(
         "flick",
         "Turn of the tips away from the head; below 0 towards it.",
         "",
-        [-4.0, 4.0],
+        -4.0..=4.0,
         0.0,
     ),
     number(
         "fullness",
         "Radius of a tail where it is fullest; 0 is a row.",
         "head heights",
-        [0.0, 2.0],
+        0.0..=2.0,
         0.0,
     ),
     number(
         "size",
         "Radius of a clump at its full size.",
         "1/300 head height",
-        [0.0, 200.0],
+        0.0..=200.0,
         14.0,
     ),
     number(
         "mixed_sizes",
         "Share of clumps that are of a middle or small size.",
         "",
-        [0.0, 1.0],
+        0.0..=1.0,
         0.5,
     ),
     number(
         "scatter",
         "How much places differ.",
         "degrees",
-        [0.0, 45.0],
+        0.0..=45.0,
         2.0,
     ),
     number(
         "length_variation",
         "How much hanging lengths differ.",
         "",
-        [0.0, 1.0],
+        0.0..=1.0,
         0.15,
     ),
 ];
 
 const TOP: &[Param] = &[
-    plain(
+    param(
         "version",
         "Version of the style's format.",
         ParamKind::Integer {
@@ -147,7 +122,7 @@ const TOP: &[Param] = &[
             default: VERSION,
         },
     ),
-    plain(
+    param(
         "seed",
         "Seed of all variations.",
         ParamKind::Integer {

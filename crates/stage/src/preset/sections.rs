@@ -3,7 +3,7 @@
 use super::VERSION;
 use effects::{Param, ParamKind, Parameters, clump};
 
-const fn number(
+pub(crate) const fn number(
     name: &'static str,
     doc: &'static str,
     unit: &'static str,
@@ -23,7 +23,7 @@ const fn number(
     }
 }
 
-const fn param(name: &'static str, doc: &'static str, kind: ParamKind) -> Param {
+pub(crate) const fn param(name: &'static str, doc: &'static str, kind: ParamKind) -> Param {
     Param {
         name,
         doc,
@@ -49,7 +49,7 @@ const fn choice(
 pub const HAIR: &[Param] = &[
     param(
         "file",
-        "Strands to draw, relative to the preset: .tfx or .strands.ron.",
+        "Strands to draw, relative to the preset: .tfx, .strands.ron or .style.ron.",
         ParamKind::Text,
     ),
     param(
