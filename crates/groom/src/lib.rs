@@ -13,8 +13,9 @@ mod shell;
 mod solid;
 mod style;
 mod surface_nets;
+mod trig;
 
 pub use bust::{Bust, bust};
 pub use face::{Ink, Patch};
 pub use shell::{Place, Shell, direction};
-pub use style::{MOST_CLUMPS, Style, Zone, grow};
+pub use style::{Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Scalp, Style, Tie, Zone, grow};

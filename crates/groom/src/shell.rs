@@ -1,5 +1,6 @@
 //! The head as hair sees it: a skin around a centre, by direction.
 
+use crate::trig::sin_cos_degrees;
 use glam::{Vec2, Vec3};
 
 /// Columns and rows of the table of radii: 3 degrees each.
@@ -115,6 +116,16 @@ impl Shell {
         )
     }
 
+    /// The place that a point lies above.
+    #[must_use]
+    pub fn place(&self, point: Vec3) -> Place {
+        let at = cell((point - self.center).normalize_or(Vec3::Y));
+        Place {
+            longitude: at.x * 360.0 / COLUMNS as f32,
+            latitude: at.y * 180.0 / (ROWS - 1) as f32 - 90.0,
+        }
+    }
+
     /// The skin's distance in a direction (unit), metres.
     fn radius(&self, direction: Vec3) -> f32 {
         let at = cell(direction);
@@ -171,24 +182,6 @@ pub fn direction(place: Place) -> Vec3 {
     let (sin_lon, cos_lon) = sin_cos_degrees(place.longitude);
     let (sin_lat, cos_lat) = sin_cos_degrees(place.latitude);
     Vec3::new(sin_lon * cos_lat, sin_lat, cos_lon * cos_lat)
-}
-
-/// Sine and cosine of degrees, the same bits on every platform.
-fn sin_cos_degrees(degrees: f32) -> (f32, f32) {
-    // Fold to [-45, 45] degrees, where short Taylor series are exact to f32.
-    let quarter = (f64::from(degrees) / 90.0).round();
-    let x = (f64::from(degrees) - quarter * 90.0) * (std::f64::consts::PI / 180.0);
-    let z = x * x;
-    let sin =
-        x * (1.0 + z * (-1.0 / 6.0 + z * (1.0 / 120.0 + z * (-1.0 / 5040.0 + z / 362_880.0))));
-    let cos = 1.0 + z * (-0.5 + z * (1.0 / 24.0 + z * (-1.0 / 720.0 + z / 40_320.0)));
-    let (sin, cos) = (sin as f32, cos as f32);
-    match quarter.rem_euclid(4.0) as u32 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
-    }
 }
 
 /// Where in the table a direction lies, in cells. Angles only choose cells here, so a short

@@ -133,7 +133,7 @@ fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairFile, StageError> {
         frame.center,
         frame.height,
     );
-    let strands = groom::grow(&style, &shell);
+    let strands = groom::grow(&style, &shell).strands;
     let notes = vec![format!(
         "hair: {} clumps, grown from the style",
         strands.len()

@@ -3,7 +3,7 @@
 mod sections;
 
 pub use sections::{CAMERA, HAIR, HEAD, LIGHT, PATH, SCENE, SECTIONS};
-pub(crate) use sections::{number, param};
+pub(crate) use sections::{choice, number, param};
 
 use crate::files::Files;
 use effects::preset::{

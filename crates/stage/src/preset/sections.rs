@@ -36,7 +36,7 @@ const fn color(name: &'static str, doc: &'static str, default: &'static str) -> 
     param(name, doc, ParamKind::Color { default })
 }
 
-const fn choice(
+pub(crate) const fn choice(
     name: &'static str,
     doc: &'static str,
     names: &'static [&'static str],
