@@ -11,4 +11,4 @@ mod style;
 pub use files::{Files, StageError};
 pub use preset::{CAMERA, HAIR, HEAD, LIGHT, PATH, Preset, SCENE, SECTIONS, VERSION};
 pub use scene::Stage;
-pub use style::{DRAWN, EDIT, STYLE, ZONE};
+pub use style::{STYLE_PARTS, StylePart};

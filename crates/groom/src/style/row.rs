@@ -3,7 +3,7 @@
 use super::hang::{Hanging, hang};
 use super::{Scalp, Zone};
 use crate::random::Random;
-use crate::shell::Shell;
+use crate::shell::{Shell, between};
 use crate::trig::sin_cos_degrees;
 use glam::Vec3;
 
@@ -73,7 +73,7 @@ impl<'a> Row<'a> {
         const PIECES: u32 = 32;
         let point = |piece: u32| {
             let along = piece as f32 / PIECES as f32;
-            let ends = self.ends(along, 0.0);
+            let ends = self.ends(along);
             let t = self.start + (1.0 - self.start) * WIDEST;
             self.shell.above(self.way(ends, t), self.lift(t, 1.0))
         };
@@ -87,7 +87,7 @@ impl<'a> Row<'a> {
     pub fn clump(&self, seat: Seat, length_scale: f32, random: &mut Random) -> (Vec<Vec3>, usize) {
         let zone = self.zone;
         let higher = 1.0 + zone.lift_variation * random.around_zero();
-        let [root, tip] = self.ends(seat.along, 0.0);
+        let [root, tip] = self.ends(seat.along);
         let scatter = |random: &mut Random, way: Vec3| {
             let (east, north) = (way.cross(Vec3::Y), way.cross(Vec3::X));
             let moved = east * random.around_zero() + north * random.around_zero();
@@ -117,7 +117,7 @@ impl<'a> Row<'a> {
     }
 
     /// Directions of a clump's root on the line of roots and of its end on the line of tips.
-    fn ends(&self, along: f32, ahead: f32) -> [Vec3; 2] {
+    fn ends(&self, along: f32) -> [Vec3; 2] {
         let zone = self.zone;
         let root = self.scalp.direction(&zone.roots, along, self.side);
         let Some(tips) = &zone.tips else {
@@ -125,13 +125,13 @@ impl<'a> Row<'a> {
         };
         let tip = self.scalp.direction(tips, along, self.side);
         let towards_tip = (tip - root * root.dot(tip)).normalize_or_zero();
-        let (sin, cos) = sin_cos_degrees(ahead - zone.across);
+        let (sin, cos) = sin_cos_degrees(-zone.across);
         [root * cos + towards_tip * sin, tip]
     }
 
     /// The direction at share `t` of the way over the head.
     fn way(&self, [root, tip]: [Vec3; 2], t: f32) -> Vec3 {
-        let straight = root.lerp(tip, eased(t));
+        let straight = between(root, tip, eased(t));
         let sideways = root.cross(tip).normalize_or_zero() * self.side;
         let (sin, _) = sin_cos_degrees(self.zone.bow);
         straight + sideways * (sin * arch(t))

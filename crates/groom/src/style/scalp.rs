@@ -1,7 +1,7 @@
 //! The part of the head that carries hair.
 
 use super::Line;
-use crate::shell::{Place, direction};
+use crate::shell::{Place, between, direction};
 use glam::Vec3;
 
 /// Where hair grows: the hairline, the whorl that it turns around, the parting.
@@ -96,7 +96,5 @@ fn on_line(line: &[Place], along: f32) -> Vec3 {
     let at = along.clamp(0.0, 1.0) * (line.len() - 1) as f32;
     let first = (at as usize).min(line.len().saturating_sub(2));
     let t = at - first as f32;
-    directions(first)
-        .lerp(directions(first + 1), t)
-        .normalize_or(directions(first))
+    between(directions(first), directions(first + 1), t)
 }

@@ -1,7 +1,7 @@
 //! A coat of flat clumps below all zones, so that no scalp shows between them.
 
 use super::Scalp;
-use crate::shell::{Place, Shell, direction};
+use crate::shell::{Place, Shell, between, direction};
 use glam::Vec3;
 
 /// Rings around the whorl, and clumps of the longest ring.
@@ -52,5 +52,5 @@ fn ring_direction(scalp: &Scalp, whorl: Vec3, share: f32, longitude: f32) -> Vec
         longitude,
         latitude: scalp.hairline_at(longitude),
     });
-    whorl.lerp(hairline, share).normalize_or(whorl)
+    between(whorl, hairline, share)
 }

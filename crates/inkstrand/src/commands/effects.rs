@@ -4,6 +4,7 @@ use super::schema::{self, Section, sections};
 use crate::Failure;
 use effects::preset::{OF_THE_EFFECT, suggestion};
 use effects::{AnyEffect, Param, ParamKind, Registry};
+use stage::{STYLE_PARTS, StylePart};
 use std::io::{ErrorKind, Write as _};
 
 /// Lists effects and sections, or what one of them takes.
@@ -13,6 +14,7 @@ pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Re
             Found::All => schema::all(registry),
             Found::Effect(effect) => schema::effect(effect),
             Found::Section(section) => schema::section(&section),
+            Found::StylePart(part) => schema::style_part(part),
         };
         serde_json::to_string_pretty(&schema)? + "\n"
     } else {
@@ -20,6 +22,7 @@ pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Re
             Found::All => list(registry),
             Found::Effect(effect) => effect_text(effect),
             Found::Section(section) => section_text(&section),
+            Found::StylePart(part) => style_part_text(part),
         }
     };
     match std::io::stdout().write_all(text.as_bytes()) {
@@ -34,6 +37,7 @@ enum Found<'r> {
     All,
     Effect(&'r dyn AnyEffect),
     Section(Section),
+    StylePart(&'static StylePart),
 }
 
 fn find<'r>(name: Option<&str>, registry: &'r Registry) -> Result<Found<'r>, Failure> {
@@ -46,12 +50,17 @@ fn find<'r>(name: Option<&str>, registry: &'r Registry) -> Result<Found<'r>, Fai
     if let Some(section) = sections().into_iter().find(|section| section.name == name) {
         return Ok(Found::Section(section));
     }
+    if let Some(part) = STYLE_PARTS.iter().find(|part| part.name == name) {
+        return Ok(Found::StylePart(part));
+    }
     let effects = registry.iter().map(AnyEffect::id);
     let sections = sections();
-    let names = effects.chain(sections.iter().map(|section| section.name));
+    let names = effects
+        .chain(sections.iter().map(|section| section.name))
+        .chain(STYLE_PARTS.iter().map(|part| part.name));
     let hint = suggestion(name, names);
     Err(Failure::Usage(format!(
-        "there is no effect or section `{name}`{hint}"
+        "there is no effect, section or part of a style `{name}`{hint}"
     )))
 }
 
@@ -75,7 +84,11 @@ fn list(registry: &Registry) -> String {
     for section in sections() {
         text += &format!("{:<20} {}\n", section.name, section.doc);
     }
-    text + "\n`inkstrand effects NAME` lists the parameters of an effect or a section.\n"
+    text += &format!("\n{:<20} what it says\n", "hair style");
+    for part in STYLE_PARTS {
+        text += &format!("{:<20} {}\n", part.name, part.doc);
+    }
+    text + "\n`inkstrand effects NAME` lists the parameters of one of them.\n"
 }
 
 fn effect_text(effect: &dyn AnyEffect) -> String {
@@ -114,6 +127,17 @@ fn section_text(section: &Section) -> String {
     if is_layer {
         text += "\n  params: (name: value, ...)\n";
         text += "      The effect's own parameters: `inkstrand effects ID`.\n";
+    }
+    text
+}
+
+fn style_part_text(part: &StylePart) -> String {
+    let mut text = format!("{}: {}\n{}\n", part.name, part.doc, part.example);
+    for (name, meaning) in part.places {
+        text += &format!("\n  {name}: places\n      {meaning}\n");
+    }
+    for param in part.table {
+        text += &param_text(param, &default(param));
     }
     text
 }

@@ -7,7 +7,7 @@ use effects::{Param, ParamKind};
 use groom::{Drawn, Edit, MOST_CLUMPS, Zone};
 
 /// What an edit of one clump may say.
-pub const EDIT: &[Param] = &[
+pub(super) const EDIT: &[Param] = &[
     param("zone", "The zone's name.", ParamKind::Text),
     param(
         "clump",
@@ -57,7 +57,7 @@ pub const EDIT: &[Param] = &[
 ];
 
 /// What a hand-drawn clump may say, beside `points`.
-pub const DRAWN: &[Param] = &[
+pub(super) const DRAWN: &[Param] = &[
     number(
         "size",
         "Radius of the clump at its full size.",

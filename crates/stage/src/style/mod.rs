@@ -7,19 +7,18 @@ mod clumps;
 mod lines;
 mod zone;
 
-pub use clumps::{DRAWN, EDIT};
-pub use zone::ZONE;
-
 use crate::preset::{choice, param};
+use clumps::{DRAWN, EDIT};
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::{Param, ParamKind};
 use groom::{Scalp, Style};
+use zone::ZONE;
 
 /// The newest version of styles that this build reads.
 const VERSION: i32 = 1;
 
 /// What a style may say, beside its places and lists.
-pub const STYLE: &[Param] = &[
+const STYLE: &[Param] = &[
     param(
         "version",
         "Version of the style's format.",
@@ -44,6 +43,82 @@ pub const STYLE: &[Param] = &[
         &["false", "true"],
         1,
     ),
+];
+
+/// A part of a hair style, as `inkstrand effects` shows it.
+#[derive(Clone, Copy, Debug)]
+pub struct StylePart {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is about.
+    pub doc: &'static str,
+    /// How it is written.
+    pub example: &'static str,
+    /// Its parameters.
+    pub table: &'static [Param],
+    /// What else it may say: places and lists, each with its meaning.
+    pub places: &'static [(&'static str, &'static str)],
+}
+
+/// The parts of a hair style.
+pub const STYLE_PARTS: &[StylePart] = &[
+    StylePart {
+        name: "style",
+        doc: "A hair style, a file of its own: NAME.style.ron.",
+        example: "(version: 1, zones: [...], edits: [...], strands: [...])",
+        table: STYLE,
+        places: &[
+            (
+                "whorl",
+                "The place that hair turns around: (longitude, latitude) in degrees; longitude 0 is the \
+                 face, 90 the character's left ear, 180 the back; latitude 90 the top.",
+            ),
+            (
+                "parting",
+                "The parting's places from front to back: [(0, 46), (0, 68), ...].",
+            ),
+            (
+                "hairline",
+                "The hairline's places from the forehead (longitude 0) to the nape (180); the other side \
+                 is its image.",
+            ),
+        ],
+    },
+    StylePart {
+        name: "zones",
+        doc: "Rows of clumps, tails, buns and braids.",
+        example: "zones: [(name: \"fringe\", roots: [...], tips: [...], name: value, ...), ...]",
+        table: ZONE,
+        places: &[
+            (
+                "roots",
+                "The line where clumps start: a list of places, whorl, parting or hairline(FROM, TO); \
+                 the tie of a tail, bun or braid.",
+            ),
+            (
+                "tips",
+                "The line that they lead to over the head, and hang from; without it they hang from \
+                 their roots.",
+            ),
+        ],
+    },
+    StylePart {
+        name: "edits",
+        doc: "Changes of single clumps.",
+        example: "edits: [(zone: \"fringe\", clump: 3, name: value, ...), ...]",
+        table: EDIT,
+        places: &[],
+    },
+    StylePart {
+        name: "strands",
+        doc: "Clumps drawn by hand.",
+        example: "strands: [(points: [(0, 60, 0), ...], name: value, ...), ...]",
+        table: DRAWN,
+        places: &[(
+            "points",
+            "From root to tip: (longitude, latitude, height above the skin in head heights), two or more.",
+        )],
+    },
 ];
 
 /// Fields of a style that hold places, zones or clumps.

@@ -10,7 +10,7 @@ use groom::{Form, Line, MOST_CLUMPS, Zone};
 const MOST_ROWS: i32 = 32;
 
 /// What a zone may say, beside `roots` and `tips`.
-pub const ZONE: &[Param] = &[
+pub(super) const ZONE: &[Param] = &[
     param(
         "name",
         "A name, unique in the style; the zone's variations hang on it.",
