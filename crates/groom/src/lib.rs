@@ -18,4 +18,4 @@ mod trig;
 pub use bust::{Bust, bust};
 pub use face::{Ink, Patch};
 pub use shell::{Place, Shell, direction};
-pub use style::{Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Scalp, Style, Tie, Zone, grow};
+pub use style::{Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Ring, Scalp, Style, Tie, Zone, grow};

@@ -7,6 +7,9 @@ use glam::{Vec2, Vec3};
 const COLUMNS: usize = 120;
 const ROWS: usize = 61;
 
+/// How far behind the skin a point may be to be pushed out of the body, head heights.
+const DEEPEST: f32 = 0.25;
+
 /// A place on the head: longitude from the face (0) to the character's left ear (90) and the back of
 /// the head (180), latitude from the chin side (-90) to the top (90), in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,9 +103,13 @@ impl Shell {
         let Some((skin, normal)) = nearest else {
             return point;
         };
-        // In front of the skin's plane there is nothing to keep out of.
-        let height = (point - *skin).dot(*normal);
-        point + *normal * (gap * self.height - height).max(0.0)
+        // In front of the skin's plane there is nothing to keep out of; far behind it is another side.
+        let push = gap * self.height - (point - *skin).dot(*normal);
+        if (0.0..DEEPEST * self.height).contains(&push) {
+            point + *normal * push
+        } else {
+            point
+        }
     }
 
     /// How far a point lies above the skin, head heights, and the direction away from the centre.

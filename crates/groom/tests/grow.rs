@@ -43,10 +43,12 @@ fn plain() -> Zone {
         lift: 0.08,
         tip_lift: 0.03,
         lift_variation: 0.0,
+        held: 0.5,
         hang: 0.0,
         length_variation: 0.0,
         weight: 0.5,
         spread: 0.0,
+        sway: 0.12,
         flick: 0.0,
         curl: 0.0,
         curl_length: 0.5,
@@ -97,6 +99,38 @@ fn a_row_leads_from_its_roots_to_its_tips_at_its_heights() {
     let roots: Vec<f32> = hair.roots().map(|p| p.x).collect();
     assert!(roots.is_sorted());
     assert!((roots[0] + roots[5]).abs() < 0.002);
+}
+
+#[test]
+fn hair_is_held_for_its_share_of_the_way_and_wholly_in_a_tie() {
+    let held = |zone: Zone| grown(zone).held[0];
+    let zone = Zone {
+        hang: 0.5,
+        ..plain()
+    };
+    assert_eq!(
+        held(Zone {
+            held: 0.0,
+            ..zone.clone()
+        }),
+        1
+    );
+    assert_eq!(
+        held(Zone {
+            held: 1.0,
+            ..zone.clone()
+        }),
+        8
+    );
+    let tips = Some(Line::Through(vec![place(0.0, 0.0)]));
+    assert_eq!(
+        held(Zone {
+            held: 0.0,
+            tips,
+            ..zone
+        }),
+        8
+    );
 }
 
 #[test]

@@ -130,6 +130,10 @@ pub(crate) struct RenderOptions {
     #[arg(long, value_name = "FILE")]
     pub head: Option<PathBuf>,
 
+    /// How the head moves and the wind blows, in place of the preset's: .motion.ron
+    #[arg(long, value_name = "FILE")]
+    pub motion: Option<PathBuf>,
+
     /// Strands to keep, spread evenly over the scalp, the same ones every time; 0 keeps all [default: the preset's]
     #[arg(long, value_name = "N")]
     pub guides: Option<u32>,

@@ -66,6 +66,10 @@ const BUILT: &[(&str, &[&str])] = &[
         "render --head",
         &["render", "small.ron", "--head", "head.obj"],
     ),
+    (
+        "render --motion",
+        &["render", "small.ron", "--motion", "turn.motion.ron"],
+    ),
     ("render --guides", &["render", "small.ron", "--guides", "1"]),
     (
         "render --frames",
@@ -122,6 +126,7 @@ fn folder() -> TempDir {
         ("small.strands.ron", STRANDS),
         ("small.ron", PRESET),
         ("head.obj", HEAD),
+        ("turn.motion.ron", "(version: 1, moves: [(move: turn)])"),
     ] {
         fs::write(folder.path().join(name), text).unwrap();
     }

@@ -6,7 +6,7 @@ use effects::{Param, ParamKind, Registry, Values};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
-use stage::{Preset, SECTIONS, STYLE_PARTS};
+use stage::{MOTION_PARTS, Preset, SECTIONS, STYLE_PARTS};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -42,6 +42,11 @@ fn effects_and_sections_are_listed() {
         "zones",
         "edits",
         "strands",
+        "motion",
+        "script",
+        "moves",
+        "keys",
+        "winds",
     ] {
         all = contains(format!("\n{name} ")).count(1);
         effects(&[]).assert().success().stdout(all);
@@ -181,9 +186,11 @@ fn the_schema_is_the_tables() {
         );
         assert_is_table(value, effect.params());
     }
-    let style = schema["style"].as_array().unwrap();
-    assert_eq!(style.len(), STYLE_PARTS.len());
-    for (value, part) in style.iter().zip(STYLE_PARTS) {
+    let parts = |name: &str| schema[name].as_array().unwrap();
+    assert_eq!(parts("style").len(), STYLE_PARTS.len());
+    assert_eq!(parts("motion").len(), MOTION_PARTS.len());
+    let listed = parts("style").iter().chain(parts("motion"));
+    for (value, part) in listed.zip(STYLE_PARTS.iter().chain(MOTION_PARTS)) {
         let parameters = value["parameters"].as_array().unwrap();
         let (table, places) = parameters.split_at(part.table.len());
         assert_is_table(&json!({ "parameters": table }), part.table);

@@ -11,6 +11,8 @@ pub struct Files {
     pub hair: Option<PathBuf>,
     /// Head, relative to the current folder.
     pub head: Option<PathBuf>,
+    /// A motion script, relative to the current folder.
+    pub motion: Option<PathBuf>,
 }
 
 /// Why there is no frame.
@@ -27,7 +29,7 @@ pub enum StageError {
     /// A style grows on a head.
     #[error("{}: a style needs a head to grow on: --head FILE, or head: (shape: bust) in the preset", .0.display())]
     NoHead(PathBuf),
-    /// A style cannot be read.
+    /// A style or motion script cannot be read.
     #[error("{}: {source}", path.display())]
     Read {
         /// The file.
@@ -35,9 +37,9 @@ pub enum StageError {
         /// Why.
         source: std::io::Error,
     },
-    /// A style has mistakes.
+    /// A style or motion script has mistakes.
     #[error(transparent)]
-    Style(#[from] effects::preset::PresetErrors),
+    Mistakes(#[from] effects::preset::PresetErrors),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),

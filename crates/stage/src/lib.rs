@@ -4,11 +4,16 @@
 mod files;
 mod head;
 mod load;
+mod motion;
+mod neck;
+mod part;
 mod preset;
 mod scene;
 mod style;
 
 pub use files::{Files, StageError};
-pub use preset::{CAMERA, HAIR, HEAD, LIGHT, PATH, Preset, SCENE, SECTIONS, VERSION};
+pub use motion::MOTION_PARTS;
+pub use part::FilePart;
+pub use preset::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, Preset, SCENE, SECTIONS, VERSION};
 pub use scene::Stage;
-pub use style::{STYLE_PARTS, StylePart};
+pub use style::STYLE_PARTS;

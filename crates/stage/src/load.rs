@@ -2,9 +2,11 @@
 
 use crate::files::{Files, StageError};
 use crate::head::HeadModel;
+use crate::motion::{self, MotionScript};
 use crate::preset::Preset;
 use crate::style;
 use glam::Vec3;
+use groom::Tie;
 use hair_io::orient::Axes;
 use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
 use render::{Head, StrandInfo};
@@ -76,13 +78,32 @@ fn is_inside_out(mesh: &Mesh) -> bool {
     volume < 0.0
 }
 
+/// Hair that was read or grown.
+pub(crate) struct Hair {
+    pub file: HairFile,
+    /// How many points from its root each strand keeps on the head.
+    pub held: Vec<u32>,
+    /// The ties that gather it.
+    pub ties: Vec<Tie>,
+    /// The head that it stands on.
+    pub head: Head,
+}
+
+impl Hair {
+    /// Keeps these strands, in this order.
+    pub fn keep(&mut self, indices: &[usize]) {
+        self.file.keep(indices);
+        self.held = indices.iter().map(|&i| self.held[i]).collect();
+    }
+}
+
 /// All strands of the hair, sorted by id.
 pub(crate) fn hair(
     preset: &Preset,
     files: &Files,
     head: Option<&Mesh>,
     notes: &mut Vec<String>,
-) -> Result<HairFile, StageError> {
+) -> Result<Hair, StageError> {
     let values = &preset.hair;
     let path = chosen(
         files.hair.as_ref(),
@@ -92,7 +113,7 @@ pub(crate) fn hair(
     .ok_or(StageError::NoHair)?;
     if path.to_string_lossy().ends_with(".style.ron") {
         let mut hair = grow(&path, head)?;
-        notes.append(&mut hair.notes);
+        notes.append(&mut hair.file.notes);
         return Ok(hair);
     }
     let given = hair_io::orient::Given {
@@ -105,43 +126,76 @@ pub(crate) fn hair(
     let mut by_id: Vec<usize> = (0..hair.strands.len()).collect();
     by_id.sort_by_key(|&i| hair.strands.id(i));
     hair.keep(&by_id);
-    Ok(hair)
+    // Before strands are chosen: how many are kept moves neither the camera nor any size.
+    let roots: Vec<Vec3> = hair.strands.roots().collect();
+    Ok(Hair {
+        held: vec![1; hair.strands.len()],
+        file: hair,
+        ties: Vec::new(),
+        head: head_of(HeadFrame::find(head, &roots)),
+    })
+}
+
+fn head_of(frame: HeadFrame) -> Head {
+    Head {
+        center: frame.center,
+        height_m: frame.height,
+    }
+}
+
+/// The motion script, if any.
+pub(crate) fn motion(preset: &Preset, files: &Files) -> Result<MotionScript, StageError> {
+    let own = preset.motion.text("file");
+    let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) else {
+        return Ok(MotionScript::default());
+    };
+    let text = std::fs::read_to_string(&path).map_err(|source| StageError::Read {
+        path: path.clone(),
+        source,
+    })?;
+    Ok(motion::parse(&path.display().to_string(), &text)?)
 }
 
 /// Keeps as many strands as the preset asks for, evenly over the scalp.
-pub(crate) fn keep_guides(preset: &Preset, hair: &mut HairFile) {
+pub(crate) fn keep_guides(preset: &Preset, hair: &mut Hair) {
     let guides = preset.hair.integer("guides").unsigned_abs() as usize;
     if guides > 0 {
-        let roots: Vec<Vec3> = hair.strands.roots().collect();
+        let roots: Vec<Vec3> = hair.file.strands.roots().collect();
         hair.keep(&hair_io::guides::spread_evenly(&roots, guides));
     }
 }
 
 /// The hair of a style, grown on the head.
-fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairFile, StageError> {
-    let head = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
+fn grow(path: &Path, head: Option<&Mesh>) -> Result<Hair, StageError> {
+    let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
     let text = std::fs::read_to_string(path).map_err(|source| StageError::Read {
         path: path.to_owned(),
         source,
     })?;
     let style = style::parse(&path.display().to_string(), &text)?;
-    let frame = HeadFrame::find(Some(head), &[]);
+    // The mesh alone: the hair that grows on a head must not change its size.
+    let head = head_of(HeadFrame::find(Some(mesh), &[]));
     let shell = groom::Shell::new(
-        &head.positions,
-        &head.normals,
-        &head.triangles,
-        frame.center,
-        frame.height,
+        &mesh.positions,
+        &mesh.normals,
+        &mesh.triangles,
+        head.center,
+        head.height_m,
     );
-    let strands = groom::grow(&style, &shell).strands;
+    let grown = groom::grow(&style, &shell);
     let notes = vec![format!(
         "hair: {} clumps, grown from the style",
-        strands.len()
+        grown.strands.len()
     )];
-    Ok(HairFile {
-        strands,
-        motion: None,
-        notes,
+    Ok(Hair {
+        file: HairFile {
+            strands: grown.strands,
+            motion: None,
+            notes,
+        },
+        held: grown.held,
+        ties: grown.ties,
+        head,
     })
 }
 

@@ -2,7 +2,7 @@
 
 mod sections;
 
-pub use sections::{CAMERA, HAIR, HEAD, LIGHT, PATH, SCENE, SECTIONS};
+pub use sections::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, SCENE, SECTIONS};
 pub(crate) use sections::{choice, number, param};
 
 use crate::files::Files;
@@ -30,6 +30,8 @@ pub struct Preset<'r> {
     pub camera: Values,
     /// Values of [`LIGHT`].
     pub light: Values,
+    /// Values of [`MOTION`].
+    pub motion: Values,
     /// Values of [`PATH`].
     pub path: Values,
     /// Values of the clump's parameters.
@@ -40,6 +42,8 @@ pub struct Preset<'r> {
     hair_place: Option<Place>,
     /// Where the file names the head.
     head_place: Option<Place>,
+    /// Where the file names the motion.
+    motion_place: Option<Place>,
 }
 
 impl<'r> Preset<'r> {
@@ -126,6 +130,7 @@ impl<'r> Preset<'r> {
         let ((hair, hair_place), (head, head_place)) = (section("hair"), section("head"));
         let (scene, camera, light) = (section("scene").0, section("camera").0, section("light").0);
         let (path, clump) = (section("path").0, section("clump").0);
+        let (motion, motion_place) = section("motion");
         let layers = match field("layers") {
             Some(field) => reader.layers(field.value, registry, &known),
             None => {
@@ -142,11 +147,13 @@ impl<'r> Preset<'r> {
             scene,
             camera,
             light,
+            motion,
             path,
             clump,
             layers,
             hair_place,
             head_place,
+            motion_place,
         })
     }
 
@@ -159,6 +166,7 @@ impl<'r> Preset<'r> {
         let named = [
             (&self.hair_place, &self.hair, &files.hair),
             (&self.head_place, &self.head, &files.head),
+            (&self.motion_place, &self.motion, &files.motion),
         ];
         let mut errors: Vec<PresetError> = named
             .into_iter()
@@ -197,6 +205,7 @@ impl<'r> Preset<'r> {
             "scene" => &mut self.scene,
             "camera" => &mut self.camera,
             "light" => &mut self.light,
+            "motion" => &mut self.motion,
             "path" => &mut self.path,
             "clump" => &mut self.clump,
             _ => return Err(self.unknown_layer(owner)),
@@ -206,6 +215,7 @@ impl<'r> Preset<'r> {
         match name {
             "hair.file" => self.hair_place = None,
             "head.file" => self.head_place = None,
+            "motion.file" => self.motion_place = None,
             _ => {}
         }
         Ok(())

@@ -1,12 +1,14 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
 use crate::files::{Files, StageError};
-use crate::head::{self, HeadModel, HeadPaint};
+use crate::head::{self, HeadPaint};
 use crate::load;
+use crate::motion::{HeadPose, MotionScript};
+use crate::neck::{Neck, rigid};
 use crate::preset::Preset;
 use effects::{Layer, Parameters, clump};
 use glam::{Vec2, Vec3};
-use hair_io::{HairFile, HeadFrame};
+use hair_io::HairFile;
 use render::{Frame, Head, Light, Order, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
 
@@ -26,8 +28,11 @@ pub struct Stage {
     hair: HairFile,
     /// The strands' sizes, and ids increasing.
     strands: Vec<StrandInfo>,
-    model: Option<HeadModel>,
+    neck: Option<Neck>,
+    /// Where the head is while nothing moves.
     head: Head,
+    script: MotionScript,
+    pose: HeadPose,
     /// Sentences for the user: what was guessed.
     notes: Vec<String>,
     seed: u32,
@@ -64,25 +69,24 @@ impl Stage {
     /// When hair or head cannot be read, or camera and path settings contradict each other.
     pub fn new(preset: &Preset, files: &Files) -> Result<Self, StageError> {
         let mut notes = Vec::new();
-        let model = load::head(preset, files, &mut notes)?;
+        let mut model = load::head(preset, files, &mut notes)?;
         let mesh = model.as_ref().map(|model| &model.mesh);
         let mut hair = load::hair(preset, files, mesh, &mut notes)?;
-        // Before strands are chosen: how many are kept moves neither the camera nor any size.
-        let roots: Vec<Vec3> = hair.strands.roots().collect();
-        let frame = HeadFrame::find(mesh, &roots);
-        let head = Head {
-            center: frame.center,
-            height_m: frame.height,
-        };
+        let head = hair.head;
+        if let Some(model) = &mut model {
+            model.add_ties(&hair.ties);
+        }
         load::keep_guides(preset, &mut hair);
         let settings = Settings::new(preset, head)?;
-        let strands = load::strand_infos(preset, &hair, head);
+        let strands = load::strand_infos(preset, &hair.file, head);
         Ok(Self {
-            points: hair.strands.points().to_vec(),
-            hair,
+            points: hair.file.strands.points().to_vec(),
+            hair: hair.file,
             strands,
-            model,
+            neck: model.map(|model| Neck::new(model, head)),
             head,
+            script: load::motion(preset, files)?,
+            pose: HeadPose::default(),
             notes,
             seed: preset.seed,
             clump: clump::Program::params(&preset.clump),
@@ -134,11 +138,26 @@ impl Stage {
         self.paths.dropped()
     }
 
-    /// Moves the hair to `time` (seconds).
+    /// Moves head and hair to `time` (seconds).
     pub fn advance_to(&mut self, time: f32) {
+        self.pose = self.script.head_at(f64::from(time));
         match &self.hair.motion {
             Some(motion) => motion.sample(time, &mut self.points),
-            None => self.points.copy_from_slice(self.hair.strands.points()),
+            None => {
+                let (rotation, translation) = rigid(self.pose, self.head);
+                for (point, rest) in self.points.iter_mut().zip(self.hair.strands.points()) {
+                    *point = (rotation * rest.as_dvec3() + translation).as_vec3();
+                }
+            }
+        }
+    }
+
+    /// The head where it is now.
+    fn posed_head(&self) -> Head {
+        let (rotation, translation) = rigid(self.pose, self.head);
+        Head {
+            center: (rotation * self.head.center.as_dvec3() + translation).as_vec3(),
+            ..self.head
         }
     }
 
@@ -148,6 +167,7 @@ impl Stage {
     ///
     /// When camera or paths cannot be made.
     pub fn frame(&mut self) -> Result<Frame<'_>, StageError> {
+        let head = self.posed_head();
         let settings = &self.settings;
         let view = OrbitView {
             target: self.head.center + settings.target * self.head.height_m,
@@ -164,16 +184,16 @@ impl Stage {
             self.paths
                 .push_strand(i, particles, settings.path, camera)?;
         }
-        let light = settings.light(camera, self.head);
-        let surfaces = match &self.model {
-            Some(model) => head::surfaces(model, &settings.paint, camera, &light),
+        let light = settings.light(camera, head);
+        let surfaces = match &mut self.neck {
+            Some(neck) => head::surfaces(neck.posed(self.pose), &settings.paint, camera, &light),
             None => Vec::new(),
         };
         Ok(Frame {
             camera,
             paths: &self.paths,
             strands: &self.strands,
-            head: self.head,
+            head,
             light,
             clump: &self.clump,
             seed: self.seed,
@@ -222,6 +242,8 @@ impl Settings {
                 line: paint.color("line"),
                 iris: paint.color("iris"),
                 iris_shadow: paint.color("iris_shadow"),
+                tie: paint.color("tie"),
+                tie_shadow: paint.color("tie_shadow"),
                 width_m: paint.number("width") * head.unit_m(),
                 inside_margin_m: INSIDE_MARGIN * head.height_m,
                 outline_margin_m: OUTLINE_MARGIN * head.height_m,

@@ -94,8 +94,14 @@ fn a_style_needs_a_head() {
     assert!(message.contains("needs a head to grow on"), "{message}");
 }
 
-/// The styles that come with inkstrand, in presets that use them.
-const STYLES: [&str; 3] = ["twin-tails", "short-ash", "long-pink"];
+/// The styles that come with inkstrand.
+fn styles() -> Vec<PathBuf> {
+    let entries = fs::read_dir(presets().join("styles")).unwrap();
+    let mut styles: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    styles.sort();
+    assert!(styles.len() >= 8, "{styles:?}");
+    styles
+}
 
 /// Views all around, as yaw and pitch.
 const VIEWS: [[f32; 2]; 10] = [
@@ -112,18 +118,18 @@ const VIEWS: [[f32; 2]; 10] = [
 ];
 
 /// Pixels of bare skin where hair grows: within the hairline.
-fn scalp_pixels(style: &str, view: [f32; 2]) -> usize {
+fn scalp_pixels(style: &Path, view: [f32; 2]) -> usize {
     pixels(style, view, "1")
 }
 
 fn bare_scalp_pixels(view: [f32; 2]) -> usize {
-    pixels("short-ash", view, "0")
+    pixels(&styles()[0], view, "0")
 }
 
-fn pixels(style: &str, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
+fn pixels(style: &Path, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
     let registry = registry();
-    let text = fs::read_to_string(presets().join(format!("{style}.ron"))).unwrap();
-    let mut preset = Preset::parse(style, &text, &registry).unwrap();
+    let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
+    let mut preset = Preset::parse("twin-tails.ron", &text, &registry).unwrap();
     for (name, value) in [
         ("head.light", "FF00FF".to_owned()),
         ("head.shadow", "FF00FF".to_owned()),
@@ -142,6 +148,7 @@ fn pixels(style: &str, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
     preset.keep_only(&["hair.base".to_owned()]).unwrap();
     let files = Files {
         preset_folder: presets(),
+        hair: Some(style.to_owned()),
         ..Files::default()
     };
     let mut stage = Stage::new(&preset, &files).unwrap();
@@ -191,11 +198,12 @@ fn pixels(style: &str, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
 
 #[test]
 fn no_scalp_shows_from_any_side() {
-    for style in STYLES {
-        let seen = VIEWS.map(|view| scalp_pixels(style, view));
+    for style in styles() {
+        let seen = VIEWS.map(|view| scalp_pixels(&style, view));
         assert!(
             seen.iter().all(|pixels| *pixels == 0),
-            "{style}: {seen:?} pixels of scalp in {VIEWS:?}"
+            "{}: {seen:?} pixels of scalp in {VIEWS:?}",
+            style.display()
         );
     }
 }
@@ -204,4 +212,45 @@ fn no_scalp_shows_from_any_side() {
 fn a_bald_head_would_be_noticed() {
     // The count is of what it says: with hair of no size the whole scalp shows.
     assert!(bare_scalp_pixels([180.0, 85.0]) > 10_000);
+}
+
+#[test]
+fn hair_does_not_change_the_size_of_the_head_it_grows_on() {
+    let registry = registry();
+    let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
+    let preset = Preset::parse("twin-tails.ron", &text, &registry).unwrap();
+    let head_under = |style: PathBuf| {
+        let files = Files {
+            preset_folder: presets(),
+            hair: Some(style),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        stage.frame().unwrap().head
+    };
+    let heads: Vec<render::Head> = styles().into_iter().map(head_under).collect();
+    assert!(heads.iter().all(|head| *head == heads[0]), "{heads:?}");
+}
+
+#[test]
+fn ties_are_bands_of_their_own_colour() {
+    let registry = registry();
+    let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
+    let mut preset = Preset::parse("twin-tails.ron", &text, &registry).unwrap();
+    for (name, value) in [("head.tie", "00FF00"), ("head.tie_shadow", "00FF00")] {
+        preset.set(name, value).unwrap();
+    }
+    let bands = |style: &str| {
+        let files = Files {
+            preset_folder: presets(),
+            hair: Some(presets().join("styles").join(style)),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let surfaces = stage.frame().unwrap().surfaces;
+        let band = surfaces.iter().find(|s| s.light == [0.0, 1.0, 0.0]);
+        band.map_or(0, |band| band.triangles.len())
+    };
+    assert!(bands("twin-tails.style.ron") > 100);
+    assert_eq!(bands("bob.style.ron"), 0);
 }

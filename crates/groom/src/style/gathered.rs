@@ -1,22 +1,12 @@
 //! Hair gathered in a tie: tails, buns and braids.
 
 use super::hang::{Hanging, hang};
+use super::tie::Tie;
 use super::{Form, Scalp, Zone};
 use crate::random::Random;
 use crate::shell::Shell;
 use crate::trig::{sin_cos_degrees, sin_cos_turns};
 use glam::Vec3;
-
-/// A band around gathered hair.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tie {
-    /// Its middle, metres.
-    pub center: Vec3,
-    /// The way of the hair through it, a unit vector.
-    pub axis: Vec3,
-    /// Radius of the hair in it, metres.
-    pub radius_m: f32,
-}
 
 /// Points of a clump wound into a bun.
 const BUN_POINTS: usize = 14;
@@ -36,9 +26,12 @@ pub(super) struct Gathered<'a> {
 }
 
 impl Gathered<'_> {
-    /// The radius of clump at its full size, 1/300 head heights, when the zone doesn't give it.
+    /// The radius of a clump at its full size, 1/300 head heights.
     pub fn size(&self) -> f32 {
         let zone = self.zone;
+        if let Some(size) = zone.size {
+            return size;
+        }
         let count = zone.count as f32;
         let share = match zone.form {
             // The clumps' sections fill the section of the whole.
@@ -67,11 +60,10 @@ impl Gathered<'_> {
         if zone.tie <= 0.0 {
             return Vec::new();
         }
-        let radius_m = zone.tie * self.shell.height();
         vec![Tie {
             center: self.center(),
             axis: self.outward(),
-            radius_m,
+            radius_m: zone.tie * self.shell.height(),
         }]
     }
 
@@ -103,6 +95,7 @@ impl Gathered<'_> {
         let hanging = Hanging {
             length_m: length * length_scale * self.shell.height(),
             side: self.side,
+            size: self.size(),
             section,
         };
         hang(zone, &hanging, self.shell, random, &mut points);
@@ -147,6 +140,7 @@ impl Gathered<'_> {
         let hanging = Hanging {
             length_m,
             side: self.side,
+            size: self.size(),
             section: [0.0; 2],
         };
         let mut axis = vec![
@@ -178,7 +172,8 @@ impl Gathered<'_> {
                     + (sideways * tuft[0] + away * tuft[1]) * (0.6 * open)
             };
             let center = along_polyline(&axis[1..], t);
-            points.push(self.shell.keep_out(center + offset * full, 0.012));
+            let gap = 0.6 * self.size() / 300.0;
+            points.push(self.shell.keep_out(center + offset * full, gap));
         }
         (points, 2)
     }

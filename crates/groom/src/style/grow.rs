@@ -1,9 +1,9 @@
 //! From a style to strands on a head.
 
-use super::gathered::{Gathered, Tie};
+use super::gathered::Gathered;
 use super::row::{Row, Seat, size_class};
 use super::undercoat::undercoat;
-use super::{Edit, Form, Style, Zone};
+use super::{Edit, Form, Style, Tie, Zone};
 use crate::random::Random;
 use crate::shell::Shell;
 use glam::Vec3;
@@ -125,7 +125,7 @@ impl Half<'_> {
             shell: self.shell,
             side: self.side,
         };
-        let size = zone.size.unwrap_or_else(|| gathered.size());
+        let size = gathered.size();
         for clump in 0..zone.count.min(MOST_CLUMPS) {
             let mut random = self.random(clump);
             let class = size_class(zone.mixed_sizes, &mut random);

@@ -12,8 +12,8 @@ const POINTS: usize = 10;
 /// Points of one turn of a curl, and most points of one clump.
 const POINTS_A_TURN: f32 = 9.0;
 const MOST_POINTS: usize = 160;
-/// How near the skin a point may come, head heights.
-const CLOSEST: f32 = 0.012;
+/// How near the skin a clump's middle line may come, in its radii: some of it lies against the skin.
+const CLOSEST: f32 = 0.6;
 /// Length in which hair of weight 1/2 turns half-way down, head heights.
 const BEND: f32 = 0.12;
 
@@ -23,6 +23,8 @@ pub(super) struct Hanging {
     pub length_m: f32,
     /// 1 on the character's left, -1 on its right.
     pub side: f32,
+    /// Radius at its full size, 1/300 head heights.
+    pub size: f32,
     /// Its place in the section of gathered hair (outwards, sideways), within the unit circle.
     pub section: [f32; 2],
 }
@@ -35,10 +37,11 @@ pub(super) fn hang(
     random: &mut Random,
     points: &mut Vec<Vec3>,
 ) {
-    let (phase, sway) = (random.unit(), 0.12 * random.around_zero());
+    let (phase, sway) = (random.unit(), zone.sway * random.around_zero());
     if hanging.length_m <= 0.0 {
         return;
     }
+    let first = points.len().saturating_sub(2);
     let axis = Axis::new(zone, hanging, shell, points, sway);
     let length = hanging.length_m / shell.height();
     let turns = if zone.curl > 0.0 {
@@ -58,7 +61,20 @@ pub(super) fn hang(
         let curl = round * (zone.curl * shell.height() * smooth(4.0 * t));
         let [out, side] = hanging.section.map(|x| x * axis.fullness(t));
         let point = center + axis.away * out + axis.sideways * side + curl;
-        points.push(shell.keep_out(point, CLOSEST));
+        points.push(shell.keep_out(point, axis.gap));
+    }
+    if turns <= 0.0 {
+        smooth_corners(&mut points[first..]);
+    }
+}
+
+/// Rounds the corners where hair leaves the head, or was kept out of it.
+fn smooth_corners(points: &mut [Vec3]) {
+    let mut before = points[0];
+    for i in 1..points.len() - 1 {
+        let here = points[i];
+        points[i] = 0.5 * here + 0.25 * (before + points[i + 1]);
+        before = here;
     }
 }
 
@@ -73,6 +89,8 @@ struct Axis<'a> {
     sideways: Vec3,
     sway: f32,
     length_m: f32,
+    /// How near the skin a point may come, head heights.
+    gap: f32,
 }
 
 impl<'a> Axis<'a> {
@@ -100,6 +118,7 @@ impl<'a> Axis<'a> {
             sideways: Vec3::Y.cross(away),
             sway,
             length_m: hanging.length_m,
+            gap: CLOSEST * hanging.size / 300.0,
         }
     }
 
@@ -120,7 +139,7 @@ impl<'a> Axis<'a> {
             heading = heading.lerp(down, turn).normalize_or(self.down);
             let flicked = heading + self.away * (zone.flick * at * at);
             let flicked = flicked.normalize_or(heading);
-            place = self.shell.keep_out(place + flicked * length_m, CLOSEST);
+            place = self.shell.keep_out(place + flicked * length_m, self.gap);
             places.push((place, flicked));
         }
         places

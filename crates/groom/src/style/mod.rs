@@ -10,12 +10,13 @@ mod grow;
 mod hang;
 mod row;
 mod scalp;
+mod tie;
 mod undercoat;
 
 pub use edit::{Drawn, Edit};
-pub use gathered::Tie;
 pub use grow::{Grown, MOST_CLUMPS, grow};
 pub use scalp::Scalp;
+pub use tie::{Ring, Tie};
 
 use crate::shell::Place;
 
@@ -68,6 +69,9 @@ pub struct Zone {
     pub tip_lift: f32,
     /// How much heights differ, 0 to 1.
     pub lift_variation: f32,
+    /// Share of the way over the head that stays with the head when it moves, 0 to 1; all of it where
+    /// the way leads to one place.
+    pub held: f32,
     /// Length that hangs.
     pub hang: f32,
     /// How much hanging lengths differ, 0 to 1.
@@ -76,6 +80,8 @@ pub struct Zone {
     pub weight: f32,
     /// Lean away from the head while it hangs; below 0 towards it.
     pub spread: f32,
+    /// How much hanging clumps lean sideways, each its own way.
+    pub sway: f32,
     /// Turn of the tip away from the head; below 0 towards it.
     pub flick: f32,
     /// Radius of the curls of hanging hair.

@@ -1,7 +1,7 @@
 //! Rows of clumps over the head, laid like roof tiles.
 
 use super::hang::{Hanging, hang};
-use super::{Scalp, Zone};
+use super::{Line, Scalp, Zone};
 use crate::random::Random;
 use crate::shell::{Shell, between};
 use crate::trig::sin_cos_degrees;
@@ -83,7 +83,7 @@ impl<'a> Row<'a> {
         length / self.shell.height()
     }
 
-    /// The points of a clump, from its root to its tip, and how many of them lie on the head.
+    /// The points of a clump, from its root to its tip, and how many of them stay with the head.
     pub fn clump(&self, seat: Seat, length_scale: f32, random: &mut Random) -> (Vec<Vec3>, usize) {
         let zone = self.zone;
         let higher = 1.0 + zone.lift_variation * random.around_zero();
@@ -106,14 +106,23 @@ impl<'a> Row<'a> {
         } else {
             points.push(self.shell.above(ends[0], zone.root_lift));
         }
-        let on_head = points.len();
+        let held = 1 + (self.held() * (points.len() - 1) as f32).round() as usize;
         let hanging = Hanging {
             length_m: length * length_scale * self.shell.height(),
             side: self.side,
+            size: seat.size,
             section: [0.0; 2],
         };
         hang(zone, &hanging, self.shell, random, &mut points);
-        (points, on_head)
+        (points, held)
+    }
+
+    /// Share of the way over the head that stays with it: all where it leads to one place, as a tie.
+    fn held(&self) -> f32 {
+        match &self.zone.tips {
+            Some(Line::Through(places)) if places.len() == 1 => 1.0,
+            _ => self.zone.held.clamp(0.0, 1.0),
+        }
     }
 
     /// Directions of a clump's root on the line of roots and of its end on the line of tips.
@@ -152,7 +161,7 @@ impl<'a> Row<'a> {
         if own < 0.5 {
             root_lift + (lift - root_lift) * smooth(2.0 * own)
         } else {
-            lift + (zone.tip_lift - lift) * smooth(2.0 * own - 1.0)
+            lift + (zone.tip_lift * higher - lift) * smooth(2.0 * own - 1.0)
         }
     }
 }

@@ -4,7 +4,7 @@ use super::schema::{self, Section, sections};
 use crate::Failure;
 use effects::preset::{OF_THE_EFFECT, suggestion};
 use effects::{AnyEffect, Param, ParamKind, Registry};
-use stage::{STYLE_PARTS, StylePart};
+use stage::{FilePart, MOTION_PARTS, STYLE_PARTS};
 use std::io::{ErrorKind, Write as _};
 
 /// Lists effects and sections, or what one of them takes.
@@ -14,7 +14,7 @@ pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Re
             Found::All => schema::all(registry),
             Found::Effect(effect) => schema::effect(effect),
             Found::Section(section) => schema::section(&section),
-            Found::StylePart(part) => schema::style_part(part),
+            Found::Part(part) => schema::file_part(part),
         };
         serde_json::to_string_pretty(&schema)? + "\n"
     } else {
@@ -22,7 +22,7 @@ pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Re
             Found::All => list(registry),
             Found::Effect(effect) => effect_text(effect),
             Found::Section(section) => section_text(&section),
-            Found::StylePart(part) => style_part_text(part),
+            Found::Part(part) => file_part_text(part),
         }
     };
     match std::io::stdout().write_all(text.as_bytes()) {
@@ -37,7 +37,7 @@ enum Found<'r> {
     All,
     Effect(&'r dyn AnyEffect),
     Section(Section),
-    StylePart(&'static StylePart),
+    Part(&'static FilePart),
 }
 
 fn find<'r>(name: Option<&str>, registry: &'r Registry) -> Result<Found<'r>, Failure> {
@@ -50,18 +50,23 @@ fn find<'r>(name: Option<&str>, registry: &'r Registry) -> Result<Found<'r>, Fai
     if let Some(section) = sections().into_iter().find(|section| section.name == name) {
         return Ok(Found::Section(section));
     }
-    if let Some(part) = STYLE_PARTS.iter().find(|part| part.name == name) {
-        return Ok(Found::StylePart(part));
+    if let Some(part) = parts().find(|part| part.name == name) {
+        return Ok(Found::Part(part));
     }
     let effects = registry.iter().map(AnyEffect::id);
     let sections = sections();
     let names = effects
         .chain(sections.iter().map(|section| section.name))
-        .chain(STYLE_PARTS.iter().map(|part| part.name));
+        .chain(parts().map(|part| part.name));
     let hint = suggestion(name, names);
     Err(Failure::Usage(format!(
-        "there is no effect, section or part of a style `{name}`{hint}"
+        "there is no effect, section, or part of a style or motion `{name}`{hint}"
     )))
+}
+
+/// The parts of files beside presets.
+fn parts() -> impl Iterator<Item = &'static FilePart> {
+    STYLE_PARTS.iter().chain(MOTION_PARTS)
 }
 
 fn list(registry: &Registry) -> String {
@@ -84,9 +89,14 @@ fn list(registry: &Registry) -> String {
     for section in sections() {
         text += &format!("{:<20} {}\n", section.name, section.doc);
     }
-    text += &format!("\n{:<20} what it says\n", "hair style");
-    for part in STYLE_PARTS {
-        text += &format!("{:<20} {}\n", part.name, part.doc);
+    for (file, parts) in [
+        ("hair style", STYLE_PARTS),
+        ("script of motion", MOTION_PARTS),
+    ] {
+        text += &format!("\n{file:<20} what it says\n");
+        for part in parts {
+            text += &format!("{:<20} {}\n", part.name, part.doc);
+        }
     }
     text + "\n`inkstrand effects NAME` lists the parameters of one of them.\n"
 }
@@ -131,7 +141,7 @@ fn section_text(section: &Section) -> String {
     text
 }
 
-fn style_part_text(part: &StylePart) -> String {
+fn file_part_text(part: &FilePart) -> String {
     let mut text = format!("{}: {}\n{}\n", part.name, part.doc, part.example);
     for (name, meaning) in part.places {
         text += &format!("\n  {name}: places\n      {meaning}\n");

@@ -28,6 +28,7 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
         preset_folder: preset_folder(&options.preset),
         hair: options.hair.clone(),
         head: options.head.clone(),
+        motion: options.motion.clone(),
     };
     preset
         .check_files(&files)

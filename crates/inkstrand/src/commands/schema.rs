@@ -3,7 +3,7 @@
 use effects::preset::{LAYER, OF_THE_EFFECT};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use serde_json::{Value, json};
-use stage::{Preset, SECTIONS, STYLE_PARTS, StylePart};
+use stage::{FilePart, MOTION_PARTS, Preset, SECTIONS, STYLE_PARTS};
 
 /// A section of a preset as `inkstrand effects` shows it.
 pub(super) struct Section {
@@ -30,12 +30,13 @@ pub(super) fn all(registry: &Registry) -> Value {
         "version": stage::VERSION,
         "sections": sections().iter().map(section).collect::<Vec<_>>(),
         "effects": registry.iter().map(effect).collect::<Vec<_>>(),
-        "style": STYLE_PARTS.iter().map(style_part).collect::<Vec<_>>(),
+        "style": STYLE_PARTS.iter().map(file_part).collect::<Vec<_>>(),
+        "motion": MOTION_PARTS.iter().map(file_part).collect::<Vec<_>>(),
     })
 }
 
-/// The schema of a part of hair styles.
-pub(super) fn style_part(part: &StylePart) -> Value {
+/// The schema of a part of hair styles or motion scripts.
+pub(super) fn file_part(part: &FilePart) -> Value {
     let places = part
         .places
         .iter()

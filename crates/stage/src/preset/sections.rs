@@ -112,6 +112,12 @@ pub const HEAD: &[Param] = &[
         "Colour of the pupils and of the irises under the lids.",
         "1B4F5C",
     ),
+    color("tie", "Colour of ties in the hair.", "F0F0F5"),
+    color(
+        "tie_shadow",
+        "Colour of ties away from the light.",
+        "B8B8CC",
+    ),
     number(
         "width",
         "Width of the outline; 0 is none.",
@@ -243,6 +249,13 @@ pub const LIGHT: &[Param] = &[
     ),
 ];
 
+/// The section `motion`.
+pub const MOTION: &[Param] = &[param(
+    "file",
+    "How the head moves and the wind blows, relative to the preset: .motion.ron.",
+    ParamKind::Text,
+)];
+
 /// The section `path`.
 pub const PATH: &[Param] = &[
     choice(
@@ -273,6 +286,7 @@ pub const SECTIONS: &[(&str, &str, &[Param])] = &[
     ),
     ("camera", "From where it is seen.", CAMERA),
     ("light", "Where the light comes from.", LIGHT),
+    ("motion", "How the head moves and the wind blows.", MOTION),
     ("path", "How a strand becomes a stroke's path.", PATH),
     (
         "clump",

@@ -7,6 +7,7 @@ mod clumps;
 mod lines;
 mod zone;
 
+use crate::part::FilePart;
 use crate::preset::{choice, param};
 use clumps::{DRAWN, EDIT};
 use effects::preset::{Field, PresetErrors, Reader};
@@ -45,24 +46,9 @@ const STYLE: &[Param] = &[
     ),
 ];
 
-/// A part of a hair style, as `inkstrand effects` shows it.
-#[derive(Clone, Copy, Debug)]
-pub struct StylePart {
-    /// Its name.
-    pub name: &'static str,
-    /// What it is about.
-    pub doc: &'static str,
-    /// How it is written.
-    pub example: &'static str,
-    /// Its parameters.
-    pub table: &'static [Param],
-    /// What else it may say: places and lists, each with its meaning.
-    pub places: &'static [(&'static str, &'static str)],
-}
-
 /// The parts of a hair style.
-pub const STYLE_PARTS: &[StylePart] = &[
-    StylePart {
+pub const STYLE_PARTS: &[FilePart] = &[
+    FilePart {
         name: "style",
         doc: "A hair style, a file of its own: NAME.style.ron.",
         example: "(version: 1, zones: [...], edits: [...], strands: [...])",
@@ -84,7 +70,7 @@ pub const STYLE_PARTS: &[StylePart] = &[
             ),
         ],
     },
-    StylePart {
+    FilePart {
         name: "zones",
         doc: "Rows of clumps, tails, buns and braids.",
         example: "zones: [(name: \"fringe\", roots: [...], tips: [...], name: value, ...), ...]",
@@ -102,14 +88,14 @@ pub const STYLE_PARTS: &[StylePart] = &[
             ),
         ],
     },
-    StylePart {
+    FilePart {
         name: "edits",
         doc: "Changes of single clumps.",
         example: "edits: [(zone: \"fringe\", clump: 3, name: value, ...), ...]",
         table: EDIT,
         places: &[],
     },
-    StylePart {
+    FilePart {
         name: "strands",
         doc: "Clumps drawn by hand.",
         example: "strands: [(points: [(0, 60, 0), ...], name: value, ...), ...]",

@@ -89,6 +89,14 @@ pub(super) const ZONE: &[Param] = &[
         0.1,
     ),
     number(
+        "held",
+        "Share of the way over the head that stays with the head when it moves; all of it where the way \
+         leads to one place, as to a tie.",
+        "",
+        0.0..=1.0,
+        0.5,
+    ),
+    number(
         "hang",
         "Length that hangs from the tips, from the roots or from the tie.",
         "head heights",
@@ -115,6 +123,13 @@ pub(super) const ZONE: &[Param] = &[
         "",
         -2.0..=2.0,
         0.0,
+    ),
+    number(
+        "sway",
+        "How much hanging clumps lean sideways, each its own way.",
+        "",
+        0.0..=2.0,
+        0.12,
     ),
     number(
         "flick",
@@ -234,10 +249,12 @@ fn from_values(values: &Values, roots: Line, tips: Option<Line>) -> Zone {
         lift: number("lift"),
         tip_lift: number("tip_lift"),
         lift_variation: number("lift_variation"),
+        held: number("held"),
         hang: number("hang"),
         length_variation: number("length_variation"),
         weight: number("weight"),
         spread: number("spread"),
+        sway: number("sway"),
         flick: number("flick"),
         curl: number("curl"),
         curl_length: number("curl_length"),
