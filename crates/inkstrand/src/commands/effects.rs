@@ -91,7 +91,7 @@ fn list(registry: &Registry) -> String {
     }
     for (file, parts) in [
         ("hair style", STYLE_PARTS),
-        ("script of motion", MOTION_PARTS),
+        ("head and wind", MOTION_PARTS),
     ] {
         text += &format!("\n{file:<20} what it says\n");
         for part in parts {
