@@ -10,7 +10,7 @@ pub const GRAVITY: f64 = 9.81;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
-    /// Young's modulus E in Pa, 1 to 1e13. Hair: 3.9e9.
+    /// Young's modulus E in Pa, 1e-3 to 1e20. Hair: 3.9e9.
     pub young: f64,
     /// Stiffness against twisting over that against bending, GJ / EI: 1e-3 to 1e3. A round section of
     /// Poisson ratio 0.5 has 2/3.
@@ -166,7 +166,7 @@ impl Params {
                 .unwrap_or(least)
         };
         [
-            ("young", m.young, 1.0, 1e13),
+            ("young", m.young, 1e-3, 1e20),
             ("twist_ratio", m.twist_ratio, 1e-3, 1e3),
             ("density", m.density, 1.0, 1e5),
             ("radius", m.radius, 1e-7, 0.1),

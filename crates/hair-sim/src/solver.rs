@@ -304,6 +304,24 @@ impl Solver {
         Ok(sum)
     }
 
+    /// Puts the roots elsewhere at once: shape and motion are carried along, as if nothing had happened.
+    ///
+    /// # Errors
+    ///
+    /// When the poses or the state are none.
+    pub fn teleport(&self, state: &mut State, to: Roots) -> Result<(), DynamicsError> {
+        let scene = Scene {
+            roots: to,
+            ..Scene::default()
+        };
+        self.check(state, &scene, 1.0)?;
+        for (batch, state) in self.batches.iter().zip(&mut state.batches) {
+            let (root, base) = roots(batch, &scene);
+            state.teleport(root, base);
+        }
+        Ok(())
+    }
+
     fn check(&self, state: &State, scene: &Scene, dt: f64) -> Result<(), DynamicsError> {
         if !(dt > 0.0 && dt <= 10.0) {
             return Err(DynamicsError::Step(dt));

@@ -169,6 +169,24 @@ impl BatchState {
     }
 }
 
+impl BatchState {
+    /// Carries shape and motion to another root and skin frame.
+    pub(crate) fn teleport(&mut self, root: Vec3, base: Quat) {
+        let turn = base.times(self.base.conjugate()).normalize();
+        for frame in &mut self.frames {
+            *frame = turn.times(*frame).normalize();
+        }
+        let [x, y, z] = turn.axes();
+        let turned = |v: &mut Vec3| *v = x * v.x + y * v.y + z * v.z;
+        self.y.iter_mut().for_each(turned);
+        self.v.iter_mut().for_each(turned);
+        self.a.iter_mut().for_each(turned);
+        turned(&mut self.root_velocity);
+        self.root = root;
+        self.base = base;
+    }
+}
+
 /// Room to work in; its content decides nothing.
 #[derive(Clone, Debug)]
 pub(crate) struct Scratch {

@@ -34,9 +34,9 @@ const LARGEST_TURN: f64 = 1.0;
 /// Newton steps in a stage before it counts as failed.
 const MOST_ITERATIONS: usize = 6;
 
-/// The cosine of the most that a link may turn against the skin in a step of this integrator (1.4 rad): beyond it the
+/// The cosine of the most that a link may turn against the skin in a step of this integrator (2.1 rad): beyond it the
 /// differences that it is made of mean nothing.
-const LEAST_COSINE: f64 = 0.17;
+const LEAST_COSINE: f64 = -0.5;
 
 /// The share of the end velocity's stretch that is taken out. A backward difference of points that run on an arc points
 /// inside the arc; half of that is the error of the difference.

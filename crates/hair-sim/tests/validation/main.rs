@@ -2,6 +2,9 @@
 //! of simulators in computer graphics*, and more.
 
 mod drop;
+mod start;
+mod statics;
+mod vibration;
 
 use glam::{DVec3, Vec3};
 use hair_sim::{Material, Natural, Params, Scene, Solver, State, Strands};
