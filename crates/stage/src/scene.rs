@@ -74,9 +74,8 @@ impl Stage {
             center: frame.center,
             height_m: frame.height,
         };
-        load::keep_guides(preset, &mut hair);
+        let strands = load::keep_guides(preset, &mut hair, head);
         let settings = Settings::new(preset, head)?;
-        let strands = load::strand_infos(preset, &hair, head);
         Ok(Self {
             points: hair.strands.points().to_vec(),
             hair,
