@@ -20,8 +20,8 @@ use crate::{
 };
 
 use batch::{Batch, BatchState, Scratch};
-use instructions::Instructions;
 use drive::Drive;
+use instructions::Instructions;
 use integrate::BatchStats;
 
 /// A rigid motion from style space to the world: where a head is.
@@ -401,7 +401,11 @@ impl Solver {
         }
         let fits = state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count());
-        if fits { Ok(()) } else { Err(DynamicsError::State) }
+        if fits {
+            Ok(())
+        } else {
+            Err(DynamicsError::State)
+        }
     }
 
     /// The points of a strand in the world, root first, in m.
@@ -440,7 +444,9 @@ impl Solver {
 }
 
 fn best_instructions() -> Instructions {
-    *Instructions::available().last().unwrap_or(&Instructions::Compiled)
+    *Instructions::available()
+        .last()
+        .unwrap_or(&Instructions::Compiled)
 }
 
 /// Root and frame of the skin of every lane in the world.

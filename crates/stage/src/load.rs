@@ -6,16 +6,11 @@ use crate::motion::{self, MotionScript};
 use crate::preset::Preset;
 use crate::style;
 use glam::Vec3;
-use groom::Tie;
+use groom::{Guides, Tie};
 use hair_io::orient::Axes;
 use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
 use render::{Head, StrandInfo};
 use std::path::{Path, PathBuf};
-
-/// Radius of a clump in units of the spacing of the roots: neighbours overlap and hide the scalp.
-const RADIUS_IN_SPACINGS: f32 = 0.75;
-/// The largest radius that is taken from the spacing of roots, head heights.
-const LARGEST_RADIUS: f32 = 0.12;
 
 fn axes(choice: u32) -> Option<Axes> {
     [None, Some(Axes::Y), Some(Axes::Z)][choice as usize]
@@ -156,13 +151,29 @@ pub(crate) fn motion(preset: &Preset, files: &Files) -> Result<MotionScript, Sta
     Ok(motion::parse(&path.display().to_string(), &text)?)
 }
 
-/// Keeps as many strands as the preset asks for, evenly over the scalp.
-pub(crate) fn keep_guides(preset: &Preset, hair: &mut Hair) {
-    let guides = preset.hair.integer("guides").unsigned_abs() as usize;
-    if guides > 0 {
-        let roots: Vec<Vec3> = hair.file.strands.roots().collect();
-        hair.keep(&hair_io::guides::spread_evenly(&roots, guides));
-    }
+/// Keeps as many strands as the preset asks for, and says what size each is: its own, the preset's, or
+/// from the strands it stands for.
+pub(crate) fn keep_guides(preset: &Preset, hair: &mut Hair) -> Vec<StrandInfo> {
+    let strands = &hair.file.strands;
+    let guides = match preset.hair.integer("guides") {
+        0 => Guides::choose(strands, strands.len()),
+        n => Guides::choose(strands, n.unsigned_abs() as usize),
+    };
+    let set = Some(preset.hair.number("size")).filter(|size| *size > 0.0);
+    let given = |i: usize| strands.size(i).or(set);
+    let sizes = if guides.kept.iter().all(|&i| given(i).is_some()) {
+        vec![0.0; guides.kept.len()]
+    } else {
+        guides.sizes(strands, hair.head.height_m)
+    };
+    let infos = guides.kept.iter().zip(sizes).map(|(&i, size)| StrandInfo {
+        id: strands.id(i),
+        mean: Vec3::ZERO,
+        size: given(i).unwrap_or(size),
+    });
+    let infos = infos.collect();
+    hair.keep(&guides.kept);
+    infos
 }
 
 /// The hair of a style, grown on the head.
@@ -197,49 +208,4 @@ fn grow(path: &Path, head: Option<&Mesh>) -> Result<Hair, StageError> {
         ties: grown.ties,
         head,
     })
-}
-
-/// Each strand's id and size: its own, the preset's, or from the spacing of the roots.
-pub(crate) fn strand_infos(preset: &Preset, hair: &HairFile, head: Head) -> Vec<StrandInfo> {
-    let strands = &hair.strands;
-    let set = preset.hair.number("size");
-    let roots: Vec<Vec3> = strands.roots().collect();
-    let needs_spacing = set <= 0.0 && (0..strands.len()).any(|i| strands.size(i).is_none());
-    let spacing = if needs_spacing {
-        hair_io::guides::spacing(&roots)
-    } else {
-        Vec::new()
-    };
-    let size = |i: usize| {
-        let from_spacing = || size_from_spacing(spacing[i], strands.strand(i), strands.len(), head);
-        let own = strands.size(i).or((set > 0.0).then_some(set));
-        own.unwrap_or_else(from_spacing)
-    };
-    (0..strands.len())
-        .map(|i| StrandInfo {
-            id: strands.id(i),
-            mean: Vec3::ZERO,
-            size: size(i),
-        })
-        .collect()
-}
-
-/// A clump's size from how far its root is from its neighbours (0 where it has none), 1/300 of the
-/// head's height.
-fn size_from_spacing(spacing_m: f32, points: &[Vec3], strands: usize, head: Head) -> f32 {
-    // A root on its own stands for its share of the scalp: half a ball of 0.4 head heights.
-    let share_m = (std::f32::consts::TAU / strands as f32).sqrt() * 0.4 * head.height_m;
-    let spacing_m = if spacing_m > 0.0 { spacing_m } else { share_m };
-    let length_m: f32 = points
-        .windows(2)
-        .map(|pair| pair[0].distance(pair[1]))
-        .sum();
-    // A clump is longer than wide, and no ball the size of a head.
-    let radius_m = (RADIUS_IN_SPACINGS * spacing_m).min(LARGEST_RADIUS * head.height_m);
-    let radius_m = if length_m > 0.0 {
-        radius_m.min(length_m / 4.0)
-    } else {
-        radius_m
-    };
-    radius_m / head.unit_m()
 }

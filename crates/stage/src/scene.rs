@@ -76,9 +76,8 @@ impl Stage {
         if let Some(model) = &mut model {
             model.add_ties(&hair.ties);
         }
-        load::keep_guides(preset, &mut hair);
+        let strands = load::keep_guides(preset, &mut hair);
         let settings = Settings::new(preset, head)?;
-        let strands = load::strand_infos(preset, &hair.file, head);
         Ok(Self {
             points: hair.file.strands.points().to_vec(),
             hair: hair.file,

@@ -89,10 +89,7 @@ fn list(registry: &Registry) -> String {
     for section in sections() {
         text += &format!("{:<20} {}\n", section.name, section.doc);
     }
-    for (file, parts) in [
-        ("hair style", STYLE_PARTS),
-        ("head and wind", MOTION_PARTS),
-    ] {
+    for (file, parts) in [("hair style", STYLE_PARTS), ("head and wind", MOTION_PARTS)] {
         text += &format!("\n{file:<20} what it says\n");
         for part in parts {
             text += &format!("{:<20} {}\n", part.name, part.doc);
