@@ -40,6 +40,12 @@ pub enum StageError {
     /// A style or motion script has mistakes.
     #[error(transparent)]
     Mistakes(#[from] effects::preset::PresetErrors),
+    /// A strand cannot be simulated.
+    #[error("dynamics: {0}")]
+    Strand(#[from] hair_sim::StrandError),
+    /// The simulation refuses its parameters or a step.
+    #[error("dynamics: {0}")]
+    Dynamics(#[from] hair_sim::DynamicsError),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),

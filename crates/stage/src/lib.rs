@@ -1,6 +1,7 @@
 //! A scene (hair, head, camera, light, style, time) to a frame: the only place where simulation meets
 //! strokes.
 
+mod dynamics;
 mod files;
 mod head;
 mod load;
@@ -11,6 +12,7 @@ mod preset;
 mod scene;
 mod style;
 
+pub use dynamics::DYNAMICS;
 pub use files::{Files, StageError};
 pub use motion::MOTION_PARTS;
 pub use part::FilePart;

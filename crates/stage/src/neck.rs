@@ -3,6 +3,7 @@
 use crate::head::HeadModel;
 use crate::motion::HeadPose;
 use glam::{DQuat, DVec3, Vec3};
+use hair_io::Mesh;
 use render::Head;
 
 /// Where the head turns about, from its middle, in head heights: the top of the neck.
@@ -47,6 +48,11 @@ impl Neck {
             posed: model.clone(),
             rest: model,
         }
+    }
+
+    /// The mesh as its file has it.
+    pub fn rest_mesh(&self) -> &Mesh {
+        &self.rest.mesh
     }
 
     /// The head in a pose.

@@ -32,6 +32,8 @@ pub struct Preset<'r> {
     pub light: Values,
     /// Values of [`MOTION`].
     pub motion: Values,
+    /// Values of [`DYNAMICS`](crate::DYNAMICS).
+    pub dynamics: Values,
     /// Values of [`PATH`].
     pub path: Values,
     /// Values of the clump's parameters.
@@ -131,6 +133,7 @@ impl<'r> Preset<'r> {
         let (scene, camera, light) = (section("scene").0, section("camera").0, section("light").0);
         let (path, clump) = (section("path").0, section("clump").0);
         let (motion, motion_place) = section("motion");
+        let dynamics = section("dynamics").0;
         let layers = match field("layers") {
             Some(field) => reader.layers(field.value, registry, &known),
             None => {
@@ -148,6 +151,7 @@ impl<'r> Preset<'r> {
             camera,
             light,
             motion,
+            dynamics,
             path,
             clump,
             layers,
@@ -206,6 +210,7 @@ impl<'r> Preset<'r> {
             "camera" => &mut self.camera,
             "light" => &mut self.light,
             "motion" => &mut self.motion,
+            "dynamics" => &mut self.dynamics,
             "path" => &mut self.path,
             "clump" => &mut self.clump,
             _ => return Err(self.unknown_layer(owner)),

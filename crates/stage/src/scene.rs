@@ -1,14 +1,14 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
+use crate::dynamics::Dynamics;
 use crate::files::{Files, StageError};
 use crate::head::{self, HeadPaint};
-use crate::load;
+use crate::load::{self, Hair};
 use crate::motion::{HeadPose, MotionScript};
 use crate::neck::{Neck, rigid};
 use crate::preset::Preset;
-use effects::{Layer, Parameters, clump};
+use effects::{Layer, Parameters, Values, clump};
 use glam::{Vec2, Vec3};
-use hair_io::HairFile;
 use render::{Frame, Head, Light, Order, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
 
@@ -25,7 +25,7 @@ const OUTLINE_MARGIN: f32 = 0.04;
 
 /// A scene that makes frames. What a frame needs is kept and reused.
 pub struct Stage {
-    hair: HairFile,
+    hair: Hair,
     /// The strands' sizes, and ids increasing.
     strands: Vec<StrandInfo>,
     neck: Option<Neck>,
@@ -33,6 +33,10 @@ pub struct Stage {
     head: Head,
     script: MotionScript,
     pose: HeadPose,
+    /// What the preset says of dynamics, frames a second, and the simulation once something moves.
+    dynamics_values: Values,
+    fps: f32,
+    dynamics: Option<Dynamics>,
     /// Sentences for the user: what was guessed.
     notes: Vec<String>,
     seed: u32,
@@ -80,12 +84,15 @@ impl Stage {
         let settings = Settings::new(preset, head)?;
         Ok(Self {
             points: hair.file.strands.points().to_vec(),
-            hair: hair.file,
+            hair,
             strands,
             neck: model.map(|model| Neck::new(model, head)),
             head,
             script: load::motion(preset, files)?,
             pose: HeadPose::default(),
+            dynamics_values: preset.dynamics.clone(),
+            fps: preset.scene.number("fps"),
+            dynamics: None,
             notes,
             seed: preset.seed,
             clump: clump::Program::params(&preset.clump),
@@ -137,18 +144,49 @@ impl Stage {
         self.paths.dropped()
     }
 
-    /// Moves head and hair to `time` (seconds).
-    pub fn advance_to(&mut self, time: f32) {
-        self.pose = self.script.head_at(f64::from(time));
-        match &self.hair.motion {
-            Some(motion) => motion.sample(time, &mut self.points),
-            None => {
-                let (rotation, translation) = rigid(self.pose, self.head);
-                for (point, rest) in self.points.iter_mut().zip(self.hair.strands.points()) {
-                    *point = (rotation * rest.as_dvec3() + translation).as_vec3();
-                }
-            }
+    /// Moves head and hair to `time` (seconds): hair that moves is simulated, in steps from the start.
+    ///
+    /// # Errors
+    ///
+    /// When the simulation refuses the preset's numbers.
+    pub fn advance_to(&mut self, time: f32) -> Result<(), StageError> {
+        let time = f64::from(time);
+        self.pose = self.script.head_at(time);
+        if let Some(motion) = &self.hair.file.motion {
+            motion.sample(time as f32, &mut self.points);
+            return Ok(());
         }
+        let (rotation, translation) = rigid(self.pose, self.head);
+        for (point, rest) in self.points.iter_mut().zip(self.hair.file.strands.points()) {
+            *point = (rotation * rest.as_dvec3() + translation).as_vec3();
+        }
+        if !Dynamics::moves(&self.dynamics_values, &self.script) {
+            return Ok(());
+        }
+        let dynamics = match &mut self.dynamics {
+            Some(dynamics) => dynamics,
+            None => {
+                let sizes: Vec<f32> = self.strands.iter().map(|strand| strand.size).collect();
+                self.dynamics.insert(Dynamics::new(
+                    &self.hair,
+                    &sizes,
+                    self.neck.as_ref().map(Neck::rest_mesh),
+                    &self.dynamics_values,
+                    self.fps,
+                    self.seed,
+                )?)
+            }
+        };
+        dynamics.advance_to(time, &self.script, &mut self.points)
+    }
+
+    /// What the simulation did in its last step; nothing where nothing is simulated.
+    #[must_use]
+    pub fn simulated(&self) -> hair_sim::Stats {
+        self.dynamics
+            .as_ref()
+            .map(Dynamics::stats)
+            .unwrap_or_default()
     }
 
     /// The head where it is now.
@@ -178,7 +216,7 @@ impl Stage {
             .insert(Camera::orbit(view, settings.size, near_m)?);
         self.paths.clear();
         for (i, info) in self.strands.iter_mut().enumerate() {
-            let particles = &self.points[self.hair.strands.point_range(i)];
+            let particles = &self.points[self.hair.file.strands.point_range(i)];
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
             self.paths
                 .push_strand(i, particles, settings.path, camera)?;

@@ -82,9 +82,9 @@ fn the_head_turns_and_what_stands_on_it_turns_with_it() {
         (frame.head, means)
     };
     let before = means(&mut stage);
-    stage.advance_to(1.0);
+    stage.advance_to(1.0).unwrap();
     assert_eq!(means(&mut stage), before);
-    stage.advance_to(2.0);
+    stage.advance_to(2.0).unwrap();
     let after = means(&mut stage);
     // About the top of the neck, towards the character's left (+X).
     let head = before.0;
@@ -96,6 +96,6 @@ fn the_head_turns_and_what_stands_on_it_turns_with_it() {
     for (from, to) in before.1.iter().zip(&after.1) {
         assert!((turned(*from) - *to).length() < 2e-4, "{from} {to}");
     }
-    stage.advance_to(0.0);
+    stage.advance_to(0.0).unwrap();
     assert_eq!(means(&mut stage), before);
 }

@@ -123,7 +123,7 @@ impl Painter {
             lap = now;
             passed.as_secs_f64() * 1e3
         };
-        stage.advance_to(time);
+        stage.advance_to(time)?;
         milliseconds.simulate = since_last();
         let described = stage.frame()?;
         milliseconds.paths = since_last();

@@ -88,6 +88,11 @@ pub(crate) struct Wind {
 const WIND_RISE: f64 = 0.4;
 
 impl MotionScript {
+    /// Whether nothing moves.
+    pub fn is_still(&self) -> bool {
+        self.keys.is_empty() && self.moves.is_empty() && self.winds.is_empty()
+    }
+
     /// The head's pose at `time` (seconds).
     pub fn head_at(&self, time: f64) -> HeadPose {
         let time = self.within(time);

@@ -1,6 +1,7 @@
 //! The sections of presets: their parameters.
 
 use super::VERSION;
+use crate::dynamics::DYNAMICS;
 use effects::{Param, ParamKind, Parameters, clump};
 
 pub(crate) const fn number(
@@ -287,6 +288,11 @@ pub const SECTIONS: &[(&str, &str, &[Param])] = &[
     ("camera", "From where it is seen.", CAMERA),
     ("light", "Where the light comes from.", LIGHT),
     ("motion", "How the head moves and the wind blows.", MOTION),
+    (
+        "dynamics",
+        "How hair swings, bends and returns to its style.",
+        DYNAMICS,
+    ),
     ("path", "How a strand becomes a stroke's path.", PATH),
     (
         "clump",
