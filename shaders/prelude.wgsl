@@ -96,3 +96,40 @@ fn unit_or(v: vec3<f32>, otherwise: vec3<f32>) -> vec3<f32> {
     }
     return otherwise;
 }
+
+/// Where stroke `instance` of `count` side by side lies across the clump, in its radius: from -1 to 1.
+/// Strokes of radius 1 / `count` there span the clump's width (5.5).
+fn feather_place(instance: u32, count: u32) -> f32 {
+    return (2.0 * f32(instance) + 1.0) / f32(count) - 1.0;
+}
+
+/// Size of a feather (5.6), as a share of its basic size: 1 where `gray` is at most `full`, shrinking to
+/// nothing at `edge`. A hard step where `edge` is not above `full`.
+///
+/// Erratum: the source prints (1 - |gray - full|) / |edge - full|, which is not 0 at the edge; this is
+/// 1 - |gray - full| / |edge - full|. For a region of large grays, pass all three negated.
+fn feather_share(gray: f32, full: f32, edge: f32) -> f32 {
+    if (gray <= full) {
+        return 1.0;
+    }
+    if (gray >= edge) {
+        return 0.0;
+    }
+    return saturate((edge - gray) / (edge - full));
+}
+
+/// The colour of a parameter that may be none, or `otherwise`.
+fn color_or(color: vec4<f32>, otherwise: vec3<f32>) -> vec3<f32> {
+    if (color.w > 0.0) {
+        return vec3<f32>(color.x, color.y, color.z);
+    }
+    return otherwise;
+}
+
+/// A share of a radius `full` without hairlines: nothing where less than the radius `thinnest` would be
+/// left, full where all is. A pen draws no thinner lines, and those thinner than a pixel would flicker.
+fn without_hairlines(share: f32, full: f32, thinnest: f32) -> f32 {
+    // Of what is thin itself, such as a clump's tip, at most the lesser half goes.
+    let lost = select(0.5, thinnest / full, full > 2.0 * thinnest);
+    return saturate((share - lost) / (1.0 - lost));
+}

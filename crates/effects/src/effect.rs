@@ -63,6 +63,13 @@ pub trait StrokeEffect: Send + Sync + 'static {
         let _ = params;
         1
     }
+
+    /// The shortest stretch of a strand, in head heights, that a stroke may cover or leave out: shorter
+    /// ones are smoothed away ([`smooth`](crate::smooth)). 0 leaves all as it is.
+    fn shortest(params: &<Self::Program as Parameters>::Params) -> f32 {
+        let _ = params;
+        0.0
+    }
 }
 
 /// A [`StrokeEffect`] without its types, as the registry keeps it.
@@ -89,6 +96,8 @@ pub trait AnyEffect: Send + Sync {
 pub trait LayerProgram: Send + Sync {
     /// Strokes per strand, 1 or more.
     fn instances(&self) -> u32;
+    /// [`StrokeEffect::shortest`], head heights.
+    fn shortest(&self) -> f32;
     /// What is read of a joint.
     fn inputs(&self) -> InputSet;
     /// Appends the discs of stroke `instance` at these joints. `seed` is the layer's.
@@ -137,6 +146,10 @@ struct WithParams<E: StrokeEffect>(<E::Program as Parameters>::Params);
 impl<E: StrokeEffect> LayerProgram for WithParams<E> {
     fn instances(&self) -> u32 {
         E::instances(&self.0).max(1)
+    }
+
+    fn shortest(&self) -> f32 {
+        E::shortest(&self.0)
     }
 
     fn inputs(&self) -> InputSet {

@@ -15,6 +15,7 @@ mod layer;
 mod param;
 pub mod preset;
 mod registry;
+pub mod smooth;
 pub mod wgsl;
 
 pub use color::{linear_from_srgb, parse_hex};

@@ -102,7 +102,7 @@ fn constructs_are_wgsls() {
 #[test]
 fn parameters_come_from_the_comments() {
     let params = built::Program::PARAMS;
-    assert_eq!(params.len(), 4);
+    assert_eq!(params.len(), 5);
     assert_eq!(params[0].name, "number");
     assert_eq!(params[0].doc, "A number.");
     assert_eq!(params[0].unit, "metres");
@@ -130,12 +130,17 @@ fn parameters_come_from_the_comments() {
         }
     );
     assert_eq!(params[3].kind, ParamKind::Color { default: "FF0000" });
+    assert_eq!(params[4].kind, ParamKind::OptionalColor { default: None });
 
     let mut values = Values::defaults(params);
     values.set(0, Value::Number(2.0));
     let made = built::Program::params(&values);
     assert_eq!((made.number, made.count, made.kind), (2.0, 3, 1));
     assert_eq!(made.color, vec3([1.0, 0.0, 0.0]));
+    assert_eq!(made.other_color, wgsl::color_or_none(None));
+    values.set(4, Value::Color(Some([0.0, 1.0, 0.0])));
+    let given = built::Program::params(&values).other_color;
+    assert_eq!([given.x, given.y, given.z, given.w], [0.0, 1.0, 0.0, 1.0]);
     assert_eq!(built::Program::INPUTS, ["u"]);
     assert!(built::Program::WGSL.starts_with(include_str!("builtins.wgsl")));
 }

@@ -2,15 +2,16 @@
 
 use crate::drawing::{Disc, Drawing, LayerStrokes, Run};
 use crate::frame::{FAR_LIGHT, Frame};
+use effects::smooth::Smoother;
 use effects::wgsl::{Stroke, vec2, vec3};
 use effects::{InputSet, Joints, Layer, Parameters, Units, clump, layer_seed};
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 
 /// Turns frames into drawings, and keeps its lists from frame to frame.
 #[derive(Default)]
 pub struct Evaluator {
     joints: Joints,
-    strokes: Vec<Stroke>,
 }
 
 impl Evaluator {
@@ -56,35 +57,31 @@ impl Evaluator {
         layer: &Layer,
         (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
     ) -> LayerStrokes {
-        discs.clear();
-        colors.clear();
         self.fill_pixel(frame, layer.units);
-        let seed = layer_seed(frame.seed, &layer.name);
         let joints = frame.paths.len();
-        for instance in 0..layer.program.instances() {
-            self.strokes.clear();
-            layer
-                .program
-                .evaluate(&self.joints, 0..joints, instance, seed, &mut self.strokes);
-            self.strokes.iter_mut().for_each(drop_if_not_finite);
-            discs.extend(self.strokes.iter().enumerate().map(|(i, stroke)| {
-                let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
-                let depth_offset = layer.depth_offset + stroke.depth_offset;
-                disc(
-                    frame,
-                    i,
-                    offset,
-                    stroke.radius,
-                    self.joints.clump_radius[i],
-                    depth_offset,
-                )
-            }));
-            colors.extend(self.strokes.iter().map(|stroke| stroke.color.to_array()));
-        }
+        let instances = layer.program.instances();
+        let length = joints * instances as usize;
+        discs.resize(length, NO_DISC);
+        colors.resize(length, [0.0; 3]);
+        let strokes = discs
+            .par_chunks_mut(joints.max(1))
+            .zip(colors.par_chunks_mut(joints.max(1)));
+        let instance = Instance {
+            frame,
+            layer,
+            joints: &self.joints,
+            seed: layer_seed(frame.seed, &layer.name),
+        };
+        strokes.zip(0..instances).for_each_init(
+            Scratch::default,
+            |scratch, ((discs, colors), number)| {
+                instance.evaluate(number, scratch, discs, colors);
+            },
+        );
         LayerStrokes {
             name: layer.name.clone(),
             rank: layer.rank,
-            instances: layer.program.instances() as usize,
+            instances: instances as usize,
             discs,
             colors,
         }
@@ -197,6 +194,80 @@ impl Evaluator {
         fill(&mut self.joints.pixel, units == Units::Pixels, sizes);
     }
 }
+
+/// A thread's working memory.
+#[derive(Default)]
+struct Scratch {
+    strokes: Vec<Stroke>,
+    radii: Vec<f32>,
+    smoother: Smoother,
+}
+
+/// What the instances of a layer share.
+struct Instance<'a> {
+    frame: &'a Frame<'a>,
+    layer: &'a Layer,
+    joints: &'a Joints,
+    seed: u32,
+}
+
+impl Instance<'_> {
+    /// Makes stroke `number` of each run, a disc and a colour for every joint.
+    fn evaluate(
+        &self,
+        number: u32,
+        scratch: &mut Scratch,
+        discs: &mut [Disc],
+        colors: &mut [[f32; 3]],
+    ) {
+        let (frame, layer, joints) = (self.frame, self.layer, self.joints);
+        scratch.strokes.clear();
+        let all = 0..frame.paths.len();
+        let (program, seed) = (&layer.program, self.seed);
+        program.evaluate(joints, all, number, seed, &mut scratch.strokes);
+        scratch.strokes.iter_mut().for_each(drop_if_not_finite);
+        self.smooth(scratch);
+        let places = discs.iter_mut().zip(colors).zip(&scratch.strokes);
+        for (i, ((place, color), stroke)) in places.enumerate() {
+            let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
+            let depth_offset = layer.depth_offset + stroke.depth_offset;
+            let clump_radius = joints.clump_radius[i];
+            *place = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
+            *color = stroke.color.to_array();
+        }
+    }
+
+    /// Takes stretches and gaps of the strokes that are too short away.
+    fn smooth(&self, scratch: &mut Scratch) {
+        let length_m = self.layer.program.shortest() * self.frame.head.height_m;
+        if length_m <= 0.0 {
+            return;
+        }
+        let Scratch {
+            strokes,
+            radii,
+            smoother,
+        } = scratch;
+        let paths = self.frame.paths;
+        for run in &paths.runs {
+            let strokes = &mut strokes[run.joints.clone()];
+            radii.clear();
+            radii.extend(strokes.iter().map(|stroke| stroke.radius.max(0.0)));
+            let places = &paths.arc_length[run.joints.clone()];
+            smoother.smooth(places, radii, length_m);
+            for (stroke, radius) in strokes.iter_mut().zip(radii.iter()) {
+                stroke.radius = *radius;
+            }
+        }
+    }
+}
+
+const NO_DISC: Disc = Disc {
+    center: Vec2::ZERO,
+    radius: 0.0,
+    inv_depth: 0.0,
+    inv_depth_biased: 0.0,
+};
 
 fn fill<T>(list: &mut Vec<T>, wanted: bool, values: impl Iterator<Item = T>) {
     list.clear();
