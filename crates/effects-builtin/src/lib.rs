@@ -2,10 +2,12 @@
 
 mod base;
 mod cel;
+mod highlight;
 mod silhouette;
 
 pub use base::Base;
 pub use cel::Cel;
+pub use highlight::Highlight;
 pub use silhouette::Silhouette;
 
 use effects::{Registry, RegistryError};
@@ -18,5 +20,6 @@ use effects::{Registry, RegistryError};
 pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
     registry.register::<Silhouette>()?;
     registry.register::<Base>()?;
-    registry.register::<Cel>()
+    registry.register::<Cel>()?;
+    registry.register::<Highlight>()
 }

@@ -70,6 +70,13 @@ pub trait StrokeEffect: Send + Sync + 'static {
         let _ = params;
         0.0
     }
+
+    /// Whether the light must have a place: what is measured from a light without one is 1e6 head
+    /// heights away.
+    fn needs_point_light(params: &<Self::Program as Parameters>::Params) -> bool {
+        let _ = params;
+        false
+    }
 }
 
 /// A [`StrokeEffect`] without its types, as the registry keeps it.
@@ -98,6 +105,8 @@ pub trait LayerProgram: Send + Sync {
     fn instances(&self) -> u32;
     /// [`StrokeEffect::shortest`], head heights.
     fn shortest(&self) -> f32;
+    /// [`StrokeEffect::needs_point_light`].
+    fn needs_point_light(&self) -> bool;
     /// What is read of a joint.
     fn inputs(&self) -> InputSet;
     /// Appends the discs of stroke `instance` at these joints. `seed` is the layer's.
@@ -150,6 +159,10 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn shortest(&self) -> f32 {
         E::shortest(&self.0)
+    }
+
+    fn needs_point_light(&self) -> bool {
+        E::needs_point_light(&self.0)
     }
 
     fn inputs(&self) -> InputSet {

@@ -38,6 +38,12 @@ pub enum StageError {
     /// A style has mistakes.
     #[error(transparent)]
     Style(#[from] effects::preset::PresetErrors),
+    /// A layer measures the distance to the light.
+    #[error(
+        "layer `{0}` goes by the distance to the light, and this light has no place: \
+         light: (kind: point, distance: ...)"
+    )]
+    NoPointLight(String),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),

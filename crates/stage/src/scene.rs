@@ -77,6 +77,15 @@ impl Stage {
         load::keep_guides(preset, &mut hair);
         let settings = Settings::new(preset, head)?;
         let strands = load::strand_infos(preset, &hair, head);
+        let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
+        let without_light = |layer: &&Layer| layer.program.needs_point_light();
+        if let Some(layer) = layers
+            .iter()
+            .find(without_light)
+            .filter(|_| !settings.light_is_point)
+        {
+            return Err(StageError::NoPointLight(layer.name.clone()));
+        }
         Ok(Self {
             points: hair.strands.points().to_vec(),
             hair,
@@ -86,7 +95,7 @@ impl Stage {
             notes,
             seed: preset.seed,
             clump: clump::Program::params(&preset.clump),
-            layers: preset.layers.iter().map(|layer| layer.build()).collect(),
+            layers,
             settings,
             paths: Paths::new(),
             camera: None,
