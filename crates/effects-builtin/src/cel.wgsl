@@ -30,7 +30,7 @@ struct Params {
     /// Width below which a tapering stroke ends: no hairlines.
     /// @unit the layer's unit: 1/300 head height, or pixels @range 0..100 @default 1.2
     thinnest: f32,
-    /// Shortest stroke and shortest gap between two of them along the strand: what is shorter is smoothed
+    /// Shortest stroke and shortest gap between two of them, as they are seen: what is shorter is smoothed
     /// away, or it would be speckle.
     /// @unit head heights @range 0..10 @default 0.1
     shortest: f32,

@@ -64,8 +64,8 @@ pub trait StrokeEffect: Send + Sync + 'static {
         1
     }
 
-    /// The shortest stretch of a strand, in head heights, that a stroke may cover or leave out: shorter
-    /// ones are smoothed away ([`smooth`](crate::smooth)). 0 leaves all as it is.
+    /// The shortest stretch of a strand as it is seen, in head heights, that a stroke may cover or leave
+    /// out: shorter ones are smoothed away ([`smooth`](crate::smooth)). 0 leaves all as it is.
     fn shortest(params: &<Self::Program as Parameters>::Params) -> f32 {
         let _ = params;
         0.0

@@ -8,47 +8,59 @@
 /// Smooths lists of sizes. Keeps its memory.
 #[derive(Clone, Debug, Default)]
 pub struct Smoother {
-    /// For each place the least size from there on, and up to there, over the window's length.
+    /// For each place the least size in the window that begins there, and in the one that ends there.
     after: Vec<f32>,
     before: Vec<f32>,
 }
 
+/// Whether windows may reach beyond the strand, where nothing counts.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    Open,
+    Closed,
+}
+
 impl Smoother {
-    /// Fills gaps of `values` that are shorter than `length`, then removes peaks that are shorter. A
-    /// piece that touches an end of the strand may be shorter.
+    /// Fills gaps of `values` that are shorter than `length`, but for those at an end of the strand; then
+    /// removes peaks that are shorter.
     ///
     /// `places` never decrease, in the unit of `length`; between them values are linear. All is finite.
+    /// Of a short strand no more than a third counts as short.
     ///
     /// # Panics
     ///
     /// When the lists differ in length.
     pub fn smooth(&mut self, places: &[f32], values: &mut [f32], length: f32) {
         assert_eq!(places.len(), values.len(), "a value for each place");
+        let (Some(first), Some(last)) = (places.first(), places.last()) else {
+            return;
+        };
+        let length = length.min((last - first) / 3.0);
         let is_zero = values.iter().all(|value| *value == 0.0);
         if length <= 0.0 || is_zero {
             return;
         }
         values.iter_mut().for_each(|value| *value = -*value);
-        self.open(places, values, length);
+        self.open(places, values, length, Ends::Open);
         values.iter_mut().for_each(|value| *value = -*value);
-        self.open(places, values, length);
+        self.open(places, values, length, Ends::Closed);
     }
 
     /// At each place the greatest, over all windows of `length` that hold it, of the least value in the
     /// window. Of the windows only those are looked at that begin or end at a place.
-    fn open(&mut self, places: &[f32], values: &mut [f32], length: f32) {
+    fn open(&mut self, places: &[f32], values: &mut [f32], length: f32, ends: Ends) {
         let indices = 0..places.len();
         self.after.clear();
         self.before.clear();
         self.after.extend(
             indices
                 .clone()
-                .map(|i| least_after(places, values, i, length)),
+                .map(|i| least_after(places, values, i, length, ends)),
         );
         self.before.extend(
             indices
                 .clone()
-                .map(|i| least_before(places, values, i, length)),
+                .map(|i| least_before(places, values, i, length, ends)),
         );
         for i in indices {
             let place = places[i];
@@ -61,8 +73,9 @@ impl Smoother {
     }
 }
 
-/// The least value from place `i` to `length` after it, or to the strand's end.
-fn least_after(places: &[f32], values: &[f32], i: usize, length: f32) -> f32 {
+/// The least value from place `i` to `length` after it; where the strand ends before, up to there, or in
+/// the last window.
+fn least_after(places: &[f32], values: &[f32], i: usize, length: f32, ends: Ends) -> f32 {
     let end = places[i] + length;
     let mut least = values[i];
     for j in i + 1..places.len() {
@@ -71,11 +84,15 @@ fn least_after(places: &[f32], values: &[f32], i: usize, length: f32) -> f32 {
         }
         least = least.min(values[j]);
     }
-    least
+    match ends {
+        Ends::Open => least,
+        Ends::Closed => least_before(places, values, places.len() - 1, length, Ends::Open),
+    }
 }
 
-/// The least value from `length` before place `i`, or from the strand's start, to it.
-fn least_before(places: &[f32], values: &[f32], i: usize, length: f32) -> f32 {
+/// The least value from `length` before place `i` to it; where the strand begins after, from there, or in
+/// the first window.
+fn least_before(places: &[f32], values: &[f32], i: usize, length: f32, ends: Ends) -> f32 {
     let start = places[i] - length;
     let mut least = values[i];
     for j in (0..i).rev() {
@@ -84,7 +101,10 @@ fn least_before(places: &[f32], values: &[f32], i: usize, length: f32) -> f32 {
         }
         least = least.min(values[j]);
     }
-    least
+    match ends {
+        Ends::Open => least,
+        Ends::Closed => least_after(places, values, 0, length, Ends::Open),
+    }
 }
 
 /// The value at `place`, between the places `i` and `i + 1`, which differ.
@@ -115,16 +135,34 @@ mod tests {
 
     #[test]
     fn long_strokes_and_long_gaps_stay() {
-        let long = [0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0];
+        let long = [
+            0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0,
+        ];
         assert_eq!(smoothed(&long, 2.0), long);
-        let gap = [1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0];
-        assert_eq!(smoothed(&gap, 2.5), [1.0; 7]);
+        let gap = [1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+        assert_eq!(smoothed(&gap, 2.2), [1.0; 8]);
+    }
+
+    #[test]
+    fn short_pieces_at_the_ends_go_and_short_gaps_there_stay() {
+        let tips = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0];
+        assert_eq!(smoothed(&tips, 2.0), [0.0; 10]);
+        let bare = tips.map(|value| 1.0 - value);
+        assert_eq!(smoothed(&bare, 2.0), bare);
+    }
+
+    #[test]
+    fn a_short_strand_keeps_its_strokes() {
+        let short = [1.0, 1.0, 0.5, 0.0];
+        assert_eq!(smoothed(&short, 100.0), short);
+        assert_eq!(smoothed(&[1.0], 1.0), [1.0]);
+        assert_eq!(smoothed(&[], 1.0), [0.0; 0]);
     }
 
     #[test]
     fn what_only_rises_or_falls_stays() {
-        let taper = [5.0, 4.0, 3.5, 1.0, 0.5, 0.0];
-        assert_eq!(smoothed(&taper, 3.0), taper);
+        let taper = [5.0, 5.0, 5.0, 3.5, 1.0, 0.5, 0.0];
+        assert_eq!(smoothed(&taper, 2.0), taper);
     }
 
     /// Places with steps of some tenths, and a value for each.
@@ -171,6 +209,7 @@ mod tests {
         fn no_piece_inside_is_shorter((places, mut values) in line(), length in 0.1..2.0f32) {
             Smoother::default().smooth(&places, &mut values, length);
             let last = places.len() - 1;
+            let length = length.min((places[last] - places[0]) / 3.0) * 0.9999;
             for stroke in values.chunk_by(|a, b| (*a > 0.0) == (*b > 0.0)) {
                 let start = (stroke.as_ptr() as usize - values.as_ptr() as usize) / 4;
                 let end = start + stroke.len() - 1;

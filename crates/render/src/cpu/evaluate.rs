@@ -12,6 +12,9 @@ use rayon::prelude::*;
 #[derive(Default)]
 pub struct Evaluator {
     joints: Joints,
+    /// For each joint the length of its run up to there as it is seen, metres at its depth; empty where no
+    /// layer has a shortest stroke.
+    seen_length: Vec<f32>,
 }
 
 impl Evaluator {
@@ -24,6 +27,7 @@ impl Evaluator {
             .fold(InputSet::of(clump::Program::INPUTS), InputSet::union);
         self.fill_inputs(frame, read);
         self.fill_clump(frame);
+        self.fill_seen_length(frame);
 
         drawing.size = frame.camera.size_px();
         drawing.background = frame.background;
@@ -70,6 +74,7 @@ impl Evaluator {
             frame,
             layer,
             joints: &self.joints,
+            seen_length: &self.seen_length,
             seed: layer_seed(frame.seed, &layer.name),
         };
         strokes.zip(0..instances).for_each_init(
@@ -182,6 +187,25 @@ impl Evaluator {
         }
     }
 
+    fn fill_seen_length(&mut self, frame: &Frame) {
+        self.seen_length.clear();
+        let is_read = |layer: &Layer| layer.program.shortest() > 0.0;
+        if !frame.layers.iter().any(is_read) {
+            return;
+        }
+        let paths = frame.paths;
+        for run in &paths.runs {
+            let mut length = 0.0;
+            for i in run.joints.clone() {
+                if i > run.joints.start {
+                    let scale = 0.5 * (paths.px_per_metre[i] + paths.px_per_metre[i - 1]);
+                    length += paths.center[i].distance(paths.center[i - 1]) / scale;
+                }
+                self.seen_length.push(length);
+            }
+        }
+    }
+
     /// The size of a pixel at 720 lines, for layers whose widths are pixels.
     fn fill_pixel(&mut self, frame: &Frame, units: Units) {
         let pixel_px = frame.camera.size_px()[1] as f32 / 720.0;
@@ -208,6 +232,7 @@ struct Instance<'a> {
     frame: &'a Frame<'a>,
     layer: &'a Layer,
     joints: &'a Joints,
+    seen_length: &'a [f32],
     seed: u32,
 }
 
@@ -237,7 +262,8 @@ impl Instance<'_> {
         }
     }
 
-    /// Takes stretches and gaps of the strokes that are too short away.
+    /// Takes stretches and gaps of the strokes that are too short away, as they are seen: hair that
+    /// points at the eye would show long ones as dots.
     fn smooth(&self, scratch: &mut Scratch) {
         let length_m = self.layer.program.shortest() * self.frame.head.height_m;
         if length_m <= 0.0 {
@@ -248,12 +274,11 @@ impl Instance<'_> {
             radii,
             smoother,
         } = scratch;
-        let paths = self.frame.paths;
-        for run in &paths.runs {
+        for run in &self.frame.paths.runs {
             let strokes = &mut strokes[run.joints.clone()];
             radii.clear();
             radii.extend(strokes.iter().map(|stroke| stroke.radius.max(0.0)));
-            let places = &paths.arc_length[run.joints.clone()];
+            let places = &self.seen_length[run.joints.clone()];
             smoother.smooth(places, radii, length_m);
             for (stroke, radius) in strokes.iter_mut().zip(radii.iter()) {
                 stroke.radius = *radius;
