@@ -7,11 +7,12 @@
 
 use glam::Vec2;
 use std::ops::Range;
+pub use stroke_path::Brush;
 
 /// One disc of a stroke, at a joint of its path.
 ///
 /// Between two joints of a run, `center`, `radius` and both inverse depths run linearly: the stroke
-/// is the union of all those discs.
+/// is the union of all those discs, or of their halves behind the centres ([`Drawing::brush`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
     /// Centre on the screen, in pixels.
@@ -115,4 +116,6 @@ pub struct Drawing {
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.
     pub order: Order,
+    /// What strokes are made of.
+    pub brush: Brush,
 }

@@ -3,7 +3,7 @@
 use crate::drawing::{Order, Surface};
 use effects::{Layer, clump};
 use glam::Vec3;
-use stroke_path::{Camera, Paths};
+use stroke_path::{Brush, Camera, Paths};
 
 /// What is the same for all joints of a strand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,4 +89,6 @@ pub struct Frame<'a> {
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.
     pub order: Order,
+    /// What strokes are made of.
+    pub brush: Brush,
 }

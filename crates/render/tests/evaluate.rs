@@ -4,7 +4,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, clump};
 use glam::{Vec2, Vec3};
 use render::cpu::Evaluator;
-use render::{Drawing, Frame, Head, Light, Order, StrandInfo};
+use render::{Brush, Drawing, Frame, Head, Light, Order, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
 /// The picture is 200 x 360, the eye 2 m in front of the origin, a 0.3 m head: a unit is 1 mm.
@@ -68,6 +68,7 @@ fn drawing(list: &str, clump: &[(&str, &str)], seed: u32) -> (Drawing, Camera) {
         surfaces: Vec::new(),
         background: None,
         order: Order::StrandFirst,
+        brush: Brush::Circle,
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing);

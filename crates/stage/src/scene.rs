@@ -7,7 +7,7 @@ use crate::preset::Preset;
 use effects::{Layer, Parameters, clump};
 use glam::{Vec2, Vec3};
 use hair_io::{HairFile, HeadFrame};
-use render::{Frame, Head, Light, Order, StrandInfo};
+use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
 
 /// How near the eye strokes are cut, in head heights.
@@ -45,6 +45,7 @@ struct Settings {
     background: Option<[f32; 3]>,
     order: Order,
     path: PathKind,
+    brush: Brush,
     view: OrbitView,
     /// The target from the head's centre, head heights.
     target: Vec3,
@@ -190,6 +191,7 @@ impl Stage {
             surfaces,
             background: settings.background,
             order: settings.order,
+            brush: settings.brush,
         })
     }
 }
@@ -213,6 +215,7 @@ impl Settings {
                 0 => PathKind::Linear { subdivision },
                 _ => PathKind::CatmullRom { subdivision },
             },
+            brush: [Brush::Circle, Brush::Semicircle][path.choice("brush") as usize],
             view: OrbitView {
                 target: head.center,
                 yaw_degrees: camera.number("yaw"),

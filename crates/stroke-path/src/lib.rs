@@ -16,3 +16,4 @@ pub mod sweep;
 pub use camera::{Camera, CameraError, OrbitView, direction_from_angles};
 pub use path::{PathRun, Paths};
 pub use resample::{MAX_SUBDIVISION, PathError, PathKind};
+pub use sweep::Brush;

@@ -1,6 +1,6 @@
 //! Joints to strokes on the screen, by the layers' own WGSL in Rust.
 
-use crate::drawing::{Disc, Drawing, LayerStrokes, Run};
+use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
 use crate::frame::{FAR_LIGHT, Frame};
 use effects::smooth::Smoother;
 use effects::wgsl::{Stroke, vec2, vec3};
@@ -32,6 +32,7 @@ impl Evaluator {
         drawing.size = frame.camera.size_px();
         drawing.background = frame.background;
         drawing.order = frame.order;
+        drawing.brush = frame.brush;
         drawing.surfaces.clone_from(&frame.surfaces);
         drawing.runs.clear();
         drawing.runs.extend(frame.paths.runs.iter().map(|run| Run {
@@ -259,6 +260,23 @@ impl Instance<'_> {
             let clump_radius = joints.clump_radius[i];
             *place = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
             *color = stroke.color.to_array();
+        }
+        if frame.brush == Brush::Semicircle {
+            self.go_around_flat_ends(&scratch.strokes, discs);
+        }
+    }
+
+    /// Moves the tips of strokes that are wider than their clump on by what they are wider, or an outline
+    /// would end where its clump does.
+    fn go_around_flat_ends(&self, strokes: &[Stroke], discs: &mut [Disc]) {
+        let paths = self.frame.paths;
+        let tips = paths.runs.iter().map(|run| run.joints.end - 1);
+        for tip in tips.filter(|&tip| paths.u[tip] == 1.0) {
+            let wider = (strokes[tip].radius - self.joints.clump_radius[tip]).max(0.0);
+            let unit_px = self.frame.head.unit_m() * paths.px_per_metre[tip];
+            // The path on the screen, of which `across` is a right angle to the right.
+            let ahead = -paths.across[tip].perp();
+            discs[tip].center += ahead * (wider * unit_px).min(LARGEST_PX);
         }
     }
 
