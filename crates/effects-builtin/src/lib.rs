@@ -2,11 +2,13 @@
 
 mod base;
 mod cel;
+mod fine;
 mod highlight;
 mod silhouette;
 
 pub use base::Base;
 pub use cel::Cel;
+pub use fine::Fine;
 pub use highlight::Highlight;
 pub use silhouette::Silhouette;
 
@@ -21,5 +23,6 @@ pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
     registry.register::<Silhouette>()?;
     registry.register::<Base>()?;
     registry.register::<Cel>()?;
-    registry.register::<Highlight>()
+    registry.register::<Highlight>()?;
+    registry.register::<Fine>()
 }

@@ -2,7 +2,7 @@
 
 use crate::param::{Param, Values};
 use crate::wgsl::Stroke;
-use crate::{InputSet, Joints};
+use crate::{Hair, InputSet, Joints, MadePaths};
 use std::ops::Range;
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
@@ -57,6 +57,9 @@ pub trait StrokeEffect: Send + Sync + 'static {
     const RANK: i32 = 100;
     /// How much farther from the eye the strokes are than their strand, in head heights.
     const DEPTH_OFFSET: f32 = 0.0;
+    /// Whether the strokes follow paths that the effect makes ([`Self::make_paths`]), in place of the
+    /// strands. These are strands of their own in the order, whose clump is their first stroke.
+    const OWN_PATHS: bool = false;
 
     /// How many strokes there are for each strand (feathers). At least 1.
     fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
@@ -76,6 +79,17 @@ pub trait StrokeEffect: Send + Sync + 'static {
     fn needs_point_light(params: &<Self::Program as Parameters>::Params) -> bool {
         let _ = params;
         false
+    }
+
+    /// Makes this frame's paths of the hair as it stands, for an effect with [`Self::OWN_PATHS`]. Choices
+    /// hang on `seed`, the layer's, and the strands' ids alone, so that the paths move as the hair does.
+    fn make_paths(
+        params: &<Self::Program as Parameters>::Params,
+        hair: &Hair,
+        seed: u32,
+        paths: &mut MadePaths,
+    ) {
+        let _ = (params, hair, seed, paths);
     }
 }
 
@@ -107,6 +121,10 @@ pub trait LayerProgram: Send + Sync {
     fn shortest(&self) -> f32;
     /// [`StrokeEffect::needs_point_light`].
     fn needs_point_light(&self) -> bool;
+    /// [`StrokeEffect::OWN_PATHS`].
+    fn has_own_paths(&self) -> bool;
+    /// [`StrokeEffect::make_paths`].
+    fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths);
     /// What is read of a joint.
     fn inputs(&self) -> InputSet;
     /// Appends the discs of stroke `instance` at these joints. `seed` is the layer's.
@@ -163,6 +181,14 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn needs_point_light(&self) -> bool {
         E::needs_point_light(&self.0)
+    }
+
+    fn has_own_paths(&self) -> bool {
+        E::OWN_PATHS
+    }
+
+    fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths) {
+        E::make_paths(&self.0, hair, seed, paths);
     }
 
     fn inputs(&self) -> InputSet {

@@ -13,6 +13,7 @@ mod effect;
 mod joints;
 mod layer;
 mod param;
+mod paths;
 pub mod preset;
 mod registry;
 pub mod smooth;
@@ -23,6 +24,7 @@ pub use effect::{AnyEffect, LayerProgram, Parameters, Program, StrokeEffect};
 pub use joints::{InputSet, Joints, strand_seed};
 pub use layer::{Layer, Units, layer_seed};
 pub use param::{Param, ParamKind, Value, Values};
+pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
 pub use registry::{Registry, RegistryError};
 
 /// The runtime of the translated WGSL.

@@ -4,10 +4,12 @@ use crate::files::{Files, StageError};
 use crate::head::{self, HeadModel, HeadPaint};
 use crate::load;
 use crate::preset::Preset;
-use effects::{Layer, Parameters, clump};
+use effects::wgsl::hash;
+use effects::{Hair, HairStrand, Layer, MadePaths, Parameters, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use hair_io::{HairFile, HeadFrame};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
+use std::ops::Range;
 use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
 
 /// How near the eye strokes are cut, in head heights.
@@ -24,8 +26,12 @@ const OUTLINE_MARGIN: f32 = 0.04;
 /// A scene that makes frames. What a frame needs is kept and reused.
 pub struct Stage {
     hair: HairFile,
-    /// The strands' sizes, and ids increasing.
+    /// The strands' sizes, and ids increasing; then those of the last frame's made paths.
     strands: Vec<StrandInfo>,
+    /// How many of them are the hair's.
+    strand_count: usize,
+    made: MadePaths,
+    layer_joints: Vec<Range<usize>>,
     model: Option<HeadModel>,
     head: Head,
     /// Sentences for the user: what was guessed.
@@ -90,7 +96,10 @@ impl Stage {
         Ok(Self {
             points: hair.strands.points().to_vec(),
             hair,
+            strand_count: strands.len(),
             strands,
+            made: MadePaths::default(),
+            layer_joints: Vec::new(),
             model,
             head,
             notes,
@@ -112,7 +121,7 @@ impl Stage {
     /// The number of strands.
     #[must_use]
     pub fn strand_count(&self) -> usize {
-        self.strands.len()
+        self.strand_count
     }
 
     /// Strands of the last frame that are behind the eye or wholly off the picture.
@@ -122,7 +131,13 @@ impl Stage {
         let [width, height] = camera.size_px().map(|size| size as f32);
         let picture = Vec2::new(width, height);
         let mut seen = 0;
-        for runs in self.paths.runs.chunk_by(|a, b| a.strand == b.strand) {
+        let hair = self
+            .paths
+            .runs
+            .iter()
+            .take_while(|run| run.strand < self.strand_count);
+        let hair = &self.paths.runs[..hair.count()];
+        for runs in hair.chunk_by(|a, b| a.strand == b.strand) {
             let size_m = self.strands[runs[0].strand].size * self.head.unit_m();
             let joints = runs.iter().flat_map(|run| run.joints.clone());
             let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
@@ -135,7 +150,7 @@ impl Stage {
             let is_seen = high.cmpge(Vec2::ZERO).all() && low.cmple(picture).all();
             seen += usize::from(is_seen);
         }
-        self.strands.len() - seen
+        self.strand_count - seen
     }
 
     /// Strands of the last frame that were left out because they are too far away to be drawn.
@@ -152,6 +167,47 @@ impl Stage {
         }
     }
 
+    /// Appends the paths that layers make, and notes which joints each layer draws on.
+    fn push_made_paths(&mut self, camera: &Camera) -> Result<(), StageError> {
+        let of_hair = 0..self.paths.len();
+        self.layer_joints.clear();
+        for layer in &self.layers {
+            if !layer.program.has_own_paths() {
+                self.layer_joints.push(of_hair.clone());
+                continue;
+            }
+            let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
+                id: info.id,
+                particles: &self.points[self.hair.strands.point_range(i)],
+                at_rest: self.hair.strands.strand(i),
+                size: info.size,
+            };
+            let infos = self.strands[..self.strand_count].iter();
+            let strands: Vec<HairStrand> = infos.enumerate().map(of_strand).collect();
+            let hair = Hair {
+                strands: &strands,
+                head_center: self.head.center,
+                head_height_m: self.head.height_m,
+            };
+            self.made.clear();
+            let seed = layer_seed(self.seed, &layer.name);
+            layer.program.make_paths(&hair, seed, &mut self.made);
+            let start = self.paths.len();
+            for (strand, number, points) in self.made.iter() {
+                let parent = self.strands[strand];
+                let index = self.strands.len();
+                self.strands.push(StrandInfo {
+                    id: made_id(parent.id, number),
+                    ..parent
+                });
+                self.paths
+                    .push_strand(index, points, self.settings.path, camera)?;
+            }
+            self.layer_joints.push(start..self.paths.len());
+        }
+        Ok(())
+    }
+
     /// The frame of the hair as it stands.
     ///
     /// # Errors
@@ -164,16 +220,17 @@ impl Stage {
             ..settings.view
         };
         let near_m = NEAR * self.head.height_m;
-        let camera = self
-            .camera
-            .insert(Camera::orbit(view, settings.size, near_m)?);
+        let camera = Camera::orbit(view, settings.size, near_m)?;
         self.paths.clear();
+        self.strands.truncate(self.strand_count);
         for (i, info) in self.strands.iter_mut().enumerate() {
             let particles = &self.points[self.hair.strands.point_range(i)];
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
             self.paths
-                .push_strand(i, particles, settings.path, camera)?;
+                .push_strand(i, particles, settings.path, &camera)?;
         }
+        self.push_made_paths(&camera)?;
+        let (settings, camera) = (&self.settings, &*self.camera.insert(camera));
         let light = settings.light(camera, self.head);
         let surfaces = match &self.model {
             Some(model) => head::surfaces(model, &settings.paint, camera, &light),
@@ -188,12 +245,18 @@ impl Stage {
             clump: &self.clump,
             seed: self.seed,
             layers: &self.layers,
+            layer_joints: &self.layer_joints,
             surfaces,
             background: settings.background,
             order: settings.order,
             brush: settings.brush,
         })
     }
+}
+
+/// The number that the variations of path `number` of strand `id` hang on.
+fn made_id(id: u32, number: u32) -> u32 {
+    hash(id ^ hash(number + 1))
 }
 
 impl Settings {

@@ -7,6 +7,7 @@ use effects::wgsl::{Stroke, vec2, vec3};
 use effects::{InputSet, Joints, Layer, Parameters, Units, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Turns frames into drawings, and keeps its lists from frame to frame.
 #[derive(Default)]
@@ -36,7 +37,7 @@ impl Evaluator {
         drawing.surfaces.clone_from(&frame.surfaces);
         drawing.runs.clear();
         drawing.runs.extend(frame.paths.runs.iter().map(|run| Run {
-            strand: frame.strands[run.strand].id,
+            strand: run.strand as u32,
             joints: run.joints.clone(),
         }));
         drawing.clump.clear();
@@ -46,20 +47,26 @@ impl Evaluator {
             .extend((0..radii.len()).map(|i| disc(frame, i, Vec2::ZERO, radii[i], radii[i], 0.0)));
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
-        for layer in frame.layers {
+        for (layer, joints) in frame.layers.iter().zip(frame.layer_joints) {
             let lists = spare
                 .next()
                 .map(|l| (l.discs, l.colors))
                 .unwrap_or_default();
-            drawing.layers.push(self.layer(frame, layer, lists));
+            let strokes = self.layer(frame, layer, joints, lists);
+            if layer.program.has_own_paths() {
+                // No strand's clump holds them: they are their own.
+                drawing.clump[joints.clone()].copy_from_slice(&strokes.discs[joints.clone()]);
+            }
+            drawing.layers.push(strokes);
         }
     }
 
-    /// The strokes of one layer; `lists` are reused.
+    /// The strokes of one layer on the joints `drawn`, nothing on others; `lists` are reused.
     fn layer(
         &mut self,
         frame: &Frame,
         layer: &Layer,
+        drawn: &Range<usize>,
         (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
     ) -> LayerStrokes {
         self.fill_pixel(frame, layer.units);
@@ -75,6 +82,7 @@ impl Evaluator {
             frame,
             layer,
             joints: &self.joints,
+            drawn: drawn.clone(),
             seen_length: &self.seen_length,
             seed: layer_seed(frame.seed, &layer.name),
         };
@@ -233,6 +241,8 @@ struct Instance<'a> {
     frame: &'a Frame<'a>,
     layer: &'a Layer,
     joints: &'a Joints,
+    /// The joints that the layer draws on.
+    drawn: Range<usize>,
     seen_length: &'a [f32],
     seed: u32,
 }
@@ -247,19 +257,20 @@ impl Instance<'_> {
         colors: &mut [[f32; 3]],
     ) {
         let (frame, layer, joints) = (self.frame, self.layer, self.joints);
-        scratch.strokes.clear();
-        let all = 0..frame.paths.len();
+        let Range { start, end } = self.drawn;
         let (program, seed) = (&layer.program, self.seed);
-        program.evaluate(joints, all, number, seed, &mut scratch.strokes);
+        scratch.strokes.clear();
+        program.evaluate(joints, start..end, number, seed, &mut scratch.strokes);
         scratch.strokes.iter_mut().for_each(drop_if_not_finite);
         self.smooth(scratch);
-        let places = discs.iter_mut().zip(colors).zip(&scratch.strokes);
-        for (i, ((place, color), stroke)) in places.enumerate() {
+        discs[..start].fill(NO_DISC);
+        discs[end..].fill(NO_DISC);
+        for (i, stroke) in (start..end).zip(&scratch.strokes) {
             let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
             let depth_offset = layer.depth_offset + stroke.depth_offset;
             let clump_radius = joints.clump_radius[i];
-            *place = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
-            *color = stroke.color.to_array();
+            discs[i] = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
+            colors[i] = stroke.color.to_array();
         }
         if frame.brush == Brush::Semicircle {
             self.go_around_flat_ends(&scratch.strokes, discs);
@@ -270,14 +281,21 @@ impl Instance<'_> {
     /// would end where its clump does.
     fn go_around_flat_ends(&self, strokes: &[Stroke], discs: &mut [Disc]) {
         let paths = self.frame.paths;
-        let tips = paths.runs.iter().map(|run| run.joints.end - 1);
+        let tips = self.runs().map(|joints| joints.end - 1);
         for tip in tips.filter(|&tip| paths.u[tip] == 1.0) {
-            let wider = (strokes[tip].radius - self.joints.clump_radius[tip]).max(0.0);
+            let wider =
+                (strokes[tip - self.drawn.start].radius - self.joints.clump_radius[tip]).max(0.0);
             let unit_px = self.frame.head.unit_m() * paths.px_per_metre[tip];
             // The path on the screen, of which `across` is a right angle to the right.
             let ahead = -paths.across[tip].perp();
             discs[tip].center += ahead * (wider * unit_px).min(LARGEST_PX);
         }
+    }
+
+    /// The runs that the layer draws on.
+    fn runs(&self) -> impl Iterator<Item = Range<usize>> {
+        let runs = self.frame.paths.runs.iter().map(|run| run.joints.clone());
+        runs.filter(|joints| self.drawn.start <= joints.start && joints.end <= self.drawn.end)
     }
 
     /// Takes stretches and gaps of the strokes that are too short away, as they are seen: hair that
@@ -292,11 +310,12 @@ impl Instance<'_> {
             radii,
             smoother,
         } = scratch;
-        for run in &self.frame.paths.runs {
-            let strokes = &mut strokes[run.joints.clone()];
+        for joints in self.runs() {
+            let start = self.drawn.start;
+            let strokes = &mut strokes[joints.start - start..joints.end - start];
             radii.clear();
             radii.extend(strokes.iter().map(|stroke| stroke.radius.max(0.0)));
-            let places = &self.seen_length[run.joints.clone()];
+            let places = &self.seen_length[joints];
             smoother.smooth(places, radii, length_m);
             for (stroke, radius) in strokes.iter_mut().zip(radii.iter()) {
                 stroke.radius = *radius;
