@@ -55,6 +55,63 @@ fn sin_pi(x: f32) -> f32 {
     return r * series * (1.0 - 2.0 * odd);
 }
 
+/// The power of two 2^x within 3e-7 of its size, from x = -126 to 127; beyond, as at these ends.
+fn power_of_two(x: f32) -> f32 {
+    let y = clamp(x, -126.0, 127.0);
+    let whole = floor(y + 0.5);
+    // e^(f ln 2) for f in [-1/2, 1/2], by its series.
+    let f = (y - whole) * 0.6931472;
+    let series = 1.0 + f * (1.0 + f * (0.5 + f * (0.16666667 + f * (0.041666668
+        + f * (0.008333334 + f * 0.0013888889)))));
+    // 2^whole by the bits of its size.
+    let bits = u32(abs(whole));
+    var size = 1.0;
+    if ((bits & 1u) != 0u) { size = size * 2.0; }
+    if ((bits & 2u) != 0u) { size = size * 4.0; }
+    if ((bits & 4u) != 0u) { size = size * 16.0; }
+    if ((bits & 8u) != 0u) { size = size * 256.0; }
+    if ((bits & 16u) != 0u) { size = size * 65536.0; }
+    if ((bits & 32u) != 0u) { size = size * 4294967296.0; }
+    if ((bits & 64u) != 0u) { size = size * 18446744073709551616.0; }
+    return series * select(size, 1.0 / size, whole < 0.0);
+}
+
+/// The logarithm of `x` to base 2, within 2e-6 or 3e-7 of its size, for x from 2^-126 on; below it
+/// counts as 2^-126.
+fn log_to_two(x: f32) -> f32 {
+    // x = m 2^e with m in [1/sqrt(2), sqrt(2)): halved or doubled by ever smaller powers.
+    var m = max(x, 1.1754944e-38);
+    var e = 0.0;
+    if (m < 5.4210109e-20) { m = m * 18446744073709551616.0; e = e - 64.0; }
+    if (m >= 18446744073709551616.0) { m = m * 5.4210109e-20; e = e + 64.0; }
+    if (m < 2.3283064e-10) { m = m * 4294967296.0; e = e - 32.0; }
+    if (m >= 4294967296.0) { m = m * 2.3283064e-10; e = e + 32.0; }
+    if (m < 1.5258789e-5) { m = m * 65536.0; e = e - 16.0; }
+    if (m >= 65536.0) { m = m * 1.5258789e-5; e = e + 16.0; }
+    if (m < 0.00390625) { m = m * 256.0; e = e - 8.0; }
+    if (m >= 256.0) { m = m * 0.00390625; e = e + 8.0; }
+    if (m < 0.0625) { m = m * 16.0; e = e - 4.0; }
+    if (m >= 16.0) { m = m * 0.0625; e = e + 4.0; }
+    if (m < 0.25) { m = m * 4.0; e = e - 2.0; }
+    if (m >= 4.0) { m = m * 0.25; e = e + 2.0; }
+    if (m < 0.70710677) { m = m * 2.0; e = e - 1.0; }
+    if (m >= 1.4142135) { m = m * 0.5; e = e + 1.0; }
+    if (m < 0.70710677) { m = m * 2.0; e = e - 1.0; }
+    if (m >= 1.4142135) { m = m * 0.5; e = e + 1.0; }
+    // 2 / ln 2 (z + z^3 / 3 + ...) with z = (m - 1) / (m + 1), |z| < 0.172.
+    let z = (m - 1.0) / (m + 1.0);
+    let w = z * z;
+    return e + z * (2.8853901 + w * (0.9617967 + w * (0.5770780 + w * (0.4121986 + w * 0.3205989))));
+}
+
+/// `x` to the power `y` within 1e-5 of its size, for x and y of 0 or more; 0 to any power is 0.
+fn power(x: f32, y: f32) -> f32 {
+    if (x <= 0.0) {
+        return 0.0;
+    }
+    return power_of_two(y * log_to_two(x));
+}
+
 /// Size of a stroke that shrinks to its tail from a point on (5.1), as a share of its full size.
 ///
 /// `u` and `start` are places along the strand, 0 at the root and 1 at the tip; `start` = 1 never
@@ -95,4 +152,41 @@ fn unit_or(v: vec3<f32>, otherwise: vec3<f32>) -> vec3<f32> {
         return v / sqrt(squared);
     }
     return otherwise;
+}
+
+/// Where stroke `instance` of `count` side by side lies across the clump, in its radius: from -1 to 1.
+/// Strokes of radius 1 / `count` there span the clump's width (5.5).
+fn feather_place(instance: u32, count: u32) -> f32 {
+    return (2.0 * f32(instance) + 1.0) / f32(count) - 1.0;
+}
+
+/// Size of a feather (5.6), as a share of its basic size: 1 where `gray` is at most `full`, shrinking to
+/// nothing at `edge`. A hard step where `edge` is not above `full`.
+///
+/// Erratum: the source prints (1 - |gray - full|) / |edge - full|, which is not 0 at the edge; this is
+/// 1 - |gray - full| / |edge - full|. For a region of large grays, pass all three negated.
+fn feather_share(gray: f32, full: f32, edge: f32) -> f32 {
+    if (gray <= full) {
+        return 1.0;
+    }
+    if (gray >= edge) {
+        return 0.0;
+    }
+    return saturate((edge - gray) / (edge - full));
+}
+
+/// The colour of a parameter that may be none, or `otherwise`.
+fn color_or(color: vec4<f32>, otherwise: vec3<f32>) -> vec3<f32> {
+    if (color.w > 0.0) {
+        return vec3<f32>(color.x, color.y, color.z);
+    }
+    return otherwise;
+}
+
+/// A share of a radius `full` without hairlines: nothing where less than the radius `thinnest` would be
+/// left, full where all is. A pen draws no thinner lines, and those thinner than a pixel would flicker.
+fn without_hairlines(share: f32, full: f32, thinnest: f32) -> f32 {
+    // Of what is thin itself, such as a clump's tip, at most the lesser half goes.
+    let lost = select(0.5, thinnest / full, full > 2.0 * thinnest);
+    return saturate((share - lost) / (1.0 - lost));
 }

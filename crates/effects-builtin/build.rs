@@ -2,5 +2,8 @@
 
 fn main() {
     effects_build::effect("src/base.wgsl");
+    effects_build::effect("src/cel.wgsl");
+    effects_build::effect("src/fine.wgsl");
+    effects_build::effect("src/highlight.wgsl");
     effects_build::effect("src/silhouette.wgsl");
 }

@@ -8,7 +8,7 @@ use glam::{DVec2, Vec2};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use render::cpu::Rasterizer;
-use render::{Disc, Drawing, LayerStrokes, Order, Picture, Run, Surface, SurfaceVertex};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Picture, Run, Surface, SurfaceVertex};
 
 /// The rasteriser works in f32: a colour may differ by this much. Positions of some hundred pixels
 /// have 3e-5 px, which is some thousandths of the radius of a thin stroke.
@@ -159,17 +159,25 @@ fn drawing() -> impl Strategy<Value = Drawing> {
         )
     });
     let order = prop_oneof![Just(Order::StrandFirst), Just(Order::Shifted)];
+    let brush = prop_oneof![Just(Brush::Circle), Just(Brush::Semicircle)];
     let background = prop::option::of(color());
     (
         strokes,
         vec(surface(extent), 0..3),
-        order,
+        (order, brush),
         background,
         30..40u32,
         30..40u32,
     )
         .prop_map(
-            |((strands, clump, mut layers), surfaces, order, background, width, height)| {
+            |(
+                (strands, clump, mut layers),
+                surfaces,
+                (order, brush),
+                background,
+                width,
+                height,
+            )| {
                 let mut runs = Vec::new();
                 let mut start = 0;
                 for (index, pieces) in (0..).zip(strands) {
@@ -192,6 +200,7 @@ fn drawing() -> impl Strategy<Value = Drawing> {
                     surfaces,
                     background,
                     order,
+                    brush,
                 }
             },
         )
@@ -259,8 +268,17 @@ fn radius_zero_draws_nothing_even_at_a_sample() {
 
 #[test]
 fn portraits_agree_sample_for_sample() {
-    for order in [Order::StrandFirst, Order::Shifted] {
-        let drawing = scenes::portrait([480, 360], order);
+    let orders = [Order::StrandFirst, Order::Shifted];
+    let brushes = [Brush::Circle, Brush::Semicircle];
+    for (order, brush) in orders
+        .into_iter()
+        .zip(brushes)
+        .chain(orders.into_iter().zip([brushes[1], brushes[0]]))
+    {
+        let drawing = Drawing {
+            brush,
+            ..scenes::portrait([480, 360], order)
+        };
         for samples in [1, 4, 16] {
             let picture = rasterise(&drawing, samples, 2);
             let reference = oracle::picture_at(&drawing, &positions(samples));
@@ -268,7 +286,7 @@ fn portraits_agree_sample_for_sample() {
             // None did; two leave room for another order of the same f32 arithmetic.
             assert!(
                 number <= 2,
-                "{order:?}, {samples} samples: {number}, {first:?}"
+                "{order:?}, {brush:?}, {samples} samples: {number}, {first:?}"
             );
         }
     }

@@ -4,8 +4,8 @@ mod scenes;
 
 use bench::oracle;
 use glam::DVec2;
-use render::cpu::Stamper;
-use render::{Disc, Drawing, LayerStrokes, Order, Run};
+use render::cpu::{Rasterizer, Stamper};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run};
 
 /// The stamps of a drawing as a drawing: each is a strand of one joint, so that the disc in front
 /// gives the colour. A stamp stands at each joint, the others at equal steps between two.
@@ -69,6 +69,7 @@ fn stamped(drawing: &Drawing, per_interval: usize) -> Drawing {
         surfaces: drawing.surfaces.clone(),
         background: drawing.background,
         order: Order::Shifted,
+        brush: Brush::Circle,
     }
 }
 
@@ -95,6 +96,36 @@ fn stamping_draws_the_union_of_its_stamps() {
             "{different} pixels differ at {samples} samples"
         );
     }
+}
+
+/// Half discs, stamped ever more densely, tend to what the exact rasteriser draws between them.
+#[test]
+fn stamps_of_half_discs_fill_the_half_discs_stroke() {
+    let mut drawing = Drawing {
+        brush: Brush::Semicircle,
+        ..scenes::strokes_alone(&scenes::portrait([150, 110], Order::Shifted))
+    };
+    // Ends that are no points.
+    let discs = drawing.layers.iter_mut().flat_map(|layer| &mut layer.discs);
+    discs.for_each(|disc| disc.radius += 2.0);
+    let exact = Rasterizer::new(4, Some(2)).unwrap().draw(&drawing).unwrap();
+    let error = |brush, per_interval| {
+        let drawing = Drawing {
+            brush,
+            ..drawing.clone()
+        };
+        let stamped = Stamper::new(4, Some(2))
+            .unwrap()
+            .draw(&drawing, per_interval)
+            .unwrap();
+        let pixels = stamped.pixels.iter().zip(&exact.pixels);
+        let alpha: f32 = pixels.map(|(a, b)| (a[3] - b[3]).abs()).sum();
+        alpha / exact.pixels.iter().map(|pixel| pixel[3]).sum::<f32>()
+    };
+    let [coarse, fine] = [2, 64].map(|stamps| error(Brush::Semicircle, stamps));
+    assert!(fine < 0.25 * coarse && fine < 0.003, "{coarse} {fine}");
+    let whole = error(Brush::Circle, 64);
+    assert!(whole > 4.0 * fine, "whole discs: {whole}");
 }
 
 #[test]

@@ -134,6 +134,9 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
             Kind::Integer { .. } => quote!(values.integer(#name).unsigned_abs()),
             Kind::Choice { .. } => quote!(values.choice(#name)),
             Kind::Color { .. } => quote!(::effects::wgsl::vec3(values.color(#name))),
+            Kind::OptionalColor { .. } => {
+                quote!(::effects::wgsl::color_or_none(values.optional_color(#name)))
+            }
         };
         quote!(#field: #value)
     });
@@ -165,6 +168,10 @@ fn table_row(param: &Param) -> TokenStream {
             quote!(Choice { names: &[#(#names),*], default: #default })
         }
         Kind::Color { default } => quote!(Color { default: #default }),
+        Kind::OptionalColor { default: None } => quote!(OptionalColor { default: None }),
+        Kind::OptionalColor { default: Some(hex) } => {
+            quote!(OptionalColor { default: Some(#hex) })
+        }
     };
     quote!(::effects::Param {
         name: #name,

@@ -6,7 +6,8 @@
 //! width: f32,
 //! ```
 //!
-//! A `vec3<f32>` is a colour (`@default "RRGGBB"`), a `u32` a whole number or, with `@choices a b c`,
+//! A `vec3<f32>` is a colour (`@default "RRGGBB"`), a `vec4<f32>` a colour or none (`@default none`),
+//! whose last component is 1 where there is one. A `u32` is a whole number or, with `@choices a b c`,
 //! one of these names.
 
 use crate::check::named_type;
@@ -28,6 +29,7 @@ pub(crate) enum Kind {
     Integer { min: i32, max: i32, default: i32 },
     Choice { names: Vec<String>, default: u32 },
     Color { default: String },
+    OptionalColor { default: Option<String> },
 }
 
 /// The `@key value` parts of a comment, and the words before them.
@@ -139,16 +141,25 @@ fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, St
         TypeInner::Vector {
             size: VectorSize::Tri,
             scalar: Scalar::F32,
-        } => {
-            let hex = default.trim_matches('"');
-            if hex.len() != 6 || !hex.chars().all(|c| c.is_ascii_hexdigit()) {
-                return Err(format!("@default {default}: a colour is \"RRGGBB\""));
-            }
-            Kind::Color {
-                default: hex.to_owned(),
-            }
+        } => Kind::Color {
+            default: color(default)?,
+        },
+        TypeInner::Vector {
+            size: VectorSize::Quad,
+            scalar: Scalar::F32,
+        } => Kind::OptionalColor {
+            default: match default {
+                "none" => None,
+                _ => Some(color(default)?),
+            },
+        },
+        _ => {
+            return Err(
+                "a parameter is an f32, a u32, a vec3<f32> (a colour) or a vec4<f32> (a colour or \
+                 none)"
+                    .to_owned(),
+            );
         }
-        _ => return Err("a parameter is an f32, a u32, or a vec3<f32> (a colour)".to_owned()),
     };
     let unit = notes.get("unit").unwrap_or_default().to_owned();
     Ok(Param {
@@ -157,6 +168,14 @@ fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, St
         unit,
         kind,
     })
+}
+
+fn color(text: &str) -> Result<String, String> {
+    let hex = text.trim_matches('"');
+    if hex.len() != 6 || !hex.chars().all(|c| c.is_ascii_hexdigit()) {
+        return Err(format!("@default {text}: a colour is \"RRGGBB\""));
+    }
+    Ok(hex.to_owned())
 }
 
 fn range<T: std::str::FromStr + PartialOrd>(notes: &Annotations) -> Result<(T, T), String> {

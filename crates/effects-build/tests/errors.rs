@@ -148,7 +148,7 @@ fn parameters_need_words_range_and_default() {
     }
     assert_error(
         &params("/// W.\n/// @default 1\nw: vec2<f32>,"),
-        &["an f32, a u32, or a vec3<f32>"],
+        &["an f32, a u32, a vec3<f32> (a colour) or a vec4<f32>"],
     );
 }
 

@@ -1,9 +1,15 @@
 //! The stroke effects that inkstrand ships, each one `.rs` beside its `.wgsl`.
 
 mod base;
+mod cel;
+mod fine;
+mod highlight;
 mod silhouette;
 
 pub use base::Base;
+pub use cel::Cel;
+pub use fine::Fine;
+pub use highlight::Highlight;
 pub use silhouette::Silhouette;
 
 use effects::{Registry, RegistryError};
@@ -15,5 +21,8 @@ use effects::{Registry, RegistryError};
 /// When the registry already has an effect of the same id.
 pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
     registry.register::<Silhouette>()?;
-    registry.register::<Base>()
+    registry.register::<Base>()?;
+    registry.register::<Cel>()?;
+    registry.register::<Highlight>()?;
+    registry.register::<Fine>()
 }

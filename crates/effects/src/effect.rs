@@ -2,7 +2,7 @@
 
 use crate::param::{Param, Values};
 use crate::wgsl::Stroke;
-use crate::{InputSet, Joints};
+use crate::{Hair, InputSet, Joints, MadePaths};
 use std::ops::Range;
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
@@ -57,11 +57,39 @@ pub trait StrokeEffect: Send + Sync + 'static {
     const RANK: i32 = 100;
     /// How much farther from the eye the strokes are than their strand, in head heights.
     const DEPTH_OFFSET: f32 = 0.0;
+    /// Whether the strokes follow paths that the effect makes ([`Self::make_paths`]), in place of the
+    /// strands. These are strands of their own in the order, whose clump is their first stroke.
+    const OWN_PATHS: bool = false;
 
     /// How many strokes there are for each strand (feathers). At least 1.
     fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
         let _ = params;
         1
+    }
+
+    /// The shortest stretch of a strand as it is seen, in head heights, that a stroke may cover or leave
+    /// out: shorter ones are smoothed away ([`smooth`](crate::smooth)). 0 leaves all as it is.
+    fn shortest(params: &<Self::Program as Parameters>::Params) -> f32 {
+        let _ = params;
+        0.0
+    }
+
+    /// Whether the light must have a place: what is measured from a light without one is 1e6 head
+    /// heights away.
+    fn needs_point_light(params: &<Self::Program as Parameters>::Params) -> bool {
+        let _ = params;
+        false
+    }
+
+    /// Makes this frame's paths of the hair as it stands, for an effect with [`Self::OWN_PATHS`]. Choices
+    /// hang on `seed`, the layer's, and the strands' ids alone, so that the paths move as the hair does.
+    fn make_paths(
+        params: &<Self::Program as Parameters>::Params,
+        hair: &Hair,
+        seed: u32,
+        paths: &mut MadePaths,
+    ) {
+        let _ = (params, hair, seed, paths);
     }
 }
 
@@ -89,6 +117,14 @@ pub trait AnyEffect: Send + Sync {
 pub trait LayerProgram: Send + Sync {
     /// Strokes per strand, 1 or more.
     fn instances(&self) -> u32;
+    /// [`StrokeEffect::shortest`], head heights.
+    fn shortest(&self) -> f32;
+    /// [`StrokeEffect::needs_point_light`].
+    fn needs_point_light(&self) -> bool;
+    /// [`StrokeEffect::OWN_PATHS`].
+    fn has_own_paths(&self) -> bool;
+    /// [`StrokeEffect::make_paths`].
+    fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths);
     /// What is read of a joint.
     fn inputs(&self) -> InputSet;
     /// Appends the discs of stroke `instance` at these joints. `seed` is the layer's.
@@ -137,6 +173,22 @@ struct WithParams<E: StrokeEffect>(<E::Program as Parameters>::Params);
 impl<E: StrokeEffect> LayerProgram for WithParams<E> {
     fn instances(&self) -> u32 {
         E::instances(&self.0).max(1)
+    }
+
+    fn shortest(&self) -> f32 {
+        E::shortest(&self.0)
+    }
+
+    fn needs_point_light(&self) -> bool {
+        E::needs_point_light(&self.0)
+    }
+
+    fn has_own_paths(&self) -> bool {
+        E::OWN_PATHS
+    }
+
+    fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths) {
+        E::make_paths(&self.0, hair, seed, paths);
     }
 
     fn inputs(&self) -> InputSet {

@@ -13,8 +13,10 @@ mod effect;
 mod joints;
 mod layer;
 mod param;
+mod paths;
 pub mod preset;
 mod registry;
+pub mod smooth;
 pub mod wgsl;
 
 pub use color::{linear_from_srgb, parse_hex};
@@ -22,6 +24,7 @@ pub use effect::{AnyEffect, LayerProgram, Parameters, Program, StrokeEffect};
 pub use joints::{InputSet, Joints, strand_seed};
 pub use layer::{Layer, Units, layer_seed};
 pub use param::{Param, ParamKind, Value, Values};
+pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
 pub use registry::{Registry, RegistryError};
 
 /// The runtime of the translated WGSL.

@@ -8,7 +8,7 @@
     reason = "translated from WGSL"
 )]
 
-pub use naga_rust_rt::{Scalar, Vec2, Vec3};
+pub use naga_rust_rt::{Scalar, Vec2, Vec3, Vec4};
 
 include!(concat!(env!("OUT_DIR"), "/prelude.rs"));
 
@@ -22,6 +22,13 @@ pub fn vec2([x, y]: [f32; 2]) -> Vec2<f32> {
 #[must_use]
 pub fn vec3([x, y, z]: [f32; 3]) -> Vec3<f32> {
     Vec3 { x, y, z }
+}
+
+/// A colour, or none, as WGSL has it: the last component is 1 where there is one, else all are 0.
+#[must_use]
+pub fn color_or_none(color: Option<[f32; 3]>) -> Vec4<f32> {
+    let ([x, y, z], w) = color.map_or(([0.0; 3], 0.0), |color| (color, 1.0));
+    Vec4 { x, y, z, w }
 }
 
 /// Builtins that the runtime lacks. Translated code calls them as methods.

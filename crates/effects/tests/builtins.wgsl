@@ -14,6 +14,9 @@ struct Params {
     /// A colour.
     /// @default "FF0000"
     color: vec3<f32>,
+    /// A colour or none.
+    /// @default none
+    other_color: vec4<f32>,
 }
 
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {

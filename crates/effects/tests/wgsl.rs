@@ -102,7 +102,7 @@ fn constructs_are_wgsls() {
 #[test]
 fn parameters_come_from_the_comments() {
     let params = built::Program::PARAMS;
-    assert_eq!(params.len(), 4);
+    assert_eq!(params.len(), 5);
     assert_eq!(params[0].name, "number");
     assert_eq!(params[0].doc, "A number.");
     assert_eq!(params[0].unit, "metres");
@@ -130,12 +130,17 @@ fn parameters_come_from_the_comments() {
         }
     );
     assert_eq!(params[3].kind, ParamKind::Color { default: "FF0000" });
+    assert_eq!(params[4].kind, ParamKind::OptionalColor { default: None });
 
     let mut values = Values::defaults(params);
     values.set(0, Value::Number(2.0));
     let made = built::Program::params(&values);
     assert_eq!((made.number, made.count, made.kind), (2.0, 3, 1));
     assert_eq!(made.color, vec3([1.0, 0.0, 0.0]));
+    assert_eq!(made.other_color, wgsl::color_or_none(None));
+    values.set(4, Value::Color(Some([0.0, 1.0, 0.0])));
+    let given = built::Program::params(&values).other_color;
+    assert_eq!([given.x, given.y, given.z, given.w], [0.0, 1.0, 0.0, 1.0]);
     assert_eq!(built::Program::INPUTS, ["u"]);
     assert!(built::Program::WGSL.starts_with(include_str!("builtins.wgsl")));
 }
@@ -163,6 +168,25 @@ fn random_numbers_are_even_and_apart() {
     assert!(neighbours.abs() < 0.003, "correlation {neighbours}");
     assert_ne!(wgsl::random(7u32, 1u32), wgsl::random(8u32, 1u32));
     assert_eq!(wgsl::random(7u32, 1u32), wgsl::random(7u32, 1u32));
+}
+
+#[test]
+fn powers_at_their_ends() {
+    let ends = [-1e9, -126.0, 0.0, 1.0, 127.0, 1e9].map(|x: f32| wgsl::power_of_two(x));
+    let (least, most) = (2f32.powi(-126), 2f32.powi(127));
+    assert_eq!(ends, [least, least, 1.0, 2.0, most, most]);
+    assert_eq!(
+        [wgsl::log_to_two(0.0), wgsl::log_to_two(8.0)],
+        [-126.0, 3.0]
+    );
+    assert_eq!(
+        [
+            wgsl::power(0.0, 0.0),
+            wgsl::power(-2.0, 3.0),
+            wgsl::power(1.0, 1000.0)
+        ],
+        [0.0, 0.0, 1.0]
+    );
 }
 
 #[test]
@@ -195,6 +219,28 @@ proptest! {
         let exact = (f64::from(x) * std::f64::consts::PI).sin();
         let got = f64::from(wgsl::sin_pi(x));
         prop_assert!((got - exact).abs() < 3e-7, "sin_pi({x}) = {got}, not {exact}");
+    }
+
+    #[test]
+    fn powers_and_logarithms(x in -125.0f32..127.0, y in 0.0f32..1000.0, part in 0.0f32..=1.0) {
+        let exact = f64::from(x).exp2();
+        let got = f64::from(wgsl::power_of_two(x));
+        prop_assert!((got / exact - 1.0).abs() < 3e-7, "2^{x} = {got}, not {exact}");
+        let number = exact as f32;
+        let (exact, got) = (f64::from(number).log2(), f64::from(wgsl::log_to_two(number)));
+        prop_assert!((got - exact).abs() < 2e-6 + 3e-7 * exact.abs(), "log {number} = {got}, not {exact}");
+        let exact = f64::from(part).powf(y.into());
+        let got = f64::from(wgsl::power(part, y));
+        prop_assert!((got - exact).abs() <= 1e-5 * exact + 2e-38, "{part}^{y} = {got}, not {exact}");
+    }
+
+    #[test]
+    fn feathers_stand_side_by_side(count in 1u32..100) {
+        let place = |i: u32| f64::from(wgsl::feather_place(i, count));
+        prop_assert!((place(0) - (1.0 / f64::from(count) - 1.0)).abs() < 1e-6);
+        for i in 1..count {
+            prop_assert!((place(i) - place(i - 1) - 2.0 / f64::from(count)).abs() < 1e-6);
+        }
     }
 
     #[test]

@@ -95,6 +95,7 @@ impl Hair {
             surfaces: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::StrandFirst,
+            brush: render::Brush::Circle,
         }
     }
 }

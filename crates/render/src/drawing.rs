@@ -7,11 +7,12 @@
 
 use glam::Vec2;
 use std::ops::Range;
+pub use stroke_path::Brush;
 
 /// One disc of a stroke, at a joint of its path.
 ///
 /// Between two joints of a run, `center`, `radius` and both inverse depths run linearly: the stroke
-/// is the union of all those discs.
+/// is the union of all those discs, or of their halves behind the centres ([`Drawing::brush`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
     /// Centre on the screen, in pixels.
@@ -28,7 +29,7 @@ pub struct Disc {
 /// A connected piece of one strand's path. A strand that passes through the near plane has several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// The strand's id. All runs of a strand are neighbours, and ids never decrease.
+    /// The strand's number. All runs of a strand are neighbours, and numbers never decrease.
     pub strand: u32,
     /// The joints, as a range of every per-joint list of the [`Drawing`]. One joint alone is a disc.
     pub joints: Range<usize>,
@@ -90,11 +91,11 @@ pub enum Order {
     /// layer among equals, then the later instance) at the clump's depth; outside the clump only
     /// ranks below 0 show, each at its own depth. Then a strand whose biased depth lies behind a
     /// surface (or that breaks its [`Surface::margin_m`]) is dropped, and the nearest strand that is left
-    /// wins (the lower id among equals). Light beyond 0 to 1 is cut in each sample.
+    /// wins (the lower number among equals). Light beyond 0 to 1 is cut in each sample.
     #[default]
     StrandFirst,
     /// The source's plain shift: every stroke by its own depth against every other (5.2). Among
-    /// equal depths the higher rank, the later layer, the later instance, then the lower id.
+    /// equal depths the higher rank, the later layer, the later instance, then the lower number.
     Shifted,
 }
 
@@ -103,7 +104,7 @@ pub enum Order {
 pub struct Drawing {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// The pieces of all strands, sorted by strand id.
+    /// The pieces of all strands, sorted by their strands' numbers.
     pub runs: Vec<Run>,
     /// The clump of each strand: one disc a joint.
     pub clump: Vec<Disc>,
@@ -115,4 +116,6 @@ pub struct Drawing {
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.
     pub order: Order,
+    /// What strokes are made of.
+    pub brush: Brush,
 }

@@ -3,12 +3,13 @@
 use crate::drawing::{Order, Surface};
 use effects::{Layer, clump};
 use glam::Vec3;
-use stroke_path::{Camera, Paths};
+use std::ops::Range;
+use stroke_path::{Brush, Camera, Paths};
 
 /// What is the same for all joints of a strand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StrandInfo {
-    /// Stable id; ids increase from strand to strand of a frame.
+    /// Stable id, which its variations hang on.
     pub id: u32,
     /// Mean of the strand's particles, metres (c_mean in Fig 5.4a).
     pub mean: Vec3,
@@ -83,10 +84,15 @@ pub struct Frame<'a> {
     pub seed: u32,
     /// The layers that are on, in the preset's order.
     pub layers: &'a [Layer],
+    /// For each layer the joints of `paths` that it draws on, whole runs: the strands', or those of
+    /// paths that its effect made. No joint is on two layers' own paths.
+    pub layer_joints: &'a [Range<usize>],
     /// The head's surfaces on the screen.
     pub surfaces: Vec<Surface>,
     /// Linear colour behind everything, or a transparent picture.
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.
     pub order: Order,
+    /// What strokes are made of.
+    pub brush: Brush,
 }

@@ -4,7 +4,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, clump};
 use glam::{Vec2, Vec3};
 use render::cpu::Evaluator;
-use render::{Drawing, Frame, Head, Light, Order, StrandInfo};
+use render::{Brush, Drawing, Frame, Head, Light, Order, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
 /// The picture is 200 x 360, the eye 2 m in front of the origin, a 0.3 m head: a unit is 1 mm.
@@ -30,6 +30,22 @@ fn layers(text: &str) -> Vec<Layer> {
 
 /// The drawing of two strands that hang at x = 0 and x = 0.1, of size 20, drawn by these layers.
 fn drawing(list: &str, clump: &[(&str, &str)], seed: u32) -> (Drawing, Camera) {
+    drawing_with(list, clump, seed, Brush::Circle)
+}
+
+fn drawing_with(list: &str, clump: &[(&str, &str)], seed: u32, brush: Brush) -> (Drawing, Camera) {
+    let layers = layers(list).len();
+    drawing_on(list, clump, seed, brush, &vec![0..4; layers])
+}
+
+/// `layer_joints` are the joints that each layer draws on.
+fn drawing_on(
+    list: &str,
+    clump: &[(&str, &str)],
+    seed: u32,
+    brush: Brush,
+    layer_joints: &[std::ops::Range<usize>],
+) -> (Drawing, Camera) {
     let camera = camera();
     let mut paths = Paths::new();
     let kind = PathKind::Linear { subdivision: 1 };
@@ -65,9 +81,11 @@ fn drawing(list: &str, clump: &[(&str, &str)], seed: u32) -> (Drawing, Camera) {
         clump: &clump::Program::params(&values),
         seed,
         layers: &layers,
+        layer_joints,
         surfaces: Vec::new(),
         background: None,
         order: Order::StrandFirst,
+        brush,
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing);
@@ -83,8 +101,8 @@ fn assert_near(a: f32, b: f32) {
 fn discs_lie_where_the_joints_are_seen() {
     let (drawing, camera) = drawing("[(effect: \"hair.base\")]", &[], 1);
     assert_eq!(drawing.size, [200, 360]);
-    let ids: Vec<u32> = drawing.runs.iter().map(|run| run.strand).collect();
-    assert_eq!(ids, [3, 8]);
+    let numbers: Vec<u32> = drawing.runs.iter().map(|run| run.strand).collect();
+    assert_eq!(numbers, [0, 1]);
     let root = drawing.layers[0].discs[0];
     let place = camera.project(camera.view_from_world(Vec3::new(0.0, 0.1, 0.0)));
     assert_eq!(root.center, place);
@@ -164,4 +182,41 @@ fn what_faces_the_light_is_bright() {
     assert_near(red, 0.5 * sine);
     assert_eq!([green, blue], [red; 2]);
     assert_eq!(drawing.layers[0].colors.len(), 4);
+}
+
+#[test]
+fn outlines_go_around_flat_ends() {
+    let list =
+        "[(effect: \"hair.silhouette\", params: (width: 4, ratio: 10)), (effect: \"hair.base\")]";
+    let (round, _) = drawing(list, &[], 1);
+    let (flat, _) = drawing_with(list, &[], 1, Brush::Semicircle);
+    let [outline, base] = [0, 1].map(|layer| &flat.layers[layer].discs);
+    assert_eq!(
+        *base, round.layers[1].discs,
+        "the base is as wide as its clump"
+    );
+    assert_eq!(outline[0], round.layers[0].discs[0], "only tips move");
+    // The strand comes towards the eye and down, so ahead of its tip is below.
+    let wider = outline[1].radius - base[1].radius;
+    let moved = outline[1].center - base[1].center;
+    assert_near(moved.length(), wider);
+    let way = base[1].center - base[0].center;
+    assert_near(moved.dot(way.normalize()), wider);
+}
+
+#[test]
+fn a_layer_draws_on_its_own_paths_alone() {
+    let list = "[(effect: \"hair.base\"), (effect: \"hair.fine\", params: (width: 4, width_variation: 0, taper: 0))]";
+    // As if the second strand were a path that the second layer made.
+    let (drawing, _) = drawing_on(list, &[], 1, Brush::Circle, &[0..2, 2..4]);
+    let radii = |layer: usize| drawing.layers[layer].discs.iter().map(|d| d.radius > 0.0);
+    assert_eq!(radii(0).collect::<Vec<_>>(), [true, true, false, false]);
+    assert_eq!(radii(1).collect::<Vec<_>>(), [false, false, true, true]);
+    assert_eq!(drawing.clump[..2], drawing.layers[0].discs[..2]);
+    assert_eq!(drawing.clump[2..], drawing.layers[1].discs[2..]);
+    // 4 mm wide, 2 m and 1.5 m away.
+    assert_near(
+        drawing.clump[2].radius / drawing.clump[0].radius,
+        2.0 / 20.0,
+    );
 }

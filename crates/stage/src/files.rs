@@ -46,6 +46,12 @@ pub enum StageError {
     /// The simulation refuses its parameters or a step.
     #[error("dynamics: {0}")]
     Dynamics(#[from] hair_sim::DynamicsError),
+    /// A layer measures the distance to the light.
+    #[error(
+        "layer `{0}` goes by the distance to the light, and this light has no place: \
+         light: (kind: point, distance: ...)"
+    )]
+    NoPointLight(String),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),

@@ -7,9 +7,11 @@ use crate::load::{self, Hair};
 use crate::motion::{HeadPose, MotionScript};
 use crate::neck::{Neck, rigid};
 use crate::preset::Preset;
-use effects::{Layer, Parameters, Values, clump};
+use effects::wgsl::hash;
+use effects::{HairStrand, Layer, MadePaths, Parameters, Values, clump, layer_seed};
 use glam::{Vec2, Vec3};
-use render::{Frame, Head, Light, Order, StrandInfo};
+use render::{Brush, Frame, Head, Light, Order, StrandInfo};
+use std::ops::Range;
 use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
 
 /// How near the eye strokes are cut, in head heights.
@@ -26,8 +28,12 @@ const OUTLINE_MARGIN: f32 = 0.04;
 /// A scene that makes frames. What a frame needs is kept and reused.
 pub struct Stage {
     hair: Hair,
-    /// The strands' sizes, and ids increasing.
+    /// The strands' sizes, and ids increasing; then those of the last frame's made paths.
     strands: Vec<StrandInfo>,
+    /// How many of them are the hair's.
+    strand_count: usize,
+    made: MadePaths,
+    layer_joints: Vec<Range<usize>>,
     neck: Option<Neck>,
     /// Where the head is while nothing moves.
     head: Head,
@@ -54,6 +60,7 @@ struct Settings {
     background: Option<[f32; 3]>,
     order: Order,
     path: PathKind,
+    brush: Brush,
     view: OrbitView,
     /// The target from the head's centre, head heights.
     target: Vec3,
@@ -82,10 +89,22 @@ impl Stage {
         }
         let strands = load::keep_guides(preset, &mut hair);
         let settings = Settings::new(preset, head)?;
+        let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
+        let without_light = |layer: &&Layer| layer.program.needs_point_light();
+        if let Some(layer) = layers
+            .iter()
+            .find(without_light)
+            .filter(|_| !settings.light_is_point)
+        {
+            return Err(StageError::NoPointLight(layer.name.clone()));
+        }
         Ok(Self {
             points: hair.file.strands.points().to_vec(),
             hair,
+            strand_count: strands.len(),
             strands,
+            made: MadePaths::default(),
+            layer_joints: Vec::new(),
             neck: model.map(|model| Neck::new(model, head)),
             head,
             script: load::motion(preset, files)?,
@@ -96,7 +115,7 @@ impl Stage {
             notes,
             seed: preset.seed,
             clump: clump::Program::params(&preset.clump),
-            layers: preset.layers.iter().map(|layer| layer.build()).collect(),
+            layers,
             settings,
             paths: Paths::new(),
             camera: None,
@@ -112,7 +131,7 @@ impl Stage {
     /// The number of strands.
     #[must_use]
     pub fn strand_count(&self) -> usize {
-        self.strands.len()
+        self.strand_count
     }
 
     /// Strands of the last frame that are behind the eye or wholly off the picture.
@@ -122,7 +141,13 @@ impl Stage {
         let [width, height] = camera.size_px().map(|size| size as f32);
         let picture = Vec2::new(width, height);
         let mut seen = 0;
-        for runs in self.paths.runs.chunk_by(|a, b| a.strand == b.strand) {
+        let hair = self
+            .paths
+            .runs
+            .iter()
+            .take_while(|run| run.strand < self.strand_count);
+        let hair = &self.paths.runs[..hair.count()];
+        for runs in hair.chunk_by(|a, b| a.strand == b.strand) {
             let size_m = self.strands[runs[0].strand].size * self.head.unit_m();
             let joints = runs.iter().flat_map(|run| run.joints.clone());
             let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
@@ -135,7 +160,7 @@ impl Stage {
             let is_seen = high.cmpge(Vec2::ZERO).all() && low.cmple(picture).all();
             seen += usize::from(is_seen);
         }
-        self.strands.len() - seen
+        self.strand_count - seen
     }
 
     /// Strands of the last frame that were left out because they are too far away to be drawn.
@@ -198,6 +223,48 @@ impl Stage {
         }
     }
 
+    /// Appends the paths that layers make, and notes which joints each layer draws on.
+    fn push_made_paths(&mut self, camera: &Camera) -> Result<(), StageError> {
+        let of_hair = 0..self.paths.len();
+        let head = self.posed_head();
+        self.layer_joints.clear();
+        for layer in &self.layers {
+            if !layer.program.has_own_paths() {
+                self.layer_joints.push(of_hair.clone());
+                continue;
+            }
+            let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
+                id: info.id,
+                particles: &self.points[self.hair.file.strands.point_range(i)],
+                at_rest: self.hair.file.strands.strand(i),
+                size: info.size,
+            };
+            let infos = self.strands[..self.strand_count].iter();
+            let strands: Vec<HairStrand> = infos.enumerate().map(of_strand).collect();
+            let hair = effects::Hair {
+                strands: &strands,
+                head_center: head.center,
+                head_height_m: head.height_m,
+            };
+            self.made.clear();
+            let seed = layer_seed(self.seed, &layer.name);
+            layer.program.make_paths(&hair, seed, &mut self.made);
+            let start = self.paths.len();
+            for (strand, number, points) in self.made.iter() {
+                let parent = self.strands[strand];
+                let index = self.strands.len();
+                self.strands.push(StrandInfo {
+                    id: made_id(parent.id, number),
+                    ..parent
+                });
+                self.paths
+                    .push_strand(index, points, self.settings.path, camera)?;
+            }
+            self.layer_joints.push(start..self.paths.len());
+        }
+        Ok(())
+    }
+
     /// The frame of the hair as it stands.
     ///
     /// # Errors
@@ -211,16 +278,17 @@ impl Stage {
             ..settings.view
         };
         let near_m = NEAR * self.head.height_m;
-        let camera = self
-            .camera
-            .insert(Camera::orbit(view, settings.size, near_m)?);
+        let camera = Camera::orbit(view, settings.size, near_m)?;
         self.paths.clear();
+        self.strands.truncate(self.strand_count);
         for (i, info) in self.strands.iter_mut().enumerate() {
             let particles = &self.points[self.hair.file.strands.point_range(i)];
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
             self.paths
-                .push_strand(i, particles, settings.path, camera)?;
+                .push_strand(i, particles, settings.path, &camera)?;
         }
+        self.push_made_paths(&camera)?;
+        let (settings, camera) = (&self.settings, &*self.camera.insert(camera));
         let light = settings.light(camera, head);
         let surfaces = match &mut self.neck {
             Some(neck) => head::surfaces(neck.posed(self.pose), &settings.paint, camera, &light),
@@ -235,11 +303,18 @@ impl Stage {
             clump: &self.clump,
             seed: self.seed,
             layers: &self.layers,
+            layer_joints: &self.layer_joints,
             surfaces,
             background: settings.background,
             order: settings.order,
+            brush: settings.brush,
         })
     }
+}
+
+/// The number that the variations of path `number` of strand `id` hang on.
+fn made_id(id: u32, number: u32) -> u32 {
+    hash(id ^ hash(number + 1))
 }
 
 impl Settings {
@@ -261,6 +336,7 @@ impl Settings {
                 0 => PathKind::Linear { subdivision },
                 _ => PathKind::CatmullRom { subdivision },
             },
+            brush: [Brush::Circle, Brush::Semicircle][path.choice("brush") as usize],
             view: OrbitView {
                 target: head.center,
                 yaw_degrees: camera.number("yaw"),

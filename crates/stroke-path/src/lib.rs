@@ -17,3 +17,4 @@ pub use angle::sin_cos_degrees;
 pub use camera::{Camera, CameraError, OrbitView, direction_from_angles};
 pub use path::{PathRun, Paths};
 pub use resample::{MAX_SUBDIVISION, PathError, PathKind};
+pub use sweep::Brush;

@@ -13,6 +13,12 @@
 //! their own: then A <= 0, the discs shrink one inside the other, and only the root of `-C / (B +
 //! sqrt(D))` is left.
 //!
+//! A [`Brush::Semicircle`] keeps of each disc the half behind its centre, seen along the path. So the
+//! discs that cover a point are those of the interval at whose centres the path has come as far as the
+//! point: u >= x / L where the path runs to the smaller disc, u <= x / L where it runs to the larger.
+//! The union is still convex: of convex shapes whose place and size run linearly it is the hull of the
+//! first and the last.
+//!
 //! Two names that are easy to mix up: a point's *interval* is all u whose discs cover it; its
 //! *attribute point* is the single u where distance over radius is least, which colours it.
 
@@ -36,6 +42,28 @@ pub struct Circle {
     pub radius: f64,
 }
 
+/// What is put down at each point of a path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Brush {
+    /// A disc: strokes end round.
+    #[default]
+    Circle,
+    /// The half of the disc behind its centre: strokes end flat (thesis, Figs 7.1 and 7.2).
+    Semicircle,
+}
+
+/// The end of a sweep at which half discs leave it flat.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FlatEnd {
+    /// Neither: whole discs.
+    #[default]
+    None,
+    /// The smaller: the path runs there.
+    Smaller,
+    /// The larger: the path runs there.
+    Larger,
+}
+
 /// The union of the discs between two circles. Positions `u` run from 0 at the larger to 1 at the
 /// smaller.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +85,15 @@ pub struct Sweep {
     beyond_apex: f32,
     /// Largest -B of the body between the discs: a, or -1 where there is no body.
     body_end: f32,
+    flat_end: FlatEnd,
+    /// Least and greatest u of discs that cover a point at x, as slope and start.
+    from: [f32; 2],
+    to: [f32; 2],
 }
+
+/// Limits of u that are none.
+const FROM_START: [f32; 2] = [0.0, -1.0];
+const TO_END: [f32; 2] = [0.0, 2.0];
 
 impl Sweep {
     /// The sweep between two circles with finite numbers of at most about 1e9 pixels, the larger
@@ -96,7 +132,39 @@ impl Sweep {
             inv_a: if nested { f32::MAX } else { (1.0 / a) as f32 },
             beyond_apex: if nested { 0.0 } else { length as f32 },
             body_end: if nested { -1.0 } else { a as f32 },
+            flat_end: FlatEnd::None,
+            from: FROM_START,
+            to: TO_END,
         })
+    }
+
+    /// The same between half discs, those behind a path that runs to the smaller circle or to the larger.
+    /// A sweep without length has no direction, and stays whole.
+    #[must_use]
+    pub fn with_semicircles(self, runs_to_smaller: bool) -> Self {
+        let limit = [self.inv_length, 0.0];
+        if self.length <= 0.0 {
+            self
+        } else if runs_to_smaller {
+            Self {
+                flat_end: FlatEnd::Smaller,
+                from: limit,
+                ..self
+            }
+        } else {
+            Self {
+                flat_end: FlatEnd::Larger,
+                to: limit,
+                ..self
+            }
+        }
+    }
+
+    /// Where the sweep ends flat.
+    #[inline(always)]
+    #[must_use]
+    pub fn flat_end(&self) -> FlatEnd {
+        self.flat_end
     }
 
     /// A screen position in the segment's frame.
@@ -123,7 +191,18 @@ impl Sweep {
         let to_vertex = self.length * x - self.radius * self.shrink;
         let r = self.length * self.radius - self.shrink * x;
         let in_body = (r * r >= self.a * y * y) & (to_vertex >= 0.0) & (to_vertex <= self.body_end);
-        in_larger | in_smaller | in_body
+        let in_disc = in_larger | in_smaller | in_body;
+        match self.flat_end {
+            FlatEnd::None => in_disc,
+            // A disc farther back reaches as far ahead and is larger.
+            FlatEnd::Larger => in_disc & (x >= 0.0),
+            // A disc farther on is smaller than the one beside the point.
+            FlatEnd::Smaller => {
+                let beside = self.radius - self.shrink * (x * self.inv_length);
+                let in_trapezoid = (x <= self.length) & (y.abs() <= beside);
+                (in_larger & (x <= 0.0)) | (in_trapezoid & (x >= 0.0))
+            }
+        }
     }
 
     /// The least and the greatest u in 0..=1 whose discs cover a point that
@@ -141,6 +220,10 @@ impl Sweep {
         let by_a = q * self.inv_a;
         let low = select_unpredictable(b > 0.0, -by_a, by_c);
         let high = select_unpredictable(b > 0.0, -by_c, by_a);
+        let from = x * self.from[0] + self.from[1];
+        let to = x * self.to[0] + self.to[1];
+        let low = select_unpredictable(low > from, low, from);
+        let high = select_unpredictable(high < to, high, to);
         (unit_clamp(low), unit_clamp(high))
     }
 
@@ -280,6 +363,49 @@ mod tests {
         stamped
     }
 
+    /// Half discs: where the point is well within a stamp or well outside of all the answer is known.
+    fn check_half(
+        a: Circle,
+        b: Circle,
+        p: DVec2,
+        runs_to_smaller: bool,
+    ) -> Result<(), TestCaseError> {
+        let sweep = Sweep::new(a, b).unwrap().with_semicircles(runs_to_smaller);
+        let local = sweep.local(p).as_vec2();
+        let way =
+            (b.center - a.center).normalize_or_zero() * if runs_to_smaller { 1.0 } else { -1.0 };
+        // For each half disc how far outside of it the point is.
+        let stamps = (0..=STAMPS).map(|i| {
+            let disc = lerp(a, b, i as f64 / STAMPS as f64);
+            let from_center = p - disc.center;
+            let outside = (from_center.length() - disc.radius).max(from_center.dot(way));
+            (i as f64 / STAMPS as f64, outside)
+        });
+        let stamps: Vec<(f64, f64)> = stamps.collect();
+        let gap = stamps.iter().map(|s| s.1).fold(f64::INFINITY, f64::min);
+        let length = a.center.distance(b.center);
+        let slack = 2e-6 * (1.0 + a.radius + length) + 2.0 * length / STAMPS as f64;
+        let covers = sweep.covers(local.x, local.y);
+        prop_assert!(covers || gap > -slack, "not covered, gap {gap}");
+        prop_assert!(!covers || gap < slack, "covered, gap {gap}");
+        if covers && gap < -slack {
+            let (low, high) = sweep.interval(local.x, local.y);
+            let covering: Vec<f64> = stamps.iter().filter(|s| s.1 <= 0.0).map(|s| s.0).collect();
+            for (ours, stamped) in [(low, covering[0]), (high, covering[covering.len() - 1])] {
+                let ours = f64::from(ours);
+                let disc = lerp(a, b, ours);
+                let from_center = p - disc.center;
+                let outside = (from_center.length() - disc.radius).max(from_center.dot(way));
+                let near = (ours - stamped).abs() < 2.0 / STAMPS as f64;
+                prop_assert!(
+                    near || outside.abs() < slack,
+                    "ends {low} {high}, {outside}"
+                );
+            }
+        }
+        Ok(())
+    }
+
     fn check(a: Circle, b: Circle, p: DVec2) -> Result<(), TestCaseError> {
         let sweep = Sweep::new(a, b).unwrap();
         let local = sweep.local(p).as_vec2();
@@ -338,6 +464,10 @@ mod tests {
             // A point near the stroke, so that most cases test something.
             let p = a.center.lerp(b.center, along) + DVec2::new(px, py) * r0;
             check(a, b, p)?;
+            if a.center.distance(b.center) > 0.01 {
+                check_half(a, b, p, true)?;
+                check_half(a, b, p, false)?;
+            }
         }
 
         #[test]
@@ -408,6 +538,29 @@ mod tests {
         );
         let [from, to] = part.unwrap();
         assert!((from * 2e6 - 1e6 + 1.0).abs() < 1e-6 && (to * 2e6 - 1e6 - 11.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn half_discs_end_flat_at_the_end_of_the_path() {
+        let (large, small) = (circle(0.0, 0.0, 4.0), circle(8.0, 0.0, 2.0));
+        let sweep = Sweep::new(large, small).unwrap();
+        let on = sweep.with_semicircles(true);
+        assert_eq!(on.flat_end(), FlatEnd::Smaller);
+        // Round behind the larger, a trapezoid between both, nothing ahead of the smaller.
+        assert!(on.covers(-3.9, 0.0) && on.covers(4.0, 2.99) && on.covers(8.0, 1.99));
+        assert!(!on.covers(8.01, 0.0) && !on.covers(4.0, 3.01));
+        let back = sweep.with_semicircles(false);
+        assert_eq!(back.flat_end(), FlatEnd::Larger);
+        assert!(!back.covers(-0.01, 0.0) && back.covers(0.0, 3.99) && back.covers(9.9, 0.0));
+        // At (4, 0) whole discs of 0.0 to 0.8 cover; half of them lies behind the centre of one.
+        let (low, high) = sweep.interval(4.0, 0.0);
+        assert_eq!(
+            (on.interval(4.0, 0.0), back.interval(4.0, 0.0)),
+            ((0.5, high), (low, 0.5))
+        );
+        // Without a direction there are no halves.
+        let point = Sweep::new(large, large).unwrap().with_semicircles(true);
+        assert_eq!(point.flat_end(), FlatEnd::None);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::segment::{Depth, Segment};
 use super::triangle::{Hit, Triangle};
 use glam::DVec2;
-use render::{Disc, Drawing, Order};
+use render::{Brush, Disc, Drawing, Order};
 use std::cmp::Reverse;
 
 /// What may cover the samples of one part of the screen.
@@ -136,13 +136,14 @@ impl Strand {
                         runs,
                         &strokes_of_layer.discs[of_instance.clone()],
                         &strokes_of_layer.colors[of_instance],
+                        drawing.brush,
                     ),
                 });
             }
         }
         strokes.sort_by_key(|stroke| Reverse(stroke.precedence));
         Self {
-            clump: segments(runs, &drawing.clump, &no_colors),
+            clump: segments(runs, &drawing.clump, &no_colors, drawing.brush),
             strokes,
         }
     }
@@ -178,9 +179,11 @@ impl Strand {
 }
 
 impl Stroke {
-    /// The colour of the axis point nearest to `point`: least distance over radius.
+    /// The colour of the axis point nearest to `point`: least distance over radius, of the segments that
+    /// cover it (with whole discs the least of all does).
     fn color(&self, point: DVec2) -> Option<[f64; 3]> {
-        let nearest = self.segments.iter().map(|segment| {
+        let covering = self.segments.iter().filter(|s| s.depth(point).is_some());
+        let nearest = covering.map(|segment| {
             let (ratio, t) = segment.nearest_axis_point(point);
             (ratio, t, segment)
         });
@@ -191,8 +194,19 @@ impl Stroke {
 }
 
 /// The segments of all `runs`, in order along the strand.
-fn segments(runs: &[render::Run], discs: &[Disc], colors: &[[f32; 3]]) -> Vec<Segment> {
-    let segment = |from, to| Segment::new([&discs[from], &discs[to]], [colors[from], colors[to]]);
+fn segments(
+    runs: &[render::Run],
+    discs: &[Disc],
+    colors: &[[f32; 3]],
+    brush: Brush,
+) -> Vec<Segment> {
+    let segment = |from, to| {
+        Segment::new(
+            [&discs[from], &discs[to]],
+            [colors[from], colors[to]],
+            brush,
+        )
+    };
     let mut segments = Vec::new();
     for run in runs {
         match run.joints.len() {

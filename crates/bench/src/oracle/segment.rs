@@ -1,7 +1,7 @@
 //! The union of the discs between two joints: coverage, nearest depth, nearest axis point.
 
 use glam::DVec2;
-use render::Disc;
+use render::{Brush, Disc};
 
 /// The larger is nearer.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,21 +55,29 @@ impl Joint {
 pub struct Segment {
     from: Joint,
     to: Joint,
+    brush: Brush,
 }
 
 impl Segment {
-    /// From one disc to the next. The same disc twice is that disc alone.
-    pub fn new(discs: [&Disc; 2], colors: [[f32; 3]; 2]) -> Self {
+    /// From one disc to the next. The same disc twice is that disc alone, whatever the brush: half a
+    /// disc needs a direction.
+    pub fn new(discs: [&Disc; 2], colors: [[f32; 3]; 2], brush: Brush) -> Self {
+        let is_somewhere_else = discs[0].center != discs[1].center;
         Self {
             from: Joint::new(discs[0], colors[0]),
             to: Joint::new(discs[1], colors[1]),
+            brush: if is_somewhere_else {
+                brush
+            } else {
+                Brush::Circle
+            },
         }
     }
 
     /// Whether a disc may touch the box from `min` to `max`. The sweep lies in the convex hull of
     /// the discs at its ends, and so in the box around both.
     pub fn touches(&self, min: DVec2, max: DVec2) -> bool {
-        let Self { from, to } = self;
+        let Self { from, to, .. } = self;
         let lower = (from.center - from.radius).min(to.center - to.radius);
         let upper = (from.center + from.radius).max(to.center + to.radius);
         lower.cmple(max).all() && upper.cmpge(min).all()
@@ -78,17 +86,37 @@ impl Segment {
     /// The nearest depth of the discs that cover `point`, or nothing where none does.
     ///
     /// Depth is linear in t, so over each interval of discs that cover the point it is largest at
-    /// an end: at an end of the segment, or where the point lies on a disc's border.
+    /// an end: at an end of the segment, or where the point lies on a disc's border. Of half discs also
+    /// where it lies on the straight border, which is where its foot on the axis is.
     pub fn depth(&self, point: DVec2) -> Option<Depth> {
         let ends = [(0.0, self.from), (1.0, self.to)]
             .into_iter()
             .filter_map(|(t, end)| end.covers(point).then_some(t));
+        let foot = self.foot(point).filter(|&t| 0.0 < t && t < 1.0);
+        let beside = foot.filter(|&t| self.disc(t).covers(point));
         ends.chain(self.border_crossings(point))
+            .filter(|&t| foot_is_behind(self.foot(point), t))
+            .chain(beside)
             .map(|t| Depth {
                 inv_depth: mix(self.from.depth.inv_depth, self.to.depth.inv_depth, t),
                 biased: mix(self.from.depth.biased, self.to.depth.biased, t),
             })
             .reduce(Depth::nearest)
+    }
+
+    /// Of half discs: the t of the point's foot on the axis. Discs from there on have the point behind
+    /// them.
+    fn foot(&self, point: DVec2) -> Option<f64> {
+        let (p, d, ..) = self.relative_to_start(point);
+        (self.brush == Brush::Semicircle).then(|| p.dot(d) / d.length_squared())
+    }
+
+    fn disc(&self, t: f64) -> Joint {
+        Joint {
+            center: self.from.center.lerp(self.to.center, t),
+            radius: mix(self.from.radius, self.to.radius, t),
+            ..self.from
+        }
     }
 
     /// Each t inside (0, 1) whose disc has `point` on its border.
@@ -145,7 +173,7 @@ impl Segment {
 
     /// From the first centre to `point` and to the second centre, the first radius and its growth.
     fn relative_to_start(&self, point: DVec2) -> (DVec2, DVec2, f64, f64) {
-        let Self { from, to } = self;
+        let Self { from, to, .. } = self;
         (
             point - from.center,
             to.center - from.center,
@@ -153,6 +181,10 @@ impl Segment {
             to.radius - from.radius,
         )
     }
+}
+
+fn foot_is_behind(foot: Option<f64>, t: f64) -> bool {
+    foot.is_none_or(|foot| foot <= t)
 }
 
 /// From `from` at t = 0 to `to` at t = 1; exact where both are equal.
@@ -178,7 +210,17 @@ mod tests {
     }
 
     fn segment(from: Disc, to: Disc) -> Segment {
-        Segment::new([&from, &to], [[0.0; 3], [1.0, 2.0, 4.0]])
+        Segment::new([&from, &to], [[0.0; 3], [1.0, 2.0, 4.0]], Brush::Circle)
+    }
+
+    fn half(segment: Segment) -> Segment {
+        let is_point = segment.from.center == segment.to.center;
+        let brush = if is_point {
+            Brush::Circle
+        } else {
+            Brush::Semicircle
+        };
+        Segment { brush, ..segment }
     }
 
     fn inv_depth(segment: &Segment, x: f64, y: f64) -> Option<f64> {
@@ -196,6 +238,34 @@ mod tests {
         assert_eq!(inv_depth(&rising, 50.0, 5.001), None);
         assert_eq!(inv_depth(&rising, 104.9, 0.0), Some(2.0));
         assert_eq!(inv_depth(&rising, 105.1, 0.0), None);
+    }
+
+    #[test]
+    fn half_discs_end_flat_and_are_no_nearer_than_their_foot() {
+        // Discs of radius 5 from x = 0 to 100: (x, 3) is covered by the half discs at x to x + 4.
+        let rising = half(segment(
+            disc(0.0, 0.0, 5.0, 1.0),
+            disc(100.0, 0.0, 5.0, 2.0),
+        ));
+        let falling = half(segment(
+            disc(0.0, 0.0, 5.0, 2.0),
+            disc(100.0, 0.0, 5.0, 1.0),
+        ));
+        assert!((inv_depth(&rising, 50.0, 3.0).unwrap() - 1.54).abs() < 1e-12);
+        assert!((inv_depth(&falling, 50.0, 3.0).unwrap() - 1.5).abs() < 1e-12);
+        assert_eq!(inv_depth(&rising, 100.001, 0.0), None);
+        assert_eq!(inv_depth(&rising, 100.0, 4.9), Some(2.0));
+        assert_eq!(inv_depth(&falling, -4.9, 0.0), Some(2.0));
+        assert_eq!(inv_depth(&falling, -5.1, 0.0), None);
+    }
+
+    #[test]
+    fn half_discs_taper_as_a_trapezoid() {
+        let taper = half(segment(disc(0.0, 0.0, 10.0, 1.0), disc(8.0, 0.0, 2.0, 1.0)));
+        assert_eq!(inv_depth(&taper, 4.0, 6.001), None);
+        assert!(inv_depth(&taper, 4.0, 5.999).is_some());
+        assert!(inv_depth(&taper, 7.999, 1.9).is_some());
+        assert!(inv_depth(&taper, -6.0, 7.9).is_some());
     }
 
     #[test]
@@ -273,6 +343,15 @@ mod tests {
         );
     }
 
+    /// [`stamps`] of a half brush: those whose discs have `q` behind them.
+    fn half_stamps(s: &Segment, q: DVec2) -> impl Iterator<Item = (f64, f64, f64)> {
+        let along = s.to.center - s.from.center;
+        stamps(s, q).filter(move |(t, ..)| {
+            let center = s.from.center * (1.0 - t) + s.to.center * *t;
+            along.dot(q - center) <= 0.0
+        })
+    }
+
     /// Segments of every kind: nested, touching, tapering, zero long, zero wide, far away.
     fn any_segment() -> impl Strategy<Value = Segment> {
         let radius = || prop_oneof![1 => Just(0.0f32), 4 => 0.0..20.0f32, 1 => 0.0..0.3f32];
@@ -334,6 +413,33 @@ mod tests {
         }
 
         #[test]
+        fn half_discs_are_many_stamped_ones(s in any_segment(), x in -30.0..30.0f64, y in -30.0..30.0f64) {
+            let (s, q) = (half(s), DVec2::new(x, y));
+            let step = 1.0 / f64::from(STEPS);
+            let slope = (s.to.depth.inv_depth - s.from.depth.inv_depth).abs();
+            let reach = (s.to.center - s.from.center).length() + (s.to.radius - s.from.radius).abs();
+            let covers = |gap: f64| {
+                half_stamps(&s, q)
+                    .filter(move |(_, distance, radius)| *radius > 0.0 && distance <= &(radius + gap))
+                    .map(|(t, ..)| s.from.depth.inv_depth * (1.0 - t) + s.to.depth.inv_depth * t)
+                    .reduce(f64::max)
+            };
+            match (s.depth(q), covers(0.0)) {
+                (None, stamped) => prop_assert!(stamped.is_none(), "a stamp covers the point"),
+                (Some(exact), Some(stamped)) => {
+                    prop_assert!(exact.inv_depth >= stamped - 1e-9);
+                    prop_assert!(exact.inv_depth <= stamped + slope * step + 1e-9);
+                }
+                // Between two stamps, or between the last stamp and the flat end.
+                (Some(_), None) => {
+                    let along = (s.to.center - s.from.center).normalize();
+                    let is_near = covers(2.0 * reach * step).is_some();
+                    prop_assert!(is_near || (q - s.to.center).dot(along) <= 1e-9);
+                }
+            }
+        }
+
+        #[test]
         fn no_stamp_has_a_smaller_ratio(s in any_segment(), x in -30.0..30.0f64, y in -30.0..30.0f64) {
             let q = DVec2::new(x, y);
             let (ratio, t) = s.nearest_axis_point(q);
@@ -354,7 +460,7 @@ mod tests {
         #[test]
         fn reversed_segment_is_the_same(s in any_segment(), x in -30.0..30.0f64, y in -30.0..30.0f64) {
             let q = DVec2::new(x, y);
-            let reversed = Segment { from: s.to, to: s.from };
+            let reversed = Segment { from: s.to, to: s.from, ..s };
             let ratio = s.nearest_axis_point(q).0;
             match (s.depth(q), reversed.depth(q)) {
                 (Some(a), Some(b)) => prop_assert!((a.inv_depth - b.inv_depth).abs() < 1e-6),

@@ -3,7 +3,7 @@
 use effects::Registry;
 use glam::{DVec3, Vec2};
 use render::cpu::Evaluator;
-use render::{Disc, Drawing, LayerStrokes, Order, Run};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run};
 use stage::{Files, Preset, Stage};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -351,6 +351,7 @@ fn drawing(strands: impl Iterator<Item = (u32, Vec<Joint>)>, layers: &[LayerOf])
         surfaces: Vec::new(),
         background: None,
         order: Order::StrandFirst,
+        brush: Brush::Circle,
     }
 }
 

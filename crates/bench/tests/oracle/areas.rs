@@ -3,7 +3,7 @@
 use crate::drawings::*;
 use bench::oracle;
 use glam::DVec2;
-use render::{Disc, Drawing};
+use render::{Brush, Disc, Drawing};
 use std::f64::consts::PI;
 
 /// Square pixels. A cell of the grid has 1/256 and is counted wrongly only on a border, with errors
@@ -44,6 +44,30 @@ fn disc_cut_by_the_border_of_the_screen() {
 fn capsule() {
     let (from, to) = (disc(12.1, 15.3, 4.0, 1.0), disc(44.1, 39.3, 4.0, 1.0));
     assert_area(&[from, to], 40.0 * 8.0 + PI * 16.0);
+}
+
+#[test]
+fn half_discs() {
+    let half = |discs: &[Disc], expected: f64| {
+        let drawing = Drawing {
+            brush: Brush::Semicircle,
+            ..strokes(&[discs])
+        };
+        let measured = area(&drawing);
+        assert!(
+            (measured - expected).abs() < TOLERANCE + 2e-4 * expected,
+            "{measured} is not {expected}"
+        );
+    };
+    let (from, to) = (disc(20.1, 24.3, 12.0, 1.0), disc(44.1, 42.3, 3.0, 1.0));
+    // Half a disc and a trapezoid; the other way round what lies ahead of the larger is missing.
+    half(&[from, to], PI * 72.0 + 30.0 * (12.0 + 3.0));
+    half(
+        &[to, from],
+        uneven_capsule_area(12.0, 3.0, 30.0) - PI * 72.0,
+    );
+    // Without a way there is no half.
+    half(&[from], PI * 144.0);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Drawings like those of the program: a head, hair around it, all kinds of layers.
 
 use glam::{DVec3, Vec2};
-use render::{Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex};
 use std::f64::consts::TAU;
 
 const STRANDS: u32 = 80;
@@ -150,6 +150,7 @@ pub fn portrait(size: [u32; 2], order: Order) -> Drawing {
         surfaces: vec![head(&projection)],
         background: Some([0.8, 0.8, 0.75]),
         order,
+        brush: Brush::Circle,
     }
 }
 

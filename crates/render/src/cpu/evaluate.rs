@@ -1,16 +1,21 @@
 //! Joints to strokes on the screen, by the layers' own WGSL in Rust.
 
-use crate::drawing::{Disc, Drawing, LayerStrokes, Run};
+use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
 use crate::frame::{FAR_LIGHT, Frame};
+use effects::smooth::Smoother;
 use effects::wgsl::{Stroke, vec2, vec3};
 use effects::{InputSet, Joints, Layer, Parameters, Units, clump, layer_seed};
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Turns frames into drawings, and keeps its lists from frame to frame.
 #[derive(Default)]
 pub struct Evaluator {
     joints: Joints,
-    strokes: Vec<Stroke>,
+    /// For each joint the length of its run up to there as it is seen, metres at its depth; empty where no
+    /// layer has a shortest stroke.
+    seen_length: Vec<f32>,
 }
 
 impl Evaluator {
@@ -23,14 +28,16 @@ impl Evaluator {
             .fold(InputSet::of(clump::Program::INPUTS), InputSet::union);
         self.fill_inputs(frame, read);
         self.fill_clump(frame);
+        self.fill_seen_length(frame);
 
         drawing.size = frame.camera.size_px();
         drawing.background = frame.background;
         drawing.order = frame.order;
+        drawing.brush = frame.brush;
         drawing.surfaces.clone_from(&frame.surfaces);
         drawing.runs.clear();
         drawing.runs.extend(frame.paths.runs.iter().map(|run| Run {
-            strand: frame.strands[run.strand].id,
+            strand: run.strand as u32,
             joints: run.joints.clone(),
         }));
         drawing.clump.clear();
@@ -40,51 +47,55 @@ impl Evaluator {
             .extend((0..radii.len()).map(|i| disc(frame, i, Vec2::ZERO, radii[i], radii[i], 0.0)));
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
-        for layer in frame.layers {
+        for (layer, joints) in frame.layers.iter().zip(frame.layer_joints) {
             let lists = spare
                 .next()
                 .map(|l| (l.discs, l.colors))
                 .unwrap_or_default();
-            drawing.layers.push(self.layer(frame, layer, lists));
+            let strokes = self.layer(frame, layer, joints, lists);
+            if layer.program.has_own_paths() {
+                // No strand's clump holds them: they are their own.
+                drawing.clump[joints.clone()].copy_from_slice(&strokes.discs[joints.clone()]);
+            }
+            drawing.layers.push(strokes);
         }
     }
 
-    /// The strokes of one layer; `lists` are reused.
+    /// The strokes of one layer on the joints `drawn`, nothing on others; `lists` are reused.
     fn layer(
         &mut self,
         frame: &Frame,
         layer: &Layer,
+        drawn: &Range<usize>,
         (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
     ) -> LayerStrokes {
-        discs.clear();
-        colors.clear();
         self.fill_pixel(frame, layer.units);
-        let seed = layer_seed(frame.seed, &layer.name);
         let joints = frame.paths.len();
-        for instance in 0..layer.program.instances() {
-            self.strokes.clear();
-            layer
-                .program
-                .evaluate(&self.joints, 0..joints, instance, seed, &mut self.strokes);
-            self.strokes.iter_mut().for_each(drop_if_not_finite);
-            discs.extend(self.strokes.iter().enumerate().map(|(i, stroke)| {
-                let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
-                let depth_offset = layer.depth_offset + stroke.depth_offset;
-                disc(
-                    frame,
-                    i,
-                    offset,
-                    stroke.radius,
-                    self.joints.clump_radius[i],
-                    depth_offset,
-                )
-            }));
-            colors.extend(self.strokes.iter().map(|stroke| stroke.color.to_array()));
-        }
+        let instances = layer.program.instances();
+        let length = joints * instances as usize;
+        discs.resize(length, NO_DISC);
+        colors.resize(length, [0.0; 3]);
+        let strokes = discs
+            .par_chunks_mut(joints.max(1))
+            .zip(colors.par_chunks_mut(joints.max(1)));
+        let instance = Instance {
+            frame,
+            layer,
+            joints: &self.joints,
+            drawn: drawn.clone(),
+            seen_length: &self.seen_length,
+            seed: layer_seed(frame.seed, &layer.name),
+        };
+        strokes.zip(0..instances).for_each_init(
+            Scratch::default,
+            |scratch, ((discs, colors), number)| {
+                instance.evaluate(number, scratch, discs, colors);
+            },
+        );
         LayerStrokes {
             name: layer.name.clone(),
             rank: layer.rank,
-            instances: layer.program.instances() as usize,
+            instances: instances as usize,
             discs,
             colors,
         }
@@ -185,6 +196,25 @@ impl Evaluator {
         }
     }
 
+    fn fill_seen_length(&mut self, frame: &Frame) {
+        self.seen_length.clear();
+        let is_read = |layer: &Layer| layer.program.shortest() > 0.0;
+        if !frame.layers.iter().any(is_read) {
+            return;
+        }
+        let paths = frame.paths;
+        for run in &paths.runs {
+            let mut length = 0.0;
+            for i in run.joints.clone() {
+                if i > run.joints.start {
+                    let scale = 0.5 * (paths.px_per_metre[i] + paths.px_per_metre[i - 1]);
+                    length += paths.center[i].distance(paths.center[i - 1]) / scale;
+                }
+                self.seen_length.push(length);
+            }
+        }
+    }
+
     /// The size of a pixel at 720 lines, for layers whose widths are pixels.
     fn fill_pixel(&mut self, frame: &Frame, units: Units) {
         let pixel_px = frame.camera.size_px()[1] as f32 / 720.0;
@@ -197,6 +227,109 @@ impl Evaluator {
         fill(&mut self.joints.pixel, units == Units::Pixels, sizes);
     }
 }
+
+/// A thread's working memory.
+#[derive(Default)]
+struct Scratch {
+    strokes: Vec<Stroke>,
+    radii: Vec<f32>,
+    smoother: Smoother,
+}
+
+/// What the instances of a layer share.
+struct Instance<'a> {
+    frame: &'a Frame<'a>,
+    layer: &'a Layer,
+    joints: &'a Joints,
+    /// The joints that the layer draws on.
+    drawn: Range<usize>,
+    seen_length: &'a [f32],
+    seed: u32,
+}
+
+impl Instance<'_> {
+    /// Makes stroke `number` of each run, a disc and a colour for every joint.
+    fn evaluate(
+        &self,
+        number: u32,
+        scratch: &mut Scratch,
+        discs: &mut [Disc],
+        colors: &mut [[f32; 3]],
+    ) {
+        let (frame, layer, joints) = (self.frame, self.layer, self.joints);
+        let Range { start, end } = self.drawn;
+        let (program, seed) = (&layer.program, self.seed);
+        scratch.strokes.clear();
+        program.evaluate(joints, start..end, number, seed, &mut scratch.strokes);
+        scratch.strokes.iter_mut().for_each(drop_if_not_finite);
+        self.smooth(scratch);
+        discs[..start].fill(NO_DISC);
+        discs[end..].fill(NO_DISC);
+        for (i, stroke) in (start..end).zip(&scratch.strokes) {
+            let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
+            let depth_offset = layer.depth_offset + stroke.depth_offset;
+            let clump_radius = joints.clump_radius[i];
+            discs[i] = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
+            colors[i] = stroke.color.to_array();
+        }
+        if frame.brush == Brush::Semicircle {
+            self.go_around_flat_ends(&scratch.strokes, discs);
+        }
+    }
+
+    /// Moves the tips of strokes that are wider than their clump on by what they are wider, or an outline
+    /// would end where its clump does.
+    fn go_around_flat_ends(&self, strokes: &[Stroke], discs: &mut [Disc]) {
+        let paths = self.frame.paths;
+        let tips = self.runs().map(|joints| joints.end - 1);
+        for tip in tips.filter(|&tip| paths.u[tip] == 1.0) {
+            let wider =
+                (strokes[tip - self.drawn.start].radius - self.joints.clump_radius[tip]).max(0.0);
+            let unit_px = self.frame.head.unit_m() * paths.px_per_metre[tip];
+            // The path on the screen, of which `across` is a right angle to the right.
+            let ahead = -paths.across[tip].perp();
+            discs[tip].center += ahead * (wider * unit_px).min(LARGEST_PX);
+        }
+    }
+
+    /// The runs that the layer draws on.
+    fn runs(&self) -> impl Iterator<Item = Range<usize>> {
+        let runs = self.frame.paths.runs.iter().map(|run| run.joints.clone());
+        runs.filter(|joints| self.drawn.start <= joints.start && joints.end <= self.drawn.end)
+    }
+
+    /// Takes stretches and gaps of the strokes that are too short away, as they are seen: hair that
+    /// points at the eye would show long ones as dots.
+    fn smooth(&self, scratch: &mut Scratch) {
+        let length_m = self.layer.program.shortest() * self.frame.head.height_m;
+        if length_m <= 0.0 {
+            return;
+        }
+        let Scratch {
+            strokes,
+            radii,
+            smoother,
+        } = scratch;
+        for joints in self.runs() {
+            let start = self.drawn.start;
+            let strokes = &mut strokes[joints.start - start..joints.end - start];
+            radii.clear();
+            radii.extend(strokes.iter().map(|stroke| stroke.radius.max(0.0)));
+            let places = &self.seen_length[joints];
+            smoother.smooth(places, radii, length_m);
+            for (stroke, radius) in strokes.iter_mut().zip(radii.iter()) {
+                stroke.radius = *radius;
+            }
+        }
+    }
+}
+
+const NO_DISC: Disc = Disc {
+    center: Vec2::ZERO,
+    radius: 0.0,
+    inv_depth: 0.0,
+    inv_depth_biased: 0.0,
+};
 
 fn fill<T>(list: &mut Vec<T>, wanted: bool, values: impl Iterator<Item = T>) {
     list.clear();

@@ -4,11 +4,14 @@
 //! interval. Its ends are the least and the greatest of where the row meets the discs and the two
 //! outer tangents between them. That is a few operations a row in place of some for each sample, and
 //! the interval's columns are the bits of one word.
+//!
+//! Between half discs it is the hull of these, again convex.
 
 use super::segment::Segment;
 use super::tile::{HEIGHT, LANE, LANES, Lanes, Mask, WIDTH, greater, lesser, select};
 use glam::{DVec2, Vec2};
 use std::ops::Range;
+use stroke_path::sweep::FlatEnd;
 
 /// A disc, from the tile's corner.
 #[derive(Clone, Copy)]
@@ -17,7 +20,8 @@ struct Disc {
     radius: f32,
 }
 
-/// An outer tangent from where it touches one disc to where it touches the other.
+/// A straight part of the outline, such as an outer tangent from where it touches one disc to where it
+/// touches the other.
 #[derive(Clone, Copy)]
 struct Tangent {
     start: Vec2,
@@ -40,6 +44,13 @@ impl Tangent {
             bottom: start.y.max(end.y),
         }
     }
+}
+
+/// The points that lie not ahead of `point` in the direction `ahead`.
+#[derive(Clone, Copy)]
+struct HalfPlane {
+    point: Vec2,
+    ahead: Vec2,
 }
 
 /// The interval of x of each of some rows; empty where the least is above the greatest.
@@ -76,6 +87,22 @@ impl Intervals {
             let x = tangent.start.x + select(t < 1.0, t, 1.0) * tangent.along.x;
             self.least[k] = lesser(select(is_beside, x, f32::INFINITY), self.least[k]);
             self.greatest[k] = greater(select(is_beside, x, f32::NEG_INFINITY), self.greatest[k]);
+        }
+    }
+
+    /// Leaves what lies in the half-plane.
+    #[inline(always)]
+    fn clip(&mut self, half_plane: &HalfPlane, y: &Lanes) {
+        let HalfPlane { point, ahead } = half_plane;
+        for k in 0..LANES {
+            let over = (y[k] - point.y) * ahead.y;
+            let x = point.x - over / ahead.x;
+            let least = select(ahead.x < 0.0, greater(self.least[k], x), self.least[k]);
+            let greatest = select(ahead.x > 0.0, lesser(self.greatest[k], x), self.greatest[k]);
+            // A row along the edge is in it or not.
+            let is_empty = (least > greatest) | ((ahead.x == 0.0) & (over > 0.0));
+            self.least[k] = select(is_empty, f32::INFINITY, least);
+            self.greatest[k] = select(is_empty, f32::NEG_INFINITY, greatest);
         }
     }
 
@@ -130,24 +157,75 @@ pub(super) fn cover(
         center: (center - origin).as_vec2(),
         radius,
     });
-    let tangents = segment.sweep.tangent_normals().map(|normals| {
-        let touch = |disc: &Disc, normal: Vec2| disc.center + disc.radius * normal;
-        normals.map(|normal| Tangent::new(touch(&discs[0], normal), touch(&discs[1], normal)))
-    });
+    let outline = Outline::new(segment, discs);
     for (sample, offset) in samples.iter().enumerate() {
         for first in rows.clone().step_by(LANES) {
             let y = LANE.map(|k| first as f32 + k + offset.y);
-            let mut intervals = Intervals {
-                least: [f32::INFINITY; LANES],
-                greatest: [f32::NEG_INFINITY; LANES],
-            };
-            intervals.add_disc(&discs[0], &y);
-            intervals.add_disc(&discs[1], &y);
-            for tangent in tangents.iter().flatten() {
-                intervals.add_tangent(tangent, &y);
-            }
             let start = sample * HEIGHT + first;
-            mask[start..start + LANES].copy_from_slice(&intervals.columns(offset.x));
+            mask[start..start + LANES].copy_from_slice(&outline.intervals(&y).columns(offset.x));
         }
+    }
+}
+
+/// What bounds a segment.
+enum Outline {
+    /// The hull of two discs; the tangents are missing where one disc holds the other. Of half discs that
+    /// run to the larger it is what lies behind that one's centre.
+    Discs([Disc; 2], Option<[Tangent; 2]>, Option<HalfPlane>),
+    /// Half a disc, and the trapezoid from there to the end of the smaller half disc.
+    HalfDisc(Disc, HalfPlane, [Tangent; 3]),
+}
+
+impl Outline {
+    /// `discs` are the larger and the smaller.
+    #[inline(always)]
+    fn new(segment: &Segment, discs: [Disc; 2]) -> Self {
+        let sweep = &segment.sweep;
+        let axis = sweep.axis();
+        let touch = |disc: &Disc, normal: Vec2| disc.center + disc.radius * normal;
+        let behind = |ahead: Vec2| HalfPlane {
+            point: discs[0].center,
+            ahead,
+        };
+        if sweep.flat_end() == FlatEnd::Smaller {
+            let across = axis.perp();
+            let side = |normal: Vec2| [touch(&discs[0], normal), touch(&discs[1], normal)];
+            let ([a, b], [c, d]) = (side(across), side(-across));
+            let edges = [Tangent::new(a, b), Tangent::new(c, d), Tangent::new(b, d)];
+            return Self::HalfDisc(discs[0], behind(axis), edges);
+        }
+        let tangents = sweep.tangent_normals().map(|normals| {
+            normals.map(|normal| Tangent::new(touch(&discs[0], normal), touch(&discs[1], normal)))
+        });
+        let flat = (sweep.flat_end() == FlatEnd::Larger).then(|| behind(-axis));
+        Self::Discs(discs, tangents, flat)
+    }
+
+    #[inline(always)]
+    fn intervals(&self, y: &Lanes) -> Intervals {
+        let mut intervals = Intervals {
+            least: [f32::INFINITY; LANES],
+            greatest: [f32::NEG_INFINITY; LANES],
+        };
+        match self {
+            Self::Discs(discs, tangents, flat) => {
+                intervals.add_disc(&discs[0], y);
+                intervals.add_disc(&discs[1], y);
+                for tangent in tangents.iter().flatten() {
+                    intervals.add_tangent(tangent, y);
+                }
+                if let Some(half_plane) = flat {
+                    intervals.clip(half_plane, y);
+                }
+            }
+            Self::HalfDisc(disc, half_plane, edges) => {
+                intervals.add_disc(disc, y);
+                intervals.clip(half_plane, y);
+                for edge in edges {
+                    intervals.add_tangent(edge, y);
+                }
+            }
+        }
+        intervals
     }
 }

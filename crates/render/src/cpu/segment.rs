@@ -6,7 +6,7 @@ use crate::drawing::{Disc, Drawing, Order, Run};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
-use stroke_path::sweep::{Circle, Sweep, visible_part};
+use stroke_path::sweep::{Brush, Circle, Sweep, visible_part};
 
 /// A stroke of each strand. They sort as they lie, low first: by rank, layer, instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -100,7 +100,7 @@ fn of_strand(drawing: &Drawing, strokes: &[Stroke], strand: u32, runs: &[Run]) -
     let mut segments = Vec::new();
     let mut push = |discs, colors, segment_of: (u32, u32)| {
         let (stroke, drawn_as) = segment_of;
-        segments.extend(of_run(discs, colors, drawing.size).map(|segment| Segment {
+        segments.extend(of_run(discs, colors, drawing).map(|segment| Segment {
             strand,
             stroke,
             drawn_as,
@@ -150,14 +150,15 @@ fn is_clump(drawing: &Drawing, stroke: &Stroke, run: &Run) -> bool {
 fn of_run<'a>(
     discs: &'a [Disc],
     colors: Option<&'a [[f32; 3]]>,
-    size: [u32; 2],
-) -> impl Iterator<Item = Segment> + 'a {
+    drawing: &Drawing,
+) -> impl Iterator<Item = Segment> + use<'a> {
+    let (size, brush) = (drawing.size, drawing.brush);
     let joint = move |i: usize| (discs[i], colors.map_or([0.0; 3], |colors| colors[i]));
     // One joint alone is a segment from itself to itself.
     let pairs = 0..(discs.len() - 1).max(1);
     pairs.filter_map(move |i| {
         let next = (i + 1).min(discs.len() - 1);
-        Segment::new(joint(i), joint(next), size)
+        Segment::new(joint(i), joint(next), size, brush)
     })
 }
 
@@ -166,7 +167,7 @@ type Joint = (Disc, [f32; 3]);
 impl Segment {
     /// The part of the segment between two joints that may be seen in a picture of that size, if
     /// any. Its strand and stroke are left at 0.
-    fn new(a: Joint, b: Joint, size: [u32; 2]) -> Option<Self> {
+    fn new(a: Joint, b: Joint, size: [u32; 2], brush: Brush) -> Option<Self> {
         if a.0.radius <= 0.0 && b.0.radius <= 0.0 {
             return None;
         }
@@ -175,12 +176,13 @@ impl Segment {
         let max = DVec2::new(f64::from(size[0]), f64::from(size[1])) + 1.0;
         let [from, to] = visible_part(circle(&a.0), circle(&b.0), min, max)?;
         let (a, b) = (between(a, b, from), between(a, b, to));
-        let (large, small) = if a.0.radius >= b.0.radius {
-            (a, b)
-        } else {
-            (b, a)
-        };
+        let shrinks = a.0.radius >= b.0.radius;
+        let (large, small) = if shrinks { (a, b) } else { (b, a) };
         let sweep = Sweep::new(circle(&large.0), circle(&small.0))?;
+        let sweep = match brush {
+            Brush::Circle => sweep,
+            Brush::Semicircle => sweep.with_semicircles(shrinks),
+        };
         let (min, max) = sweep.bounds();
         Some(Self {
             strand: 0,
@@ -250,7 +252,7 @@ mod tests {
         let far = 1e6;
         let a = (disc(-far, 1.0, 1.0), [0.0, 0.5, 1.0]);
         let b = (disc(far, 3.0, 3.0), [1.0, 0.5, 0.0]);
-        let segment = Segment::new(a, b, [10, 10]).unwrap();
+        let segment = Segment::new(a, b, [10, 10], Brush::Circle).unwrap();
         // The middle of the screen is the middle of the segment.
         let local = segment.sweep.local(DVec2::new(5.0, 5.0)).as_vec2();
         assert!(segment.sweep.covers(local.x, local.y));
@@ -267,7 +269,7 @@ mod tests {
 
     #[test]
     fn what_is_not_seen_is_left_out() {
-        let new = |a, b| Segment::new((a, [0.0; 3]), (b, [0.0; 3]), [10, 10]);
+        let new = |a, b| Segment::new((a, [0.0; 3]), (b, [0.0; 3]), [10, 10], Brush::Circle);
         assert!(new(disc(20.0, 1.0, 1.0), disc(30.0, 1.0, 1.0)).is_none());
         assert!(new(disc(1.0, 0.0, 1.0), disc(9.0, 0.0, 1.0)).is_none());
         assert!(new(disc(1.0, 0.0, 1.0), disc(9.0, 0.1, 1.0)).is_some());

@@ -5,7 +5,7 @@ use super::bin::{Bins, Bounds, cells};
 use super::instructions::Instructions;
 use super::tile::{self, LANE, LANES, NOTHING, Sums, Target, overwrite, row_start, select};
 use super::{DrawError, RasterizerError, check, empty_picture, segment};
-use crate::drawing::{Drawing, Run};
+use crate::drawing::{Brush, Drawing, Run};
 use crate::picture::Picture;
 use crate::samples::sample_positions;
 use glam::Vec2;
@@ -34,6 +34,8 @@ struct Stamp {
     radius_squared: f32,
     inv_depth: f32,
     color: [f32; 3],
+    /// Where only half of the disc is put down: the direction of the path, of which that half lies behind.
+    ahead: Vec2,
     /// The first and one beyond the last pixel that it may reach; pictures have at most
     /// [`MAX_SIZE`](super::MAX_SIZE).
     columns: [u16; 2],
@@ -161,6 +163,7 @@ fn of_run<'a>(
     let first = stroke.instance * drawing.clump.len();
     let (start, last) = (first + run.joints.start, first + run.joints.end - 1);
     let size = drawing.size;
+    let brush = drawing.brush;
     let between = (start..last).flat_map(move |i| {
         (0..per_interval).map(move |k| (i, i + 1, k as f32 / per_interval as f32))
     });
@@ -177,12 +180,23 @@ fn of_run<'a>(
             let (middle, reach) = (center.as_dvec2(), f64::from(radius));
             let bounds = Bounds::of_box(middle - reach, middle + reach, size)?;
             let (from, to) = (layer.colors[i], layer.colors[j]);
+            // At the last joint there is but the way to it.
+            let (before, next) = if i == j {
+                (i.max(start + 1) - 1, i)
+            } else {
+                (i, j)
+            };
+            let way = layer.discs[next].center - layer.discs[before].center;
             let ends = |range: std::ops::Range<usize>| [range.start as u16, range.end as u16];
             Some(Stamp {
                 center,
                 radius_squared: radius * radius,
                 inv_depth: mix(a.inv_depth, b.inv_depth),
                 color: [0, 1, 2].map(|channel| mix(from[channel], to[channel])),
+                ahead: match brush {
+                    Brush::Circle => Vec2::ZERO,
+                    Brush::Semicircle => way,
+                },
                 columns: ends(bounds.x),
                 rows: ends(bounds.y),
             })
@@ -271,20 +285,21 @@ impl Stamp {
                 let start = row_start(sample * tile::HEIGHT + row);
                 for chunk in chunks.clone() {
                     let x = (chunk * LANES) as f32 + offset.x - center.x;
-                    self.draw_chunk(x, room, start + chunk, target);
+                    self.draw_chunk(Vec2::new(x, y), room, start + chunk, target);
                 }
             }
         }
     }
 
-    /// `x` is the first lane's distance from the centre, `room` the largest square of one that is covered.
+    /// `first` is the first lane's place from the centre, `room` the largest square of an x that is covered.
     #[inline(always)]
-    fn draw_chunk(&self, x: f32, room: f32, cell: usize, target: &mut Target) {
+    fn draw_chunk(&self, first: Vec2, room: f32, cell: usize, target: &mut Target) {
         let mut nearest = target.strand[cell];
         let mut wins = [0.0; LANES];
         for k in 0..LANES {
-            let x = x + LANE[k];
-            let depth = select(x * x <= room, self.inv_depth, NOTHING);
+            let x = first.x + LANE[k];
+            let is_behind = x * self.ahead.x + first.y * self.ahead.y <= 0.0;
+            let depth = select((x * x <= room) & is_behind, self.inv_depth, NOTHING);
             wins[k] = select(depth > nearest[k], 1.0, 0.0);
             nearest[k] = select(depth > nearest[k], depth, nearest[k]);
         }

@@ -5,7 +5,7 @@ mod order;
 mod reference;
 
 use super::*;
-use crate::drawing::{Disc, LayerStrokes, Order, Run, Surface, SurfaceVertex};
+use crate::drawing::{Brush, Disc, LayerStrokes, Order, Run, Surface, SurfaceVertex};
 use std::f64::consts::PI;
 
 const RED: [f32; 3] = [1.0, 0.0, 0.0];
@@ -102,6 +102,20 @@ fn assert_area(drawing: &Drawing, expected: f64, outline: f64) {
 fn disc_has_its_area() {
     let drawing = one_strand([64, 64], &[disc(31.3, 30.8, 20.0, 1.0)]);
     assert_area(&drawing, PI * 400.0, 2.0 * PI * 20.0);
+}
+
+#[test]
+fn half_discs_have_their_areas() {
+    let (large, small) = (disc(20.2, 25.1, 12.0, 1.0), disc(60.2, 55.1, 6.0, 1.0));
+    let half = |discs: [Disc; 2]| Drawing {
+        brush: Brush::Semicircle,
+        ..one_strand([96, 96], &discs)
+    };
+    assert_area(&half([large, small]), PI * 72.0 + 50.0 * 18.0, 180.0);
+    // The whole discs' hull less the half of the larger that lies ahead.
+    let angle = (6.0_f64 / 50.0).acos();
+    let whole = 144.0 * (PI - angle) + 36.0 * angle + 18.0 * 50.0 * angle.sin();
+    assert_area(&half([small, large]), whole - PI * 72.0, 180.0);
 }
 
 #[test]

@@ -274,6 +274,12 @@ pub const PATH: &[Param] = &[
             default: 4,
         },
     ),
+    choice(
+        "brush",
+        "What is put down along a path: a circle, which ends round, or the half of it behind its centre, which ends flat.",
+        &["circle", "semicircle"],
+        0,
+    ),
 ];
 
 /// A preset's sections by name, with what each is about. `clump` and `layers` come from effects.

@@ -214,6 +214,7 @@ proptest! {
             surfaces: vec![surface],
             background: None,
             order: if is_shifted { Order::Shifted } else { Order::StrandFirst },
+            brush: Brush::default(),
         };
         let picture = draw(&drawing, 2);
         prop_assert_eq!(picture.pixels.len(), (size[0] * size[1]) as usize);

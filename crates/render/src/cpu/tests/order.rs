@@ -231,7 +231,7 @@ fn any_drawing() -> impl Strategy<Value = Drawing> {
     const JOINTS: usize = 12;
     let clump = proptest::collection::vec(any_disc(), JOINTS);
     let layers = proptest::collection::vec(any_layer(JOINTS), 1..4);
-    (clump, layers, any::<bool>()).prop_map(|(clump, layers, is_shifted)| Drawing {
+    (clump, layers, any::<[bool; 2]>()).prop_map(|(clump, layers, [is_shifted, is_half])| Drawing {
         size: [35, 27],
         runs: [(2, 0..4), (3, 4..7), (3, 7..8), (9, 8..12)]
             .map(|(strand, joints)| Run { strand, joints })
@@ -242,6 +242,11 @@ fn any_drawing() -> impl Strategy<Value = Drawing> {
             Order::Shifted
         } else {
             Order::StrandFirst
+        },
+        brush: if is_half {
+            Brush::Semicircle
+        } else {
+            Brush::Circle
         },
         ..Drawing::default()
     })

@@ -1,7 +1,7 @@
 //! The rules of [`crate::drawing`] written down sample by sample, without tiles, planes or clipping.
 
 use super::super::segment::strokes_in_order;
-use crate::drawing::{Disc, Drawing, Order, Run};
+use crate::drawing::{Brush, Disc, Drawing, Order, Run};
 use crate::picture::Picture;
 use crate::samples::sample_positions;
 use glam::DVec2;
@@ -55,7 +55,7 @@ fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
     };
     for runs in drawing.runs.chunk_by(|a, b| a.strand == b.strand) {
         let no_colors = vec![[0.0; 3]; joints];
-        let clump = touch(runs, &drawing.clump, &no_colors, position);
+        let clump = touch(runs, &drawing.clump, &no_colors, drawing.brush, position);
         let touches: Vec<(usize, i32, Touch)> = strokes
             .iter()
             .enumerate()
@@ -63,7 +63,11 @@ fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
                 let layer = &drawing.layers[stroke.layer];
                 let range: Range<usize> = stroke.instance * joints..(stroke.instance + 1) * joints;
                 let (discs, colors) = (&layer.discs[range.clone()], &layer.colors[range]);
-                Some((place, stroke.rank, touch(runs, discs, colors, position)?))
+                Some((
+                    place,
+                    stroke.rank,
+                    touch(runs, discs, colors, drawing.brush, position)?,
+                ))
             })
             .collect();
         match drawing.order {
@@ -86,13 +90,19 @@ fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
     best.map(|(_, _, color)| color)
 }
 
-fn touch(runs: &[Run], discs: &[Disc], colors: &[[f32; 3]], position: DVec2) -> Option<Touch> {
+fn touch(
+    runs: &[Run],
+    discs: &[Disc],
+    colors: &[[f32; 3]],
+    brush: Brush,
+    position: DVec2,
+) -> Option<Touch> {
     let mut best: Option<Touch> = None;
     for run in runs {
         let last = run.joints.end - 1;
         let pairs = run.joints.start..last.max(run.joints.start + 1);
         for (a, b) in pairs.map(|i| (i, (i + 1).min(last))) {
-            let Some(new) = touch_segment(discs, colors, (a, b), position) else {
+            let Some(new) = touch_segment(discs, colors, (a, b), brush, position) else {
                 continue;
             };
             best = Some(match best {
@@ -112,18 +122,19 @@ fn touch_segment(
     discs: &[Disc],
     colors: &[[f32; 3]],
     (a, b): (usize, usize),
+    brush: Brush,
     position: DVec2,
 ) -> Option<Touch> {
-    let (a, b) = if discs[a].radius >= discs[b].radius {
-        (a, b)
-    } else {
-        (b, a)
-    };
+    let shrinks = discs[a].radius >= discs[b].radius;
+    let (a, b) = if shrinks { (a, b) } else { (b, a) };
     let circle = |i: usize| Circle {
         center: discs[i].center.as_dvec2(),
         radius: f64::from(discs[i].radius),
     };
-    let sweep = Sweep::new(circle(a), circle(b))?;
+    let mut sweep = Sweep::new(circle(a), circle(b))?;
+    if brush == Brush::Semicircle {
+        sweep = sweep.with_semicircles(shrinks);
+    }
     let local = sweep.local(position).as_vec2();
     if !sweep.covers(local.x, local.y) {
         return None;

@@ -1,0 +1,126 @@
+//! The thin fine hair stroke (5.5): lines on paths of their own, across clumps and out of the silhouette.
+
+use effects::wgsl::{hash, random, random_signed, sin_pi};
+use effects::{Hair, HairStrand, MOST_PATHS, MadePaths, strand_seed};
+use glam::Vec3;
+
+effects::effect!("fine");
+
+/// `hair.fine`: each hair begins at a strand and wanders to a neighbour, lifting off on its way.
+pub struct Fine;
+
+/// Points of a hair's path: it bends less than the strand that it follows.
+const POINTS: u32 = 12;
+
+/// How far along its strand a hair may reach: a little beyond the tip.
+const BEYOND: f32 = 1.08;
+
+/// Half waves that a hair swings at least and at most.
+const HALF_WAVES: [f32; 2] = [1.0, 3.0];
+
+impl effects::StrokeEffect for Fine {
+    type Program = Program;
+    const ID: &'static str = "hair.fine";
+    const DOC: &'static str = "fine hairs: thin lines across clumps and past the silhouette";
+    const RANK: i32 = 300;
+    /// They lie on the hair that they cross.
+    const DEPTH_OFFSET: f32 = -0.06;
+    const OWN_PATHS: bool = true;
+
+    fn make_paths(params: &Params, hair: &Hair, seed: u32, paths: &mut MadePaths) {
+        for (index, strand) in hair.strands.iter().enumerate() {
+            let strand_seed = strand_seed(seed, strand.id);
+            // A half hair is there for every other strand.
+            let number = (params.per_strand + random(strand_seed, MOST_PATHS)) as u32;
+            if number == 0 || strand.particles.len() < 2 {
+                continue;
+            }
+            let neighbours = nearest(hair, index, params.neighbours as usize);
+            for hair_number in 0..number.min(MOST_PATHS) {
+                let line = FineHair::new(params, hash(strand_seed ^ hash(hair_number)));
+                let choice = (line.choice * neighbours.len() as f32) as usize;
+                let neighbour = neighbours.get(choice).map(|&i| &hair.strands[i]);
+                let points = (0..POINTS).map(|i| i as f32 / (POINTS - 1) as f32);
+                let points = points.map(|t| line.point(t, hair, strand, neighbour));
+                paths.push(index, hair_number, points);
+            }
+        }
+    }
+}
+
+/// The `number` strands that run beside strand `index` at rest, the nearest first: their roots, middles
+/// and tips are near.
+fn nearest(hair: &Hair, index: usize, number: usize) -> Vec<usize> {
+    let ends = |strand: &HairStrand| [0.0, 0.5, 1.0].map(|u| strand.point_at_rest(u));
+    let own = ends(&hair.strands[index]);
+    let distance = |strand: &HairStrand| -> f32 {
+        let pairs = own.into_iter().zip(ends(strand));
+        pairs.map(|(a, b)| a.distance(b)).sum()
+    };
+    let others = (0..hair.strands.len()).filter(|&i| i != index);
+    let mut nearest: Vec<(f32, usize)> = others.map(|i| (distance(&hair.strands[i]), i)).collect();
+    let by_distance = |a: &(f32, usize), b: &(f32, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    if nearest.len() > number {
+        nearest.select_nth_unstable_by(number - 1, by_distance);
+        nearest.truncate(number);
+    }
+    nearest.sort_unstable_by(by_distance);
+    nearest.into_iter().map(|(_, i)| i).collect()
+}
+
+/// What was chosen for one hair, the same in every frame.
+struct FineHair {
+    /// Where along the strand it begins and ends.
+    start: f32,
+    end: f32,
+    /// Which neighbour, from 0 to 1.
+    choice: f32,
+    /// Part of the way to the neighbour at its root and at its tip.
+    way: [f32; 2],
+    /// How far its tip stands off and how far it swings, head heights.
+    lift: f32,
+    wave: f32,
+    phase: f32,
+    half_waves: f32,
+}
+
+impl FineHair {
+    fn new(params: &Params, seed: u32) -> Self {
+        let between = |a: f32, b: f32, i: u32| a + (b - a) * random(seed, i);
+        let start = between(0.0, params.latest_start, 0);
+        let length = between(params.shortest_length, params.longest_length, 1);
+        Self {
+            start,
+            end: (start + length).min(BEYOND),
+            choice: random(seed, 2),
+            way: [
+                0.3 * params.crossing * random_signed(seed, 3),
+                params.crossing * between(0.3, 1.0, 4),
+            ],
+            // Few stand off far.
+            lift: params.lift * random(seed, 5) * random(seed, 6),
+            wave: params.wave * random_signed(seed, 7),
+            phase: random(seed, 8),
+            half_waves: between(HALF_WAVES[0], HALF_WAVES[1], 9),
+        }
+    }
+
+    /// The point at `t` of its way, from 0 to 1, metres.
+    fn point(&self, t: f32, hair: &Hair, strand: &HairStrand, other: Option<&HairStrand>) -> Vec3 {
+        let u = self.start + (self.end - self.start) * t;
+        let here = strand.point(u);
+        let eased = t * t * (3.0 - 2.0 * t);
+        let way = self.way[0] + (self.way[1] - self.way[0]) * eased;
+        let there = other.map_or(here, |other| other.point(u));
+        let point = here + way * (there - here);
+        let along = (strand.point(u + 0.05) - strand.point(u - 0.05)).normalize_or(Vec3::NEG_Y);
+        // Off the hair: away from the head, across the strand.
+        let out = (here - hair.head_center).reject_from_normalized(along);
+        let out = out.normalize_or(along.any_orthonormal_vector());
+        let side = along.cross(out);
+        let swing = self.wave * sin_pi(self.phase + self.half_waves * t) * eased;
+        // On top of the clump, whose middle the strand is.
+        let on_top = 0.5 * strand.size / 300.0 * sin_pi(t);
+        point + hair.head_height_m * ((self.lift * t * t + on_top) * out + swing * side)
+    }
+}

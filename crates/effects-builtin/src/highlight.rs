@@ -1,0 +1,28 @@
+//! The highlight stroke (5.4): specular, by the light's distance, or as a ring.
+
+effects::effect!("highlight");
+
+/// `hair.highlight`: a few whole strokes where the hair shines.
+pub struct Highlight;
+
+/// The place of `distance` in the choices of `kind`.
+const DISTANCE: u32 = 1;
+
+impl effects::StrokeEffect for Highlight {
+    type Program = Program;
+    const ID: &'static str = "hair.highlight";
+    const DOC: &'static str = "feathered highlights: specular, by the light's distance, or a ring";
+    const RANK: i32 = 200;
+
+    fn instances(params: &Params) -> u32 {
+        params.feathers
+    }
+
+    fn shortest(params: &Params) -> f32 {
+        params.shortest
+    }
+
+    fn needs_point_light(params: &Params) -> bool {
+        params.kind == DISTANCE
+    }
+}

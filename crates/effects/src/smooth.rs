@@ -1,0 +1,223 @@
+//! Sizes along a strand without speckle: no stretch of a stroke, and no gap in one, shorter than a
+//! length.
+//!
+//! Closing and opening of grayscale morphology (Serra, *Image Analysis and Mathematical Morphology*,
+//! 1982) with an interval for structuring element. Both change by no more than their input does, so that
+//! nothing pops in animation, as it would if short pieces were looked for and left out.
+
+/// Smooths lists of sizes. Keeps its memory.
+#[derive(Clone, Debug, Default)]
+pub struct Smoother {
+    /// For each place the least size in the window that begins there, and in the one that ends there.
+    after: Vec<f32>,
+    before: Vec<f32>,
+}
+
+/// Whether windows may reach beyond the strand, where nothing counts.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    Open,
+    Closed,
+}
+
+impl Smoother {
+    /// Fills gaps of `values` that are shorter than `length`, but for those at an end of the strand; then
+    /// removes peaks that are shorter.
+    ///
+    /// `places` never decrease, in the unit of `length`; between them values are linear. All is finite.
+    /// Of a short strand no more than a third counts as short.
+    ///
+    /// # Panics
+    ///
+    /// When the lists differ in length.
+    pub fn smooth(&mut self, places: &[f32], values: &mut [f32], length: f32) {
+        assert_eq!(places.len(), values.len(), "a value for each place");
+        let (Some(first), Some(last)) = (places.first(), places.last()) else {
+            return;
+        };
+        let length = length.min((last - first) / 3.0);
+        let is_zero = values.iter().all(|value| *value == 0.0);
+        if length <= 0.0 || is_zero {
+            return;
+        }
+        values.iter_mut().for_each(|value| *value = -*value);
+        self.open(places, values, length, Ends::Open);
+        values.iter_mut().for_each(|value| *value = -*value);
+        self.open(places, values, length, Ends::Closed);
+    }
+
+    /// At each place the greatest, over all windows of `length` that hold it, of the least value in the
+    /// window. Of the windows only those are looked at that begin or end at a place.
+    fn open(&mut self, places: &[f32], values: &mut [f32], length: f32, ends: Ends) {
+        let indices = 0..places.len();
+        self.after.clear();
+        self.before.clear();
+        self.after.extend(
+            indices
+                .clone()
+                .map(|i| least_after(places, values, i, length, ends)),
+        );
+        self.before.extend(
+            indices
+                .clone()
+                .map(|i| least_before(places, values, i, length, ends)),
+        );
+        for i in indices {
+            let place = places[i];
+            let ending = (i..places.len()).take_while(|&j| places[j] <= place + length);
+            let beginning = (0..=i).rev().take_while(|&j| places[j] >= place - length);
+            let ending = ending.map(|j| self.before[j]);
+            let beginning = beginning.map(|j| self.after[j]);
+            values[i] = ending.chain(beginning).fold(f32::NEG_INFINITY, f32::max);
+        }
+    }
+}
+
+/// The least value from place `i` to `length` after it; where the strand ends before, up to there, or in
+/// the last window.
+fn least_after(places: &[f32], values: &[f32], i: usize, length: f32, ends: Ends) -> f32 {
+    let end = places[i] + length;
+    let mut least = values[i];
+    for j in i + 1..places.len() {
+        if places[j] > end {
+            return least.min(between(places, values, j - 1, end));
+        }
+        least = least.min(values[j]);
+    }
+    match ends {
+        Ends::Open => least,
+        Ends::Closed => least_before(places, values, places.len() - 1, length, Ends::Open),
+    }
+}
+
+/// The least value from `length` before place `i` to it; where the strand begins after, from there, or in
+/// the first window.
+fn least_before(places: &[f32], values: &[f32], i: usize, length: f32, ends: Ends) -> f32 {
+    let start = places[i] - length;
+    let mut least = values[i];
+    for j in (0..i).rev() {
+        if places[j] < start {
+            return least.min(between(places, values, j, start));
+        }
+        least = least.min(values[j]);
+    }
+    match ends {
+        Ends::Open => least,
+        Ends::Closed => least_after(places, values, 0, length, Ends::Open),
+    }
+}
+
+/// The value at `place`, between the places `i` and `i + 1`, which differ.
+fn between(places: &[f32], values: &[f32], i: usize, place: f32) -> f32 {
+    let way = (place - places[i]) / (places[i + 1] - places[i]);
+    values[i] + way * (values[i + 1] - values[i])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn smoothed(values: &[f32], length: f32) -> Vec<f32> {
+        let places: Vec<f32> = (0..values.len()).map(|i| i as f32).collect();
+        let mut values = values.to_vec();
+        Smoother::default().smooth(&places, &mut values, length);
+        values
+    }
+
+    #[test]
+    fn specks_and_short_gaps_go() {
+        let speck = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+        assert_eq!(smoothed(&speck, 2.0), [0.0; 6]);
+        let hole = speck.map(|value| 1.0 - value);
+        assert_eq!(smoothed(&hole, 2.0), [1.0; 6]);
+    }
+
+    #[test]
+    fn long_strokes_and_long_gaps_stay() {
+        let long = [
+            0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0,
+        ];
+        assert_eq!(smoothed(&long, 2.0), long);
+        let gap = [1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+        assert_eq!(smoothed(&gap, 2.2), [1.0; 8]);
+    }
+
+    #[test]
+    fn short_pieces_at_the_ends_go_and_short_gaps_there_stay() {
+        let tips = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0];
+        assert_eq!(smoothed(&tips, 2.0), [0.0; 10]);
+        let bare = tips.map(|value| 1.0 - value);
+        assert_eq!(smoothed(&bare, 2.0), bare);
+    }
+
+    #[test]
+    fn a_short_strand_keeps_its_strokes() {
+        let short = [1.0, 1.0, 0.5, 0.0];
+        assert_eq!(smoothed(&short, 100.0), short);
+        assert_eq!(smoothed(&[1.0], 1.0), [1.0]);
+        assert_eq!(smoothed(&[], 1.0), [0.0; 0]);
+    }
+
+    #[test]
+    fn what_only_rises_or_falls_stays() {
+        let taper = [5.0, 5.0, 5.0, 3.5, 1.0, 0.5, 0.0];
+        assert_eq!(smoothed(&taper, 2.0), taper);
+    }
+
+    /// Places with steps of some tenths, and a value for each.
+    fn line() -> impl Strategy<Value = (Vec<f32>, Vec<f32>)> {
+        prop::collection::vec((0.0..0.5f32, 0.0..1.0f32), 1..40).prop_map(|joints| {
+            let places = joints.iter().scan(0.0, |place, (step, _)| {
+                *place += step;
+                Some(*place)
+            });
+            let values = joints.iter().map(|(_, value)| (value - 0.5).max(0.0));
+            (places.collect(), values.collect())
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn a_small_change_stays_small(
+            (places, values) in line(),
+            length in 0.0..3.0f32,
+            changes in prop::collection::vec(-0.01..0.01f32, 40),
+        ) {
+            let mut first = values.clone();
+            let mut second: Vec<f32> = values.iter().zip(&changes).map(|(v, c)| v + c).collect();
+            let mut smoother = Smoother::default();
+            smoother.smooth(&places, &mut first, length);
+            smoother.smooth(&places, &mut second, length);
+            for (a, b) in first.iter().zip(&second) {
+                prop_assert!((a - b).abs() <= 0.010_001, "{a} {b}");
+            }
+        }
+
+        #[test]
+        fn sizes_stay_between_their_least_and_greatest((places, values) in line(), length in 0.0..3.0f32) {
+            let mut smooth = values.clone();
+            Smoother::default().smooth(&places, &mut smooth, length);
+            let least = values.iter().copied().fold(f32::INFINITY, f32::min);
+            let greatest = values.iter().copied().fold(0.0, f32::max);
+            for value in smooth {
+                prop_assert!((least..=greatest).contains(&value));
+            }
+        }
+
+        #[test]
+        fn no_piece_inside_is_shorter((places, mut values) in line(), length in 0.1..2.0f32) {
+            Smoother::default().smooth(&places, &mut values, length);
+            let last = places.len() - 1;
+            let length = length.min((places[last] - places[0]) / 3.0) * 0.9999;
+            for stroke in values.chunk_by(|a, b| (*a > 0.0) == (*b > 0.0)) {
+                let start = (stroke.as_ptr() as usize - values.as_ptr() as usize) / 4;
+                let end = start + stroke.len() - 1;
+                // From the joint before to the joint after, as the stroke tapers to there.
+                if stroke[0] > 0.0 && start > 0 && end < last {
+                    prop_assert!(places[end + 1] - places[start - 1] >= length);
+                }
+            }
+        }
+    }
+}
