@@ -35,7 +35,7 @@ impl Guides {
     /// that is drawn in their place.
     ///
     /// The guides are the same for any order of the strands (where strands coincide, any of them).
-    /// Takes about N log N steps for N strands: 0.1 s for 150 of 11,400, 2 s for 500 of 100,000.
+    /// Takes about N log N steps for N strands: 0.15 s for 150 of 11,400, 3 s for 500 of 100,000.
     #[must_use]
     pub fn choose(strands: &Strands, n: usize) -> Self {
         if n == 0 || n >= strands.len() {
