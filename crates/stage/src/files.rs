@@ -11,6 +11,8 @@ pub struct Files {
     pub hair: Option<PathBuf>,
     /// Head, relative to the current folder.
     pub head: Option<PathBuf>,
+    /// Baked motion of the hair, relative to the current folder.
+    pub bake: Option<PathBuf>,
     /// A motion script, relative to the current folder.
     pub motion: Option<PathBuf>,
 }
@@ -52,6 +54,17 @@ pub enum StageError {
          light: (kind: point, distance: ...)"
     )]
     NoPointLight(String),
+    /// A file is no bake of the scene's hair.
+    #[error("{}: it is not a bake of this hair: {what}", path.display())]
+    OtherHair {
+        /// The file.
+        path: PathBuf,
+        /// Where it differs.
+        what: String,
+    },
+    /// Frames that make no motion.
+    #[error("bake: {0}")]
+    Bake(hair_sim::MotionError),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),

@@ -1,6 +1,7 @@
 //! A scene (hair, head, camera, light, style, time) to a frame: the only place where simulation meets
 //! strokes.
 
+mod bake;
 mod dynamics;
 mod files;
 mod head;
@@ -12,6 +13,7 @@ mod preset;
 mod scene;
 mod style;
 
+pub use bake::Bake;
 pub use dynamics::DYNAMICS;
 pub use files::{Files, StageError};
 pub use motion::MOTION_PARTS;

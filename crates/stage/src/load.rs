@@ -1,5 +1,6 @@
 //! The preset's files: hair and head in, strands with their sizes out.
 
+use crate::bake;
 use crate::files::{Files, StageError};
 use crate::head::HeadModel;
 use crate::motion::{self, MotionScript};
@@ -136,6 +137,15 @@ fn head_of(frame: HeadFrame) -> Head {
         center: frame.center,
         height_m: frame.height,
     }
+}
+
+/// Puts baked motion in place of the hair's own, where there is a bake.
+pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<(), StageError> {
+    let own = preset.hair.text("bake");
+    if let Some(path) = chosen(files.bake.as_ref(), own, &files.preset_folder) {
+        hair.file.motion = Some(bake::read(&path, hair)?);
+    }
+    Ok(())
 }
 
 /// The motion script, if any.

@@ -1,5 +1,6 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
+use crate::bake::Bake;
 use crate::dynamics::Dynamics;
 use crate::files::{Files, StageError};
 use crate::head::{self, HeadPaint};
@@ -88,6 +89,7 @@ impl Stage {
             model.add_ties(&hair.ties);
         }
         let strands = load::keep_guides(preset, &mut hair);
+        load::bake(preset, files, &mut hair)?;
         let settings = Settings::new(preset, head)?;
         let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
         let without_light = |layer: &&Layer| layer.program.needs_point_light();
@@ -203,6 +205,20 @@ impl Stage {
             }
         };
         dynamics.advance_to(time, &self.script, &mut self.points)
+    }
+
+    /// Adds the strands as they stand to a bake, at `time` (seconds).
+    pub fn record(&self, time: f32, bake: &mut Bake) {
+        bake.push(time, &self.points);
+    }
+
+    /// A bake of this scene as the text of a strands file.
+    ///
+    /// # Errors
+    ///
+    /// When it has no frames, or their times do not increase.
+    pub fn bake_text(&self, bake: Bake) -> Result<String, StageError> {
+        bake.text(&self.hair.file.strands, &self.strands[..self.strand_count])
     }
 
     /// What the simulation did in its last step; nothing where nothing is simulated.

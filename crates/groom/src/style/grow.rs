@@ -3,7 +3,7 @@
 use super::gathered::Gathered;
 use super::row::{Row, Seat, size_class};
 use super::undercoat::undercoat;
-use super::{Edit, Form, Style, Tie, Zone};
+use super::{Drawn, Edit, Form, Style, Tie, Zone};
 use crate::random::Random;
 use crate::shell::Shell;
 use glam::Vec3;
@@ -22,7 +22,7 @@ const FIRST_ZONE: u32 = 2;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grown {
     /// The clumps, each with its size and an id that only its zone's place in the list and its own
-    /// number decide.
+    /// number decide; ids increase.
     pub strands: Strands,
     /// How many points from its root each clump keeps on the head: pressed to the scalp, or gathered
     /// in a tie.
@@ -50,11 +50,11 @@ pub fn grow(style: &Style, shell: &Shell) -> Grown {
             grown.push(UNDERCOAT, number, &points, points.len(), size);
         }
     }
-    for (number, drawn) in (0..).zip(&style.drawn) {
-        let sides: &[f32] = if drawn.mirror { &[1.0, -1.0] } else { &[1.0] };
-        for (half, side) in (0..).zip(sides) {
-            let points = drawn.points(*side, shell);
-            grown.push(DRAWN, number + half * MOST_CLUMPS, &points, 1, drawn.size);
+    for (half, side) in [(0, 1.0), (MOST_CLUMPS, -1.0)] {
+        let is_there = |(_, drawn): &(u32, &Drawn)| half == 0 || drawn.mirror;
+        for (number, drawn) in (0..).zip(&style.drawn).filter(is_there) {
+            let points = drawn.points(side, shell);
+            grown.push(DRAWN, half + number, &points, 1, drawn.size);
         }
     }
     for (number, zone) in (FIRST_ZONE..).zip(&style.zones) {

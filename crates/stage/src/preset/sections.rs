@@ -55,12 +55,17 @@ pub const HAIR: &[Param] = &[
     ),
     param(
         "guides",
-        "How many strands to keep, spread evenly over the scalp; 0 keeps all.",
+        "How many strands to keep, those that stand best for all; 0 keeps all.",
         ParamKind::Integer {
             min: 0,
             max: 1_000_000,
             default: 0,
         },
+    ),
+    param(
+        "bake",
+        "Motion of this hair that `inkstrand simulate` has written, relative to the preset.",
+        ParamKind::Text,
     ),
     choice("up", "The file's upward axis.", &["guess", "y", "z"], 0),
     number(
