@@ -4,6 +4,7 @@ pub(crate) mod batch;
 mod drive;
 mod fallback;
 mod instructions;
+mod neighbours;
 mod integrate;
 pub(crate) mod sweep;
 
@@ -13,15 +14,19 @@ use rayon::prelude::*;
 use crate::{
     Strands,
     collision::Collider,
-    forces::wind::Wind,
+    forces::{
+        mutual::{Course, Mutual, Pair},
+        wind::Wind,
+    },
     lanes::{LANES, Quat, Vec3 as LaneVec3},
     params::{GRAVITY, Params},
-    rest::{Impossible, RestStrand},
+    rest::RestStrand,
 };
 
+pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
-use drive::Drive;
 use instructions::Instructions;
+use drive::{Drive, Hair};
 use integrate::BatchStats;
 
 /// A rigid motion from style space to the world: where a head is.
@@ -90,6 +95,35 @@ impl Default for Scene<'_> {
     }
 }
 
+impl Scene<'_> {
+    /// Whether nothing in it moves but, perhaps, the roots.
+    fn is_calm(&self) -> bool {
+        let still = |c: &Collider| c.before == c.now;
+        self.wind.gust == 0.0 && self.goal.is_none() && self.colliders.iter().all(still)
+    }
+
+    /// A hash of what acts on strands at rest.
+    fn fingerprint(&self) -> u64 {
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a, by words
+        let mut add = |v: DVec3| {
+            for bits in v.to_array().map(f64::to_bits) {
+                hash = (hash ^ bits).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        add(self.gravity);
+        add(self.wind.steady);
+        for collider in self.colliders {
+            add(collider.now.translation);
+            add(collider.now.rotation * DVec3::X);
+            add(collider.now.rotation * DVec3::Y);
+            for v in collider.shape.numbers() {
+                add(v);
+            }
+        }
+        hash
+    }
+}
+
 /// What happened in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
@@ -99,12 +133,72 @@ pub struct Stats {
     pub iterations: usize,
     /// Strands that took the safe integrator in this step.
     pub fallbacks: usize,
-    /// Strands that were set aside in this step: they had no finite motion, and follow their roots from now on.
+    /// Strands that are set aside: see [`Solver::faults`].
     pub set_aside: usize,
     /// Particles that were near a body or touched it.
     pub contacts: usize,
     /// Particles that felt wind.
     pub wind: usize,
+    /// Links between strands that held.
+    pub links: usize,
+    /// Particles that another strand pushed away.
+    pub repulsions: usize,
+    /// Strands that rest, and cost nothing.
+    pub asleep: usize,
+}
+
+impl Stats {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            strands: self.strands + other.strands,
+            iterations: self.iterations + other.iterations,
+            fallbacks: self.fallbacks + other.fallbacks,
+            set_aside: self.set_aside + other.set_aside,
+            contacts: self.contacts + other.contacts,
+            wind: self.wind + other.wind,
+            links: self.links + other.links,
+            repulsions: self.repulsions + other.repulsions,
+            asleep: self.asleep + other.asleep,
+        }
+    }
+}
+
+impl From<BatchStats> for Stats {
+    fn from(batch: BatchStats) -> Self {
+        Self {
+            strands: batch.strands,
+            iterations: batch.iterations,
+            fallbacks: batch.fallbacks,
+            set_aside: batch.set_aside,
+            contacts: batch.contacts,
+            wind: batch.wind,
+            links: batch.hair.links,
+            repulsions: batch.hair.repulsions,
+            asleep: batch.asleep,
+        }
+    }
+}
+
+impl HairHair {
+    /// Where every particle is, and where its own motion takes it.
+    fn follow(&mut self, batches: &[Batch], states: &[BatchState], scene: &Scene, dt: f64) {
+        for ((batch, state), &first) in batches.iter().zip(states).zip(&self.first) {
+            let (root, _) = roots(batch, scene);
+            for k in 0..batch.count() {
+                let (before, now) = (
+                    state.root + state.y[k],
+                    root + state.y[k] + state.v[k] * dt,
+                );
+                let courses = &mut self.courses[first + k * LANES..][..LANES];
+                for (lane, course) in courses.iter_mut().enumerate() {
+                    let (before, now) = (before.get(lane), now.get(lane));
+                    // A root without a pose is the strand's own fault, not its neighbours'.
+                    let now = if now.is_finite() { now } else { before };
+                    *course = Course { before, now };
+                }
+            }
+        }
+    }
 }
 
 /// Why strands make no solver.
@@ -130,6 +224,18 @@ pub enum DynamicsError {
     /// Numbers of the scene are finite.
     #[error("the scene's {0} is not finite")]
     Scene(&'static str),
+    /// A number of [`Mutual`] has a range.
+    #[error("{name} is {value}, and must be from {least} to {most}")]
+    Mutual {
+        /// Its name.
+        name: &'static str,
+        /// As it was given.
+        value: f64,
+        /// The least.
+        least: f64,
+        /// The most.
+        most: f64,
+    },
     /// There is one pose for every strand.
     #[error("{found} poses for {expected} strands")]
     Poses {
@@ -151,23 +257,14 @@ pub enum DynamicsError {
     State,
 }
 
-/// A strand that is not simulated: it follows its root as it was styled.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Fault {
-    /// All its points are one.
-    #[error("strand {id} has no length")]
-    NoLength {
-        /// The strand's id.
-        id: u32,
-    },
-    /// It turns by more than 170 degrees at a point.
-    #[error("strand {id} folds back on itself at point {point}")]
-    Folded {
-        /// The strand's id.
-        id: u32,
-        /// The point's index from the root, 0 first.
-        point: usize,
-    },
+/// A strand that is set aside: it follows its root without a motion of its own.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("strand {id} is set aside: {reason}")]
+pub struct Fault {
+    /// The strand's id.
+    pub id: u32,
+    /// Why.
+    pub reason: Reason,
 }
 
 /// The constants of some strands, and room to work in. The strands' motion is in [`State`].
@@ -180,8 +277,21 @@ pub struct Solver {
     /// The number of points of every strand, and the index of the first in the list of all.
     points: Vec<usize>,
     first_points: Vec<usize>,
-    faults: Vec<Fault>,
+    ids: Vec<u32>,
+    hair: Option<HairHair>,
     instructions: Instructions,
+}
+
+/// How the strands act on each other.
+#[derive(Clone, Debug)]
+struct HairHair {
+    mutual: Mutual,
+    /// Of every batch.
+    pairs: Vec<Vec<Pair>>,
+    /// The index of every batch's first particle, and the courses of all: batch by batch, particle by particle, lane
+    /// by lane.
+    first: Vec<usize>,
+    courses: Vec<Course>,
 }
 
 /// Everything that decides the strands' future, to the bit.
@@ -189,6 +299,8 @@ pub struct Solver {
 pub struct State {
     /// Seconds since the start.
     time: f64,
+    /// What acted in the last step: where it stays the same, strands can come to rest.
+    last: u64,
     batches: Vec<BatchState>,
 }
 
@@ -212,7 +324,7 @@ impl Solver {
 
     /// A solver for strands of which each has its own parameters, by its index in `rest`.
     ///
-    /// Strands that cannot move (see [`Self::faults`]) are kept, and follow their roots.
+    /// Strands that cannot move are set aside: see [`Self::faults`].
     ///
     /// # Errors
     ///
@@ -221,7 +333,6 @@ impl Solver {
         rest: &Strands,
         params: impl Fn(usize) -> Params,
     ) -> Result<(Self, State), DynamicsError> {
-        let mut faults = Vec::new();
         let mut strands = Vec::with_capacity(rest.len());
         for (index, points) in rest.iter().enumerate() {
             let id = rest.id(index);
@@ -235,17 +346,11 @@ impl Solver {
                     most,
                 });
             }
-            let (strand, good) = match RestStrand::new(points, &params) {
-                Ok(strand) => (strand, true),
-                Err(impossible) => {
-                    faults.push(match impossible {
-                        Impossible::NoLength => Fault::NoLength { id },
-                        Impossible::Folded(point) => Fault::Folded { id, point },
-                    });
-                    (RestStrand::rigid(points), false)
-                }
+            let (strand, fault) = match RestStrand::new(points, &params) {
+                Ok(strand) => (strand, None),
+                Err(reason) => (RestStrand::rigid(points), Some(reason)),
             };
-            strands.push((strand, params, good));
+            strands.push((strand, params, fault));
         }
 
         // Strands of like length together; the order is fixed by the strands alone.
@@ -257,7 +362,8 @@ impl Solver {
             places: vec![(0, 0); strands.len()],
             points: rest.iter().map(<[Vec3]>::len).collect(),
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
-            faults,
+            ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
+            hair: None,
             instructions: best_instructions(),
         };
         let mut states = Vec::new();
@@ -274,7 +380,7 @@ impl Solver {
             }
             let mut state = BatchState::new(&batch, &rests);
             for (lane, &i) in members.iter().enumerate() {
-                state.set_aside[lane] = !strands[i].2;
+                state.set_aside[lane] = strands[i].2;
             }
             solver.scratch.push(Scratch::new(batch.count()));
             states.push(state);
@@ -282,15 +388,52 @@ impl Solver {
         }
         let state = State {
             time: 0.0,
+            last: 0,
             batches: states,
         };
         Ok((solver, state))
     }
 
-    /// The strands that are not simulated, and why.
+    /// The strands that are set aside, and why.
     #[must_use]
-    pub fn faults(&self) -> &[Fault] {
-        &self.faults
+    pub fn faults(&self, state: &State) -> Vec<Fault> {
+        let places = self.ids.iter().zip(&self.places);
+        places
+            .filter_map(|(&id, &(batch, lane))| {
+                let reason = state.batches[batch].set_aside[lane]?;
+                Some(Fault { id, reason })
+            })
+            .collect()
+    }
+
+    /// Lets strands act on each other from now on, as they lie in `state`: at best at the start, at rest.
+    ///
+    /// # Errors
+    ///
+    /// When a number is out of its range, or the state is not of these strands.
+    pub fn interact(&mut self, state: &mut State, mutual: &Mutual) -> Result<(), DynamicsError> {
+        self.hair = None;
+        self.check(state, &Scene::default(), 1.0)?;
+        if let Some((name, value, least, most)) = mutual.out_of_range() {
+            return Err(DynamicsError::Mutual {
+                name,
+                value,
+                least,
+                most,
+            });
+        }
+        let (pairs, first) = neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
+        for (pairs, state) in pairs.iter().zip(&mut state.batches) {
+            state.broken = vec![[false; LANES]; pairs.len()];
+        }
+        let total: usize = self.batches.iter().map(|b| b.count() * LANES).sum();
+        self.hair = Some(HairHair {
+            mutual: *mutual,
+            pairs,
+            first,
+            courses: vec![Course::default(); total],
+        });
+        Ok(())
     }
 
     /// The number of strands.
@@ -320,34 +463,37 @@ impl Solver {
         let instructions = self.instructions;
         // In the middle of the step.
         let gusts = scene.wind.at(state.time + 0.5 * dt);
-        let stats: Vec<BatchStats> = self
-            .batches
-            .par_iter()
+        let acting = scene.fingerprint();
+        let calm = acting == state.last && self.hair.is_none() && scene.is_calm();
+        state.last = acting;
+        if let Some(hair) = &mut self.hair {
+            hair.follow(&self.batches, &state.batches, scene, dt);
+        }
+        let hair = self.hair.as_ref();
+        let first_points = &self.first_points;
+        let sum = (self.batches.par_iter().enumerate())
             .zip(state.batches.par_iter_mut())
             .zip(self.scratch.par_iter_mut())
-            .map(|((batch, state), scratch)| {
+            .map(|(((index, batch), state), scratch)| {
                 let (root, base) = roots(batch, scene);
                 let drive = Drive {
                     dt,
                     scene,
                     gusts: &gusts,
-                    first_points: &self.first_points,
+                    first_points,
                     root,
                     base,
+                    calm,
+                    hair: hair.map(|h| Hair {
+                        mutual: &h.mutual,
+                        pairs: &h.pairs[index],
+                        courses: &h.courses,
+                    }),
                 };
-                instructions.step(batch, state, scratch, &drive)
+                Stats::from(instructions.step(batch, state, scratch, &drive))
             })
-            .collect();
+            .reduce(Stats::default, Stats::plus);
         state.time += dt;
-        let mut sum = Stats::default();
-        for s in stats {
-            sum.strands += s.strands;
-            sum.iterations += s.iterations;
-            sum.fallbacks += s.fallbacks;
-            sum.set_aside += s.set_aside;
-            sum.contacts += s.contacts;
-            sum.wind += s.wind;
-        }
         Ok(sum)
     }
 
@@ -390,7 +536,11 @@ impl Solver {
             });
         }
         match scene.roots {
-            Roots::Head(pose) if !pose.is_finite() => return Err(DynamicsError::Scene("head")),
+            Roots::Head(pose)
+                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
+            { 
+                return Err(DynamicsError::Scene("head"));
+            }
             Roots::Each(poses) if poses.len() != self.len() => {
                 return Err(DynamicsError::Poses {
                     found: poses.len(),
@@ -400,12 +550,23 @@ impl Solver {
             _ => {}
         }
         let fits = state.batches.len() == self.batches.len()
-            && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count());
-        if fits {
-            Ok(())
-        } else {
-            Err(DynamicsError::State)
-        }
+            && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count())
+            && self.hair.as_ref().is_none_or(|h| {
+                (h.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
+            });
+        if fits { Ok(()) } else { Err(DynamicsError::State) }
+    }
+
+    /// The energy of a strand over its mass per length, in m^3/s^2: of its motion and its weight against the root, and of
+    /// bending and twisting.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::points`].
+    #[must_use]
+    pub fn energy(&self, state: &State, strand: usize, gravity: DVec3) -> f64 {
+        let (batch, lane) = self.places[strand];
+        state.batches[batch].energy(&self.batches[batch], LaneVec3::splat(gravity))[lane]
     }
 
     /// The points of a strand in the world, root first, in m.
@@ -444,9 +605,7 @@ impl Solver {
 }
 
 fn best_instructions() -> Instructions {
-    *Instructions::available()
-        .last()
-        .unwrap_or(&Instructions::Compiled)
+    *Instructions::available().last().unwrap_or(&Instructions::Compiled)
 }
 
 /// Root and frame of the skin of every lane in the world.

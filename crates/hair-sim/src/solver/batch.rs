@@ -10,7 +10,7 @@ use crate::{
     rest::RestStrand,
 };
 
-use super::sweep::{Elimination, Node};
+use super::sweep::{Elimination, Node, half_turn};
 
 /// [`LANES`] strands and their constants. A shorter strand is continued by links without length, mass and force,
 /// which add exactly nothing.
@@ -28,6 +28,8 @@ pub(crate) struct Batch {
     /// Whether any strand has drag; a goal.
     pub has_drag: bool,
     pub has_goal: bool,
+    /// Whether nothing in the strands or the air takes energy from them.
+    pub conserves: bool,
     /// Distance kept from colliders, in m.
     pub thickness: Lane,
     pub friction: Lane,
@@ -47,6 +49,8 @@ pub(crate) struct Link {
     pub bend: Lane,
     pub twist: Lane,
     pub natural: Vec3,
+    /// 1 for links of strands, 0 for those that only fill the batch.
+    pub counts: Lane,
 }
 
 /// The particle at a link's tip end.
@@ -69,6 +73,7 @@ impl Batch {
             bend: soft,
             twist: soft,
             natural: Vec3::ZERO,
+            counts: Lane::ZERO,
         };
         let particle = Particle {
             mass: Lane::ZERO,
@@ -84,6 +89,7 @@ impl Batch {
             drag_along: Lane::ZERO,
             has_drag: members.iter().any(|m| m.2.drag > 0.0),
             has_goal: members.iter().any(|m| m.2.has_goal()),
+            conserves: members.iter().all(|m| m.2.conserves()),
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
             styled: vec![Vec3::ZERO; count],
@@ -115,6 +121,7 @@ impl Batch {
             self.links[k].bend[lane] = link.bend;
             self.links[k].twist[lane] = link.twist;
             self.links[k].natural.set(lane, link.natural);
+            self.links[k].counts[lane] = 1.0;
             self.particles[k].mass[lane] = link.mass;
             self.particles[k].drag[lane] = params.drag;
             self.particles[k].goal[lane] = params.goal.at(link.end_at);
@@ -146,10 +153,14 @@ pub(crate) struct BatchState {
     pub press: Vec<Lane>,
     /// Where goals were, from the root; empty before the first step with goals.
     pub goal: Vec<Vec3>,
+    /// Links to other strands that hold no more: one for every pair of the batch.
+    pub broken: Vec<[bool; LANES]>,
+    /// For how many steps strands have been at rest.
+    pub quiet: [u32; LANES],
     /// Strands whose accelerations are unknown: the next step starts by backward Euler.
     pub restart: [bool; LANES],
-    /// Strands that no longer move by themselves.
-    pub set_aside: [bool; LANES],
+    /// Strands that do not move by themselves, and why.
+    pub set_aside: [Option<Reason>; LANES],
 }
 
 impl BatchState {
@@ -168,8 +179,10 @@ impl BatchState {
             skin_known: false,
             press: vec![Lane::ZERO; count],
             goal: Vec::new(),
+            broken: Vec::new(),
+            quiet: [0; LANES],
             restart: [true; LANES],
-            set_aside: [false; LANES],
+            set_aside: [None; LANES],
         };
         for (lane, rest) in rests.iter().enumerate() {
             let Some(rest) = rest else { continue };
@@ -188,7 +201,52 @@ impl BatchState {
     }
 }
 
+/// Why a strand is set aside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+pub enum Reason {
+    /// A point of its rest shape (from the root, 0 first) is not finite.
+    #[error("point {0} at rest is not finite")]
+    Rest(usize),
+    /// All its points are one.
+    #[error("it has no length")]
+    NoLength,
+    /// It turns by more than 170 degrees at a point (from the root, 0 first).
+    #[error("it folds back on itself at point {0}")]
+    Folded(usize),
+    /// The pose of its root was not finite, or no rotation.
+    #[error("the pose of its root is not finite, or no rotation")]
+    Root,
+    /// A goal was not finite.
+    #[error("a goal of its points is not finite")]
+    Goal,
+    /// It had no finite motion.
+    #[error("it had no finite motion")]
+    Motion,
+}
+
 impl BatchState {
+    /// The strands that are set aside.
+    #[inline(always)]
+    pub(crate) fn aside(&self) -> Mask {
+        Mask(self.set_aside.map(|r| r.is_some()))
+    }
+
+    /// Energy of every strand over its mass per length, in m^3/s^2: of motion against the root, of weight from the root, of
+    /// bending and twisting.
+    pub(crate) fn energy(&self, batch: &Batch, gravity: Vec3) -> Lane {
+        let mut sum = Lane::ZERO;
+        let mut before = self.base;
+        for (k, link) in batch.links.iter().enumerate() {
+            let mass = batch.particles[k].mass;
+            sum += mass * (self.v[k].length_squared() * 0.5 - self.y[k].dot(gravity));
+            let c = half_turn(before, self.frames[k]);
+            let e = c + c - link.natural;
+            sum += ((e.x * e.x + e.y * e.y) * link.bend + e.z * e.z * link.twist) * 0.5;
+            before = self.frames[k];
+        }
+        sum
+    }
+
     /// Carries shape and motion to another root and skin frame.
     pub(crate) fn teleport(&mut self, root: Vec3, base: Quat) {
         let turn = base.times(self.base.conjugate()).normalize();

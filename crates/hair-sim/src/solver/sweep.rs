@@ -83,7 +83,11 @@ fn joint(link: &Link, c: Vec3, past: Vec3, after: Quat, elastic: &Elastic) -> (V
     // du = G df with G = 1 + [c] + c c^T; the moment is G^T B e.
     let moment = e - c.cross(e) + c * c.dot(e);
     // G^T B G = bend (1 + c c) (1 + c c^T) + (twist - bend) g g^T, g the last row of G.
-    let g = Vec3::new(c.x * c.z - c.y, c.y * c.z + c.x, Lane::ONE + c.z * c.z);
+    let g = Vec3::new(
+        c.x * c.z - c.y,
+        c.y * c.z + c.x,
+        Lane::ONE + c.z * c.z,
+    );
     let stretch = elastic.damping + Lane::ONE;
     let round = bend * (c.length_squared() + 1.0) * stretch;
     let [ax, ay, az] = after.axes();
@@ -206,7 +210,7 @@ pub(crate) fn descend(
         let e = &eliminations[k];
         turn = e.before.apply(turn) - e.alone - e.shift.apply(shift);
         turns[k] = turn;
-        largest = largest.max(turn.length_squared());
+        largest = largest.max(turn.length_squared() * links[k].counts);
         shift += turn.cross(frames[k].tangent() * links[k].length);
     }
     largest

@@ -2,6 +2,8 @@
 
 mod bodies;
 mod goals;
+mod mutual;
+mod sleep;
 mod roots;
 mod wind;
 
@@ -41,7 +43,5 @@ pub fn run(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64, steps
 }
 
 pub fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {
-    (a.iter().zip(b))
-        .map(|(a, b)| (*a - *b).length())
-        .fold(0.0, f64::max)
+    (a.iter().zip(b)).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max)
 }
