@@ -2,6 +2,7 @@
 //! against that error.
 
 pub mod compare;
+pub mod dynamics;
 pub mod oracle;
 pub mod results;
 pub mod strokes;

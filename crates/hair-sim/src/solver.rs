@@ -341,7 +341,11 @@ impl Solver {
         }
         let fits = state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count());
-        if fits { Ok(()) } else { Err(DynamicsError::State) }
+        if fits {
+            Ok(())
+        } else {
+            Err(DynamicsError::State)
+        }
     }
 
     /// The points of a strand in the world, root first, in m.

@@ -165,7 +165,11 @@ fn take(
 pub(super) fn carry(batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
-        let frame = Quat::pick(which, turn.times(state.frames[k]).normalize(), state.frames[k]);
+        let frame = Quat::pick(
+            which,
+            turn.times(state.frames[k]).normalize(),
+            state.frames[k],
+        );
         state.frames[k] = frame;
         y += frame.tangent() * batch.links[k].length;
         state.y[k] = Vec3::pick(which, y, state.y[k]);

@@ -79,10 +79,7 @@ impl RootMotion {
         let velocity = (drive.root - state.root) * (1.0 / drive.dt);
         let acceleration = (velocity - state.root_velocity) * (1.0 / drive.dt);
         let turn_end = drive.base.times(state.base.conjugate());
-        let sign = turn_end
-            .w
-            .lt(Lane::ZERO)
-            .pick(Lane::splat(-1.0), Lane::ONE);
+        let sign = turn_end.w.lt(Lane::ZERO).pick(Lane::splat(-1.0), Lane::ONE);
         // Along the chord: second order in the angle, and no sine.
         let turn_mid = Quat {
             v: turn_end.v * (sign * GAMMA),
@@ -149,7 +146,8 @@ pub(crate) fn step(
         let mut before = root.mid;
         for k in 0..batch.count() {
             let after = scratch.mid.frames[k];
-            scratch.past[k] = half_turn(before, after) * (2.0 * alpha) - scratch.turn_start[k] * beta;
+            scratch.past[k] =
+                half_turn(before, after) * (2.0 * alpha) - scratch.turn_start[k] * beta;
             before = after;
         }
     }
@@ -165,7 +163,9 @@ pub(crate) fn step(
     };
     iterations += solve(batch, scratch, &stage, active, &mut failed, Which::End);
 
-    failed = failed.or(turned_too_far(batch, state, scratch, &root)).and(active);
+    failed = failed
+        .or(turned_too_far(batch, state, scratch, &root))
+        .and(active);
     finish(batch, state, scratch, active.and(failed.not()), d);
     let mut stats = BatchStats {
         strands: active.count(),
@@ -357,12 +357,7 @@ pub(super) fn turn_links(
     }
 }
 
-fn turned_too_far(
-    batch: &Batch,
-    state: &BatchState,
-    scratch: &Scratch,
-    root: &RootMotion,
-) -> Mask {
+fn turned_too_far(batch: &Batch, state: &BatchState, scratch: &Scratch, root: &RootMotion) -> Mask {
     let mut least = Lane::ONE;
     for k in 0..batch.count() {
         let carried = root.turn_end.times(state.frames[k]).tangent();
