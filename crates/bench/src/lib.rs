@@ -4,6 +4,8 @@
 pub mod compare;
 pub mod dynamics;
 pub mod oracle;
+pub mod plot;
 pub mod results;
 pub mod strokes;
+pub mod targets;
 pub mod timing;
