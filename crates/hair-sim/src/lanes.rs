@@ -98,6 +98,7 @@ impl Lane {
 
 impl Mask {
     pub(crate) const NONE: Self = Self([false; LANES]);
+    pub(crate) const ALL: Self = Self([true; LANES]);
 
     #[inline(always)]
     pub(crate) fn any(self) -> bool {

@@ -2,6 +2,8 @@
 //!
 //! Space is right-handed, Y up, metres; the character faces +Z. Time is in seconds.
 
+mod collision;
+mod forces;
 mod lanes;
 mod math;
 mod motion;
@@ -10,6 +12,8 @@ mod rest;
 mod solver;
 mod strands;
 
+pub use collision::{Collider, GridError, Shape, SignedDistance};
+pub use forces::wind::Wind;
 pub use motion::{Motion, MotionError};
 pub use params::{GRAVITY, Material, Natural, Params, Profile};
 pub use solver::{DynamicsError, Fault, Pose, Roots, Scene, Solver, State, Stats};

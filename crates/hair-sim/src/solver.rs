@@ -1,22 +1,28 @@
 //! The strand solver: strands in batches, each stepped by itself.
 
-mod batch;
+pub(crate) mod batch;
+mod drive;
 mod fallback;
+mod instructions;
 mod integrate;
-mod sweep;
+pub(crate) mod sweep;
 
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::{
     Strands,
+    collision::Collider,
+    forces::wind::Wind,
     lanes::{LANES, Quat, Vec3 as LaneVec3},
     params::{GRAVITY, Params},
     rest::{Impossible, RestStrand},
 };
 
 use batch::{Batch, BatchState, Scratch};
-use integrate::{BatchStats, Drive};
+use instructions::Instructions;
+use drive::Drive;
+use integrate::BatchStats;
 
 /// A rigid motion from style space to the world: where a head is.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -34,7 +40,15 @@ impl Pose {
         translation: DVec3::ZERO,
     };
 
-    fn is_finite(&self) -> bool {
+    pub(crate) fn to_world(self, at: DVec3) -> DVec3 {
+        self.rotation * at + self.translation
+    }
+
+    pub(crate) fn to_local(self, at: DVec3) -> DVec3 {
+        self.rotation.conjugate() * (at - self.translation)
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
         self.rotation.is_finite() && self.translation.is_finite()
     }
 }
@@ -55,6 +69,13 @@ pub struct Scene<'a> {
     pub roots: Roots<'a>,
     /// In m/s^2.
     pub gravity: DVec3,
+    /// The motion of the air.
+    pub wind: Wind,
+    /// What hair cannot enter.
+    pub colliders: &'a [Collider<'a>],
+    /// Places in style space for the points of all strands, in their order, to which [`Params::goal`] pulls; none
+    /// is the style itself.
+    pub goal: Option<&'a [Vec3]>,
 }
 
 impl Default for Scene<'_> {
@@ -62,6 +83,9 @@ impl Default for Scene<'_> {
         Self {
             roots: Roots::Head(Pose::IDENTITY),
             gravity: DVec3::new(0.0, -GRAVITY, 0.0),
+            wind: Wind::default(),
+            colliders: &[],
+            goal: None,
         }
     }
 }
@@ -75,8 +99,12 @@ pub struct Stats {
     pub iterations: usize,
     /// Strands that took the safe integrator in this step.
     pub fallbacks: usize,
-    /// Strands that have been set aside until now.
+    /// Strands that were set aside in this step: they had no finite motion, and follow their roots from now on.
     pub set_aside: usize,
+    /// Particles that were near a body or touched it.
+    pub contacts: usize,
+    /// Particles that felt wind.
+    pub wind: usize,
 }
 
 /// Why strands make no solver.
@@ -110,6 +138,14 @@ pub enum DynamicsError {
         /// How many strands there are.
         expected: usize,
     },
+    /// There is one goal for every point.
+    #[error("goals for {found} points; the strands have {expected}")]
+    Goal {
+        /// How many there are.
+        found: usize,
+        /// How many points there are.
+        expected: usize,
+    },
     /// A state belongs to the strands that it was made with.
     #[error("the state is not of these strands")]
     State,
@@ -141,9 +177,11 @@ pub struct Solver {
     scratch: Vec<Scratch>,
     /// Batch and lane of every strand.
     places: Vec<(usize, usize)>,
-    /// The number of points of every strand.
+    /// The number of points of every strand, and the index of the first in the list of all.
     points: Vec<usize>,
+    first_points: Vec<usize>,
     faults: Vec<Fault>,
+    instructions: Instructions,
 }
 
 /// Everything that decides the strands' future, to the bit.
@@ -218,7 +256,9 @@ impl Solver {
             scratch: Vec::new(),
             places: vec![(0, 0); strands.len()],
             points: rest.iter().map(<[Vec3]>::len).collect(),
+            first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
             faults,
+            instructions: best_instructions(),
         };
         let mut states = Vec::new();
         for members in order.chunks(LANES) {
@@ -277,6 +317,9 @@ impl Solver {
         dt: f64,
     ) -> Result<Stats, DynamicsError> {
         self.check(state, scene, dt)?;
+        let instructions = self.instructions;
+        // In the middle of the step.
+        let gusts = scene.wind.at(state.time + 0.5 * dt);
         let stats: Vec<BatchStats> = self
             .batches
             .par_iter()
@@ -286,11 +329,13 @@ impl Solver {
                 let (root, base) = roots(batch, scene);
                 let drive = Drive {
                     dt,
-                    gravity: scene.gravity,
+                    scene,
+                    gusts: &gusts,
+                    first_points: &self.first_points,
                     root,
                     base,
                 };
-                integrate::step(batch, state, scratch, &drive)
+                instructions.step(batch, state, scratch, &drive)
             })
             .collect();
         state.time += dt;
@@ -300,6 +345,8 @@ impl Solver {
             sum.iterations += s.iterations;
             sum.fallbacks += s.fallbacks;
             sum.set_aside += s.set_aside;
+            sum.contacts += s.contacts;
+            sum.wind += s.wind;
         }
         Ok(sum)
     }
@@ -329,6 +376,19 @@ impl Solver {
         if !scene.gravity.is_finite() {
             return Err(DynamicsError::Scene("gravity"));
         }
+        if !scene.wind.is_finite() {
+            return Err(DynamicsError::Scene("wind"));
+        }
+        if !scene.colliders.iter().all(Collider::is_finite) {
+            return Err(DynamicsError::Scene("collider"));
+        }
+        let points: usize = self.points.iter().sum();
+        if let Some(found) = scene.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
+            return Err(DynamicsError::Goal {
+                found,
+                expected: points,
+            });
+        }
         match scene.roots {
             Roots::Head(pose) if !pose.is_finite() => return Err(DynamicsError::Scene("head")),
             Roots::Each(poses) if poses.len() != self.len() => {
@@ -341,11 +401,7 @@ impl Solver {
         }
         let fits = state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count());
-        if fits {
-            Ok(())
-        } else {
-            Err(DynamicsError::State)
-        }
+        if fits { Ok(()) } else { Err(DynamicsError::State) }
     }
 
     /// The points of a strand in the world, root first, in m.
@@ -381,6 +437,10 @@ impl Solver {
         let state = &state.batches[batch];
         (0..self.points[strand] - 1).map(move |i| state.frames[i].get(lane))
     }
+}
+
+fn best_instructions() -> Instructions {
+    *Instructions::available().last().unwrap_or(&Instructions::Compiled)
 }
 
 /// Root and frame of the skin of every lane in the world.

@@ -192,18 +192,6 @@ impl Sym3 {
         self.rows().apply(v)
     }
 
-    #[inline(always)]
-    pub(crate) fn scale(self, s: Lane) -> Self {
-        Self {
-            xx: self.xx * s,
-            yy: self.yy * s,
-            zz: self.zz * s,
-            xy: self.xy * s,
-            xz: self.xz * s,
-            yz: self.yz * s,
-        }
-    }
-
     /// The inverse of a positive definite matrix, by its factors L D L^T.
     #[inline(always)]
     pub(crate) fn inverse(self) -> Self {
@@ -290,20 +278,20 @@ impl Mat3 {
 
     #[inline(always)]
     pub(crate) fn times(self, o: Self) -> Self {
-        let [x, y, z] = o.columns();
-        let row = |r: Vec3| Vec3::new(r.dot(x), r.dot(y), r.dot(z));
-        Self(row(self.0), row(self.1), row(self.2))
+        let to = o.transpose();
+        Self(to.apply(self.0), to.apply(self.1), to.apply(self.2))
+    }
+
+    /// The same, of the transpose.
+    #[inline(always)]
+    pub(crate) fn combine(self, v: Vec3) -> Vec3 {
+        self.0 * v.x + self.1 * v.y + self.2 * v.z
     }
 
     /// The matrix times (r x): the rows crossed with r.
     #[inline(always)]
     pub(crate) fn times_cross(self, r: Vec3) -> Self {
         Self(self.0.cross(r), self.1.cross(r), self.2.cross(r))
-    }
-
-    #[inline(always)]
-    pub(crate) fn minus(self, o: Self) -> Self {
-        Self(self.0 - o.0, self.1 - o.1, self.2 - o.2)
     }
 }
 

@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use crate::{
+    collision::contact::Contact,
+    forces::springs::Spring,
     lanes::{LANES, Lane, Mask, Quat, Vec3},
     params::Params,
     rest::RestStrand,
@@ -29,6 +31,8 @@ pub(crate) struct Batch {
     /// Distance kept from colliders, in m.
     pub thickness: Lane,
     pub friction: Lane,
+    /// Particles from the root in style space.
+    pub styled: Vec<Vec3>,
     /// Root and skin frame in style space.
     pub root: Vec3,
     pub base: Quat,
@@ -82,6 +86,7 @@ impl Batch {
             has_goal: members.iter().any(|m| m.2.has_goal()),
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
+            styled: vec![Vec3::ZERO; count],
             root: Vec3::ZERO,
             base: Quat::IDENTITY,
             used: Mask::NONE,
@@ -102,7 +107,10 @@ impl Batch {
         self.friction[lane] = params.friction;
         self.root.set(lane, rest.root);
         self.base.set(lane, rest.base);
+        let mut y = DVec3::ZERO;
         for (k, link) in rest.links.iter().enumerate() {
+            y += link.frame * DVec3::Z * link.length;
+            self.styled[k].set(lane, y);
             self.links[k].length[lane] = link.length;
             self.links[k].bend[lane] = link.bend;
             self.links[k].twist[lane] = link.twist;
@@ -131,6 +139,13 @@ pub(crate) struct BatchState {
     pub root: Vec3,
     pub root_velocity: Vec3,
     pub base: Quat,
+    /// How far particles may be inside of bodies (0 or less, in m), and whether that has been found out.
+    pub skin: Vec<Lane>,
+    pub skin_known: bool,
+    /// The pressure of bodies on particles in m/s^2.
+    pub press: Vec<Lane>,
+    /// Where goals were, from the root; empty before the first step with goals.
+    pub goal: Vec<Vec3>,
     /// Strands whose accelerations are unknown: the next step starts by backward Euler.
     pub restart: [bool; LANES],
     /// Strands that no longer move by themselves.
@@ -149,6 +164,10 @@ impl BatchState {
             root: batch.root,
             root_velocity: Vec3::ZERO,
             base: batch.base,
+            skin: vec![Lane::ZERO; count],
+            skin_known: false,
+            press: vec![Lane::ZERO; count],
+            goal: Vec::new(),
             restart: [true; LANES],
             set_aside: [false; LANES],
         };
@@ -181,6 +200,7 @@ impl BatchState {
         self.y.iter_mut().for_each(turned);
         self.v.iter_mut().for_each(turned);
         self.a.iter_mut().for_each(turned);
+        self.goal.iter_mut().for_each(turned);
         turned(&mut self.root_velocity);
         self.root = root;
         self.base = base;
@@ -206,6 +226,11 @@ pub(crate) struct Scratch {
     pub trial: Stage,
     /// The air's velocity at the particles, from the root.
     pub wind: Vec<Vec3>,
+    pub springs: Vec<Spring>,
+    pub contacts: Vec<Contact>,
+    /// Whether there are any of these in this step.
+    pub has_springs: bool,
+    pub has_contacts: bool,
 }
 
 /// A strand's shape in the course of a step.
@@ -240,6 +265,10 @@ impl Scratch {
             free_v: vec![Vec3::ZERO; count],
             trial: Stage::new(count),
             wind: vec![Vec3::ZERO; count],
+            springs: vec![Spring::NONE; count],
+            contacts: vec![Contact::NONE; count],
+            has_springs: false,
+            has_contacts: false,
         }
     }
 }

@@ -9,7 +9,8 @@ use crate::lanes::{LANES, Lane, Mask, Quat, Vec3};
 
 use super::{
     batch::{Batch, BatchState, Scratch},
-    integrate::{Drive, RootMotion, StageSetup, Which2, assemble, turn_links},
+    drive::{Drive, RootMotion},
+    integrate::{StageSetup, Which, assemble, hold, turn_links},
     sweep::{Elastic, Pose, ascend, descend, potential},
 };
 
@@ -45,12 +46,17 @@ pub(super) fn step(
         base: root.end,
         pull: root.pull,
     };
-    assemble(batch, scratch, &setup, Which2::Trial);
+    assemble(batch, scratch, &setup, Which::Trial);
     let elastic = Elastic {
         h2: h * h,
         damping: setup.damping,
     };
     minimise(batch, scratch, setup.base, &elastic, which);
+    if scratch.has_contacts {
+        // Planes that the strand met on the way.
+        let met = hold(batch, scratch, h, Which::Trial, which);
+        minimise(batch, scratch, setup.base, &elastic, met);
+    }
     take(batch, state, scratch, root, which, drive.dt)
 }
 
@@ -141,6 +147,10 @@ fn take(
     for k in 0..batch.count() {
         let v = (trial.y[k] - state.y[k]) * rate;
         let a = (v - state.v[k]) * rate;
+        if scratch.has_contacts {
+            let press = scratch.contacts[k].pressure(trial.y[k]);
+            state.press[k] = good.pick(press, state.press[k]);
+        }
         state.a[k] = Vec3::pick(good, a, state.a[k]);
         state.v[k] = Vec3::pick(good, v, state.v[k]);
         state.y[k] = Vec3::pick(good, trial.y[k], state.y[k]);
@@ -165,11 +175,7 @@ fn take(
 pub(super) fn carry(batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
-        let frame = Quat::pick(
-            which,
-            turn.times(state.frames[k]).normalize(),
-            state.frames[k],
-        );
+        let frame = Quat::pick(which, turn.times(state.frames[k]).normalize(), state.frames[k]);
         state.frames[k] = frame;
         y += frame.tangent() * batch.links[k].length;
         state.y[k] = Vec3::pick(which, y, state.y[k]);

@@ -12,21 +12,20 @@
 //! stages are L-stable together. Newton starts from the links turned along the free motion yb + d vb, and
 //! one iteration is almost always enough.
 
-use glam::DVec3;
-
 use crate::lanes::{LANES, Lane, Mask, Quat, Sym3, Vec3};
 
 use super::{
     batch::{Batch, BatchState, Scratch, Stage},
+    drive::{Drive, RootMotion, prepare},
     fallback,
     sweep::{Elastic, Node, Pose, ascend, descend, half_turn},
 };
 
 /// 2 - sqrt 2.
-const GAMMA: f64 = 0.585_786_437_626_904_9;
+pub(super) const GAMMA: f64 = 0.585_786_437_626_904_9;
 
 /// A Newton step that turns no link by more than this (radians) is the last.
-const SMALL_TURN: f64 = 0.03;
+const SMALL_TURN: f64 = 0.05;
 
 /// A Newton step turns no link by more than this (radians).
 const LARGEST_TURN: f64 = 1.0;
@@ -42,15 +41,6 @@ const LEAST_COSINE: f64 = -0.5;
 /// inside the arc; half of that is the error of the difference.
 const UNSTRETCH: f64 = 0.5;
 
-/// What drives a batch in a step.
-pub(crate) struct Drive {
-    pub dt: f64,
-    pub gravity: DVec3,
-    /// Root and frame of the skin in the world at the end of the step.
-    pub root: Vec3,
-    pub base: Quat,
-}
-
 /// What happened to a batch in a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BatchStats {
@@ -59,45 +49,13 @@ pub(crate) struct BatchStats {
     pub iterations: usize,
     pub fallbacks: usize,
     pub set_aside: usize,
-}
-
-/// The motion of the roots within a step, and what it does to the strands.
-pub(super) struct RootMotion {
-    /// The frame of the skin at the stages.
-    pub mid: Quat,
-    pub end: Quat,
-    /// From its start.
-    pub turn_mid: Quat,
-    pub turn_end: Quat,
-    /// Gravity less the acceleration of the root.
-    pub pull: Vec3,
-    pub velocity: Vec3,
-}
-
-impl RootMotion {
-    fn new(state: &BatchState, drive: &Drive) -> Self {
-        let velocity = (drive.root - state.root) * (1.0 / drive.dt);
-        let acceleration = (velocity - state.root_velocity) * (1.0 / drive.dt);
-        let turn_end = drive.base.times(state.base.conjugate());
-        let sign = turn_end.w.lt(Lane::ZERO).pick(Lane::splat(-1.0), Lane::ONE);
-        // Along the chord: second order in the angle, and no sine.
-        let turn_mid = Quat {
-            v: turn_end.v * (sign * GAMMA),
-            w: turn_end.w * sign * GAMMA + (1.0 - GAMMA),
-        }
-        .normalize();
-        Self {
-            mid: turn_mid.times(state.base),
-            end: drive.base,
-            turn_mid,
-            turn_end,
-            pull: Vec3::splat(drive.gravity) - acceleration,
-            velocity,
-        }
-    }
+    /// Particles.
+    pub contacts: usize,
+    pub wind: usize,
 }
 
 /// Advances a batch by `drive.dt`.
+#[inline(always)]
 pub(crate) fn step(
     batch: &Batch,
     state: &mut BatchState,
@@ -106,6 +64,8 @@ pub(crate) fn step(
 ) -> BatchStats {
     let root = RootMotion::new(state, drive);
     let active = batch.used.and(Mask(state.set_aside).not());
+    let mut stats = BatchStats::default();
+    prepare(batch, state, scratch, drive, &root, active, &mut stats);
     remember_turns(batch, state, scratch);
 
     let h = drive.dt;
@@ -146,8 +106,7 @@ pub(crate) fn step(
         let mut before = root.mid;
         for k in 0..batch.count() {
             let after = scratch.mid.frames[k];
-            scratch.past[k] =
-                half_turn(before, after) * (2.0 * alpha) - scratch.turn_start[k] * beta;
+            scratch.past[k] = half_turn(before, after) * (2.0 * alpha) - scratch.turn_start[k] * beta;
             before = after;
         }
     }
@@ -163,16 +122,11 @@ pub(crate) fn step(
     };
     iterations += solve(batch, scratch, &stage, active, &mut failed, Which::End);
 
-    failed = failed
-        .or(turned_too_far(batch, state, scratch, &root))
-        .and(active);
+    failed = failed.or(turned_too_far(batch, state, scratch, &root)).and(active);
     finish(batch, state, scratch, active.and(failed.not()), d);
-    let mut stats = BatchStats {
-        strands: active.count(),
-        iterations,
-        fallbacks: failed.count(),
-        set_aside: 0,
-    };
+    stats.strands = active.count();
+    stats.iterations = iterations;
+    stats.fallbacks = failed.count();
     if failed.any() {
         stats.set_aside = fallback::step(batch, state, scratch, drive, &root, failed);
     }
@@ -182,6 +136,7 @@ pub(crate) fn step(
     stats
 }
 
+#[inline(always)]
 fn remember_turns(batch: &Batch, state: &BatchState, scratch: &mut Scratch) {
     if batch.damping == Lane::ZERO {
         return;
@@ -194,11 +149,24 @@ fn remember_turns(batch: &Batch, state: &BatchState, scratch: &mut Scratch) {
     }
 }
 
-/// Which stage's shape [`solve`] works on.
+/// Whose shape a stage works on.
 #[derive(Clone, Copy, PartialEq)]
-enum Which {
+pub(super) enum Which {
     Mid,
     End,
+    /// The fallback's, at the end of the step.
+    Trial,
+}
+
+impl Scratch {
+    #[inline(always)]
+    fn shape(&self, which: Which) -> &Stage {
+        match which {
+            Which::Mid => &self.mid,
+            Which::End => &self.end,
+            Which::Trial => &self.trial,
+        }
+    }
 }
 
 /// What a stage is made of.
@@ -212,7 +180,8 @@ pub(super) struct StageSetup {
 }
 
 /// Mass and forces on every particle for a stage from `free_y`, `free_v`.
-pub(super) fn assemble(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, frames: Which2) {
+#[inline(always)]
+pub(super) fn assemble(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, which: Which) {
     let d = stage.length;
     let d2 = d * d;
     for k in 0..batch.count() {
@@ -224,33 +193,63 @@ pub(super) fn assemble(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup,
         };
     }
     if batch.has_drag {
-        let frames = match frames {
-            Which2::Mid => &scratch.mid.frames,
-            Which2::End => &scratch.end.frames,
-            Which2::Trial => &scratch.trial.frames,
-        };
         let less = batch.drag_along - Lane::ONE;
         for k in 0..batch.count() {
             let particle = &batch.particles[k];
             let rate = particle.mass * particle.drag * d;
-            let n = Sym3::diagonal(rate) + Sym3::outer(frames[k].tangent(), rate * less);
+            let t = scratch.shape(which).frames[k].tangent();
+            let n = Sym3::diagonal(rate) + Sym3::outer(t, rate * less);
             let node = &mut scratch.nodes[k];
             node.n += n;
             node.b += n.apply(scratch.free_y[k] + scratch.wind[k] * d);
         }
     }
+    if scratch.has_springs {
+        for k in 0..batch.count() {
+            let mass = batch.particles[k].mass;
+            let spring = &scratch.springs[k];
+            let to = if which == Which::Mid { spring.mid } else { spring.end };
+            let node = &mut scratch.nodes[k];
+            node.n += Sym3::diagonal((spring.stiffness * d2 + spring.rate * d) * mass);
+            let carried = scratch.free_y[k] * spring.rate + spring.flow * d;
+            node.b += (to * d2 + carried * d) * mass;
+        }
+    }
+    if scratch.has_contacts {
+        for contact in &mut scratch.contacts {
+            contact.holds = Lane::ZERO;
+        }
+        hold(batch, scratch, stage.length, which, Mask::ALL);
+    }
 }
 
-/// As [`Which`], and the fallback's own.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Which2 {
-    Mid,
-    End,
-    Trial,
+/// Lets the planes hold particles that are behind them, in the strands of `among`. Returns the strands where any is new.
+#[inline(always)]
+pub(super) fn hold(
+    batch: &Batch,
+    scratch: &mut Scratch,
+    d: Lane,
+    which: Which,
+    among: Mask,
+) -> Mask {
+    let mut new = Mask::NONE;
+    for k in 0..batch.count() {
+        let contact = scratch.contacts[k];
+        let level = if which == Which::Mid { contact.mid } else { contact.end };
+        let below = contact.newly_below(scratch.shape(which).y[k], level, among);
+        if below.any() {
+            let mass = batch.particles[k].mass;
+            let free = scratch.free_y[k];
+            scratch.contacts[k].hold(&mut scratch.nodes[k], below, mass, level, d, free);
+            new = new.or(below);
+        }
+    }
+    new
 }
 
 /// Newton's method for a stage, starting from frames that were carried along with the skin. Returns the number
 /// of iterations, summed over strands; lanes that did not converge are added to `failed`.
+#[inline(always)]
 fn solve(
     batch: &Batch,
     scratch: &mut Scratch,
@@ -260,27 +259,11 @@ fn solve(
     which: Which,
 ) -> usize {
     predict(batch, scratch, setup, which);
-    let frames = if which == Which::Mid {
-        Which2::Mid
-    } else {
-        Which2::End
-    };
-    assemble(batch, scratch, setup, frames);
+    assemble(batch, scratch, setup, which);
     let elastic = Elastic {
         h2: setup.length * setup.length,
         damping: setup.damping,
     };
-    let Scratch {
-        nodes,
-        eliminations,
-        turns,
-        past,
-        mid,
-        end,
-        free_y,
-        ..
-    } = scratch;
-    let shape = if which == Which::Mid { mid } else { end };
     let mut open = active;
     let mut iterations = 0;
     for _ in 0..MOST_ITERATIONS {
@@ -288,6 +271,16 @@ fn solve(
             break;
         }
         iterations += open.count();
+        let Scratch {
+            nodes,
+            eliminations,
+            turns,
+            past,
+            mid,
+            end,
+            ..
+        } = &mut *scratch;
+        let shape = if which == Which::Mid { mid } else { end };
         let pose = Pose {
             base: setup.base,
             y: &shape.y,
@@ -301,10 +294,18 @@ fn solve(
         let small = largest.lt(Lane::splat(SMALL_TURN));
         let broken = largest.is_finite().not();
         *failed = failed.or(broken.and(open));
-        open = open.and(small.or(broken).not());
+        let done = small.or(broken);
+        let met = if scratch.has_contacts {
+            hold(batch, scratch, setup.length, which, open.and(broken.not()))
+        } else {
+            Mask::NONE
+        };
+        open = open.and(done.not()).or(met);
     }
     *failed = failed.or(open);
     let rate = setup.length.recip();
+    let Scratch { mid, end, free_y, .. } = scratch;
+    let shape = if which == Which::Mid { mid } else { end };
     for k in 0..batch.count() {
         shape.v[k] = (shape.y[k] - free_y[k]) * rate;
     }
@@ -312,6 +313,7 @@ fn solve(
 }
 
 /// Turns every link along the free motion and sets the particles.
+#[inline(always)]
 fn predict(batch: &Batch, scratch: &mut Scratch, setup: &StageSetup, which: Which) {
     let Scratch {
         mid,
@@ -340,6 +342,7 @@ fn predict(batch: &Batch, scratch: &mut Scratch, setup: &StageSetup, which: Whic
 }
 
 /// Turns the links of the lanes in `which` by `scale` times `turns`, and moves the particles along.
+#[inline(always)]
 pub(super) fn turn_links(
     batch: &Batch,
     shape: &mut Stage,
@@ -357,7 +360,13 @@ pub(super) fn turn_links(
     }
 }
 
-fn turned_too_far(batch: &Batch, state: &BatchState, scratch: &Scratch, root: &RootMotion) -> Mask {
+#[inline(always)]
+fn turned_too_far(
+    batch: &Batch,
+    state: &BatchState,
+    scratch: &Scratch,
+    root: &RootMotion,
+) -> Mask {
     let mut least = Lane::ONE;
     for k in 0..batch.count() {
         let carried = root.turn_end.times(state.frames[k]).tangent();
@@ -370,7 +379,11 @@ fn turned_too_far(batch: &Batch, state: &BatchState, scratch: &Scratch, root: &R
 }
 
 /// Takes the end stage of the lanes in `which` as the new state.
+#[inline(always)]
 fn finish(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d: f64) {
+    for lane in 0..LANES {
+        state.restart[lane] &= !which.0[lane];
+    }
     let end = &scratch.end;
     let rate = 1.0 / d;
     let mut before = Vec3::ZERO;
@@ -381,12 +394,38 @@ fn finish(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask,
         let along = end.v[k] - before;
         before = end.v[k];
         velocity += along - t * (along.dot(t) * UNSTRETCH);
+        let a = if scratch.has_contacts {
+            settle_contact(state, scratch, k, end.y[k], a, which)
+        } else {
+            state.press[k] = which.pick(Lane::ZERO, state.press[k]);
+            a
+        };
         state.a[k] = Vec3::pick(which, a, state.a[k]);
         state.v[k] = Vec3::pick(which, velocity, state.v[k]);
         state.y[k] = Vec3::pick(which, end.y[k], state.y[k]);
         state.frames[k] = Quat::pick(which, end.frames[k], state.frames[k]);
     }
+}
+
+/// Remembers the pressure on particle `k`, and returns its acceleration without the blow of a contact: that is over, and
+/// the next step must not start with it. A strand that was struck starts anew.
+#[inline(always)]
+fn settle_contact(
+    state: &mut BatchState,
+    scratch: &Scratch,
+    k: usize,
+    y: Vec3,
+    a: Vec3,
+    which: Mask,
+) -> Vec3 {
+    let contact = &scratch.contacts[k];
+    let press = contact.pressure(y);
+    let before = state.press[k];
+    let struck = before.gt(Lane::ZERO).not().and(press.gt(Lane::ZERO)).and(which);
     for lane in 0..LANES {
-        state.restart[lane] &= !which.0[lane];
+        state.restart[lane] |= struck.0[lane];
     }
+    state.press[k] = which.pick(press, before);
+    let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
+    a - contact.normal * out
 }

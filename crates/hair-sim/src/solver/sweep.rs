@@ -83,15 +83,19 @@ fn joint(link: &Link, c: Vec3, past: Vec3, after: Quat, elastic: &Elastic) -> (V
     // du = G df with G = 1 + [c] + c c^T; the moment is G^T B e.
     let moment = e - c.cross(e) + c * c.dot(e);
     // G^T B G = bend (1 + c c) (1 + c c^T) + (twist - bend) g g^T, g the last row of G.
-    let g = Vec3::new(c.x * c.z - c.y, c.y * c.z + c.x, Lane::ONE + c.z * c.z);
+    let g = Vec3::new(
+        c.x * c.z - c.y,
+        c.y * c.z + c.x,
+        Lane::ONE + c.z * c.z,
+    );
     let stretch = elastic.damping + Lane::ONE;
     let round = bend * (c.length_squared() + 1.0) * stretch;
     let [ax, ay, az] = after.axes();
-    let out = |v: Vec3| ax * v.x + ay * v.y + az * v.z;
+    let axes = Mat3(ax, ay, az);
     let stiffness = Sym3::diagonal(round)
-        + Sym3::outer(out(c), round)
-        + Sym3::outer(out(g), (twist - bend) * stretch);
-    (out(moment), stiffness)
+        + Sym3::outer(axes.combine(c), round)
+        + Sym3::outer(axes.combine(g), (twist - bend) * stretch);
+    (axes.combine(moment), stiffness)
 }
 
 /// From tip to root: fills `out` with what [`descend`] needs. `y[k]`, `frames[k]` and `nodes[k]` are of link k

@@ -1,0 +1,4 @@
+//! What acts on particles: see [`crate::solver`] for how it enters a step.
+
+pub(crate) mod springs;
+pub(crate) mod wind;
