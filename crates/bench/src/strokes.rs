@@ -9,10 +9,10 @@ pub mod stamping;
 pub mod targets;
 
 use crate::compare::{self, Difference};
-use crate::{oracle, plot};
 use crate::results::{self, Row};
 use crate::targets::Target;
 use crate::timing::{Effort, medians};
+use crate::{oracle, plot};
 use contenders::{Contender, Library, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order};
 use indicatif::ProgressBar;
 use render::Order;

@@ -30,10 +30,7 @@ pub struct Truth {
 pub fn truth(gamma: f64, links: usize, data: Option<&Path>) -> Result<Truth, String> {
     let frame = (GRAVITY / Rods::level(1, 1, gamma).length).sqrt() / FRAMES as f64;
     let path = reference::drop(gamma, links, frame, FRAMES);
-    let refined = format!(
-        "chains of {links} and {} links, extrapolated",
-        2 * links
-    );
+    let refined = format!("chains of {links} and {} links, extrapolated", 2 * links);
     let file = data.map(|folder| folder.join(format!("reference/drop_ref_G{gamma}.npz")));
     let Some(file) = file.filter(|file| file.exists()) else {
         return Ok(Truth {
@@ -77,7 +74,11 @@ fn error(path: &[DVec3], truth: &[DVec2]) -> f64 {
         .map(|(tip, truth)| (*tip - truth.extend(0.0)).length_squared())
         .sum();
     let error = (sum / path.len() as f64).sqrt();
-    if error.is_finite() { error } else { f64::INFINITY }
+    if error.is_finite() {
+        error
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// A fall that can be timed.

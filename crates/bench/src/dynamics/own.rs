@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use hair_sim::{Material, Natural, Params, Pose, Roots, Scene, Solver, State, Strands};
 
 /// `hair_sim` as the suite's rods ask for it: straight by nature, no damping but the drag.
+#[derive(Clone)]
 pub struct Own {
     solver: Solver,
     state: State,

@@ -57,7 +57,7 @@ impl Rods {
 }
 
 /// Strands in motion, whatever solves them.
-pub trait Simulation {
+pub trait Simulation: Send {
     /// Advances all strands by `dt` seconds, at whose end the head is at `head`.
     ///
     /// # Errors
@@ -79,6 +79,7 @@ pub trait Strand: Send {
 }
 
 /// Strands that don't meet, a task each.
+#[derive(Clone, Debug)]
 pub struct Apart<S>(pub Vec<S>);
 
 impl<S: Strand> Simulation for Apart<S> {
@@ -95,5 +96,15 @@ impl<S: Strand> Simulation for Apart<S> {
 
     fn points(&self, strand: usize) -> Vec<DVec3> {
         self.0[strand].points()
+    }
+}
+
+impl Simulation for Box<dyn Simulation> {
+    fn step(&mut self, dt: f64, head: Pose) -> Result<(), String> {
+        (**self).step(dt, head)
+    }
+
+    fn points(&self, strand: usize) -> Vec<DVec3> {
+        (**self).points(strand)
     }
 }

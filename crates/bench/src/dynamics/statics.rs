@@ -60,7 +60,11 @@ pub fn rows(mut done: impl FnMut()) -> Result<Vec<Row>, String> {
                     method: method.trim_end_matches('-').to_owned(),
                     knob: elements,
                     seconds,
-                    error: Some(if error.is_finite() { error } else { f64::INFINITY }),
+                    error: Some(if error.is_finite() {
+                        error
+                    } else {
+                        f64::INFINITY
+                    }),
                 });
             }
             done();

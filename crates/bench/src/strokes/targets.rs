@@ -1,7 +1,7 @@
 //! What the measured times and errors are held to.
 
 use crate::results::Row;
-use crate::targets::{Found, Limit, Target, curve, time_at};
+use crate::targets::{Found, Limit, Point, Target, curve, time_at};
 
 /// The sweep in the order by strands; its knob is samples a pixel.
 pub const SWEEP: &str = "sweep";
