@@ -18,7 +18,7 @@ pub mod xpbd;
 use crate::plot;
 use crate::results::{self, Row};
 use crate::targets::Target;
-use crate::timing::{Effort, medians};
+use crate::timing::{Effort, shortest};
 use falls::Truth;
 use indicatif::ProgressBar;
 use peers::Peers;
@@ -163,7 +163,7 @@ fn fall(
         .iter_mut()
         .map(|entry| || entry.fall.fall())
         .collect();
-    let seconds = medians(&mut runs, effort(options.quick), || ())?;
+    let seconds = shortest(&mut runs, effort(options.quick), || ())?;
     drop(runs);
     let rows = entries.into_iter().zip(seconds);
     Ok(rows
@@ -180,6 +180,7 @@ fn fall(
 fn comments(options: &Options, truths: &[(f64, Truth)]) -> Vec<String> {
     let mut comments = results::machine(options.threads, &["bench", "hair-sim", "glam"]);
     let text = [
+        "seconds: the shortest of several runs in turns, as the peers' scripts take it",
         "drop-GAMMA: a strand of 0.3 m, clamped level and let go, undamped, one thread; -x72: 72 of them",
         "  seconds: for a second and strand; error: of the tip at 24 frames, root mean square over the length; inf: diverged",
         "  inkstrand-N: ours, N elements; knob: steps of 1/24 s. All others: 20 elements",

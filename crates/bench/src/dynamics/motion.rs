@@ -6,7 +6,7 @@ use super::rods::{Apart, Rods, Simulation};
 use super::targets;
 use super::xpbd::Rod;
 use crate::results::Row;
-use crate::timing::{Effort, medians};
+use crate::timing::{Effort, shortest};
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{Collider, Params, Pose, Roots, Scene, Shape, Solver, State, Stats, Strands, Wind};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -200,7 +200,7 @@ pub fn rows(threads: usize, quick: bool, effort: Effort) -> Result<Vec<Row>, Str
         .iter_mut()
         .map(|(_, _, _, moving)| || moving.step())
         .collect();
-    let seconds = medians(&mut runs, effort, || ())?;
+    let seconds = shortest(&mut runs, effort, || ())?;
     drop(runs);
     let rows = entries.into_iter().zip(seconds);
     Ok(rows
