@@ -16,5 +16,5 @@ pub use collision::{Collider, GridError, Shape, SignedDistance};
 pub use forces::wind::Wind;
 pub use motion::{Motion, MotionError};
 pub use params::{GRAVITY, Material, Natural, Params, Profile};
-pub use solver::{DynamicsError, Fault, Pose, Roots, Scene, Solver, State, Stats};
+pub use solver::{DynamicsError, Fault, Pose, Reason, Roots, Scene, Solver, State, Stats};
 pub use strands::{StrandError, Strands};

@@ -6,6 +6,7 @@ use crate::{
     GRAVITY,
     math::{cos, sin},
     params::{Natural, Params},
+    solver::Reason,
 };
 
 /// Joints of less than this fraction of the mean length count as this long, so that a very short link does not
@@ -45,19 +46,14 @@ pub(crate) struct RestLink {
     pub end_at: f64,
 }
 
-/// What makes a strand impossible to simulate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Impossible {
-    /// All its points are one.
-    NoLength,
-    /// It folds back on itself at this point.
-    Folded(usize),
-}
 
 impl RestStrand {
     /// Builds the strand through `points` (style space, m). A link without length takes the direction of the one
     /// before it.
-    pub(crate) fn new(points: &[glam::Vec3], params: &Params) -> Result<Self, Impossible> {
+    pub(crate) fn new(points: &[glam::Vec3], params: &Params) -> Result<Self, Reason> {
+        if let Some(point) = points.iter().position(|p| !p.is_finite()) {
+            return Err(Reason::Rest(point));
+        }
         let points: Vec<DVec3> = points.iter().map(|p| p.as_dvec3()).collect();
         let edges: Vec<DVec3> = points.windows(2).map(|w| w[1] - w[0]).collect();
         let lengths: Vec<f64> = edges.iter().map(|e| e.length()).collect();
@@ -72,11 +68,11 @@ impl RestStrand {
         // Below a nanometre there is no direction left in coordinates of single precision.
         let shortest = 1e-9_f64.max(total * 1e-7);
         if total < 1e-9 {
-            return Err(Impossible::NoLength);
+            return Err(Reason::NoLength);
         }
         let first = lengths.iter().position(|&l| l > shortest);
         let Some(first) = first else {
-            return Err(Impossible::NoLength);
+            return Err(Reason::NoLength);
         };
         let mut direction = edges[first] / lengths[first];
         let mut frames = Vec::with_capacity(edges.len());
@@ -85,7 +81,7 @@ impl RestStrand {
             if *length > shortest {
                 let next = *edge / *length;
                 let Some(turn) = least_turn(direction, next) else {
-                    return Err(Impossible::Folded(k));
+                    return Err(Reason::Folded(k));
                 };
                 frame = (turn * frame).normalize();
                 direction = next;
@@ -110,12 +106,13 @@ impl RestStrand {
         Ok(strand)
     }
 
-    /// A strand that cannot move: links that only keep its shape. Each keeps its chord, with zero length its direction.
+    /// A strand that cannot move: links that only keep its shape.
     pub(crate) fn rigid(points: &[glam::Vec3]) -> Self {
         let links = points
             .windows(2)
             .map(|w| {
-                let edge = (w[1] - w[0]).as_dvec3();
+                let edge = w[1].as_dvec3() - w[0].as_dvec3();
+                let edge = if edge.is_finite() { edge } else { DVec3::ZERO };
                 let length = edge.length();
                 RestLink {
                     length,
@@ -135,7 +132,11 @@ impl RestStrand {
             .collect();
         Self {
             links,
-            root: points[0].as_dvec3(),
+            root: if points[0].is_finite() {
+                points[0].as_dvec3()
+            } else {
+                DVec3::ZERO
+            },
             base: DQuat::IDENTITY,
         }
     }
@@ -295,12 +296,12 @@ mod tests {
         let one = [Vec3::ONE; 4];
         assert_eq!(
             RestStrand::new(&one, &p).unwrap_err(),
-            Impossible::NoLength
+            Reason::NoLength
         );
         let fold = [Vec3::ZERO, Vec3::X, Vec3::ZERO];
         assert_eq!(
             RestStrand::new(&fold, &p).unwrap_err(),
-            Impossible::Folded(1)
+            Reason::Folded(1)
         );
         let doubled = [Vec3::ZERO, Vec3::ZERO, Vec3::X, Vec3::X, Vec3::X * 2.0];
         let strand = RestStrand::new(&doubled, &p).unwrap();

@@ -16,9 +16,10 @@ use crate::{
     forces::wind::Wind,
     lanes::{LANES, Quat, Vec3 as LaneVec3},
     params::{GRAVITY, Params},
-    rest::{Impossible, RestStrand},
+    rest::RestStrand,
 };
 
+pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
 use instructions::Instructions;
 use drive::Drive;
@@ -99,7 +100,7 @@ pub struct Stats {
     pub iterations: usize,
     /// Strands that took the safe integrator in this step.
     pub fallbacks: usize,
-    /// Strands that were set aside in this step: they had no finite motion, and follow their roots from now on.
+    /// Strands that are set aside: see [`Solver::faults`].
     pub set_aside: usize,
     /// Particles that were near a body or touched it.
     pub contacts: usize,
@@ -151,23 +152,14 @@ pub enum DynamicsError {
     State,
 }
 
-/// A strand that is not simulated: it follows its root as it was styled.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Fault {
-    /// All its points are one.
-    #[error("strand {id} has no length")]
-    NoLength {
-        /// The strand's id.
-        id: u32,
-    },
-    /// It turns by more than 170 degrees at a point.
-    #[error("strand {id} folds back on itself at point {point}")]
-    Folded {
-        /// The strand's id.
-        id: u32,
-        /// The point's index from the root, 0 first.
-        point: usize,
-    },
+/// A strand that is set aside: it follows its root without a motion of its own.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("strand {id} is set aside: {reason}")]
+pub struct Fault {
+    /// The strand's id.
+    pub id: u32,
+    /// Why.
+    pub reason: Reason,
 }
 
 /// The constants of some strands, and room to work in. The strands' motion is in [`State`].
@@ -180,7 +172,7 @@ pub struct Solver {
     /// The number of points of every strand, and the index of the first in the list of all.
     points: Vec<usize>,
     first_points: Vec<usize>,
-    faults: Vec<Fault>,
+    ids: Vec<u32>,
     instructions: Instructions,
 }
 
@@ -212,7 +204,7 @@ impl Solver {
 
     /// A solver for strands of which each has its own parameters, by its index in `rest`.
     ///
-    /// Strands that cannot move (see [`Self::faults`]) are kept, and follow their roots.
+    /// Strands that cannot move are set aside: see [`Self::faults`].
     ///
     /// # Errors
     ///
@@ -221,7 +213,6 @@ impl Solver {
         rest: &Strands,
         params: impl Fn(usize) -> Params,
     ) -> Result<(Self, State), DynamicsError> {
-        let mut faults = Vec::new();
         let mut strands = Vec::with_capacity(rest.len());
         for (index, points) in rest.iter().enumerate() {
             let id = rest.id(index);
@@ -235,17 +226,11 @@ impl Solver {
                     most,
                 });
             }
-            let (strand, good) = match RestStrand::new(points, &params) {
-                Ok(strand) => (strand, true),
-                Err(impossible) => {
-                    faults.push(match impossible {
-                        Impossible::NoLength => Fault::NoLength { id },
-                        Impossible::Folded(point) => Fault::Folded { id, point },
-                    });
-                    (RestStrand::rigid(points), false)
-                }
+            let (strand, fault) = match RestStrand::new(points, &params) {
+                Ok(strand) => (strand, None),
+                Err(reason) => (RestStrand::rigid(points), Some(reason)),
             };
-            strands.push((strand, params, good));
+            strands.push((strand, params, fault));
         }
 
         // Strands of like length together; the order is fixed by the strands alone.
@@ -257,7 +242,7 @@ impl Solver {
             places: vec![(0, 0); strands.len()],
             points: rest.iter().map(<[Vec3]>::len).collect(),
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
-            faults,
+            ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
             instructions: best_instructions(),
         };
         let mut states = Vec::new();
@@ -274,7 +259,7 @@ impl Solver {
             }
             let mut state = BatchState::new(&batch, &rests);
             for (lane, &i) in members.iter().enumerate() {
-                state.set_aside[lane] = !strands[i].2;
+                state.set_aside[lane] = strands[i].2;
             }
             solver.scratch.push(Scratch::new(batch.count()));
             states.push(state);
@@ -287,10 +272,16 @@ impl Solver {
         Ok((solver, state))
     }
 
-    /// The strands that are not simulated, and why.
+    /// The strands that are set aside, and why.
     #[must_use]
-    pub fn faults(&self) -> &[Fault] {
-        &self.faults
+    pub fn faults(&self, state: &State) -> Vec<Fault> {
+        let places = self.ids.iter().zip(&self.places);
+        places
+            .filter_map(|(&id, &(batch, lane))| {
+                let reason = state.batches[batch].set_aside[lane]?;
+                Some(Fault { id, reason })
+            })
+            .collect()
     }
 
     /// The number of strands.
@@ -390,7 +381,11 @@ impl Solver {
             });
         }
         match scene.roots {
-            Roots::Head(pose) if !pose.is_finite() => return Err(DynamicsError::Scene("head")),
+            Roots::Head(pose)
+                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
+            { 
+                return Err(DynamicsError::Scene("head"));
+            }
             Roots::Each(poses) if poses.len() != self.len() => {
                 return Err(DynamicsError::Poses {
                     found: poses.len(),
@@ -402,6 +397,18 @@ impl Solver {
         let fits = state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count());
         if fits { Ok(()) } else { Err(DynamicsError::State) }
+    }
+
+    /// The energy of a strand over its mass per length, in m^3/s^2: of its motion and its weight against the root, and of
+    /// bending and twisting.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::points`].
+    #[must_use]
+    pub fn energy(&self, state: &State, strand: usize, gravity: DVec3) -> f64 {
+        let (batch, lane) = self.places[strand];
+        state.batches[batch].energy(&self.batches[batch], gravity)[lane]
     }
 
     /// The points of a strand in the world, root first, in m.

@@ -10,7 +10,7 @@ use crate::{
     rest::RestStrand,
 };
 
-use super::sweep::{Elimination, Node};
+use super::sweep::{Elimination, Node, half_turn};
 
 /// [`LANES`] strands and their constants. A shorter strand is continued by links without length, mass and force,
 /// which add exactly nothing.
@@ -148,8 +148,8 @@ pub(crate) struct BatchState {
     pub goal: Vec<Vec3>,
     /// Strands whose accelerations are unknown: the next step starts by backward Euler.
     pub restart: [bool; LANES],
-    /// Strands that no longer move by themselves.
-    pub set_aside: [bool; LANES],
+    /// Strands that do not move by themselves, and why.
+    pub set_aside: [Option<Reason>; LANES],
 }
 
 impl BatchState {
@@ -169,7 +169,7 @@ impl BatchState {
             press: vec![Lane::ZERO; count],
             goal: Vec::new(),
             restart: [true; LANES],
-            set_aside: [false; LANES],
+            set_aside: [None; LANES],
         };
         for (lane, rest) in rests.iter().enumerate() {
             let Some(rest) = rest else { continue };
@@ -188,7 +188,53 @@ impl BatchState {
     }
 }
 
+/// Why a strand is set aside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+pub enum Reason {
+    /// A point of its rest shape (from the root, 0 first) is not finite.
+    #[error("point {0} at rest is not finite")]
+    Rest(usize),
+    /// All its points are one.
+    #[error("it has no length")]
+    NoLength,
+    /// It turns by more than 170 degrees at a point (from the root, 0 first).
+    #[error("it folds back on itself at point {0}")]
+    Folded(usize),
+    /// The pose of its root was not finite, or no rotation.
+    #[error("the pose of its root is not finite, or no rotation")]
+    Root,
+    /// A goal was not finite.
+    #[error("a goal of its points is not finite")]
+    Goal,
+    /// It had no finite motion.
+    #[error("it had no finite motion")]
+    Motion,
+}
+
 impl BatchState {
+    /// The strands that are set aside.
+    #[inline(always)]
+    pub(crate) fn aside(&self) -> Mask {
+        Mask(self.set_aside.map(|r| r.is_some()))
+    }
+
+    /// Energy of every strand over its mass per length, in m^3/s^2: of motion against the root, of weight from the root, of
+    /// bending and twisting.
+    pub(crate) fn energy(&self, batch: &Batch, gravity: DVec3) -> Lane {
+        let mut sum = Lane::ZERO;
+        let mut before = self.base;
+        let gravity = Vec3::splat(gravity);
+        for (k, link) in batch.links.iter().enumerate() {
+            let mass = batch.particles[k].mass;
+            sum += mass * (self.v[k].length_squared() * 0.5 - self.y[k].dot(gravity));
+            let c = half_turn(before, self.frames[k]);
+            let e = c + c - link.natural;
+            sum += ((e.x * e.x + e.y * e.y) * link.bend + e.z * e.z * link.twist) * 0.5;
+            before = self.frames[k];
+        }
+        sum
+    }
+
     /// Carries shape and motion to another root and skin frame.
     pub(crate) fn teleport(&mut self, root: Vec3, base: Quat) {
         let turn = base.times(self.base.conjugate()).normalize();

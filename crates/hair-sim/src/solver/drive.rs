@@ -10,7 +10,7 @@ use crate::{
 
 use super::{
     Roots, Scene,
-    batch::{Batch, BatchState, Scratch},
+    batch::{Batch, BatchState, Reason, Scratch},
     integrate::{BatchStats, GAMMA},
 };
 
@@ -28,6 +28,8 @@ pub(crate) struct Drive<'a> {
 
 /// The motion of the roots within a step, and what it does to the strands.
 pub(crate) struct RootMotion {
+    /// The root at the end.
+    pub root: Vec3,
     /// The frame of the skin at the stages.
     pub mid: Quat,
     pub end: Quat,
@@ -41,10 +43,11 @@ pub(crate) struct RootMotion {
 
 impl RootMotion {
     #[inline(always)]
-    pub(crate) fn new(state: &BatchState, drive: &Drive) -> Self {
-        let velocity = (drive.root - state.root) * (1.0 / drive.dt);
+    pub(crate) fn new(state: &mut BatchState, drive: &Drive) -> Self {
+        let (root, base) = whole_poses(state, drive);
+        let velocity = (root - state.root) * (1.0 / drive.dt);
         let acceleration = (velocity - state.root_velocity) * (1.0 / drive.dt);
-        let turn_end = drive.base.times(state.base.conjugate());
+        let turn_end = base.times(state.base.conjugate());
         let sign = (turn_end.w.lt(Lane::ZERO)).pick(Lane::splat(-1.0), Lane::ONE);
         // Along the chord: second order in the angle, and no sine.
         let turn_mid = Quat {
@@ -53,8 +56,9 @@ impl RootMotion {
         }
         .normalize();
         Self {
+            root,
             mid: turn_mid.times(state.base),
-            end: drive.base,
+            end: base,
             turn_mid,
             turn_end,
             pull: Vec3::splat(drive.scene.gravity) - acceleration,
@@ -63,7 +67,24 @@ impl RootMotion {
     }
 }
 
-/// Finds contacts, and fills in the air's motion and the springs of the step.
+/// The poses at the end of the step; where one is broken, that before, and its strand is set aside.
+#[inline(always)]
+fn whole_poses(state: &mut BatchState, drive: &Drive) -> (Vec3, Quat) {
+    let size = drive.base.v.length_squared() + drive.base.w * drive.base.w;
+    let place = drive.root.length_squared();
+    let whole = (place.is_finite())
+        .and(size.lt(Lane::splat(1.001)))
+        .and(size.gt(Lane::splat(0.999)));
+    for lane in 0..LANES {
+        if !whole.0[lane] {
+            state.set_aside[lane].get_or_insert(Reason::Root);
+        }
+    }
+    let base = Quat::pick(whole, drive.base, state.base).normalize();
+    (Vec3::pick(whole, drive.root, state.root), base)
+}
+
+/// Finds contacts, and fills in the air's motion and the springs of the step. Returns the strands that step.
 #[inline(always)]
 pub(crate) fn prepare(
     batch: &Batch,
@@ -71,9 +92,13 @@ pub(crate) fn prepare(
     scratch: &mut Scratch,
     drive: &Drive,
     root: &RootMotion,
-    active: Mask,
     stats: &mut BatchStats,
-) {
+) -> Mask {
+    scratch.has_springs = batch.has_goal;
+    if batch.has_goal {
+        pull_to_goals(batch, state, scratch, drive);
+    }
+    let active = batch.used.and(state.aside().not());
     if batch.has_drag {
         for k in 0..batch.count() {
             let air = drive.gusts.velocity(state.root + state.y[k]);
@@ -90,7 +115,7 @@ pub(crate) fn prepare(
             state.skin_known = true;
         }
         let course = Course {
-            root: drive.root,
+            root: root.root,
             dt: drive.dt,
             gamma: GAMMA,
         };
@@ -99,10 +124,7 @@ pub(crate) fn prepare(
         stats.contacts = contact::detect(batch, state, colliders, &course, active, contacts);
         scratch.has_contacts = stats.contacts > 0;
     }
-    scratch.has_springs = batch.has_goal;
-    if batch.has_goal {
-        pull_to_goals(batch, state, scratch, drive);
-    }
+    active
 }
 
 fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, drive: &Drive) {
@@ -128,7 +150,11 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, d
                 _ => now.get(lane),
             };
             let goal: DVec3 = pose.rotation * goal;
-            now.set(lane, goal);
+            if goal.is_finite() {
+                now.set(lane, goal);
+            } else if pose.is_finite() {
+                state.set_aside[lane].get_or_insert(Reason::Goal);
+            }
         }
         let before = if known { state.goal[k] } else { now };
         let mut spring = Spring::NONE;

@@ -8,7 +8,7 @@
 use crate::lanes::{LANES, Lane, Mask, Quat, Vec3};
 
 use super::{
-    batch::{Batch, BatchState, Scratch},
+    batch::{Batch, BatchState, Reason, Scratch},
     drive::{Drive, RootMotion},
     integrate::{StageSetup, Which, assemble, hold, turn_links},
     sweep::{Elastic, Pose, ascend, descend, potential},
@@ -19,8 +19,7 @@ const MOST_HALVINGS: usize = 10;
 const SMALL_TURN: f64 = 1e-3;
 const LARGEST_TURN: f64 = 0.7;
 
-/// Steps the lanes in `which`. Returns how many had no finite answer either: they are set aside, and follow
-/// their roots from then on.
+/// Steps the lanes in `which`. Those that have no finite answer here either are set aside.
 pub(super) fn step(
     batch: &Batch,
     state: &mut BatchState,
@@ -28,7 +27,7 @@ pub(super) fn step(
     drive: &Drive,
     root: &RootMotion,
     which: Mask,
-) -> usize {
+) {
     let h = Lane::splat(drive.dt);
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
@@ -57,7 +56,7 @@ pub(super) fn step(
         let met = hold(batch, scratch, h, Which::Trial, which);
         minimise(batch, scratch, setup.base, &elastic, met);
     }
-    take(batch, state, scratch, root, which, drive.dt)
+    take(batch, state, scratch, which, drive.dt);
 }
 
 /// Damped Newton on `scratch.trial`.
@@ -132,10 +131,9 @@ fn take(
     batch: &Batch,
     state: &mut BatchState,
     scratch: &Scratch,
-    root: &RootMotion,
     which: Mask,
     dt: f64,
-) -> usize {
+) {
     let trial = &scratch.trial;
     let mut sum = Lane::ZERO;
     for k in 0..batch.count() {
@@ -162,17 +160,13 @@ fn take(
             state.restart[lane] = true;
         }
         if bad.0[lane] {
-            state.set_aside[lane] = true;
+            state.set_aside[lane] = Some(Reason::Motion);
         }
     }
-    if bad.any() {
-        carry(batch, state, root.turn_end, bad);
-    }
-    bad.count()
 }
 
 /// Carries the lanes in `which` along with the skin, at rest against it.
-pub(super) fn carry(batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
+pub(crate) fn carry(batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
         let frame = Quat::pick(which, turn.times(state.frames[k]).normalize(), state.frames[k]);

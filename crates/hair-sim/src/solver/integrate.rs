@@ -63,9 +63,8 @@ pub(crate) fn step(
     drive: &Drive,
 ) -> BatchStats {
     let root = RootMotion::new(state, drive);
-    let active = batch.used.and(Mask(state.set_aside).not());
     let mut stats = BatchStats::default();
-    prepare(batch, state, scratch, drive, &root, active, &mut stats);
+    let active = prepare(batch, state, scratch, drive, &root, &mut stats);
     remember_turns(batch, state, scratch);
 
     let h = drive.dt;
@@ -128,11 +127,16 @@ pub(crate) fn step(
     stats.iterations = iterations;
     stats.fallbacks = failed.count();
     if failed.any() {
-        stats.set_aside = fallback::step(batch, state, scratch, drive, &root, failed);
+        fallback::step(batch, state, scratch, drive, &root, failed);
     }
-    state.root = drive.root;
+    let aside = state.aside().and(batch.used);
+    if aside.any() {
+        stats.set_aside = aside.count();
+        fallback::carry(batch, state, root.turn_end, aside);
+    }
+    state.root = root.root;
     state.root_velocity = root.velocity;
-    state.base = drive.base;
+    state.base = root.end;
     stats
 }
 
