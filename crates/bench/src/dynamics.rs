@@ -89,11 +89,8 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     progress.set_message("cantilevers");
     rows.extend(alone.install(|| statics::rows(|| progress.inc(1)))?);
     progress.set_message("many strands");
-    rows.extend(motion::rows(
-        options.threads,
-        options.quick,
-        effort(options.quick),
-    )?);
+    let moving = motion::measure(options.threads, options.quick, effort(options.quick))?;
+    rows.extend(moving.rows);
     progress.inc(1);
     let mut missing = Vec::new();
     if let Some(peers) = &options.peers {
@@ -106,7 +103,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     rows.sort_by_key(|row| place_of(&row.scene));
 
     let measured = Measured {
-        targets: targets::targets(&rows, &slopes),
+        targets: targets::targets(&rows, &slopes, &moving.fallbacks),
         regressions: stored::against(&rows)?,
         rows,
         missing,

@@ -1,12 +1,12 @@
 //! Hair of masses and springs, for comparison: Selle, Lentine and Fedkiw 2008, *A Mass Spring Model for Hair
 //! Simulation*.
 //!
-//! A straight strand has no triangles, so half way between its particles stand others aside of it (section 3.2). Of the
+//! A straight strand has no triangles, so half way between its particles stand others aside of it. Of the
 //! zigzag of both, each particle has a spring to the next (edge), to the one after it (bending) and to the third
 //! (torsion): every four particles in a row are a tetrahedron, and its shortest altitude has a spring too, that keeps
 //! it from collapsing. Springs are linear along the direction that they have when the step begins, so that a
-//! step solves one linear system (section 5); here it is a band matrix, solved exactly. The step is Euler's implicit one:
-//! the paper's middle point, tried here, gains energy without end from steps of 1/1536 s on.
+//! step solves one linear system; here it is a band matrix, solved exactly. The step is Euler's implicit one:
+//! the paper's middle point was tried here, and diverges on the falling strand at steps of 1/1536 s and longer.
 //!
 //! The paper's stiffnesses are free. Here the edges hold the strand's length and the others are set so
 //! that the strand at rest, lightly loaded, bends as a rod of the given stiffness does.

@@ -42,6 +42,11 @@ trait Moving {
     ///
     /// When the solver refuses a step, or a counter isn't what it must be.
     fn step(&mut self) -> Result<(), String>;
+
+    /// The share of strands' steps until now that needed the safe integrator, where there is one.
+    fn fallback_share(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Strands with nothing around them.
@@ -143,15 +148,27 @@ impl Moving for Full {
         self.fallbacks += stats.fallbacks;
         self.check(&stats)
     }
+
+    fn fallback_share(&self) -> Option<f64> {
+        Some(self.fallbacks as f64 / (self.strands * self.steps) as f64)
+    }
 }
 
-/// A row each scene, method and number of threads (the knob): seconds are those of a step of all strands. Our strands' scenes
-/// with head and wind fail unless the counters of each timed step say that there were contacts and wind.
+/// What was measured of strands in motion.
+pub struct Measured {
+    /// A row each scene, method and number of threads (the knob): seconds are those of a step of all strands.
+    pub rows: Vec<Row>,
+    /// Scenes with everything, and the largest share of strands' steps that needed the safe integrator.
+    pub fallbacks: Vec<(String, f64)>,
+}
+
+/// Times steps. Our strands' scenes with head and wind fail unless the counters of each timed step say that there were
+/// contacts and wind.
 ///
 /// # Errors
 ///
 /// When a step is refused or a counter is not what it must be.
-pub fn rows(threads: usize, quick: bool, effort: Effort) -> Result<Vec<Row>, String> {
+pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, String> {
     let mut entries: Vec<(String, &str, usize, Box<dyn Moving>)> = Vec::new();
     let mut counts = vec![1, threads];
     counts.dedup();
@@ -202,16 +219,23 @@ pub fn rows(threads: usize, quick: bool, effort: Effort) -> Result<Vec<Row>, Str
         .collect();
     let seconds = shortest(&mut runs, effort, || ())?;
     drop(runs);
-    let rows = entries.into_iter().zip(seconds);
-    Ok(rows
-        .map(|((scene, method, knob, _), seconds)| Row {
+    let mut measured = Measured {
+        rows: Vec::new(),
+        fallbacks: Vec::new(),
+    };
+    for ((scene, method, knob, moving), seconds) in entries.into_iter().zip(seconds) {
+        if let Some(share) = moving.fallback_share() {
+            measured.fallbacks.push((scene.clone(), share));
+        }
+        measured.rows.push(Row {
             scene,
             method: method.to_owned(),
             knob,
             seconds,
             error: None,
-        })
-        .collect())
+        });
+    }
+    Ok(measured)
 }
 
 #[cfg(test)]
@@ -251,8 +275,9 @@ mod tests {
             rounds: 1,
             each: std::time::Duration::ZERO,
         };
-        let rows = rows(2, true, effort).unwrap();
-        assert_eq!(rows.len(), 12);
+        let Measured { rows, fallbacks } = measure(2, true, effort).unwrap();
+        assert_eq!((rows.len(), fallbacks.len()), (12, 4));
         assert!(rows.iter().all(|row| row.seconds > 0.0));
+        assert!(fallbacks.iter().all(|(_, share)| *share <= 1.0));
     }
 }

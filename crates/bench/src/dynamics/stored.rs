@@ -8,8 +8,7 @@ use crate::targets::{Found, Limit, Target};
 const STORED: &str = include_str!("../../stored/dynamics.csv");
 /// Their columns.
 const COLUMNS: &str = "scene,method,knob,time,error";
-/// An error is no worse up to this factor: errors are the same on every machine, but for what rivals' references
-/// may change.
+/// An error is no worse up to this factor. Errors are the same on every machine.
 const WORSE: f64 = 1.05;
 /// A time is no worse up to this factor: machines differ in more than speed, and are never quiet.
 const SLOWER: f64 = 2.0;

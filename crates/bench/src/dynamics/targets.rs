@@ -21,9 +21,10 @@ pub const MUJOCO_CHAIN: &str = "mujoco-chain";
 /// Beyond this root mean square, in lengths, a fall is no fall any more, and its time says nothing.
 const USELESS: f64 = 0.5;
 
-/// All targets of what was measured; `slopes`: of scenes of falling strands, the slope of the error in the step.
+/// All targets of what was measured; `slopes`: of scenes of falling strands, the slope of the error in the step;
+/// `fallbacks`: of scenes with everything, the share of steps that needed the safe integrator.
 #[must_use]
-pub fn targets(rows: &[Row], slopes: &[(String, f64)]) -> Vec<Target> {
+pub fn targets(rows: &[Row], slopes: &[(String, f64)], fallbacks: &[(String, f64)]) -> Vec<Target> {
     let mut targets = at_rest(rows);
     targets.extend(falling(rows, slopes));
     let mut scenes: Vec<&str> = rows.iter().map(|row| row.scene.as_str()).collect();
@@ -33,6 +34,11 @@ pub fn targets(rows: &[Row], slopes: &[(String, f64)]) -> Vec<Target> {
         targets.extend(against_others(rows, scene));
     }
     targets.extend(throughput(rows));
+    targets.extend(fallbacks.iter().map(|(scene, share)| Target {
+        text: format!("{scene}: share of steps by the safe integrator"),
+        found: Some(Found::Is(*share)),
+        limit: Limit::AtMost(0.01),
+    }));
     targets
 }
 
@@ -203,13 +209,19 @@ mod tests {
     }
 
     fn all(rows: &[Row]) -> Vec<Target> {
-        targets(rows, &[("drop-10".to_owned(), 1.9)])
+        let named = |scene: &str, value| [(scene.to_owned(), value)];
+        targets(rows, &named("drop-10", 1.9), &named("full-72x20", 0.004))
     }
 
     #[test]
     fn good_numbers_are_met() {
         let targets = all(&good());
-        assert_eq!(targets.len(), 5 + 4 + 1 + 2 + 4 + 2, "{}", report(&targets));
+        assert_eq!(
+            targets.len(),
+            5 + 4 + 1 + 2 + 4 + 2 + 1,
+            "{}",
+            report(&targets)
+        );
         assert!(targets.iter().all(Target::is_met), "{}", report(&targets));
     }
 
@@ -261,7 +273,7 @@ mod tests {
 
     #[test]
     fn what_was_not_measured_is_missed() {
-        let targets = targets(&[], &[]);
+        let targets = targets(&[], &[], &[]);
         assert!(targets.iter().all(|target| !target.is_met()));
     }
 }

@@ -1,7 +1,7 @@
 //! Extended position based dynamics of rods, for comparison: particles and a quaternion a link.
 //!
-//! Rods of Kugelstadt and Schömer 2016, *Position and Orientation Based Cosserat Rods* (constraints of their
-//! sections 4.1 and 4.2), solved as Macklin et al. 2016, *XPBD*, say (algorithm 1): their compliance makes the
+//! Rods of Kugelstadt and Schömer 2016, *Position and Orientation Based Cosserat Rods* (their constraints of stretch and
+//! shear and of bending and twist), solved as Macklin et al. 2016, *XPBD*, say (algorithm 1): their compliance makes the
 //! stiffness physical, and Gauss-Seidel sweeps leave an error that more sweeps or more steps lessen.
 
 use super::rods::{GRAVITY, Rods, Strand, TWIST_RATIO};
