@@ -13,7 +13,7 @@ mod solver;
 mod strands;
 
 pub use collision::{Collider, GridError, Shape, SignedDistance};
-pub use forces::wind::Wind;
+pub use forces::{mutual::Mutual, wind::Wind};
 pub use motion::{Motion, MotionError};
 pub use params::{GRAVITY, Material, Natural, Params, Profile};
 pub use solver::{DynamicsError, Fault, Pose, Reason, Roots, Scene, Solver, State, Stats};

@@ -4,6 +4,7 @@ pub(crate) mod batch;
 mod drive;
 mod fallback;
 mod instructions;
+mod neighbours;
 mod integrate;
 pub(crate) mod sweep;
 
@@ -13,7 +14,10 @@ use rayon::prelude::*;
 use crate::{
     Strands,
     collision::Collider,
-    forces::wind::Wind,
+    forces::{
+        mutual::{Course, Mutual, Pair},
+        wind::Wind,
+    },
     lanes::{LANES, Quat, Vec3 as LaneVec3},
     params::{GRAVITY, Params},
     rest::RestStrand,
@@ -22,7 +26,7 @@ use crate::{
 pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
 use instructions::Instructions;
-use drive::Drive;
+use drive::{Drive, Hair};
 use integrate::BatchStats;
 
 /// A rigid motion from style space to the world: where a head is.
@@ -91,6 +95,35 @@ impl Default for Scene<'_> {
     }
 }
 
+impl Scene<'_> {
+    /// Whether nothing in it moves but, perhaps, the roots.
+    fn is_calm(&self) -> bool {
+        let still = |c: &Collider| c.before == c.now;
+        self.wind.gust == 0.0 && self.goal.is_none() && self.colliders.iter().all(still)
+    }
+
+    /// A hash of what acts on strands at rest.
+    fn fingerprint(&self) -> u64 {
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a, by words
+        let mut add = |v: DVec3| {
+            for bits in v.to_array().map(f64::to_bits) {
+                hash = (hash ^ bits).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        add(self.gravity);
+        add(self.wind.steady);
+        for collider in self.colliders {
+            add(collider.now.translation);
+            add(collider.now.rotation * DVec3::X);
+            add(collider.now.rotation * DVec3::Y);
+            for v in collider.shape.numbers() {
+                add(v);
+            }
+        }
+        hash
+    }
+}
+
 /// What happened in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
@@ -106,6 +139,66 @@ pub struct Stats {
     pub contacts: usize,
     /// Particles that felt wind.
     pub wind: usize,
+    /// Links between strands that held.
+    pub links: usize,
+    /// Particles that another strand pushed away.
+    pub repulsions: usize,
+    /// Strands that rest, and cost nothing.
+    pub asleep: usize,
+}
+
+impl Stats {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            strands: self.strands + other.strands,
+            iterations: self.iterations + other.iterations,
+            fallbacks: self.fallbacks + other.fallbacks,
+            set_aside: self.set_aside + other.set_aside,
+            contacts: self.contacts + other.contacts,
+            wind: self.wind + other.wind,
+            links: self.links + other.links,
+            repulsions: self.repulsions + other.repulsions,
+            asleep: self.asleep + other.asleep,
+        }
+    }
+}
+
+impl From<BatchStats> for Stats {
+    fn from(batch: BatchStats) -> Self {
+        Self {
+            strands: batch.strands,
+            iterations: batch.iterations,
+            fallbacks: batch.fallbacks,
+            set_aside: batch.set_aside,
+            contacts: batch.contacts,
+            wind: batch.wind,
+            links: batch.hair.links,
+            repulsions: batch.hair.repulsions,
+            asleep: batch.asleep,
+        }
+    }
+}
+
+impl HairHair {
+    /// Where every particle is, and where its own motion takes it.
+    fn follow(&mut self, batches: &[Batch], states: &[BatchState], scene: &Scene, dt: f64) {
+        for ((batch, state), &first) in batches.iter().zip(states).zip(&self.first) {
+            let (root, _) = roots(batch, scene);
+            for k in 0..batch.count() {
+                let (before, now) = (
+                    state.root + state.y[k],
+                    root + state.y[k] + state.v[k] * dt,
+                );
+                let courses = &mut self.courses[first + k * LANES..][..LANES];
+                for (lane, course) in courses.iter_mut().enumerate() {
+                    let (before, now) = (before.get(lane), now.get(lane));
+                    // A root without a pose is the strand's own fault, not its neighbours'.
+                    let now = if now.is_finite() { now } else { before };
+                    *course = Course { before, now };
+                }
+            }
+        }
+    }
 }
 
 /// Why strands make no solver.
@@ -131,6 +224,18 @@ pub enum DynamicsError {
     /// Numbers of the scene are finite.
     #[error("the scene's {0} is not finite")]
     Scene(&'static str),
+    /// A number of [`Mutual`] has a range.
+    #[error("{name} is {value}, and must be from {least} to {most}")]
+    Mutual {
+        /// Its name.
+        name: &'static str,
+        /// As it was given.
+        value: f64,
+        /// The least.
+        least: f64,
+        /// The most.
+        most: f64,
+    },
     /// There is one pose for every strand.
     #[error("{found} poses for {expected} strands")]
     Poses {
@@ -173,7 +278,20 @@ pub struct Solver {
     points: Vec<usize>,
     first_points: Vec<usize>,
     ids: Vec<u32>,
+    hair: Option<HairHair>,
     instructions: Instructions,
+}
+
+/// How the strands act on each other.
+#[derive(Clone, Debug)]
+struct HairHair {
+    mutual: Mutual,
+    /// Of every batch.
+    pairs: Vec<Vec<Pair>>,
+    /// The index of every batch's first particle, and the courses of all: batch by batch, particle by particle, lane
+    /// by lane.
+    first: Vec<usize>,
+    courses: Vec<Course>,
 }
 
 /// Everything that decides the strands' future, to the bit.
@@ -181,6 +299,8 @@ pub struct Solver {
 pub struct State {
     /// Seconds since the start.
     time: f64,
+    /// What acted in the last step: where it stays the same, strands can come to rest.
+    last: u64,
     batches: Vec<BatchState>,
 }
 
@@ -243,6 +363,7 @@ impl Solver {
             points: rest.iter().map(<[Vec3]>::len).collect(),
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
             ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
+            hair: None,
             instructions: best_instructions(),
         };
         let mut states = Vec::new();
@@ -267,6 +388,7 @@ impl Solver {
         }
         let state = State {
             time: 0.0,
+            last: 0,
             batches: states,
         };
         Ok((solver, state))
@@ -282,6 +404,36 @@ impl Solver {
                 Some(Fault { id, reason })
             })
             .collect()
+    }
+
+    /// Lets strands act on each other from now on, as they lie in `state`: at best at the start, at rest.
+    ///
+    /// # Errors
+    ///
+    /// When a number is out of its range, or the state is not of these strands.
+    pub fn interact(&mut self, state: &mut State, mutual: &Mutual) -> Result<(), DynamicsError> {
+        self.hair = None;
+        self.check(state, &Scene::default(), 1.0)?;
+        if let Some((name, value, least, most)) = mutual.out_of_range() {
+            return Err(DynamicsError::Mutual {
+                name,
+                value,
+                least,
+                most,
+            });
+        }
+        let (pairs, first) = neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
+        for (pairs, state) in pairs.iter().zip(&mut state.batches) {
+            state.broken = vec![[false; LANES]; pairs.len()];
+        }
+        let total: usize = self.batches.iter().map(|b| b.count() * LANES).sum();
+        self.hair = Some(HairHair {
+            mutual: *mutual,
+            pairs,
+            first,
+            courses: vec![Course::default(); total],
+        });
+        Ok(())
     }
 
     /// The number of strands.
@@ -311,34 +463,37 @@ impl Solver {
         let instructions = self.instructions;
         // In the middle of the step.
         let gusts = scene.wind.at(state.time + 0.5 * dt);
-        let stats: Vec<BatchStats> = self
-            .batches
-            .par_iter()
+        let acting = scene.fingerprint();
+        let calm = acting == state.last && self.hair.is_none() && scene.is_calm();
+        state.last = acting;
+        if let Some(hair) = &mut self.hair {
+            hair.follow(&self.batches, &state.batches, scene, dt);
+        }
+        let hair = self.hair.as_ref();
+        let first_points = &self.first_points;
+        let sum = (self.batches.par_iter().enumerate())
             .zip(state.batches.par_iter_mut())
             .zip(self.scratch.par_iter_mut())
-            .map(|((batch, state), scratch)| {
+            .map(|(((index, batch), state), scratch)| {
                 let (root, base) = roots(batch, scene);
                 let drive = Drive {
                     dt,
                     scene,
                     gusts: &gusts,
-                    first_points: &self.first_points,
+                    first_points,
                     root,
                     base,
+                    calm,
+                    hair: hair.map(|h| Hair {
+                        mutual: &h.mutual,
+                        pairs: &h.pairs[index],
+                        courses: &h.courses,
+                    }),
                 };
-                instructions.step(batch, state, scratch, &drive)
+                Stats::from(instructions.step(batch, state, scratch, &drive))
             })
-            .collect();
+            .reduce(Stats::default, Stats::plus);
         state.time += dt;
-        let mut sum = Stats::default();
-        for s in stats {
-            sum.strands += s.strands;
-            sum.iterations += s.iterations;
-            sum.fallbacks += s.fallbacks;
-            sum.set_aside += s.set_aside;
-            sum.contacts += s.contacts;
-            sum.wind += s.wind;
-        }
         Ok(sum)
     }
 
@@ -395,7 +550,10 @@ impl Solver {
             _ => {}
         }
         let fits = state.batches.len() == self.batches.len()
-            && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count());
+            && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count())
+            && self.hair.as_ref().is_none_or(|h| {
+                (h.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
+            });
         if fits { Ok(()) } else { Err(DynamicsError::State) }
     }
 
@@ -408,7 +566,7 @@ impl Solver {
     #[must_use]
     pub fn energy(&self, state: &State, strand: usize, gravity: DVec3) -> f64 {
         let (batch, lane) = self.places[strand];
-        state.batches[batch].energy(&self.batches[batch], gravity)[lane]
+        state.batches[batch].energy(&self.batches[batch], LaneVec3::splat(gravity))[lane]
     }
 
     /// The points of a strand in the world, root first, in m.

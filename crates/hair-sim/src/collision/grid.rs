@@ -102,6 +102,12 @@ impl SignedDistance {
         Ok(build.grid)
     }
 
+    pub(crate) fn numbers(&self) -> [DVec3; 3] {
+        let size = self.size.map(|n| n as f64);
+        let middle = f64::from(self.values[self.values.len() / 2]);
+        [self.origin, DVec3::from_array(size), DVec3::new(self.cell, middle, 1.0)]
+    }
+
     fn index(&self, x: usize, y: usize, z: usize) -> usize {
         (z * self.size[1] + y) * self.size[0] + x
     }

@@ -78,6 +78,15 @@ impl Shape<'_> {
         }
     }
 
+    /// Numbers that tell it from other shapes.
+    pub(crate) fn numbers(&self) -> [DVec3; 3] {
+        match self {
+            Self::Sphere { center, radius } => [*center, DVec3::splat(*radius), DVec3::ZERO],
+            Self::Capsule { from, to, radius } => [*from, *to, DVec3::splat(*radius)],
+            Self::Grid(grid) => grid.numbers(),
+        }
+    }
+
     /// The direction away from the surface, a unit vector.
     pub(crate) fn normal(&self, at: DVec3) -> DVec3 {
         let away = match self {

@@ -28,6 +28,8 @@ pub(crate) struct Batch {
     /// Whether any strand has drag; a goal.
     pub has_drag: bool,
     pub has_goal: bool,
+    /// Whether nothing in the strands or the air takes energy from them.
+    pub conserves: bool,
     /// Distance kept from colliders, in m.
     pub thickness: Lane,
     pub friction: Lane,
@@ -47,6 +49,8 @@ pub(crate) struct Link {
     pub bend: Lane,
     pub twist: Lane,
     pub natural: Vec3,
+    /// 1 for links of strands, 0 for those that only fill the batch.
+    pub counts: Lane,
 }
 
 /// The particle at a link's tip end.
@@ -69,6 +73,7 @@ impl Batch {
             bend: soft,
             twist: soft,
             natural: Vec3::ZERO,
+            counts: Lane::ZERO,
         };
         let particle = Particle {
             mass: Lane::ZERO,
@@ -84,6 +89,7 @@ impl Batch {
             drag_along: Lane::ZERO,
             has_drag: members.iter().any(|m| m.2.drag > 0.0),
             has_goal: members.iter().any(|m| m.2.has_goal()),
+            conserves: members.iter().all(|m| m.2.conserves()),
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
             styled: vec![Vec3::ZERO; count],
@@ -115,6 +121,7 @@ impl Batch {
             self.links[k].bend[lane] = link.bend;
             self.links[k].twist[lane] = link.twist;
             self.links[k].natural.set(lane, link.natural);
+            self.links[k].counts[lane] = 1.0;
             self.particles[k].mass[lane] = link.mass;
             self.particles[k].drag[lane] = params.drag;
             self.particles[k].goal[lane] = params.goal.at(link.end_at);
@@ -146,6 +153,10 @@ pub(crate) struct BatchState {
     pub press: Vec<Lane>,
     /// Where goals were, from the root; empty before the first step with goals.
     pub goal: Vec<Vec3>,
+    /// Links to other strands that hold no more: one for every pair of the batch.
+    pub broken: Vec<[bool; LANES]>,
+    /// For how many steps strands have been at rest.
+    pub quiet: [u32; LANES],
     /// Strands whose accelerations are unknown: the next step starts by backward Euler.
     pub restart: [bool; LANES],
     /// Strands that do not move by themselves, and why.
@@ -168,6 +179,8 @@ impl BatchState {
             skin_known: false,
             press: vec![Lane::ZERO; count],
             goal: Vec::new(),
+            broken: Vec::new(),
+            quiet: [0; LANES],
             restart: [true; LANES],
             set_aside: [None; LANES],
         };
@@ -220,10 +233,9 @@ impl BatchState {
 
     /// Energy of every strand over its mass per length, in m^3/s^2: of motion against the root, of weight from the root, of
     /// bending and twisting.
-    pub(crate) fn energy(&self, batch: &Batch, gravity: DVec3) -> Lane {
+    pub(crate) fn energy(&self, batch: &Batch, gravity: Vec3) -> Lane {
         let mut sum = Lane::ZERO;
         let mut before = self.base;
-        let gravity = Vec3::splat(gravity);
         for (k, link) in batch.links.iter().enumerate() {
             let mass = batch.particles[k].mass;
             sum += mass * (self.v[k].length_squared() * 0.5 - self.y[k].dot(gravity));

@@ -4,7 +4,11 @@ use glam::{DVec3, Vec3 as Point};
 
 use crate::{
     collision::contact::{self, Course},
-    forces::{springs::Spring, wind::Gusts},
+    forces::{
+        mutual::{self, Course as ParticleCourse, Mutual, Own, Pair},
+        springs::Spring,
+        wind::Gusts,
+    },
     lanes::{LANES, Lane, Mask, Quat, Vec3},
 };
 
@@ -24,6 +28,17 @@ pub(crate) struct Drive<'a> {
     /// Root and frame of the skin in the world at the end of the step.
     pub root: Vec3,
     pub base: Quat,
+    /// Whether what acts is the same as in the last step, and does not move.
+    pub calm: bool,
+    /// The other hair.
+    pub hair: Option<Hair<'a>>,
+}
+
+/// The pairs of a batch with other strands, and where all particles are.
+pub(crate) struct Hair<'a> {
+    pub mutual: &'a Mutual,
+    pub pairs: &'a [Pair],
+    pub courses: &'a [ParticleCourse],
 }
 
 /// The motion of the roots within a step, and what it does to the strands.
@@ -92,13 +107,29 @@ pub(crate) fn prepare(
     scratch: &mut Scratch,
     drive: &Drive,
     root: &RootMotion,
+    awake: Mask,
     stats: &mut BatchStats,
 ) -> Mask {
-    scratch.has_springs = batch.has_goal;
+    scratch.has_springs = batch.has_goal || drive.hair.is_some();
+    if scratch.has_springs {
+        scratch.springs.fill(Spring::NONE);
+    }
     if batch.has_goal {
         pull_to_goals(batch, state, scratch, drive);
     }
-    let active = batch.used.and(state.aside().not());
+    if let Some(hair) = &drive.hair {
+        let own = Own {
+            y: &state.y,
+            frames: &state.frames,
+            root_before: state.root,
+            root_now: root.root,
+            gamma: GAMMA,
+            dt: drive.dt,
+        };
+        let springs = &mut scratch.springs;
+        stats.hair = mutual::act(hair.mutual, hair.pairs, hair.courses, &own, &mut state.broken, springs);
+    }
+    let active = batch.used.and(state.aside().not()).and(awake);
     if batch.has_drag {
         for k in 0..batch.count() {
             let air = drive.gusts.velocity(state.root + state.y[k]);
@@ -157,9 +188,8 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, d
             }
         }
         let before = if known { state.goal[k] } else { now };
-        let mut spring = Spring::NONE;
+        let spring = &mut scratch.springs[k];
         spring.pull(batch.particles[k].goal, before, now, GAMMA, drive.dt);
-        scratch.springs[k] = spring;
         state.goal[k] = now;
     }
 }

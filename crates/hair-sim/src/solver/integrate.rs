@@ -12,7 +12,10 @@
 //! stages are L-stable together. Newton starts from the links turned along the free motion yb + d vb, and
 //! one iteration is almost always enough.
 
-use crate::lanes::{LANES, Lane, Mask, Quat, Sym3, Vec3};
+use crate::{
+    forces::mutual::Counts,
+    lanes::{LANES, Lane, Mask, Quat, Sym3, Vec3},
+};
 
 use super::{
     batch::{Batch, BatchState, Scratch, Stage},
@@ -37,6 +40,10 @@ const MOST_ITERATIONS: usize = 6;
 /// differences that it is made of mean nothing.
 const LEAST_COSINE: f64 = -0.5;
 
+/// Strands that are slower than this (m/s) for so many steps sleep.
+const QUIET_SPEED: f64 = 1e-7;
+const QUIET_STEPS: u32 = 24;
+
 /// The share of the end velocity's stretch that is taken out. A backward difference of points that run on an arc points
 /// inside the arc; half of that is the error of the difference.
 const UNSTRETCH: f64 = 0.5;
@@ -52,6 +59,9 @@ pub(crate) struct BatchStats {
     /// Particles.
     pub contacts: usize,
     pub wind: usize,
+    pub hair: Counts,
+    /// Strands that rest.
+    pub asleep: usize,
 }
 
 /// Advances a batch by `drive.dt`.
@@ -64,7 +74,12 @@ pub(crate) fn step(
 ) -> BatchStats {
     let root = RootMotion::new(state, drive);
     let mut stats = BatchStats::default();
-    let active = prepare(batch, state, scratch, drive, &root, &mut stats);
+    let asleep = asleep(state, drive, batch.used);
+    stats.asleep = asleep.count();
+    if asleep == batch.used && !state.aside().and(batch.used).any() {
+        return stats;
+    }
+    let active = prepare(batch, state, scratch, drive, &root, asleep.not(), &mut stats);
     remember_turns(batch, state, scratch);
 
     let h = drive.dt;
@@ -122,7 +137,14 @@ pub(crate) fn step(
     iterations += solve(batch, scratch, &stage, active, &mut failed, Which::End);
 
     failed = failed.or(turned_too_far(batch, state, scratch, &root)).and(active);
-    finish(batch, state, scratch, active.and(failed.not()), d);
+    let kept = active.and(failed.not());
+    if batch.conserves && drive.base == state.base {
+        let before = state.energy(batch, root.pull);
+        finish(batch, state, scratch, kept, d);
+        take_gain(batch, state, &root, before, kept);
+    } else {
+        finish(batch, state, scratch, kept, d);
+    }
     stats.strands = active.count();
     stats.iterations = iterations;
     stats.fallbacks = failed.count();
@@ -134,10 +156,40 @@ pub(crate) fn step(
         stats.set_aside = aside.count();
         fallback::carry(batch, state, root.turn_end, aside);
     }
+    count_quiet(batch, state, drive, active);
     state.root = root.root;
     state.root_velocity = root.velocity;
     state.base = root.end;
     stats
+}
+
+/// Strands that have not moved for [`QUIET_STEPS`], on roots that do not move, where what acts stays as it is.
+#[inline(always)]
+fn asleep(state: &BatchState, drive: &Drive, used: Mask) -> Mask {
+    if !drive.calm {
+        return Mask::NONE;
+    }
+    let still = (drive.root - state.root).length_squared()
+        + (drive.base.v - state.base.v).length_squared()
+        + state.root_velocity.length_squared();
+    let quiet = Mask(state.quiet.map(|steps| steps >= QUIET_STEPS));
+    quiet.and(still.gt(Lane::ZERO).not()).and(used)
+}
+
+#[inline(always)]
+fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
+    let mut fastest = Lane::ZERO;
+    for k in 0..batch.count() {
+        fastest = fastest.max(state.v[k].length_squared());
+    }
+    let limit = Lane::splat(QUIET_SPEED * QUIET_SPEED);
+    let quiet = fastest.lt(limit).and(Mask([drive.calm; LANES]));
+    for lane in 0..LANES {
+        if active.0[lane] {
+            let steps = state.quiet[lane].saturating_add(1);
+            state.quiet[lane] = if quiet.0[lane] { steps } else { 0 };
+        }
+    }
 }
 
 #[inline(always)]
@@ -329,6 +381,7 @@ fn predict(batch: &Batch, scratch: &mut Scratch, setup: &StageSetup, which: Whic
     let shape = if which == Which::Mid { mid } else { end };
     let mut before = Vec3::ZERO;
     let mut y = Vec3::ZERO;
+    let mut turn = Quat::IDENTITY;
     for k in 0..batch.count() {
         let length = batch.links[k].length;
         let free = free_y[k] + free_v[k] * setup.length;
@@ -338,9 +391,11 @@ fn predict(batch: &Batch, scratch: &mut Scratch, setup: &StageSetup, which: Whic
         let frame = shape.frames[k];
         let clear = squared.gt(length * length * 0.01);
         let to = chord * squared.sqrt().recip();
-        let frame = Quat::pick(clear, frame.pointed(to), frame);
-        shape.frames[k] = frame;
-        y += frame.tangent() * length;
+        // A link that has no direction of its own goes with the one before it.
+        let next = Quat::pick(clear, frame.pointed(to), turn.times(frame));
+        turn = next.times(frame.conjugate());
+        shape.frames[k] = next;
+        y += next.tangent() * length;
         shape.y[k] = y;
     }
 }
@@ -380,6 +435,22 @@ fn turned_too_far(
         least = least.min(carried.dot(now).max(still.dot(now)));
     }
     least.gt(Lane::splat(LEAST_COSINE)).not()
+}
+
+/// Where nothing takes energy from the strands, nothing may bring any: what the step made by its error is taken out of the
+/// velocities.
+#[inline(always)]
+fn take_gain(batch: &Batch, state: &mut BatchState, root: &RootMotion, before: Lane, which: Mask) {
+    let gain = (state.energy(batch, root.pull) - before).max(Lane::ZERO);
+    let mut motion = Lane::ZERO;
+    for k in 0..batch.count() {
+        motion += batch.particles[k].mass * state.v[k].length_squared() * 0.5;
+    }
+    let left = (motion - gain).max(Lane::ZERO) / motion.max(Lane::splat(1e-300));
+    let scale = which.and(gain.gt(Lane::ZERO)).pick(left.sqrt(), Lane::ONE);
+    for v in &mut state.v {
+        *v = *v * scale;
+    }
 }
 
 /// Takes the end stage of the lanes in `which` as the new state.

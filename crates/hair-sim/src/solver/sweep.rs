@@ -210,7 +210,7 @@ pub(crate) fn descend(
         let e = &eliminations[k];
         turn = e.before.apply(turn) - e.alone - e.shift.apply(shift);
         turns[k] = turn;
-        largest = largest.max(turn.length_squared());
+        largest = largest.max(turn.length_squared() * links[k].counts);
         shift += turn.cross(frames[k].tangent() * links[k].length);
     }
     largest

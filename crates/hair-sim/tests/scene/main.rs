@@ -2,6 +2,8 @@
 
 mod bodies;
 mod goals;
+mod mutual;
+mod sleep;
 mod roots;
 mod wind;
 

@@ -31,15 +31,21 @@ fn any_step_with_any_stiffness_and_drag() {
                 let start: Vec<f64> = (0..4).map(|s| solver.energy(&state, s, scene.gravity)).collect();
                 let scale = GRAVITY * 0.3 * 0.3;
                 let steps = ((2.0 / dt) as usize).clamp(40, 240);
-                for i in 0..steps {
+                let mut worst = 0.0_f64;
+                for _ in 0..steps {
                     fallbacks += step(&mut solver, &mut state, &scene, dt);
                     steps_taken += 4;
                     check(&solver, &state, &rest, &what);
                     for (s, start) in start.iter().enumerate() {
                         let gain = (solver.energy(&state, s, scene.gravity) - start) / scale;
-                        if gain > worst_gain { println!("{what}: strand {s} step {i} gains {gain:.2e}"); }
+                        if gain > worst {
+                            worst = gain;
+                        }
                         worst_gain = worst_gain.max(gain);
                     }
+                }
+                if worst > 1e-4 {
+                    println!("{what}: gains {worst:.2e} m g L");
                 }
             }
         }
