@@ -4,8 +4,8 @@ pub(crate) mod batch;
 mod drive;
 mod fallback;
 mod instructions;
-mod neighbours;
 mod integrate;
+mod neighbours;
 pub(crate) mod sweep;
 
 use glam::{DQuat, DVec3, Vec3};
@@ -25,8 +25,8 @@ use crate::{
 
 pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
-use instructions::Instructions;
 use drive::{Drive, Hair};
+use instructions::Instructions;
 use integrate::BatchStats;
 
 /// A rigid motion from style space to the world: where a head is.
@@ -185,10 +185,7 @@ impl HairHair {
         for ((batch, state), &first) in batches.iter().zip(states).zip(&self.first) {
             let (root, _) = roots(batch, scene);
             for k in 0..batch.count() {
-                let (before, now) = (
-                    state.root + state.y[k],
-                    root + state.y[k] + state.v[k] * dt,
-                );
+                let (before, now) = (state.root + state.y[k], root + state.y[k] + state.v[k] * dt);
                 let courses = &mut self.courses[first + k * LANES..][..LANES];
                 for (lane, course) in courses.iter_mut().enumerate() {
                     let (before, now) = (before.get(lane), now.get(lane));
@@ -538,7 +535,7 @@ impl Solver {
         match scene.roots {
             Roots::Head(pose)
                 if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
-            { 
+            {
                 return Err(DynamicsError::Scene("head"));
             }
             Roots::Each(poses) if poses.len() != self.len() => {
@@ -554,7 +551,11 @@ impl Solver {
             && self.hair.as_ref().is_none_or(|h| {
                 (h.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
             });
-        if fits { Ok(()) } else { Err(DynamicsError::State) }
+        if fits {
+            Ok(())
+        } else {
+            Err(DynamicsError::State)
+        }
     }
 
     /// The energy of a strand over its mass per length, in m^3/s^2: of its motion and its weight against the root, and of
@@ -605,7 +606,9 @@ impl Solver {
 }
 
 fn best_instructions() -> Instructions {
-    *Instructions::available().last().unwrap_or(&Instructions::Compiled)
+    *Instructions::available()
+        .last()
+        .unwrap_or(&Instructions::Compiled)
 }
 
 /// Root and frame of the skin of every lane in the world.

@@ -153,10 +153,7 @@ pub(crate) fn detect(
             let (before, now) = (collider.before, collider.now);
             let normal = now.rotation * plane.normal;
             let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
-            let (s0, s1) = (
-                s0 - state.root.get(lane),
-                s1 - course.root.get(lane),
-            );
+            let (s0, s1) = (s0 - state.root.get(lane), s1 - course.root.get(lane));
             let mid = s0 + (s1 - s0) * course.gamma;
             let flow = (s1 - s0) / dt;
             contact.on[lane] = 1.0;

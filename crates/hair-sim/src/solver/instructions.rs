@@ -35,7 +35,8 @@ impl Instructions {
             if is_x86_feature_detected!("avx2") {
                 available.push(Self::Avx2);
             }
-            if false && is_x86_feature_detected!("avx512f")
+            if false
+                && is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512vl")
                 && is_x86_feature_detected!("avx512dq")
                 && is_x86_feature_detected!("avx512bw")

@@ -79,7 +79,15 @@ pub(crate) fn step(
     if asleep == batch.used && !state.aside().and(batch.used).any() {
         return stats;
     }
-    let active = prepare(batch, state, scratch, drive, &root, asleep.not(), &mut stats);
+    let active = prepare(
+        batch,
+        state,
+        scratch,
+        drive,
+        &root,
+        asleep.not(),
+        &mut stats,
+    );
     remember_turns(batch, state, scratch);
 
     let h = drive.dt;
@@ -120,7 +128,8 @@ pub(crate) fn step(
         let mut before = root.mid;
         for k in 0..batch.count() {
             let after = scratch.mid.frames[k];
-            scratch.past[k] = half_turn(before, after) * (2.0 * alpha) - scratch.turn_start[k] * beta;
+            scratch.past[k] =
+                half_turn(before, after) * (2.0 * alpha) - scratch.turn_start[k] * beta;
             before = after;
         }
     }
@@ -136,7 +145,9 @@ pub(crate) fn step(
     };
     iterations += solve(batch, scratch, &stage, active, &mut failed, Which::End);
 
-    failed = failed.or(turned_too_far(batch, state, scratch, &root)).and(active);
+    failed = failed
+        .or(turned_too_far(batch, state, scratch, &root))
+        .and(active);
     let kept = active.and(failed.not());
     if batch.conserves && drive.base == state.base {
         let before = state.energy(batch, root.pull);
@@ -264,7 +275,11 @@ pub(super) fn assemble(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup,
         for k in 0..batch.count() {
             let mass = batch.particles[k].mass;
             let spring = &scratch.springs[k];
-            let to = if which == Which::Mid { spring.mid } else { spring.end };
+            let to = if which == Which::Mid {
+                spring.mid
+            } else {
+                spring.end
+            };
             let node = &mut scratch.nodes[k];
             node.n += Sym3::diagonal((spring.stiffness * d2 + spring.rate * d) * mass);
             let carried = scratch.free_y[k] * spring.rate + spring.flow * d;
@@ -291,7 +306,11 @@ pub(super) fn hold(
     let mut new = Mask::NONE;
     for k in 0..batch.count() {
         let contact = scratch.contacts[k];
-        let level = if which == Which::Mid { contact.mid } else { contact.end };
+        let level = if which == Which::Mid {
+            contact.mid
+        } else {
+            contact.end
+        };
         let below = contact.newly_below(scratch.shape(which).y[k], level, among);
         if below.any() {
             let mass = batch.particles[k].mass;
@@ -360,7 +379,9 @@ fn solve(
     }
     *failed = failed.or(open);
     let rate = setup.length.recip();
-    let Scratch { mid, end, free_y, .. } = scratch;
+    let Scratch {
+        mid, end, free_y, ..
+    } = scratch;
     let shape = if which == Which::Mid { mid } else { end };
     for k in 0..batch.count() {
         shape.v[k] = (shape.y[k] - free_y[k]) * rate;
@@ -420,12 +441,7 @@ pub(super) fn turn_links(
 }
 
 #[inline(always)]
-fn turned_too_far(
-    batch: &Batch,
-    state: &BatchState,
-    scratch: &Scratch,
-    root: &RootMotion,
-) -> Mask {
+fn turned_too_far(batch: &Batch, state: &BatchState, scratch: &Scratch, root: &RootMotion) -> Mask {
     let mut least = Lane::ONE;
     for k in 0..batch.count() {
         let carried = root.turn_end.times(state.frames[k]).tangent();
@@ -496,7 +512,11 @@ fn settle_contact(
     let contact = &scratch.contacts[k];
     let press = contact.pressure(y);
     let before = state.press[k];
-    let struck = before.gt(Lane::ZERO).not().and(press.gt(Lane::ZERO)).and(which);
+    let struck = before
+        .gt(Lane::ZERO)
+        .not()
+        .and(press.gt(Lane::ZERO))
+        .and(which);
     for lane in 0..LANES {
         state.restart[lane] |= struck.0[lane];
     }

@@ -3,8 +3,8 @@
 mod bodies;
 mod goals;
 mod mutual;
-mod sleep;
 mod roots;
+mod sleep;
 mod wind;
 
 use glam::{DVec3, Vec3};
@@ -43,5 +43,7 @@ pub fn run(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64, steps
 }
 
 pub fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {
-    (a.iter().zip(b)).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max)
+    (a.iter().zip(b))
+        .map(|(a, b)| (*a - *b).length())
+        .fold(0.0, f64::max)
 }

@@ -44,9 +44,17 @@ pub fn check(solver: &Solver, state: &State, rest: &Strands, what: &str) {
             let length = (styled[1].as_dvec3() - styled[0].as_dvec3()).length();
             let error = ((now[1] - now[0]).length() - length).abs();
             let far = points[0].length();
-            assert!(error <= 1e-4 * length + 1e-13 * (total + far), "{what}: strand {s} stretches");
+            assert!(
+                error <= 1e-4 * length + 1e-13 * (total + far),
+                "{what}: strand {s} stretches"
+            );
         }
-        assert!(solver.frames(state, s).all(|f| (f.length() - 1.0).abs() < 1e-9), "{what}");
+        assert!(
+            solver
+                .frames(state, s)
+                .all(|f| (f.length() - 1.0).abs() < 1e-9),
+            "{what}"
+        );
     }
 }
 

@@ -129,7 +129,7 @@ impl Painter {
             strands: StrandCounts {
                 total: stage.strand_count(),
                 culled: stage.culled(),
-                asleep: 0,
+                asleep: stage.simulated().asleep,
             },
             layers: layer_counts(&self.drawing),
             bytes: Bytes {

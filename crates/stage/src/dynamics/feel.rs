@@ -2,7 +2,7 @@
 
 use crate::preset::{choice, number, param};
 use effects::{Param, ParamKind, Values};
-use hair_sim::{Material, Natural, Params, Profile};
+use hair_sim::{Material, Mutual, Natural, Params, Profile};
 use render::Head;
 use std::f64::consts::TAU;
 
@@ -44,6 +44,20 @@ pub const DYNAMICS: &[Param] = &[
     number(
         "hold",
         "Factor on the pull back to the style.",
+        "",
+        0.0..=100.0,
+        1.0,
+    ),
+    number(
+        "links",
+        "Factor on the links that hold neighbouring clumps together until they are pulled apart; 0 has none.",
+        "",
+        0.0..=100.0,
+        1.0,
+    ),
+    number(
+        "volume",
+        "Factor on how clumps keep each other at a distance; 0: they pass through each other.",
         "",
         0.0..=100.0,
         1.0,
@@ -167,6 +181,30 @@ const WORDS: [Word; 5] = [
         hold: [4000.0, 3000.0, 2000.0],
     },
 ];
+
+/// How clumps hold and push each other: lengths in head heights, stiffness in 1/s^2.
+const NEIGHBOURS: usize = 4;
+const LINK: f64 = 40.0;
+const REACH: f64 = 0.12;
+const BREAK_AT: f64 = 0.1;
+const REPULSION: f64 = 200.0;
+const APART: f64 = 0.06;
+
+/// How clumps act on each other on a head; nothing where they don't.
+pub(crate) fn mutual(values: &Values, head: Head) -> Option<Mutual> {
+    let number = |name| f64::from(values.number(name));
+    let (links, volume) = (number("links"), number("volume"));
+    let height_m = f64::from(head.height_m);
+    (links > 0.0 || volume > 0.0).then_some(Mutual {
+        neighbours: NEIGHBOURS,
+        link: LINK * links,
+        reach: REACH * height_m,
+        break_at: BREAK_AT * height_m,
+        mends: true,
+        repulsion: REPULSION * volume,
+        distance: APART * height_m,
+    })
+}
 
 /// The solver's parameters, but for what a strand's size decides.
 pub(crate) struct Feel {

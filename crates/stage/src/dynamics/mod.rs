@@ -87,7 +87,10 @@ impl Dynamics {
             let length_m: f32 = links.map(|link| link[0].distance(link[1])).sum();
             feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
         };
-        let (solver, state) = Solver::with(&chosen, params)?;
+        let (mut solver, mut state) = Solver::with(&chosen, params)?;
+        if let Some(mutual) = feel::mutual(values, hair.head) {
+            solver.interact(&mut state, &mutual)?;
+        }
         let step = match f64::from(values.number("step")) {
             0.0 => 1.0 / f64::from(fps),
             step => step,
