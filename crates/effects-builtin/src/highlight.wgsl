@@ -69,7 +69,7 @@ struct Params {
     thinnest: f32,
     /// Shortest stroke and shortest gap between two of them, as they are seen: what is shorter is smoothed
     /// away, or it would be speckle.
-    /// @unit head heights @range 0..10 @default 0.12
+    /// @unit head heights @constant @range 0..10 @default 0.12
     shortest: f32,
     /// Colour of the strokes.
     /// @default "FFFFFF"

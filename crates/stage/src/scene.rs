@@ -5,7 +5,7 @@ use crate::head::{self, HeadModel, HeadPaint};
 use crate::load;
 use crate::preset::Preset;
 use effects::wgsl::hash;
-use effects::{Hair, HairStrand, Layer, MadePaths, Parameters, clump, layer_seed};
+use effects::{Hair, HairStrand, Layer, MadePaths, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use hair_io::{HairFile, HeadFrame};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
@@ -37,7 +37,7 @@ pub struct Stage {
     /// Sentences for the user: what was guessed.
     notes: Vec<String>,
     seed: u32,
-    clump: clump::Params,
+    clump: Varied<clump::Program>,
     layers: Vec<Layer>,
     settings: Settings,
     points: Vec<Vec3>,
@@ -104,7 +104,7 @@ impl Stage {
             head,
             notes,
             seed: preset.seed,
-            clump: clump::Program::params(&preset.clump),
+            clump: Varied::new(&preset.clump),
             layers,
             settings,
             paths: Paths::new(),
