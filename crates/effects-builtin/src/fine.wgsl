@@ -13,7 +13,7 @@ struct Params {
     /// Part of the hair, at each end, over which the line swells from a point to its width.
     /// @unit 0 nothing to 1 all @range 0..1 @default 0.5
     taper: f32,
-    /// Where along its strand a hair may begin: at the root, or at random up to here.
+    /// Where along its strand a hair begins: near the root, or at random up to here.
     /// @unit 0 root to 1 tip @constant @range 0..1 @default 0.4
     latest_start: f32,
     /// Shortest hair, in lengths of its strand; others are longer, at random.
@@ -23,7 +23,7 @@ struct Params {
     /// @unit the strand's length @constant @range 0.05..2 @default 0.9
     longest_length: f32,
     /// How far a hair wanders from its strand to a neighbour: 1 reaches the neighbour, more goes beyond.
-    /// @unit the way to the neighbour @constant @range 0..4 @default 1
+    /// @unit the way to the neighbour @constant @range 0..4 @default 0.8
     crossing: f32,
     /// How many of the strands that run beside its own it may wander to, the nearest first.
     /// @range 1..16 @default 4
