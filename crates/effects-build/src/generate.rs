@@ -143,7 +143,7 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
     let numbers = params.iter().enumerate().filter_map(|(index, param)| {
         let field = format_ident!("{}", param.name);
         let is_number = matches!(param.kind, Kind::Number { .. });
-        is_number.then(|| quote!(#index => params.#field = value))
+        is_number.then(|| quote!(if index == #index { params.#field = value; }))
     });
     quote! {
         type Params = Params;
@@ -155,11 +155,8 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
             Params { #(#fields),* }
         }
         fn set_number(params: &mut Params, index: usize, value: f32) {
-            match index {
-                #(#numbers,)*
-                _ => {}
-            }
-            let _ = (params, value);
+            #(#numbers)*
+            let _ = (params, index, value);
         }
     }
 }

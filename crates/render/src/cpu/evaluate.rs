@@ -184,13 +184,22 @@ impl Evaluator {
     fn fill_clump(&mut self, frame: &Frame) {
         let seed = layer_seed(frame.seed, "clump");
         let mut clumps = std::mem::take(&mut self.clumps);
-        clumps.clear();
         let joints = &self.joints;
-        frame
-            .clump
-            .for_each(joints, 0..frame.paths.len(), seed, |i, params| {
-                clumps.push(clump::Program::clump(joints, i, seed, params));
+        let length = frame.paths.len();
+        let starts = (0..length).step_by(CHUNK);
+        let made = starts
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .flat_map_iter(|start| {
+                let range = start..(start + CHUNK).min(length);
+                let mut clumps = Vec::with_capacity(range.len());
+                frame.clump.for_each(joints, range, seed, |i, params| {
+                    clumps.push(clump::Program::clump(joints, i, seed, params));
+                });
+                clumps
             });
+        clumps.clear();
+        clumps.par_extend(made);
         let Joints {
             light_direction,
             gray,
@@ -377,6 +386,9 @@ fn disc(
         inv_depth_biased: 1.0 / biased,
     }
 }
+
+/// Joints whose clumps a thread works out at a time.
+const CHUNK: usize = 1024;
 
 /// No disc is larger, in pixels: it already covers any picture.
 const LARGEST_PX: f32 = 1e8;
