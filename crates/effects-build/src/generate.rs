@@ -140,6 +140,11 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         };
         quote!(#field: #value)
     });
+    let numbers = params.iter().enumerate().filter_map(|(index, param)| {
+        let field = format_ident!("{}", param.name);
+        let is_number = matches!(param.kind, Kind::Number { .. });
+        is_number.then(|| quote!(if index == #index { params.#field = value; }))
+    });
     quote! {
         type Params = Params;
         const PARAMS: &'static [::effects::Param] = &[#(#table),*];
@@ -149,6 +154,10 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
             let _ = values;
             Params { #(#fields),* }
         }
+        fn set_number(params: &mut Params, index: usize, value: f32) {
+            #(#numbers)*
+            let _ = (params, index, value);
+        }
     }
 }
 
@@ -157,8 +166,13 @@ fn table_row(param: &Param) -> TokenStream {
         name, doc, unit, ..
     } = param;
     let kind = match &param.kind {
-        Kind::Number { min, max, default } => {
-            quote!(Number { min: #min, max: #max, default: #default })
+        Kind::Number {
+            min,
+            max,
+            default,
+            varies,
+        } => {
+            quote!(Number { min: #min, max: #max, default: #default, varies: #varies })
         }
         Kind::Integer { min, max, default } => {
             quote!(Integer { min: #min, max: #max, default: #default })

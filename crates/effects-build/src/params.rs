@@ -8,7 +8,8 @@
 //!
 //! A `vec3<f32>` is a colour (`@default "RRGGBB"`), a `vec4<f32>` a colour or none (`@default none`),
 //! whose last component is 1 where there is one. A `u32` is a whole number or, with `@choices a b c`,
-//! one of these names.
+//! one of these names. An `f32` may vary along a strand and from strand to strand, but for those marked
+//! `@constant`, which the effect's Rust reads.
 
 use crate::check::named_type;
 use crate::compose::Source;
@@ -25,11 +26,27 @@ pub(crate) struct Param {
 
 /// What values a parameter takes.
 pub(crate) enum Kind {
-    Number { min: f32, max: f32, default: f32 },
-    Integer { min: i32, max: i32, default: i32 },
-    Choice { names: Vec<String>, default: u32 },
-    Color { default: String },
-    OptionalColor { default: Option<String> },
+    Number {
+        min: f32,
+        max: f32,
+        default: f32,
+        varies: bool,
+    },
+    Integer {
+        min: i32,
+        max: i32,
+        default: i32,
+    },
+    Choice {
+        names: Vec<String>,
+        default: u32,
+    },
+    Color {
+        default: String,
+    },
+    OptionalColor {
+        default: Option<String>,
+    },
 }
 
 /// The `@key value` parts of a comment, and the words before them.
@@ -104,10 +121,10 @@ fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, St
     if let Some((key, _)) = notes
         .keys
         .iter()
-        .find(|(k, _)| !["unit", "range", "default", "choices"].contains(&k.as_str()))
+        .find(|(k, _)| !["unit", "range", "default", "choices", "constant"].contains(&k.as_str()))
     {
         return Err(format!(
-            "there is no `@{key}`; there are @unit, @range, @default, @choices"
+            "there is no `@{key}`; there are @unit, @range, @default, @choices, @constant"
         ));
     }
     let default = notes
@@ -117,7 +134,12 @@ fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, St
         TypeInner::Scalar(Scalar::F32) => {
             let (min, max) = range(notes)?;
             let default = within(default, min, max)?;
-            Kind::Number { min, max, default }
+            Kind::Number {
+                min,
+                max,
+                default,
+                varies: notes.get("constant").is_none(),
+            }
         }
         TypeInner::Scalar(Scalar::U32) => match notes.get("choices") {
             Some(choices) => {

@@ -32,7 +32,7 @@ struct Params {
     thinnest: f32,
     /// Shortest stroke and shortest gap between two of them, as they are seen: what is shorter is smoothed
     /// away, or it would be speckle.
-    /// @unit head heights @range 0..10 @default 0.1
+    /// @unit head heights @constant @range 0..10 @default 0.1
     shortest: f32,
     /// Brightness as a factor of the basic colour, where no colour is given.
     /// @range 0..4 @default 0.6

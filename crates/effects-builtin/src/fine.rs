@@ -12,6 +12,9 @@ pub struct Fine;
 /// Points of a hair's path: it bends less than the strand that it follows.
 const POINTS: u32 = 12;
 
+/// Where along its strand a hair begins at the earliest: roots lie under other hair, and bend sharply.
+const FIRST: f32 = 0.1;
+
 /// How far along its strand a hair may reach: a little beyond the tip.
 const BEYOND: f32 = 1.08;
 
@@ -87,7 +90,7 @@ struct FineHair {
 impl FineHair {
     fn new(params: &Params, seed: u32) -> Self {
         let between = |a: f32, b: f32, i: u32| a + (b - a) * random(seed, i);
-        let start = between(0.0, params.latest_start, 0);
+        let start = between(FIRST, params.latest_start.max(FIRST), 0);
         let length = between(params.shortest_length, params.longest_length, 1);
         Self {
             start,

@@ -55,7 +55,7 @@ struct Params {
     roundness: f32,
     /// Where along the strand strokes may begin: roots lie under other hair, and would show through its
     /// gaps as specks. From there on they fade in over a tenth of the strand.
-    /// @unit 0 root to 1 tip @range -0.1..1 @default 0.05
+    /// @unit 0 root to 1 tip @range -0.1..1 @default 0.12
     start: f32,
     /// Feathers: factor on the size of each stroke: 1 is the source's, at which neighbours just touch,
     /// less leaves gaps.
@@ -69,7 +69,7 @@ struct Params {
     thinnest: f32,
     /// Shortest stroke and shortest gap between two of them, as they are seen: what is shorter is smoothed
     /// away, or it would be speckle.
-    /// @unit head heights @range 0..10 @default 0.12
+    /// @unit head heights @constant @range 0..10 @default 0.12
     shortest: f32,
     /// Colour of the strokes.
     /// @default "FFFFFF"

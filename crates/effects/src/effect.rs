@@ -1,6 +1,7 @@
 //! What an effect is.
 
 use crate::param::{Param, Values};
+use crate::varied::Varied;
 use crate::wgsl::Stroke;
 use crate::{Hair, InputSet, Joints, MadePaths};
 use std::ops::Range;
@@ -15,8 +16,12 @@ pub trait Parameters: Send + Sync + 'static {
     const INPUTS: &'static [&'static str];
     /// The composed WGSL, for the GPU.
     const WGSL: &'static str;
-    /// The parameters of these values.
+    /// The parameters of these values; what varies has its value at the root.
     fn params(values: &Values) -> Self::Params;
+    /// Sets number `index` of [`Self::PARAMS`]. Only asked for numbers that vary.
+    fn set_number(params: &mut Self::Params, index: usize, value: f32) {
+        let _ = (params, index, value);
+    }
 }
 
 /// An effect's WGSL in Rust. Implemented by the translated code.
@@ -164,23 +169,23 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
         E::Program::WGSL
     }
     fn program(&self, values: &Values) -> Box<dyn LayerProgram> {
-        Box::new(WithParams::<E>(E::Program::params(values)))
+        Box::new(WithParams::<E>(Varied::new(values)))
     }
 }
 
-struct WithParams<E: StrokeEffect>(<E::Program as Parameters>::Params);
+struct WithParams<E: StrokeEffect>(Varied<E::Program>);
 
 impl<E: StrokeEffect> LayerProgram for WithParams<E> {
     fn instances(&self) -> u32 {
-        E::instances(&self.0).max(1)
+        E::instances(self.0.base()).max(1)
     }
 
     fn shortest(&self) -> f32 {
-        E::shortest(&self.0)
+        E::shortest(self.0.base())
     }
 
     fn needs_point_light(&self) -> bool {
-        E::needs_point_light(&self.0)
+        E::needs_point_light(self.0.base())
     }
 
     fn has_own_paths(&self) -> bool {
@@ -188,11 +193,11 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
     }
 
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths) {
-        E::make_paths(&self.0, hair, seed, paths);
+        E::make_paths(self.0.base(), hair, seed, paths);
     }
 
     fn inputs(&self) -> InputSet {
-        InputSet::of(E::Program::INPUTS)
+        self.0.inputs()
     }
 
     fn evaluate(
@@ -203,7 +208,9 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         seed: u32,
         strokes: &mut Vec<Stroke>,
     ) {
-        let params = &self.0;
-        strokes.extend(range.map(|i| E::Program::stroke(joints, i, instance, seed, params)));
+        strokes.reserve(range.len());
+        self.0.for_each(joints, range, seed, |i, params| {
+            strokes.push(E::Program::stroke(joints, i, instance, seed, params));
+        });
     }
 }

@@ -17,6 +17,7 @@ mod paths;
 pub mod preset;
 mod registry;
 pub mod smooth;
+mod varied;
 pub mod wgsl;
 
 pub use color::{linear_from_srgb, parse_hex};
@@ -26,6 +27,7 @@ pub use layer::{Layer, Units, layer_seed};
 pub use param::{Param, ParamKind, Value, Values};
 pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
 pub use registry::{Registry, RegistryError};
+pub use varied::{Variation, Varied};
 
 /// The runtime of the translated WGSL.
 pub use naga_rust_rt as rt;

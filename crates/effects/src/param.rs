@@ -2,6 +2,7 @@
 //! error messages, `inkstrand effects` and the documentation.
 
 use crate::color::parse_hex;
+use crate::varied::Variation;
 
 /// One parameter of an effect or of a section of a preset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub enum ParamKind {
         max: f32,
         /// Value where the preset says nothing.
         default: f32,
+        /// Whether it may vary along a strand and from strand to strand.
+        varies: bool,
     },
     /// A whole number in a range.
     Integer {
@@ -81,6 +84,8 @@ pub enum ParamKind {
 pub enum Value {
     /// For [`ParamKind::Number`].
     Number(f32),
+    /// For a number that varies.
+    Varying(Variation),
     /// For [`ParamKind::Integer`].
     Integer(i32),
     /// For [`ParamKind::Choice`]: the name's index.
@@ -185,11 +190,12 @@ impl Values {
         &self.values[index.unwrap_or_else(|| panic!("no parameter `{name}` in this table"))]
     }
 
-    /// A number's value.
+    /// A number's value; of one that varies that at the root.
     #[must_use]
     pub fn number(&self, name: &str) -> f32 {
         match self.value(name) {
             Value::Number(value) => *value,
+            Value::Varying(variation) => variation.at(0.0),
             other => panic!("`{name}` is {other:?}, not a number"),
         }
     }

@@ -36,10 +36,19 @@ impl Smoother {
             return;
         };
         let length = length.min((last - first) / 3.0);
-        let is_zero = values.iter().all(|value| *value == 0.0);
-        if length <= 0.0 || is_zero {
+        let is_some = |value: &f32| *value != 0.0;
+        let (Some(start), Some(end)) = (
+            values.iter().position(is_some),
+            values.iter().rposition(is_some),
+        ) else {
+            return;
+        };
+        if length <= 0.0 {
             return;
         }
+        // Beyond the next 0 on each side nothing changes.
+        let part = start.saturating_sub(1)..(end + 2).min(values.len());
+        let (places, values) = (&places[part.clone()], &mut values[part]);
         values.iter_mut().for_each(|value| *value = -*value);
         self.open(places, values, length, Ends::Open);
         values.iter_mut().for_each(|value| *value = -*value);
@@ -157,6 +166,26 @@ mod tests {
         assert_eq!(smoothed(&short, 100.0), short);
         assert_eq!(smoothed(&[1.0], 1.0), [1.0]);
         assert_eq!(smoothed(&[], 1.0), [0.0; 0]);
+    }
+
+    #[test]
+    fn zeros_around_make_no_difference() {
+        let stroke = [0.0, 0.7, 0.2, 0.9, 0.0, 0.4, 0.0];
+        let padded: Vec<f32> = [&[0.0; 9][..], &stroke, &[0.0; 5]].concat();
+        let expected = [&[0.0; 9][..], &smoothed_within(&stroke), &[0.0; 5]].concat();
+        assert_eq!(smoothed(&padded, 1.5), expected);
+    }
+
+    /// The same far from the ends of a strand, by the definition.
+    fn smoothed_within(values: &[f32]) -> Vec<f32> {
+        let places: Vec<f32> = (0..values.len()).map(|i| i as f32).collect();
+        let mut values = values.to_vec();
+        let mut smoother = Smoother::default();
+        values.iter_mut().for_each(|value| *value = -*value);
+        smoother.open(&places, &mut values, 1.5, Ends::Open);
+        values.iter_mut().for_each(|value| *value = -*value);
+        smoother.open(&places, &mut values, 1.5, Ends::Closed);
+        values
     }
 
     #[test]

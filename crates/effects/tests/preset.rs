@@ -21,6 +21,7 @@ impl Parameters for LineProgram {
                 min: 0.0,
                 max: 9.0,
                 default: 2.0,
+                varies: true,
             },
         },
         Param {

@@ -111,7 +111,8 @@ fn parameters_come_from_the_comments() {
         ParamKind::Number {
             min: -1.0,
             max: 2.5,
-            default: 0.5
+            default: 0.5,
+            varies: true
         }
     );
     assert_eq!(

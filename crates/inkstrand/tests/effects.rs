@@ -58,7 +58,8 @@ fn one_effect_or_section_is_described() {
     effects(&["hair.silhouette"])
         .assert()
         .success()
-        .stdout(contains("width: a number from 0 to 100").and(contains("default 2.2; unit:")));
+        .stdout(contains("width: a number from 0 to 100").and(contains("default 2.2; unit:")))
+        .stdout(contains("; may vary").and(contains("(value: 2, vary: 0.2)")));
     effects(&["camera"])
         .assert()
         .success()
@@ -100,7 +101,10 @@ fn assert_is_table(schema: &Value, table: &[Param]) {
             assert_eq!(given as f32, number, "{}.{name}", param.name);
         };
         let kind = match param.kind {
-            ParamKind::Number { min, max, .. } => {
+            ParamKind::Number {
+                min, max, varies, ..
+            } => {
+                assert_eq!(value["varies"], varies);
                 close("min", min);
                 close("max", max);
                 "number"

@@ -1,7 +1,7 @@
 //! A frame: everything that a backend needs to make strokes and draw them.
 
 use crate::drawing::{Order, Surface};
-use effects::{Layer, clump};
+use effects::{Layer, Varied, clump};
 use glam::Vec3;
 use std::ops::Range;
 use stroke_path::{Brush, Camera, Paths};
@@ -79,7 +79,7 @@ pub struct Frame<'a> {
     /// The light.
     pub light: Light,
     /// The preset's clump section.
-    pub clump: &'a clump::Params,
+    pub clump: &'a Varied<clump::Program>,
     /// Seed of the style's variations.
     pub seed: u32,
     /// The layers that are on, in the preset's order.

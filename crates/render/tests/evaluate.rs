@@ -1,7 +1,7 @@
 //! A frame's joints become discs of the right place, size and depth.
 
 use effects::preset::Reader;
-use effects::{Layer, Parameters, Registry, Values, clump};
+use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3};
 use render::cpu::Evaluator;
 use render::{Brush, Drawing, Frame, Head, Light, Order, StrandInfo};
@@ -78,7 +78,7 @@ fn drawing_on(
             height_m: 0.3,
         },
         light: Light::Direction(Vec3::Z),
-        clump: &clump::Program::params(&values),
+        clump: &Varied::new(&values),
         seed,
         layers: &layers,
         layer_joints,
@@ -219,4 +219,27 @@ fn a_layer_draws_on_its_own_paths_alone() {
         drawing.clump[2].radius / drawing.clump[0].radius,
         2.0 / 20.0,
     );
+}
+
+#[test]
+fn numbers_vary_along_the_strand_and_from_strand_to_strand() {
+    let list =
+        "[(effect: \"hair.silhouette\", params: (ratio: 10, width: (curve: [(0, 2), (1, 6)])))]";
+    let (drawing, _) = drawing(list, &[("size", "(value: 1, vary: 0.5)")], 1);
+    let (outline, clump) = (&drawing.layers[0].discs, &drawing.clump);
+    // The clump's sizes differ by strand alone; lines are 2 units at the root and 6 at the tip.
+    let sizes = [0, 2].map(|joint| clump[joint].radius);
+    assert_ne!(sizes[0], sizes[1]);
+    let plain = drawing_with(list, &[], 1, Brush::Circle).0;
+    for joint in 0..4 {
+        let full = plain.clump[joint].radius;
+        let part = clump[joint].radius / full;
+        assert!((0.5..=1.5).contains(&part));
+        assert_near(
+            part,
+            clump[joint / 2 * 2].radius / plain.clump[joint / 2 * 2].radius,
+        );
+        let width = [2.0, 6.0][joint % 2] / 20.0 * full;
+        assert_near(outline[joint].radius - clump[joint].radius, width);
+    }
 }

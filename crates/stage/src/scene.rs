@@ -9,7 +9,7 @@ use crate::motion::{HeadPose, MotionScript};
 use crate::neck::{Neck, rigid};
 use crate::preset::Preset;
 use effects::wgsl::hash;
-use effects::{HairStrand, Layer, MadePaths, Parameters, Values, clump, layer_seed};
+use effects::{HairStrand, Layer, MadePaths, Values, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use std::ops::Range;
@@ -47,7 +47,7 @@ pub struct Stage {
     /// Sentences for the user: what was guessed.
     notes: Vec<String>,
     seed: u32,
-    clump: clump::Params,
+    clump: Varied<clump::Program>,
     layers: Vec<Layer>,
     settings: Settings,
     points: Vec<Vec3>,
@@ -116,7 +116,7 @@ impl Stage {
             dynamics: None,
             notes,
             seed: preset.seed,
-            clump: clump::Program::params(&preset.clump),
+            clump: Varied::new(&preset.clump),
             layers,
             settings,
             paths: Paths::new(),

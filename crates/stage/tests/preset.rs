@@ -191,7 +191,9 @@ fn defaults_are_within_their_own_ranges() {
     use effects::{Param, ParamKind};
     fn legal(param: &Param) -> bool {
         match param.kind {
-            ParamKind::Number { min, max, default } => (min..=max).contains(&default),
+            ParamKind::Number {
+                min, max, default, ..
+            } => (min..=max).contains(&default),
             ParamKind::Integer { min, max, default } => (min..=max).contains(&default),
             ParamKind::Choice { names, default } => default < names.len(),
             ParamKind::Color { default } => effects::parse_hex(default).is_some(),

@@ -40,6 +40,7 @@ pub const LAYER: &[Param] = &[
             min: -10.0,
             max: 10.0,
             default: 0.0,
+            varies: false,
         },
     },
     Param {

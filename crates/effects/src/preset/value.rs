@@ -3,6 +3,7 @@
 use super::error::suggestion;
 use crate::color::parse_hex;
 use crate::param::{ParamKind, Value};
+use crate::varied::Variation;
 
 /// The value that `text` gives a parameter of this kind.
 pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String> {
@@ -30,6 +31,15 @@ pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String>
 
 fn read(text: &str, kind: &ParamKind) -> Option<Value> {
     match *kind {
+        ParamKind::Number {
+            min,
+            max,
+            varies: true,
+            ..
+        } if text.starts_with('(') => {
+            let variation = Variation::parse(text, min, max).ok()?;
+            Some(Value::Varying(variation))
+        }
         ParamKind::Number { min, max, .. } => {
             let number = ron::from_str::<f32>(text).ok()?;
             (number >= min && number <= max).then_some(Value::Number(number))
@@ -88,6 +98,14 @@ fn hint(text: &str, kind: &ParamKind) -> Option<String> {
     let in_quotes = bare.len() < text.len();
     let double_quotes = in_quotes && text.starts_with('"');
     match *kind {
+        ParamKind::Number {
+            min,
+            max,
+            varies: true,
+            ..
+        } if text.starts_with('(') => Variation::parse(text, min, max).err().map(|message| {
+            format!("{message}; write 2, (value: 2, vary: 0.2) or (curve: [(0, 1), (1, 2)])")
+        }),
         ParamKind::Number { .. } | ParamKind::Integer { .. } => {
             if in_quotes && read(bare, kind).is_some() {
                 return Some(format!("write {bare}, without quotes"));

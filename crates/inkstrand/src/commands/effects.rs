@@ -98,6 +98,13 @@ fn list(registry: &Registry) -> String {
     text + "\n`inkstrand effects NAME` lists the parameters of one of them.\n"
 }
 
+const HOW_NUMBERS_VARY: &str = "\
+\nWhat may vary is a number, or
+  (value: 2, vary: 0.2)                 up to 20 % smaller or larger from strand to strand
+  (curve: [(0, 1), (0.5, 2), (1, 0)])   along the strand, from root (0) to tip (1)
+  (curve: [(0, 1), (1, 2)], vary: 0.2)  both
+";
+
 fn effect_text(effect: &dyn AnyEffect) -> String {
     let id = effect.id();
     let mut text = format!(
@@ -110,7 +117,7 @@ fn effect_text(effect: &dyn AnyEffect) -> String {
     for param in effect.params() {
         text += &param_text(param, &default(param));
     }
-    text
+    text + HOW_NUMBERS_VARY
 }
 
 fn section_text(section: &Section) -> String {
@@ -130,6 +137,9 @@ fn section_text(section: &Section) -> String {
         } else {
             param_text(param, &default(param))
         };
+    }
+    if section.name == "clump" {
+        text += HOW_NUMBERS_VARY;
     }
     if is_layer {
         text += "\n  params: (name: value, ...)\n";
@@ -154,8 +164,12 @@ fn param_text(param: &Param, default: &str) -> String {
         "" => String::new(),
         unit => format!("; unit: {unit}"),
     };
+    let varies = match param.kind {
+        ParamKind::Number { varies: true, .. } => "; may vary",
+        _ => "",
+    };
     format!(
-        "\n  {}: {}\n      default {default}{unit}\n      {}\n",
+        "\n  {}: {}\n      default {default}{unit}{varies}\n      {}\n",
         param.name,
         param.kind.expected(),
         param.doc

@@ -86,8 +86,14 @@ fn parameter(param: &Param) -> Value {
         value["max"] = max;
     };
     let (kind, default) = match param.kind {
-        ParamKind::Number { min, max, default } => {
+        ParamKind::Number {
+            min,
+            max,
+            default,
+            varies,
+        } => {
             range(number(min), number(max));
+            value["varies"] = json!(varies);
             ("number", number(default))
         }
         ParamKind::Integer { min, max, default } => {

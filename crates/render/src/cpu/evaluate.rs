@@ -3,8 +3,8 @@
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
 use crate::frame::{FAR_LIGHT, Frame};
 use effects::smooth::Smoother;
-use effects::wgsl::{Stroke, vec2, vec3};
-use effects::{InputSet, Joints, Layer, Parameters, Units, clump, layer_seed};
+use effects::wgsl::{Clump, Stroke, vec2, vec3};
+use effects::{InputSet, Joints, Layer, Units, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -13,6 +13,7 @@ use std::ops::Range;
 #[derive(Default)]
 pub struct Evaluator {
     joints: Joints,
+    clumps: Vec<Clump>,
     /// For each joint the length of its run up to there as it is seen, metres at its depth; empty where no
     /// layer has a shortest stroke.
     seen_length: Vec<f32>,
@@ -25,7 +26,7 @@ impl Evaluator {
             .layers
             .iter()
             .map(|layer| layer.program.inputs())
-            .fold(InputSet::of(clump::Program::INPUTS), InputSet::union);
+            .fold(frame.clump.inputs(), InputSet::union);
         self.fill_inputs(frame, read);
         self.fill_clump(frame);
         self.fill_seen_length(frame);
@@ -182,18 +183,38 @@ impl Evaluator {
     /// The clump of every joint, once for all layers.
     fn fill_clump(&mut self, frame: &Frame) {
         let seed = layer_seed(frame.seed, "clump");
-        self.joints.normal.clear();
-        self.joints.clump_radius.clear();
-        self.joints.clump_color.clear();
-        self.joints.gray.clear();
-        for i in 0..frame.paths.len() {
-            let made = clump::Program::clump(&self.joints, i, seed, frame.clump);
-            let gray = made.normal.dot(self.joints.light_direction[i]).0.max(0.0);
-            self.joints.normal.push(made.normal);
-            self.joints.clump_radius.push(made.radius);
-            self.joints.clump_color.push(made.color);
-            self.joints.gray.push(gray);
-        }
+        let mut clumps = std::mem::take(&mut self.clumps);
+        let joints = &self.joints;
+        let length = frame.paths.len();
+        let starts = (0..length).step_by(CHUNK);
+        let made = starts
+            .collect::<Vec<_>>()
+            .into_par_iter()
+            .flat_map_iter(|start| {
+                let range = start..(start + CHUNK).min(length);
+                let mut clumps = Vec::with_capacity(range.len());
+                frame.clump.for_each(joints, range, seed, |i, params| {
+                    clumps.push(clump::Program::clump(joints, i, seed, params));
+                });
+                clumps
+            });
+        clumps.clear();
+        clumps.par_extend(made);
+        let Joints {
+            light_direction,
+            gray,
+            normal,
+            clump_radius,
+            clump_color,
+            ..
+        } = &mut self.joints;
+        let lit = clumps.iter().zip(light_direction);
+        let grays = lit.map(|(clump, light)| clump.normal.dot(*light).0.max(0.0));
+        fill(gray, true, grays);
+        fill(normal, true, clumps.iter().map(|clump| clump.normal));
+        fill(clump_radius, true, clumps.iter().map(|clump| clump.radius));
+        fill(clump_color, true, clumps.iter().map(|clump| clump.color));
+        self.clumps = clumps;
     }
 
     fn fill_seen_length(&mut self, frame: &Frame) {
@@ -365,6 +386,9 @@ fn disc(
         inv_depth_biased: 1.0 / biased,
     }
 }
+
+/// Joints whose clumps a thread works out at a time.
+const CHUNK: usize = 1024;
 
 /// No disc is larger, in pixels: it already covers any picture.
 const LARGEST_PX: f32 = 1e8;

@@ -15,6 +15,7 @@ pub(crate) const fn number(
         min: *range.start(),
         max: *range.end(),
         default,
+        varies: false,
     };
     Param {
         name,
