@@ -13,7 +13,7 @@ fn strands(count: u32, n: usize) -> Strands {
     let mut strands = Strands::new();
     for s in 0..count {
         let angle = s as f32 * 2.399_963;
-        let up = 1.0 - 1.2 * s as f32 / count as f32;
+        let up = 1.0 - 1.2 * (s as f32 + 0.5) / count as f32;
         let level = (1.0 - up * up).sqrt();
         let out = Vec3::new(level * angle.cos(), up, level * angle.sin());
         let points: Vec<Vec3> = (0..n)
