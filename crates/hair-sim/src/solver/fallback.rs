@@ -150,10 +150,10 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
     }
     let bad = which.and(good.not());
     for lane in 0..LANES {
-        if which.0[lane] {
+        if which.get(lane) {
             state.restart[lane] = true;
         }
-        if bad.0[lane] {
+        if bad.get(lane) {
             state.set_aside[lane] = Some(Reason::Motion);
         }
     }

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use hair_sim::{GRAVITY, Material, Params, Scene, Solver, Strands};
 
 /// Curled strands of all kinds of stiffness that grow from a ball.
-pub fn style(n: usize) -> Strands {
+fn style(n: usize) -> Strands {
     let mut strands = Strands::new();
     for s in 0..24_u32 {
         let angle = s as f32 * 2.4;
