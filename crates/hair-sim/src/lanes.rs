@@ -17,9 +17,10 @@ pub(crate) const LANES: usize = 8;
 #[repr(C, align(64))]
 pub(crate) struct Lane(pub [f64; LANES]);
 
-/// One decision for each strand of a batch.
+/// One decision for each strand of a batch: all bits or none, as vector instructions want it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Mask(pub [bool; LANES]);
+#[repr(C, align(64))]
+pub(crate) struct Mask([u64; LANES]);
 
 impl Lane {
     pub(crate) const ZERO: Self = Self([0.0; LANES]);
@@ -72,9 +73,9 @@ impl Lane {
 
     #[inline(always)]
     fn compare(self, other: Self, f: impl Fn(f64, f64) -> bool) -> Mask {
-        let mut out = [false; LANES];
+        let mut out = [0; LANES];
         for i in 0..LANES {
-            out[i] = f(self.0[i], other.0[i]);
+            out[i] = if f(self.0[i], other.0[i]) { u64::MAX } else { 0 };
         }
         Mask(out)
     }
@@ -92,22 +93,37 @@ impl Lane {
     /// Neither infinite nor NaN.
     #[inline(always)]
     pub(crate) fn is_finite(self) -> Mask {
-        self.compare(self, |a, _| a.is_finite())
+        self.compare(self, |a, b| a - b == 0.0)
     }
 }
 
 impl Mask {
-    pub(crate) const NONE: Self = Self([false; LANES]);
-    pub(crate) const ALL: Self = Self([true; LANES]);
+    pub(crate) const NONE: Self = Self([0; LANES]);
+    pub(crate) const ALL: Self = Self([u64::MAX; LANES]);
+
+    #[inline(always)]
+    pub(crate) fn new(set: [bool; LANES]) -> Self {
+        Self(set.map(|b| if b { u64::MAX } else { 0 }))
+    }
+
+    #[inline(always)]
+    pub(crate) fn get(self, lane: usize) -> bool {
+        self.0[lane] != 0
+    }
+
+    #[inline(always)]
+    pub(crate) fn bools(self) -> [bool; LANES] {
+        self.0.map(|b| b != 0)
+    }
 
     #[inline(always)]
     pub(crate) fn any(self) -> bool {
-        self.0.iter().any(|&b| b)
+        self.0.iter().fold(0, |a, b| a | b) != 0
     }
 
     #[inline(always)]
     pub(crate) fn count(self) -> usize {
-        self.0.iter().filter(|&&b| b).count()
+        self.0.iter().filter(|&&b| b != 0).count()
     }
 
     /// `yes` where set, else `no`.
@@ -115,24 +131,34 @@ impl Mask {
     pub(crate) fn pick(self, yes: Lane, no: Lane) -> Lane {
         let mut out = [0.0; LANES];
         for i in 0..LANES {
-            out[i] = if self.0[i] { yes.0[i] } else { no.0[i] };
+            let bits = (yes.0[i].to_bits() & self.0[i]) | (no.0[i].to_bits() & !self.0[i]);
+            out[i] = f64::from_bits(bits);
         }
         Lane(out)
     }
 
     #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(u64, u64) -> u64) -> Self {
+        let mut out = [0; LANES];
+        for i in 0..LANES {
+            out[i] = f(self.0[i], other.0[i]);
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
     pub(crate) fn and(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] & other.0[i]))
+        self.zip(other, |a, b| a & b)
     }
 
     #[inline(always)]
     pub(crate) fn or(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] | other.0[i]))
+        self.zip(other, |a, b| a | b)
     }
 
     #[inline(always)]
     pub(crate) fn not(self) -> Self {
-        Self(self.0.map(|b| !b))
+        self.zip(self, |a, _| !a)
     }
 }
 

@@ -137,7 +137,7 @@ pub(crate) fn detect(
         let (p0, p1) = (state.root + y0, course.root + y1);
         let keep = batch.thickness + state.skin[k];
         for lane in 0..LANES {
-            if !active.0[lane] || k >= batch.counts[lane] {
+            if !active.get(lane) || k >= batch.counts[lane] {
                 continue;
             }
             let path = Path {

@@ -141,17 +141,17 @@ impl SignedDistance {
     fn corners(&self, [x, y, z]: [usize; 3]) -> [f64; 8] {
         let i = self.index(x, y, z);
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
+        let at = |i: usize| f64::from(self.values[i]);
         [
-            i,
-            i + 1,
-            i + row,
-            i + row + 1,
-            i + layer,
-            i + layer + 1,
-            i + layer + row,
-            i + layer + row + 1,
+            at(i),
+            at(i + 1),
+            at(i + row),
+            at(i + row + 1),
+            at(i + layer),
+            at(i + layer + 1),
+            at(i + layer + row),
+            at(i + layer + row + 1),
         ]
-        .map(|i| f64::from(self.values[i]))
     }
 
     /// The distance at a place, in m: between grid points by all three coordinates; a lower bound outside of the
@@ -378,11 +378,15 @@ mod tests {
         let grid = SignedDistance::new(&points, &triangles, 0.005).unwrap();
         for i in 0..2000 {
             let t = f64::from(i);
-            let at = DVec3::new((t * 0.7).sin(), (t * 1.3).cos(), (t * 0.37).sin()) * 0.12;
+            let at = DVec3::new((t * 0.7).sin(), (t * 1.3).cos(), (t * 0.37).sin())
+                .normalize()
+                * (0.113 * (t * 0.11).sin().abs());
             let truth = at.length() - 0.1;
             let error = (grid.distance(at) - truth).abs();
-            assert!(error < 0.0015, "{at}: {} {truth}", grid.distance(at));
-            if at.length() > 0.03 {
+            // Where many triangles are about as near, one of them is passed on.
+            let most = if at.length() < 0.05 { 0.003 } else { 0.0015 };
+            assert!(error < most, "{at}: {} {truth}", grid.distance(at));
+            if at.length() > 0.03 && at.length() < 0.11 {
                 let normal = grid.gradient(at).normalize();
                 assert!(normal.dot(at.normalize()) > 0.98, "{at}");
             }

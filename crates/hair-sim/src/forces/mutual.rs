@@ -133,8 +133,8 @@ pub(crate) fn act(
         let torn = stretch.gt(Lane::splat(mutual.break_at));
         let back = stretch.lt(Lane::splat(0.1 * mutual.break_at));
         let mended = if mutual.mends { back } else { Mask::NONE };
-        let gone = Mask(*broken).or(torn).and(mended.not());
-        *broken = gone.and(linked).0;
+        let gone = Mask::new(*broken).or(torn).and(mended.not());
+        *broken = gone.and(linked).bools();
         let holds = linked.and(gone.not());
         counts.links += holds.count();
         if holds.any() {

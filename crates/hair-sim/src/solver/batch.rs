@@ -100,13 +100,13 @@ impl Batch {
         for (lane, (index, rest, params)) in members.iter().enumerate() {
             batch.fill(lane, *index, rest, params);
         }
+        batch.used = Mask::new(batch.counts.map(|count| count > 0));
         batch
     }
 
     fn fill(&mut self, lane: usize, index: usize, rest: &RestStrand, params: &Params) {
         self.strands[lane] = Some(index);
         self.counts[lane] = rest.links.len();
-        self.used.0[lane] = !rest.links.is_empty();
         self.damping[lane] = params.damping;
         self.drag_along[lane] = params.drag_along;
         self.thickness[lane] = params.thickness;
@@ -155,6 +155,9 @@ pub(crate) struct BatchState {
     pub goal: Vec<Vec3>,
     /// Links to other strands that hold no more: one for every pair of the batch.
     pub broken: Vec<[bool; LANES]>,
+    /// What pulled on the strands in the last step, in m/s^2, and the energy that they had when that was another.
+    pub pull: Vec3,
+    pub ceiling: Lane,
     /// For how many steps strands have been at rest.
     pub quiet: [u32; LANES],
     /// Strands whose accelerations are unknown: the next step starts by backward Euler.
@@ -180,6 +183,9 @@ impl BatchState {
             press: vec![Lane::ZERO; count],
             goal: Vec::new(),
             broken: Vec::new(),
+            // None that there can be.
+            pull: Vec3::splat(DVec3::MAX),
+            ceiling: Lane::ZERO,
             quiet: [0; LANES],
             restart: [true; LANES],
             set_aside: [None; LANES],
@@ -228,7 +234,7 @@ impl BatchState {
     /// The strands that are set aside.
     #[inline(always)]
     pub(crate) fn aside(&self) -> Mask {
-        Mask(self.set_aside.map(|r| r.is_some()))
+        Mask::new(self.set_aside.map(|r| r.is_some()))
     }
 
     /// Energy of every strand over its mass per length, in m^3/s^2: of motion against the root, of weight from the root, of
@@ -260,6 +266,7 @@ impl BatchState {
         self.a.iter_mut().for_each(turned);
         self.goal.iter_mut().for_each(turned);
         turned(&mut self.root_velocity);
+        turned(&mut self.pull);
         self.root = root;
         self.base = base;
     }

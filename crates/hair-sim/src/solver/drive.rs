@@ -91,7 +91,7 @@ fn whole_poses(state: &mut BatchState, drive: &Drive) -> (Vec3, Quat) {
         .and(size.lt(Lane::splat(1.001)))
         .and(size.gt(Lane::splat(0.999)));
     for lane in 0..LANES {
-        if !whole.0[lane] {
+        if !whole.get(lane) {
             state.set_aside[lane].get_or_insert(Reason::Root);
         }
     }

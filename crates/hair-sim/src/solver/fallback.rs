@@ -156,10 +156,10 @@ fn take(
     }
     let bad = which.and(good.not());
     for lane in 0..LANES {
-        if which.0[lane] {
+        if which.get(lane) {
             state.restart[lane] = true;
         }
-        if bad.0[lane] {
+        if bad.get(lane) {
             state.set_aside[lane] = Some(Reason::Motion);
         }
     }

@@ -88,7 +88,7 @@ pub(crate) fn step(
     let mut iterations = 0;
 
     // The trapezoidal stage; backward Euler over the same time where accelerations are unknown.
-    let restart = Mask(state.restart);
+    let restart = Mask::new(state.restart);
     let first = restart.pick(Lane::splat(2.0 * d), Lane::splat(d));
     let known = restart.pick(Lane::ZERO, Lane::splat(d));
     for k in 0..batch.count() {
@@ -137,19 +137,20 @@ pub(crate) fn step(
     iterations += solve(batch, scratch, &stage, active, &mut failed, Which::End);
 
     failed = failed.or(turned_too_far(batch, state, scratch, &root)).and(active);
-    let kept = active.and(failed.not());
-    if batch.conserves && drive.base == state.base {
-        let before = state.energy(batch, root.pull);
-        finish(batch, state, scratch, kept, d);
-        take_gain(batch, state, &root, before, kept);
+    let before = if batch.conserves {
+        state.energy(batch, root.pull)
     } else {
-        finish(batch, state, scratch, kept, d);
-    }
+        Lane::ZERO
+    };
+    finish(batch, state, scratch, active.and(failed.not()), d);
     stats.strands = active.count();
     stats.iterations = iterations;
     stats.fallbacks = failed.count();
     if failed.any() {
         fallback::step(batch, state, scratch, drive, &root, failed);
+    }
+    if batch.conserves {
+        take_gain(batch, state, &root, before, active);
     }
     let aside = state.aside().and(batch.used);
     if aside.any() {
@@ -172,8 +173,8 @@ fn asleep(state: &BatchState, drive: &Drive, used: Mask) -> Mask {
     let still = (drive.root - state.root).length_squared()
         + (drive.base.v - state.base.v).length_squared()
         + state.root_velocity.length_squared();
-    let quiet = Mask(state.quiet.map(|steps| steps >= QUIET_STEPS));
-    quiet.and(still.gt(Lane::ZERO).not()).and(used)
+    let quiet = Mask::new(state.quiet.map(|steps| steps >= QUIET_STEPS));
+    quiet.and(still.lt(Lane::splat(1e-26))).and(used)
 }
 
 #[inline(always)]
@@ -183,11 +184,11 @@ fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mas
         fastest = fastest.max(state.v[k].length_squared());
     }
     let limit = Lane::splat(QUIET_SPEED * QUIET_SPEED);
-    let quiet = fastest.lt(limit).and(Mask([drive.calm; LANES]));
+    let quiet = fastest.lt(limit).and(Mask::new([drive.calm; LANES]));
     for lane in 0..LANES {
-        if active.0[lane] {
+        if active.get(lane) {
             let steps = state.quiet[lane].saturating_add(1);
-            state.quiet[lane] = if quiet.0[lane] { steps } else { 0 };
+            state.quiet[lane] = if quiet.get(lane) { steps } else { 0 };
         }
     }
 }
@@ -437,17 +438,22 @@ fn turned_too_far(
     least.gt(Lane::splat(LEAST_COSINE)).not()
 }
 
-/// Where nothing takes energy from the strands, nothing may bring any: what the step made by its error is taken out of the
-/// velocities.
+/// Where nothing takes energy from the strands, nothing may bring any: what errors of the steps add to the energy that a
+/// strand had when it was driven last is taken out of its velocities.
 #[inline(always)]
 fn take_gain(batch: &Batch, state: &mut BatchState, root: &RootMotion, before: Lane, which: Mask) {
-    let gain = (state.energy(batch, root.pull) - before).max(Lane::ZERO);
+    let turned = root.turn_end.v.length_squared() + (root.pull - state.pull).length_squared();
+    let driven = turned.gt(Lane::splat(1e-24));
+    state.pull = root.pull;
+    state.ceiling = driven.pick(before, state.ceiling);
+    let gain = (state.energy(batch, root.pull) - state.ceiling).max(Lane::ZERO);
     let mut motion = Lane::ZERO;
     for k in 0..batch.count() {
         motion += batch.particles[k].mass * state.v[k].length_squared() * 0.5;
     }
     let left = (motion - gain).max(Lane::ZERO) / motion.max(Lane::splat(1e-300));
-    let scale = which.and(gain.gt(Lane::ZERO)).pick(left.sqrt(), Lane::ONE);
+    let taken = which.and(gain.gt(Lane::ZERO)).and(driven.not());
+    let scale = taken.pick(left.sqrt(), Lane::ONE);
     for v in &mut state.v {
         *v = *v * scale;
     }
@@ -456,9 +462,7 @@ fn take_gain(batch: &Batch, state: &mut BatchState, root: &RootMotion, before: L
 /// Takes the end stage of the lanes in `which` as the new state.
 #[inline(always)]
 fn finish(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d: f64) {
-    for lane in 0..LANES {
-        state.restart[lane] &= !which.0[lane];
-    }
+    let mut struck = Mask::new(state.restart).and(which.not());
     let end = &scratch.end;
     let rate = 1.0 / d;
     let mut before = Vec3::ZERO;
@@ -470,7 +474,7 @@ fn finish(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask,
         before = end.v[k];
         velocity += along - t * (along.dot(t) * UNSTRETCH);
         let a = if scratch.has_contacts {
-            settle_contact(state, scratch, k, end.y[k], a, which)
+            settle_contact(state, scratch, k, a, which, &mut struck)
         } else {
             state.press[k] = which.pick(Lane::ZERO, state.press[k]);
             a
@@ -480,6 +484,7 @@ fn finish(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask,
         state.y[k] = Vec3::pick(which, end.y[k], state.y[k]);
         state.frames[k] = Quat::pick(which, end.frames[k], state.frames[k]);
     }
+    state.restart = struck.bools();
 }
 
 /// Remembers the pressure on particle `k`, and returns its acceleration without the blow of a contact: that is over, and
@@ -489,17 +494,15 @@ fn settle_contact(
     state: &mut BatchState,
     scratch: &Scratch,
     k: usize,
-    y: Vec3,
     a: Vec3,
     which: Mask,
+    struck: &mut Mask,
 ) -> Vec3 {
     let contact = &scratch.contacts[k];
-    let press = contact.pressure(y);
+    let press = contact.pressure(scratch.end.y[k]);
     let before = state.press[k];
-    let struck = before.gt(Lane::ZERO).not().and(press.gt(Lane::ZERO)).and(which);
-    for lane in 0..LANES {
-        state.restart[lane] |= struck.0[lane];
-    }
+    let new = (before.gt(Lane::ZERO).not()).and(press.gt(Lane::ZERO));
+    *struck = struck.or(new.and(which));
     state.press[k] = which.pick(press, before);
     let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
     a - contact.normal * out

@@ -99,7 +99,7 @@ fn repulsion_keeps_strands_apart() {
         };
         solver.interact(&mut state, &mutual).unwrap();
         let scene = Scene {
-            gravity: DVec3::new(-4.0, -9.81, 0.0),
+            gravity: DVec3::new(-1.5, -9.81, 0.0),
             ..Scene::default()
         };
         let mut pushed = 0;
