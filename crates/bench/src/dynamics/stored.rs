@@ -34,11 +34,13 @@ pub fn file(rows: &[Row]) -> Result<String, String> {
             let error = row
                 .error
                 .map_or(String::new(), |error| format!("{error:.4e}"));
-            let time = row.seconds / yardstick;
-            format!(
-                "{},{},{},{time:.4e},{error}",
-                row.scene, row.method, row.knob
-            )
+            // What is run only once has no time to hold it to.
+            let time = if row.scene.starts_with(SCENE) {
+                String::new()
+            } else {
+                format!("{:.4e}", row.seconds / yardstick)
+            };
+            format!("{},{},{},{time},{error}", row.scene, row.method, row.knob)
         });
     let comments = [
         "our figures of suite dynamics: written by `bench dynamics --store`, held by `--check`",
