@@ -186,7 +186,7 @@ fn comments(options: &Options, truths: &[(f64, Truth)]) -> Vec<String> {
         "  mujoco-*, pypbd-*: other programs; knob: steps of 1/24 s",
         "cantilever-GAMMA: the same strand at rest; knob: elements; seconds: for a second; error: of the tip over the length",
         "  steps of inkstrand 1/24 s, mass-spring 1/384 s, xpbd-sweeps 1/1536 s with 20 sweeps",
-        "motion-STRANDSxELEMENTS: on a head that shakes; full-: with the head in their way and wind; knob: threads",
+        "motion-STRANDSxELEMENTS: on a head that shakes; full-: with the head in their way, wind and links; knob: threads",
         "  seconds: for a step of 1/60 s of all strands; xpbd-sweeps: 20 sweeps",
     ];
     comments.extend(text.map(str::to_owned));
