@@ -75,7 +75,11 @@ impl Lane {
     fn compare(self, other: Self, f: impl Fn(f64, f64) -> bool) -> Mask {
         let mut out = [0; LANES];
         for i in 0..LANES {
-            out[i] = if f(self.0[i], other.0[i]) { u64::MAX } else { 0 };
+            out[i] = if f(self.0[i], other.0[i]) {
+                u64::MAX
+            } else {
+                0
+            };
         }
         Mask(out)
     }

@@ -46,7 +46,6 @@ pub(crate) struct RestLink {
     pub end_at: f64,
 }
 
-
 impl RestStrand {
     /// Builds the strand through `points` (style space, m). A link without length takes the direction of the one
     /// before it.
@@ -157,8 +156,8 @@ impl RestStrand {
             Natural::Balanced => self.balance(&styled),
             Natural::Curl { curvature, torsion } => {
                 for link in &mut self.links {
-                    let joint = params.material.bending() * params.stiffness.at(link.joint_at)
-                        / link.bend;
+                    let joint =
+                        params.material.bending() * params.stiffness.at(link.joint_at) / link.bend;
                     link.natural = curl(DVec3::new(curvature * joint, 0.0, torsion * joint));
                 }
             }
@@ -294,19 +293,16 @@ mod tests {
     fn points_that_are_one_are_refused_and_doubled_points_repaired() {
         let p = Params::default();
         let one = [Vec3::ONE; 4];
-        assert_eq!(
-            RestStrand::new(&one, &p).unwrap_err(),
-            Reason::NoLength
-        );
+        assert_eq!(RestStrand::new(&one, &p).unwrap_err(), Reason::NoLength);
         let fold = [Vec3::ZERO, Vec3::X, Vec3::ZERO];
-        assert_eq!(
-            RestStrand::new(&fold, &p).unwrap_err(),
-            Reason::Folded(1)
-        );
+        assert_eq!(RestStrand::new(&fold, &p).unwrap_err(), Reason::Folded(1));
         let doubled = [Vec3::ZERO, Vec3::ZERO, Vec3::X, Vec3::X, Vec3::X * 2.0];
         let strand = RestStrand::new(&doubled, &p).unwrap();
-        assert!(strand.links.iter().all(|l| l.natural.is_finite()
-            && l.frame.is_finite()
-            && l.bend.is_finite()));
+        assert!(
+            strand
+                .links
+                .iter()
+                .all(|l| l.natural.is_finite() && l.frame.is_finite() && l.bend.is_finite())
+        );
     }
 }

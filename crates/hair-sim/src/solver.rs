@@ -3,9 +3,11 @@
 pub(crate) mod batch;
 mod drive;
 mod fallback;
+mod finish;
 mod instructions;
-mod neighbours;
 mod integrate;
+mod neighbours;
+mod scene;
 pub(crate) mod sweep;
 
 use glam::{DQuat, DVec3, Vec3};
@@ -14,264 +16,29 @@ use rayon::prelude::*;
 use crate::{
     Strands,
     collision::Collider,
-    forces::{
-        mutual::{Course, Mutual, Pair},
-        wind::Wind,
-    },
+    forces::mutual::{Course, Mutual, Pair},
     lanes::{LANES, Quat, Vec3 as LaneVec3},
-    params::{GRAVITY, Params},
+    params::Params,
     rest::RestStrand,
 };
 
 pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
-use instructions::Instructions;
 use drive::{Drive, Hair};
-use integrate::BatchStats;
+use instructions::Instructions;
+pub use scene::{DynamicsError, Fault, Pose, Roots, Scene, Stats};
 
-/// A rigid motion from style space to the world: where a head is.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Pose {
-    /// A unit quaternion.
-    pub rotation: DQuat,
-    /// In m.
-    pub translation: DVec3,
-}
-
-impl Pose {
-    /// Style space is the world.
-    pub const IDENTITY: Self = Self {
-        rotation: DQuat::IDENTITY,
-        translation: DVec3::ZERO,
-    };
-
-    pub(crate) fn to_world(self, at: DVec3) -> DVec3 {
-        self.rotation * at + self.translation
-    }
-
-    pub(crate) fn to_local(self, at: DVec3) -> DVec3 {
-        self.rotation.conjugate() * (at - self.translation)
-    }
-
-    pub(crate) fn is_finite(&self) -> bool {
-        self.rotation.is_finite() && self.translation.is_finite()
-    }
-}
-
-/// Where the roots are at the end of a step.
-#[derive(Clone, Copy, Debug)]
-pub enum Roots<'a> {
-    /// All on one head.
-    Head(Pose),
-    /// One pose per strand.
-    Each(&'a [Pose]),
-}
-
-/// What acts on the strands in a step.
-#[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
-    /// Where the roots are at the end of the step.
-    pub roots: Roots<'a>,
-    /// In m/s^2.
-    pub gravity: DVec3,
-    /// The motion of the air.
-    pub wind: Wind,
-    /// What hair cannot enter.
-    pub colliders: &'a [Collider<'a>],
-    /// Places in style space for the points of all strands, in their order, to which [`Params::goal`] pulls; none
-    /// is the style itself.
-    pub goal: Option<&'a [Vec3]>,
-}
-
-impl Default for Scene<'_> {
-    fn default() -> Self {
-        Self {
-            roots: Roots::Head(Pose::IDENTITY),
-            gravity: DVec3::new(0.0, -GRAVITY, 0.0),
-            wind: Wind::default(),
-            colliders: &[],
-            goal: None,
-        }
-    }
-}
-
-impl Scene<'_> {
-    /// Whether nothing in it moves but, perhaps, the roots.
-    fn is_calm(&self) -> bool {
-        let still = |c: &Collider| c.before == c.now;
-        self.wind.gust == 0.0 && self.goal.is_none() && self.colliders.iter().all(still)
-    }
-
-    /// A hash of what acts on strands at rest.
-    fn fingerprint(&self) -> u64 {
-        let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a, by words
-        let mut add = |v: DVec3| {
-            for bits in v.to_array().map(f64::to_bits) {
-                hash = (hash ^ bits).wrapping_mul(0x0100_0000_01b3);
-            }
-        };
-        add(self.gravity);
-        add(self.wind.steady);
-        for collider in self.colliders {
-            add(collider.now.translation);
-            add(collider.now.rotation * DVec3::X);
-            add(collider.now.rotation * DVec3::Y);
-            for v in collider.shape.numbers() {
-                add(v);
-            }
-        }
-        hash
-    }
-}
-
-/// What happened in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Stats {
-    /// Strands that were stepped.
-    pub strands: usize,
-    /// Newton iterations of all strands; two a strand is the least.
-    pub iterations: usize,
-    /// Strands that took the safe integrator in this step.
-    pub fallbacks: usize,
-    /// Strands that are set aside: see [`Solver::faults`].
-    pub set_aside: usize,
-    /// Particles that were near a body or touched it.
-    pub contacts: usize,
-    /// Particles that felt wind.
-    pub wind: usize,
-    /// Links between strands that held.
-    pub links: usize,
-    /// Particles that another strand pushed away.
-    pub repulsions: usize,
-    /// Strands that rest, and cost nothing.
-    pub asleep: usize,
-}
-
-impl Stats {
-    fn plus(self, other: Self) -> Self {
-        Self {
-            strands: self.strands + other.strands,
-            iterations: self.iterations + other.iterations,
-            fallbacks: self.fallbacks + other.fallbacks,
-            set_aside: self.set_aside + other.set_aside,
-            contacts: self.contacts + other.contacts,
-            wind: self.wind + other.wind,
-            links: self.links + other.links,
-            repulsions: self.repulsions + other.repulsions,
-            asleep: self.asleep + other.asleep,
-        }
-    }
-}
-
-impl From<BatchStats> for Stats {
-    fn from(batch: BatchStats) -> Self {
-        Self {
-            strands: batch.strands,
-            iterations: batch.iterations,
-            fallbacks: batch.fallbacks,
-            set_aside: batch.set_aside,
-            contacts: batch.contacts,
-            wind: batch.wind,
-            links: batch.hair.links,
-            repulsions: batch.hair.repulsions,
-            asleep: batch.asleep,
-        }
-    }
-}
-
-impl HairHair {
-    /// Where every particle is, and where its own motion takes it.
-    fn follow(&mut self, batches: &[Batch], states: &[BatchState], scene: &Scene, dt: f64) {
-        for ((batch, state), &first) in batches.iter().zip(states).zip(&self.first) {
-            let (root, _) = roots(batch, scene);
-            for k in 0..batch.count() {
-                let (before, now) = (
-                    state.root + state.y[k],
-                    root + state.y[k] + state.v[k] * dt,
-                );
-                let courses = &mut self.courses[first + k * LANES..][..LANES];
-                for (lane, course) in courses.iter_mut().enumerate() {
-                    let (before, now) = (before.get(lane), now.get(lane));
-                    // A root without a pose is the strand's own fault, not its neighbours'.
-                    let now = if now.is_finite() { now } else { before };
-                    *course = Course { before, now };
-                }
-            }
-        }
-    }
-}
-
-/// Why strands make no solver.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DynamicsError {
-    /// A parameter has a range.
-    #[error("strand {id}: {name} is {value}, and must be from {least} to {most}")]
-    Parameter {
-        /// The strand's id.
-        id: u32,
-        /// The parameter.
-        name: &'static str,
-        /// As it was given.
-        value: f64,
-        /// The least.
-        least: f64,
-        /// The most.
-        most: f64,
-    },
-    /// A step takes time.
-    #[error("a step of {0} s: it must be more than 0 and at most 10 s")]
-    Step(f64),
-    /// Numbers of the scene are finite.
-    #[error("the scene's {0} is not finite")]
-    Scene(&'static str),
-    /// A number of [`Mutual`] has a range.
-    #[error("{name} is {value}, and must be from {least} to {most}")]
-    Mutual {
-        /// Its name.
-        name: &'static str,
-        /// As it was given.
-        value: f64,
-        /// The least.
-        least: f64,
-        /// The most.
-        most: f64,
-    },
-    /// There is one pose for every strand.
-    #[error("{found} poses for {expected} strands")]
-    Poses {
-        /// How many there are.
-        found: usize,
-        /// How many strands there are.
-        expected: usize,
-    },
-    /// There is one goal for every point.
-    #[error("goals for {found} points; the strands have {expected}")]
-    Goal {
-        /// How many there are.
-        found: usize,
-        /// How many points there are.
-        expected: usize,
-    },
-    /// A state belongs to the strands that it was made with.
-    #[error("the state is not of these strands")]
-    State,
-}
-
-/// A strand that is set aside: it follows its root without a motion of its own.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("strand {id} is set aside: {reason}")]
-pub struct Fault {
-    /// The strand's id.
-    pub id: u32,
-    /// Why.
-    pub reason: Reason,
-}
+/// The most groups of batches, so of tasks in a step.
+const MOST_GROUPS: usize = 64;
 
 /// The constants of some strands, and room to work in. The strands' motion is in [`State`].
 #[derive(Clone, Debug)]
 pub struct Solver {
     batches: Vec<Batch>,
+    /// One for every group of batches.
     scratch: Vec<Scratch>,
+    /// Batches in a group: a task steps them one after the other in the same room, which stays in the processor's cache.
+    group: usize,
     /// Batch and lane of every strand.
     places: Vec<(usize, usize)>,
     /// The number of points of every strand, and the index of the first in the list of all.
@@ -292,6 +59,25 @@ struct HairHair {
     /// by lane.
     first: Vec<usize>,
     courses: Vec<Course>,
+}
+
+impl HairHair {
+    /// Where every particle is, and where its own motion takes it.
+    fn follow(&mut self, batches: &[Batch], states: &[BatchState], scene: &Scene, dt: f64) {
+        for ((batch, state), &first) in batches.iter().zip(states).zip(&self.first) {
+            let (root, _) = roots(batch, scene);
+            for k in 0..batch.count() {
+                let (before, now) = (state.root + state.y[k], root + state.y[k] + state.v[k] * dt);
+                let courses = &mut self.courses[first + k * LANES..][..LANES];
+                for (lane, course) in courses.iter_mut().enumerate() {
+                    let (before, now) = (before.get(lane), now.get(lane));
+                    // A root without a pose is the strand's own fault, not its neighbours'.
+                    let now = if now.is_finite() { now } else { before };
+                    *course = Course { before, now };
+                }
+            }
+        }
+    }
 }
 
 /// Everything that decides the strands' future, to the bit.
@@ -359,12 +145,13 @@ impl Solver {
         let mut solver = Self {
             batches: Vec::new(),
             scratch: Vec::new(),
+            group: 1,
             places: vec![(0, 0); strands.len()],
             points: rest.iter().map(<[Vec3]>::len).collect(),
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
             ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
             hair: None,
-            instructions: best_instructions(),
+            instructions: Instructions::best(),
         };
         let mut states = Vec::new();
         for members in order.chunks(LANES) {
@@ -382,10 +169,13 @@ impl Solver {
             for (lane, &i) in members.iter().enumerate() {
                 state.set_aside[lane] = strands[i].2;
             }
-            solver.scratch.push(Scratch::new(batch.count()));
             states.push(state);
             solver.batches.push(batch);
         }
+        solver.group = solver.batches.len().div_ceil(MOST_GROUPS).max(1);
+        solver.scratch = (solver.batches.chunks(solver.group))
+            .map(|group| Scratch::new(group.iter().map(Batch::count).max().unwrap_or(0)))
+            .collect();
         let state = State {
             time: 0.0,
             last: 0,
@@ -471,26 +261,32 @@ impl Solver {
         }
         let hair = self.hair.as_ref();
         let first_points = &self.first_points;
-        let sum = (self.batches.par_iter().enumerate())
-            .zip(state.batches.par_iter_mut())
+        let step = |index: usize, batch: &Batch, state: &mut BatchState, scratch: &mut Scratch| {
+            let (root, base) = roots(batch, scene);
+            let drive = Drive {
+                dt,
+                scene,
+                gusts: &gusts,
+                first_points,
+                root,
+                base,
+                calm,
+                hair: hair.map(|h| Hair {
+                    mutual: &h.mutual,
+                    pairs: &h.pairs[index],
+                    courses: &h.courses,
+                }),
+            };
+            Stats::from(instructions.step(batch, state, scratch, &drive))
+        };
+        let group = self.group;
+        let sum = (self.batches.par_chunks(group).enumerate())
+            .zip(state.batches.par_chunks_mut(group))
             .zip(self.scratch.par_iter_mut())
-            .map(|(((index, batch), state), scratch)| {
-                let (root, base) = roots(batch, scene);
-                let drive = Drive {
-                    dt,
-                    scene,
-                    gusts: &gusts,
-                    first_points,
-                    root,
-                    base,
-                    calm,
-                    hair: hair.map(|h| Hair {
-                        mutual: &h.mutual,
-                        pairs: &h.pairs[index],
-                        courses: &h.courses,
-                    }),
-                };
-                Stats::from(instructions.step(batch, state, scratch, &drive))
+            .map(|(((index, batches), states), scratch)| {
+                (batches.iter().zip(states).enumerate())
+                    .map(|(i, (batch, state))| step(index * group + i, batch, state, scratch))
+                    .fold(Stats::default(), Stats::plus)
             })
             .reduce(Stats::default, Stats::plus);
         state.time += dt;
@@ -538,7 +334,7 @@ impl Solver {
         match scene.roots {
             Roots::Head(pose)
                 if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
-            { 
+            {
                 return Err(DynamicsError::Scene("head"));
             }
             Roots::Each(poses) if poses.len() != self.len() => {
@@ -554,7 +350,11 @@ impl Solver {
             && self.hair.as_ref().is_none_or(|h| {
                 (h.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
             });
-        if fits { Ok(()) } else { Err(DynamicsError::State) }
+        if fits {
+            Ok(())
+        } else {
+            Err(DynamicsError::State)
+        }
     }
 
     /// The energy of a strand over its mass per length, in m^3/s^2: of its motion and its weight against the root, and of
@@ -604,10 +404,6 @@ impl Solver {
     }
 }
 
-fn best_instructions() -> Instructions {
-    *Instructions::available().last().unwrap_or(&Instructions::Compiled)
-}
-
 /// Root and frame of the skin of every lane in the world.
 fn roots(batch: &Batch, scene: &Scene) -> (LaneVec3, Quat) {
     let (mut root, mut base) = (batch.root, batch.base);
@@ -626,4 +422,42 @@ fn roots(batch: &Batch, scene: &Scene) -> (LaneVec3, Quat) {
         base.set(lane, pose.rotation * batch.base.get(lane));
     }
     (root, base)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{GRAVITY, Wind};
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let mut rest = Strands::new();
+        for s in 0..11_u32 {
+            let turn = s as f32 * 0.6;
+            let points: Vec<Vec3> = (0..=12)
+                .map(|i| {
+                    let u = i as f32 / 12.0;
+                    Vec3::new(turn.cos() + u, 0.3 * u * u, turn.sin() + (3.0 * u).sin()) * 0.1
+                })
+                .collect();
+            rest.push(s, &points, None).unwrap();
+        }
+        let states = [Instructions::Compiled, Instructions::best()].map(|instructions| {
+            let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
+            solver.instructions = instructions;
+            for i in 0..24 {
+                let scene = Scene {
+                    gravity: DVec3::new(f64::from(i % 5), -GRAVITY, 0.0),
+                    wind: Wind {
+                        gust: 3.0,
+                        ..Wind::default()
+                    },
+                    ..Scene::default()
+                };
+                solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+            }
+            state
+        });
+        assert!(states[0] == states[1]);
+    }
 }

@@ -153,10 +153,7 @@ pub(crate) fn detect(
             let (before, now) = (collider.before, collider.now);
             let normal = now.rotation * plane.normal;
             let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
-            let (s0, s1) = (
-                s0 - state.root.get(lane),
-                s1 - course.root.get(lane),
-            );
+            let (s0, s1) = (s0 - state.root.get(lane), s1 - course.root.get(lane));
             let mid = s0 + (s1 - s0) * course.gamma;
             let flow = (s1 - s0) / dt;
             contact.on[lane] = 1.0;
@@ -193,10 +190,11 @@ impl Path {
     fn first<'a, 'b>(&self, colliders: &'b [Collider<'a>]) -> Option<(&'b Collider<'a>, Plane)> {
         let mut best: Option<(&Collider, Plane)> = None;
         for collider in colliders {
-            if let Some(plane) = self.against(collider) {
-                if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
-                    best = Some((collider, plane));
-                }
+            let Some(plane) = self.against(collider) else {
+                continue;
+            };
+            if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
+                best = Some((collider, plane));
             }
         }
         best
@@ -206,12 +204,17 @@ impl Path {
         let shape = &collider.shape;
         let to = collider.now.to_local(self.to);
         let end = shape.distance(to) - self.keep;
-        let from = collider.before.to_local(self.from);
-        let way = (to - from).length();
+        let moves = collider.before != collider.now;
+        let way = if moves {
+            (to - collider.before.to_local(self.from)).length()
+        } else {
+            (self.to - self.from).length()
+        };
         // The whole path is within `way` of its end.
         if end > way + NEAR {
             return None;
         }
+        let from = collider.before.to_local(self.from);
         let start = shape.distance(from) - self.keep;
         if start <= TOUCH {
             // It touches already. The surface near the end, where that is the same side.

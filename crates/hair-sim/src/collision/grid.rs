@@ -105,7 +105,11 @@ impl SignedDistance {
     pub(crate) fn numbers(&self) -> [DVec3; 3] {
         let size = self.size.map(|n| n as f64);
         let middle = f64::from(self.values[self.values.len() / 2]);
-        [self.origin, DVec3::from_array(size), DVec3::new(self.cell, middle, 1.0)]
+        [
+            self.origin,
+            DVec3::from_array(size),
+            DVec3::new(self.cell, middle, 1.0),
+        ]
     }
 
     fn index(&self, x: usize, y: usize, z: usize) -> usize {
@@ -206,7 +210,8 @@ impl Build<'_> {
             let low = (a.min(b).min(c) - self.grid.origin) / cell - BAND;
             let high = (a.max(b).max(c) - self.grid.origin) / cell + BAND;
             let from = low.max(DVec3::ZERO);
-            let range = |from: f64, to: f64, size: usize| from as usize..=(to as usize).min(size - 1);
+            let range =
+                |from: f64, to: f64, size: usize| from as usize..=(to as usize).min(size - 1);
             for z in range(from.z, high.z, self.grid.size[2]) {
                 for y in range(from.y, high.y, self.grid.size[1]) {
                     for x in range(from.x, high.x, self.grid.size[0]) {
@@ -355,9 +360,7 @@ mod tests {
             for j in 0..around {
                 let angle = std::f32::consts::TAU * j as f32 / around as f32;
                 let level = polar.sin();
-                points.push(
-                    Vec3::new(level * angle.cos(), polar.cos(), level * angle.sin()) * 0.1,
-                );
+                points.push(Vec3::new(level * angle.cos(), polar.cos(), level * angle.sin()) * 0.1);
             }
         }
         let mut triangles = Vec::new();
@@ -378,8 +381,7 @@ mod tests {
         let grid = SignedDistance::new(&points, &triangles, 0.005).unwrap();
         for i in 0..2000 {
             let t = f64::from(i);
-            let at = DVec3::new((t * 0.7).sin(), (t * 1.3).cos(), (t * 0.37).sin())
-                .normalize()
+            let at = DVec3::new((t * 0.7).sin(), (t * 1.3).cos(), (t * 0.37).sin()).normalize()
                 * (0.113 * (t * 0.11).sin().abs());
             let truth = at.length() - 0.1;
             let error = (grid.distance(at) - truth).abs();

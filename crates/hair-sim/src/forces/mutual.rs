@@ -153,7 +153,9 @@ pub(crate) fn act(
             // Away along the line between them; strands in one place stay together.
             let safe = length.max(Lane::splat(1e-9));
             let away = apart * (keep / safe).min(Lane::splat(10.0));
-            let stiffness = close.and(length.gt(Lane::splat(1e-9))).pick(push, Lane::ZERO);
+            let stiffness = close
+                .and(length.gt(Lane::splat(1e-9)))
+                .pick(push, Lane::ZERO);
             let spring = &mut springs[pair.at];
             spring.pull(stiffness, before - away, now - away, own.gamma, own.dt);
         }

@@ -78,7 +78,9 @@ impl Wind {
                 let random = |k: u64| unit(self.seed, j as u64 * 8 + k);
                 let along = sphere(random(0), random(1));
                 let other = sphere(random(2), random(3));
-                let across = along.cross(other).normalize_or(along.any_orthonormal_vector());
+                let across = along
+                    .cross(other)
+                    .normalize_or(along.any_orthonormal_vector());
                 // Wavelengths from 0.6 to 1.6 of the size.
                 let number = along / (self.size * (0.6 + (j as f64 + random(4)) / WAVES as f64));
                 let change = self.gust.abs() * number.length() * 0.5;
@@ -176,12 +178,12 @@ mod tests {
         let (mut mean, mut square) = (DVec3::ZERO, 0.0);
         let count = 20_000;
         for i in 0..count {
-            let at = DVec3::new(
-                unit(1, i) * 50.0,
-                unit(2, i) * 50.0,
-                unit(3, i) * 50.0,
-            );
-            let gust = wind.at(unit(4, i) * 1000.0).velocity(Vec3::splat(at)).get(3) - wind.steady;
+            let at = DVec3::new(unit(1, i) * 50.0, unit(2, i) * 50.0, unit(3, i) * 50.0);
+            let gust = wind
+                .at(unit(4, i) * 1000.0)
+                .velocity(Vec3::splat(at))
+                .get(3)
+                - wind.steady;
             mean += gust;
             square += gust.length_squared();
         }
@@ -194,10 +196,7 @@ mod tests {
     fn the_same_seed_blows_the_same() {
         let a = wind().at(5.0).velocity(Vec3::splat(DVec3::ONE));
         assert_eq!(a, wind().at(5.0).velocity(Vec3::splat(DVec3::ONE)));
-        let other = Wind {
-            seed: 8,
-            ..wind()
-        };
+        let other = Wind { seed: 8, ..wind() };
         assert_ne!(a, other.at(5.0).velocity(Vec3::splat(DVec3::ONE)));
     }
 }

@@ -208,7 +208,9 @@ impl BatchState {
 }
 
 /// Why a strand is set aside.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
+)]
 pub enum Reason {
     /// A point of its rest shape (from the root, 0 first) is not finite.
     #[error("point {0} at rest is not finite")]

@@ -127,7 +127,14 @@ pub(crate) fn prepare(
             dt: drive.dt,
         };
         let springs = &mut scratch.springs;
-        stats.hair = mutual::act(hair.mutual, hair.pairs, hair.courses, &own, &mut state.broken, springs);
+        stats.hair = mutual::act(
+            hair.mutual,
+            hair.pairs,
+            hair.courses,
+            &own,
+            &mut state.broken,
+            springs,
+        );
     }
     let active = batch.used.and(state.aside().not()).and(awake);
     if batch.has_drag {

@@ -127,13 +127,7 @@ fn minimise(batch: &Batch, scratch: &mut Scratch, base: Quat, elastic: &Elastic,
     }
 }
 
-fn take(
-    batch: &Batch,
-    state: &mut BatchState,
-    scratch: &Scratch,
-    which: Mask,
-    dt: f64,
-) {
+fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, dt: f64) {
     let trial = &scratch.trial;
     let mut sum = Lane::ZERO;
     for k in 0..batch.count() {
@@ -169,7 +163,11 @@ fn take(
 pub(crate) fn carry(batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
-        let frame = Quat::pick(which, turn.times(state.frames[k]).normalize(), state.frames[k]);
+        let frame = Quat::pick(
+            which,
+            turn.times(state.frames[k]).normalize(),
+            state.frames[k],
+        );
         state.frames[k] = frame;
         y += frame.tangent() * batch.links[k].length;
         state.y[k] = Vec3::pick(which, y, state.y[k]);

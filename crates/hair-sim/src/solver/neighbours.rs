@@ -111,5 +111,6 @@ fn nearest<'a>(
 
 fn closest(to: DVec3, particles: &[DVec3]) -> Option<usize> {
     let distance = |p: &DVec3| (*p - to).length_squared();
-    (0..particles.len()).min_by(|&a, &b| distance(&particles[a]).total_cmp(&distance(&particles[b])))
+    (0..particles.len())
+        .min_by(|&a, &b| distance(&particles[a]).total_cmp(&distance(&particles[b])))
 }

@@ -83,11 +83,7 @@ fn joint(link: &Link, c: Vec3, past: Vec3, after: Quat, elastic: &Elastic) -> (V
     // du = G df with G = 1 + [c] + c c^T; the moment is G^T B e.
     let moment = e - c.cross(e) + c * c.dot(e);
     // G^T B G = bend (1 + c c) (1 + c c^T) + (twist - bend) g g^T, g the last row of G.
-    let g = Vec3::new(
-        c.x * c.z - c.y,
-        c.y * c.z + c.x,
-        Lane::ONE + c.z * c.z,
-    );
+    let g = Vec3::new(c.x * c.z - c.y, c.y * c.z + c.x, Lane::ONE + c.z * c.z);
     let stretch = elastic.damping + Lane::ONE;
     let round = bend * (c.length_squared() + 1.0) * stretch;
     let [ax, ay, az] = after.axes();

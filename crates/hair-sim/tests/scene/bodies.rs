@@ -38,10 +38,16 @@ fn hair_lies_on_a_ball() {
         };
         let (mut contacts, mut deepest) = (0, 0.0_f64);
         for _ in 0..240 {
-            contacts += solver.step(&mut state, &scene, 1.0 / 24.0).unwrap().contacts;
+            contacts += solver
+                .step(&mut state, &scene, 1.0 / 24.0)
+                .unwrap()
+                .contacts;
             deepest = deepest.max(depth(&solver, &state, DVec3::ZERO));
         }
-        println!("deepest {deepest:.1e}, at rest {:.1e}", depth(&solver, &state, DVec3::ZERO));
+        println!(
+            "deepest {deepest:.1e}, at rest {:.1e}",
+            depth(&solver, &state, DVec3::ZERO)
+        );
         assert!(contacts > 1000, "{contacts}");
         assert!(deepest < 2e-3, "{deepest}");
         assert!(depth(&solver, &state, DVec3::ZERO) < 2e-4);

@@ -1,20 +1,22 @@
 //! What acts on hair: roots that move, wind, bodies, goals.
 
+#![allow(clippy::print_stdout, reason = "tests show the figures that they hold")]
+
 mod bodies;
 mod goals;
 mod mutual;
-mod sleep;
 mod roots;
+mod sleep;
 mod wind;
 
 use glam::{DVec3, Vec3};
 use hair_sim::{Material, Natural, Params, Scene, Solver, State, Strands};
 
 /// Metres.
-pub const LENGTH: f64 = 0.2;
+const LENGTH: f64 = 0.2;
 
 /// A straight strand of 20 links from `root`.
-pub fn straight(root: Vec3, direction: Vec3) -> Strands {
+fn straight(root: Vec3, direction: Vec3) -> Strands {
     let points: Vec<Vec3> = (0..=20)
         .map(|i| root + direction * (LENGTH as f32 * i as f32 / 20.0))
         .collect();
@@ -23,7 +25,7 @@ pub fn straight(root: Vec3, direction: Vec3) -> Strands {
     strands
 }
 
-pub fn params(gamma: f64) -> Params {
+fn params(gamma: f64) -> Params {
     Params {
         material: Material::from_gamma(gamma, LENGTH),
         natural: Natural::Styled,
@@ -31,17 +33,19 @@ pub fn params(gamma: f64) -> Params {
     }
 }
 
-pub fn shape(solver: &Solver, state: &State) -> Vec<DVec3> {
+fn shape(solver: &Solver, state: &State) -> Vec<DVec3> {
     solver.points(state, 0).collect()
 }
 
-pub fn run(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64, steps: usize) {
+fn run(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64, steps: usize) {
     for _ in 0..steps {
         let stats = solver.step(state, scene, dt).unwrap();
         assert_eq!(stats.set_aside, 0);
     }
 }
 
-pub fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {
-    (a.iter().zip(b)).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max)
+fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {
+    (a.iter().zip(b))
+        .map(|(a, b)| (*a - *b).length())
+        .fold(0.0, f64::max)
 }

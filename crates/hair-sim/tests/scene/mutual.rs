@@ -8,7 +8,9 @@ fn row(count: u32) -> Strands {
     let mut strands = Strands::new();
     for s in 0..count {
         let root = Vec3::X * (0.006 * s as f32);
-        let points: Vec<Vec3> = (0..=20).map(|i| root + Vec3::NEG_Y * (0.01 * i as f32)).collect();
+        let points: Vec<Vec3> = (0..=20)
+            .map(|i| root + Vec3::NEG_Y * (0.01 * i as f32))
+            .collect();
         strands.push(s, &points, None).unwrap();
     }
     strands
@@ -30,12 +32,19 @@ fn hair_at_rest_stays_at_rest() {
     let before: Vec<DVec3> = (0..8).flat_map(|s| solver.points(&state, s)).collect();
     let mut links = 0;
     for _ in 0..240 {
-        links = solver.step(&mut state, &Scene::default(), 1.0 / 24.0).unwrap().links;
+        links = solver
+            .step(&mut state, &Scene::default(), 1.0 / 24.0)
+            .unwrap()
+            .links;
     }
     // 8 strands, 10 particles each, 2 to 4 neighbours within 2 cm.
     assert!(links > 200, "{links}");
     let after = (0..8).flat_map(|s| solver.points(&state, s));
-    let drift = before.iter().zip(after).map(|(a, b)| (*a - b).length()).fold(0.0, f64::max);
+    let drift = before
+        .iter()
+        .zip(after)
+        .map(|(a, b)| (*a - b).length())
+        .fold(0.0, f64::max);
     assert!(drift < 1e-8, "{drift}");
 }
 
@@ -104,7 +113,10 @@ fn repulsion_keeps_strands_apart() {
         };
         let mut pushed = 0;
         for _ in 0..480 {
-            pushed += solver.step(&mut state, &scene, 1.0 / 60.0).unwrap().repulsions;
+            pushed += solver
+                .step(&mut state, &scene, 1.0 / 60.0)
+                .unwrap()
+                .repulsions;
         }
         let tip = |s| solver.points(&state, s).last().unwrap().x;
         (tip(1) - tip(0), pushed)

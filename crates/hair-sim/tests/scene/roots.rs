@@ -103,7 +103,9 @@ fn a_turned_world_is_the_same_world() {
         ..Scene::default()
     };
     for _ in 0..48 {
-        solver.step(&mut here, &Scene::default(), 1.0 / 24.0).unwrap();
+        solver
+            .step(&mut here, &Scene::default(), 1.0 / 24.0)
+            .unwrap();
         solver.step(&mut there, &turned, 1.0 / 24.0).unwrap();
     }
     let moved: Vec<DVec3> = shape(&solver, &here)
@@ -117,7 +119,8 @@ fn a_turned_world_is_the_same_world() {
 #[test]
 fn roots_may_move_one_by_one() {
     let mut rest = straight(Vec3::ZERO, Vec3::X);
-    rest.push(8, &[Vec3::Z, Vec3::Z + Vec3::X * 0.1], None).unwrap();
+    rest.push(8, &[Vec3::Z, Vec3::Z + Vec3::X * 0.1], None)
+        .unwrap();
     let (mut solver, mut state) = Solver::new(&rest, &params(1.0)).unwrap();
     let poses = [Pose::IDENTITY, at(DQuat::IDENTITY, DVec3::Y)];
     let scene = Scene {
@@ -125,7 +128,10 @@ fn roots_may_move_one_by_one() {
         ..Scene::default()
     };
     solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
-    assert_eq!(solver.points(&state, 1).next().unwrap(), DVec3::new(0.0, 1.0, 1.0));
+    assert_eq!(
+        solver.points(&state, 1).next().unwrap(),
+        DVec3::new(0.0, 1.0, 1.0)
+    );
     assert_eq!(solver.points(&state, 0).next().unwrap(), DVec3::ZERO);
     let scene = Scene {
         roots: Roots::Each(&poses[..1]),

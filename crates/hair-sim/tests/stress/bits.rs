@@ -1,7 +1,9 @@
 //! Row 9: the same bits for any number of threads, any order of strands, and after save and restore.
 
 use glam::{DQuat, DVec3};
-use hair_sim::{Collider, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Strands, Wind};
+use hair_sim::{
+    Collider, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Strands, Wind,
+};
 
 use crate::{strand, style};
 
@@ -51,7 +53,10 @@ fn bits(solver: &Solver, state: &State, strand: usize) -> Vec<[u64; 3]> {
 fn threads_do_not_matter() {
     let rest = style(50, 12, 0.2);
     let states = [1, 2, 8].map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| {
             let (mut solver, mut state) = Solver::new(&rest, &params()).unwrap();
             run(&mut solver, &mut state, 0, 24);
@@ -67,16 +72,23 @@ fn the_order_of_strands_does_not_matter() {
     let count = 21;
     let mut rest = Strands::new();
     for s in 0..count {
-        rest.push(s, &strand(s, 8 + s as usize % 5, 0.2), None).unwrap();
+        rest.push(s, &strand(s, 8 + s as usize % 5, 0.2), None)
+            .unwrap();
     }
-    let order: Vec<usize> = (0..count as usize).map(|i| i * 8 % count as usize).collect();
+    let order: Vec<usize> = (0..count as usize)
+        .map(|i| i * 8 % count as usize)
+        .collect();
     let shuffled = rest.select(&order);
     let (mut solver, mut state) = Solver::new(&rest, &params()).unwrap();
     run(&mut solver, &mut state, 0, 24);
     let (mut other, mut other_state) = Solver::new(&shuffled, &params()).unwrap();
     run(&mut other, &mut other_state, 0, 24);
     for (place, &index) in order.iter().enumerate() {
-        assert_eq!(bits(&solver, &state, index), bits(&other, &other_state, place), "{index}");
+        assert_eq!(
+            bits(&solver, &state, index),
+            bits(&other, &other_state, place),
+            "{index}"
+        );
     }
 }
 

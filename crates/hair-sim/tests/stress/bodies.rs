@@ -63,7 +63,10 @@ fn a_body_that_swallows_the_strands_lets_them_out() {
             48..96 => 0.125 * f64::from((i - 47).min(4)),
             _ => 0.0,
         };
-        let colliders = [Collider::fixed(ball(DVec3::new(0.05, 0.0, 0.0), radius), Pose::IDENTITY)];
+        let colliders = [Collider::fixed(
+            ball(DVec3::new(0.05, 0.0, 0.0), radius),
+            Pose::IDENTITY,
+        )];
         let scene = Scene {
             colliders: &colliders,
             ..Scene::default()
@@ -102,7 +105,10 @@ fn a_body_at_20_m_a_second() {
             fallbacks += stats.fallbacks;
             check(&solver, &state, &rest, "fast body");
         }
-        println!("gamma {gamma}: {contacts} contacts, {fallbacks} fallbacks in {} steps", 48 * 16);
+        println!(
+            "gamma {gamma}: {contacts} contacts, {fallbacks} fallbacks in {} steps",
+            48 * 16
+        );
         assert!(contacts > 10);
         assert!(solver.faults(&state).is_empty());
     }

@@ -27,7 +27,9 @@ fn broken_segments_are_repaired_or_named() {
     rest.push(14, &folded, None).unwrap();
     rest.push(15, &[Vec3::ONE; 7], None).unwrap();
     let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
-    let named: Vec<(u32, Reason)> = (solver.faults(&state).iter()).map(|f| (f.id, f.reason)).collect();
+    let named: Vec<(u32, Reason)> = (solver.faults(&state).iter())
+        .map(|f| (f.id, f.reason))
+        .collect();
     assert_eq!(named, [(14, Reason::Folded(5)), (15, Reason::NoLength)]);
     assert_eq!(
         solver.faults(&state)[0].to_string(),
@@ -76,7 +78,10 @@ fn a_rest_shape_without_numbers_is_named_and_disturbs_no_other() {
     };
     let ((good, none), (bad, one)) = (run(&good), run(&bad));
     assert_eq!(none, []);
-    assert_eq!(one[0].to_string(), "strand 6 is set aside: point 3 at rest is not finite");
+    assert_eq!(
+        one[0].to_string(),
+        "strand 6 is set aside: point 3 at rest is not finite"
+    );
     assert_eq!(good, bad);
 }
 
@@ -135,17 +140,35 @@ fn a_scene_without_numbers_is_refused_and_changes_nothing() {
         Pose::IDENTITY,
     )];
     let scenes = [
-        (Scene { gravity: nan, ..Scene::default() }, "gravity"),
         (
             Scene {
-                wind: Wind { steady: nan, ..Wind::default() },
+                gravity: nan,
+                ..Scene::default()
+            },
+            "gravity",
+        ),
+        (
+            Scene {
+                wind: Wind {
+                    steady: nan,
+                    ..Wind::default()
+                },
                 ..Scene::default()
             },
             "wind",
         ),
         (head(DQuat::IDENTITY, nan), "head"),
-        (head(DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0), DVec3::ZERO), "head"),
-        (Scene { colliders: &ball, ..Scene::default() }, "collider"),
+        (
+            head(DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0), DVec3::ZERO),
+            "head",
+        ),
+        (
+            Scene {
+                colliders: &ball,
+                ..Scene::default()
+            },
+            "collider",
+        ),
     ];
     for (scene, name) in scenes {
         let error = solver.step(&mut state, &scene, 0.1).unwrap_err();
@@ -156,7 +179,10 @@ fn a_scene_without_numbers_is_refused_and_changes_nothing() {
         assert!(matches!(error, DynamicsError::Step(_)));
     }
     assert_eq!(state, before);
-    let bad = Params { drag: -1.0, ..Params::default() };
+    let bad = Params {
+        drag: -1.0,
+        ..Params::default()
+    };
     let error = Solver::new(&rest, &bad).unwrap_err().to_string();
     assert_eq!(error, "strand 0: drag is -1, and must be from 0 to 10000");
     let (_, mut other) = Solver::new(&style(2, 5, 0.2), &Params::default()).unwrap();

@@ -28,7 +28,9 @@ fn any_step_with_any_stiffness_and_drag() {
                 let what = format!("gamma 1e{exponent}, step {dt:.4}, drag {drag}");
                 let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
                 let scene = Scene::default();
-                let start: Vec<f64> = (0..4).map(|s| solver.energy(&state, s, scene.gravity)).collect();
+                let start: Vec<f64> = (0..4)
+                    .map(|s| solver.energy(&state, s, scene.gravity))
+                    .collect();
                 let scale = GRAVITY * 0.3 * 0.3;
                 let steps = ((2.0 / dt) as usize).clamp(40, 240);
                 let mut worst = 0.0_f64;
@@ -50,16 +52,30 @@ fn any_step_with_any_stiffness_and_drag() {
             }
         }
     }
-    println!("largest gain of energy {worst_gain:.1e} m g L, {fallbacks} fallbacks in {steps_taken} steps");
+    println!(
+        "largest gain of energy {worst_gain:.1e} m g L, {fallbacks} fallbacks in {steps_taken} steps"
+    );
     assert!(worst_gain < 1e-3, "{worst_gain}");
 }
 
 #[test]
 fn stiffness_that_varies_a_million_times_along_a_strand() {
     for profile in [
-        Profile { root: 1.0, middle: 1e-3, tip: 1e-6 },
-        Profile { root: 1e-6, middle: 1e-3, tip: 1.0 },
-        Profile { root: 1e3, middle: 1e-3, tip: 1e3 },
+        Profile {
+            root: 1.0,
+            middle: 1e-3,
+            tip: 1e-6,
+        },
+        Profile {
+            root: 1e-6,
+            middle: 1e-3,
+            tip: 1.0,
+        },
+        Profile {
+            root: 1e3,
+            middle: 1e-3,
+            tip: 1e3,
+        },
     ] {
         let mut rest = Strands::new();
         rest.push(0, &strand(0, 19, 0.25), None).unwrap();
@@ -92,7 +108,10 @@ fn a_micrometre_and_a_metre_in_one_scene() {
         rest.push(s as u32, &points, None).unwrap();
     }
     for natural in [Natural::Balanced, Natural::Styled] {
-        let params = Params { natural, ..Params::default() };
+        let params = Params {
+            natural,
+            ..Params::default()
+        };
         let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
         for i in 0..120 {
             let scene = Scene {
@@ -127,5 +146,10 @@ fn any_number_of_particles() {
     assert_eq!(solver.points(&state, 3).len(), 500);
 
     let (mut none, mut state) = Solver::new(&Strands::new(), &Params::default()).unwrap();
-    assert_eq!(none.step(&mut state, &Scene::default(), 0.1).unwrap().strands, 0);
+    assert_eq!(
+        none.step(&mut state, &Scene::default(), 0.1)
+            .unwrap()
+            .strands,
+        0
+    );
 }

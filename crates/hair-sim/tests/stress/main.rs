@@ -1,6 +1,8 @@
 //! What breaks hair solvers. Everything stays finite and unstretched, nothing gains energy that nothing drives, and what is
 //! impossible is named.
 
+#![allow(clippy::print_stdout, reason = "tests show the figures that they hold")]
+
 mod bits;
 mod bodies;
 mod broken;
@@ -13,7 +15,7 @@ use glam::{DVec3, Vec3};
 use hair_sim::{Scene, Solver, State, Strands};
 
 /// Strands that grow from a ball, with curls.
-pub fn style(count: u32, links: usize, length: f32) -> Strands {
+fn style(count: u32, links: usize, length: f32) -> Strands {
     let mut strands = Strands::new();
     for s in 0..count {
         strands.push(s, &strand(s, links, length), None).unwrap();
@@ -22,7 +24,7 @@ pub fn style(count: u32, links: usize, length: f32) -> Strands {
 }
 
 /// One of them.
-pub fn strand(s: u32, links: usize, length: f32) -> Vec<Vec3> {
+fn strand(s: u32, links: usize, length: f32) -> Vec<Vec3> {
     let angle = s as f32 * 2.4;
     let out = Vec3::new(angle.cos(), 0.3, angle.sin()).normalize();
     (0..=links)
@@ -35,7 +37,7 @@ pub fn strand(s: u32, links: usize, length: f32) -> Vec<Vec3> {
 }
 
 /// Asserts that every strand is finite and as long as at rest, link by link.
-pub fn check(solver: &Solver, state: &State, rest: &Strands, what: &str) {
+fn check(solver: &Solver, state: &State, rest: &Strands, what: &str) {
     for s in 0..rest.len() {
         let points: Vec<DVec3> = solver.points(state, s).collect();
         assert!(points.iter().all(|p| p.is_finite()), "{what}: strand {s}");
@@ -44,14 +46,22 @@ pub fn check(solver: &Solver, state: &State, rest: &Strands, what: &str) {
             let length = (styled[1].as_dvec3() - styled[0].as_dvec3()).length();
             let error = ((now[1] - now[0]).length() - length).abs();
             let far = points[0].length();
-            assert!(error <= 1e-4 * length + 1e-13 * (total + far), "{what}: strand {s} stretches");
+            assert!(
+                error <= 1e-4 * length + 1e-13 * (total + far),
+                "{what}: strand {s} stretches"
+            );
         }
-        assert!(solver.frames(state, s).all(|f| (f.length() - 1.0).abs() < 1e-9), "{what}");
+        assert!(
+            solver
+                .frames(state, s)
+                .all(|f| (f.length() - 1.0).abs() < 1e-9),
+            "{what}"
+        );
     }
 }
 
 /// Steps, and asserts that nothing is set aside.
-pub fn step(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64) -> usize {
+fn step(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64) -> usize {
     let stats = solver.step(state, scene, dt).unwrap();
     assert_eq!(stats.set_aside, 0, "{:?}", solver.faults(state));
     stats.fallbacks

@@ -16,10 +16,17 @@ fn an_hour_at_rest() {
         let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
         let before: Vec<DVec3> = (0..8).flat_map(|s| solver.points(&state, s)).collect();
         for _ in 0..3600 * 24 {
-            solver.step(&mut state, &Scene::default(), 1.0 / 24.0).unwrap();
+            solver
+                .step(&mut state, &Scene::default(), 1.0 / 24.0)
+                .unwrap();
         }
         let after = (0..8).flat_map(|s| solver.points(&state, s));
-        let drift = before.iter().zip(after).map(|(a, b)| (*a - b).length()).fold(0.0, f64::max) / 0.3;
+        let drift = before
+            .iter()
+            .zip(after)
+            .map(|(a, b)| (*a - b).length())
+            .fold(0.0, f64::max)
+            / 0.3;
         println!("gamma {gamma}: drift after an hour {drift:.1e} L");
         assert!(drift <= 1e-5, "{drift}");
     }
@@ -27,7 +34,9 @@ fn an_hour_at_rest() {
 
 #[test]
 fn the_energy_of_an_undamped_strand_stays() {
-    let points: Vec<Vec3> = (0..=20).map(|i| Vec3::X * (0.3 * i as f32 / 20.0)).collect();
+    let points: Vec<Vec3> = (0..=20)
+        .map(|i| Vec3::X * (0.3 * i as f32 / 20.0))
+        .collect();
     let mut rest = Strands::new();
     rest.push(0, &points, None).unwrap();
     for (gamma, steps) in [(1.0, 240), (10.0, 96), (10.0, 240), (100.0, 240)] {
@@ -68,11 +77,23 @@ fn the_rest_does_not_hang_on_the_step() {
         let [coarse, fine] = [24, 120].map(|steps: usize| {
             let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
             for _ in 0..60 * steps {
-                step(&mut solver, &mut state, &Scene::default(), 1.0 / steps as f64);
+                step(
+                    &mut solver,
+                    &mut state,
+                    &Scene::default(),
+                    1.0 / steps as f64,
+                );
             }
-            (0..8).flat_map(|s| solver.points(&state, s)).collect::<Vec<DVec3>>()
+            (0..8)
+                .flat_map(|s| solver.points(&state, s))
+                .collect::<Vec<DVec3>>()
         });
-        let error = coarse.iter().zip(&fine).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max) / 0.3;
+        let error = coarse
+            .iter()
+            .zip(&fine)
+            .map(|(a, b)| (*a - *b).length())
+            .fold(0.0, f64::max)
+            / 0.3;
         println!("gamma {gamma}: {error:.1e} L");
         assert!(error <= 1e-4, "gamma {gamma}: {error}");
     }

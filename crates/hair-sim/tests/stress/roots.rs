@@ -22,7 +22,10 @@ fn run(name: &str, pose: impl Fn(usize) -> Pose, frames: usize) {
             fallbacks += step(&mut solver, &mut state, &scene, 1.0 / 24.0);
             check(&solver, &state, &rest, name);
         }
-        println!("{name}, gamma {gamma}: {fallbacks} fallbacks in {} steps", frames * 16);
+        println!(
+            "{name}, gamma {gamma}: {fallbacks} fallbacks in {} steps",
+            frames * 16
+        );
         // Then it comes to rest: nothing is left that turns by itself.
         let last = pose(frames - 1);
         let scene = Scene {
@@ -35,7 +38,10 @@ fn run(name: &str, pose: impl Fn(usize) -> Pose, frames: usize) {
         let before: Vec<DVec3> = (0..16).flat_map(|s| solver.points(&state, s)).collect();
         step(&mut solver, &mut state, &scene, 1.0 / 24.0);
         let after = (0..16).flat_map(|s| solver.points(&state, s));
-        let speed = before.iter().zip(after).map(|(a, b)| (*a - b).length() * 24.0);
+        let speed = before
+            .iter()
+            .zip(after)
+            .map(|(a, b)| (*a - b).length() * 24.0);
         let speed = speed.fold(0.0, f64::max);
         println!("   at the end {speed:.1e} m/s");
         assert!(speed < 0.02, "{name}, gamma {gamma}: {speed} m/s");
@@ -58,20 +64,40 @@ fn moved(translation: DVec3) -> Pose {
 
 #[test]
 fn a_jump_of_100_m_in_a_frame() {
-    run("jump", |i| moved(DVec3::X * if i < 5 { 0.0 } else { 100.0 }), 24);
+    run(
+        "jump",
+        |i| moved(DVec3::X * if i < 5 { 0.0 } else { 100.0 }),
+        24,
+    );
 }
 
 #[test]
 fn a_flip_in_a_frame() {
     let half = |i: usize| std::f64::consts::PI * f64::from(u8::from(i % 6 > 2));
-    run("flip about X", |i| turned(DQuat::from_rotation_x(half(i))), 24);
-    run("flip about Y", |i| turned(DQuat::from_rotation_y(half(i))), 24);
+    run(
+        "flip about X",
+        |i| turned(DQuat::from_rotation_x(half(i))),
+        24,
+    );
+    run(
+        "flip about Y",
+        |i| turned(DQuat::from_rotation_y(half(i))),
+        24,
+    );
 }
 
 #[test]
 fn a_spin_of_50_rad_a_second() {
-    run("spin", |i| turned(DQuat::from_rotation_y(i as f64 * 50.0 / 24.0)), 48);
-    run("tumble", |i| turned(DQuat::from_rotation_z(i as f64 * 50.0 / 24.0)), 48);
+    run(
+        "spin",
+        |i| turned(DQuat::from_rotation_y(i as f64 * 50.0 / 24.0)),
+        48,
+    );
+    run(
+        "tumble",
+        |i| turned(DQuat::from_rotation_z(i as f64 * 50.0 / 24.0)),
+        48,
+    );
 }
 
 #[test]

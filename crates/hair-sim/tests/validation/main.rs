@@ -1,6 +1,8 @@
 //! The solver against closed forms and reference solutions: the tests of Romero et al. 2021, *Physical validation
 //! of simulators in computer graphics*, and more.
 
+#![allow(clippy::print_stdout, reason = "tests show the figures that they hold")]
+
 mod drop;
 mod start;
 mod statics;
@@ -10,15 +12,15 @@ use glam::{DVec3, Vec3};
 use hair_sim::{Material, Natural, Params, Scene, Solver, State, Strands};
 
 /// Metres: the length of the strands of these tests.
-pub const LENGTH: f64 = 0.3;
+const LENGTH: f64 = 0.3;
 
 /// A straight strand of `n` links along +X from the origin.
-pub fn level(n: usize) -> Strands {
+fn level(n: usize) -> Strands {
     along(n, Vec3::X)
 }
 
 /// A straight strand of `n` links along `direction` from the origin.
-pub fn along(n: usize, direction: Vec3) -> Strands {
+fn along(n: usize, direction: Vec3) -> Strands {
     let points: Vec<Vec3> = (0..=n)
         .map(|i| direction * (LENGTH as f32 * i as f32 / n as f32))
         .collect();
@@ -28,7 +30,7 @@ pub fn along(n: usize, direction: Vec3) -> Strands {
 }
 
 /// Undamped, without air, straight by nature.
-pub fn bare(gamma: f64) -> Params {
+fn bare(gamma: f64) -> Params {
     Params {
         material: Material::from_gamma(gamma, LENGTH),
         natural: Natural::Styled,
@@ -39,12 +41,12 @@ pub fn bare(gamma: f64) -> Params {
 }
 
 /// The tip of the first strand, in lengths.
-pub fn tip(solver: &Solver, state: &State) -> DVec3 {
+fn tip(solver: &Solver, state: &State) -> DVec3 {
     solver.points(state, 0).last().unwrap() / LENGTH
 }
 
 /// Steps until nothing moves any more, by heavy damping; fails if that takes too long.
-pub fn settle(solver: &mut Solver, state: &mut State, scene: &Scene) {
+fn settle(solver: &mut Solver, state: &mut State, scene: &Scene) {
     let mut before: Vec<DVec3> = solver.points(state, 0).collect();
     for _ in 0..4000 {
         solver.step(state, scene, 0.25).unwrap();

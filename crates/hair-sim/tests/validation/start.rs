@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 use hair_sim::{GRAVITY, Material, Params, Scene, Solver, Strands};
 
 /// Curled strands of all kinds of stiffness that grow from a ball.
-pub fn style(n: usize) -> Strands {
+fn style(n: usize) -> Strands {
     let mut strands = Strands::new();
     for s in 0..24_u32 {
         let angle = s as f32 * 2.4;
@@ -29,7 +29,9 @@ fn a_style_starts_without_a_jolt_and_stays() {
             ..Params::default()
         };
         let (mut solver, mut state) = Solver::new(&style(20), &params).unwrap();
-        let start: Vec<Vec<DVec3>> = (0..24).map(|s| solver.points(&state, s).collect()).collect();
+        let start: Vec<Vec<DVec3>> = (0..24)
+            .map(|s| solver.points(&state, s).collect())
+            .collect();
         let dt = 1.0 / 24.0;
         let moved = |solver: &Solver, state: &_| {
             let mut most = 0.0_f64;
@@ -59,7 +61,11 @@ fn links_never_stretch() {
     let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
     for frame in 0..200 {
         let scene = Scene {
-            gravity: DVec3::new(f64::from(frame % 7) * 30.0, -GRAVITY, f64::from(frame % 3) * 50.0),
+            gravity: DVec3::new(
+                f64::from(frame % 7) * 30.0,
+                -GRAVITY,
+                f64::from(frame % 3) * 50.0,
+            ),
             ..Scene::default()
         };
         solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();

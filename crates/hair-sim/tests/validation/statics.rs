@@ -50,7 +50,9 @@ fn the_boundary_layer_converges_once_it_is_resolved() {
 #[test]
 fn a_curved_strand_leaves_its_plane_where_theory_says() {
     for line in include_str!("../data/bend_twist.csv").lines().skip(1) {
-        let v: Vec<f64> = (line.split(',')).map(|v| v.parse().unwrap_or(f64::NAN)).collect();
+        let v: Vec<f64> = (line.split(','))
+            .map(|v| v.parse().unwrap_or(f64::NAN))
+            .collect();
         let (phi, threshold) = (v[1] * std::f64::consts::PI, v[3]);
         if threshold.is_nan() {
             let away = out_of_plane(phi, 30.0, 600);
@@ -96,7 +98,9 @@ fn out_of_plane(phi: f64, gamma: f64, steps: usize) -> f64 {
     for _ in 0..steps {
         solver.step(&mut state, &scene, 0.1).unwrap();
     }
-    (solver.points(&state, 0)).map(|p| (p.dot(across) / LENGTH).abs()).fold(0.0, f64::max)
+    (solver.points(&state, 0))
+        .map(|p| (p.dot(across) / LENGTH).abs())
+        .fold(0.0, f64::max)
 }
 
 #[test]
