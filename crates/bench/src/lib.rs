@@ -2,7 +2,10 @@
 //! against that error.
 
 pub mod compare;
+pub mod dynamics;
 pub mod oracle;
+pub mod plot;
 pub mod results;
 pub mod strokes;
+pub mod targets;
 pub mod timing;

@@ -33,7 +33,7 @@ pub fn csv(suite: &str, comments: &[String], rows: &[Row]) -> String {
             .map_or(String::new(), |error| format!("{error:.3e}"));
         let _ = writeln!(
             text,
-            "{suite},{},{},{},{:.6},{error}",
+            "{suite},{},{},{},{:.9},{error}",
             row.scene, row.method, row.knob, row.seconds
         );
     }
@@ -117,8 +117,8 @@ mod tests {
         );
         let expected = "# error: none\n\
             suite,scene,method,knob,seconds,error\n\
-            strokes,ponytails,sweep,4,0.012500,5.000e-1\n\
-            strokes,ponytails,sweep,4,0.012500,\n";
+            strokes,ponytails,sweep,4,0.012500000,5.000e-1\n\
+            strokes,ponytails,sweep,4,0.012500000,\n";
         assert_eq!(text, expected);
     }
 

@@ -4,15 +4,15 @@
 pub mod contenders;
 pub mod order;
 pub mod outline;
-pub mod plot;
 pub mod scenes;
 pub mod stamping;
 pub mod targets;
 
 use crate::compare::{self, Difference};
-use crate::oracle;
 use crate::results::{self, Row};
+use crate::targets::Target;
 use crate::timing::{Effort, medians};
+use crate::{oracle, plot};
 use contenders::{Contender, Library, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order};
 use indicatif::ProgressBar;
 use render::Order;
@@ -20,7 +20,7 @@ use scenes::Scene;
 use stamping::Stamping;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use targets::{PATHS_ALONE, STAMPING, SWEEP, SWEEP_SHIFTED, Target, VELLO};
+use targets::{PATHS_ALONE, STAMPING, SWEEP, SWEEP_SHIFTED, VELLO};
 
 /// Most stamps an interval, times the source's.
 const MOST_STAMPS: usize = 13;
@@ -304,7 +304,11 @@ fn write(measured: &Measured, out: &Path) -> Result<(), String> {
         "strokes-errors.csv",
         &results::table(&measured.comments, columns, lines),
     )?;
-    save("strokes.svg", &plot::time_against_error(&measured.rows)?)
+    let errors = "mean error (linear light, 0 to 1)";
+    save(
+        "strokes.svg",
+        &plot::time_against_error(&measured.rows, errors)?,
+    )
 }
 
 /// What was set as a target and is not measured here.

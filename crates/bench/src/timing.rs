@@ -1,4 +1,4 @@
-//! Times that can be compared: medians of runs that take turns.
+//! Times that can be compared: of runs that take turns.
 
 use std::time::{Duration, Instant};
 
@@ -15,13 +15,38 @@ pub struct Effort {
 /// not counted.
 const TURN: usize = 3;
 
-/// The median time of each of `runs`, in seconds. They take turns, so that whatever else the machine
+/// The median time of each of `runs`, in seconds: see [`turns`].
+///
+/// # Errors
+///
+/// The first error of a run.
+pub fn medians<R, E>(runs: &mut [R], effort: Effort, done: impl FnMut()) -> Result<Vec<f64>, E>
+where
+    R: FnMut() -> Result<(), E>,
+{
+    Ok(turns(runs, effort, done)?.into_iter().map(median).collect())
+}
+
+/// The shortest time of each of `runs`, in seconds: see [`turns`].
+///
+/// # Errors
+///
+/// The first error of a run.
+pub fn shortest<R, E>(runs: &mut [R], effort: Effort, done: impl FnMut()) -> Result<Vec<f64>, E>
+where
+    R: FnMut() -> Result<(), E>,
+{
+    let least = |times: Vec<f64>| times.into_iter().fold(f64::INFINITY, f64::min);
+    Ok(turns(runs, effort, done)?.into_iter().map(least).collect())
+}
+
+/// The times of each of `runs`, in seconds. They take turns, so that whatever else the machine
 /// does meets all of them alike. `done` is called after each turn.
 ///
 /// # Errors
 ///
 /// The first error of a run.
-pub fn medians<R, E>(runs: &mut [R], effort: Effort, mut done: impl FnMut()) -> Result<Vec<f64>, E>
+fn turns<R, E>(runs: &mut [R], effort: Effort, mut done: impl FnMut()) -> Result<Vec<Vec<f64>>, E>
 where
     R: FnMut() -> Result<(), E>,
 {
@@ -46,7 +71,7 @@ where
             done();
         }
     }
-    Ok(times.into_iter().map(median).collect())
+    Ok(times)
 }
 
 fn median(mut times: Vec<f64>) -> f64 {
@@ -105,6 +130,22 @@ mod tests {
         let times = medians(&mut [run], effort, || ()).unwrap();
         assert!(times[0] >= 1e-3);
         assert_eq!(count, 1);
+    }
+
+    #[test]
+    fn the_shortest_is_no_longer_than_the_median() {
+        let effort = Effort {
+            rounds: 5,
+            each: Duration::from_secs(1),
+        };
+        let mut turn = 0;
+        let run = || {
+            turn += 1;
+            std::thread::sleep(Duration::from_millis(if turn % 5 == 0 { 1 } else { 20 }));
+            Ok::<(), ()>(())
+        };
+        let least = shortest(&mut [run], effort, || ()).unwrap()[0];
+        assert!((1e-3..20e-3).contains(&least), "{least}");
     }
 
     #[test]

@@ -1,10 +1,14 @@
 //! The head as hair sees it: a skin around a centre, by direction.
 
+use crate::trig::sin_cos_degrees;
 use glam::{Vec2, Vec3};
 
 /// Columns and rows of the table of radii: 3 degrees each.
 const COLUMNS: usize = 120;
 const ROWS: usize = 61;
+
+/// How far behind the skin a point may be to be pushed out of the body, head heights.
+const DEEPEST: f32 = 0.25;
 
 /// A place on the head: longitude from the face (0) to the character's left ear (90) and the back of
 /// the head (180), latitude from the chin side (-90) to the top (90), in degrees.
@@ -99,9 +103,13 @@ impl Shell {
         let Some((skin, normal)) = nearest else {
             return point;
         };
-        // In front of the skin's plane there is nothing to keep out of.
-        let height = (point - *skin).dot(*normal);
-        point + *normal * (gap * self.height - height).max(0.0)
+        // In front of the skin's plane there is nothing to keep out of; far behind it is another side.
+        let push = gap * self.height - (point - *skin).dot(*normal);
+        if (0.0..DEEPEST * self.height).contains(&push) {
+            point + *normal * push
+        } else {
+            point
+        }
     }
 
     /// How far a point lies above the skin, head heights, and the direction away from the centre.
@@ -113,6 +121,16 @@ impl Shell {
             (way.length() - self.radius(direction)) / self.height,
             direction,
         )
+    }
+
+    /// The place that a point lies above.
+    #[must_use]
+    pub fn place(&self, point: Vec3) -> Place {
+        let at = cell((point - self.center).normalize_or(Vec3::Y));
+        Place {
+            longitude: at.x * 360.0 / COLUMNS as f32,
+            latitude: at.y * 180.0 / (ROWS - 1) as f32 - 90.0,
+        }
     }
 
     /// The skin's distance in a direction (unit), metres.
@@ -173,22 +191,18 @@ pub fn direction(place: Place) -> Vec3 {
     Vec3::new(sin_lon * cos_lat, sin_lat, cos_lon * cos_lat)
 }
 
-/// Sine and cosine of degrees, the same bits on every platform.
-fn sin_cos_degrees(degrees: f32) -> (f32, f32) {
-    // Fold to [-45, 45] degrees, where short Taylor series are exact to f32.
-    let quarter = (f64::from(degrees) / 90.0).round();
-    let x = (f64::from(degrees) - quarter * 90.0) * (std::f64::consts::PI / 180.0);
-    let z = x * x;
-    let sin =
-        x * (1.0 + z * (-1.0 / 6.0 + z * (1.0 / 120.0 + z * (-1.0 / 5040.0 + z / 362_880.0))));
-    let cos = 1.0 + z * (-0.5 + z * (1.0 / 24.0 + z * (-1.0 / 720.0 + z / 40_320.0)));
-    let (sin, cos) = (sin as f32, cos as f32);
-    match quarter.rem_euclid(4.0) as u32 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
+/// The direction at share `t` of the great circle from one direction to another, evenly (within 1 %).
+pub(crate) fn between(mut from: Vec3, mut to: Vec3, mut t: f32) -> Vec3 {
+    // A chord runs evenly enough over short arcs: halve the arc three times.
+    for _ in 0..3 {
+        let middle = (from + to).normalize_or(from);
+        if t < 0.5 {
+            (to, t) = (middle, 2.0 * t);
+        } else {
+            (from, t) = (middle, 2.0 * t - 1.0);
+        }
     }
+    from.lerp(to, t).normalize_or(from)
 }
 
 /// Where in the table a direction lies, in cells. Angles only choose cells here, so a short
@@ -317,6 +331,17 @@ mod tests {
                 let (lift, _) = shell.lift_of(shell.above(direction(place), 0.05));
                 assert!((lift - 0.05).abs() < 1e-4);
             }
+        }
+    }
+
+    #[test]
+    fn great_circles_run_evenly() {
+        let (from, to) = (Vec3::X, Vec3::new(-0.9, 0.1, 0.3).normalize());
+        let angle = from.dot(to).acos();
+        for step in 0..=20 {
+            let t = step as f32 / 20.0;
+            let found = from.dot(between(from, to, t)).clamp(-1.0, 1.0).acos();
+            assert!((found - t * angle).abs() < 0.012 * angle, "{t}: {found}");
         }
     }
 

@@ -26,9 +26,21 @@ pub(crate) fn melt(a: f32, b: f32, fillet: f32) -> f32 {
     b + (a - b) * h - fillet * h * (1.0 - h)
 }
 
-/// The gradient of a distance, by central differences over 0.2 mm.
-pub(crate) fn gradient(distance: impl Fn(Vec3) -> f32, p: Vec3) -> Vec3 {
-    let step = 1e-4;
+/// What is in both solids, with edges rounded about `fillet` wide.
+pub(crate) fn common(a: f32, b: f32, fillet: f32) -> f32 {
+    -melt(-a, -b, fillet)
+}
+
+/// A bump of height 1 that ends in a circle of radius 1 around the origin, by the square of the
+/// distance to it.
+pub(crate) fn bump(squared: f32) -> f32 {
+    let left = (1.0 - squared).max(0.0);
+    left * left
+}
+
+/// The gradient of a distance, by central differences `step` to each side: details smaller than that
+/// do not count.
+pub(crate) fn gradient(distance: impl Fn(Vec3) -> f32, p: Vec3, step: f32) -> Vec3 {
     let along = |axis: Vec3| (distance(p + axis * step) - distance(p - axis * step)) / (2.0 * step);
     Vec3::new(along(Vec3::X), along(Vec3::Y), along(Vec3::Z))
 }
@@ -57,12 +69,14 @@ mod tests {
             assert!((melt(a, b, 0.1) - melt(b, a, 0.1)).abs() < 1e-6);
         }
         assert_eq!(melt(0.0, 1.0, 0.1), 0.0, "far apart nothing changes");
+        assert_eq!(common(0.0, 1.0, 0.1), 1.0);
+        assert!(common(0.3, 0.3, 0.1) > 0.3, "edges are taken off");
     }
 
     #[test]
     fn gradients_point_outwards() {
         let sphere = |p: Vec3| ellipsoid(p, Vec3::ZERO, Vec3::ONE);
         let at = Vec3::new(0.6, 0.8, 0.0);
-        assert!((gradient(sphere, at) - at).length() < 1e-2);
+        assert!((gradient(sphere, at, 1e-4) - at).length() < 1e-2);
     }
 }

@@ -1,11 +1,10 @@
 //! Hair and head files in, plain strands and meshes out: Y up, metres.
 //!
 //! [`read_hair`] and [`read_head`] choose the reader, settle axes and units ([`orient`]) and say what
-//! they guessed. [`tfx`], [`strands_ron`] and [`obj`] are the formats; [`guides`] thins a dense
-//! groom; [`HeadFrame`] is where the head is and how large.
+//! they guessed. [`tfx`], [`strands_ron`] and [`obj`] are the formats; [`HeadFrame`] is where the head
+//! is and how large.
 
 mod file;
-pub mod guides;
 mod head;
 mod mesh;
 mod nearest;

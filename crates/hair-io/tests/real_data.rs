@@ -4,7 +4,6 @@
 use std::path::{Path, PathBuf};
 
 use glam::Vec3;
-use hair_io::guides::{covering_radius, spacing, spread_evenly};
 use hair_io::orient::{self, Axes, Given};
 use hair_io::{HairError, HairFile, HairOptions, HeadFile, HeadFrame, read_hair, read_head, tfx};
 use hair_sim::Strands;
@@ -186,28 +185,6 @@ fn the_mohawk_and_blenders_strands_are_read_the_right_way_up() {
     let (found, note) = orient::hair(&strands, None, &Given::default());
     eprintln!("blender: {note}");
     assert_eq!((found.up, found.scale), (Axes::Z, 1.0), "{note}");
-}
-
-#[test]
-fn guides_cover_the_scalp() {
-    let Some(data) = data() else { return };
-    let mut file = hair(&data, DENSE, None);
-    let all = roots(&file.strands);
-    let started = std::time::Instant::now();
-    let kept = spread_evenly(&all, 200);
-    let (spread, spaced) = (started.elapsed(), spacing(&all));
-    eprintln!(
-        "11,400 roots: spread_evenly(200) {spread:?}, spacing {:?}",
-        started.elapsed() - spread
-    );
-    let gap = covering_radius(&all, &kept);
-    eprintln!("200 of 11,400 roots leave gaps of {gap} m");
-    // 200 discs of this radius have about 1.2 to 2.5 times the area of the scalp (0.06 m^2).
-    assert!((0.009..0.016).contains(&gap), "{gap}");
-    assert!(spaced.iter().all(|s| *s < 0.02));
-    file.keep(&kept);
-    assert_eq!(file.strands.len(), 200);
-    assert!((0..200).all(|i| file.strands.id(i) as usize == kept[i]));
 }
 
 #[test]

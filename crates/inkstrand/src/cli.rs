@@ -43,6 +43,12 @@ Examples:
   inkstrand render look.ron --hair groom.tfx --head head.obj --guides 150
       this look on another groom, of which 150 strands are drawn";
 
+const SIMULATE_EXAMPLES: &str = "\
+Examples:
+  inkstrand simulate look.ron --motion walk.motion.ron --frames 0-95 -o walk.strands.ron
+  inkstrand render look.ron --motion walk.motion.ron --bake walk.strands.ron --frames 0-95
+      the pictures of `render` without --bake, and no time spent on simulation";
+
 const EFFECTS_JSON: &str = "\
 --json writes an object {version, sections, effects}; with NAME, that section or effect alone:
   section    {id, meaning, parameters}; \"preset\" is what stands beside the sections, \"layers\" what
@@ -93,17 +99,9 @@ pub(crate) enum Command {
         #[arg(value_name = "NAME.ron")]
         file: PathBuf,
     },
-    /// Bake the strands of a sequence (not built yet)
-    Simulate {
-        /// The preset
-        preset: PathBuf,
-        /// The bake to write
-        #[arg(short, long)]
-        output: PathBuf,
-        /// Frames A-B
-        #[arg(long, value_name = "A-B")]
-        frames: Option<String>,
-    },
+    /// Simulate a sequence's strands once, for `render --bake`
+    #[command(after_help = SIMULATE_EXAMPLES)]
+    Simulate(Box<SimulateOptions>),
     /// Convert between hair formats (not built yet)
     Convert {
         /// File to read
@@ -122,17 +120,12 @@ pub(crate) struct RenderOptions {
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
 
-    /// Hair in place of the preset's: .tfx, .strands.ron or .style.ron
-    #[arg(long, value_name = "FILE")]
-    pub hair: Option<PathBuf>,
+    #[command(flatten)]
+    pub scene: SceneOptions,
 
-    /// Head in place of the preset's: .obj
+    /// Motion of this hair that `inkstrand simulate` has written
     #[arg(long, value_name = "FILE")]
-    pub head: Option<PathBuf>,
-
-    /// Strands to keep, spread evenly over the scalp, the same ones every time; 0 keeps all [default: the preset's]
-    #[arg(long, value_name = "N")]
-    pub guides: Option<u32>,
+    pub bake: Option<PathBuf>,
 
     /// Frames to draw, first and last, at the preset's frame rate (fps)
     #[arg(long, value_name = "A-B", conflicts_with = "time", value_parser = parse_frames)]
@@ -166,10 +159,6 @@ pub(crate) struct RenderOptions {
     #[arg(long, value_name = "none|RRGGBB")]
     pub background: Option<String>,
 
-    /// Set a parameter of a layer (by its name) or section, such as hair.silhouette.width=3 or clump.size=1.2 (repeatable)
-    #[arg(long, value_name = "LAYER.PARAM=VALUE")]
-    pub set: Vec<String>,
-
     /// Draw only this layer (repeatable)
     #[arg(long, value_name = "LAYER")]
     pub only: Vec<String>,
@@ -185,6 +174,51 @@ pub(crate) struct RenderOptions {
     /// Say nothing but errors
     #[arg(long)]
     pub quiet: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct SimulateOptions {
+    /// The preset, a .ron file
+    pub preset: PathBuf,
+
+    /// Bake to write, .strands.ron
+    #[arg(short, long, value_name = "PATH")]
+    pub output: PathBuf,
+
+    #[command(flatten)]
+    pub scene: SceneOptions,
+
+    /// Frames to bake, first and last, at the preset's frame rate (fps)
+    #[arg(long, value_name = "A-B", default_value = "0-47", value_parser = parse_frames)]
+    pub frames: (u32, u32),
+
+    /// Say nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// What is in a scene, in place of the preset's.
+#[derive(Args)]
+pub(crate) struct SceneOptions {
+    /// Hair in place of the preset's: .tfx, .strands.ron or .style.ron
+    #[arg(long, value_name = "FILE")]
+    pub hair: Option<PathBuf>,
+
+    /// Head in place of the preset's: .obj
+    #[arg(long, value_name = "FILE")]
+    pub head: Option<PathBuf>,
+
+    /// How the head moves and the wind blows, in place of the preset's: .motion.ron
+    #[arg(long, value_name = "FILE")]
+    pub motion: Option<PathBuf>,
+
+    /// Strands to keep, those that stand best for all, the same ones every time; 0 keeps all [default: the preset's]
+    #[arg(long, value_name = "N")]
+    pub guides: Option<u32>,
+
+    /// Set a parameter of a layer (by its name) or section, such as hair.silhouette.width=3 or clump.size=1.2 (repeatable)
+    #[arg(long, value_name = "LAYER.PARAM=VALUE")]
+    pub set: Vec<String>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -4,12 +4,15 @@ mod check;
 mod effects;
 mod new;
 mod render;
+mod scene;
 mod schema;
+mod simulate;
 
 pub(crate) use check::check;
 pub(crate) use effects::effects;
 pub(crate) use new::new;
 pub(crate) use render::render;
+pub(crate) use simulate::simulate;
 
 use ::effects::preset::PresetErrors;
 use std::path::{Path, PathBuf};

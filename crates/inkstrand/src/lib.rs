@@ -57,7 +57,7 @@ pub fn run(registry: &Registry) -> ExitCode {
         cli::Command::Check { presets } => commands::check(presets, registry),
         cli::Command::Effects { name, json } => commands::effects(name.as_deref(), *json, registry),
         cli::Command::New { file } => commands::new(file),
-        cli::Command::Simulate { .. } => Err(not_built("`simulate`")),
+        cli::Command::Simulate(options) => commands::simulate(options, registry),
         cli::Command::Convert { .. } => Err(not_built("`convert`")),
     };
     match done {

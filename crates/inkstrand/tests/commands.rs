@@ -10,6 +10,9 @@ use tempfile::TempDir;
 const STRANDS: &str = "(version: 1, strands: [
     (size: 30.0, mirror: true, points: [(0.03, 0.1, 0.0), (0.1, 0.1, 0.02), (0.13, -0.1, 0.03)]),
 ])";
+const BAKE: &str = "(version: 1, strands: [
+    (size: 30.0, mirror: true, points: [(0.03, 0.1, 0.0), (0.1, 0.1, 0.02), (0.13, -0.1, 0.03)]),
+], motion: [(time: 0, strands: [[(0.03, 0.1, 0.0), (0.1, 0.1, 0.02), (0.13, -0.1, 0.03)]])])";
 const PRESET: &str = "(
     version: 1,
     hair: (file: \"small.strands.ron\"),
@@ -21,18 +24,6 @@ const HEAD: &str = "v -0.1 -0.1 0\nv 0.1 -0.1 0\nv 0 0.1 0.05\nv 0 0 -0.1\n\
 
 /// Commands and options whose part is still to be built, with a command line for each.
 const NOT_BUILT: &[(&str, &[&str])] = &[
-    (
-        "simulate PRESET",
-        &["simulate", "small.ron", "-o", "bake.bin"],
-    ),
-    (
-        "simulate --output",
-        &["simulate", "small.ron", "--output", "bake.bin"],
-    ),
-    (
-        "simulate --frames",
-        &["simulate", "small.ron", "-o", "bake.bin", "--frames", "0-3"],
-    ),
     (
         "convert INPUT",
         &["convert", "small.strands.ron", "out.tfx"],
@@ -53,6 +44,88 @@ const BUILT: &[(&str, &[&str])] = &[
     ("effects NAME", &["effects", "hair.base"]),
     ("effects --json", &["effects", "--json"]),
     ("new NAME.ron", &["new", "fresh.ron"]),
+    (
+        "simulate PRESET",
+        &["simulate", "small.ron", "-o", "bake.strands.ron"],
+    ),
+    (
+        "simulate --output",
+        &["simulate", "small.ron", "--output", "bake.strands.ron"],
+    ),
+    (
+        "simulate --frames",
+        &[
+            "simulate",
+            "small.ron",
+            "-o",
+            "bake.strands.ron",
+            "--frames",
+            "0-3",
+        ],
+    ),
+    (
+        "simulate --hair",
+        &[
+            "simulate",
+            "small.ron",
+            "-o",
+            "bake.strands.ron",
+            "--hair",
+            "small.strands.ron",
+        ],
+    ),
+    (
+        "simulate --head",
+        &[
+            "simulate",
+            "small.ron",
+            "-o",
+            "bake.strands.ron",
+            "--head",
+            "head.obj",
+        ],
+    ),
+    (
+        "simulate --motion",
+        &[
+            "simulate",
+            "small.ron",
+            "-o",
+            "bake.strands.ron",
+            "--motion",
+            "turn.motion.ron",
+        ],
+    ),
+    (
+        "simulate --guides",
+        &[
+            "simulate",
+            "small.ron",
+            "-o",
+            "bake.strands.ron",
+            "--guides",
+            "1",
+        ],
+    ),
+    (
+        "simulate --set",
+        &[
+            "simulate",
+            "small.ron",
+            "-o",
+            "bake.strands.ron",
+            "--set",
+            "clump.size=2",
+        ],
+    ),
+    (
+        "simulate --quiet",
+        &["simulate", "small.ron", "-o", "bake.strands.ron", "--quiet"],
+    ),
+    (
+        "render --bake",
+        &["render", "small.ron", "--bake", "still.strands.ron"],
+    ),
     ("render PRESET", &["render", "small.ron"]),
     (
         "render --output",
@@ -65,6 +138,10 @@ const BUILT: &[(&str, &[&str])] = &[
     (
         "render --head",
         &["render", "small.ron", "--head", "head.obj"],
+    ),
+    (
+        "render --motion",
+        &["render", "small.ron", "--motion", "turn.motion.ron"],
     ),
     ("render --guides", &["render", "small.ron", "--guides", "1"]),
     (
@@ -121,7 +198,9 @@ fn folder() -> TempDir {
     for (name, text) in [
         ("small.strands.ron", STRANDS),
         ("small.ron", PRESET),
+        ("still.strands.ron", BAKE),
         ("head.obj", HEAD),
+        ("turn.motion.ron", "(version: 1, moves: [(move: turn)])"),
     ] {
         fs::write(folder.path().join(name), text).unwrap();
     }

@@ -6,7 +6,7 @@ use effects::{Param, ParamKind, Registry, Values};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
-use stage::{Preset, SECTIONS};
+use stage::{MOTION_PARTS, Preset, SECTIONS, STYLE_PARTS};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -38,6 +38,15 @@ fn effects_and_sections_are_listed() {
         "clump",
         "camera",
         "layers",
+        "style",
+        "zones",
+        "edits",
+        "strands",
+        "motion",
+        "script",
+        "moves",
+        "keys",
+        "winds",
     ] {
         all = contains(format!("\n{name} ")).count(1);
         effects(&[]).assert().success().stdout(all);
@@ -62,7 +71,16 @@ fn one_effect_or_section_is_described() {
         .assert()
         .success()
         .stdout(contains("rank: a whole number").and(contains("default the effect's own")));
-    for (wrong, right) in [("hair.silhuette", "hair.silhouette"), ("camrea", "camera")] {
+    effects(&["zones"])
+        .assert()
+        .success()
+        .stdout(contains("roots: places").and(contains("hairline(FROM, TO)")))
+        .stdout(contains("form: one of rows, tail, bun, braid"));
+    for (wrong, right) in [
+        ("hair.silhuette", "hair.silhouette"),
+        ("camrea", "camera"),
+        ("zone", "zones"),
+    ] {
         effects(&[wrong])
             .assert()
             .code(2)
@@ -171,6 +189,17 @@ fn the_schema_is_the_tables() {
             effect.depth_offset()
         );
         assert_is_table(value, effect.params());
+    }
+    let parts = |name: &str| schema[name].as_array().unwrap();
+    assert_eq!(parts("style").len(), STYLE_PARTS.len());
+    assert_eq!(parts("motion").len(), MOTION_PARTS.len());
+    let listed = parts("style").iter().chain(parts("motion"));
+    for (value, part) in listed.zip(STYLE_PARTS.iter().chain(MOTION_PARTS)) {
+        let parameters = value["parameters"].as_array().unwrap();
+        let (table, places) = parameters.split_at(part.table.len());
+        assert_is_table(&json!({ "parameters": table }), part.table);
+        let names = places.iter().map(|place| place["name"].as_str().unwrap());
+        assert!(names.eq(part.places.iter().map(|(name, _)| *name)));
     }
 }
 

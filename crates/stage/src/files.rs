@@ -11,6 +11,10 @@ pub struct Files {
     pub hair: Option<PathBuf>,
     /// Head, relative to the current folder.
     pub head: Option<PathBuf>,
+    /// Baked motion of the hair, relative to the current folder.
+    pub bake: Option<PathBuf>,
+    /// A motion script, relative to the current folder.
+    pub motion: Option<PathBuf>,
 }
 
 /// Why there is no frame.
@@ -27,7 +31,7 @@ pub enum StageError {
     /// A style grows on a head.
     #[error("{}: a style needs a head to grow on: --head FILE, or head: (shape: bust) in the preset", .0.display())]
     NoHead(PathBuf),
-    /// A style cannot be read.
+    /// A style or motion script cannot be read.
     #[error("{}: {source}", path.display())]
     Read {
         /// The file.
@@ -35,15 +39,32 @@ pub enum StageError {
         /// Why.
         source: std::io::Error,
     },
-    /// A style has mistakes.
+    /// A style or motion script has mistakes.
     #[error(transparent)]
-    Style(#[from] effects::preset::PresetErrors),
+    Mistakes(#[from] effects::preset::PresetErrors),
+    /// A strand cannot be simulated.
+    #[error("dynamics: {0}")]
+    Strand(#[from] hair_sim::StrandError),
+    /// The simulation refuses its parameters or a step.
+    #[error("dynamics: {0}")]
+    Dynamics(#[from] hair_sim::DynamicsError),
     /// A layer measures the distance to the light.
     #[error(
         "layer `{0}` goes by the distance to the light, and this light has no place: \
          light: (kind: point, distance: ...)"
     )]
     NoPointLight(String),
+    /// A file is no bake of the scene's hair.
+    #[error("{}: it is not a bake of this hair: {what}", path.display())]
+    OtherHair {
+        /// The file.
+        path: PathBuf,
+        /// Where it differs.
+        what: String,
+    },
+    /// Frames that make no motion.
+    #[error("bake: {0}")]
+    Bake(hair_sim::MotionError),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),

@@ -1,18 +1,35 @@
 //! The head on the screen: two flat tones and an outline.
 
 use glam::{Vec2, Vec3};
-use groom::{Ink, Patch};
+use groom::{Ink, Patch, Tie};
 use hair_io::Mesh;
 use render::{Light, Surface, SurfaceVertex};
+use std::iter::repeat;
 use stroke_path::Camera;
 
 /// A head's shape, and what is drawn on it.
+#[derive(Clone)]
 pub(crate) struct HeadModel {
     pub mesh: Mesh,
-    pub face: Vec<Patch>,
+    /// Shadow whatever the light, one a position, 0 to 1; empty is none.
+    pub shade: Vec<f32>,
+    pub patches: Vec<Patch>,
+    /// The bands that gather the hair on it.
+    pub ties: Mesh,
 }
 
 impl HeadModel {
+    /// Puts bands into the hair on it.
+    pub(crate) fn add_ties(&mut self, ties: &[Tie]) {
+        for ring in ties.iter().map(Tie::ring) {
+            let first = self.ties.positions.len() as u32;
+            self.ties.positions.extend(ring.positions);
+            self.ties.normals.extend(ring.normals);
+            let triangles = ring.triangles.iter().map(|t| t.map(|i| first + i));
+            self.ties.triangles.extend(triangles);
+        }
+    }
+
     /// The bust that comes with inkstrand.
     pub(crate) fn bust() -> Self {
         let bust = groom::bust();
@@ -23,15 +40,29 @@ impl HeadModel {
         };
         Self {
             mesh,
-            face: bust.face,
+            shade: bust.shade,
+            patches: bust.patches,
+            ties: no_mesh(),
         }
     }
 }
 
 impl From<Mesh> for HeadModel {
     fn from(mesh: Mesh) -> Self {
-        let face = Vec::new();
-        Self { mesh, face }
+        Self {
+            mesh,
+            shade: Vec::new(),
+            patches: Vec::new(),
+            ties: no_mesh(),
+        }
+    }
+}
+
+fn no_mesh() -> Mesh {
+    Mesh {
+        positions: Vec::new(),
+        normals: Vec::new(),
+        triangles: Vec::new(),
     }
 }
 
@@ -43,6 +74,8 @@ pub(crate) struct HeadPaint {
     pub line: [f32; 3],
     pub iris: [f32; 3],
     pub iris_shadow: [f32; 3],
+    pub tie: [f32; 3],
+    pub tie_shadow: [f32; 3],
     /// Width of the outline in metres; 0 is none.
     pub width_m: f32,
     /// How much nearer than the head's inside hair must be to be seen through an opening, metres.
@@ -72,28 +105,39 @@ struct Corner {
     tone: f32,
 }
 
+/// How much nearer than a band hair must be to hide it, metres: next to nothing.
+const BAND_MARGIN_M: f32 = 1e-5;
+
 /// Which way a triangle must face to be taken.
 #[derive(Clone, Copy, PartialEq)]
 enum Facing {
     Front,
     Back,
-    Any,
 }
 
-/// What the camera sees of the head: its outside, its inside through openings, its outline, its face.
+/// What the camera sees of the head: its outside, its inside through openings, its outline, what is drawn
+/// on it.
 pub(crate) fn surfaces(
-    HeadModel { mesh, face }: &HeadModel,
+    model: &HeadModel,
     paint: &HeadPaint,
     camera: &Camera,
     light: &Light,
 ) -> Vec<Surface> {
+    let HeadModel {
+        mesh,
+        shade,
+        patches,
+        ties,
+    } = model;
+    let shade = shade.iter().copied().chain(repeat(0.0));
     let corners: Vec<Corner> = mesh
         .positions
         .iter()
         .zip(&mesh.normals)
-        .map(|(position, normal)| Corner {
+        .zip(shade)
+        .map(|((position, normal), shade)| Corner {
             view: camera.view_from_world(*position),
-            tone: normal.dot(light.seen_from(*position).0) - paint.threshold,
+            tone: normal.dot(light.seen_from(*position).0) - paint.threshold - shade,
         })
         .collect();
     let mut surfaces = vec![
@@ -118,29 +162,15 @@ pub(crate) fn surfaces(
         },
     ];
     if paint.width_m > 0.0 {
-        // The inside of a slightly larger head, seen around the edges of the head itself.
-        let hull: Vec<Corner> = mesh
-            .positions
-            .iter()
-            .zip(&mesh.normals)
-            .map(|(position, normal)| Corner {
-                view: camera.view_from_world(*position + *normal * paint.width_m),
-                tone: 0.0,
-            })
-            .collect();
         surfaces.push(Surface {
             margin_m: -paint.outline_margin_m,
-            ..surface(
-                camera,
-                &mesh.triangles,
-                &hull,
-                Facing::Back,
-                paint.line,
-                paint.line,
-            )
+            ..outline(mesh, paint, camera)
         });
     }
-    surfaces.extend(face.iter().map(|patch| {
+    if !ties.triangles.is_empty() {
+        surfaces.extend(bands(ties, paint, camera, light));
+    }
+    surfaces.extend(patches.iter().map(|patch| {
         let corner = |position: &Vec3| Corner {
             view: camera.view_from_world(*position),
             tone: 0.0,
@@ -148,9 +178,53 @@ pub(crate) fn surfaces(
         let corners: Vec<Corner> = patch.positions.iter().map(corner).collect();
         let color = paint.of(patch.ink);
         let triangles = &patch.triangles;
-        surface(camera, triangles, &corners, Facing::Any, color, color)
+        surface(camera, triangles, &corners, Facing::Front, color, color)
     }));
     surfaces
+}
+
+/// The inside of a slightly larger mesh, seen around the edges of the mesh itself.
+fn outline(mesh: &Mesh, paint: &HeadPaint, camera: &Camera) -> Surface {
+    let hull: Vec<Corner> = mesh
+        .positions
+        .iter()
+        .zip(&mesh.normals)
+        .map(|(position, normal)| Corner {
+            view: camera.view_from_world(*position + *normal * paint.width_m),
+            tone: 0.0,
+        })
+        .collect();
+    let (back, line) = (Facing::Back, paint.line);
+    surface(camera, &mesh.triangles, &hull, back, line, line)
+}
+
+/// The bands in the hair. Hair goes by its depth alone here: what is in a band does not hide it.
+fn bands(ties: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> Vec<Surface> {
+    let corners: Vec<Corner> = ties
+        .positions
+        .iter()
+        .zip(&ties.normals)
+        .map(|(position, normal)| Corner {
+            view: camera.view_from_world(*position),
+            tone: normal.dot(light.seen_from(*position).0) - paint.threshold,
+        })
+        .collect();
+    let front = surface(
+        camera,
+        &ties.triangles,
+        &corners,
+        Facing::Front,
+        paint.tie,
+        paint.tie_shadow,
+    );
+    let mut bands = vec![front];
+    if paint.width_m > 0.0 {
+        bands.push(outline(ties, paint, camera));
+    }
+    for band in &mut bands {
+        band.margin_m = BAND_MARGIN_M;
+    }
+    bands
 }
 
 /// The triangles that face this way, cut at the near plane.
@@ -182,7 +256,7 @@ fn surface(
     let mut entered = vec![u32::MAX; corners.len()];
     for triangle in triangles {
         let seen = triangle.map(|i| corners[i as usize]);
-        if facing != Facing::Any && faces(&seen) != facing {
+        if faces(&seen) != facing {
             continue;
         }
         let first = surface.vertices.len();
@@ -290,6 +364,8 @@ mod tests {
         line: [0.0; 3],
         iris: [0.2; 3],
         iris_shadow: [0.1; 3],
+        tie: [0.2, 0.4, 0.6],
+        tie_shadow: [0.1, 0.2, 0.3],
         width_m: 0.01,
         inside_margin_m: 0.05,
         outline_margin_m: 0.01,
@@ -314,6 +390,15 @@ mod tests {
         assert_eq!(behind[1].triangles.len(), 1);
         assert_eq!(behind[1].light, PAINT.shadow);
         assert_eq!(behind[2].triangles.len(), 1);
+    }
+
+    #[test]
+    fn shade_is_dark_in_full_light() {
+        let mut model = HeadModel::from(plate());
+        model.shade = vec![0.0, 0.0, 1.0];
+        let seen = surfaces(&model, &PAINT, &camera(0.0), &Light::Direction(Vec3::Z));
+        let tones = seen[0].vertices.iter().map(|vertex| vertex.tone > 0.0);
+        assert_eq!(tones.collect::<Vec<_>>(), [true, true, false]);
     }
 
     #[test]

@@ -1,14 +1,23 @@
 //! A scene (hair, head, camera, light, style, time) to a frame: the only place where simulation meets
 //! strokes.
 
+mod bake;
+mod dynamics;
 mod files;
 mod head;
 mod load;
+mod motion;
+mod neck;
+mod part;
 mod preset;
 mod scene;
 mod style;
 
+pub use bake::Bake;
+pub use dynamics::DYNAMICS;
 pub use files::{Files, StageError};
-pub use preset::{CAMERA, HAIR, HEAD, LIGHT, PATH, Preset, SCENE, SECTIONS, VERSION};
+pub use motion::MOTION_PARTS;
+pub use part::FilePart;
+pub use preset::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, Preset, SCENE, SECTIONS, VERSION};
 pub use scene::Stage;
-pub use style::ZONE;
+pub use style::STYLE_PARTS;

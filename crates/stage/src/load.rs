@@ -1,19 +1,17 @@
 //! The preset's files: hair and head in, strands with their sizes out.
 
+use crate::bake;
 use crate::files::{Files, StageError};
 use crate::head::HeadModel;
+use crate::motion::{self, MotionScript};
 use crate::preset::Preset;
 use crate::style;
 use glam::Vec3;
+use groom::{Guides, Tie};
 use hair_io::orient::Axes;
 use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
 use render::{Head, StrandInfo};
 use std::path::{Path, PathBuf};
-
-/// Radius of a clump in units of the spacing of the roots: neighbours overlap and hide the scalp.
-const RADIUS_IN_SPACINGS: f32 = 0.75;
-/// The largest radius that is taken from the spacing of roots, head heights.
-const LARGEST_RADIUS: f32 = 0.12;
 
 fn axes(choice: u32) -> Option<Axes> {
     [None, Some(Axes::Y), Some(Axes::Z)][choice as usize]
@@ -76,13 +74,32 @@ fn is_inside_out(mesh: &Mesh) -> bool {
     volume < 0.0
 }
 
+/// Hair that was read or grown.
+pub(crate) struct Hair {
+    pub file: HairFile,
+    /// How many points from its root each strand keeps on the head.
+    pub held: Vec<u32>,
+    /// The ties that gather it.
+    pub ties: Vec<Tie>,
+    /// The head that it stands on.
+    pub head: Head,
+}
+
+impl Hair {
+    /// Keeps these strands, in this order.
+    pub fn keep(&mut self, indices: &[usize]) {
+        self.file.keep(indices);
+        self.held = indices.iter().map(|&i| self.held[i]).collect();
+    }
+}
+
 /// All strands of the hair, sorted by id.
 pub(crate) fn hair(
     preset: &Preset,
     files: &Files,
     head: Option<&Mesh>,
     notes: &mut Vec<String>,
-) -> Result<HairFile, StageError> {
+) -> Result<Hair, StageError> {
     let values = &preset.hair;
     let path = chosen(
         files.hair.as_ref(),
@@ -92,7 +109,7 @@ pub(crate) fn hair(
     .ok_or(StageError::NoHair)?;
     if path.to_string_lossy().ends_with(".style.ron") {
         let mut hair = grow(&path, head)?;
-        notes.append(&mut hair.notes);
+        notes.append(&mut hair.file.notes);
         return Ok(hair);
     }
     let given = hair_io::orient::Given {
@@ -105,87 +122,100 @@ pub(crate) fn hair(
     let mut by_id: Vec<usize> = (0..hair.strands.len()).collect();
     by_id.sort_by_key(|&i| hair.strands.id(i));
     hair.keep(&by_id);
-    Ok(hair)
+    // Before strands are chosen: how many are kept moves neither the camera nor any size.
+    let roots: Vec<Vec3> = hair.strands.roots().collect();
+    Ok(Hair {
+        held: vec![1; hair.strands.len()],
+        file: hair,
+        ties: Vec::new(),
+        head: head_of(HeadFrame::find(head, &roots)),
+    })
 }
 
-/// Keeps as many strands as the preset asks for, evenly over the scalp.
-pub(crate) fn keep_guides(preset: &Preset, hair: &mut HairFile) {
-    let guides = preset.hair.integer("guides").unsigned_abs() as usize;
-    if guides > 0 {
-        let roots: Vec<Vec3> = hair.strands.roots().collect();
-        hair.keep(&hair_io::guides::spread_evenly(&roots, guides));
+fn head_of(frame: HeadFrame) -> Head {
+    Head {
+        center: frame.center,
+        height_m: frame.height,
     }
 }
 
+/// Puts baked motion in place of the hair's own, where there is a bake.
+pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<(), StageError> {
+    let own = preset.hair.text("bake");
+    if let Some(path) = chosen(files.bake.as_ref(), own, &files.preset_folder) {
+        hair.file.motion = Some(bake::read(&path, hair)?);
+    }
+    Ok(())
+}
+
+/// The motion script, if any.
+pub(crate) fn motion(preset: &Preset, files: &Files) -> Result<MotionScript, StageError> {
+    let own = preset.motion.text("file");
+    let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) else {
+        return Ok(MotionScript::default());
+    };
+    let text = std::fs::read_to_string(&path).map_err(|source| StageError::Read {
+        path: path.clone(),
+        source,
+    })?;
+    Ok(motion::parse(&path.display().to_string(), &text)?)
+}
+
+/// Keeps as many strands as the preset asks for, and says what size each is: its own, the preset's, or
+/// from the strands it stands for.
+pub(crate) fn keep_guides(preset: &Preset, hair: &mut Hair) -> Vec<StrandInfo> {
+    let strands = &hair.file.strands;
+    let guides = match preset.hair.integer("guides") {
+        0 => Guides::choose(strands, strands.len()),
+        n => Guides::choose(strands, n.unsigned_abs() as usize),
+    };
+    let set = Some(preset.hair.number("size")).filter(|size| *size > 0.0);
+    let given = |i: usize| strands.size(i).or(set);
+    let sizes = if guides.kept.iter().all(|&i| given(i).is_some()) {
+        vec![0.0; guides.kept.len()]
+    } else {
+        guides.sizes(strands, hair.head.height_m)
+    };
+    let infos = guides.kept.iter().zip(sizes).map(|(&i, size)| StrandInfo {
+        id: strands.id(i),
+        mean: Vec3::ZERO,
+        size: given(i).unwrap_or(size),
+    });
+    let infos = infos.collect();
+    hair.keep(&guides.kept);
+    infos
+}
+
 /// The hair of a style, grown on the head.
-fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairFile, StageError> {
-    let head = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
+fn grow(path: &Path, head: Option<&Mesh>) -> Result<Hair, StageError> {
+    let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
     let text = std::fs::read_to_string(path).map_err(|source| StageError::Read {
         path: path.to_owned(),
         source,
     })?;
     let style = style::parse(&path.display().to_string(), &text)?;
-    let frame = HeadFrame::find(Some(head), &[]);
+    // The mesh alone: the hair that grows on a head must not change its size.
+    let head = head_of(HeadFrame::find(Some(mesh), &[]));
     let shell = groom::Shell::new(
-        &head.positions,
-        &head.normals,
-        &head.triangles,
-        frame.center,
-        frame.height,
+        &mesh.positions,
+        &mesh.normals,
+        &mesh.triangles,
+        head.center,
+        head.height_m,
     );
-    let strands = groom::grow(&style, &shell);
+    let grown = groom::grow(&style, &shell);
     let notes = vec![format!(
         "hair: {} clumps, grown from the style",
-        strands.len()
+        grown.strands.len()
     )];
-    Ok(HairFile {
-        strands,
-        motion: None,
-        notes,
+    Ok(Hair {
+        file: HairFile {
+            strands: grown.strands,
+            motion: None,
+            notes,
+        },
+        held: grown.held,
+        ties: grown.ties,
+        head,
     })
-}
-
-/// Each strand's id and size: its own, the preset's, or from the spacing of the roots.
-pub(crate) fn strand_infos(preset: &Preset, hair: &HairFile, head: Head) -> Vec<StrandInfo> {
-    let strands = &hair.strands;
-    let set = preset.hair.number("size");
-    let roots: Vec<Vec3> = strands.roots().collect();
-    let needs_spacing = set <= 0.0 && (0..strands.len()).any(|i| strands.size(i).is_none());
-    let spacing = if needs_spacing {
-        hair_io::guides::spacing(&roots)
-    } else {
-        Vec::new()
-    };
-    let size = |i: usize| {
-        let from_spacing = || size_from_spacing(spacing[i], strands.strand(i), strands.len(), head);
-        let own = strands.size(i).or((set > 0.0).then_some(set));
-        own.unwrap_or_else(from_spacing)
-    };
-    (0..strands.len())
-        .map(|i| StrandInfo {
-            id: strands.id(i),
-            mean: Vec3::ZERO,
-            size: size(i),
-        })
-        .collect()
-}
-
-/// A clump's size from how far its root is from its neighbours (0 where it has none), 1/300 of the
-/// head's height.
-fn size_from_spacing(spacing_m: f32, points: &[Vec3], strands: usize, head: Head) -> f32 {
-    // A root on its own stands for its share of the scalp: half a ball of 0.4 head heights.
-    let share_m = (std::f32::consts::TAU / strands as f32).sqrt() * 0.4 * head.height_m;
-    let spacing_m = if spacing_m > 0.0 { spacing_m } else { share_m };
-    let length_m: f32 = points
-        .windows(2)
-        .map(|pair| pair[0].distance(pair[1]))
-        .sum();
-    // A clump is longer than wide, and no ball the size of a head.
-    let radius_m = (RADIUS_IN_SPACINGS * spacing_m).min(LARGEST_RADIUS * head.height_m);
-    let radius_m = if length_m > 0.0 {
-        radius_m.min(length_m / 4.0)
-    } else {
-        radius_m
-    };
-    radius_m / head.unit_m()
 }

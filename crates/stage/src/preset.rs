@@ -2,8 +2,8 @@
 
 mod sections;
 
-pub use sections::{CAMERA, HAIR, HEAD, LIGHT, PATH, SCENE, SECTIONS};
-pub(crate) use sections::{number, param};
+pub use sections::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, SCENE, SECTIONS};
+pub(crate) use sections::{choice, number, param};
 
 use crate::files::Files;
 use effects::preset::{
@@ -30,6 +30,10 @@ pub struct Preset<'r> {
     pub camera: Values,
     /// Values of [`LIGHT`].
     pub light: Values,
+    /// Values of [`MOTION`].
+    pub motion: Values,
+    /// Values of [`DYNAMICS`](crate::DYNAMICS).
+    pub dynamics: Values,
     /// Values of [`PATH`].
     pub path: Values,
     /// Values of the clump's parameters.
@@ -40,6 +44,8 @@ pub struct Preset<'r> {
     hair_place: Option<Place>,
     /// Where the file names the head.
     head_place: Option<Place>,
+    /// Where the file names the motion.
+    motion_place: Option<Place>,
 }
 
 impl<'r> Preset<'r> {
@@ -126,6 +132,8 @@ impl<'r> Preset<'r> {
         let ((hair, hair_place), (head, head_place)) = (section("hair"), section("head"));
         let (scene, camera, light) = (section("scene").0, section("camera").0, section("light").0);
         let (path, clump) = (section("path").0, section("clump").0);
+        let (motion, motion_place) = section("motion");
+        let dynamics = section("dynamics").0;
         let layers = match field("layers") {
             Some(field) => reader.layers(field.value, registry, &known),
             None => {
@@ -142,11 +150,14 @@ impl<'r> Preset<'r> {
             scene,
             camera,
             light,
+            motion,
+            dynamics,
             path,
             clump,
             layers,
             hair_place,
             head_place,
+            motion_place,
         })
     }
 
@@ -159,6 +170,7 @@ impl<'r> Preset<'r> {
         let named = [
             (&self.hair_place, &self.hair, &files.hair),
             (&self.head_place, &self.head, &files.head),
+            (&self.motion_place, &self.motion, &files.motion),
         ];
         let mut errors: Vec<PresetError> = named
             .into_iter()
@@ -197,6 +209,8 @@ impl<'r> Preset<'r> {
             "scene" => &mut self.scene,
             "camera" => &mut self.camera,
             "light" => &mut self.light,
+            "motion" => &mut self.motion,
+            "dynamics" => &mut self.dynamics,
             "path" => &mut self.path,
             "clump" => &mut self.clump,
             _ => return Err(self.unknown_layer(owner)),
@@ -206,6 +220,7 @@ impl<'r> Preset<'r> {
         match name {
             "hair.file" => self.hair_place = None,
             "head.file" => self.head_place = None,
+            "motion.file" => self.motion_place = None,
             _ => {}
         }
         Ok(())

@@ -1,13 +1,16 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
+use crate::bake::Bake;
+use crate::dynamics::Dynamics;
 use crate::files::{Files, StageError};
-use crate::head::{self, HeadModel, HeadPaint};
-use crate::load;
+use crate::head::{self, HeadPaint};
+use crate::load::{self, Hair};
+use crate::motion::{HeadPose, MotionScript};
+use crate::neck::{Neck, rigid};
 use crate::preset::Preset;
 use effects::wgsl::hash;
-use effects::{Hair, HairStrand, Layer, MadePaths, Varied, clump, layer_seed};
+use effects::{HairStrand, Layer, MadePaths, Values, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
-use hair_io::{HairFile, HeadFrame};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use std::ops::Range;
 use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
@@ -25,15 +28,22 @@ const OUTLINE_MARGIN: f32 = 0.04;
 
 /// A scene that makes frames. What a frame needs is kept and reused.
 pub struct Stage {
-    hair: HairFile,
+    hair: Hair,
     /// The strands' sizes, and ids increasing; then those of the last frame's made paths.
     strands: Vec<StrandInfo>,
     /// How many of them are the hair's.
     strand_count: usize,
     made: MadePaths,
     layer_joints: Vec<Range<usize>>,
-    model: Option<HeadModel>,
+    neck: Option<Neck>,
+    /// Where the head is while nothing moves.
     head: Head,
+    script: MotionScript,
+    pose: HeadPose,
+    /// What the preset says of dynamics, frames a second, and the simulation once something moves.
+    dynamics_values: Values,
+    fps: f32,
+    dynamics: Option<Dynamics>,
     /// Sentences for the user: what was guessed.
     notes: Vec<String>,
     seed: u32,
@@ -71,19 +81,16 @@ impl Stage {
     /// When hair or head cannot be read, or camera and path settings contradict each other.
     pub fn new(preset: &Preset, files: &Files) -> Result<Self, StageError> {
         let mut notes = Vec::new();
-        let model = load::head(preset, files, &mut notes)?;
+        let mut model = load::head(preset, files, &mut notes)?;
         let mesh = model.as_ref().map(|model| &model.mesh);
         let mut hair = load::hair(preset, files, mesh, &mut notes)?;
-        // Before strands are chosen: how many are kept moves neither the camera nor any size.
-        let roots: Vec<Vec3> = hair.strands.roots().collect();
-        let frame = HeadFrame::find(mesh, &roots);
-        let head = Head {
-            center: frame.center,
-            height_m: frame.height,
-        };
-        load::keep_guides(preset, &mut hair);
+        let head = hair.head;
+        if let Some(model) = &mut model {
+            model.add_ties(&hair.ties);
+        }
+        let strands = load::keep_guides(preset, &mut hair);
+        load::bake(preset, files, &mut hair)?;
         let settings = Settings::new(preset, head)?;
-        let strands = load::strand_infos(preset, &hair, head);
         let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
         let without_light = |layer: &&Layer| layer.program.needs_point_light();
         if let Some(layer) = layers
@@ -94,14 +101,19 @@ impl Stage {
             return Err(StageError::NoPointLight(layer.name.clone()));
         }
         Ok(Self {
-            points: hair.strands.points().to_vec(),
+            points: hair.file.strands.points().to_vec(),
             hair,
             strand_count: strands.len(),
             strands,
             made: MadePaths::default(),
             layer_joints: Vec::new(),
-            model,
+            neck: model.map(|model| Neck::new(model, head)),
             head,
+            script: load::motion(preset, files)?,
+            pose: HeadPose::default(),
+            dynamics_values: preset.dynamics.clone(),
+            fps: preset.scene.number("fps"),
+            dynamics: None,
             notes,
             seed: preset.seed,
             clump: Varied::new(&preset.clump),
@@ -159,17 +171,78 @@ impl Stage {
         self.paths.dropped()
     }
 
-    /// Moves the hair to `time` (seconds).
-    pub fn advance_to(&mut self, time: f32) {
-        match &self.hair.motion {
-            Some(motion) => motion.sample(time, &mut self.points),
-            None => self.points.copy_from_slice(self.hair.strands.points()),
+    /// Moves head and hair to `time` (seconds): hair that moves is simulated, in steps from the start.
+    ///
+    /// # Errors
+    ///
+    /// When the simulation refuses the preset's numbers.
+    pub fn advance_to(&mut self, time: f32) -> Result<(), StageError> {
+        let time = f64::from(time);
+        self.pose = self.script.head_at(time);
+        if let Some(motion) = &self.hair.file.motion {
+            motion.sample(time as f32, &mut self.points);
+            return Ok(());
+        }
+        let (rotation, translation) = rigid(self.pose, self.head);
+        for (point, rest) in self.points.iter_mut().zip(self.hair.file.strands.points()) {
+            *point = (rotation * rest.as_dvec3() + translation).as_vec3();
+        }
+        if !Dynamics::moves(&self.dynamics_values, &self.script) {
+            return Ok(());
+        }
+        let dynamics = match &mut self.dynamics {
+            Some(dynamics) => dynamics,
+            None => {
+                let sizes: Vec<f32> = self.strands.iter().map(|strand| strand.size).collect();
+                self.dynamics.insert(Dynamics::new(
+                    &self.hair,
+                    &sizes,
+                    self.neck.as_ref().map(Neck::rest_mesh),
+                    &self.dynamics_values,
+                    self.fps,
+                    self.seed,
+                )?)
+            }
+        };
+        dynamics.advance_to(time, &self.script, &mut self.points)
+    }
+
+    /// Adds the strands as they stand to a bake, at `time` (seconds).
+    pub fn record(&self, time: f32, bake: &mut Bake) {
+        bake.push(time, &self.points);
+    }
+
+    /// A bake of this scene as the text of a strands file.
+    ///
+    /// # Errors
+    ///
+    /// When it has no frames, or their times do not increase.
+    pub fn bake_text(&self, bake: Bake) -> Result<String, StageError> {
+        bake.text(&self.hair.file.strands, &self.strands[..self.strand_count])
+    }
+
+    /// What the simulation did in its last step; nothing where nothing is simulated.
+    #[must_use]
+    pub fn simulated(&self) -> hair_sim::Stats {
+        self.dynamics
+            .as_ref()
+            .map(Dynamics::stats)
+            .unwrap_or_default()
+    }
+
+    /// The head where it is now.
+    fn posed_head(&self) -> Head {
+        let (rotation, translation) = rigid(self.pose, self.head);
+        Head {
+            center: (rotation * self.head.center.as_dvec3() + translation).as_vec3(),
+            ..self.head
         }
     }
 
     /// Appends the paths that layers make, and notes which joints each layer draws on.
     fn push_made_paths(&mut self, camera: &Camera) -> Result<(), StageError> {
         let of_hair = 0..self.paths.len();
+        let head = self.posed_head();
         self.layer_joints.clear();
         for layer in &self.layers {
             if !layer.program.has_own_paths() {
@@ -178,16 +251,16 @@ impl Stage {
             }
             let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
                 id: info.id,
-                particles: &self.points[self.hair.strands.point_range(i)],
-                at_rest: self.hair.strands.strand(i),
+                particles: &self.points[self.hair.file.strands.point_range(i)],
+                at_rest: self.hair.file.strands.strand(i),
                 size: info.size,
             };
             let infos = self.strands[..self.strand_count].iter();
             let strands: Vec<HairStrand> = infos.enumerate().map(of_strand).collect();
-            let hair = Hair {
+            let hair = effects::Hair {
                 strands: &strands,
-                head_center: self.head.center,
-                head_height_m: self.head.height_m,
+                head_center: head.center,
+                head_height_m: head.height_m,
             };
             self.made.clear();
             let seed = layer_seed(self.seed, &layer.name);
@@ -214,6 +287,7 @@ impl Stage {
     ///
     /// When camera or paths cannot be made.
     pub fn frame(&mut self) -> Result<Frame<'_>, StageError> {
+        let head = self.posed_head();
         let settings = &self.settings;
         let view = OrbitView {
             target: self.head.center + settings.target * self.head.height_m,
@@ -224,23 +298,23 @@ impl Stage {
         self.paths.clear();
         self.strands.truncate(self.strand_count);
         for (i, info) in self.strands.iter_mut().enumerate() {
-            let particles = &self.points[self.hair.strands.point_range(i)];
+            let particles = &self.points[self.hair.file.strands.point_range(i)];
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
             self.paths
                 .push_strand(i, particles, settings.path, &camera)?;
         }
         self.push_made_paths(&camera)?;
         let (settings, camera) = (&self.settings, &*self.camera.insert(camera));
-        let light = settings.light(camera, self.head);
-        let surfaces = match &self.model {
-            Some(model) => head::surfaces(model, &settings.paint, camera, &light),
+        let light = settings.light(camera, head);
+        let surfaces = match &mut self.neck {
+            Some(neck) => head::surfaces(neck.posed(self.pose), &settings.paint, camera, &light),
             None => Vec::new(),
         };
         Ok(Frame {
             camera,
             paths: &self.paths,
             strands: &self.strands,
-            head: self.head,
+            head,
             light,
             clump: &self.clump,
             seed: self.seed,
@@ -297,6 +371,8 @@ impl Settings {
                 line: paint.color("line"),
                 iris: paint.color("iris"),
                 iris_shadow: paint.color("iris_shadow"),
+                tie: paint.color("tie"),
+                tie_shadow: paint.color("tie_shadow"),
                 width_m: paint.number("width") * head.unit_m(),
                 inside_margin_m: INSIDE_MARGIN * head.height_m,
                 outline_margin_m: OUTLINE_MARGIN * head.height_m,

@@ -69,10 +69,10 @@ fn motion_is_played_back() {
         "path: (kind: linear, subdivision: 1),",
     )
     .unwrap();
-    stage.advance_to(0.5);
+    stage.advance_to(0.5).unwrap();
     let tip = stage.frame().unwrap().paths.position[1];
     assert!((tip - Vec3::new(0.05, -0.05, 0.0)).length() < 1e-6, "{tip}");
-    stage.advance_to(0.0);
+    stage.advance_to(0.0).unwrap();
     assert_eq!(
         stage.frame().unwrap().paths.position[1],
         Vec3::new(0.0, -0.1, 0.0)

@@ -45,7 +45,15 @@ fn mistakes_in_styles_have_their_places() {
         (name: \"b\", tips: [(0, 0)], size: -1),
         (name: \"c\", roots: [(10, 10)]),
         (name: \"c\", roots: [], hang: 1, mirror: yes),
+        (name: \"d\", roots: partin, hang: 1),
+        (name: \"e\", roots: hairline(0), hang: 1),
     ],
+    edits: [
+        (zone: \"aa\"),
+        (zone: \"a\", clump: 9),
+        (zone: \"b\", mirrored: true),
+    ],
+    strands: [(size: 3), (points: [(0, 0, 0), (0, 0, 99)])],
 )";
     let message = refusal(style);
     for line in [
@@ -56,13 +64,20 @@ fn mistakes_in_styles_have_their_places() {
         "a.style.ron:6:9: a zone needs `tips` to lead to, or a length to `hang`",
         "a.style.ron:7:9: there is already a zone `c`",
         "a.style.ron:7:28: roots needs at least one place",
+        "a.style.ron:8:28: roots: expected a list of places",
+        "a.style.ron:9:28: roots: expected hairline(FROM, TO)",
+        "a.style.ron:12:9: there is no zone `aa` to edit, did you mean `a`?",
+        "a.style.ron:13:9: the zone `a` has clumps 0 to 7, no 9",
+        "a.style.ron:14:9: the zone `b` has no mirrored half",
+        "a.style.ron:16:15: a strand needs `points`, two or more",
+        "a.style.ron:16:47: points: expected (longitude",
         "there is no `yes`",
     ] {
         assert!(message.contains(line), "`{line}` is missing in:\n{message}");
     }
     assert!(refusal("(zones: [])").contains("needs `version: 1`"));
     assert!(refusal("(version: 1)").contains("has no `zones`"));
-    assert!(refusal("(version: 1, zones: [])").contains("no zones in it"));
+    assert!(refusal("(version: 1, zones: [])").contains("has no `zones`"));
 }
 
 #[test]
@@ -79,8 +94,14 @@ fn a_style_needs_a_head() {
     assert!(message.contains("needs a head to grow on"), "{message}");
 }
 
-/// The styles that come with inkstrand, in presets that use them.
-const STYLES: [&str; 3] = ["twin-tails", "short-ash", "long-pink"];
+/// The styles that come with inkstrand.
+fn styles() -> Vec<PathBuf> {
+    let entries = fs::read_dir(presets().join("styles")).unwrap();
+    let mut styles: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    styles.sort();
+    assert!(styles.len() >= 8, "{styles:?}");
+    styles
+}
 
 /// Views all around, as yaw and pitch.
 const VIEWS: [[f32; 2]; 10] = [
@@ -96,19 +117,19 @@ const VIEWS: [[f32; 2]; 10] = [
     [180.0, 85.0],
 ];
 
-/// Pixels of skin on the hairy part of the head: above a plane from the forehead to the nape.
-fn scalp_pixels(style: &str, view: [f32; 2]) -> usize {
+/// Pixels of bare skin where hair grows: within the hairline.
+fn scalp_pixels(style: &Path, view: [f32; 2]) -> usize {
     pixels(style, view, "1")
 }
 
 fn bare_scalp_pixels(view: [f32; 2]) -> usize {
-    pixels("short-ash", view, "0")
+    pixels(&styles()[0], view, "0")
 }
 
-fn pixels(style: &str, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
+fn pixels(style: &Path, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
     let registry = registry();
-    let text = fs::read_to_string(presets().join(format!("{style}.ron"))).unwrap();
-    let mut preset = Preset::parse(style, &text, &registry).unwrap();
+    let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
+    let mut preset = Preset::parse("twin-tails.ron", &text, &registry).unwrap();
     for (name, value) in [
         ("head.light", "FF00FF".to_owned()),
         ("head.shadow", "FF00FF".to_owned()),
@@ -127,6 +148,7 @@ fn pixels(style: &str, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
     preset.keep_only(&["hair.base".to_owned()]).unwrap();
     let files = Files {
         preset_folder: presets(),
+        hair: Some(style.to_owned()),
         ..Files::default()
     };
     let mut stage = Stage::new(&preset, &files).unwrap();
@@ -134,15 +156,18 @@ fn pixels(style: &str, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing);
 
-    // Without hair, to know which pixels are scalp: those whose nearest surface point lies above the
-    // plane. Its depth is in the drawing, so cut the head itself at the plane.
+    // The bare scalp over the head, in a colour of its own: what no hair covers shows.
     let (camera, head) = (*frame.camera, frame.head);
     let bust = groom::bust();
-    let is_scalp = |p: Vec3| {
-        let place = (p - head.center) / head.height_m;
-        // From the hairline over the forehead down to the nape; ears and temples are skin.
-        place.y > 0.34 - 0.62 * (0.4 - place.z) && place.x.abs() < 0.33
-    };
+    let shell = groom::Shell::new(
+        &bust.positions,
+        &bust.normals,
+        &bust.triangles,
+        head.center,
+        head.height_m,
+    );
+    let hairline = groom::Scalp::default();
+    let is_scalp = |p: Vec3| hairline.contains(shell.place(p));
     let mut scalp = drawing.surfaces[0].clone();
     scalp.vertices.clear();
     scalp.triangles.clear();
@@ -171,16 +196,14 @@ fn pixels(style: &str, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
         .count()
 }
 
-/// Of the head's 30,000 pixels: slivers at the hairline, between one blade of a fringe and the next.
-const MOST_PIXELS: usize = 30;
-
 #[test]
-fn hardly_any_scalp_shows_from_any_side() {
-    for style in STYLES {
-        let seen = VIEWS.map(|view| scalp_pixels(style, view));
+fn no_scalp_shows_from_any_side() {
+    for style in styles() {
+        let seen = VIEWS.map(|view| scalp_pixels(&style, view));
         assert!(
-            seen.iter().all(|pixels| *pixels <= MOST_PIXELS),
-            "{style}: {seen:?} pixels of scalp in {VIEWS:?}"
+            seen.iter().all(|pixels| *pixels == 0),
+            "{}: {seen:?} pixels of scalp in {VIEWS:?}",
+            style.display()
         );
     }
 }
@@ -189,4 +212,45 @@ fn hardly_any_scalp_shows_from_any_side() {
 fn a_bald_head_would_be_noticed() {
     // The count is of what it says: with hair of no size the whole scalp shows.
     assert!(bare_scalp_pixels([180.0, 85.0]) > 10_000);
+}
+
+#[test]
+fn hair_does_not_change_the_size_of_the_head_it_grows_on() {
+    let registry = registry();
+    let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
+    let preset = Preset::parse("twin-tails.ron", &text, &registry).unwrap();
+    let head_under = |style: PathBuf| {
+        let files = Files {
+            preset_folder: presets(),
+            hair: Some(style),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        stage.frame().unwrap().head
+    };
+    let heads: Vec<render::Head> = styles().into_iter().map(head_under).collect();
+    assert!(heads.iter().all(|head| *head == heads[0]), "{heads:?}");
+}
+
+#[test]
+fn ties_are_bands_of_their_own_colour() {
+    let registry = registry();
+    let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
+    let mut preset = Preset::parse("twin-tails.ron", &text, &registry).unwrap();
+    for (name, value) in [("head.tie", "00FF00"), ("head.tie_shadow", "00FF00")] {
+        preset.set(name, value).unwrap();
+    }
+    let bands = |style: &str| {
+        let files = Files {
+            preset_folder: presets(),
+            hair: Some(presets().join("styles").join(style)),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let surfaces = stage.frame().unwrap().surfaces;
+        let band = surfaces.iter().find(|s| s.light == [0.0, 1.0, 0.0]);
+        band.map_or(0, |band| band.triangles.len())
+    };
+    assert!(bands("twin-tails.style.ron") > 100);
+    assert_eq!(bands("bob.style.ron"), 0);
 }

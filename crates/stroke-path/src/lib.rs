@@ -13,6 +13,7 @@ mod path;
 mod resample;
 pub mod sweep;
 
+pub use angle::sin_cos_degrees;
 pub use camera::{Camera, CameraError, OrbitView, direction_from_angles};
 pub use path::{PathRun, Paths};
 pub use resample::{MAX_SUBDIVISION, PathError, PathKind};

@@ -1,7 +1,7 @@
 //! What the measured times and errors are held to.
 
 use crate::results::Row;
-use std::fmt::Write as _;
+use crate::targets::{Found, Limit, Point, Target, curve, time_at};
 
 /// The sweep in the order by strands; its knob is samples a pixel.
 pub const SWEEP: &str = "sweep";
@@ -18,37 +18,6 @@ pub const PATHS_ALONE: &str = "-paths";
 
 /// A scene and the source's number of stamps an interval there.
 pub type SceneStamps<'a> = (&'a str, usize);
-
-/// A ratio of two times, and what it should be at most.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Target {
-    /// Of what to what, on which scene.
-    pub text: String,
-    /// Measured; infinite if our method never gets there, nothing if a row is missing.
-    pub ratio: Option<Ratio>,
-    /// At most.
-    pub limit: f64,
-}
-
-/// A measured ratio.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ratio {
-    /// As measured.
-    Is(f64),
-    /// The other method didn't get there within its knob, so its time is longer than its longest.
-    Below(f64),
-}
-
-impl Target {
-    /// True if it was measured and reached.
-    #[must_use]
-    pub fn is_met(&self) -> bool {
-        match self.ratio {
-            Some(Ratio::Is(ratio) | Ratio::Below(ratio)) => ratio <= self.limit,
-            None => false,
-        }
-    }
-}
 
 /// All targets of all scenes.
 #[must_use]
@@ -67,11 +36,11 @@ fn of_scene(rows: &[&Row], scene: &str, source_stamps: usize) -> Vec<Target> {
         let row = rows.iter().find(|r| r.method == method && r.knob == knob);
         row.map(|row| row.seconds)
     };
-    let ratio = |ours: Option<f64>, theirs: Option<f64>| Some(Ratio::Is(ours? / theirs?));
+    let ratio = |ours: Option<f64>, theirs: Option<f64>| Some(Found::Is(ours? / theirs?));
     let target = |text: String, ratio, limit| Target {
         text: format!("{scene}: {text}"),
-        ratio,
-        limit,
+        found: ratio,
+        limit: Limit::AtMost(limit),
     };
 
     let vello = fastest_vello(rows);
@@ -124,7 +93,7 @@ fn fastest_vello<'a>(rows: &[&'a Row]) -> Vec<&'a Row> {
 
 /// The sweep at 4 samples against the fastest stamping, at any number of samples from 4, whose error
 /// is as small.
-fn against_stamping(rows: &[&Row]) -> Option<Ratio> {
+fn against_stamping(rows: &[&Row]) -> Option<Found> {
     let sweep = rows
         .iter()
         .find(|row| row.method == SWEEP_SHIFTED && row.knob == 4)?;
@@ -136,76 +105,18 @@ fn against_stamping(rows: &[&Row]) -> Option<Ratio> {
     let error = sweep.error?;
     let reached = curves.iter().filter_map(|curve| time_at(curve, error));
     if let Some(seconds) = reached.reduce(f64::min) {
-        return Some(Ratio::Is(sweep.seconds / seconds));
+        return Some(Found::Is(sweep.seconds / seconds));
     }
     // Each would have to go on beyond its last point.
     let last = curves.iter().filter_map(|curve| curve.last());
     let least = last.map(|point| point.seconds).reduce(f64::min)?;
-    Some(Ratio::Below(sweep.seconds / least))
-}
-
-/// A point of a method's curve.
-#[derive(Clone, Copy, Debug)]
-struct Point {
-    seconds: f64,
-    error: f64,
-}
-
-/// A method's times and errors by rising knob.
-fn curve(rows: &[&Row], method: &str) -> Vec<Point> {
-    let mut rows: Vec<&&Row> = rows.iter().filter(|row| row.method == method).collect();
-    rows.sort_by_key(|row| row.knob);
-    rows.iter()
-        .filter_map(|row| {
-            Some(Point {
-                seconds: row.seconds,
-                error: row.error?,
-            })
-        })
-        .collect()
-}
-
-/// The time at which a curve first comes down to `error`, between two points along a straight line
-/// in logarithms; the first point's time where that is good enough already.
-fn time_at(curve: &[Point], error: f64) -> Option<f64> {
-    let place = curve.iter().position(|point| point.error <= error)?;
-    let after = curve[place];
-    let Some(before) = place.checked_sub(1).map(|place| curve[place]) else {
-        return Some(after.seconds);
-    };
-    if after.error <= 0.0 || error <= 0.0 {
-        return Some(after.seconds); // zero has no logarithm
-    }
-    let way = (error / before.error).ln() / (after.error / before.error).ln();
-    Some(before.seconds * (after.seconds / before.seconds).powf(way))
-}
-
-/// The table of all targets, a line each.
-#[must_use]
-pub fn report(targets: &[Target]) -> String {
-    let width = targets.iter().map(|t| t.text.chars().count()).max();
-    let width = width.unwrap_or(0);
-    let mut text = format!("{:width$}   ratio    to reach\n", "");
-    for target in targets {
-        let ratio = match target.ratio {
-            Some(Ratio::Is(ratio)) if ratio.is_infinite() => "  never".to_owned(),
-            Some(Ratio::Is(ratio)) => format!("  {ratio:.3}"),
-            Some(Ratio::Below(ratio)) => format!("< {ratio:.3}"),
-            None => "  not measured".to_owned(),
-        };
-        let verdict = if target.is_met() { "met" } else { "MISSED" };
-        let _ = writeln!(
-            text,
-            "{:width$} {ratio:>9}  <= {:.3}   {verdict}",
-            target.text, target.limit
-        );
-    }
-    text
+    Some(Found::Below(sweep.seconds / least))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::targets::report;
 
     fn row(method: &str, knob: usize, seconds: f64, error: f64) -> Row {
         Row {
@@ -233,13 +144,13 @@ mod tests {
         ]
     }
 
-    fn ratios(rows: &[Row]) -> Vec<Option<Ratio>> {
+    fn ratios(rows: &[Row]) -> Vec<Option<Found>> {
         let targets = targets(rows, &[("s", 10)]);
-        targets.iter().map(|target| target.ratio).collect()
+        targets.iter().map(|target| target.found).collect()
     }
 
-    fn is_close(ratio: Option<Ratio>, expected: f64) {
-        let Some(Ratio::Is(ratio)) = ratio else {
+    fn is_close(ratio: Option<Found>, expected: f64) {
+        let Some(Found::Is(ratio)) = ratio else {
             panic!("{ratio:?} is no measured ratio");
         };
         assert!((ratio - expected).abs() < 1e-9, "{ratio}, not {expected}");
@@ -293,10 +204,10 @@ mod tests {
         rows[4].error = Some(1e-6);
         rows[3].error = Some(1e-6);
         let found = ratios(&rows);
-        assert_eq!(found[1], Some(Ratio::Is(f64::INFINITY)));
+        assert_eq!(found[1], Some(Found::Is(f64::INFINITY)));
         // Stamping that never gets there is slower than its last point.
         rows.retain(|row| row.knob < 256);
-        assert_eq!(ratios(&rows)[3], Some(Ratio::Below(2.0 / 100.0)));
+        assert_eq!(ratios(&rows)[3], Some(Found::Below(2.0 / 100.0)));
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::schema::{self, Section, sections};
 use crate::Failure;
 use effects::preset::{OF_THE_EFFECT, suggestion};
 use effects::{AnyEffect, Param, ParamKind, Registry};
+use stage::{FilePart, MOTION_PARTS, STYLE_PARTS};
 use std::io::{ErrorKind, Write as _};
 
 /// Lists effects and sections, or what one of them takes.
@@ -13,6 +14,7 @@ pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Re
             Found::All => schema::all(registry),
             Found::Effect(effect) => schema::effect(effect),
             Found::Section(section) => schema::section(&section),
+            Found::Part(part) => schema::file_part(part),
         };
         serde_json::to_string_pretty(&schema)? + "\n"
     } else {
@@ -20,6 +22,7 @@ pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Re
             Found::All => list(registry),
             Found::Effect(effect) => effect_text(effect),
             Found::Section(section) => section_text(&section),
+            Found::Part(part) => file_part_text(part),
         }
     };
     match std::io::stdout().write_all(text.as_bytes()) {
@@ -34,6 +37,7 @@ enum Found<'r> {
     All,
     Effect(&'r dyn AnyEffect),
     Section(Section),
+    Part(&'static FilePart),
 }
 
 fn find<'r>(name: Option<&str>, registry: &'r Registry) -> Result<Found<'r>, Failure> {
@@ -46,13 +50,23 @@ fn find<'r>(name: Option<&str>, registry: &'r Registry) -> Result<Found<'r>, Fai
     if let Some(section) = sections().into_iter().find(|section| section.name == name) {
         return Ok(Found::Section(section));
     }
+    if let Some(part) = parts().find(|part| part.name == name) {
+        return Ok(Found::Part(part));
+    }
     let effects = registry.iter().map(AnyEffect::id);
     let sections = sections();
-    let names = effects.chain(sections.iter().map(|section| section.name));
+    let names = effects
+        .chain(sections.iter().map(|section| section.name))
+        .chain(parts().map(|part| part.name));
     let hint = suggestion(name, names);
     Err(Failure::Usage(format!(
-        "there is no effect or section `{name}`{hint}"
+        "there is no effect, section, or part of a style or motion `{name}`{hint}"
     )))
+}
+
+/// The parts of files beside presets.
+fn parts() -> impl Iterator<Item = &'static FilePart> {
+    STYLE_PARTS.iter().chain(MOTION_PARTS)
 }
 
 fn list(registry: &Registry) -> String {
@@ -75,7 +89,13 @@ fn list(registry: &Registry) -> String {
     for section in sections() {
         text += &format!("{:<20} {}\n", section.name, section.doc);
     }
-    text + "\n`inkstrand effects NAME` lists the parameters of an effect or a section.\n"
+    for (file, parts) in [("hair style", STYLE_PARTS), ("head and wind", MOTION_PARTS)] {
+        text += &format!("\n{file:<20} what it says\n");
+        for part in parts {
+            text += &format!("{:<20} {}\n", part.name, part.doc);
+        }
+    }
+    text + "\n`inkstrand effects NAME` lists the parameters of one of them.\n"
 }
 
 const HOW_NUMBERS_VARY: &str = "\
@@ -124,6 +144,17 @@ fn section_text(section: &Section) -> String {
     if is_layer {
         text += "\n  params: (name: value, ...)\n";
         text += "      The effect's own parameters: `inkstrand effects ID`.\n";
+    }
+    text
+}
+
+fn file_part_text(part: &FilePart) -> String {
+    let mut text = format!("{}: {}\n{}\n", part.name, part.doc, part.example);
+    for (name, meaning) in part.places {
+        text += &format!("\n  {name}: places\n      {meaning}\n");
+    }
+    for param in part.table {
+        text += &param_text(param, &default(param));
     }
     text
 }

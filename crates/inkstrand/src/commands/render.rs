@@ -1,6 +1,7 @@
 //! `inkstrand render`: a preset to pictures.
 
-use super::{mistakes, preset_folder, read_preset};
+use super::read_preset;
+use super::scene::{open, parse};
 use crate::cli::{Backend, Numbers, RenderOptions};
 use crate::output::Output;
 use crate::stats::{Bytes, FrameStats, Milliseconds, StrandCounts, buffer_bytes, layer_counts};
@@ -10,7 +11,7 @@ use effects::Registry;
 use indicatif::{ProgressBar, ProgressStyle};
 use render::Drawing;
 use render::cpu::{Evaluator, Rasterizer};
-use stage::{Files, Preset, Stage};
+use stage::{Preset, Stage};
 use std::io::{IsTerminal as _, Write as _};
 use std::time::Instant;
 
@@ -19,25 +20,12 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
         return Err(not_built("the gpu backend"));
     }
     let text = read_preset(&options.preset).map_err(Failure::Failed)?;
-    let file = options.preset.display().to_string();
-    let mut preset = Preset::parse(&file, &text, registry)
-        .map_err(|errors| Failure::Mistakes(mistakes(&errors).collect()))?;
+    let mut preset = parse(&options.preset, &text, registry)?;
+    options.scene.apply(&mut preset).map_err(Failure::Usage)?;
     apply(options, &mut preset).map_err(Failure::Usage)?;
-
-    let files = Files {
-        preset_folder: preset_folder(&options.preset),
-        hair: options.hair.clone(),
-        head: options.head.clone(),
-    };
-    preset
-        .check_files(&files)
-        .map_err(|errors| Failure::Mistakes(mistakes(&errors).collect()))?;
-    let mut stage = Stage::new(&preset, &files)?;
-    if !options.quiet {
-        for note in stage.notes() {
-            eprintln!("{note}");
-        }
-    }
+    let mut files = options.scene.files(&options.preset);
+    files.bake.clone_from(&options.bake);
+    let mut stage = open(&preset, &files, options.quiet)?;
 
     let fps = preset.scene.number("fps");
     let samples = preset.scene.integer("samples").unsigned_abs();
@@ -53,7 +41,7 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
     let mut painter = Painter::new(samples, options.threads)?;
 
     let (first, last) = options.frames.unwrap_or((0, 0));
-    let bar = progress_bar(options, u64::from(last - first) + 1);
+    let bar = progress_bar(options.quiet, u64::from(last - first) + 1);
     let mut stats = match &options.stats {
         Some(path) => Some(WholeFile::create(path)?),
         None => None,
@@ -122,7 +110,7 @@ impl Painter {
             lap = now;
             passed.as_secs_f64() * 1e3
         };
-        stage.advance_to(time);
+        stage.advance_to(time)?;
         milliseconds.simulate = since_last();
         let described = stage.frame()?;
         milliseconds.paths = since_last();
@@ -141,7 +129,7 @@ impl Painter {
             strands: StrandCounts {
                 total: stage.strand_count(),
                 culled: stage.culled(),
-                asleep: 0,
+                asleep: stage.simulated().asleep,
             },
             layers: layer_counts(&self.drawing),
             bytes: Bytes {
@@ -156,9 +144,6 @@ impl Painter {
 /// Puts the command line's options in place of the preset's.
 fn apply(options: &RenderOptions, preset: &mut Preset) -> Result<(), String> {
     let mut set = |name: &str, text: String| preset.set(name, &text);
-    if let Some(guides) = options.guides {
-        set("hair.guides", guides.to_string())?;
-    }
     if let Some((width, height)) = options.size {
         set("scene.size", format!("({width}, {height})"))?;
     }
@@ -183,13 +168,6 @@ fn apply(options: &RenderOptions, preset: &mut Preset) -> Result<(), String> {
         set("light.yaw", yaw.to_string())?;
         set("light.pitch", pitch.to_string())?;
     }
-    for assignment in &options.set {
-        let (name, value) = assignment
-            .split_once('=')
-            .ok_or_else(|| format!("--set {assignment}: it takes LAYER.PARAM=VALUE"))?;
-        set(name.trim(), value.trim().to_owned())
-            .map_err(|e| format!("--set {assignment}: {e}"))?;
-    }
     if !options.only.is_empty() {
         preset
             .keep_only(&options.only)
@@ -199,8 +177,8 @@ fn apply(options: &RenderOptions, preset: &mut Preset) -> Result<(), String> {
 }
 
 /// A bar for sequences on a terminal; nothing on a pipe.
-fn progress_bar(options: &RenderOptions, frames: u64) -> ProgressBar {
-    if options.quiet || frames < 2 || !std::io::stderr().is_terminal() {
+pub(super) fn progress_bar(quiet: bool, frames: u64) -> ProgressBar {
+    if quiet || frames < 2 || !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
     let bar = ProgressBar::new(frames);

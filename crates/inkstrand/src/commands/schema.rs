@@ -3,7 +3,7 @@
 use effects::preset::{LAYER, OF_THE_EFFECT};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use serde_json::{Value, json};
-use stage::{Preset, SECTIONS};
+use stage::{FilePart, MOTION_PARTS, Preset, SECTIONS, STYLE_PARTS};
 
 /// A section of a preset as `inkstrand effects` shows it.
 pub(super) struct Section {
@@ -30,6 +30,21 @@ pub(super) fn all(registry: &Registry) -> Value {
         "version": stage::VERSION,
         "sections": sections().iter().map(section).collect::<Vec<_>>(),
         "effects": registry.iter().map(effect).collect::<Vec<_>>(),
+        "style": STYLE_PARTS.iter().map(file_part).collect::<Vec<_>>(),
+        "motion": MOTION_PARTS.iter().map(file_part).collect::<Vec<_>>(),
+    })
+}
+
+/// The schema of a part of hair styles or motion scripts.
+pub(super) fn file_part(part: &FilePart) -> Value {
+    let places = part
+        .places
+        .iter()
+        .map(|(name, meaning)| json!({ "name": name, "meaning": meaning, "type": "places" }));
+    json!({
+        "id": part.name,
+        "meaning": part.doc,
+        "parameters": part.table.iter().map(parameter).chain(places).collect::<Vec<_>>(),
     })
 }
 

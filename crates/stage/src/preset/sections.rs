@@ -1,6 +1,7 @@
 //! The sections of presets: their parameters.
 
 use super::VERSION;
+use crate::dynamics::DYNAMICS;
 use effects::{Param, ParamKind, Parameters, clump};
 
 pub(crate) const fn number(
@@ -37,7 +38,7 @@ const fn color(name: &'static str, doc: &'static str, default: &'static str) -> 
     param(name, doc, ParamKind::Color { default })
 }
 
-const fn choice(
+pub(crate) const fn choice(
     name: &'static str,
     doc: &'static str,
     names: &'static [&'static str],
@@ -55,12 +56,17 @@ pub const HAIR: &[Param] = &[
     ),
     param(
         "guides",
-        "How many strands to keep, spread evenly over the scalp; 0 keeps all.",
+        "How many strands to keep, those that stand best for all; 0 keeps all.",
         ParamKind::Integer {
             min: 0,
             max: 1_000_000,
             default: 0,
         },
+    ),
+    param(
+        "bake",
+        "Motion of this hair that `inkstrand simulate` has written, relative to the preset.",
+        ParamKind::Text,
     ),
     choice("up", "The file's upward axis.", &["guess", "y", "z"], 0),
     number(
@@ -112,6 +118,12 @@ pub const HEAD: &[Param] = &[
         "iris_shadow",
         "Colour of the pupils and of the irises under the lids.",
         "1B4F5C",
+    ),
+    color("tie", "Colour of ties in the hair.", "F0F0F5"),
+    color(
+        "tie_shadow",
+        "Colour of ties away from the light.",
+        "B8B8CC",
     ),
     number(
         "width",
@@ -244,6 +256,13 @@ pub const LIGHT: &[Param] = &[
     ),
 ];
 
+/// The section `motion`.
+pub const MOTION: &[Param] = &[param(
+    "file",
+    "How the head moves and the wind blows, relative to the preset: .motion.ron.",
+    ParamKind::Text,
+)];
+
 /// The section `path`.
 pub const PATH: &[Param] = &[
     choice(
@@ -280,6 +299,12 @@ pub const SECTIONS: &[(&str, &str, &[Param])] = &[
     ),
     ("camera", "From where it is seen.", CAMERA),
     ("light", "Where the light comes from.", LIGHT),
+    ("motion", "How the head moves and the wind blows.", MOTION),
+    (
+        "dynamics",
+        "How hair swings, bends and returns to its style.",
+        DYNAMICS,
+    ),
     ("path", "How a strand becomes a stroke's path.", PATH),
     (
         "clump",

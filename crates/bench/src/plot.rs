@@ -7,13 +7,13 @@ use plotters::prelude::*;
 /// Of a panel, in pixels.
 const PANEL: (u32, u32) = (760, 520);
 
-/// An SVG in which each method is a line along its knob: errors to the right, times upwards, both
-/// logarithmic. Rows without an error are left out.
+/// An SVG in which each method is a line along its knob: errors to the right, described by `errors`, times
+/// upwards, both logarithmic. Rows without a finite error are left out.
 ///
 /// # Errors
 ///
 /// When the plot cannot be drawn.
-pub fn time_against_error(rows: &[Row]) -> Result<String, String> {
+pub fn time_against_error(rows: &[Row], errors: &str) -> Result<String, String> {
     let mut scenes: Vec<&str> = Vec::new();
     let mut methods: Vec<&str> = Vec::new();
     for row in rows.iter().filter(|row| has_place(row)) {
@@ -34,22 +34,25 @@ pub fn time_against_error(rows: &[Row]) -> Result<String, String> {
         let panels = area.split_evenly((lines, columns));
         for (scene, panel) in scenes.iter().zip(&panels) {
             let rows: Vec<&Row> = rows.iter().filter(|row| row.scene == *scene).collect();
-            draw_panel(scene, &rows, &methods, panel).map_err(|error| error.to_string())?;
+            draw_panel(scene, &rows, &methods, errors, panel).map_err(|error| error.to_string())?;
         }
         area.present().map_err(|error| error.to_string())?;
     }
     Ok(svg)
 }
 
-/// A logarithmic scale has no place for 0 and for nothing.
+/// A logarithmic scale has no place for 0, for infinity and for nothing.
 fn has_place(row: &Row) -> bool {
-    row.error.is_some_and(|error| error > 0.0) && row.seconds > 0.0
+    row.error
+        .is_some_and(|error| error > 0.0 && error.is_finite())
+        && row.seconds > 0.0
 }
 
 fn draw_panel<B: DrawingBackend>(
     scene: &str,
     rows: &[&Row],
     methods: &[&str],
+    errors: &str,
     area: &DrawingArea<B, plotters::coord::Shift>,
 ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
     let points: Vec<(f64, f64)> = rows
@@ -74,7 +77,7 @@ fn draw_panel<B: DrawingBackend>(
         )?;
     chart
         .configure_mesh()
-        .x_desc("mean error (linear light, 0 to 1)")
+        .x_desc(errors)
         .y_desc("milliseconds")
         .x_label_formatter(&|error| format!("{error:.0e}"))
         .draw()?;
@@ -132,8 +135,9 @@ mod tests {
             row("curtain", "stamping", 17, Some(0.3)),
             row("curtain", "paths", 1, None),
             row("curtain", "perfect", 1, Some(0.0)),
+            row("curtain", "broken", 1, Some(f64::INFINITY)),
         ];
-        let svg = time_against_error(&rows).unwrap();
+        let svg = time_against_error(&rows, "mean error").unwrap();
         for text in [
             "tails",
             "curtain",
@@ -141,15 +145,18 @@ mod tests {
             "stamping",
             "17",
             "milliseconds",
+            "mean error",
         ] {
             assert!(svg.contains(text), "{text}");
         }
-        assert!(!svg.contains("paths") && !svg.contains("perfect"));
+        for text in ["paths", "perfect", "broken"] {
+            assert!(!svg.contains(text), "{text}");
+        }
         assert!(svg.trim_end().ends_with("</svg>"));
     }
 
     #[test]
     fn no_rows_are_an_empty_plot() {
-        assert!(time_against_error(&[]).unwrap().contains("<svg"));
+        assert!(time_against_error(&[], "").unwrap().contains("<svg"));
     }
 }

@@ -1,0 +1,236 @@
+//! Suite `dynamics`: time against error of our strands, of two other ways to simulate them, and of other programs.
+
+pub mod altitudes;
+pub mod banded;
+pub mod falls;
+pub mod mass_spring;
+pub mod motion;
+pub mod npz;
+pub mod own;
+pub mod peers;
+pub mod reference;
+pub mod rods;
+pub mod statics;
+pub mod stored;
+pub mod targets;
+pub mod xpbd;
+
+use crate::plot;
+use crate::results::{self, Row};
+use crate::targets::Target;
+use crate::timing::{Effort, shortest};
+use falls::Truth;
+use indicatif::ProgressBar;
+use peers::Peers;
+use rayon::ThreadPoolBuilder;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// What the user asks for.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Where the files go.
+    pub out: PathBuf,
+    /// Fewer knobs, scenes and rounds: done within two minutes on two cores.
+    pub quick: bool,
+    /// Threads of the scenes of many strands; falling strands have one.
+    pub threads: usize,
+    /// The folder of reference data, if there is one.
+    pub data: Option<PathBuf>,
+    /// Other programs to run beside ours.
+    pub peers: Option<Peers>,
+}
+
+/// All that was measured.
+pub struct Measured {
+    /// A row a scene, method and knob.
+    pub rows: Vec<Row>,
+    /// What our figures are held to.
+    pub targets: Vec<Target>,
+    /// Our figures against those stored.
+    pub regressions: Vec<Target>,
+    /// Peers that couldn't be run, and how to get them.
+    pub missing: Vec<String>,
+    /// What a reader of the numbers must know.
+    pub comments: Vec<String>,
+}
+
+/// Measures and writes `dynamics.csv` and `dynamics.svg`.
+///
+/// # Errors
+///
+/// When a solver refuses a scene, a counter isn't what it must be, a peer fails, or a file cannot be read or written.
+pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
+    let scenes = scenes(options.quick);
+    progress.set_length(scenes.len() as u64 + statics::GAMMAS.len() as u64 * 3 + 2);
+    let data = options.data.as_deref();
+    let truths = [
+        (10.0, falls::truth(10.0, 40, data)?),
+        (100.0, falls::truth(100.0, 80, data)?),
+    ];
+    let mut comments = comments(options, &truths);
+
+    let mut rows = Vec::new();
+    let mut slopes = Vec::new();
+    let alone = ThreadPoolBuilder::new().num_threads(1).build();
+    let alone = alone.map_err(|error| error.to_string())?;
+    for (gamma, count) in scenes {
+        let scene = scene(gamma, count);
+        progress.set_message(scene.clone());
+        let truth = truths.iter().find(|truth| truth.0 == gamma);
+        let truth = &truth.ok_or("a fall without a reference")?.1.path;
+        let fallen = alone.install(|| fall(&scene, gamma, count, truth, options))?;
+        rows.extend(fallen);
+        if count == 1 && gamma == 10.0 {
+            slopes.push((scene, falls::slope_in_time(gamma)?));
+        }
+        progress.inc(1);
+    }
+    progress.set_message("cantilevers");
+    rows.extend(alone.install(|| statics::rows(|| progress.inc(1)))?);
+    progress.set_message("many strands");
+    let moving = motion::measure(options.threads, options.quick, effort(options.quick))?;
+    rows.extend(moving.rows);
+    progress.inc(1);
+    let mut missing = Vec::new();
+    if let Some(peers) = &options.peers {
+        progress.set_message("peers");
+        let (of_peers, not_run) = peers.rows(&options.out, options.quick)?;
+        rows.extend(of_peers);
+        comments.extend(not_run.iter().cloned());
+        missing = not_run;
+    }
+    rows.sort_by_key(|row| place_of(&row.scene));
+
+    let measured = Measured {
+        targets: targets::targets(&rows, &slopes, &moving.fallbacks),
+        regressions: stored::against(&rows)?,
+        rows,
+        missing,
+        comments,
+    };
+    write(&measured, &options.out)?;
+    Ok(measured)
+}
+
+/// Gamma and number of strands of the falls.
+fn scenes(quick: bool) -> Vec<(f64, usize)> {
+    let mut scenes = vec![(10.0, 1), (10.0, 72), (100.0, 1)];
+    if !quick {
+        scenes.push((100.0, 72));
+    }
+    scenes
+}
+
+fn scene(gamma: f64, count: usize) -> String {
+    let many = if count == 1 { "" } else { targets::MANY };
+    format!("drop-{gamma}{many}")
+}
+
+/// Falls first, one strand before many: the order of the scenes in the files.
+fn place_of(scene: &str) -> (usize, String) {
+    let kinds = ["drop-", statics::SCENE, "motion-", targets::FULL];
+    let kind = kinds.iter().position(|kind| scene.starts_with(kind));
+    (kind.unwrap_or(kinds.len()), scene.to_owned())
+}
+
+fn effort(quick: bool) -> Effort {
+    if quick {
+        Effort {
+            rounds: 4,
+            each: Duration::from_millis(150),
+        }
+    } else {
+        Effort {
+            rounds: 8,
+            each: Duration::from_secs(1),
+        }
+    }
+}
+
+fn fall(
+    scene: &str,
+    gamma: f64,
+    count: usize,
+    truth: &[glam::DVec2],
+    options: &Options,
+) -> Result<Vec<Row>, String> {
+    let mut entries = falls::entries(gamma, count, options.quick)?;
+    let mut runs: Vec<_> = entries
+        .iter_mut()
+        .map(|entry| || entry.fall.fall())
+        .collect();
+    let seconds = shortest(&mut runs, effort(options.quick), || ())?;
+    drop(runs);
+    let rows = entries.into_iter().zip(seconds);
+    Ok(rows
+        .map(|(entry, seconds)| Row {
+            scene: scene.to_owned(),
+            error: Some(entry.fall.error(truth)),
+            method: entry.method,
+            knob: entry.knob,
+            seconds: seconds / count as f64,
+        })
+        .collect())
+}
+
+fn comments(options: &Options, truths: &[(f64, Truth)]) -> Vec<String> {
+    let mut comments = results::machine(options.threads, &["bench", "hair-sim", "glam"]);
+    let text = [
+        "seconds: the shortest of several runs in turns, as the peers' scripts take it",
+        "drop-GAMMA: a strand of 0.3 m, clamped level and let go, undamped, one thread; -x72: 72 of them",
+        "  seconds: for a second and strand; error: of the tip at 24 frames, root mean square over the length; inf: diverged",
+        "  inkstrand-N: ours, N elements; knob: steps of 1/24 s. All others: 20 elements",
+        "  mass-spring: tetrahedra of springs (Selle 2008), implicit; knob: steps of 1/24 s",
+        "  xpbd-steps: XPBD rods, one sweep a step; knob: steps of 1/24 s. xpbd-sweeps: 16 steps; knob: sweeps a step",
+        "  mujoco-*, pypbd-*: other programs; knob: steps of 1/24 s",
+        "cantilever-GAMMA: the same strand at rest; knob: elements; seconds: for a second; error: of the tip over the length",
+        "  steps of inkstrand 1/24 s, mass-spring 1/384 s, xpbd-sweeps 1/1536 s with 20 sweeps",
+        "motion-STRANDSxELEMENTS: on a head that shakes; full-: with the head in their way, wind and links; knob: threads",
+        "  seconds: for a step of 1/60 s of all strands; xpbd-sweeps: 20 sweeps",
+    ];
+    comments.extend(text.map(str::to_owned));
+    comments.extend(
+        truths
+            .iter()
+            .map(|(gamma, truth)| format!("reference of drop-{gamma}: {}", truth.origin)),
+    );
+    comments
+}
+
+fn write(measured: &Measured, out: &Path) -> Result<(), String> {
+    let save = |name: &str, text: &str| {
+        let path = out.join(name);
+        results::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    save(
+        "dynamics.csv",
+        &results::csv("dynamics", &measured.comments, &measured.rows),
+    )?;
+    let errors = "error of the tip over the length";
+    save(
+        "dynamics.svg",
+        &plot::time_against_error(&measured.rows, errors)?,
+    )
+}
+
+/// The rows as a table to read.
+#[must_use]
+pub fn summary(rows: &[Row]) -> String {
+    let header = format!(
+        "{:16} {:24} {:>5} {:>12} {:>10}",
+        "scene", "method", "knob", "ms", "error"
+    );
+    let lines = rows.iter().map(|row| {
+        let error = row
+            .error
+            .map_or(String::new(), |error| format!("{error:.5}"));
+        let milliseconds = 1e3 * row.seconds;
+        format!(
+            "{:16} {:24} {:5} {milliseconds:12.4} {error:>10}",
+            row.scene, row.method, row.knob
+        )
+    });
+    let lines: Vec<String> = std::iter::once(header).chain(lines).collect();
+    lines.join("\n") + "\n"
+}

@@ -1,0 +1,301 @@
+//! Throughput: how long a step of many strands takes on a head that shakes.
+
+use super::mass_spring::Truss;
+use super::own::Own;
+use super::rods::{Apart, Rods, Simulation};
+use super::targets;
+use super::xpbd::Rod;
+use crate::results::Row;
+use crate::timing::{Effort, shortest};
+use glam::{DQuat, DVec3, Vec3};
+use hair_sim::{
+    Collider, Mutual, Params, Pose, Roots, Scene, Shape, Solver, State, Stats, Strands, Wind,
+};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// In s.
+const DT: f64 = 1.0 / 60.0;
+/// The radius in m of the head, a ball at the origin.
+const HEAD: f64 = 0.1;
+
+/// Where the head is after `step` steps: it shakes once a second.
+fn head(step: usize) -> Pose {
+    let angle = 0.6 * (std::f64::consts::TAU * DT * step as f64).sin();
+    Pose {
+        rotation: DQuat::from_rotation_y(angle),
+        translation: DVec3::ZERO,
+    }
+}
+
+/// Directions from the middle of the head, evenly over its upper two thirds.
+fn directions(count: usize) -> impl Iterator<Item = DVec3> {
+    (0..count).map(move |i| {
+        // The golden angle.
+        let angle = i as f64 * 2.399_963_229_728_653;
+        let up = 1.0 - 1.2 * (i as f64 + 0.5) / count as f64;
+        let level = (1.0 - up * up).sqrt();
+        DVec3::new(level * angle.cos(), up, level * angle.sin())
+    })
+}
+
+/// Something whose steps can be timed.
+trait Moving {
+    /// # Errors
+    ///
+    /// When the solver refuses a step, or a counter isn't what it must be.
+    fn step(&mut self) -> Result<(), String>;
+
+    /// The share of strands' steps until now that needed the safe integrator, where there is one.
+    fn fallback_share(&self) -> Option<f64> {
+        None
+    }
+}
+
+/// Strands with nothing around them.
+struct Bare<S> {
+    simulation: S,
+    steps: usize,
+    pool: ThreadPool,
+}
+
+impl<S: Simulation> Moving for Bare<S> {
+    fn step(&mut self) -> Result<(), String> {
+        self.steps += 1;
+        let simulation = &mut self.simulation;
+        let head = head(self.steps);
+        self.pool.install(|| simulation.step(DT, head))
+    }
+}
+
+/// Our strands in the style of hair, with the head in their way, wind, and each other.
+struct Full {
+    solver: Solver,
+    state: State,
+    steps: usize,
+    pool: ThreadPool,
+    strands: usize,
+    links: usize,
+    fallbacks: usize,
+}
+
+impl Full {
+    fn new(strands: usize, links: usize, pool: ThreadPool) -> Result<Self, String> {
+        let mut rest = Strands::new();
+        for (id, out) in directions(strands).enumerate() {
+            let points: Vec<Vec3> = (0..=links)
+                .map(|i| {
+                    let u = i as f64 / links as f64;
+                    let fall = DVec3::NEG_Y * (0.2 * u * u);
+                    (out * (HEAD + 0.002 + 0.1 * u) + fall).as_vec3()
+                })
+                .collect();
+            rest.push(id as u32, &points, None)
+                .map_err(|error| error.to_string())?;
+        }
+        let (mut solver, mut state) =
+            Solver::new(&rest, &Params::default()).map_err(|error| error.to_string())?;
+        // The mean distance of roots, over three fifths of a ball.
+        let apart = (0.6 * 4.0 * std::f64::consts::PI * HEAD * HEAD / strands as f64).sqrt();
+        let mutual = Mutual {
+            reach: 2.0 * apart,
+            break_at: apart,
+            distance: 0.5 * apart,
+            ..Mutual::default()
+        };
+        solver
+            .interact(&mut state, &mutual)
+            .map_err(|error| error.to_string())?;
+        Ok(Self {
+            solver,
+            state,
+            steps: 0,
+            pool,
+            strands,
+            links,
+            fallbacks: 0,
+        })
+    }
+
+    /// What was asked for must have happened.
+    fn check(&self, stats: &Stats) -> Result<(), String> {
+        let is_all = stats.strands == self.strands
+            && stats.set_aside + stats.asleep == 0
+            && stats.wind >= self.strands * self.links
+            && stats.contacts > 0
+            && stats.links > 0;
+        if is_all {
+            return Ok(());
+        }
+        Err(format!(
+            "{} x {}, step {}: strands, wind, contacts or links are missing: {stats:?}",
+            self.strands, self.links, self.steps
+        ))
+    }
+}
+
+impl Moving for Full {
+    fn step(&mut self) -> Result<(), String> {
+        let (before, now) = (head(self.steps), head(self.steps + 1));
+        self.steps += 1;
+        let ball = Shape::Sphere {
+            center: DVec3::ZERO,
+            radius: HEAD,
+        };
+        let colliders = [Collider {
+            shape: ball,
+            before,
+            now,
+        }];
+        let scene = Scene {
+            roots: Roots::Head(now),
+            wind: Wind {
+                steady: DVec3::new(0.0, 0.0, -3.0),
+                gust: 2.0,
+                ..Wind::default()
+            },
+            colliders: &colliders,
+            ..Scene::default()
+        };
+        let (solver, state) = (&mut self.solver, &mut self.state);
+        let stats = self.pool.install(|| solver.step(state, &scene, DT));
+        let stats = stats.map_err(|error| error.to_string())?;
+        self.fallbacks += stats.fallbacks;
+        self.check(&stats)
+    }
+
+    fn fallback_share(&self) -> Option<f64> {
+        Some(self.fallbacks as f64 / (self.strands * self.steps) as f64)
+    }
+}
+
+/// What was measured of strands in motion.
+pub struct Measured {
+    /// A row each scene, method and number of threads (the knob): seconds are those of a step of all strands.
+    pub rows: Vec<Row>,
+    /// Scenes with everything, and the largest share of strands' steps that needed the safe integrator.
+    pub fallbacks: Vec<(String, f64)>,
+}
+
+/// Times steps. Our strands' scenes with head, wind and other hair fail unless the counters of each timed step say that
+/// there were contacts, wind and links.
+///
+/// # Errors
+///
+/// When a step is refused or a counter is not what it must be.
+pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, String> {
+    let mut entries: Vec<(String, &str, usize, Box<dyn Moving>)> = Vec::new();
+    let mut counts = vec![1, threads];
+    counts.dedup();
+    for threads in counts {
+        let pool = || {
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.map_err(|error| error.to_string())
+        };
+        let own = targets::OWN.trim_end_matches('-');
+        for (strands, links) in [(72, 20), (10_000, 16)] {
+            let rods = Rods {
+                roots: directions(strands).map(|out| (out * HEAD, out)).collect(),
+                drag: 2.0,
+                ..Rods::level(strands, links, 10.0)
+            };
+            let bare = |simulation: Box<dyn Simulation>| {
+                Ok::<_, String>(Box::new(Bare {
+                    simulation,
+                    steps: 0,
+                    pool: pool()?,
+                }))
+            };
+            let scene = format!("motion-{strands}x{links}");
+            let simulation = Box::new(Own::new(&rods)?);
+            entries.push((scene.clone(), own, threads, bare(simulation)?));
+            if strands == 72 {
+                let truss = |index| Truss::new(&rods, index);
+                let trusses = Box::new(Apart((0..strands).map(truss).collect::<Vec<_>>()));
+                entries.push((scene.clone(), targets::MASS_SPRING, threads, bare(trusses)?));
+                let rod = |index| Rod::new(&rods, index, 20);
+                let rods = Box::new(Apart((0..strands).map(rod).collect::<Vec<_>>()));
+                entries.push((scene, targets::XPBD_SWEEPS, threads, bare(rods)?));
+            }
+            let scene = format!("{}{strands}x{links}", targets::FULL);
+            let full = Box::new(Full::new(strands, links, pool()?)?);
+            entries.push((scene, own, threads, full));
+        }
+    }
+    // On their way before they are timed.
+    for (_, _, _, moving) in &mut entries {
+        for _ in 0..if quick { 10 } else { 60 } {
+            moving.step()?;
+        }
+    }
+    let mut runs: Vec<_> = entries
+        .iter_mut()
+        .map(|(_, _, _, moving)| || moving.step())
+        .collect();
+    let seconds = shortest(&mut runs, effort, || ())?;
+    drop(runs);
+    let mut measured = Measured {
+        rows: Vec::new(),
+        fallbacks: Vec::new(),
+    };
+    for ((scene, method, knob, moving), seconds) in entries.into_iter().zip(seconds) {
+        if let Some(share) = moving.fallback_share() {
+            match measured.fallbacks.iter_mut().find(|of| of.0 == scene) {
+                Some(of) => of.1 = of.1.max(share),
+                None => measured.fallbacks.push((scene.clone(), share)),
+            }
+        }
+        measured.rows.push(Row {
+            scene,
+            method: method.to_owned(),
+            knob,
+            seconds,
+            error: None,
+        });
+    }
+    Ok(measured)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_without_contacts_is_refused() {
+        let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let full = Full::new(8, 10, pool).unwrap();
+        let good = Stats {
+            strands: 8,
+            wind: 80,
+            contacts: 1,
+            links: 1,
+            ..Stats::default()
+        };
+        full.check(&good).unwrap();
+        for bad in [
+            Stats { strands: 7, ..good },
+            Stats { wind: 79, ..good },
+            Stats {
+                contacts: 0,
+                ..good
+            },
+            Stats {
+                set_aside: 1,
+                ..good
+            },
+        ] {
+            assert!(full.check(&bad).is_err(), "{bad:?}");
+        }
+    }
+
+    #[test]
+    fn every_scene_moves() {
+        let effort = Effort {
+            rounds: 1,
+            each: std::time::Duration::ZERO,
+        };
+        let Measured { rows, fallbacks } = measure(2, true, effort).unwrap();
+        assert_eq!((rows.len(), fallbacks.len()), (12, 2));
+        assert!(rows.iter().all(|row| row.seconds > 0.0));
+        assert!(fallbacks.iter().all(|(_, share)| *share <= 1.0));
+    }
+}

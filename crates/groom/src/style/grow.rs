@@ -1,0 +1,167 @@
+//! From a style to strands on a head.
+
+use super::gathered::Gathered;
+use super::row::{Row, Seat, size_class};
+use super::undercoat::undercoat;
+use super::{Drawn, Edit, Form, Style, Tie, Zone};
+use crate::random::Random;
+use crate::shell::Shell;
+use glam::Vec3;
+use hair_sim::Strands;
+
+/// Ids of a zone's clumps begin at its number times this; those of the mirrored half in the middle.
+/// The undercoat and hand-drawn clumps are zones 0 and 1.
+const IDS_A_ZONE: u32 = 10_000;
+/// Most clumps of one side of a zone.
+pub const MOST_CLUMPS: u32 = IDS_A_ZONE / 2;
+const UNDERCOAT: u32 = 0;
+const DRAWN: u32 = 1;
+const FIRST_ZONE: u32 = 2;
+
+/// Hair that was grown on a head.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Grown {
+    /// The clumps, each with its size and an id that only its zone's place in the list and its own
+    /// number decide; ids increase.
+    pub strands: Strands,
+    /// How many points from its root each clump keeps on the head: pressed to the scalp, or gathered
+    /// in a tie.
+    pub held: Vec<u32>,
+    /// The ties of gathered hair.
+    pub ties: Vec<Tie>,
+}
+
+impl Grown {
+    fn push(&mut self, zone: u32, number: u32, points: &[Vec3], held: usize, size: f32) {
+        let id = zone.wrapping_mul(IDS_A_ZONE).wrapping_add(number);
+        // Points come from a shell of finite radii, so none is refused.
+        if self.strands.push(id, points, Some(size)).is_ok() {
+            self.held.push(held as u32);
+        }
+    }
+}
+
+/// Grows a style on a head.
+#[must_use]
+pub fn grow(style: &Style, shell: &Shell) -> Grown {
+    let mut grown = Grown::default();
+    if style.undercoat {
+        for (number, (points, size)) in (0..).zip(undercoat(&style.scalp, shell)) {
+            grown.push(UNDERCOAT, number, &points, points.len(), size);
+        }
+    }
+    for (half, side) in [(0, 1.0), (MOST_CLUMPS, -1.0)] {
+        let is_there = |(_, drawn): &(u32, &Drawn)| half == 0 || drawn.mirror;
+        for (number, drawn) in (0..).zip(&style.drawn).filter(is_there) {
+            let points = drawn.points(side, shell);
+            grown.push(DRAWN, half + number, &points, 1, drawn.size);
+        }
+    }
+    for (number, zone) in (FIRST_ZONE..).zip(&style.zones) {
+        for (half, side) in [(0, 1.0), (MOST_CLUMPS, -1.0)] {
+            if half == 0 || zone.mirror {
+                let mut half = Half {
+                    style,
+                    shell,
+                    zone,
+                    number,
+                    first: half,
+                    side,
+                    grown: &mut grown,
+                };
+                match zone.form {
+                    Form::Rows => half.rows(),
+                    Form::Tail | Form::Bun | Form::Braid => half.gathered(),
+                }
+            }
+        }
+    }
+    grown
+}
+
+/// One side of a zone.
+struct Half<'a> {
+    style: &'a Style,
+    shell: &'a Shell,
+    zone: &'a Zone,
+    number: u32,
+    first: u32,
+    side: f32,
+    grown: &'a mut Grown,
+}
+
+impl Half<'_> {
+    fn random(&self, clump: u32) -> Random {
+        Random::new(self.style.seed, &self.zone.name, self.first + clump)
+    }
+
+    fn rows(&mut self) {
+        let zone = self.zone;
+        let in_row = zone.count.min(MOST_CLUMPS / zone.rows.max(1));
+        for row_number in 0..zone.rows {
+            let row = Row::new(zone, &self.style.scalp, self.shell, row_number, self.side);
+            let first = row_number * in_row;
+            let mut randoms: Vec<Random> = (0..in_row).map(|i| self.random(first + i)).collect();
+            let seats = row.seats(&mut randoms);
+            for ((clump, random), seat) in (first..).zip(&mut randoms).zip(seats) {
+                let edit = self.edit(clump);
+                let length = edit.map_or(1.0, |edit| edit.length);
+                let seat = Seat {
+                    // Joints of one row lie over the middle of the clumps of the next.
+                    along: staggered(seat.along, row_number, in_row),
+                    ..seat
+                };
+                let (points, held) = row.clump(seat, length, random);
+                self.push(clump, points, held, seat.size);
+            }
+        }
+    }
+
+    fn gathered(&mut self) {
+        let zone = self.zone;
+        let gathered = Gathered {
+            zone,
+            scalp: &self.style.scalp,
+            shell: self.shell,
+            side: self.side,
+        };
+        let size = gathered.size();
+        for clump in 0..zone.count.min(MOST_CLUMPS) {
+            let mut random = self.random(clump);
+            let class = size_class(zone.mixed_sizes, &mut random);
+            let length = self.edit(clump).map_or(1.0, |edit| edit.length);
+            let (points, held) = gathered.clump(clump, length, &mut random);
+            self.push(clump, points, held, size * class);
+        }
+        self.grown.ties.extend(gathered.ties());
+    }
+
+    fn edit(&self, clump: u32) -> Option<&Edit> {
+        let is_meant = |edit: &&Edit| {
+            edit.zone == self.zone.name && edit.clump == clump && edit.mirrored == (self.first > 0)
+        };
+        self.style.edits.iter().find(is_meant)
+    }
+
+    fn push(&mut self, clump: u32, mut points: Vec<Vec3>, held: usize, mut size: f32) {
+        if let Some(edit) = self.edit(clump) {
+            if edit.remove {
+                return;
+            }
+            edit.apply(&mut points, self.shell);
+            size *= edit.size;
+        }
+        self.grown
+            .push(self.number, self.first + clump, &points, held, size);
+    }
+}
+
+/// A place along a row, moved by half a clump in every other row.
+fn staggered(along: f32, row: u32, count: u32) -> f32 {
+    let shift = if row % 2 == 1 {
+        0.5 / count.max(1) as f32
+    } else {
+        0.0
+    };
+    (along + shift).min(1.0)
+}

@@ -1,0 +1,156 @@
+//! Hair that hangs: from the rim of the head, or from a tie.
+
+use super::Zone;
+use super::row::smooth;
+use crate::random::Random;
+use crate::shell::Shell;
+use crate::trig::sin_cos_turns;
+use glam::Vec3;
+
+/// Points of hair that hangs without curls.
+const POINTS: usize = 10;
+/// Points of one turn of a curl, and most points of one clump.
+const POINTS_A_TURN: f32 = 9.0;
+const MOST_POINTS: usize = 160;
+/// How near the skin a clump's middle line may come, in its radii: some of it lies against the skin.
+const CLOSEST: f32 = 0.6;
+/// Length in which hair of weight 1/2 turns half-way down, head heights.
+const BEND: f32 = 0.12;
+
+/// What a clump hangs by.
+pub(super) struct Hanging {
+    /// Length that hangs, metres.
+    pub length_m: f32,
+    /// 1 on the character's left, -1 on its right.
+    pub side: f32,
+    /// Radius at its full size, 1/300 head heights.
+    pub size: f32,
+    /// Its place in the section of gathered hair (outwards, sideways), within the unit circle.
+    pub section: [f32; 2],
+}
+
+/// Lets a clump hang on from its last point.
+pub(super) fn hang(
+    zone: &Zone,
+    hanging: &Hanging,
+    shell: &Shell,
+    random: &mut Random,
+    points: &mut Vec<Vec3>,
+) {
+    let (phase, sway) = (random.unit(), zone.sway * random.around_zero());
+    if hanging.length_m <= 0.0 {
+        return;
+    }
+    let first = points.len().saturating_sub(2);
+    let axis = Axis::new(zone, hanging, shell, points, sway);
+    let length = hanging.length_m / shell.height();
+    let turns = if zone.curl > 0.0 {
+        length / zone.curl_length.max(1e-3)
+    } else {
+        0.0
+    };
+    let count = (POINTS.max((turns * POINTS_A_TURN).ceil() as usize)).min(MOST_POINTS);
+    for (step, (center, heading)) in axis.walk(count).into_iter().enumerate() {
+        let t = (step + 1) as f32 / count as f32;
+        // Waves of neighbours go together; curls are each clump's own.
+        let turn = turns * t * hanging.side + phase * (1.0 - 0.85 * zone.curl_flatness);
+        let (sin, cos) = sin_cos_turns(turn);
+        let across = axis.sideways;
+        let outwards = across.cross(heading).normalize_or(axis.away);
+        let round = across * cos + outwards * (sin * (1.0 - zone.curl_flatness));
+        let curl = round * (zone.curl * shell.height() * smooth(4.0 * t));
+        let [out, side] = hanging.section.map(|x| x * axis.fullness(t));
+        let point = center + axis.away * out + axis.sideways * side + curl;
+        points.push(shell.keep_out(point, axis.gap));
+    }
+    if turns <= 0.0 {
+        smooth_corners(&mut points[first..]);
+    }
+}
+
+/// Rounds the corners where hair leaves the head, or was kept out of it.
+fn smooth_corners(points: &mut [Vec3]) {
+    let mut before = points[0];
+    for i in 1..points.len() - 1 {
+        let here = points[i];
+        points[i] = 0.5 * here + 0.25 * (before + points[i + 1]);
+        before = here;
+    }
+}
+
+/// The middle line of hair that hangs.
+struct Axis<'a> {
+    zone: &'a Zone,
+    shell: &'a Shell,
+    start: Vec3,
+    heading: Vec3,
+    down: Vec3,
+    away: Vec3,
+    sideways: Vec3,
+    sway: f32,
+    length_m: f32,
+    /// How near the skin a point may come, head heights.
+    gap: f32,
+}
+
+impl<'a> Axis<'a> {
+    fn new(
+        zone: &'a Zone,
+        hanging: &Hanging,
+        shell: &'a Shell,
+        points: &[Vec3],
+        sway: f32,
+    ) -> Self {
+        let start = points[points.len() - 1];
+        let outward = shell.lift_of(start).1;
+        let away = outward.with_y(0.0).normalize_or(Vec3::Z);
+        let heading = match points.len() {
+            1 => outward,
+            n => (start - points[n - 2]).normalize_or(outward),
+        };
+        Self {
+            zone,
+            shell,
+            start,
+            heading,
+            down: (Vec3::NEG_Y + away * zone.spread).normalize_or(Vec3::NEG_Y),
+            away,
+            sideways: Vec3::Y.cross(away),
+            sway,
+            length_m: hanging.length_m,
+            gap: CLOSEST * hanging.size / 300.0,
+        }
+    }
+
+    /// `count` places on the axis with their headings. Steps are shorter near the start, where it
+    /// bends.
+    fn walk(&self, count: usize) -> Vec<(Vec3, Vec3)> {
+        let zone = self.zone;
+        let (mut place, mut heading, mut before) = (self.start, self.heading, 0.0);
+        let mut places = Vec::with_capacity(count);
+        for step in 1..=count {
+            let t = step as f32 / count as f32;
+            let at = t * (0.5 + 0.5 * t);
+            let length_m = (at - before) * self.length_m;
+            before = at;
+            let turn = zone.weight * length_m / self.shell.height();
+            let turn = turn / (turn + (1.0 - zone.weight) * BEND).max(1e-6);
+            let down = self.down + self.sideways * (self.sway * at);
+            heading = heading.lerp(down, turn).normalize_or(self.down);
+            let flicked = heading + self.away * (zone.flick * at * at);
+            let flicked = flicked.normalize_or(heading);
+            place = self.shell.keep_out(place + flicked * length_m, self.gap);
+            places.push((place, flicked));
+        }
+        places
+    }
+
+    /// Radius of gathered hair at share `t` of the points, metres: it bursts from the tie, is fullest
+    /// at a third, and gathers again.
+    fn fullness(&self, t: f32) -> f32 {
+        let at = t * (0.5 + 0.5 * t);
+        let burst = 1.0 - (1.0 - (at / 0.3).min(1.0)) * (1.0 - (at / 0.3).min(1.0));
+        let gather = 1.0 - 0.6 * smooth((at - 0.3) / 0.7);
+        self.zone.fullness * self.shell.height() * (0.12 + 0.88 * burst) * gather
+    }
+}

@@ -1,0 +1,256 @@
+//! Contact of particles with bodies: once a step, the path of every particle against every body gives at most one
+//! plane, behind which the particle is held in the stages of the step.
+
+use glam::DVec3;
+
+use crate::{
+    lanes::{LANES, Lane, Mask, Sym3, Vec3},
+    solver::batch::{Batch, BatchState},
+    solver::sweep::Node,
+};
+
+use super::Collider;
+
+/// The time in s in which a contact settles. At steps above it contact is as good as rigid.
+const SETTLE: f64 = 2e-4;
+
+/// The speed in m/s at which a strand that is found inside a body is pushed out.
+const PUSH_OUT: f64 = 3.0;
+
+/// Below this speed in m/s friction is viscous: how fast what should stick creeps at most.
+const CREEP: f64 = 5e-4;
+
+/// Bodies nearer than this, in m, are prepared for, whether or not the free motion meets them.
+const NEAR: f64 = 2e-3;
+
+/// A particle closer to the surface than this, in m, touches it.
+const TOUCH: f64 = 1e-6;
+
+/// A plane that holds a particle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    /// 1 for strands that have the plane here, else 0.
+    pub on: Lane,
+    /// 1 where it holds, in the stage at hand.
+    pub holds: Lane,
+    /// The particle y is kept at normal . y >= mid, end, from the root.
+    pub normal: Vec3,
+    pub mid: Lane,
+    pub end: Lane,
+    /// The surface's velocity from the root, in m/s.
+    pub flow: Vec3,
+    /// Rate of friction in 1/s.
+    pub slip: Lane,
+}
+
+impl Contact {
+    pub(crate) const NONE: Self = Self {
+        on: Lane::ZERO,
+        holds: Lane::ZERO,
+        normal: Vec3::ZERO,
+        mid: Lane::ZERO,
+        end: Lane::ZERO,
+        flow: Vec3::ZERO,
+        slip: Lane::ZERO,
+    };
+
+    /// Where the plane holds a particle at `y`, in the lanes of `among` where it did not hold.
+    #[inline(always)]
+    pub(crate) fn newly_below(&self, y: Vec3, level: Lane, among: Mask) -> Mask {
+        let half = Lane::splat(0.5);
+        (self.on.gt(half))
+            .and(self.holds.lt(half))
+            .and(among)
+            .and(self.normal.dot(y).lt(level))
+    }
+
+    /// Adds the plane's force in the lanes of `mask` to a particle of `mass` in a stage of length `d`.
+    #[inline(always)]
+    pub(crate) fn hold(
+        &mut self,
+        node: &mut Node,
+        mask: Mask,
+        mass: Lane,
+        level: Lane,
+        d: Lane,
+        free_y: Vec3,
+    ) {
+        let here = mask.pick(mass, Lane::ZERO);
+        let spring = here * d * d * (1.0 / (SETTLE * SETTLE));
+        let damper = here * d * (1.0 / SETTLE);
+        let slide = here * d * self.slip;
+        let n = Sym3::outer(self.normal, spring + damper - slide) + Sym3::diagonal(slide);
+        let carried = free_y + self.flow * d;
+        let out = self.normal * (spring * level + (damper - slide) * self.normal.dot(carried));
+        node.n += n;
+        node.b += out + carried * slide;
+        self.holds = mask.pick(Lane::ONE, self.holds);
+    }
+
+    /// The pressure on a particle at `y` at the end of a step, in m/s^2.
+    #[inline(always)]
+    pub(crate) fn pressure(&self, y: Vec3) -> Lane {
+        let depth = (self.end - self.normal.dot(y)).max(Lane::ZERO);
+        depth * self.holds * (1.0 / (SETTLE * SETTLE))
+    }
+}
+
+/// How the frames of the roots move in a step.
+pub(crate) struct Course {
+    pub root: Vec3,
+    pub dt: f64,
+    /// Where in the step its middle stage is.
+    pub gamma: f64,
+}
+
+/// The depth at which every particle of a strand may stay: that of the style, where it starts inside a body.
+pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Collider]) {
+    for k in 0..batch.count() {
+        for lane in 0..LANES {
+            let at = state.root.get(lane) + state.y[k].get(lane);
+            let depth = colliders
+                .iter()
+                .map(|c| c.shape.distance(c.before.to_local(at)) - batch.thickness[lane])
+                .fold(0.0, f64::min);
+            state.skin[k][lane] = depth;
+        }
+    }
+}
+
+/// Finds the planes of a step. Returns the number of particles that have one.
+pub(crate) fn detect(
+    batch: &Batch,
+    state: &BatchState,
+    colliders: &[Collider],
+    course: &Course,
+    active: Mask,
+    contacts: &mut [Contact],
+) -> usize {
+    let mut count = 0;
+    let dt = course.dt;
+    for k in 0..batch.count() {
+        let contact = &mut contacts[k];
+        contact.on = Lane::ZERO;
+        contact.holds = Lane::ZERO;
+        let y0 = state.y[k];
+        let y1 = y0 + state.v[k] * dt + state.a[k] * (0.5 * dt * dt);
+        let (p0, p1) = (state.root + y0, course.root + y1);
+        let keep = batch.thickness + state.skin[k];
+        for lane in 0..LANES {
+            if !active.get(lane) || k >= batch.counts[lane] {
+                continue;
+            }
+            let path = Path {
+                from: p0.get(lane),
+                to: p1.get(lane),
+                keep: keep[lane],
+                dt,
+            };
+            let Some((collider, plane)) = path.first(colliders) else {
+                continue;
+            };
+            count += 1;
+            let (before, now) = (collider.before, collider.now);
+            let normal = now.rotation * plane.normal;
+            let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
+            let (s0, s1) = (s0 - state.root.get(lane), s1 - course.root.get(lane));
+            let mid = s0 + (s1 - s0) * course.gamma;
+            let flow = (s1 - s0) / dt;
+            contact.on[lane] = 1.0;
+            contact.normal.set(lane, normal);
+            contact.mid[lane] = normal.dot(mid);
+            contact.end[lane] = normal.dot(s1);
+            contact.flow.set(lane, flow);
+            let velocity = state.v[k].get(lane) - flow;
+            let sliding = (velocity - normal * velocity.dot(normal)).length();
+            contact.slip[lane] = batch.friction[lane] * state.press[k][lane] / sliding.max(CREEP);
+        }
+    }
+    count
+}
+
+/// A particle's way through the world in a step.
+struct Path {
+    from: DVec3,
+    to: DVec3,
+    keep: f64,
+    dt: f64,
+}
+
+/// A plane in a body's space.
+struct Plane {
+    at: DVec3,
+    normal: DVec3,
+    /// How far the path's end is behind it.
+    depth: f64,
+}
+
+impl Path {
+    /// The body whose plane the path's end is deepest behind.
+    fn first<'a, 'b>(&self, colliders: &'b [Collider<'a>]) -> Option<(&'b Collider<'a>, Plane)> {
+        let mut best: Option<(&Collider, Plane)> = None;
+        for collider in colliders {
+            let Some(plane) = self.against(collider) else {
+                continue;
+            };
+            if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
+                best = Some((collider, plane));
+            }
+        }
+        best
+    }
+
+    fn against(&self, collider: &Collider) -> Option<Plane> {
+        let shape = &collider.shape;
+        let to = collider.now.to_local(self.to);
+        let end = shape.distance(to) - self.keep;
+        let moves = collider.before != collider.now;
+        let way = if moves {
+            (to - collider.before.to_local(self.from)).length()
+        } else {
+            (self.to - self.from).length()
+        };
+        // The whole path is within `way` of its end.
+        if end > way + NEAR {
+            return None;
+        }
+        let from = collider.before.to_local(self.from);
+        let start = shape.distance(from) - self.keep;
+        if start <= TOUCH {
+            // It touches already. The surface near the end, where that is the same side.
+            let (first, last) = (shape.normal(from), shape.normal(to));
+            let (at, distance, normal) = if first.dot(last) > 0.5 {
+                (to, end, last)
+            } else {
+                (from, start, first)
+            };
+            let level = (start + PUSH_OUT * self.dt).min(0.0);
+            return Some(self.plane(at - normal * (distance - level), normal, to));
+        }
+        // Along the path by steps that cannot pass the surface (Hart 1996, sphere tracing).
+        let (mut t, mut distance) = (0.0, start);
+        for _ in 0..64 {
+            t += distance.max(TOUCH) / way;
+            if t >= 1.0 {
+                break;
+            }
+            let at = from + (to - from) * t;
+            distance = shape.distance(at) - self.keep;
+            if distance <= TOUCH {
+                let normal = shape.normal(at);
+                return Some(self.plane(at - normal * distance, normal, to));
+            }
+        }
+        // Not met by the free motion: what the strand does may still bring it there.
+        let normal = shape.normal(to);
+        Some(self.plane(to - normal * end, normal, to))
+    }
+
+    fn plane(&self, at: DVec3, normal: DVec3, end: DVec3) -> Plane {
+        Plane {
+            at,
+            normal,
+            depth: (at - end).dot(normal),
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Hair and hair: links that hold neighbours together and break, and repulsion that keeps volume.
+//!
+//! After Chang et al. 2002, *A practical model for hair mutual interactions*: guide strands far apart from each other stand
+//! for the hair between them, so what they do to each other is sparse. Every strand has a few neighbours by root; every
+//! second particle of it is paired with the particle of a neighbour that is nearest at rest. A pair keeps its distance at rest from
+//! below (repulsion), and, where it began close enough, its offset in the frame of the strand (a static link), until
+//! it is pulled too far apart. The other strand is where its own motion would take it, so that strands stay
+//! independent within a step.
+
+use glam::DVec3;
+
+use crate::lanes::{LANES, Lane, Mask, Vec3};
+
+use super::springs::Spring;
+
+/// How strands act on each other.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Mutual {
+    /// Neighbours of a strand, 0 to 16.
+    pub neighbours: usize,
+    /// Stiffness of links in 1/s^2, 0 to 1e6.
+    pub link: f64,
+    /// Pairs closer than this at rest are linked, in m, 0 to 10.
+    pub reach: f64,
+    /// A link breaks when its length has changed by this, in m, 0 to 10.
+    pub break_at: f64,
+    /// Whether a broken link holds again once it is back within a tenth of that.
+    pub mends: bool,
+    /// Stiffness of repulsion in 1/s^2, 0 to 1e6.
+    pub repulsion: f64,
+    /// Repulsion keeps pairs this far apart, or as far as at rest, whichever is less; in m, 0 to 10.
+    pub distance: f64,
+}
+
+impl Default for Mutual {
+    fn default() -> Self {
+        Self {
+            neighbours: 4,
+            link: 40.0,
+            reach: 0.02,
+            break_at: 0.02,
+            mends: true,
+            repulsion: 400.0,
+            distance: 0.01,
+        }
+    }
+}
+
+impl Mutual {
+    /// The first number that is out of its range, as (name, value, least, most).
+    pub(crate) fn out_of_range(&self) -> Option<(&'static str, f64, f64, f64)> {
+        [
+            ("neighbours", self.neighbours as f64, 0.0, 16.0),
+            ("link", self.link, 0.0, 1e6),
+            ("reach", self.reach, 0.0, 10.0),
+            ("break_at", self.break_at, 0.0, 10.0),
+            ("repulsion", self.repulsion, 0.0, 1e6),
+            ("distance", self.distance, 0.0, 10.0),
+        ]
+        .into_iter()
+        .find(|(_, value, least, most)| !(least..=most).contains(&value))
+    }
+}
+
+/// A particle of every strand of a batch, and its partner.
+#[derive(Clone, Debug)]
+pub(crate) struct Pair {
+    /// The particle's place on the strand.
+    pub at: usize,
+    /// The partner's index in the list of all particles.
+    pub other: [u32; LANES],
+    /// 1 where there is a partner.
+    pub on: Lane,
+    /// 1 where the pair is linked.
+    pub linked: Lane,
+    /// From the particle to its partner at rest, in the frame of the particle's link, and its length.
+    pub offset: Vec3,
+    pub length: Lane,
+}
+
+/// Where a particle is at the start of a step, and where it goes by itself.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Course {
+    pub before: DVec3,
+    pub now: DVec3,
+}
+
+/// What a batch's pairs did in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts {
+    pub links: usize,
+    pub repulsions: usize,
+}
+
+/// The start and end of a step of one batch, for [`act`].
+pub(crate) struct Own<'a> {
+    /// Particles from the root, and frames, at the start.
+    pub y: &'a [Vec3],
+    pub frames: &'a [crate::lanes::Quat],
+    pub root_before: Vec3,
+    pub root_now: Vec3,
+    pub gamma: f64,
+    pub dt: f64,
+}
+
+/// Adds the pairs of a batch to its springs. `broken` are the links that hold no more.
+pub(crate) fn act(
+    mutual: &Mutual,
+    pairs: &[Pair],
+    courses: &[Course],
+    own: &Own,
+    broken: &mut [[bool; LANES]],
+    springs: &mut [Spring],
+) -> Counts {
+    let mut counts = Counts::default();
+    let (link, push) = (Lane::splat(mutual.link), Lane::splat(mutual.repulsion));
+    let half = Lane::splat(0.5);
+    for (pair, broken) in pairs.iter().zip(broken) {
+        let (mut before, mut now) = (Vec3::ZERO, Vec3::ZERO);
+        for lane in 0..LANES {
+            let course = &courses[pair.other[lane] as usize];
+            before.set(lane, course.before);
+            now.set(lane, course.now);
+        }
+        let y = own.y[pair.at];
+        let (before, now) = (before - own.root_before, now - own.root_now);
+        let apart = before - y;
+        let length = apart.length_squared().sqrt();
+        let stretch = (length - pair.length).max(pair.length - length);
+
+        let linked = pair.linked.gt(half);
+        let torn = stretch.gt(Lane::splat(mutual.break_at));
+        let back = stretch.lt(Lane::splat(0.1 * mutual.break_at));
+        let mended = if mutual.mends { back } else { Mask::NONE };
+        let gone = Mask::new(*broken).or(torn).and(mended.not());
+        *broken = gone.and(linked).bools();
+        let holds = linked.and(gone.not());
+        counts.links += holds.count();
+        if holds.any() {
+            let [x, y, z] = own.frames[pair.at].axes();
+            let o = pair.offset;
+            let offset = x * o.x + y * o.y + z * o.z;
+            let stiffness = holds.pick(link, Lane::ZERO);
+            let spring = &mut springs[pair.at];
+            spring.pull(stiffness, before - offset, now - offset, own.gamma, own.dt);
+        }
+
+        let keep = pair.length.min(Lane::splat(mutual.distance));
+        let close = pair.on.gt(half).and(length.lt(keep * 0.999));
+        counts.repulsions += close.count();
+        if close.any() {
+            // Away along the line between them; strands in one place stay together.
+            let safe = length.max(Lane::splat(1e-9));
+            let away = apart * (keep / safe).min(Lane::splat(10.0));
+            let stiffness = close
+                .and(length.gt(Lane::splat(1e-9)))
+                .pick(push, Lane::ZERO);
+            let spring = &mut springs[pair.at];
+            spring.pull(stiffness, before - away, now - away, own.gamma, own.dt);
+        }
+    }
+    counts
+}

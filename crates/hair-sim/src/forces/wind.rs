@@ -1,0 +1,202 @@
+//! Wind: a steady stream, and gusts that ride on it.
+
+use glam::DVec3;
+
+use crate::{
+    lanes::{Lane, Vec3},
+    math::{cos, sin},
+};
+
+/// Number of waves that gusts are made of.
+const WAVES: usize = 5;
+
+/// The motion of the air, in world axes.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Wind {
+    /// The mean velocity in m/s.
+    pub steady: DVec3,
+    /// The speed of gusts in m/s, as root mean square over space and time.
+    pub gust: f64,
+    /// The size of gusts in m: their mean wavelength. At least 1e-3.
+    pub size: f64,
+    /// Another seed, other gusts.
+    pub seed: u64,
+}
+
+impl Default for Wind {
+    fn default() -> Self {
+        Self {
+            steady: DVec3::ZERO,
+            gust: 0.0,
+            size: 0.5,
+            seed: 0,
+        }
+    }
+}
+
+/// The gusts at one time: waves across their own direction (so that air is neither made nor lost), which the steady
+/// wind carries along (Taylor's frozen turbulence) and which change by themselves. Continuous with all their derivatives in
+/// space and time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gusts {
+    steady: Vec3,
+    waves: [Wave; WAVES],
+    /// Whether there is any wind; any gust.
+    pub blows: bool,
+    gusts: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Wave {
+    /// Turns per metre.
+    number: Vec3,
+    /// In turns.
+    phase: Lane,
+    /// In m/s.
+    amplitude: Vec3,
+}
+
+impl Wind {
+    pub(crate) fn is_finite(&self) -> bool {
+        self.steady.is_finite()
+            && self.gust.is_finite()
+            && self.size.is_finite()
+            && self.size >= 1e-3
+    }
+
+    /// The field at `time` seconds.
+    pub(crate) fn at(&self, time: f64) -> Gusts {
+        let mut waves = [Wave {
+            number: Vec3::ZERO,
+            phase: Lane::ZERO,
+            amplitude: Vec3::ZERO,
+        }; WAVES];
+        let gusts = self.gust != 0.0;
+        if gusts {
+            for (j, wave) in waves.iter_mut().enumerate() {
+                let random = |k: u64| unit(self.seed, j as u64 * 8 + k);
+                let along = sphere(random(0), random(1));
+                let other = sphere(random(2), random(3));
+                let across = along
+                    .cross(other)
+                    .normalize_or(along.any_orthonormal_vector());
+                // Wavelengths from 0.6 to 1.6 of the size.
+                let number = along / (self.size * (0.6 + (j as f64 + random(4)) / WAVES as f64));
+                let change = self.gust.abs() * number.length() * 0.5;
+                let phase = random(5) - time * (number.dot(self.steady) + change);
+                // A sine's mean square is a half.
+                let speed = self.gust * (2.0 / WAVES as f64).sqrt();
+                *wave = Wave {
+                    number: Vec3::splat(number),
+                    phase: Lane::splat(phase - phase.floor()),
+                    amplitude: Vec3::splat(across * speed),
+                };
+            }
+        }
+        Gusts {
+            steady: Vec3::splat(self.steady),
+            waves,
+            blows: gusts || self.steady != DVec3::ZERO,
+            gusts,
+        }
+    }
+}
+
+impl Gusts {
+    /// The air's velocity at a place in the world.
+    #[inline(always)]
+    pub(crate) fn velocity(&self, at: Vec3) -> Vec3 {
+        let mut sum = self.steady;
+        if self.gusts {
+            for wave in &self.waves {
+                sum += wave.amplitude * sine_of_turns(wave.number.dot(at) + wave.phase);
+            }
+        }
+        sum
+    }
+}
+
+/// sin(2 pi x) within 0.1 %, continuous: a gust needs no more.
+#[inline(always)]
+fn sine_of_turns(x: Lane) -> Lane {
+    // Adding this leaves no fraction: rounding to the nearest whole number, on every processor.
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    let r = x - ((x + ROUND) - ROUND);
+    // sin(2 pi r) = 8 r - 16 r |r|, a parabola, and a second one of it: odd, exact at the quarters.
+    let magnitude = r.max(-r);
+    let p = r * 8.0 - r * magnitude * 16.0;
+    let q = p * p.max(-p);
+    p * 0.775_160_7 + q * 0.224_839_3
+}
+
+/// A hash of (seed, index) in 0 to 1 (SplitMix64, Steele et al. 2014).
+fn unit(seed: u64, index: u64) -> f64 {
+    let mut z = seed.wrapping_add((index + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    (z ^ (z >> 31)) as f64 / u64::MAX as f64
+}
+
+/// A direction, uniform on the sphere, from two numbers in 0 to 1.
+fn sphere(u: f64, v: f64) -> DVec3 {
+    let z = 2.0 * u - 1.0;
+    let level = (1.0 - z * z).max(0.0).sqrt();
+    let angle = std::f64::consts::TAU * v;
+    DVec3::new(level * cos(angle), z, level * sin(angle))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wind() -> Wind {
+        Wind {
+            steady: DVec3::new(3.0, 0.0, 1.0),
+            gust: 2.0,
+            seed: 7,
+            ..Wind::default()
+        }
+    }
+
+    #[test]
+    fn gusts_are_continuous_in_space_and_time() {
+        let wind = wind();
+        for i in 0..2000 {
+            let t = f64::from(i) * 0.37;
+            let at = DVec3::new(t, -0.2 * t, 0.6 * t) * 0.1;
+            let velocity = |t: f64, at: DVec3| wind.at(t).velocity(Vec3::splat(at)).get(0);
+            let now = velocity(t, at);
+            assert!((velocity(t + 1e-5, at) - now).length() < 1e-2);
+            assert!((velocity(t, at + DVec3::splat(1e-5)) - now).length() < 1e-2);
+        }
+    }
+
+    #[test]
+    fn gusts_have_their_speed_and_no_mean() {
+        let wind = wind();
+        let (mut mean, mut square) = (DVec3::ZERO, 0.0);
+        let count = 20_000;
+        for i in 0..count {
+            let at = DVec3::new(unit(1, i) * 50.0, unit(2, i) * 50.0, unit(3, i) * 50.0);
+            let gust = wind
+                .at(unit(4, i) * 1000.0)
+                .velocity(Vec3::splat(at))
+                .get(3)
+                - wind.steady;
+            mean += gust;
+            square += gust.length_squared();
+        }
+        let rms = (square / count as f64).sqrt();
+        assert!((rms - 2.0).abs() < 0.1, "{rms}");
+        assert!((mean / count as f64).length() < 0.1);
+    }
+
+    #[test]
+    fn the_same_seed_blows_the_same() {
+        let a = wind().at(5.0).velocity(Vec3::splat(DVec3::ONE));
+        assert_eq!(a, wind().at(5.0).velocity(Vec3::splat(DVec3::ONE)));
+        let other = Wind { seed: 8, ..wind() };
+        assert_ne!(a, other.at(5.0).velocity(Vec3::splat(DVec3::ONE)));
+    }
+}

@@ -1,0 +1,237 @@
+//! What a strand is made of, in physical units.
+
+/// Standard gravity in m/s^2, the default of [`Scene`](crate::Scene) and the measure in [`Material::from_gamma`].
+pub const GRAVITY: f64 = 9.81;
+
+/// The section and substance of a strand.
+///
+/// Only two combinations matter to a strand that hangs by itself: the bending stiffness over the mass
+/// per length, `E r^2 / (4 rho)` in m^4/s^2, and [`Self::twist_ratio`].
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E in Pa, 1e-3 to 1e20. Hair: 3.9e9.
+    pub young: f64,
+    /// Stiffness against twisting over that against bending, GJ / EI: 1e-3 to 1e3. A round section of
+    /// Poisson ratio 0.5 has 2/3.
+    pub twist_ratio: f64,
+    /// Density rho in kg/m^3, 1 to 1e5. Hair: 1300.
+    pub density: f64,
+    /// Radius r of the section in m, 1e-7 to 0.1. One hair: 4e-5; a strand that stands for a clump
+    /// behaves as its hairs together, so it keeps their radius.
+    pub radius: f64,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            young: 3.9e9,
+            twist_ratio: 2.0 / 3.0,
+            density: 1300.0,
+            radius: 4e-5,
+        }
+    }
+}
+
+impl Material {
+    /// Bending stiffness over mass per length, EI / (rho S), in m^4/s^2.
+    #[must_use]
+    pub fn bending(&self) -> f64 {
+        self.young * self.radius * self.radius / (4.0 * self.density)
+    }
+
+    /// The material of which a strand of `length` metres has the given Gamma = rho g S L^3 / (E I), its weight
+    /// against its stiffness: below 1 a bristle, about 10 short hair, 100 and more long hair.
+    #[must_use]
+    pub fn from_gamma(gamma: f64, length: f64) -> Self {
+        let default = Self::default();
+        let bending = GRAVITY * length * length * length / gamma;
+        Self {
+            young: 4.0 * default.density * bending / (default.radius * default.radius),
+            ..default
+        }
+    }
+}
+
+/// A number that varies along a strand as the quadratic through three values.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Profile {
+    /// At the root.
+    pub root: f64,
+    /// Half way.
+    pub middle: f64,
+    /// At the tip.
+    pub tip: f64,
+}
+
+impl Profile {
+    /// The same all along.
+    #[must_use]
+    pub const fn constant(value: f64) -> Self {
+        Self {
+            root: value,
+            middle: value,
+            tip: value,
+        }
+    }
+
+    /// At `u` of the strand's length, 0 at the root to 1 at the tip; where the quadratic is below the
+    /// least of its three values, that value.
+    #[must_use]
+    pub fn at(&self, u: f64) -> f64 {
+        let linear = -3.0 * self.root + 4.0 * self.middle - self.tip;
+        let square = 2.0 * self.root - 4.0 * self.middle + 2.0 * self.tip;
+        let least = self.root.min(self.middle).min(self.tip);
+        (self.root + u * (linear + u * square)).max(least)
+    }
+}
+
+/// The shape that a strand would have by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub enum Natural {
+    /// The shape as it was styled, which gravity holds in balance: the style does not sag when the simulation
+    /// starts. The moments that gravity makes are taken out of the rest curvature (Derouet-Jourdan et al.
+    /// 2010, *Stable inverse dynamic curves*).
+    #[default]
+    Balanced,
+    /// The shape as it was styled, without gravity: it sags.
+    Styled,
+    /// A helix of this curvature and torsion, whatever the styled shape is.
+    Curl {
+        /// Curvature in 1/m, 0 to 1e4: 1 / the radius of a flat curl.
+        curvature: f64,
+        /// Torsion in 1/m, -1e4 to 1e4: how fast the curl climbs.
+        torsion: f64,
+    },
+}
+
+/// Everything that decides how a strand moves.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Params {
+    /// Substance and section.
+    pub material: Material,
+    /// A factor on the stiffness along the strand, 1e-9 to 1e9.
+    pub stiffness: Profile,
+    /// The rest shape.
+    pub natural: Natural,
+    /// Damping inside the strand in s, 0 to 10: the time in which bending relaxes by itself (Kelvin and
+    /// Voigt). 0.005 takes the ringing out of short hair; 0 is undamped.
+    pub damping: f64,
+    /// Drag of the air across the strand in 1/s, 0 to 1e4: the rate at which a strand takes on the wind's speed.
+    pub drag: f64,
+    /// Drag along the strand over that across it, 0 to 1. A slender cylinder has 0.5.
+    pub drag_along: f64,
+    /// Pull of every particle towards its place in the goal shape, in 1/s^2, 0 to 1e9: acceleration per
+    /// metre. It is damped critically.
+    pub goal: Profile,
+    /// The distance in m that a strand keeps from colliders, 0 to 0.1.
+    pub thickness: f64,
+    /// Coulomb's coefficient of friction, 0 to 10.
+    pub friction: f64,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            material: Material::default(),
+            stiffness: Profile::constant(1.0),
+            natural: Natural::Balanced,
+            damping: 0.005,
+            drag: 2.0,
+            drag_along: 0.5,
+            goal: Profile::constant(0.0),
+            thickness: 1e-3,
+            friction: 0.3,
+        }
+    }
+}
+
+impl Params {
+    pub(crate) fn has_goal(&self) -> bool {
+        self.goal.root > 0.0 || self.goal.middle > 0.0 || self.goal.tip > 0.0
+    }
+
+    pub(crate) fn conserves(&self) -> bool {
+        self.damping == 0.0 && self.drag == 0.0 && !self.has_goal()
+    }
+
+    /// The first number that is out of its range, as (name, value, least, most).
+    pub(crate) fn out_of_range(&self) -> Option<(&'static str, f64, f64, f64)> {
+        let m = &self.material;
+        let (curvature, torsion) = match self.natural {
+            Natural::Curl { curvature, torsion } => (curvature, torsion),
+            Natural::Balanced | Natural::Styled => (0.0, 0.0),
+        };
+        let profile = |p: &Profile, least, most| {
+            [p.root, p.middle, p.tip]
+                .into_iter()
+                .find(|v| !(least..=most).contains(v))
+                .unwrap_or(least)
+        };
+        [
+            ("young", m.young, 1e-3, 1e20),
+            ("twist_ratio", m.twist_ratio, 1e-3, 1e3),
+            ("density", m.density, 1.0, 1e5),
+            ("radius", m.radius, 1e-7, 0.1),
+            ("stiffness", profile(&self.stiffness, 1e-9, 1e9), 1e-9, 1e9),
+            ("curvature", curvature, 0.0, 1e4),
+            ("torsion", torsion, -1e4, 1e4),
+            ("damping", self.damping, 0.0, 10.0),
+            ("drag", self.drag, 0.0, 1e4),
+            ("drag_along", self.drag_along, 0.0, 1.0),
+            ("goal", profile(&self.goal, 0.0, 1e9), 0.0, 1e9),
+            ("thickness", self.thickness, 0.0, 0.1),
+            ("friction", self.friction, 0.0, 10.0),
+        ]
+        .into_iter()
+        .find(|(_, value, least, most)| !(least..=most).contains(&value))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_profile_passes_through_its_values_and_not_below_them() {
+        let p = Profile {
+            root: 1.0,
+            middle: 0.2,
+            tip: 0.1,
+        };
+        assert_eq!(p.at(0.0), 1.0);
+        assert!((p.at(0.5) - 0.2).abs() < 1e-15);
+        assert!((p.at(1.0) - 0.1).abs() < 1e-15);
+        assert!((0..=100).all(|i| p.at(f64::from(i) / 100.0) >= 0.1));
+    }
+
+    #[test]
+    fn gamma_is_weight_against_stiffness() {
+        let material = Material::from_gamma(10.0, 0.3);
+        let gamma = GRAVITY * 0.3_f64.powi(3) / material.bending();
+        assert!((gamma - 10.0).abs() < 1e-12);
+        // A hair of 25 cm, radius 40 um: about 128 by its weight.
+        let hair = GRAVITY * 0.25_f64.powi(3) / Material::default().bending();
+        assert!((120.0..135.0).contains(&hair), "{hair}");
+    }
+
+    #[test]
+    fn what_is_out_of_range_is_named() {
+        assert_eq!(Params::default().out_of_range(), None);
+        let bad = Params {
+            damping: f64::NAN,
+            ..Params::default()
+        };
+        assert_eq!(bad.out_of_range().unwrap().0, "damping");
+        let bad = Params {
+            goal: Profile {
+                root: 0.0,
+                middle: -1.0,
+                tip: 0.0,
+            },
+            ..Params::default()
+        };
+        assert_eq!(bad.out_of_range().unwrap().1, -1.0);
+    }
+}

@@ -1,0 +1,463 @@
+//! The strand solver: strands in batches, each stepped by itself.
+
+pub(crate) mod batch;
+mod drive;
+mod fallback;
+mod finish;
+mod instructions;
+mod integrate;
+mod neighbours;
+mod scene;
+pub(crate) mod sweep;
+
+use glam::{DQuat, DVec3, Vec3};
+use rayon::prelude::*;
+
+use crate::{
+    Strands,
+    collision::Collider,
+    forces::mutual::{Course, Mutual, Pair},
+    lanes::{LANES, Quat, Vec3 as LaneVec3},
+    params::Params,
+    rest::RestStrand,
+};
+
+pub use batch::Reason;
+use batch::{Batch, BatchState, Scratch};
+use drive::{Drive, Hair};
+use instructions::Instructions;
+pub use scene::{DynamicsError, Fault, Pose, Roots, Scene, Stats};
+
+/// The most groups of batches, so of tasks in a step.
+const MOST_GROUPS: usize = 64;
+
+/// The constants of some strands, and room to work in. The strands' motion is in [`State`].
+#[derive(Clone, Debug)]
+pub struct Solver {
+    batches: Vec<Batch>,
+    /// One for every group of batches.
+    scratch: Vec<Scratch>,
+    /// Batches in a group: a task steps them one after the other in the same room, which stays in the processor's cache.
+    group: usize,
+    /// Batch and lane of every strand.
+    places: Vec<(usize, usize)>,
+    /// The number of points of every strand, and the index of the first in the list of all.
+    points: Vec<usize>,
+    first_points: Vec<usize>,
+    ids: Vec<u32>,
+    hair: Option<HairHair>,
+    instructions: Instructions,
+}
+
+/// How the strands act on each other.
+#[derive(Clone, Debug)]
+struct HairHair {
+    mutual: Mutual,
+    /// Of every batch.
+    pairs: Vec<Vec<Pair>>,
+    /// The index of every batch's first particle, and the courses of all: batch by batch, particle by particle, lane
+    /// by lane.
+    first: Vec<usize>,
+    courses: Vec<Course>,
+}
+
+impl HairHair {
+    /// Where every particle is, and where its own motion takes it.
+    fn follow(&mut self, batches: &[Batch], states: &[BatchState], scene: &Scene, dt: f64) {
+        for ((batch, state), &first) in batches.iter().zip(states).zip(&self.first) {
+            let (root, _) = roots(batch, scene);
+            for k in 0..batch.count() {
+                let (before, now) = (state.root + state.y[k], root + state.y[k] + state.v[k] * dt);
+                let courses = &mut self.courses[first + k * LANES..][..LANES];
+                for (lane, course) in courses.iter_mut().enumerate() {
+                    let (before, now) = (before.get(lane), now.get(lane));
+                    // A root without a pose is the strand's own fault, not its neighbours'.
+                    let now = if now.is_finite() { now } else { before };
+                    *course = Course { before, now };
+                }
+            }
+        }
+    }
+}
+
+/// Everything that decides the strands' future, to the bit.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct State {
+    /// Seconds since the start.
+    time: f64,
+    /// What acted in the last step: where it stays the same, strands can come to rest.
+    last: u64,
+    batches: Vec<BatchState>,
+}
+
+impl State {
+    /// Seconds since the start.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+}
+
+impl Solver {
+    /// A solver for strands at rest, all of one kind, and their state.
+    ///
+    /// # Errors
+    ///
+    /// When a parameter is out of its range.
+    pub fn new(rest: &Strands, params: &Params) -> Result<(Self, State), DynamicsError> {
+        Self::with(rest, |_| *params)
+    }
+
+    /// A solver for strands of which each has its own parameters, by its index in `rest`.
+    ///
+    /// Strands that cannot move are set aside: see [`Self::faults`].
+    ///
+    /// # Errors
+    ///
+    /// When a parameter is out of its range.
+    pub fn with(
+        rest: &Strands,
+        params: impl Fn(usize) -> Params,
+    ) -> Result<(Self, State), DynamicsError> {
+        let mut strands = Vec::with_capacity(rest.len());
+        for (index, points) in rest.iter().enumerate() {
+            let id = rest.id(index);
+            let params = params(index);
+            if let Some((name, value, least, most)) = params.out_of_range() {
+                return Err(DynamicsError::Parameter {
+                    id,
+                    name,
+                    value,
+                    least,
+                    most,
+                });
+            }
+            let (strand, fault) = match RestStrand::new(points, &params) {
+                Ok(strand) => (strand, None),
+                Err(reason) => (RestStrand::rigid(points), Some(reason)),
+            };
+            strands.push((strand, params, fault));
+        }
+
+        // Strands of like length together; the order is fixed by the strands alone.
+        let mut order: Vec<usize> = (0..strands.len()).collect();
+        order.sort_by_key(|&i| (strands[i].0.links.len(), i));
+        let mut solver = Self {
+            batches: Vec::new(),
+            scratch: Vec::new(),
+            group: 1,
+            places: vec![(0, 0); strands.len()],
+            points: rest.iter().map(<[Vec3]>::len).collect(),
+            first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
+            ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
+            hair: None,
+            instructions: Instructions::best(),
+        };
+        let mut states = Vec::new();
+        for members in order.chunks(LANES) {
+            let described: Vec<_> = members
+                .iter()
+                .map(|&i| (i, &strands[i].0, &strands[i].1))
+                .collect();
+            let batch = Batch::new(&described);
+            let mut rests = [None; LANES];
+            for (lane, &i) in members.iter().enumerate() {
+                rests[lane] = Some(&strands[i].0);
+                solver.places[i] = (solver.batches.len(), lane);
+            }
+            let mut state = BatchState::new(&batch, &rests);
+            for (lane, &i) in members.iter().enumerate() {
+                state.set_aside[lane] = strands[i].2;
+            }
+            states.push(state);
+            solver.batches.push(batch);
+        }
+        solver.group = solver.batches.len().div_ceil(MOST_GROUPS).max(1);
+        solver.scratch = (solver.batches.chunks(solver.group))
+            .map(|group| Scratch::new(group.iter().map(Batch::count).max().unwrap_or(0)))
+            .collect();
+        let state = State {
+            time: 0.0,
+            last: 0,
+            batches: states,
+        };
+        Ok((solver, state))
+    }
+
+    /// The strands that are set aside, and why.
+    #[must_use]
+    pub fn faults(&self, state: &State) -> Vec<Fault> {
+        let places = self.ids.iter().zip(&self.places);
+        places
+            .filter_map(|(&id, &(batch, lane))| {
+                let reason = state.batches[batch].set_aside[lane]?;
+                Some(Fault { id, reason })
+            })
+            .collect()
+    }
+
+    /// Lets strands act on each other from now on, as they lie in `state`: at best at the start, at rest.
+    ///
+    /// # Errors
+    ///
+    /// When a number is out of its range, or the state is not of these strands.
+    pub fn interact(&mut self, state: &mut State, mutual: &Mutual) -> Result<(), DynamicsError> {
+        self.hair = None;
+        self.check(state, &Scene::default(), 1.0)?;
+        if let Some((name, value, least, most)) = mutual.out_of_range() {
+            return Err(DynamicsError::Mutual {
+                name,
+                value,
+                least,
+                most,
+            });
+        }
+        let (pairs, first) = neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
+        for (pairs, state) in pairs.iter().zip(&mut state.batches) {
+            state.broken = vec![[false; LANES]; pairs.len()];
+        }
+        let total: usize = self.batches.iter().map(|b| b.count() * LANES).sum();
+        self.hair = Some(HairHair {
+            mutual: *mutual,
+            pairs,
+            first,
+            courses: vec![Course::default(); total],
+        });
+        Ok(())
+    }
+
+    /// The number of strands.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Whether there are no strands.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
+    /// Advances the strands by `dt` seconds.
+    ///
+    /// # Errors
+    ///
+    /// When the step, the state or the scene is none. The state is untouched then.
+    pub fn step(
+        &mut self,
+        state: &mut State,
+        scene: &Scene,
+        dt: f64,
+    ) -> Result<Stats, DynamicsError> {
+        self.check(state, scene, dt)?;
+        let instructions = self.instructions;
+        // In the middle of the step.
+        let gusts = scene.wind.at(state.time + 0.5 * dt);
+        let acting = scene.fingerprint();
+        let calm = acting == state.last && self.hair.is_none() && scene.is_calm();
+        state.last = acting;
+        if let Some(hair) = &mut self.hair {
+            hair.follow(&self.batches, &state.batches, scene, dt);
+        }
+        let hair = self.hair.as_ref();
+        let first_points = &self.first_points;
+        let step = |index: usize, batch: &Batch, state: &mut BatchState, scratch: &mut Scratch| {
+            let (root, base) = roots(batch, scene);
+            let drive = Drive {
+                dt,
+                scene,
+                gusts: &gusts,
+                first_points,
+                root,
+                base,
+                calm,
+                hair: hair.map(|h| Hair {
+                    mutual: &h.mutual,
+                    pairs: &h.pairs[index],
+                    courses: &h.courses,
+                }),
+            };
+            Stats::from(instructions.step(batch, state, scratch, &drive))
+        };
+        let group = self.group;
+        let sum = (self.batches.par_chunks(group).enumerate())
+            .zip(state.batches.par_chunks_mut(group))
+            .zip(self.scratch.par_iter_mut())
+            .map(|(((index, batches), states), scratch)| {
+                (batches.iter().zip(states).enumerate())
+                    .map(|(i, (batch, state))| step(index * group + i, batch, state, scratch))
+                    .fold(Stats::default(), Stats::plus)
+            })
+            .reduce(Stats::default, Stats::plus);
+        state.time += dt;
+        Ok(sum)
+    }
+
+    /// Puts the roots elsewhere at once: shape and motion are carried along, as if nothing had happened.
+    ///
+    /// # Errors
+    ///
+    /// When the poses or the state are none.
+    pub fn teleport(&self, state: &mut State, to: Roots) -> Result<(), DynamicsError> {
+        let scene = Scene {
+            roots: to,
+            ..Scene::default()
+        };
+        self.check(state, &scene, 1.0)?;
+        for (batch, state) in self.batches.iter().zip(&mut state.batches) {
+            let (root, base) = roots(batch, &scene);
+            state.teleport(root, base);
+        }
+        Ok(())
+    }
+
+    fn check(&self, state: &State, scene: &Scene, dt: f64) -> Result<(), DynamicsError> {
+        if !(dt > 0.0 && dt <= 10.0) {
+            return Err(DynamicsError::Step(dt));
+        }
+        if !scene.gravity.is_finite() {
+            return Err(DynamicsError::Scene("gravity"));
+        }
+        if !scene.wind.is_finite() {
+            return Err(DynamicsError::Scene("wind"));
+        }
+        if !scene.colliders.iter().all(Collider::is_finite) {
+            return Err(DynamicsError::Scene("collider"));
+        }
+        let points: usize = self.points.iter().sum();
+        if let Some(found) = scene.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
+            return Err(DynamicsError::Goal {
+                found,
+                expected: points,
+            });
+        }
+        match scene.roots {
+            Roots::Head(pose)
+                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
+            {
+                return Err(DynamicsError::Scene("head"));
+            }
+            Roots::Each(poses) if poses.len() != self.len() => {
+                return Err(DynamicsError::Poses {
+                    found: poses.len(),
+                    expected: self.len(),
+                });
+            }
+            _ => {}
+        }
+        let fits = state.batches.len() == self.batches.len()
+            && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count())
+            && self.hair.as_ref().is_none_or(|h| {
+                (h.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
+            });
+        if fits {
+            Ok(())
+        } else {
+            Err(DynamicsError::State)
+        }
+    }
+
+    /// The energy of a strand over its mass per length, in m^3/s^2: of its motion and its weight against the root, and of
+    /// bending and twisting.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::points`].
+    #[must_use]
+    pub fn energy(&self, state: &State, strand: usize, gravity: DVec3) -> f64 {
+        let (batch, lane) = self.places[strand];
+        state.batches[batch].energy(&self.batches[batch], LaneVec3::splat(gravity))[lane]
+    }
+
+    /// The points of a strand in the world, root first, in m.
+    ///
+    /// # Panics
+    ///
+    /// When `strand` is not below [`Self::len`], or the state is not of these strands.
+    pub fn points<'a>(
+        &self,
+        state: &'a State,
+        strand: usize,
+    ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
+        let (batch, lane) = self.places[strand];
+        let state = &state.batches[batch];
+        let root = state.root.get(lane);
+        (0..self.points[strand]).map(move |i| match i {
+            0 => root,
+            _ => root + state.y[i - 1].get(lane),
+        })
+    }
+
+    /// The material frames of a strand's links in the world, root first: the third axis points along the link.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::points`].
+    pub fn frames<'a>(
+        &self,
+        state: &'a State,
+        strand: usize,
+    ) -> impl ExactSizeIterator<Item = DQuat> + use<'a> {
+        let (batch, lane) = self.places[strand];
+        let state = &state.batches[batch];
+        (0..self.points[strand] - 1).map(move |i| state.frames[i].get(lane))
+    }
+}
+
+/// Root and frame of the skin of every lane in the world.
+fn roots(batch: &Batch, scene: &Scene) -> (LaneVec3, Quat) {
+    let (mut root, mut base) = (batch.root, batch.base);
+    for lane in 0..LANES {
+        let Some(strand) = batch.strands[lane] else {
+            continue;
+        };
+        let pose = match scene.roots {
+            Roots::Head(pose) => pose,
+            Roots::Each(poses) => poses[strand],
+        };
+        root.set(
+            lane,
+            pose.translation + pose.rotation * batch.root.get(lane),
+        );
+        base.set(lane, pose.rotation * batch.base.get(lane));
+    }
+    (root, base)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{GRAVITY, Wind};
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits() {
+        let mut rest = Strands::new();
+        for s in 0..11_u32 {
+            let turn = s as f32 * 0.6;
+            let points: Vec<Vec3> = (0..=12)
+                .map(|i| {
+                    let u = i as f32 / 12.0;
+                    Vec3::new(turn.cos() + u, 0.3 * u * u, turn.sin() + (3.0 * u).sin()) * 0.1
+                })
+                .collect();
+            rest.push(s, &points, None).unwrap();
+        }
+        let states = [Instructions::Compiled, Instructions::best()].map(|instructions| {
+            let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
+            solver.instructions = instructions;
+            for i in 0..24 {
+                let scene = Scene {
+                    gravity: DVec3::new(f64::from(i % 5), -GRAVITY, 0.0),
+                    wind: Wind {
+                        gust: 3.0,
+                        ..Wind::default()
+                    },
+                    ..Scene::default()
+                };
+                solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+            }
+            state
+        });
+        assert!(states[0] == states[1]);
+    }
+}

@@ -1,0 +1,341 @@
+//! Strands of about equal length side by side, and what the solver keeps of them.
+
+use glam::DVec3;
+
+use crate::{
+    collision::contact::Contact,
+    forces::springs::Spring,
+    lanes::{LANES, Lane, Mask, Quat, Vec3},
+    params::Params,
+    rest::RestStrand,
+};
+
+use super::sweep::{Elimination, Node, half_turn};
+
+/// [`LANES`] strands and their constants. A shorter strand is continued by links without length, mass and force,
+/// which add exactly nothing.
+#[derive(Clone, Debug)]
+pub(crate) struct Batch {
+    /// The strand of each lane, by its index in the rest shape.
+    pub strands: [Option<usize>; LANES],
+    /// How many links each lane's strand has.
+    pub counts: [usize; LANES],
+    pub links: Vec<Link>,
+    pub particles: Vec<Particle>,
+    /// Damping inside the strand, in s.
+    pub damping: Lane,
+    pub drag_along: Lane,
+    /// Whether any strand has drag; a goal.
+    pub has_drag: bool,
+    pub has_goal: bool,
+    /// Whether nothing in the strands or the air takes energy from them.
+    pub conserves: bool,
+    /// Distance kept from colliders, in m.
+    pub thickness: Lane,
+    pub friction: Lane,
+    /// Particles from the root in style space.
+    pub styled: Vec<Vec3>,
+    /// Root and skin frame in style space.
+    pub root: Vec3,
+    pub base: Quat,
+    /// Lanes that hold a strand with links.
+    pub used: Mask,
+}
+
+/// A link and the joint at its root end: see [`crate::rest::RestLink`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link {
+    pub length: Lane,
+    pub bend: Lane,
+    pub twist: Lane,
+    pub natural: Vec3,
+    /// 1 for links of strands, 0 for those that only fill the batch.
+    pub counts: Lane,
+}
+
+/// The particle at a link's tip end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Particle {
+    pub mass: Lane,
+    /// In 1/s.
+    pub drag: Lane,
+    /// In 1/s^2.
+    pub goal: Lane,
+}
+
+impl Batch {
+    pub(crate) fn new(members: &[(usize, &RestStrand, &Params)]) -> Self {
+        let count = members.iter().map(|m| m.1.links.len()).max().unwrap_or(0);
+        // So soft that what rounding leaves of its moments is lost in any number beside it.
+        let soft = Lane::splat(1e-100);
+        let link = Link {
+            length: Lane::ZERO,
+            bend: soft,
+            twist: soft,
+            natural: Vec3::ZERO,
+            counts: Lane::ZERO,
+        };
+        let particle = Particle {
+            mass: Lane::ZERO,
+            drag: Lane::ZERO,
+            goal: Lane::ZERO,
+        };
+        let mut batch = Self {
+            strands: [None; LANES],
+            counts: [0; LANES],
+            links: vec![link; count],
+            particles: vec![particle; count],
+            damping: Lane::ZERO,
+            drag_along: Lane::ZERO,
+            has_drag: members.iter().any(|m| m.2.drag > 0.0),
+            has_goal: members.iter().any(|m| m.2.has_goal()),
+            conserves: members.iter().all(|m| m.2.conserves()),
+            thickness: Lane::ZERO,
+            friction: Lane::ZERO,
+            styled: vec![Vec3::ZERO; count],
+            root: Vec3::ZERO,
+            base: Quat::IDENTITY,
+            used: Mask::NONE,
+        };
+        for (lane, (index, rest, params)) in members.iter().enumerate() {
+            batch.fill(lane, *index, rest, params);
+        }
+        batch.used = Mask::new(batch.counts.map(|count| count > 0));
+        batch
+    }
+
+    fn fill(&mut self, lane: usize, index: usize, rest: &RestStrand, params: &Params) {
+        self.strands[lane] = Some(index);
+        self.counts[lane] = rest.links.len();
+        self.damping[lane] = params.damping;
+        self.drag_along[lane] = params.drag_along;
+        self.thickness[lane] = params.thickness;
+        self.friction[lane] = params.friction;
+        self.root.set(lane, rest.root);
+        self.base.set(lane, rest.base);
+        let mut y = DVec3::ZERO;
+        for (k, link) in rest.links.iter().enumerate() {
+            y += link.frame * DVec3::Z * link.length;
+            self.styled[k].set(lane, y);
+            self.links[k].length[lane] = link.length;
+            self.links[k].bend[lane] = link.bend;
+            self.links[k].twist[lane] = link.twist;
+            self.links[k].natural.set(lane, link.natural);
+            self.links[k].counts[lane] = 1.0;
+            self.particles[k].mass[lane] = link.mass;
+            self.particles[k].drag[lane] = params.drag;
+            self.particles[k].goal[lane] = params.goal.at(link.end_at);
+        }
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.links.len()
+    }
+}
+
+/// Everything of a batch that decides its future.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub(crate) struct BatchState {
+    /// Particles from the root, in world axes: positions in m, velocities, accelerations.
+    pub y: Vec<Vec3>,
+    pub v: Vec<Vec3>,
+    pub a: Vec<Vec3>,
+    /// Material frames of the links, in world axes.
+    pub frames: Vec<Quat>,
+    /// The root in the world, its velocity, and the skin's frame there.
+    pub root: Vec3,
+    pub root_velocity: Vec3,
+    pub base: Quat,
+    /// How far particles may be inside of bodies (0 or less, in m), and whether that has been found out.
+    pub skin: Vec<Lane>,
+    pub skin_known: bool,
+    /// The pressure of bodies on particles in m/s^2.
+    pub press: Vec<Lane>,
+    /// Where goals were, from the root; empty before the first step with goals.
+    pub goal: Vec<Vec3>,
+    /// Links to other strands that hold no more: one for every pair of the batch.
+    pub broken: Vec<[bool; LANES]>,
+    /// What pulled on the strands in the last step, in m/s^2, and the energy that they had when that was another.
+    pub pull: Vec3,
+    pub ceiling: Lane,
+    /// For how many steps strands have been at rest.
+    pub quiet: [u32; LANES],
+    /// Strands whose accelerations are unknown: the next step starts by backward Euler.
+    pub restart: [bool; LANES],
+    /// Strands that do not move by themselves, and why.
+    pub set_aside: [Option<Reason>; LANES],
+}
+
+impl BatchState {
+    /// The style at rest.
+    pub(crate) fn new(batch: &Batch, rests: &[Option<&RestStrand>; LANES]) -> Self {
+        let count = batch.count();
+        let mut state = Self {
+            y: vec![Vec3::ZERO; count],
+            v: vec![Vec3::ZERO; count],
+            a: vec![Vec3::ZERO; count],
+            frames: vec![Quat::IDENTITY; count],
+            root: batch.root,
+            root_velocity: Vec3::ZERO,
+            base: batch.base,
+            skin: vec![Lane::ZERO; count],
+            skin_known: false,
+            press: vec![Lane::ZERO; count],
+            goal: Vec::new(),
+            broken: Vec::new(),
+            // None that there can be.
+            pull: Vec3::splat(DVec3::MAX),
+            ceiling: Lane::ZERO,
+            quiet: [0; LANES],
+            restart: [true; LANES],
+            set_aside: [None; LANES],
+        };
+        for (lane, rest) in rests.iter().enumerate() {
+            let Some(rest) = rest else { continue };
+            let mut y = DVec3::ZERO;
+            let mut frame = rest.base;
+            for k in 0..count {
+                if let Some(link) = rest.links.get(k) {
+                    frame = link.frame;
+                    y += frame * DVec3::Z * link.length;
+                }
+                state.frames[k].set(lane, frame);
+                state.y[k].set(lane, y);
+            }
+        }
+        state
+    }
+}
+
+/// Why a strand is set aside.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
+)]
+pub enum Reason {
+    /// A point of its rest shape (from the root, 0 first) is not finite.
+    #[error("point {0} at rest is not finite")]
+    Rest(usize),
+    /// All its points are one.
+    #[error("it has no length")]
+    NoLength,
+    /// It turns by more than 170 degrees at a point (from the root, 0 first).
+    #[error("it folds back on itself at point {0}")]
+    Folded(usize),
+    /// The pose of its root was not finite, or no rotation.
+    #[error("the pose of its root is not finite, or no rotation")]
+    Root,
+    /// A goal was not finite.
+    #[error("a goal of its points is not finite")]
+    Goal,
+    /// It had no finite motion.
+    #[error("it had no finite motion")]
+    Motion,
+}
+
+impl BatchState {
+    /// The strands that are set aside.
+    #[inline(always)]
+    pub(crate) fn aside(&self) -> Mask {
+        Mask::new(self.set_aside.map(|r| r.is_some()))
+    }
+
+    /// Energy of every strand over its mass per length, in m^3/s^2: of motion against the root, of weight from the root, of
+    /// bending and twisting.
+    pub(crate) fn energy(&self, batch: &Batch, gravity: Vec3) -> Lane {
+        let mut sum = Lane::ZERO;
+        let mut before = self.base;
+        for (k, link) in batch.links.iter().enumerate() {
+            let mass = batch.particles[k].mass;
+            sum += mass * (self.v[k].length_squared() * 0.5 - self.y[k].dot(gravity));
+            let c = half_turn(before, self.frames[k]);
+            let e = c + c - link.natural;
+            sum += ((e.x * e.x + e.y * e.y) * link.bend + e.z * e.z * link.twist) * 0.5;
+            before = self.frames[k];
+        }
+        sum
+    }
+
+    /// Carries shape and motion to another root and skin frame.
+    pub(crate) fn teleport(&mut self, root: Vec3, base: Quat) {
+        let turn = base.times(self.base.conjugate()).normalize();
+        for frame in &mut self.frames {
+            *frame = turn.times(*frame).normalize();
+        }
+        let [x, y, z] = turn.axes();
+        let turned = |v: &mut Vec3| *v = x * v.x + y * v.y + z * v.z;
+        self.y.iter_mut().for_each(turned);
+        self.v.iter_mut().for_each(turned);
+        self.a.iter_mut().for_each(turned);
+        self.goal.iter_mut().for_each(turned);
+        turned(&mut self.root_velocity);
+        turned(&mut self.pull);
+        self.root = root;
+        self.base = base;
+    }
+}
+
+/// Room to work in; its content decides nothing.
+#[derive(Clone, Debug)]
+pub(crate) struct Scratch {
+    pub nodes: Vec<Node>,
+    pub eliminations: Vec<Elimination>,
+    pub turns: Vec<Vec3>,
+    /// The turn of every joint at the start of the step, and what damping holds to in a stage.
+    pub turn_start: Vec<Vec3>,
+    pub past: Vec<Vec3>,
+    /// The stage in the middle and the one at the end.
+    pub mid: Stage,
+    pub end: Stage,
+    /// Of a stage: positions without force, velocities without force.
+    pub free_y: Vec<Vec3>,
+    pub free_v: Vec<Vec3>,
+    /// A shape that is tried.
+    pub trial: Stage,
+    /// The air's velocity at the particles, from the root.
+    pub wind: Vec<Vec3>,
+    pub springs: Vec<Spring>,
+    pub contacts: Vec<Contact>,
+    /// Whether there are any of these in this step.
+    pub has_springs: bool,
+    pub has_contacts: bool,
+}
+
+/// A strand's shape in the course of a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Stage {
+    pub y: Vec<Vec3>,
+    pub v: Vec<Vec3>,
+    pub frames: Vec<Quat>,
+}
+
+impl Stage {
+    fn new(count: usize) -> Self {
+        Self {
+            y: vec![Vec3::ZERO; count],
+            v: vec![Vec3::ZERO; count],
+            frames: vec![Quat::IDENTITY; count],
+        }
+    }
+}
+
+impl Scratch {
+    pub(crate) fn new(count: usize) -> Self {
+        Self {
+            nodes: vec![Node::ZERO; count],
+            eliminations: vec![Elimination::ZERO; count],
+            turns: vec![Vec3::ZERO; count],
+            turn_start: vec![Vec3::ZERO; count],
+            past: vec![Vec3::ZERO; count],
+            mid: Stage::new(count),
+            end: Stage::new(count),
+            free_y: vec![Vec3::ZERO; count],
+            free_v: vec![Vec3::ZERO; count],
+            trial: Stage::new(count),
+            wind: vec![Vec3::ZERO; count],
+            springs: vec![Spring::NONE; count],
+            contacts: vec![Contact::NONE; count],
+            has_springs: false,
+            has_contacts: false,
+        }
+    }
+}

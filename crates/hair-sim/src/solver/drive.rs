@@ -1,0 +1,202 @@
+//! What drives a batch in a step: roots, air, bodies and goals, made ready for the stages.
+
+use glam::{DVec3, Vec3 as Point};
+
+use crate::{
+    collision::contact::{self, Course},
+    forces::{
+        mutual::{self, Course as ParticleCourse, Mutual, Own, Pair},
+        springs::Spring,
+        wind::Gusts,
+    },
+    lanes::{LANES, Lane, Mask, Quat, Vec3},
+};
+
+use super::{
+    Roots, Scene,
+    batch::{Batch, BatchState, Reason, Scratch},
+    integrate::{BatchStats, GAMMA},
+};
+
+/// What drives a batch in a step.
+pub(crate) struct Drive<'a> {
+    pub dt: f64,
+    pub scene: &'a Scene<'a>,
+    pub gusts: &'a Gusts,
+    /// The index of every strand's first point in the list of all.
+    pub first_points: &'a [usize],
+    /// Root and frame of the skin in the world at the end of the step.
+    pub root: Vec3,
+    pub base: Quat,
+    /// Whether what acts is the same as in the last step, and does not move.
+    pub calm: bool,
+    /// The other hair.
+    pub hair: Option<Hair<'a>>,
+}
+
+/// The pairs of a batch with other strands, and where all particles are.
+pub(crate) struct Hair<'a> {
+    pub mutual: &'a Mutual,
+    pub pairs: &'a [Pair],
+    pub courses: &'a [ParticleCourse],
+}
+
+/// The motion of the roots within a step, and what it does to the strands.
+pub(crate) struct RootMotion {
+    /// The root at the end.
+    pub root: Vec3,
+    /// The frame of the skin at the stages.
+    pub mid: Quat,
+    pub end: Quat,
+    /// From its start.
+    pub turn_mid: Quat,
+    pub turn_end: Quat,
+    /// Gravity less the acceleration of the root.
+    pub pull: Vec3,
+    pub velocity: Vec3,
+}
+
+impl RootMotion {
+    #[inline(always)]
+    pub(crate) fn new(state: &mut BatchState, drive: &Drive) -> Self {
+        let (root, base) = whole_poses(state, drive);
+        let velocity = (root - state.root) * (1.0 / drive.dt);
+        let acceleration = (velocity - state.root_velocity) * (1.0 / drive.dt);
+        let turn_end = base.times(state.base.conjugate());
+        let sign = (turn_end.w.lt(Lane::ZERO)).pick(Lane::splat(-1.0), Lane::ONE);
+        // Along the chord: second order in the angle, and no sine.
+        let turn_mid = Quat {
+            v: turn_end.v * (sign * GAMMA),
+            w: turn_end.w * sign * GAMMA + (1.0 - GAMMA),
+        }
+        .normalize();
+        Self {
+            root,
+            mid: turn_mid.times(state.base),
+            end: base,
+            turn_mid,
+            turn_end,
+            pull: Vec3::splat(drive.scene.gravity) - acceleration,
+            velocity,
+        }
+    }
+}
+
+/// The poses at the end of the step; where one is broken, that before, and its strand is set aside.
+#[inline(always)]
+fn whole_poses(state: &mut BatchState, drive: &Drive) -> (Vec3, Quat) {
+    let size = drive.base.v.length_squared() + drive.base.w * drive.base.w;
+    let place = drive.root.length_squared();
+    let whole = (place.is_finite())
+        .and(size.lt(Lane::splat(1.001)))
+        .and(size.gt(Lane::splat(0.999)));
+    for lane in 0..LANES {
+        if !whole.get(lane) {
+            state.set_aside[lane].get_or_insert(Reason::Root);
+        }
+    }
+    let base = Quat::pick(whole, drive.base, state.base).normalize();
+    (Vec3::pick(whole, drive.root, state.root), base)
+}
+
+/// Finds contacts, and fills in the air's motion and the springs of the step. Returns the strands that step.
+#[inline(always)]
+pub(crate) fn prepare(
+    batch: &Batch,
+    state: &mut BatchState,
+    scratch: &mut Scratch,
+    drive: &Drive,
+    root: &RootMotion,
+    awake: Mask,
+    stats: &mut BatchStats,
+) -> Mask {
+    scratch.has_springs = batch.has_goal || drive.hair.is_some();
+    if scratch.has_springs {
+        scratch.springs.fill(Spring::NONE);
+    }
+    if batch.has_goal {
+        pull_to_goals(batch, state, scratch, drive);
+    }
+    if let Some(hair) = &drive.hair {
+        let own = Own {
+            y: &state.y,
+            frames: &state.frames,
+            root_before: state.root,
+            root_now: root.root,
+            gamma: GAMMA,
+            dt: drive.dt,
+        };
+        let springs = &mut scratch.springs;
+        stats.hair = mutual::act(
+            hair.mutual,
+            hair.pairs,
+            hair.courses,
+            &own,
+            &mut state.broken,
+            springs,
+        );
+    }
+    let active = batch.used.and(state.aside().not()).and(awake);
+    if batch.has_drag {
+        for k in 0..batch.count() {
+            let air = drive.gusts.velocity(state.root + state.y[k]);
+            scratch.wind[k] = air - root.velocity;
+        }
+        if drive.gusts.blows {
+            stats.wind = active.count() * batch.count();
+        }
+    }
+    scratch.has_contacts = false;
+    if !drive.scene.colliders.is_empty() {
+        if !state.skin_known {
+            contact::settle_in(batch, state, drive.scene.colliders);
+            state.skin_known = true;
+        }
+        let course = Course {
+            root: root.root,
+            dt: drive.dt,
+            gamma: GAMMA,
+        };
+        let colliders = drive.scene.colliders;
+        let contacts = &mut scratch.contacts;
+        stats.contacts = contact::detect(batch, state, colliders, &course, active, contacts);
+        scratch.has_contacts = stats.contacts > 0;
+    }
+    active
+}
+
+fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, drive: &Drive) {
+    let known = !state.goal.is_empty();
+    if !known {
+        state.goal.resize(batch.count(), Vec3::ZERO);
+    }
+    for k in 0..batch.count() {
+        let mut now = batch.styled[k];
+        for lane in 0..LANES {
+            let Some(strand) = batch.strands[lane] else {
+                continue;
+            };
+            let pose = match drive.scene.roots {
+                Roots::Head(pose) => pose,
+                Roots::Each(poses) => poses[strand],
+            };
+            let goal = match drive.scene.goal {
+                Some(goal) if k < batch.counts[lane] => {
+                    let at: Point = goal[drive.first_points[strand] + k + 1];
+                    at.as_dvec3() - batch.root.get(lane)
+                }
+                _ => now.get(lane),
+            };
+            let goal: DVec3 = pose.rotation * goal;
+            if goal.is_finite() {
+                now.set(lane, goal);
+            } else if pose.is_finite() {
+                state.set_aside[lane].get_or_insert(Reason::Goal);
+            }
+        }
+        let before = if known { state.goal[k] } else { now };
+        let spring = &mut scratch.springs[k];
+        spring.pull(batch.particles[k].goal, before, now, GAMMA, drive.dt);
+        state.goal[k] = now;
+    }
+}

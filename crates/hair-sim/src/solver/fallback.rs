@@ -1,0 +1,177 @@
+//! The safe integrator: backward Euler as an energy that only goes down.
+//!
+//! Where TR-BDF2 does not converge, or turns a link so far that its differences mean nothing, the step is taken again
+//! from the shape that the skin carries along, by damped Newton on the incremental potential of backward Euler
+//! (Kane et al. 2000; Martin et al. 2011). Every accepted step lowers it, so the shape is always finite and
+//! the motion loses energy.
+
+use crate::lanes::{LANES, Lane, Mask, Quat, Vec3};
+
+use super::{
+    batch::{Batch, BatchState, Reason, Scratch},
+    drive::{Drive, RootMotion},
+    integrate::{StageSetup, Which, assemble, hold, turn_links},
+    sweep::{Elastic, Pose, ascend, descend, potential},
+};
+
+const MOST_ITERATIONS: usize = 40;
+const MOST_HALVINGS: usize = 10;
+const SMALL_TURN: f64 = 1e-3;
+const LARGEST_TURN: f64 = 0.7;
+
+/// Steps the lanes in `which`. Those that have no finite answer here either are set aside.
+pub(super) fn step(
+    batch: &Batch,
+    state: &mut BatchState,
+    scratch: &mut Scratch,
+    drive: &Drive,
+    root: &RootMotion,
+    which: Mask,
+) {
+    let h = Lane::splat(drive.dt);
+    let mut y = Vec3::ZERO;
+    for k in 0..batch.count() {
+        scratch.free_y[k] = state.y[k];
+        scratch.free_v[k] = state.v[k];
+        scratch.past[k] = scratch.turn_start[k];
+        let frame = root.turn_end.times(state.frames[k]).normalize();
+        y += frame.tangent() * batch.links[k].length;
+        scratch.trial.frames[k] = frame;
+        scratch.trial.y[k] = y;
+    }
+    let setup = StageSetup {
+        length: h,
+        damping: batch.damping * (1.0 / drive.dt),
+        base: root.end,
+        pull: root.pull,
+    };
+    assemble(batch, scratch, &setup, Which::Trial);
+    let elastic = Elastic {
+        h2: h * h,
+        damping: setup.damping,
+    };
+    minimise(batch, scratch, setup.base, &elastic, which);
+    if scratch.has_contacts {
+        // Planes that the strand met on the way.
+        let met = hold(batch, scratch, h, Which::Trial, which);
+        minimise(batch, scratch, setup.base, &elastic, met);
+    }
+    take(batch, state, scratch, which, drive.dt);
+}
+
+/// Damped Newton on `scratch.trial`.
+fn minimise(batch: &Batch, scratch: &mut Scratch, base: Quat, elastic: &Elastic, which: Mask) {
+    let Scratch {
+        nodes,
+        eliminations,
+        turns,
+        past,
+        trial,
+        end,
+        ..
+    } = scratch;
+    let links = &batch.links;
+    let mut open = which;
+    let mut energy = potential(
+        links,
+        Pose {
+            base,
+            y: &trial.y,
+            frames: &trial.frames,
+        },
+        nodes,
+        past,
+        elastic,
+    );
+    for _ in 0..MOST_ITERATIONS {
+        if !open.any() {
+            return;
+        }
+        let pose = Pose {
+            base,
+            y: &trial.y,
+            frames: &trial.frames,
+        };
+        ascend(links, pose, nodes, past, elastic, eliminations);
+        let largest = descend(links, &trial.frames, eliminations, turns).sqrt();
+        let mut scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
+        let mut untried = open.and(largest.is_finite());
+        let mut moved = Mask::NONE;
+        for _ in 0..MOST_HALVINGS {
+            if !untried.any() {
+                break;
+            }
+            for k in 0..batch.count() {
+                end.frames[k] = trial.frames[k];
+                end.y[k] = trial.y[k];
+            }
+            turn_links(batch, end, turns, scale, untried);
+            let pose = Pose {
+                base,
+                y: &end.y,
+                frames: &end.frames,
+            };
+            let tried = potential(links, pose, nodes, past, elastic);
+            let better = untried.and(energy.lt(tried).not()).and(tried.is_finite());
+            for k in 0..batch.count() {
+                trial.frames[k] = Quat::pick(better, end.frames[k], trial.frames[k]);
+                trial.y[k] = Vec3::pick(better, end.y[k], trial.y[k]);
+            }
+            energy = better.pick(tried, energy);
+            moved = moved.or(better);
+            untried = untried.and(better.not());
+            scale = scale * 0.5;
+        }
+        let small = largest.lt(Lane::splat(SMALL_TURN));
+        open = open.and(moved).and(small.not());
+    }
+}
+
+fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, dt: f64) {
+    let trial = &scratch.trial;
+    let mut sum = Lane::ZERO;
+    for k in 0..batch.count() {
+        sum += trial.y[k].length_squared() + trial.frames[k].v.length_squared();
+        sum += state.v[k].length_squared();
+    }
+    let good = which.and(sum.is_finite());
+    let rate = 1.0 / dt;
+    for k in 0..batch.count() {
+        let v = (trial.y[k] - state.y[k]) * rate;
+        let a = (v - state.v[k]) * rate;
+        if scratch.has_contacts {
+            let press = scratch.contacts[k].pressure(trial.y[k]);
+            state.press[k] = good.pick(press, state.press[k]);
+        }
+        state.a[k] = Vec3::pick(good, a, state.a[k]);
+        state.v[k] = Vec3::pick(good, v, state.v[k]);
+        state.y[k] = Vec3::pick(good, trial.y[k], state.y[k]);
+        state.frames[k] = Quat::pick(good, trial.frames[k], state.frames[k]);
+    }
+    let bad = which.and(good.not());
+    for lane in 0..LANES {
+        if which.get(lane) {
+            state.restart[lane] = true;
+        }
+        if bad.get(lane) {
+            state.set_aside[lane] = Some(Reason::Motion);
+        }
+    }
+}
+
+/// Carries the lanes in `which` along with the skin, at rest against it.
+pub(crate) fn carry(batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
+    let mut y = Vec3::ZERO;
+    for k in 0..batch.count() {
+        let frame = Quat::pick(
+            which,
+            turn.times(state.frames[k]).normalize(),
+            state.frames[k],
+        );
+        state.frames[k] = frame;
+        y += frame.tangent() * batch.links[k].length;
+        state.y[k] = Vec3::pick(which, y, state.y[k]);
+        state.v[k] = Vec3::pick(which, Vec3::ZERO, state.v[k]);
+        state.a[k] = Vec3::pick(which, Vec3::ZERO, state.a[k]);
+    }
+}

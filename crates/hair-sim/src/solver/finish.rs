@@ -1,0 +1,149 @@
+//! The end of a step: which strands it holds for, what the next one starts from, and which strands sleep.
+
+use crate::lanes::{LANES, Lane, Mask, Quat, Vec3};
+
+use super::{
+    batch::{Batch, BatchState, Scratch},
+    drive::{Drive, RootMotion},
+};
+
+/// The cosine of the most that a link may turn against the skin in a step of this integrator (2.1 rad): beyond it the
+/// differences that it is made of mean nothing.
+const LEAST_COSINE: f64 = -0.5;
+
+/// The share of the end velocity's stretch that is taken out. A backward difference of points that run on an arc points
+/// inside the arc; half of that is the error of the difference.
+const UNSTRETCH: f64 = 0.5;
+
+/// Strands that are slower than this (m/s) for so many steps sleep.
+const QUIET_SPEED: f64 = 1e-7;
+const QUIET_STEPS: u32 = 24;
+
+/// Strands that have not moved for [`QUIET_STEPS`], on roots that do not move, where what acts stays as it is.
+#[inline(always)]
+pub(super) fn asleep(state: &BatchState, drive: &Drive, used: Mask) -> Mask {
+    if !drive.calm {
+        return Mask::NONE;
+    }
+    let still = (drive.root - state.root).length_squared()
+        + (drive.base.v - state.base.v).length_squared()
+        + state.root_velocity.length_squared();
+    let quiet = Mask::new(state.quiet.map(|steps| steps >= QUIET_STEPS));
+    quiet.and(still.lt(Lane::splat(1e-26))).and(used)
+}
+
+#[inline(always)]
+pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
+    let mut fastest = Lane::ZERO;
+    for k in 0..batch.count() {
+        fastest = fastest.max(state.v[k].length_squared());
+    }
+    let limit = Lane::splat(QUIET_SPEED * QUIET_SPEED);
+    let quiet = fastest.lt(limit).and(Mask::new([drive.calm; LANES]));
+    for lane in 0..LANES {
+        if active.get(lane) {
+            let steps = state.quiet[lane].saturating_add(1);
+            state.quiet[lane] = if quiet.get(lane) { steps } else { 0 };
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn turned_too_far(
+    batch: &Batch,
+    state: &BatchState,
+    scratch: &Scratch,
+    root: &RootMotion,
+) -> Mask {
+    let mut least = Lane::ONE;
+    for k in 0..batch.count() {
+        let carried = root.turn_end.times(state.frames[k]).tangent();
+        let still = state.frames[k].tangent();
+        let now = scratch.end.frames[k].tangent();
+        // Turned with the skin, or left where it was: either is an ordinary motion.
+        least = least.min(carried.dot(now).max(still.dot(now)));
+    }
+    least.gt(Lane::splat(LEAST_COSINE)).not()
+}
+
+/// Where nothing takes energy from the strands, nothing may bring any: what errors of the steps add to the energy that a
+/// strand had when it was driven last is taken out of its velocities.
+#[inline(always)]
+pub(super) fn take_gain(
+    batch: &Batch,
+    state: &mut BatchState,
+    root: &RootMotion,
+    before: Lane,
+    which: Mask,
+) {
+    let turned = root.turn_end.v.length_squared() + (root.pull - state.pull).length_squared();
+    let driven = turned.gt(Lane::splat(1e-24));
+    state.pull = root.pull;
+    state.ceiling = driven.pick(before, state.ceiling);
+    let gain = (state.energy(batch, root.pull) - state.ceiling).max(Lane::ZERO);
+    let mut motion = Lane::ZERO;
+    for k in 0..batch.count() {
+        motion += batch.particles[k].mass * state.v[k].length_squared() * 0.5;
+    }
+    let left = (motion - gain).max(Lane::ZERO) / motion.max(Lane::splat(1e-300));
+    let taken = which.and(gain.gt(Lane::ZERO)).and(driven.not());
+    let scale = taken.pick(left.sqrt(), Lane::ONE);
+    for v in &mut state.v {
+        *v = *v * scale;
+    }
+}
+
+/// Takes the end stage of the lanes in `which` as the new state.
+#[inline(always)]
+pub(super) fn finish(
+    batch: &Batch,
+    state: &mut BatchState,
+    scratch: &Scratch,
+    which: Mask,
+    d: f64,
+) {
+    let mut struck = Mask::new(state.restart).and(which.not());
+    let end = &scratch.end;
+    let rate = 1.0 / d;
+    let mut before = Vec3::ZERO;
+    let mut velocity = Vec3::ZERO;
+    for k in 0..batch.count() {
+        let a = (end.v[k] - scratch.free_v[k]) * rate;
+        let t = end.frames[k].tangent();
+        let along = end.v[k] - before;
+        before = end.v[k];
+        velocity += along - t * (along.dot(t) * UNSTRETCH);
+        let a = if scratch.has_contacts {
+            settle_contact(state, scratch, k, a, which, &mut struck)
+        } else {
+            state.press[k] = which.pick(Lane::ZERO, state.press[k]);
+            a
+        };
+        state.a[k] = Vec3::pick(which, a, state.a[k]);
+        state.v[k] = Vec3::pick(which, velocity, state.v[k]);
+        state.y[k] = Vec3::pick(which, end.y[k], state.y[k]);
+        state.frames[k] = Quat::pick(which, end.frames[k], state.frames[k]);
+    }
+    state.restart = struck.bools();
+}
+
+/// Remembers the pressure on particle `k`, and returns its acceleration without the blow of a contact: that is over, and
+/// the next step must not start with it. A strand that was struck starts anew.
+#[inline(always)]
+fn settle_contact(
+    state: &mut BatchState,
+    scratch: &Scratch,
+    k: usize,
+    a: Vec3,
+    which: Mask,
+    struck: &mut Mask,
+) -> Vec3 {
+    let contact = &scratch.contacts[k];
+    let press = contact.pressure(scratch.end.y[k]);
+    let before = state.press[k];
+    let new = (before.gt(Lane::ZERO).not()).and(press.gt(Lane::ZERO));
+    *struck = struck.or(new.and(which));
+    state.press[k] = which.pick(press, before);
+    let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
+    a - contact.normal * out
+}

@@ -1,0 +1,223 @@
+//! What a step is given and what it tells.
+
+use glam::{DQuat, DVec3, Vec3};
+
+use crate::{collision::Collider, forces::wind::Wind, params::GRAVITY};
+
+use super::{batch::Reason, integrate::BatchStats};
+
+/// A rigid motion from style space to the world: where a head is.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Pose {
+    /// A unit quaternion.
+    pub rotation: DQuat,
+    /// In m.
+    pub translation: DVec3,
+}
+
+impl Pose {
+    /// Style space is the world.
+    pub const IDENTITY: Self = Self {
+        rotation: DQuat::IDENTITY,
+        translation: DVec3::ZERO,
+    };
+
+    pub(crate) fn to_world(self, at: DVec3) -> DVec3 {
+        self.rotation * at + self.translation
+    }
+
+    pub(crate) fn to_local(self, at: DVec3) -> DVec3 {
+        self.rotation.conjugate() * (at - self.translation)
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        self.rotation.is_finite() && self.translation.is_finite()
+    }
+}
+
+/// Where the roots are at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub enum Roots<'a> {
+    /// All on one head.
+    Head(Pose),
+    /// One pose per strand.
+    Each(&'a [Pose]),
+}
+
+/// What acts on the strands in a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// Where the roots are at the end of the step.
+    pub roots: Roots<'a>,
+    /// In m/s^2.
+    pub gravity: DVec3,
+    /// The motion of the air.
+    pub wind: Wind,
+    /// What hair cannot enter.
+    pub colliders: &'a [Collider<'a>],
+    /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; none
+    /// is the style itself.
+    pub goal: Option<&'a [Vec3]>,
+}
+
+impl Default for Scene<'_> {
+    fn default() -> Self {
+        Self {
+            roots: Roots::Head(Pose::IDENTITY),
+            gravity: DVec3::new(0.0, -GRAVITY, 0.0),
+            wind: Wind::default(),
+            colliders: &[],
+            goal: None,
+        }
+    }
+}
+
+impl Scene<'_> {
+    /// Whether nothing in it moves but, perhaps, the roots.
+    pub(super) fn is_calm(&self) -> bool {
+        let still = |c: &Collider| c.before == c.now;
+        self.wind.gust == 0.0 && self.goal.is_none() && self.colliders.iter().all(still)
+    }
+
+    /// A hash of what acts on strands at rest.
+    pub(super) fn fingerprint(&self) -> u64 {
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a, by words
+        let mut add = |v: DVec3| {
+            for bits in v.to_array().map(f64::to_bits) {
+                hash = (hash ^ bits).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        add(self.gravity);
+        add(self.wind.steady);
+        for collider in self.colliders {
+            add(collider.now.translation);
+            add(collider.now.rotation * DVec3::X);
+            add(collider.now.rotation * DVec3::Y);
+            for v in collider.shape.numbers() {
+                add(v);
+            }
+        }
+        hash
+    }
+}
+
+/// What happened in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stats {
+    /// Strands that were stepped.
+    pub strands: usize,
+    /// Newton iterations of all strands; two a strand is the least.
+    pub iterations: usize,
+    /// Strands that took the safe integrator in this step.
+    pub fallbacks: usize,
+    /// Strands that are set aside: see [`Solver::faults`](crate::Solver::faults).
+    pub set_aside: usize,
+    /// Particles that were near a body or touched it.
+    pub contacts: usize,
+    /// Particles that felt wind.
+    pub wind: usize,
+    /// Links between strands that held.
+    pub links: usize,
+    /// Particles that another strand pushed away.
+    pub repulsions: usize,
+    /// Strands that rest, and cost nothing.
+    pub asleep: usize,
+}
+
+impl Stats {
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self {
+            strands: self.strands + other.strands,
+            iterations: self.iterations + other.iterations,
+            fallbacks: self.fallbacks + other.fallbacks,
+            set_aside: self.set_aside + other.set_aside,
+            contacts: self.contacts + other.contacts,
+            wind: self.wind + other.wind,
+            links: self.links + other.links,
+            repulsions: self.repulsions + other.repulsions,
+            asleep: self.asleep + other.asleep,
+        }
+    }
+}
+
+impl From<BatchStats> for Stats {
+    fn from(batch: BatchStats) -> Self {
+        Self {
+            strands: batch.strands,
+            iterations: batch.iterations,
+            fallbacks: batch.fallbacks,
+            set_aside: batch.set_aside,
+            contacts: batch.contacts,
+            wind: batch.wind,
+            links: batch.hair.links,
+            repulsions: batch.hair.repulsions,
+            asleep: batch.asleep,
+        }
+    }
+}
+
+/// Why strands make no solver.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DynamicsError {
+    /// A parameter has a range.
+    #[error("strand {id}: {name} is {value}, and must be from {least} to {most}")]
+    Parameter {
+        /// The strand's id.
+        id: u32,
+        /// The parameter.
+        name: &'static str,
+        /// As it was given.
+        value: f64,
+        /// The least.
+        least: f64,
+        /// The most.
+        most: f64,
+    },
+    /// A step takes time.
+    #[error("a step of {0} s: it must be more than 0 and at most 10 s")]
+    Step(f64),
+    /// Numbers of the scene are finite.
+    #[error("the scene's {0} is not finite")]
+    Scene(&'static str),
+    /// A number of [`Mutual`](crate::Mutual) has a range.
+    #[error("{name} is {value}, and must be from {least} to {most}")]
+    Mutual {
+        /// Its name.
+        name: &'static str,
+        /// As it was given.
+        value: f64,
+        /// The least.
+        least: f64,
+        /// The most.
+        most: f64,
+    },
+    /// There is one pose for every strand.
+    #[error("{found} poses for {expected} strands")]
+    Poses {
+        /// How many there are.
+        found: usize,
+        /// How many strands there are.
+        expected: usize,
+    },
+    /// There is one goal for every point.
+    #[error("goals for {found} points; the strands have {expected}")]
+    Goal {
+        /// How many there are.
+        found: usize,
+        /// How many points there are.
+        expected: usize,
+    },
+    /// A state belongs to the strands that it was made with.
+    #[error("the state is not of these strands")]
+    State,
+}
+
+/// A strand that is set aside: it follows its root without a motion of its own.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("strand {id} is set aside: {reason}")]
+pub struct Fault {
+    /// The strand's id.
+    pub id: u32,
+    /// Why.
+    pub reason: Reason,
+}

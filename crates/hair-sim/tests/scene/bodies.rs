@@ -1,0 +1,178 @@
+use glam::{DQuat, DVec3, Vec3};
+use hair_sim::{Collider, Params, Pose, Scene, Shape, SignedDistance, Solver, State};
+
+use crate::{farthest, params, run, shape, straight};
+
+const BALL: Shape = Shape::Sphere {
+    center: DVec3::ZERO,
+    radius: 0.1,
+};
+
+/// How deep the deepest particle but the root is in the ball at `center`.
+fn depth(solver: &Solver, state: &State, center: DVec3) -> f64 {
+    (solver.points(state, 0).skip(1))
+        .map(|p| 0.101 - (p - center).length())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn hair_lies_on_a_ball() {
+    let ball = Collider::fixed(BALL, Pose::IDENTITY);
+    let capsule = Collider::fixed(
+        Shape::Capsule {
+            from: DVec3::ZERO,
+            to: DVec3::new(0.0, 0.0, 1e-9),
+            radius: 0.1,
+        },
+        Pose::IDENTITY,
+    );
+    let mut shapes = Vec::new();
+    for collider in [ball, capsule] {
+        // Falls from beside the pole.
+        let rest = straight(Vec3::new(0.0, 0.102, 0.0), Vec3::new(1.0, 0.0, 0.0));
+        let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
+        let colliders = [collider];
+        let scene = Scene {
+            colliders: &colliders,
+            ..Scene::default()
+        };
+        let (mut contacts, mut deepest) = (0, 0.0_f64);
+        for _ in 0..240 {
+            contacts += solver
+                .step(&mut state, &scene, 1.0 / 24.0)
+                .unwrap()
+                .contacts;
+            deepest = deepest.max(depth(&solver, &state, DVec3::ZERO));
+        }
+        println!(
+            "deepest {deepest:.1e}, at rest {:.1e}",
+            depth(&solver, &state, DVec3::ZERO)
+        );
+        assert!(contacts > 1000, "{contacts}");
+        assert!(deepest < 2e-3, "{deepest}");
+        assert!(depth(&solver, &state, DVec3::ZERO) < 2e-4);
+        shapes.push(shape(&solver, &state));
+    }
+    assert!(farthest(&shapes[0], &shapes[1]) < 1e-3);
+}
+
+#[test]
+fn a_mesh_is_as_the_ball_that_it_shows() {
+    let (points, triangles) = mesh();
+    let grid = SignedDistance::new(&points, &triangles, 0.004).unwrap();
+    let [ball, mesh] = [BALL, Shape::Grid(&grid)].map(|shape_| {
+        let rest = straight(Vec3::new(0.0, 0.102, 0.0), Vec3::X);
+        let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
+        let colliders = [Collider::fixed(shape_, Pose::IDENTITY)];
+        let scene = Scene {
+            colliders: &colliders,
+            ..Scene::default()
+        };
+        run(&mut solver, &mut state, &scene, 1.0 / 24.0, 240);
+        shape(&solver, &state)
+    });
+    let error = farthest(&ball, &mesh);
+    assert!(error < 3e-3, "{error}");
+}
+
+fn mesh() -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let (rings, around) = (40_u32, 80_u32);
+    let mut points = Vec::new();
+    let mut triangles = Vec::new();
+    for i in 0..=rings {
+        let polar = std::f32::consts::PI * i as f32 / rings as f32;
+        for j in 0..around {
+            let angle = std::f32::consts::TAU * j as f32 / around as f32;
+            let level = polar.sin();
+            points.push(Vec3::new(level * angle.cos(), polar.cos(), level * angle.sin()) * 0.1);
+            if i < rings {
+                let (a, b) = (i * around + j, i * around + (j + 1) % around);
+                triangles.push([a, b, b + around]);
+                triangles.push([a, b + around, a + around]);
+            }
+        }
+    }
+    (points, triangles)
+}
+
+#[test]
+fn a_fast_ball_does_not_pass_through() {
+    // 20 m/s: 0.83 m in a frame, eight times its radius. It flies past the root and takes the strand along.
+    let rest = straight(Vec3::new(0.0, 0.25, 0.0), Vec3::NEG_Y);
+    let (mut solver, mut state) = Solver::new(&rest, &params(20.0)).unwrap();
+    let place = |i: i32| Pose {
+        rotation: DQuat::IDENTITY,
+        translation: DVec3::new(-1.0 + f64::from(i) * 20.0 / 24.0, 0.0, 0.0),
+    };
+    for i in 0..2 {
+        let colliders = [Collider {
+            shape: BALL,
+            before: place(i),
+            now: place(i + 1),
+        }];
+        let scene = Scene {
+            colliders: &colliders,
+            ..Scene::default()
+        };
+        solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        // All that the ball swept is in front of it, or was pushed over it.
+        let center = place(i + 1).translation;
+        let points = shape(&solver, &state);
+        for p in &points[1..] {
+            let behind = p.x < center.x && p.y.abs() < 0.05 && i == 1;
+            assert!(!behind, "frame {i}: {p} is behind the ball at {center}");
+        }
+    }
+}
+
+#[test]
+fn friction_holds_what_slides_without_it() {
+    // On the shoulder of a large ball: a slope of about 20 degrees.
+    let slide = |friction: f64| {
+        let large = Shape::Sphere {
+            center: DVec3::new(0.0, -2.0, 0.0),
+            radius: 2.0,
+        };
+        let p = Params {
+            friction,
+            drag: 0.5,
+            ..params(400.0)
+        };
+        let rest = straight(Vec3::new(0.0, 0.003, 0.0), Vec3::Z);
+        let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
+        let colliders = [Collider::fixed(large, Pose::IDENTITY)];
+        let mut scene = Scene {
+            colliders: &colliders,
+            ..Scene::default()
+        };
+        run(&mut solver, &mut state, &scene, 1.0 / 60.0, 60);
+        let before = shape(&solver, &state);
+        scene.gravity.x = 2.0;
+        run(&mut solver, &mut state, &scene, 1.0 / 60.0, 60);
+        farthest(&before, &shape(&solver, &state))
+    };
+    let (smooth, rough) = (slide(0.0), slide(1.0));
+    println!("slides {smooth:.4} m without friction, {rough:.4} m with");
+    assert!(smooth > 0.05, "{smooth}");
+    assert!(rough < 0.005, "{rough}");
+}
+
+#[test]
+fn a_style_that_starts_inside_a_body_stays_where_it_is() {
+    let p = Params {
+        natural: hair_sim::Natural::Balanced,
+        ..params(5.0)
+    };
+    // From inside the ball outwards.
+    let rest = straight(Vec3::new(0.0, 0.08, 0.0), Vec3::new(0.6, 0.8, 0.0));
+    let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
+    let before = shape(&solver, &state);
+    let colliders = [Collider::fixed(BALL, Pose::IDENTITY)];
+    let scene = Scene {
+        colliders: &colliders,
+        ..Scene::default()
+    };
+    run(&mut solver, &mut state, &scene, 1.0 / 24.0, 240);
+    let moved = farthest(&before, &shape(&solver, &state));
+    assert!(moved < 1e-9, "{moved}");
+}

@@ -1,0 +1,51 @@
+//! What acts on hair: roots that move, wind, bodies, goals.
+
+#![allow(clippy::print_stdout, reason = "tests show the figures that they hold")]
+
+mod bodies;
+mod goals;
+mod mutual;
+mod roots;
+mod sleep;
+mod wind;
+
+use glam::{DVec3, Vec3};
+use hair_sim::{Material, Natural, Params, Scene, Solver, State, Strands};
+
+/// Metres.
+const LENGTH: f64 = 0.2;
+
+/// A straight strand of 20 links from `root`.
+fn straight(root: Vec3, direction: Vec3) -> Strands {
+    let points: Vec<Vec3> = (0..=20)
+        .map(|i| root + direction * (LENGTH as f32 * i as f32 / 20.0))
+        .collect();
+    let mut strands = Strands::new();
+    strands.push(7, &points, None).unwrap();
+    strands
+}
+
+fn params(gamma: f64) -> Params {
+    Params {
+        material: Material::from_gamma(gamma, LENGTH),
+        natural: Natural::Styled,
+        ..Params::default()
+    }
+}
+
+fn shape(solver: &Solver, state: &State) -> Vec<DVec3> {
+    solver.points(state, 0).collect()
+}
+
+fn run(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64, steps: usize) {
+    for _ in 0..steps {
+        let stats = solver.step(state, scene, dt).unwrap();
+        assert_eq!(stats.set_aside, 0);
+    }
+}
+
+fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {
+    (a.iter().zip(b))
+        .map(|(a, b)| (*a - *b).length())
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,142 @@
+use glam::{DQuat, DVec3, Vec3};
+use hair_sim::{GRAVITY, Pose, Roots, Scene, Solver};
+
+use crate::{farthest, params, run, shape, straight};
+
+fn at(rotation: DQuat, translation: DVec3) -> Pose {
+    Pose {
+        rotation,
+        translation,
+    }
+}
+
+#[test]
+fn an_even_acceleration_is_as_another_gravity() {
+    let p = hair_sim::Params {
+        drag: 0.0,
+        damping: 0.3,
+        ..params(30.0)
+    };
+    let rest = straight(Vec3::ZERO, Vec3::X);
+    let (mut solver, start) = Solver::new(&rest, &p).unwrap();
+    let push = DVec3::new(3.0, 0.0, -2.0);
+    let mut still = start.clone();
+    let scene = Scene {
+        gravity: DVec3::new(0.0, -GRAVITY, 0.0) - push,
+        ..Scene::default()
+    };
+    run(&mut solver, &mut still, &scene, 0.02, 2000);
+    let mut moving = start;
+    let dt = 0.02;
+    let mut place = DVec3::ZERO;
+    for i in 0..2000 {
+        let t = f64::from(i + 1) * dt;
+        place = push * (0.5 * t * t);
+        let scene = Scene {
+            roots: Roots::Head(at(DQuat::IDENTITY, place)),
+            ..Scene::default()
+        };
+        solver.step(&mut moving, &scene, dt).unwrap();
+    }
+    let moved: Vec<DVec3> = shape(&solver, &moving).iter().map(|p| *p - place).collect();
+    let error = farthest(&moved, &shape(&solver, &still));
+    assert!(error < 1e-6, "{error}");
+}
+
+#[test]
+fn a_stiff_strand_turns_with_the_head() {
+    let rest = straight(Vec3::new(0.1, 0.0, 0.0), Vec3::new(0.6, 0.8, 0.0));
+    let (mut solver, mut state) = Solver::new(&rest, &params(1e-4)).unwrap();
+    let mut rotation = DQuat::IDENTITY;
+    for i in 0..48 {
+        let angle = f64::from(i + 1) * 0.08;
+        rotation = DQuat::from_rotation_y(angle) * DQuat::from_rotation_x(0.3 * angle);
+        let scene = Scene {
+            roots: Roots::Head(at(rotation, DVec3::ZERO)),
+            ..Scene::default()
+        };
+        let stats = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        assert_eq!(stats.fallbacks, 0, "frame {i}");
+    }
+    let expected: Vec<DVec3> = (rest.strand(0).iter())
+        .map(|p| rotation * p.as_dvec3())
+        .collect();
+    let error = farthest(&shape(&solver, &state), &expected);
+    assert!(error < 1e-3, "{error}");
+}
+
+#[test]
+fn a_teleport_changes_nothing_but_the_place() {
+    let rest = straight(Vec3::ZERO, Vec3::X);
+    let (mut solver, mut here) = Solver::new(&rest, &params(50.0)).unwrap();
+    run(&mut solver, &mut here, &Scene::default(), 1.0 / 24.0, 5);
+    let mut there = here.clone();
+    let pose = at(DQuat::IDENTITY, DVec3::new(100.0, -20.0, 3.0));
+    solver.teleport(&mut there, Roots::Head(pose)).unwrap();
+    run(&mut solver, &mut here, &Scene::default(), 1.0 / 24.0, 20);
+    let scene = Scene {
+        roots: Roots::Head(pose),
+        ..Scene::default()
+    };
+    run(&mut solver, &mut there, &scene, 1.0 / 24.0, 20);
+    let moved: Vec<DVec3> = shape(&solver, &here)
+        .iter()
+        .map(|p| *p + pose.translation)
+        .collect();
+    let error = farthest(&moved, &shape(&solver, &there));
+    assert!(error < 1e-12, "{error}");
+}
+
+#[test]
+fn a_turned_world_is_the_same_world() {
+    let rest = straight(Vec3::ZERO, Vec3::X);
+    let (mut solver, mut here) = Solver::new(&rest, &params(50.0)).unwrap();
+    let mut there = here.clone();
+    let pose = at(
+        DQuat::from_rotation_z(1.0) * DQuat::from_rotation_y(2.0),
+        DVec3::ONE,
+    );
+    solver.teleport(&mut there, Roots::Head(pose)).unwrap();
+    let turned = Scene {
+        roots: Roots::Head(pose),
+        gravity: pose.rotation * Scene::default().gravity,
+        ..Scene::default()
+    };
+    for _ in 0..48 {
+        solver
+            .step(&mut here, &Scene::default(), 1.0 / 24.0)
+            .unwrap();
+        solver.step(&mut there, &turned, 1.0 / 24.0).unwrap();
+    }
+    let moved: Vec<DVec3> = shape(&solver, &here)
+        .iter()
+        .map(|p| pose.rotation * *p + pose.translation)
+        .collect();
+    let error = farthest(&moved, &shape(&solver, &there));
+    assert!(error < 1e-9, "{error}");
+}
+
+#[test]
+fn roots_may_move_one_by_one() {
+    let mut rest = straight(Vec3::ZERO, Vec3::X);
+    rest.push(8, &[Vec3::Z, Vec3::Z + Vec3::X * 0.1], None)
+        .unwrap();
+    let (mut solver, mut state) = Solver::new(&rest, &params(1.0)).unwrap();
+    let poses = [Pose::IDENTITY, at(DQuat::IDENTITY, DVec3::Y)];
+    let scene = Scene {
+        roots: Roots::Each(&poses),
+        ..Scene::default()
+    };
+    solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+    assert_eq!(
+        solver.points(&state, 1).next().unwrap(),
+        DVec3::new(0.0, 1.0, 1.0)
+    );
+    assert_eq!(solver.points(&state, 0).next().unwrap(), DVec3::ZERO);
+    let scene = Scene {
+        roots: Roots::Each(&poses[..1]),
+        ..Scene::default()
+    };
+    let error = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap_err();
+    assert_eq!(error.to_string(), "1 poses for 2 strands");
+}

@@ -1,0 +1,88 @@
+use glam::{DVec3, Vec3};
+use hair_sim::{GRAVITY, Params, Scene, Solver, Wind};
+
+use crate::{farthest, params, run, shape, straight};
+
+#[test]
+fn steady_wind_on_round_particles_is_as_another_gravity() {
+    let p = Params {
+        drag: 3.0,
+        drag_along: 1.0,
+        damping: 0.2,
+        ..params(30.0)
+    };
+    let (mut solver, start) = Solver::new(&straight(Vec3::ZERO, Vec3::X), &p).unwrap();
+    let wind = DVec3::new(2.0, 0.5, -1.0);
+    let mut blown = start.clone();
+    let scene = Scene {
+        wind: Wind {
+            steady: wind,
+            ..Wind::default()
+        },
+        ..Scene::default()
+    };
+    run(&mut solver, &mut blown, &scene, 0.05, 2000);
+    let mut pulled = start;
+    let scene = Scene {
+        gravity: DVec3::new(0.0, -GRAVITY, 0.0) + wind * 3.0,
+        ..Scene::default()
+    };
+    run(&mut solver, &mut pulled, &scene, 0.05, 2000);
+    let error = farthest(&shape(&solver, &blown), &shape(&solver, &pulled));
+    assert!(error < 1e-7, "{error}");
+}
+
+#[test]
+fn wind_tilts_a_limp_strand_by_the_drag_across_it() {
+    // Straight at the angle where drag across it balances its weight across it: tan = rate * speed / g, whatever the drag
+    // along it is.
+    for along in [0.0, 0.5, 1.0] {
+        let p = Params {
+            drag: 3.0,
+            drag_along: along,
+            damping: 0.05,
+            ..params(1e7)
+        };
+        let (mut solver, mut state) = Solver::new(&straight(Vec3::ZERO, Vec3::NEG_Y), &p).unwrap();
+        let scene = Scene {
+            wind: Wind {
+                steady: DVec3::new(2.0, 0.0, 0.0),
+                ..Wind::default()
+            },
+            ..Scene::default()
+        };
+        run(&mut solver, &mut state, &scene, 0.05, 1000);
+        let points = shape(&solver, &state);
+        let link = points[20] - points[2];
+        let tan = link.x / -link.y;
+        assert!((tan - 6.0 / GRAVITY).abs() < 1e-3, "{along}: {tan}");
+    }
+}
+
+#[test]
+fn gusts_move_hair_and_other_seeds_move_it_otherwise() {
+    let (mut solver, start) = Solver::new(&straight(Vec3::ZERO, Vec3::X), &params(20.0)).unwrap();
+    let blow = |solver: &mut Solver, seed: u64, gust: f64| {
+        let mut state = start.clone();
+        let scene = Scene {
+            wind: Wind {
+                gust,
+                seed,
+                ..Wind::default()
+            },
+            ..Scene::default()
+        };
+        let mut felt = 0;
+        for _ in 0..48 {
+            felt += solver.step(&mut state, &scene, 1.0 / 24.0).unwrap().wind;
+        }
+        assert_eq!(felt > 0, gust > 0.0);
+        shape(solver, &state)
+    };
+    let calm = blow(&mut solver, 1, 0.0);
+    let one = blow(&mut solver, 1, 5.0);
+    let other = blow(&mut solver, 2, 5.0);
+    assert!(farthest(&calm, &one) > 1e-3);
+    assert!(farthest(&one, &other) > 1e-3);
+    assert_eq!(one, blow(&mut solver, 1, 5.0));
+}

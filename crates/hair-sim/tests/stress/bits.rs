@@ -1,0 +1,106 @@
+//! Row 9: the same bits for any number of threads, any order of strands, and after save and restore.
+
+use glam::{DQuat, DVec3};
+use hair_sim::{
+    Collider, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Strands, Wind,
+};
+
+use crate::{strand, style};
+
+fn params() -> Params {
+    Params {
+        goal: Profile::constant(3.0),
+        ..Params::default()
+    }
+}
+
+/// Half a second of everything at once, from `from` on.
+fn run(solver: &mut Solver, state: &mut State, from: usize, frames: usize) {
+    let pose = |i: usize| Pose {
+        rotation: DQuat::from_rotation_y(0.3 * (i as f64 * 0.5).sin()),
+        translation: DVec3::new(0.0, 0.02 * (i as f64).cos(), 0.0),
+    };
+    for i in from..from + frames {
+        let colliders = [Collider {
+            shape: Shape::Sphere {
+                center: DVec3::ZERO,
+                radius: 0.1,
+            },
+            before: pose(i),
+            now: pose(i + 1),
+        }];
+        let scene = Scene {
+            roots: Roots::Head(pose(i + 1)),
+            wind: Wind {
+                steady: DVec3::new(2.0, 0.0, 1.0),
+                gust: 3.0,
+                ..Wind::default()
+            },
+            colliders: &colliders,
+            ..Scene::default()
+        };
+        solver.step(state, &scene, 1.0 / 24.0).unwrap();
+    }
+}
+
+fn bits(solver: &Solver, state: &State, strand: usize) -> Vec<[u64; 3]> {
+    (solver.points(state, strand))
+        .map(|p| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()])
+        .collect()
+}
+
+#[test]
+fn threads_do_not_matter() {
+    let rest = style(50, 12, 0.2);
+    let states = [1, 2, 8].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| {
+            let (mut solver, mut state) = Solver::new(&rest, &params()).unwrap();
+            run(&mut solver, &mut state, 0, 24);
+            state
+        })
+    });
+    assert!(states[0] == states[1] && states[0] == states[2]);
+}
+
+#[test]
+fn the_order_of_strands_does_not_matter() {
+    // Of different lengths, so that batches mix them.
+    let count = 21;
+    let mut rest = Strands::new();
+    for s in 0..count {
+        rest.push(s, &strand(s, 8 + s as usize % 5, 0.2), None)
+            .unwrap();
+    }
+    let order: Vec<usize> = (0..count as usize)
+        .map(|i| i * 8 % count as usize)
+        .collect();
+    let shuffled = rest.select(&order);
+    let (mut solver, mut state) = Solver::new(&rest, &params()).unwrap();
+    run(&mut solver, &mut state, 0, 24);
+    let (mut other, mut other_state) = Solver::new(&shuffled, &params()).unwrap();
+    run(&mut other, &mut other_state, 0, 24);
+    for (place, &index) in order.iter().enumerate() {
+        assert_eq!(
+            bits(&solver, &state, index),
+            bits(&other, &other_state, place),
+            "{index}"
+        );
+    }
+}
+
+#[test]
+fn a_saved_state_goes_on_as_if_nothing_had_happened() {
+    let rest = style(20, 12, 0.2);
+    let (mut solver, mut state) = Solver::new(&rest, &params()).unwrap();
+    run(&mut solver, &mut state, 0, 12);
+    let saved = serde_json::to_string(&state).unwrap();
+    run(&mut solver, &mut state, 12, 24);
+    let (mut fresh, _) = Solver::new(&rest, &params()).unwrap();
+    let mut restored: State = serde_json::from_str(&saved).unwrap();
+    run(&mut fresh, &mut restored, 12, 24);
+    assert_eq!(state, restored);
+}

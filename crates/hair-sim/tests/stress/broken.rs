@@ -1,0 +1,196 @@
+//! Rows 4 and 7: strands that cannot be, and numbers that are none.
+
+use glam::{DQuat, DVec3, Vec3};
+use hair_sim::{
+    Collider, DynamicsError, Params, Pose, Profile, Reason, Roots, Scene, Shape, Solver, State,
+    Strands, Wind,
+};
+
+use crate::{check, strand, style};
+
+#[test]
+fn broken_segments_are_repaired_or_named() {
+    let doubled = |i: usize| {
+        let mut points = strand(1, 10, 0.2);
+        points[i] = points[i - 1];
+        points
+    };
+    let mut rest = Strands::new();
+    rest.push(10, &doubled(1), None).unwrap();
+    rest.push(11, &doubled(5), None).unwrap();
+    rest.push(12, &doubled(10), None).unwrap();
+    let mut tripled = strand(1, 10, 0.2);
+    (tripled[4], tripled[5], tripled[6]) = (tripled[3], tripled[3], tripled[3]);
+    rest.push(13, &tripled, None).unwrap();
+    let mut folded = strand(1, 10, 0.2);
+    folded[6] = folded[4];
+    rest.push(14, &folded, None).unwrap();
+    rest.push(15, &[Vec3::ONE; 7], None).unwrap();
+    let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
+    let named: Vec<(u32, Reason)> = (solver.faults(&state).iter())
+        .map(|f| (f.id, f.reason))
+        .collect();
+    assert_eq!(named, [(14, Reason::Folded(5)), (15, Reason::NoLength)]);
+    assert_eq!(
+        solver.faults(&state)[0].to_string(),
+        "strand 14 is set aside: it folds back on itself at point 5"
+    );
+    for i in 0..96 {
+        let scene = Scene {
+            gravity: DVec3::new(f64::from(i % 7) * 5.0, -9.81, 0.0),
+            roots: Roots::Head(Pose {
+                rotation: DQuat::from_rotation_y(f64::from(i) * 0.1),
+                translation: DVec3::ZERO,
+            }),
+            ..Scene::default()
+        };
+        let stats = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        assert_eq!(stats.set_aside, 2);
+        check(&solver, &state, &rest, "segments");
+    }
+}
+
+/// All strands but `without`, to the bit.
+fn bits(solver: &Solver, state: &State, without: usize) -> Vec<[u64; 3]> {
+    (0..solver.len())
+        .filter(|&s| s != without)
+        .flat_map(|s| solver.points(state, s))
+        .map(|p| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()])
+        .collect()
+}
+
+#[test]
+fn a_rest_shape_without_numbers_is_named_and_disturbs_no_other() {
+    let good = style(20, 15, 0.2);
+    let mut bad = good.clone();
+    let range = bad.point_range(6);
+    bad.points_mut()[range.start + 3].y = f32::NAN;
+    let run = |rest: &Strands| {
+        let (mut solver, mut state) = Solver::new(rest, &Params::default()).unwrap();
+        let scene = Scene {
+            gravity: DVec3::new(3.0, -9.81, 0.0),
+            ..Scene::default()
+        };
+        for _ in 0..48 {
+            solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        }
+        (bits(&solver, &state, 6), solver.faults(&state))
+    };
+    let ((good, none), (bad, one)) = (run(&good), run(&bad));
+    assert_eq!(none, []);
+    assert_eq!(
+        one[0].to_string(),
+        "strand 6 is set aside: point 3 at rest is not finite"
+    );
+    assert_eq!(good, bad);
+}
+
+#[test]
+fn a_root_or_goal_without_numbers_is_named_and_disturbs_no_other() {
+    let rest = style(20, 15, 0.2);
+    let params = Params {
+        goal: Profile::constant(5.0),
+        ..Params::default()
+    };
+    let run = |root: f64, goal: f32| {
+        let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
+        for i in 0..48 {
+            let mut poses = [Pose::IDENTITY; 20];
+            let mut goals = rest.points().to_vec();
+            if i == 10 {
+                poses[6].translation.x = root;
+                goals[rest.point_range(6).start + 2].z = goal;
+            }
+            let scene = Scene {
+                roots: Roots::Each(&poses),
+                goal: Some(&goals),
+                gravity: DVec3::new(3.0, -9.81, 0.0),
+                ..Scene::default()
+            };
+            solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        }
+        check(&solver, &state, &rest, "others");
+        let reasons: Vec<Reason> = solver.faults(&state).iter().map(|f| f.reason).collect();
+        (bits(&solver, &state, 6), reasons)
+    };
+    let whole = run(0.0, 0.0).0;
+    assert_eq!(run(f64::NAN, 0.0), (whole.clone(), vec![Reason::Root]));
+    assert_eq!(run(f64::INFINITY, 0.0), (whole.clone(), vec![Reason::Root]));
+    assert_eq!(run(0.0, f32::NAN), (whole, vec![Reason::Goal]));
+}
+
+#[test]
+fn a_scene_without_numbers_is_refused_and_changes_nothing() {
+    let rest = style(3, 5, 0.2);
+    let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
+    let before = state.clone();
+    let nan = DVec3::splat(f64::NAN);
+    let head = |rotation, translation| Scene {
+        roots: Roots::Head(Pose {
+            rotation,
+            translation,
+        }),
+        ..Scene::default()
+    };
+    let ball = [Collider::fixed(
+        Shape::Sphere {
+            center: nan,
+            radius: 1.0,
+        },
+        Pose::IDENTITY,
+    )];
+    let scenes = [
+        (
+            Scene {
+                gravity: nan,
+                ..Scene::default()
+            },
+            "gravity",
+        ),
+        (
+            Scene {
+                wind: Wind {
+                    steady: nan,
+                    ..Wind::default()
+                },
+                ..Scene::default()
+            },
+            "wind",
+        ),
+        (head(DQuat::IDENTITY, nan), "head"),
+        (
+            head(DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0), DVec3::ZERO),
+            "head",
+        ),
+        (
+            Scene {
+                colliders: &ball,
+                ..Scene::default()
+            },
+            "collider",
+        ),
+    ];
+    for (scene, name) in scenes {
+        let error = solver.step(&mut state, &scene, 0.1).unwrap_err();
+        assert_eq!(error, DynamicsError::Scene(name));
+    }
+    for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = solver.step(&mut state, &Scene::default(), dt).unwrap_err();
+        assert!(matches!(error, DynamicsError::Step(_)));
+    }
+    assert_eq!(state, before);
+    let bad = Params {
+        drag: -1.0,
+        ..Params::default()
+    };
+    let error = Solver::new(&rest, &bad).unwrap_err().to_string();
+    assert_eq!(error, "strand 0: drag is -1, and must be from 0 to 10000");
+    let (_, mut other) = Solver::new(&style(2, 5, 0.2), &Params::default()).unwrap();
+    (_, other) = (0, {
+        let (_, s) = Solver::new(&style(2, 6, 0.2), &Params::default()).unwrap();
+        drop(other);
+        s
+    });
+    let error = solver.step(&mut other, &Scene::default(), 0.1).unwrap_err();
+    assert_eq!(error, DynamicsError::State);
+}

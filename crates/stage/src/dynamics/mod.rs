@@ -1,0 +1,211 @@
+//! Hair in motion: the simulated part of a scene.
+//!
+//! What a style holds on the head moves with it; the rest of each strand is simulated from there. Of
+//! many strands some are guides, and carry the others.
+
+mod bodies;
+mod carried;
+mod feel;
+
+pub use feel::DYNAMICS;
+pub(crate) use feel::Feel;
+
+use crate::files::StageError;
+use crate::load::Hair;
+use crate::motion::MotionScript;
+use crate::neck::rigid;
+use bodies::Bodies;
+use carried::Carried;
+use effects::Values;
+use glam::{DQuat, DVec3, Vec3};
+use hair_io::Mesh;
+use hair_sim::{Pose, Roots, Scene, Solver, State, Stats, Strands, Wind};
+use render::Head;
+use std::ops::Range;
+
+/// Where a simulated strand's points go.
+struct Part {
+    /// The points of the scene that it moves: all behind those that the head holds.
+    points: Range<usize>,
+    /// Its first point of the solver's.
+    strand: usize,
+}
+
+/// The solver with its strands, and the time it has come to.
+pub(crate) struct Dynamics {
+    solver: Solver,
+    state: State,
+    start: State,
+    guides: Vec<Part>,
+    carried: Carried,
+    bodies: Bodies,
+    head: Head,
+    gravity: DVec3,
+    seed: u64,
+    /// Seconds of one step.
+    step: f64,
+    /// Steps before the time 0.
+    warm_up: i64,
+    /// Steps done since the start.
+    done: i64,
+    stats: Stats,
+}
+
+impl Dynamics {
+    /// The dynamics of hair whose strands have these sizes (1/300 head heights), on a head of this mesh.
+    ///
+    /// # Errors
+    ///
+    /// When a parameter is out of the solver's range.
+    pub fn new(
+        hair: &Hair,
+        sizes: &[f32],
+        mesh: Option<&Mesh>,
+        values: &Values,
+        fps: f32,
+        seed: u32,
+    ) -> Result<Self, StageError> {
+        let feel = Feel::new(values, hair.head);
+        let all = &hair.file.strands;
+        let mut free = Strands::new();
+        let mut parts = Vec::new();
+        for strand in 0..all.len() {
+            let range = all.point_range(strand);
+            let held = (hair.held[strand].max(1) as usize).min(range.len());
+            let points = range.start + held - 1..range.end;
+            // A strand that the head holds to its tip has nothing to simulate.
+            if points.len() > 1 {
+                free.push(strand as u32, &all.points()[points.clone()], None)?;
+                parts.push(points);
+            }
+        }
+        let (guides, carried) =
+            carried::choose(&free, &parts, values.integer("guides").unsigned_abs());
+        let chosen = free.select(&guides);
+        let params = |i: usize| {
+            let links = chosen.strand(i).windows(2);
+            let length_m: f32 = links.map(|link| link[0].distance(link[1])).sum();
+            feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
+        };
+        let (mut solver, mut state) = Solver::with(&chosen, params)?;
+        if let Some(mutual) = feel::mutual(values, hair.head) {
+            solver.interact(&mut state, &mutual)?;
+        }
+        let step = match f64::from(values.number("step")) {
+            0.0 => 1.0 / f64::from(fps),
+            step => step,
+        };
+        let guides = (0..).zip(&guides).map(|(strand, &part)| Part {
+            points: parts[part].clone(),
+            strand,
+        });
+        let guides: Vec<Part> = guides.collect();
+        Ok(Self {
+            start: state.clone(),
+            carried,
+            guides,
+            bodies: Bodies::new(mesh, hair.head),
+            solver,
+            state,
+            head: hair.head,
+            gravity: DVec3::new(0.0, -9.81 * f64::from(values.number("gravity")), 0.0),
+            seed: u64::from(seed),
+            warm_up: (f64::from(values.number("warm_up")) / step).round() as i64,
+            step,
+            done: 0,
+            stats: Stats::default(),
+        })
+    }
+
+    /// What happened in the last step.
+    pub fn stats(&self) -> Stats {
+        self.stats
+    }
+
+    /// Whether hair moves in a scene: a script drives it, or it is not at rest by itself.
+    pub fn moves(values: &Values, script: &MotionScript) -> bool {
+        let is_at_rest = values.choice("shape") == 0 && values.number("gravity") == 1.0;
+        values.choice("solver") == 0 && !(script.is_still() && is_at_rest)
+    }
+
+    /// Steps to `time` (seconds) of a script, and writes the points of what moves.
+    ///
+    /// # Errors
+    ///
+    /// When the solver refuses the scene.
+    pub fn advance_to(
+        &mut self,
+        time: f64,
+        script: &MotionScript,
+        points: &mut [Vec3],
+    ) -> Result<(), StageError> {
+        let wanted = ((time / self.step).round() as i64 + self.warm_up).max(0);
+        if wanted < self.done || self.done == 0 {
+            self.done = 0;
+            self.state.clone_from(&self.start);
+            let first = Roots::Head(self.pose_at(0, script));
+            self.solver.teleport(&mut self.state, first)?;
+        }
+        while self.done < wanted {
+            let ends = [self.done, self.done + 1];
+            let [before, now] = ends.map(|steps| self.pose_at(steps, script));
+            let shoulders = ends.map(|steps| self.shoulders_at(steps, script));
+            let (steady, gust) = script.wind_at(self.time_of(self.done + 1));
+            let scene = Scene {
+                roots: Roots::Head(now),
+                gravity: self.gravity,
+                wind: Wind {
+                    steady,
+                    gust,
+                    size: 2.0 * f64::from(self.head.height_m),
+                    seed: self.seed,
+                },
+                colliders: &self.bodies.colliders([before, now], shoulders),
+                goal: None,
+            };
+            self.stats = self.solver.step(&mut self.state, &scene, self.step)?;
+            self.done += 1;
+        }
+        if self.done == 0 {
+            // At the start all hair is where the head's pose has put it.
+            return Ok(());
+        }
+        let pose = self.pose_at(self.done, script);
+        for part in &self.guides {
+            let moved = self.solver.points(&self.state, part.strand);
+            for (point, moved) in points[part.points.clone()].iter_mut().zip(moved) {
+                *point = moved.as_vec3();
+            }
+        }
+        let turns = |strand| {
+            let rest = self.solver.frames(&self.start, strand);
+            let now = self.solver.frames(&self.state, strand);
+            now.zip(rest).map(|(now, rest)| now * rest.inverse())
+        };
+        self.carried.carry(points, turns);
+        self.bodies.keep_out(self.carried.ranges(), pose, points);
+        Ok(())
+    }
+
+    /// The script's time after a number of steps.
+    fn time_of(&self, steps: i64) -> f64 {
+        (steps - self.warm_up) as f64 * self.step
+    }
+
+    fn pose_at(&self, steps: i64, script: &MotionScript) -> Pose {
+        let (rotation, translation) = rigid(script.head_at(self.time_of(steps)), self.head);
+        Pose {
+            rotation,
+            translation,
+        }
+    }
+
+    /// Where the shoulders are: they follow the head's shift, not its turns.
+    fn shoulders_at(&self, steps: i64, script: &MotionScript) -> Pose {
+        let shift = script.head_at(self.time_of(steps)).shift;
+        Pose {
+            rotation: DQuat::IDENTITY,
+            translation: shift * f64::from(self.head.height_m),
+        }
+    }
+}

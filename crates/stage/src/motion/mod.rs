@@ -1,0 +1,301 @@
+//! How a head moves and the wind blows: scripts, `*.motion.ron`.
+//!
+//! A script is a function of time alone. Its head starts from the pose of the files; moves add up.
+
+mod parse;
+mod pose;
+
+pub use parse::MOTION_PARTS;
+pub(crate) use parse::parse;
+pub(crate) use pose::HeadPose;
+
+use glam::DVec3;
+use stroke_path::sin_cos_degrees;
+
+/// A script of motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct MotionScript {
+    /// Seconds after which it starts again; nothing never does.
+    pub period: Option<f64>,
+    /// Keyframes of the head, times ascending.
+    pub keys: Vec<Key>,
+    /// Moves of the head.
+    pub moves: Vec<Move>,
+    /// Winds; their speeds add up.
+    pub winds: Vec<Wind>,
+}
+
+/// Where the head is at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Key {
+    /// Seconds.
+    pub time: f64,
+    /// Turns in degrees: towards the character's left, up, towards the left shoulder.
+    pub turn: DVec3,
+    /// Head heights.
+    pub shift: DVec3,
+}
+
+/// What a move does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MoveKind {
+    /// Turns once, and stays: towards the character's left.
+    Turn,
+    /// Looks up once, and stays.
+    Lift,
+    /// Leans towards the left shoulder once, and stays.
+    Lean,
+    /// Shakes from side to side.
+    Shake,
+    /// Nods.
+    Nod,
+    /// Bobs and sways as in walking.
+    Walk,
+}
+
+/// A move of the head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Move {
+    pub kind: MoveKind,
+    /// Seconds.
+    pub start: f64,
+    /// Seconds, more than 0.
+    pub length: f64,
+    /// Degrees.
+    pub angle: f64,
+    /// Swings or steps a second.
+    pub rate: f64,
+    /// Height of a step, head heights.
+    pub step: f64,
+}
+
+/// Wind that blows for a while.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Wind {
+    /// Seconds.
+    pub start: f64,
+    /// Seconds; more than 0.
+    pub length: f64,
+    /// A unit vector: where it blows to.
+    pub direction: DVec3,
+    /// m/s.
+    pub speed: f64,
+    /// Speed of the gusts on top, m/s.
+    pub gusts: f64,
+}
+
+/// Seconds in which a wind rises and falls.
+const WIND_RISE: f64 = 0.4;
+
+impl MotionScript {
+    /// Whether nothing moves.
+    pub fn is_still(&self) -> bool {
+        self.keys.is_empty() && self.moves.is_empty() && self.winds.is_empty()
+    }
+
+    /// The head's pose at `time` (seconds).
+    pub fn head_at(&self, time: f64) -> HeadPose {
+        let time = self.within(time);
+        let (mut turn, mut shift) = self.keyed(time);
+        for part in &self.moves {
+            let (t, s) = part.at(time);
+            turn += t;
+            shift += s;
+        }
+        HeadPose { turn, shift }
+    }
+
+    /// The steady wind and the speed of gusts at `time`: m/s.
+    pub fn wind_at(&self, time: f64) -> (DVec3, f64) {
+        let time = self.within(time);
+        let mut steady = DVec3::ZERO;
+        let mut gusts = 0.0;
+        for wind in &self.winds {
+            let strength = smooth((time - wind.start) / WIND_RISE)
+                * smooth((wind.start + wind.length - time) / WIND_RISE);
+            steady += wind.direction * (wind.speed * strength);
+            gusts += wind.gusts * strength;
+        }
+        (steady, gusts)
+    }
+
+    fn within(&self, time: f64) -> f64 {
+        self.period.map_or(time, |period| time.rem_euclid(period))
+    }
+
+    /// The keyframes' spline at `time`: Hermite's cubics with the slopes of the neighbours (Catmull and
+    /// Rom's); before the first and after the last the head rests.
+    fn keyed(&self, time: f64) -> (DVec3, DVec3) {
+        let keys = &self.keys;
+        let next = keys.partition_point(|key| key.time <= time);
+        let (Some(first), Some(last)) = (keys.first(), keys.last()) else {
+            return (DVec3::ZERO, DVec3::ZERO);
+        };
+        if next == 0 {
+            return (first.turn, first.shift);
+        }
+        if next == keys.len() {
+            return (last.turn, last.shift);
+        }
+        let slope = |i: usize| {
+            if i == 0 || i + 1 == keys.len() {
+                return (DVec3::ZERO, DVec3::ZERO);
+            }
+            let (a, b) = (&keys[i - 1], &keys[i + 1]);
+            let seconds = b.time - a.time;
+            ((b.turn - a.turn) / seconds, (b.shift - a.shift) / seconds)
+        };
+        let (a, b) = (&keys[next - 1], &keys[next]);
+        let (slope_a, slope_b) = (slope(next - 1), slope(next));
+        let seconds = b.time - a.time;
+        let t = (time - a.time) / seconds;
+        let cubic = |a: DVec3, b: DVec3, slope_a: DVec3, slope_b: DVec3| {
+            let (t2, t3) = (t * t, t * t * t);
+            a * (2.0 * t3 - 3.0 * t2 + 1.0)
+                + slope_a * (seconds * (t3 - 2.0 * t2 + t))
+                + b * (3.0 * t2 - 2.0 * t3)
+                + slope_b * (seconds * (t3 - t2))
+        };
+        (
+            cubic(a.turn, b.turn, slope_a.0, slope_b.0),
+            cubic(a.shift, b.shift, slope_a.1, slope_b.1),
+        )
+    }
+}
+
+impl Move {
+    /// Its turn (degrees) and shift (head heights) at `time`.
+    fn at(&self, time: f64) -> (DVec3, DVec3) {
+        let since = time - self.start;
+        let still = (DVec3::ZERO, DVec3::ZERO);
+        let once = self.angle * smooth(since / self.length);
+        // Swings rise and fall within a quarter of their length, or half a swing.
+        let rise = (0.25 * self.length).min(0.5 / self.rate);
+        let strength = smooth(since / rise) * smooth((self.length - since) / rise);
+        let swing = |share: f64| strength * sin_cos_degrees(360.0 * self.rate * share * since).0;
+        match self.kind {
+            MoveKind::Turn => (DVec3::X * once, DVec3::ZERO),
+            MoveKind::Lift => (DVec3::Y * once, DVec3::ZERO),
+            MoveKind::Lean => (DVec3::Z * once, DVec3::ZERO),
+            _ if strength <= 0.0 => still,
+            MoveKind::Shake => (DVec3::X * (self.angle * swing(1.0)), DVec3::ZERO),
+            MoveKind::Nod => (DVec3::Y * (self.angle * swing(1.0)), DVec3::ZERO),
+            // Up and down once a step, from foot to foot in two.
+            MoveKind::Walk => (
+                DVec3::new(0.0, 0.3, 0.5) * (self.angle * swing(0.5)),
+                DVec3::new(0.6 * swing(0.5), swing(1.0), 0.0) * self.step,
+            ),
+        }
+    }
+}
+
+/// From 0 to 1 without a jump of acceleration at either end.
+fn smooth(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * t * (10.0 - 15.0 * t + 6.0 * t * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turn(start: f64, length: f64, angle: f64) -> Move {
+        Move {
+            kind: MoveKind::Turn,
+            start,
+            length,
+            angle,
+            rate: 1.0,
+            step: 0.0,
+        }
+    }
+
+    #[test]
+    fn moves_add_up_and_stay() {
+        let script = MotionScript {
+            moves: vec![turn(1.0, 0.5, 90.0), turn(2.0, 0.5, -30.0)],
+            ..MotionScript::default()
+        };
+        let at = |time| script.head_at(time).turn.x;
+        assert_eq!(at(0.9), 0.0);
+        assert_eq!(at(1.25), 45.0);
+        assert_eq!(at(1.8), 90.0);
+        assert_eq!(at(9.0), 60.0);
+    }
+
+    #[test]
+    fn swings_begin_and_end_at_rest() {
+        for kind in [MoveKind::Shake, MoveKind::Nod, MoveKind::Walk] {
+            let script = MotionScript {
+                moves: vec![Move {
+                    kind,
+                    start: 0.5,
+                    length: 2.0,
+                    angle: 20.0,
+                    rate: 2.0,
+                    step: 0.05,
+                }],
+                ..MotionScript::default()
+            };
+            let at = |time: f64| script.head_at(time);
+            let still = HeadPose::default();
+            assert_eq!((at(0.0), at(3.0)), (still, still));
+            let speed = |time: f64| (at(time + 1e-4).turn - at(time).turn).length() / 1e-4;
+            assert!(speed(0.5001) < 1.0 && speed(2.4998) < 1.0);
+            let fastest = (0..200).map(|i| speed(0.5 + 0.01 * f64::from(i)));
+            assert!(fastest.fold(0.0, f64::max) > 20.0);
+        }
+    }
+
+    #[test]
+    fn keyframes_are_passed_through_smoothly_and_repeat() {
+        let key = |time, yaw, height| Key {
+            time,
+            turn: DVec3::new(yaw, 0.0, 0.0),
+            shift: DVec3::new(0.0, height, 0.0),
+        };
+        let keys = vec![
+            key(0.0, 0.0, 0.0),
+            key(1.0, 40.0, 1.0),
+            key(1.5, -20.0, 0.0),
+            key(2.0, 0.0, 0.0),
+        ];
+        let script = MotionScript {
+            period: Some(2.0),
+            keys: keys.clone(),
+            ..MotionScript::default()
+        };
+        for key in &keys[..3] {
+            for round in [0.0, 2.0, 200.0] {
+                let pose = script.head_at(key.time + round);
+                assert!((pose.turn - key.turn).length() < 1e-9);
+                assert!((pose.shift - key.shift).length() < 1e-9);
+            }
+        }
+        // No corner at a key: the slopes on both sides agree.
+        let at = |time| script.head_at(time).turn.x;
+        for time in [1.0, 1.5] {
+            let (before, after) = (at(time) - at(time - 1e-5), at(time + 1e-5) - at(time));
+            assert!((before - after).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn winds_rise_and_fall() {
+        let script = MotionScript {
+            winds: vec![Wind {
+                start: 1.0,
+                length: 2.0,
+                direction: DVec3::X,
+                speed: 5.0,
+                gusts: 2.0,
+            }],
+            ..MotionScript::default()
+        };
+        assert_eq!(script.wind_at(0.5), (DVec3::ZERO, 0.0));
+        assert_eq!(script.wind_at(2.0), (DVec3::X * 5.0, 2.0));
+        let (rising, _) = script.wind_at(1.2);
+        assert!(rising.x > 0.0 && rising.x < 5.0);
+        assert_eq!(script.wind_at(3.5), (DVec3::ZERO, 0.0));
+    }
+}

@@ -1,0 +1,54 @@
+//! A head's pose, and what it does to points.
+
+use glam::{DQuat, DVec3};
+use stroke_path::sin_cos_degrees;
+
+/// How far a head is from where its file has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct HeadPose {
+    /// Turns in degrees: towards the character's left, up, towards the left shoulder; in this order from
+    /// the outermost.
+    pub turn: DVec3,
+    /// Head heights.
+    pub shift: DVec3,
+}
+
+impl HeadPose {
+    /// The turn as a unit quaternion, of which `share` (0 to 1) is done: the neck turns less than the
+    /// head.
+    pub fn rotation(&self, share: f64) -> DQuat {
+        let about = |axis: DVec3, degrees: f64| {
+            let (sin, cos) = sin_cos_degrees(0.5 * degrees * share);
+            DQuat::from_xyzw(axis.x * sin, axis.y * sin, axis.z * sin, cos)
+        };
+        // Looking up turns the face (+Z) to +Y: backwards about +X. Leaning to the left shoulder (+X) turns +Y
+        // to +X: backwards about +Z.
+        about(DVec3::Y, self.turn.x)
+            * about(DVec3::NEG_X, self.turn.y)
+            * about(DVec3::NEG_Z, self.turn.z)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_go_where_they_say() {
+        let pose = |turn| HeadPose {
+            turn,
+            ..HeadPose::default()
+        };
+        let cases = [
+            (DVec3::X, DVec3::Z, DVec3::X),
+            (DVec3::Y, DVec3::Z, DVec3::Y),
+            (DVec3::Z, DVec3::Y, DVec3::X),
+        ];
+        for (axis, from, to) in cases {
+            let turned = pose(axis * 90.0).rotation(1.0) * from;
+            assert!((turned - to).length() < 1e-12, "{axis}: {turned}");
+            let half = pose(axis * 90.0).rotation(0.5) * from;
+            assert!((half - (from + to).normalize()).length() < 1e-12);
+        }
+    }
+}

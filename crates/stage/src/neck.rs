@@ -1,0 +1,153 @@
+//! A head that turns on its neck: the head follows its pose whole, the shoulders not at all.
+
+use crate::head::HeadModel;
+use crate::motion::HeadPose;
+use glam::{DQuat, DVec3, Vec3};
+use hair_io::Mesh;
+use render::Head;
+
+/// Where the head turns about, from its middle, in head heights: the top of the neck.
+const PIVOT: Vec3 = Vec3::new(0.0, -0.38, -0.12);
+/// Heights from the head's middle, in head heights, below which nothing turns and above which all does.
+const SHOULDERS: f32 = -0.95;
+const JAW: f32 = -0.42;
+
+/// A head as its file has it, and as it is posed.
+pub(crate) struct Neck {
+    rest: HeadModel,
+    /// How much each corner of the mesh follows the head, 0 to 1.
+    shares: Vec<f32>,
+    /// The same for each corner of each patch.
+    patch_shares: Vec<Vec<f32>>,
+    pivot: Vec3,
+    height_m: f32,
+    /// The pose that `posed` is in.
+    pose: HeadPose,
+    posed: HeadModel,
+}
+
+impl Neck {
+    /// The neck under a head of this middle and height.
+    pub fn new(model: HeadModel, head: Head) -> Self {
+        let share = |p: &Vec3| {
+            let y = (p.y - head.center.y) / head.height_m;
+            let t = ((y - SHOULDERS) / (JAW - SHOULDERS)).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        };
+        let shares_of = |positions: &[Vec3]| positions.iter().map(share).collect();
+        Self {
+            shares: shares_of(&model.mesh.positions),
+            patch_shares: model
+                .patches
+                .iter()
+                .map(|patch| shares_of(&patch.positions))
+                .collect(),
+            pivot: pivot(head),
+            height_m: head.height_m,
+            pose: HeadPose::default(),
+            posed: model.clone(),
+            rest: model,
+        }
+    }
+
+    /// The mesh as its file has it.
+    pub fn rest_mesh(&self) -> &Mesh {
+        &self.rest.mesh
+    }
+
+    /// The head in a pose.
+    pub fn posed(&mut self, pose: HeadPose) -> &HeadModel {
+        if pose != self.pose {
+            self.pose = pose;
+            self.turn();
+        }
+        &self.posed
+    }
+
+    fn turn(&mut self) {
+        if self.pose == HeadPose::default() {
+            self.posed.clone_from(&self.rest);
+            return;
+        }
+        // Corners of one share turn alike: as many turns as there are steps are enough for the eye.
+        const STEPS: usize = 256;
+        let turns: Vec<DQuat> = (0..=STEPS)
+            .map(|step| self.pose.rotation(step as f64 / STEPS as f64))
+            .collect();
+        let turn = |share: f32| turns[(share * STEPS as f32).round() as usize].as_quat();
+        let shift = (self.pose.shift * f64::from(self.height_m)).as_vec3();
+        let pivot = self.pivot;
+        let moved = |p: Vec3, share: f32| turn(share) * (p - pivot) + pivot + shift;
+        let (rest, posed) = (&self.rest.mesh, &mut self.posed.mesh);
+        for (i, share) in self.shares.iter().enumerate() {
+            posed.positions[i] = moved(rest.positions[i], *share);
+            posed.normals[i] = turn(*share) * rest.normals[i];
+        }
+        let (rest, posed) = (&self.rest.ties, &mut self.posed.ties);
+        for i in 0..rest.positions.len() {
+            posed.positions[i] = moved(rest.positions[i], 1.0);
+            posed.normals[i] = turn(1.0) * rest.normals[i];
+        }
+        for (index, shares) in self.patch_shares.iter().enumerate() {
+            let (rest, posed) = (&self.rest.patches[index], &mut self.posed.patches[index]);
+            for (i, share) in shares.iter().enumerate() {
+                posed.positions[i] = moved(rest.positions[i], *share);
+            }
+        }
+    }
+}
+
+/// The point that a head turns about.
+pub(crate) fn pivot(head: Head) -> Vec3 {
+    head.center + PIVOT * head.height_m
+}
+
+/// The rigid motion of what is fixed to the head: `rotation * p + translation`.
+pub(crate) fn rigid(pose: HeadPose, head: Head) -> (DQuat, DVec3) {
+    let rotation = pose.rotation(1.0);
+    let pivot = pivot(head).as_dvec3();
+    let shift = pose.shift * f64::from(head.height_m);
+    (rotation, pivot + shift - rotation * pivot)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_head_turns_whole_and_the_shoulders_stay() {
+        let model = HeadModel::bust();
+        let head = Head {
+            center: Vec3::new(0.0, 1.5, 0.0),
+            height_m: 0.24,
+        };
+        let rest = model.clone();
+        let mut neck = Neck::new(model, head);
+        assert_eq!(neck.posed(HeadPose::default()).mesh, rest.mesh);
+        let pose = HeadPose {
+            turn: DVec3::new(70.0, -20.0, 10.0),
+            shift: DVec3::new(0.0, 0.5, 0.0),
+        };
+        let (rotation, translation) = rigid(pose, head);
+        let posed = neck.posed(pose).clone();
+        let up = Vec3::new(0.0, 0.12, 0.0);
+        let (mut turned, mut still) = (0, 0);
+        for (from, to) in rest.mesh.positions.iter().zip(&posed.mesh.positions) {
+            let rigid = (rotation * from.as_dvec3() + translation).as_vec3();
+            if from.y > 1.5 - 0.42 * 0.24 {
+                assert!(to.distance(rigid) < 1e-6);
+                turned += 1;
+            }
+            if from.y < 1.5 - 0.95 * 0.24 {
+                assert!(to.distance(*from + up) < 1e-6);
+                still += 1;
+            }
+        }
+        assert!(turned > 1000 && still > 500, "{turned} {still}");
+        for normal in &posed.mesh.normals {
+            assert!((normal.length() - 1.0).abs() < 1e-4);
+        }
+        // Drawn strokes stay on the skin.
+        assert_eq!(neck.posed(HeadPose::default()).mesh, rest.mesh);
+    }
+}

@@ -1,0 +1,207 @@
+//! Hair styles as text, `*.style.ron`: zones of clumps that grow on any head.
+//!
+//! Places are (longitude, latitude) in degrees: longitude 0 is the face, 90 the character's left ear,
+//! 180 the back; latitude 90 the top.
+
+mod clumps;
+mod lines;
+mod zone;
+
+use crate::part::FilePart;
+use crate::preset::{choice, param};
+use clumps::{DRAWN, EDIT};
+use effects::preset::{Field, PresetErrors, Reader};
+use effects::{Param, ParamKind};
+use groom::{Scalp, Style};
+use zone::ZONE;
+
+/// The newest version of styles that this build reads.
+const VERSION: i32 = 1;
+
+/// What a style may say, beside its places and lists.
+const STYLE: &[Param] = &[
+    param(
+        "version",
+        "Version of the style's format.",
+        ParamKind::Integer {
+            min: 1,
+            max: VERSION,
+            default: VERSION,
+        },
+    ),
+    param(
+        "seed",
+        "Seed of all variations.",
+        ParamKind::Integer {
+            min: 0,
+            max: i32::MAX,
+            default: 1,
+        },
+    ),
+    choice(
+        "undercoat",
+        "Whether flat clumps cover the scalp below all zones, so that none of it shows.",
+        &["false", "true"],
+        1,
+    ),
+];
+
+/// The parts of a hair style.
+pub const STYLE_PARTS: &[FilePart] = &[
+    FilePart {
+        name: "style",
+        doc: "A hair style, a file of its own: NAME.style.ron.",
+        example: "(version: 1, zones: [...], edits: [...], strands: [...])",
+        table: STYLE,
+        places: &[
+            (
+                "whorl",
+                "The place that hair turns around: (longitude, latitude) in degrees; longitude 0 is the \
+                 face, 90 the character's left ear, 180 the back; latitude 90 the top.",
+            ),
+            (
+                "parting",
+                "The parting's places from front to back: [(0, 46), (0, 68), ...].",
+            ),
+            (
+                "hairline",
+                "The hairline's places from the forehead (longitude 0) to the nape (180); the other side \
+                 is its image.",
+            ),
+        ],
+    },
+    FilePart {
+        name: "zones",
+        doc: "Rows of clumps, tails, buns and braids.",
+        example: "zones: [(name: \"fringe\", roots: [...], tips: [...], name: value, ...), ...]",
+        table: ZONE,
+        places: &[
+            (
+                "roots",
+                "The line where clumps start: a list of places, whorl, parting or hairline(FROM, TO); \
+                 the tie of a tail, bun or braid.",
+            ),
+            (
+                "tips",
+                "The line that they lead to over the head, and hang from; without it they hang from \
+                 their roots.",
+            ),
+        ],
+    },
+    FilePart {
+        name: "edits",
+        doc: "Changes of single clumps.",
+        example: "edits: [(zone: \"fringe\", clump: 3, name: value, ...), ...]",
+        table: EDIT,
+        places: &[],
+    },
+    FilePart {
+        name: "strands",
+        doc: "Clumps drawn by hand.",
+        example: "strands: [(points: [(0, 60, 0), ...], name: value, ...), ...]",
+        table: DRAWN,
+        places: &[(
+            "points",
+            "From root to tip: (longitude, latitude, height above the skin in head heights), two or more.",
+        )],
+    },
+];
+
+/// Fields of a style that hold places, zones or clumps.
+const LISTS: [&str; 6] = ["whorl", "parting", "hairline", "zones", "edits", "strands"];
+
+/// Reads the style `text`, which messages call `file`.
+///
+/// # Errors
+///
+/// All mistakes of the file, each with its line and column.
+pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
+    let mut reader = Reader::new(file, text);
+    let fields = reader.fields(text, "the style");
+    reader.report()?;
+    let (lists, plain): (Vec<Field>, Vec<Field>) = fields
+        .into_iter()
+        .partition(|field| LISTS.contains(&field.name));
+    if plain.iter().all(|field| field.name != "version") {
+        reader.error(
+            text,
+            format!("the style needs `version: {VERSION}`, the version of its format"),
+        );
+    }
+    let top = reader.values(&plain, STYLE, "the style");
+    let mut style = Style {
+        seed: top.integer("seed").unsigned_abs(),
+        scalp: scalp(&mut reader, &lists),
+        undercoat: top.choice("undercoat") == 1,
+        zones: Vec::new(),
+        edits: Vec::new(),
+        drawn: Vec::new(),
+    };
+    for item in items(&mut reader, &lists, "zones") {
+        let zone = zone::zone(&mut reader, item);
+        if style.zones.iter().any(|other| other.name == zone.name) {
+            reader.error(item, format!("there is already a zone `{}`", zone.name));
+        }
+        style.zones.push(zone);
+    }
+    for item in items(&mut reader, &lists, "strands") {
+        style.drawn.push(clumps::drawn(&mut reader, item));
+    }
+    if style.zones.is_empty() && style.drawn.is_empty() {
+        let list = lists.iter().find(|field| field.name == "zones");
+        reader.error(
+            list.map_or(text, |field| field.value),
+            "the style has no `zones` and no `strands`, so no hair would grow",
+        );
+    }
+    for item in items(&mut reader, &lists, "edits") {
+        style
+            .edits
+            .extend(clumps::edit(&mut reader, item, &style.zones));
+    }
+    reader.report()?;
+    Ok(style)
+}
+
+/// The items of one of the style's lists.
+fn items<'a>(reader: &mut Reader<'a>, lists: &[Field<'a>], name: &str) -> Vec<&'a str> {
+    match lists.iter().find(|field| field.name == name) {
+        Some(field) => reader.list(field.value, field.name),
+        None => Vec::new(),
+    }
+}
+
+/// The scalp, with what the style leaves out from a drawn character's.
+fn scalp<'a>(reader: &mut Reader<'a>, lists: &[Field<'a>]) -> Scalp {
+    let mut scalp = Scalp::default();
+    for field in lists {
+        match field.name {
+            "whorl" => {
+                if let Some(place) = lines::place(reader, "whorl", field.value) {
+                    scalp.whorl = place;
+                }
+            }
+            "parting" => {
+                let places = lines::places(reader, field);
+                if !places.is_empty() {
+                    scalp.parting = places;
+                }
+            }
+            "hairline" => {
+                let places = lines::places(reader, field);
+                let ascends = places.is_sorted_by(|a, b| a.longitude < b.longitude);
+                let is_half = places.iter().all(|p| (0.0..=180.0).contains(&p.longitude));
+                if !(ascends && is_half) {
+                    reader.error(
+                        field.value,
+                        "hairline: longitudes must ascend from 0 (forehead) to 180 (nape)",
+                    );
+                } else if !places.is_empty() {
+                    scalp.hairline = places;
+                }
+            }
+            _ => {}
+        }
+    }
+    scalp
+}

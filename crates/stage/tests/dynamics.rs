@@ -1,0 +1,163 @@
+//! Simulated hair in scenes.
+
+use effects::Registry;
+use glam::Vec3;
+use stage::{Files, Preset, Stage};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const TURN: &str = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.3, angle: 60)])";
+const GALE: &str = "(version: 1, winds: [(speed: 25, gusts: 10, yaw: 90)])";
+
+fn presets() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets")
+}
+
+/// A scene of this style with a script and settings.
+fn scene(style: &str, script: Option<&str>, settings: &[(&str, &str)]) -> Stage {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let motion = script.map(|script| {
+        let path = folder.path().join("a.motion.ron");
+        fs::write(&path, script).unwrap();
+        path
+    });
+    let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
+    let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    for (name, value) in settings {
+        preset.set(name, value).unwrap();
+    }
+    let files = Files {
+        preset_folder: presets(),
+        hair: Some(presets().join("styles").join(style)),
+        motion,
+        ..Files::default()
+    };
+    Stage::new(&preset, &files).unwrap()
+}
+
+fn means(stage: &mut Stage, time: f32) -> Vec<Vec3> {
+    stage.advance_to(time).unwrap();
+    let frame = stage.frame().unwrap();
+    frame.strands.iter().map(|strand| strand.mean).collect()
+}
+
+fn farthest(a: &[Vec3], b: &[Vec3]) -> f32 {
+    let apart = a.iter().zip(b).map(|(a, b)| a.distance(*b));
+    apart.fold(0.0, f32::max)
+}
+
+#[test]
+fn hair_at_rest_is_not_simulated() {
+    let mut stage = scene("twin-tails.style.ron", None, &[]);
+    let before = means(&mut stage, 0.0);
+    assert!(means(&mut stage, 5.0) == before);
+    assert_eq!(stage.simulated().strands, 0);
+    let mut stage = scene(
+        "twin-tails.style.ron",
+        Some(TURN),
+        &[("dynamics.solver", "none")],
+    );
+    means(&mut stage, 1.0);
+    assert_eq!(stage.simulated().strands, 0);
+}
+
+#[test]
+fn hair_lags_behind_the_head_and_comes_back_to_its_style() {
+    let rigid = &[("dynamics.solver", "none")];
+    let mut with_head = scene("twin-tails.style.ron", Some(TURN), rigid);
+    let mut stage = scene("twin-tails.style.ron", Some(TURN), &[]);
+    assert!(means(&mut stage, 0.0) == means(&mut with_head, 0.0));
+    // Tails swing out by more than a tenth of the head's height, and settle to the style on the turned head.
+    let swung = farthest(&means(&mut stage, 0.4), &means(&mut with_head, 0.4));
+    assert!(swung > 0.024, "{swung}");
+    assert!(stage.simulated().strands > 50);
+    let settled = farthest(&means(&mut stage, 30.0), &means(&mut with_head, 30.0));
+    assert!(settled < 0.2 * swung, "{settled} of {swung}");
+}
+
+#[test]
+fn a_moment_is_the_same_however_it_is_reached() {
+    let mut steps = scene("bob.style.ron", Some(GALE), &[]);
+    for frame in 0..=12 {
+        steps.advance_to(frame as f32 / 24.0).unwrap();
+    }
+    let at_once = means(&mut scene("bob.style.ron", Some(GALE), &[]), 0.5);
+    assert!(means(&mut steps, 0.5) == at_once);
+    assert!(means(&mut steps, 0.0) != at_once);
+    assert!(means(&mut steps, 0.5) == at_once);
+}
+
+#[test]
+fn guides_carry_the_other_strands() {
+    let mut all = scene("long-straight.style.ron", Some(TURN), &[]);
+    let mut few = scene(
+        "long-straight.style.ron",
+        Some(TURN),
+        &[("dynamics.guides", "30")],
+    );
+    let rest = means(&mut few, 0.0);
+    assert!(rest == means(&mut all, 0.0));
+    let (wanted, carried) = (means(&mut all, 0.5), means(&mut few, 0.5));
+    assert_eq!(few.simulated().strands, 30);
+    assert!(all.simulated().strands > 60);
+    // On the whole the carried hair does what it would by itself.
+    let mean = |a: &[Vec3], b: &[Vec3]| {
+        a.iter().zip(b).map(|(a, b)| a.distance(*b)).sum::<f32>() / a.len() as f32
+    };
+    let (moved, apart) = (mean(&wanted, &rest), mean(&wanted, &carried));
+    assert!(apart < 0.25 * moved, "{apart} of {moved}");
+}
+
+#[test]
+fn warm_up_is_before_the_first_frame() {
+    let script = "(version: 1, period: 2, winds: [(speed: 8, gusts: 0)])";
+    let mut cold = scene("bob.style.ron", Some(script), &[]);
+    let mut warm = scene("bob.style.ron", Some(script), &[("dynamics.warm_up", "2")]);
+    let still = means(&mut cold, 0.0);
+    assert!(farthest(&means(&mut warm, 0.0), &still) > 0.002);
+    assert!(means(&mut warm, 0.0) == means(&mut cold, 2.0));
+}
+
+#[test]
+fn extremes_stay_finite() {
+    let script = "(version: 1, moves: [(move: turn, length: 0.1, angle: 3600), (move: walk, step: 5, rate: 50)], \
+                  winds: [(speed: 200, gusts: 200)])";
+    for settings in [
+        [
+            ("dynamics.feel", "gel"),
+            ("dynamics.stiffness", "1000"),
+            ("dynamics.step", "0.1"),
+        ],
+        [
+            ("dynamics.feel", "limp"),
+            ("dynamics.stiffness", "0.001"),
+            ("dynamics.gravity", "-10"),
+        ],
+        [
+            ("dynamics.hold", "100"),
+            ("dynamics.damping", "100"),
+            ("dynamics.drag", "100"),
+        ],
+        [
+            ("dynamics.shape", "curl"),
+            ("dynamics.curl_radius", "0.001"),
+            ("dynamics.curl_pitch", "-10"),
+        ],
+        [
+            ("dynamics.shape", "sagging"),
+            ("dynamics.distance", "2"),
+            ("dynamics.friction", "10"),
+        ],
+    ] {
+        let mut stage = scene("waves.style.ron", Some(script), &settings);
+        for frame in 0..24 {
+            let means = means(&mut stage, frame as f32 / 24.0);
+            assert!(
+                means.iter().all(|p| p.is_finite()),
+                "{settings:?}, frame {frame}"
+            );
+        }
+    }
+}
