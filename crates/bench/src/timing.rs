@@ -15,7 +15,7 @@ pub struct Effort {
 /// not counted.
 const TURN: usize = 3;
 
-/// The median time of each of `runs`, in seconds: see [`turns`].
+/// The median time of each of `runs`, in seconds. The runs take turns.
 ///
 /// # Errors
 ///
@@ -27,7 +27,7 @@ where
     Ok(turns(runs, effort, done)?.into_iter().map(median).collect())
 }
 
-/// The shortest time of each of `runs`, in seconds: see [`turns`].
+/// The shortest time of each of `runs`, in seconds. The runs take turns.
 ///
 /// # Errors
 ///

@@ -23,7 +23,9 @@ fn scene(script: &str) -> Result<Stage, String> {
     fs::write(&path, script).unwrap();
     let registry = registry();
     let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
-    let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    // What the script does to the head, and nothing else.
+    preset.set("dynamics.solver", "none").unwrap();
     let files = Files {
         preset_folder: presets(),
         motion: Some(path),
