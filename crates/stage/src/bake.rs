@@ -1,7 +1,6 @@
 //! Baked motion: a scene's strands at the times of its frames, as a strands file.
 
 use crate::files::StageError;
-use crate::load::Hair;
 use glam::Vec3;
 use hair_io::{HairOptions, orient};
 use hair_sim::{Motion, Strands};
@@ -35,12 +34,12 @@ impl Bake {
     }
 }
 
-/// Reads a bake of `hair`.
+/// Reads a bake of these strands.
 ///
 /// # Errors
 ///
 /// When there is no such file, or it is not a bake of these strands.
-pub(crate) fn read(path: &Path, hair: &Hair) -> Result<Motion, StageError> {
+pub(crate) fn read(path: &Path, own: &Strands) -> Result<Motion, StageError> {
     let given = orient::Given {
         up: Some(orient::Axes::Y),
         scale: Some(1.0),
@@ -54,7 +53,7 @@ pub(crate) fn read(path: &Path, hair: &Hair) -> Result<Motion, StageError> {
         path: path.to_owned(),
         what,
     };
-    let (baked, own) = (&file.strands, &hair.file.strands);
+    let baked = &file.strands;
     if baked.len() != own.len() {
         return Err(other(format!(
             "{} strands in place of {}",

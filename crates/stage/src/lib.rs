@@ -12,6 +12,7 @@ mod part;
 mod preset;
 mod scene;
 mod style;
+mod table;
 
 pub use bake::Bake;
 pub use dynamics::DYNAMICS;

@@ -143,7 +143,7 @@ fn head_of(frame: HeadFrame) -> Head {
 pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<(), StageError> {
     let own = preset.hair.text("bake");
     if let Some(path) = chosen(files.bake.as_ref(), own, &files.preset_folder) {
-        hair.file.motion = Some(bake::read(&path, hair)?);
+        hair.file.motion = Some(bake::read(&path, &hair.file.strands)?);
     }
     Ok(())
 }

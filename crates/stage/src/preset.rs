@@ -3,7 +3,6 @@
 mod sections;
 
 pub use sections::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, SCENE, SECTIONS};
-pub(crate) use sections::{choice, number, param};
 
 use crate::files::Files;
 use effects::preset::{

@@ -4,6 +4,7 @@
 //! height. "How drawn hair is built" in a drawing book: mass first, rows that overlap like roof tiles,
 //! clumps in three sizes.
 
+mod curves;
 mod edit;
 mod gathered;
 mod grow;

@@ -1,5 +1,6 @@
 //! Rows of clumps over the head, laid like roof tiles.
 
+use super::curves::{arch, eased, smooth};
 use super::hang::{Hanging, hang};
 use super::{Line, Scalp, Zone};
 use crate::random::Random;
@@ -177,20 +178,4 @@ pub(super) fn size_class(mixed_sizes: f32, random: &mut Random) -> f32 {
         0.42
     };
     class * fine
-}
-
-/// 0 at both ends, 1 in the middle.
-pub(super) fn arch(t: f32) -> f32 {
-    4.0 * t * (1.0 - t)
-}
-
-/// From 0 to 1, level at both ends.
-pub(super) fn smooth(t: f32) -> f32 {
-    let t = t.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
-/// Slow at both ends.
-fn eased(t: f32) -> f32 {
-    0.5 * (smooth(t) + t)
 }

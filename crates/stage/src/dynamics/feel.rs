@@ -1,6 +1,6 @@
 //! How hair feels: a preset's words and factors as physical numbers.
 
-use crate::preset::{choice, number, param};
+use crate::table::{choice, number, param};
 use effects::{Param, ParamKind, Values};
 use hair_sim::{Material, Mutual, Natural, Params, Profile};
 use render::Head;

@@ -5,7 +5,7 @@
 
 mod bodies;
 mod carried;
-mod feel;
+pub(crate) mod feel;
 
 pub use feel::DYNAMICS;
 pub(crate) use feel::Feel;

@@ -2,7 +2,7 @@
 
 use super::{Key, MotionScript, Move, MoveKind, Wind};
 use crate::part::FilePart;
-use crate::preset::{choice, number, param};
+use crate::table::{choice, number, param};
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::{Param, ParamKind, Values};
 use glam::{DVec3, Vec3};

@@ -1,7 +1,7 @@
 //! Clumps changed or drawn one by one, as styles write them.
 
 use super::lines::point;
-use crate::preset::{choice, number, param};
+use crate::table::{choice, number, param};
 use effects::preset::{Field, Reader, suggestion};
 use effects::{Param, ParamKind};
 use groom::{Drawn, Edit, MOST_CLUMPS, Zone};

@@ -8,7 +8,7 @@ mod lines;
 mod zone;
 
 use crate::part::FilePart;
-use crate::preset::{choice, param};
+use crate::table::{choice, param};
 use clumps::{DRAWN, EDIT};
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::{Param, ParamKind};

@@ -1,7 +1,7 @@
 //! A zone of a style: what it may say, and what it means.
 
 use super::lines::line;
-use crate::preset::{choice, number, param};
+use crate::table::{choice, number, param};
 use effects::preset::{Field, Reader};
 use effects::{Param, ParamKind, Values};
 use groom::{Form, Line, MOST_CLUMPS, Zone};
