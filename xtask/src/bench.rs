@@ -9,7 +9,7 @@ use crate::program::{cargo, succeed};
 const SUITES: &[(&str, bool)] = &[
     ("strokes", true),
     ("dynamics", true),
-    ("coherence", false),
+    ("coherence", true),
     ("skip", false),
     ("scale", false),
     ("frame", false),
@@ -23,7 +23,7 @@ pub fn command() -> Command {
         .about("Measures time against error: target/bench/SUITE.csv and a plot")
         .arg(
             Arg::new("suite")
-                .help("Built so far: strokes, dynamics")
+                .help("Built so far: strokes, dynamics, coherence")
                 .value_name("SUITE")
                 .value_parser(SUITES.iter().map(|suite| suite.0).collect::<Vec<_>>())
                 .required(true),

@@ -1,6 +1,7 @@
 //! The reference picture, how far other pictures are from it, and the suites that measure time
 //! against that error.
 
+pub mod coherence;
 pub mod compare;
 pub mod dynamics;
 pub mod oracle;

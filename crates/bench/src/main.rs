@@ -7,7 +7,7 @@
 
 use bench::dynamics::{self, peers::Peers, stored};
 use bench::targets::{Target, report};
-use bench::{results, strokes};
+use bench::{coherence, results, strokes};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
@@ -28,6 +28,17 @@ enum Suite {
     Strokes(Options),
     /// Dynamics: our strands, springs, XPBD, and other programs
     Dynamics(DynamicsOptions),
+    /// Coherence: how continuous pictures are in time, in every order of strokes
+    Coherence(CoherenceOptions),
+}
+
+#[derive(clap::Args)]
+struct CoherenceOptions {
+    #[command(flatten)]
+    common: Options,
+    /// Scenes whose names hold TEXT alone, such as twin-tails-orbit
+    #[arg(long, value_name = "TEXT", default_value = "", hide_default_value = true)]
+    only: String,
 }
 
 #[derive(clap::Args)]
@@ -65,6 +76,7 @@ fn main() -> ExitCode {
     let measured = match Arguments::parse().suite {
         Suite::Strokes(options) => strokes(&options),
         Suite::Dynamics(options) => dynamics(&options),
+        Suite::Coherence(options) => coherence(&options),
     };
     measured.unwrap_or_else(|error| {
         eprintln!("bench: {error}");
@@ -137,6 +149,27 @@ fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, String> {
     }
     let all: Vec<Target> = measured.targets.into_iter().chain(worse).collect();
     Ok(exit_code(&all, common.check))
+}
+
+fn coherence(options: &CoherenceOptions) -> Result<ExitCode, String> {
+    let common = &options.common;
+    let suite = coherence::Options {
+        root: root(),
+        out: common.out.clone(),
+        quick: common.quick,
+        threads: common.threads(),
+        data: std::env::var_os("INKSTRAND_DATA").map(PathBuf::from),
+        only: options.only.clone(),
+    };
+    let measured = with_progress(|progress| coherence::run(&suite, progress))?;
+    println!("{}", coherence::summary(&measured.scenes));
+    println!("{}", coherence::places(&measured.scenes));
+    println!("{}", report(&measured.targets));
+    println!("wrote {}", common.out.join("coherence.csv").display());
+    for picture in &measured.pictures {
+        println!("wrote {}", picture.display());
+    }
+    Ok(exit_code(&measured.targets, common.check))
 }
 
 /// Runs a suite under a bar, which is gone afterwards.

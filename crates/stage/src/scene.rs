@@ -208,6 +208,11 @@ impl Stage {
         dynamics.advance_to(time, &self.script, &mut self.points)
     }
 
+    /// Looks from this yaw (degrees) from now on; [`Self::frame`] refuses one that isn't finite.
+    pub fn set_camera_yaw(&mut self, yaw_degrees: f32) {
+        self.settings.view.yaw_degrees = yaw_degrees;
+    }
+
     /// Adds the strands as they stand to a bake, at `time` (seconds).
     pub fn record(&self, time: f32, bake: &mut Bake) {
         bake.push(time, &self.points);

@@ -1,0 +1,295 @@
+//! What the suite looks at in motion: looks of `presets` on a turning camera, a shaking head and in
+//! wind, real hair, and a few strands made by code.
+//!
+//! Times are whole [`Tick`]s, the shortest time between two pictures. Hair is simulated in steps of
+//! one tick, so that every picture shows a moment of one continuous motion: what jumps then jumps in
+//! the drawing.
+
+use super::strands::Strands;
+use effects::Registry;
+use render::Frame;
+use stage::{Files, Preset, Stage};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Number of a moment; moments are 1/[`TICKS`] s apart.
+pub type Tick = u32;
+
+/// Ticks of a second.
+pub const TICKS: Tick = 1536;
+
+/// Something that moves.
+pub trait Animation {
+    /// It at a moment. Later moments are cheaper than earlier ones.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such frame.
+    fn at(&mut self, tick: Tick) -> Result<Frame<'_>, String>;
+}
+
+/// A moment in seconds.
+#[must_use]
+pub fn seconds(tick: Tick) -> f64 {
+    f64::from(tick) / f64::from(TICKS)
+}
+
+/// What moves in a look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// The camera, 30 degrees a second around the head.
+    Orbit,
+    /// The head, from side to side.
+    Shake,
+    /// The hair, in wind; and the head as in walking.
+    Wind,
+}
+
+/// All motions.
+pub const MOTIONS: [Motion; 3] = [Motion::Orbit, Motion::Shake, Motion::Wind];
+
+/// Degrees a second.
+const ORBIT: f64 = 30.0;
+
+impl Motion {
+    /// In the table.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Orbit => "orbit",
+            Self::Shake => "shake",
+            Self::Wind => "wind",
+        }
+    }
+
+    /// Its script in `presets/motions`.
+    fn script(self) -> Option<&'static str> {
+        match self {
+            Self::Orbit => None,
+            Self::Shake => Some("nod-and-shake.motion.ron"),
+            Self::Wind => Some("walk-in-wind.motion.ron"),
+        }
+    }
+
+    /// When it is looked at: stretches of time, a second in all, or a quarter of one.
+    #[must_use]
+    pub fn windows(self, quick: bool) -> Vec<Range<Tick>> {
+        match self {
+            // From six sides.
+            Self::Orbit => {
+                let length = TICKS / if quick { 24 } else { 6 };
+                let starts = (0..6).map(|sixth| sixth * 2 * TICKS);
+                starts.map(|start| start..start + length).collect()
+            }
+            // Shakes begin after two seconds; then also the wind freshens.
+            Self::Shake | Self::Wind => {
+                let start = 2 * TICKS + TICKS / 2;
+                let length = if quick { TICKS / 4 } else { TICKS };
+                vec![start..start + length]
+            }
+        }
+    }
+}
+
+/// Where a look comes from.
+#[derive(Clone, Debug)]
+pub struct Look {
+    /// In the table.
+    pub name: String,
+    preset: PathBuf,
+    hair: Option<PathBuf>,
+    head: Option<PathBuf>,
+    /// Strands kept; 0 keeps all.
+    guides: u32,
+}
+
+/// The project's looks, by name.
+///
+/// # Errors
+///
+/// When the folder cannot be read.
+pub fn looks(root: &Path) -> Result<Vec<Look>, String> {
+    let folder = root.join("presets");
+    let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
+    let mut looks = Vec::new();
+    for entry in std::fs::read_dir(&folder).map_err(failed)? {
+        let preset = entry.map_err(failed)?.path();
+        if preset.extension().is_some_and(|ending| ending == "ron") {
+            let name = preset.file_stem().unwrap_or_default();
+            looks.push(Look {
+                name: name.to_string_lossy().into_owned(),
+                preset,
+                hair: None,
+                head: None,
+                guides: 0,
+            });
+        }
+    }
+    looks.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(looks)
+}
+
+/// Sintel's hair on her head, 200 strands of it, with outlines.
+#[must_use]
+pub fn sintel(root: &Path, data: &Path) -> Look {
+    Look {
+        name: "sintel".to_owned(),
+        preset: root.join("presets/outlined.ron"),
+        hair: Some(data.join("sintel/sintel_hair_16points.tfx")),
+        head: Some(data.join("sintel/sintel.obj")),
+        guides: 200,
+    }
+}
+
+/// A look that moves.
+pub struct MovingLook {
+    stage: Stage,
+    motion: Option<Motion>,
+    /// The preset's own, in degrees.
+    yaw: f64,
+}
+
+impl Look {
+    /// The look in motion, or still, drawn at a part of its preset's size: 2 is half as wide and high.
+    ///
+    /// # Errors
+    ///
+    /// When a file of it cannot be read.
+    pub fn open(&self, motion: Option<Motion>, part: u32) -> Result<MovingLook, String> {
+        let name = self.preset.display().to_string();
+        let text =
+            std::fs::read_to_string(&self.preset).map_err(|error| format!("{name}: {error}"))?;
+        let mut registry = Registry::new();
+        effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
+        let mut preset =
+            Preset::parse(&name, &text, &registry).map_err(|errors| errors.to_string())?;
+        let [width, height] = preset.scene.size("size").map(|side| side.div_ceil(part));
+        preset.set("scene.size", &format!("({width}, {height})"))?;
+        preset.set("dynamics.step", &seconds(1).to_string())?;
+        if preset.scene.optional_color("background").is_none() {
+            preset.set("scene.background", "FFFFFF")?;
+        }
+        if self.guides > 0 {
+            preset.set("hair.guides", &self.guides.to_string())?;
+        }
+        let preset_folder = self.preset.parent().unwrap_or(Path::new("")).to_owned();
+        let script = motion.and_then(Motion::script);
+        let files = Files {
+            hair: self.hair.clone(),
+            head: self.head.clone(),
+            motion: script.map(|file| preset_folder.join("motions").join(file)),
+            preset_folder,
+            ..Files::default()
+        };
+        Ok(MovingLook {
+            stage: Stage::new(&preset, &files).map_err(|error| error.to_string())?,
+            motion,
+            yaw: f64::from(preset.camera.number("yaw")),
+        })
+    }
+}
+
+impl MovingLook {
+    /// Where the camera stands at a moment, in degrees.
+    #[must_use]
+    pub fn yaw(&self, tick: Tick) -> f64 {
+        match self.motion {
+            Some(Motion::Orbit) => self.yaw + ORBIT * seconds(tick),
+            _ => self.yaw,
+        }
+    }
+}
+
+impl Animation for MovingLook {
+    fn at(&mut self, tick: Tick) -> Result<Frame<'_>, String> {
+        self.stage.set_camera_yaw(self.yaw(tick) as f32);
+        self.stage
+            .advance_to(seconds(tick) as f32)
+            .and_then(|()| self.stage.frame())
+            .map_err(|error| error.to_string())
+    }
+}
+
+/// Something that is looked at, and when.
+pub struct Scene {
+    /// In the table: look and motion.
+    pub name: String,
+    /// Whose figures are held to something, and to what.
+    pub kind: Kind,
+    /// When it is looked at.
+    pub windows: Vec<Range<Tick>>,
+    /// What moves.
+    pub animation: Box<dyn Animation>,
+    /// The look that it is, if it is one.
+    pub look: Option<Look>,
+}
+
+impl Scene {
+    /// The name of its look.
+    #[must_use]
+    pub fn look_name(&self) -> Option<&String> {
+        self.look.as_ref().map(|look| &look.name)
+    }
+}
+
+/// What a scene is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The drawing of hair.
+    Hair,
+    /// The measure itself: all change is continuous.
+    Continuous,
+    /// The measure itself: something jumps.
+    Jumping,
+}
+
+/// The scenes whose names hold `only`; a few looks and less time where it must be quick.
+///
+/// # Errors
+///
+/// When a look cannot be read.
+pub fn scenes(
+    root: &Path,
+    data: Option<&Path>,
+    quick: bool,
+    only: &str,
+) -> Result<Vec<Scene>, String> {
+    let mut scenes = Vec::new();
+    let wanted = |name: &str| name.contains(only);
+    let second = vec![0..if quick { TICKS / 4 } else { TICKS }];
+    for (name, kind, open) in Strands::ALL {
+        if wanted(name) {
+            scenes.push(Scene {
+                name: name.to_owned(),
+                kind,
+                windows: second.clone(),
+                animation: Box::new(open()?),
+                look: None,
+            });
+        }
+    }
+    for look in looks(root)?.into_iter().chain(data.map(|data| sintel(root, data))) {
+        if quick && only.is_empty() && !QUICK_LOOKS.contains(&look.name.as_str()) {
+            continue;
+        }
+        for motion in MOTIONS {
+            let name = format!("{}-{}", look.name, motion.name());
+            if wanted(&name) {
+                scenes.push(Scene {
+                    name,
+                    kind: Kind::Hair,
+                    windows: motion.windows(quick),
+                    animation: Box::new(look.open(Some(motion), PART)?),
+                    look: Some(look.clone()),
+                });
+            }
+        }
+    }
+    Ok(scenes)
+}
+
+/// The looks of a quick run: the most outlines, and the sharpest contrast.
+const QUICK_LOOKS: [&str; 2] = ["manga-ink", "twin-tails"];
+
+/// Pictures are half as wide and high as the presets': 480 x 360.
+pub const PART: u32 = 2;

@@ -1,0 +1,87 @@
+//! Frames to pictures, in each order, and to what colours say in place of how hair looks.
+
+use render::cpu::{Evaluator, Rasterizer};
+use render::{Drawing, Frame, Order, Picture};
+
+/// Turns frames into pictures.
+pub struct Painter {
+    evaluator: Evaluator,
+    rasterizer: Rasterizer,
+    drawing: Drawing,
+}
+
+impl Painter {
+    /// A painter of pictures with that many samples a pixel: the same places in every pixel and frame, so
+    /// that a sample only ever changes because what it shows does.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such number of samples or threads.
+    pub fn new(samples: u32, threads: usize) -> Result<Self, String> {
+        let rasterizer = Rasterizer::new(samples, Some(threads));
+        Ok(Self {
+            evaluator: Evaluator::default(),
+            rasterizer: rasterizer.map_err(|error| error.to_string())?,
+            drawing: Drawing::default(),
+        })
+    }
+
+    /// The frame's strokes.
+    pub fn strokes(&mut self, frame: &mut Frame, order: Order) -> &mut Drawing {
+        frame.order = order;
+        self.evaluator.evaluate(frame, &mut self.drawing);
+        &mut self.drawing
+    }
+
+    /// The frame's picture.
+    ///
+    /// # Errors
+    ///
+    /// When it can't be drawn.
+    pub fn picture(&mut self, frame: &mut Frame, order: Order) -> Result<Picture, String> {
+        self.strokes(frame, order);
+        self.draw()
+    }
+
+    /// The frame with hair in the colours that `color` gives to joints, all else black.
+    ///
+    /// # Errors
+    ///
+    /// When it can't be drawn.
+    pub fn recolored(
+        &mut self,
+        frame: &mut Frame,
+        order: Order,
+        color: impl Fn(usize) -> [f32; 3],
+    ) -> Result<Picture, String> {
+        let drawing = self.strokes(frame, order);
+        let joints = drawing.clump.len();
+        for layer in &mut drawing.layers {
+            for (i, of_joint) in layer.colors.iter_mut().enumerate() {
+                *of_joint = color(i % joints);
+            }
+        }
+        for surface in &mut drawing.surfaces {
+            surface.light = [0.0; 3];
+            surface.shadow = [0.0; 3];
+        }
+        drawing.background = Some([0.0; 3]);
+        self.draw()
+    }
+
+    /// Which pixels show hair in their middle. With one sample a pixel.
+    ///
+    /// # Errors
+    ///
+    /// When the frame can't be drawn.
+    pub fn hair(&mut self, frame: &mut Frame) -> Result<Vec<bool>, String> {
+        let picture = self.recolored(frame, Order::default(), |_| [1.0; 3])?;
+        Ok(picture.pixels.iter().map(|pixel| pixel[0] > 0.0).collect())
+    }
+
+    fn draw(&mut self) -> Result<Picture, String> {
+        self.rasterizer
+            .draw(&self.drawing)
+            .map_err(|error| error.to_string())
+    }
+}
