@@ -23,7 +23,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Every order of strokes, with its name in presets. One more is one more line.
-pub const ORDERS: [(&str, Order); 2] = [
+pub const ORDERS: [(&str, Order); 3] = [
+    ("rounded", Order::Rounded),
     ("strand_first", Order::StrandFirst),
     ("shifted", Order::Shifted),
 ];
@@ -102,11 +103,18 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     let mut pictures = Vec::new();
     for scene in &mut scenes {
         progress.set_message(scene.name.clone());
-        let of_look = match of_looks.iter().find(|(name, _)| Some(name) == scene.look_name()) {
+        let of_look = match of_looks
+            .iter()
+            .find(|(name, _)| Some(name) == scene.look_name())
+        {
             Some((_, of_look)) => of_look.clone(),
             None => {
                 let of_look = OfLook::measure(scene, options)?;
-                of_looks.extend(scene.look_name().map(|name| (name.clone(), of_look.clone())));
+                of_looks.extend(
+                    scene
+                        .look_name()
+                        .map(|name| (name.clone(), of_look.clone())),
+                );
                 of_look
             }
         };

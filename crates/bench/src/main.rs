@@ -37,7 +37,12 @@ struct CoherenceOptions {
     #[command(flatten)]
     common: Options,
     /// Scenes whose names hold TEXT alone, such as twin-tails-orbit
-    #[arg(long, value_name = "TEXT", default_value = "", hide_default_value = true)]
+    #[arg(
+        long,
+        value_name = "TEXT",
+        default_value = "",
+        hide_default_value = true
+    )]
     only: String,
 }
 

@@ -268,7 +268,10 @@ pub fn scenes(
             });
         }
     }
-    for look in looks(root)?.into_iter().chain(data.map(|data| sintel(root, data))) {
+    for look in looks(root)?
+        .into_iter()
+        .chain(data.map(|data| sintel(root, data)))
+    {
         if quick && only.is_empty() && !QUICK_LOOKS.contains(&look.name.as_str()) {
             continue;
         }

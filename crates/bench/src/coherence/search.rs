@@ -192,7 +192,10 @@ type Chosen = BTreeMap<usize, bool>;
 
 fn choose(glances: &[Glance], effort: Effort) -> Chosen {
     let mut chosen = Chosen::new();
-    for by in [|glance: &Glance| glance.largest, |glance: &Glance| glance.popped] {
+    for by in [
+        |glance: &Glance| glance.largest,
+        |glance: &Glance| glance.popped,
+    ] {
         let mut by_size: Vec<usize> = (0..glances.len()).collect();
         by_size.sort_by(|&a, &b| by(&glances[b]).total_cmp(&by(&glances[a])));
         chosen.extend(by_size.iter().take(effort.suspicious).map(|&i| (i, false)));

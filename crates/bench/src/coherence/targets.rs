@@ -22,12 +22,17 @@ pub fn targets(scenes: &[SceneFigures]) -> Vec<Target> {
 
 fn of_order(scene: &SceneFigures, order: Order) -> Option<&Figures> {
     let mut orders = ORDERS.iter().zip(&scene.orders);
-    orders.find(|((_, found), _)| *found == order).map(|(_, figures)| figures)
+    orders
+        .find(|((_, found), _)| *found == order)
+        .map(|(_, figures)| figures)
 }
 
 fn refinement(scene: &SceneFigures, own: Option<&Figures>, limit: Limit) -> Target {
     Target {
-        text: format!("{}: largest change in 1/384 s over that in half", scene.name),
+        text: format!(
+            "{}: largest change in 1/384 s over that in half",
+            scene.name
+        ),
         found: own.and_then(|own| own.continuity.ratio()).map(Found::Is),
         limit,
     }
