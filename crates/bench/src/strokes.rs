@@ -127,7 +127,7 @@ fn entries(scene: &Scene, options: &Options) -> Result<Vec<Entry>, String> {
         });
     };
     for samples in [1, 2, 4, 8, 16] {
-        for (method, order) in [(SWEEP, Order::StrandFirst), (SWEEP_SHIFTED, Order::Shifted)] {
+        for (method, order) in [(SWEEP, Order::Rounded), (SWEEP_SHIFTED, Order::Shifted)] {
             let sweep = Box::new(Sweep::new(samples, threads)?);
             add(method.to_owned(), samples as usize, order, sweep);
         }
@@ -143,7 +143,7 @@ fn entries(scene: &Scene, options: &Options) -> Result<Vec<Entry>, String> {
     let [width, height] = scene.drawing.size;
     let small = |side| u16::try_from(side).map_err(|_| format!("{side} pixels are too many"));
     let size = [small(width)?, small(height)?];
-    let order = Order::StrandFirst;
+    let order = Order::Rounded;
     for outlines in [Outlines::Segments, Outlines::Strokes] {
         if outlines == Outlines::Strokes && !scene.is_apart {
             continue;
@@ -202,14 +202,15 @@ fn times(
     effort: Effort,
     progress: &ProgressBar,
 ) -> Result<Vec<f64>, String> {
-    let strand_first = in_order(&scene.drawing, Order::StrandFirst);
+    let rounded = in_order(&scene.drawing, Order::Rounded);
     let shifted = in_order(&scene.drawing, Order::Shifted);
     let mut runs: Vec<_> = entries
         .iter_mut()
         .map(|entry| {
-            let drawing = match entry.order {
-                Order::StrandFirst => &strand_first,
-                Order::Shifted => &shifted,
+            let drawing = if entry.order == Order::Shifted {
+                &shifted
+            } else {
+                &rounded
             };
             let contender = &mut entry.contender;
             move || contender.draw(drawing)
@@ -226,15 +227,16 @@ fn differences(
     progress: &ProgressBar,
 ) -> Result<Vec<Option<Difference>>, String> {
     let reference = |order| oracle::picture(&in_order(&scene.drawing, order), grid);
-    let strand_first = reference(Order::StrandFirst);
+    let rounded = reference(Order::Rounded);
     let shifted = reference(Order::Shifted);
     // Both orders show strokes at the same pixels but where strokes are clipped to clumps.
-    let masks = [compare::mask(&strand_first), compare::mask(&shifted)];
+    let masks = [compare::mask(&rounded), compare::mask(&shifted)];
     let mut differences = Vec::new();
     for entry in entries {
-        let (reference, mask) = match entry.order {
-            Order::StrandFirst => (&strand_first, &masks[0]),
-            Order::Shifted => (&shifted, &masks[1]),
+        let (reference, mask) = if entry.order == Order::Shifted {
+            (&shifted, &masks[1])
+        } else {
+            (&rounded, &masks[0])
         };
         let difference = match entry.contender.picture() {
             Some(picture) => {

@@ -158,7 +158,11 @@ fn drawing() -> impl Strategy<Value = Drawing> {
             vec(layer(extent, clump), 1..5),
         )
     });
-    let order = prop_oneof![Just(Order::StrandFirst), Just(Order::Shifted)];
+    let order = prop_oneof![
+        (0.0..0.5f32).prop_map(|depth_m| (Order::Rounded, depth_m)),
+        Just((Order::StrandFirst, 0.0)),
+        Just((Order::Shifted, 0.0)),
+    ];
     let brush = prop_oneof![Just(Brush::Circle), Just(Brush::Semicircle)];
     let background = prop::option::of(color());
     (
@@ -173,7 +177,7 @@ fn drawing() -> impl Strategy<Value = Drawing> {
             |(
                 (strands, clump, mut layers),
                 surfaces,
-                (order, brush),
+                ((order, edge_depth_m), brush),
                 background,
                 width,
                 height,
@@ -200,6 +204,7 @@ fn drawing() -> impl Strategy<Value = Drawing> {
                     surfaces,
                     background,
                     order,
+                    edge_depth_m,
                     brush,
                 }
             },
@@ -268,12 +273,11 @@ fn radius_zero_draws_nothing_even_at_a_sample() {
 
 #[test]
 fn portraits_agree_sample_for_sample() {
-    let orders = [Order::StrandFirst, Order::Shifted];
+    let orders = [Order::Rounded, Order::StrandFirst, Order::Shifted];
     let brushes = [Brush::Circle, Brush::Semicircle];
     for (order, brush) in orders
         .into_iter()
-        .zip(brushes)
-        .chain(orders.into_iter().zip([brushes[1], brushes[0]]))
+        .flat_map(|order| brushes.map(|brush| (order, brush)))
     {
         let drawing = Drawing {
             brush,
@@ -294,7 +298,7 @@ fn portraits_agree_sample_for_sample() {
 
 #[test]
 fn many_samples_come_to_the_regular_grid() {
-    let mut drawing = scenes::portrait([240, 180], Order::StrandFirst);
+    let mut drawing = scenes::portrait([240, 180], Order::Rounded);
     let reference = oracle::picture(&drawing, 16);
     let alone = scenes::strokes_alone(&drawing);
     let ink = oracle::picture(&alone, 16);

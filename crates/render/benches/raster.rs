@@ -94,7 +94,8 @@ impl Hair {
             clump,
             surfaces: Vec::new(),
             background: Some([1.0; 3]),
-            order: Order::StrandFirst,
+            order: Order::Rounded,
+            edge_depth_m: 0.005,
             brush: render::Brush::Circle,
         }
     }

@@ -257,6 +257,7 @@ impl Worker {
         let segments_of_tile = self.segments_of_tiles.bin(tile);
         let mut scene = Scene {
             order: frame.drawing.order,
+            edge_depth_m: frame.drawing.edge_depth_m,
             strokes: frame.strokes,
             segments: &frame.parts.segments,
             origin,

@@ -85,6 +85,11 @@ pub struct Surface {
 /// Which stroke a sample shows where several cover it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Order {
+    /// As [`StrandFirst`](Self::StrandFirst), with strokes that are round: at a sample whose distance from
+    /// the axis is the part r of the radius there, a stroke lies [`Drawing::edge_depth_m`] times r^2
+    /// deeper than its middle, outside of the clump times r^8.
+    #[default]
+    Rounded,
     /// First within a strand by rank, then among strands and surfaces by depth.
     ///
     /// Within the strand's clump the highest rank that covers the sample gives the colour (the later
@@ -92,7 +97,6 @@ pub enum Order {
     /// ranks below 0 show, each at its own depth. Then a strand whose biased depth lies behind a
     /// surface (or that breaks its [`Surface::margin_m`]) is dropped, and the nearest strand that is left
     /// wins (the lower number among equals). Light beyond 0 to 1 is cut in each sample.
-    #[default]
     StrandFirst,
     /// The source's plain shift: every stroke by its own depth against every other (5.2). Among
     /// equal depths the higher rank, the later layer, the later instance, then the lower number.
@@ -116,6 +120,8 @@ pub struct Drawing {
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.
     pub order: Order,
+    /// How much deeper than its middle a stroke's edge lies in [`Order::Rounded`], in metres, 0 or more.
+    pub edge_depth_m: f32,
     /// What strokes are made of.
     pub brush: Brush,
 }

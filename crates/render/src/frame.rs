@@ -93,6 +93,8 @@ pub struct Frame<'a> {
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.
     pub order: Order,
+    /// How much deeper than its middle a stroke's edge lies in [`Order::Rounded`], in metres, 0 or more.
+    pub edge_depth_m: f32,
     /// What strokes are made of.
     pub brush: Brush,
 }

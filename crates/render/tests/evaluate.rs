@@ -84,7 +84,8 @@ fn drawing_on(
         layer_joints,
         surfaces: Vec::new(),
         background: None,
-        order: Order::StrandFirst,
+        order: Order::Rounded,
+        edge_depth_m: 0.005,
         brush,
     };
     let mut drawing = Drawing::default();

@@ -60,6 +60,7 @@ struct Settings {
     size: [u32; 2],
     background: Option<[f32; 3]>,
     order: Order,
+    edge_depth_m: f32,
     path: PathKind,
     brush: Brush,
     view: OrbitView,
@@ -328,6 +329,7 @@ impl Stage {
             surfaces,
             background: settings.background,
             order: settings.order,
+            edge_depth_m: settings.edge_depth_m,
             brush: settings.brush,
         })
     }
@@ -352,7 +354,9 @@ impl Settings {
         Ok(Self {
             size: scene.size("size"),
             background: scene.optional_color("background"),
-            order: [Order::StrandFirst, Order::Shifted][scene.choice("order") as usize],
+            order: [Order::Rounded, Order::StrandFirst, Order::Shifted]
+                [scene.choice("order") as usize],
+            edge_depth_m: scene.number("edge_depth") * head.height_m,
             path: match path.choice("kind") {
                 0 => PathKind::Linear { subdivision },
                 _ => PathKind::CatmullRom { subdivision },

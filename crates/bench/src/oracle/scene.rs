@@ -14,6 +14,8 @@ pub struct Scene {
     triangles: Vec<Triangle>,
     background: Option<[f64; 3]>,
     order: Order,
+    /// In [`Order::Rounded`] how much deeper than its middle a stroke's edge lies, in metres.
+    edge_depth_m: f64,
 }
 
 #[derive(Debug)]
@@ -47,6 +49,11 @@ impl Scene {
             triangles: drawing.surfaces.iter().flat_map(Triangle::of).collect(),
             background: drawing.background.map(|color| color.map(f64::from)),
             order: drawing.order,
+            edge_depth_m: if drawing.order == Order::Rounded {
+                drawing.edge_depth_m.into()
+            } else {
+                0.0
+            },
         }
     }
 
@@ -65,7 +72,7 @@ impl Scene {
     pub fn color(&self, point: DVec2) -> Option<[f64; 3]> {
         let surface = self.nearest_surface(point);
         let stroke = match self.order {
-            Order::StrandFirst => self.nearest_strand(point, surface.as_ref()),
+            Order::Rounded | Order::StrandFirst => self.nearest_strand(point, surface.as_ref()),
             Order::Shifted => self.nearest_stroke(point, surface.as_ref()),
         };
         stroke
@@ -86,10 +93,13 @@ impl Scene {
         })
     }
 
-    /// [`Order::StrandFirst`]: each strand settles what it shows, then the nearest strand is seen,
-    /// the lower id among equals. Strands that `surface` hides are not.
+    /// [`Order::Rounded`] and [`Order::StrandFirst`]: each strand settles what it shows, then the nearest
+    /// strand is seen, the lower id among equals. Strands that `surface` hides are not.
     fn nearest_strand(&self, point: DVec2, surface: Option<&Hit>) -> Option<&Stroke> {
-        let shown = self.strands.iter().filter_map(|strand| strand.shown(point));
+        let shown = self.strands.iter().filter_map(|strand| {
+            let (depth, part, stroke) = strand.shown(point)?;
+            Some((depth.deeper(self.edge_depth_m * part), stroke))
+        });
         shown
             .filter(|(depth, _)| is_seen(depth, surface))
             .reduce(|best, next| {
@@ -165,15 +175,19 @@ impl Strand {
     }
 
     /// The stroke that the strand shows at `point`, and how deep: in the clump the highest at the
-    /// clump's depth, outside it the highest below the base stroke at its own.
-    fn shown(&self, point: DVec2) -> Option<(Depth, &Stroke)> {
+    /// clump's depth, outside it the highest below the base stroke at its own. Between them the part of
+    /// the edge's depth that a round stroke has there: r^2 in the clump, r^8 outside it.
+    fn shown(&self, point: DVec2) -> Option<(Depth, f64, &Stroke)> {
         let clump = depth(&self.clump, point);
         self.strokes
             .iter()
             .filter(|stroke| clump.is_some() || stroke.precedence.rank < 0)
             .find_map(|stroke| {
                 let own = depth(&stroke.segments, point)?;
-                Some((clump.unwrap_or(own), stroke))
+                Some(match clump {
+                    Some(depth) => (depth, ratio(&self.clump, point).powi(2), stroke),
+                    None => (own, ratio(&stroke.segments, point).powi(8), stroke),
+                })
             })
     }
 }
@@ -223,6 +237,14 @@ fn segments(
 fn depth(segments: &[Segment], point: DVec2) -> Option<Depth> {
     let depths = segments.iter().filter_map(|segment| segment.depth(point));
     depths.reduce(Depth::nearest)
+}
+
+/// The least distance over radius of a point that the segments cover.
+fn ratio(segments: &[Segment], point: DVec2) -> f64 {
+    let covering = segments.iter().filter(|s| s.depth(point).is_some());
+    covering
+        .map(|segment| segment.nearest_axis_point(point).0)
+        .fold(1.0, f64::min)
 }
 
 /// Whether a stroke of that depth is not hidden by the surface there.

@@ -13,6 +13,15 @@ pub struct Depth {
 }
 
 impl Depth {
+    /// Both as many metres farther away.
+    pub fn deeper(self, metres: f64) -> Self {
+        let deeper = |inv_depth: f64| inv_depth / (1.0 + metres * inv_depth.max(0.0));
+        Self {
+            inv_depth: deeper(self.inv_depth),
+            biased: deeper(self.biased),
+        }
+    }
+
     /// The nearer of both, each for itself.
     pub fn nearest(self, other: Self) -> Self {
         Self {

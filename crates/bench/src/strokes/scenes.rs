@@ -11,6 +11,8 @@ use std::path::Path;
 const SIZE: [u32; 2] = [960, 720];
 /// From the eye to the middle of a made scene, in metres.
 const DISTANCE: f64 = 1.5;
+/// How much deeper than its middle a stroke's edge lies, metres: as in the presets.
+const EDGE_DEPTH_M: f32 = 0.005;
 /// Pixels of a metre there.
 const SCALE: f64 = 720.0;
 
@@ -88,7 +90,6 @@ pub fn twin_tails(root: &Path) -> Result<Scene, String> {
     Evaluator::default().evaluate(&frame, &mut drawing);
     drawing.surfaces.clear();
     drawing.background = None;
-    drawing.order = Order::StrandFirst;
     // Resampled between particles: the source's stamps are shared out among more joints.
     let subdivision = preset.path.integer("subdivision").unsigned_abs() as usize;
     Ok(Scene {
@@ -350,7 +351,8 @@ fn drawing(strands: impl Iterator<Item = (u32, Vec<Joint>)>, layers: &[LayerOf])
         runs,
         surfaces: Vec::new(),
         background: None,
-        order: Order::StrandFirst,
+        order: Order::Rounded,
+        edge_depth_m: EDGE_DEPTH_M,
         brush: Brush::Circle,
     }
 }

@@ -21,6 +21,9 @@ pub enum DrawError {
     /// The background is not a colour.
     #[error("the background's colour is not finite")]
     Background,
+    /// Edges lie a finite length deeper, or none.
+    #[error("edge_depth_m is {0}, not a finite number of 0 or more")]
+    EdgeDepth(f32),
     /// A run has no joint, or some that the drawing doesn't have.
     #[error(
         "run {run}: its joints are {start}..{end}, which is not a piece of the drawing's {joints}"
@@ -155,6 +158,9 @@ pub(super) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     }
     if drawing.background.is_some_and(|color| !is_finite(&color)) {
         return Err(DrawError::Background);
+    }
+    if !(0.0..=f32::MAX).contains(&drawing.edge_depth_m) {
+        return Err(DrawError::EdgeDepth(drawing.edge_depth_m));
     }
     check_runs(drawing)?;
     let joints = drawing.clump.len();

@@ -34,6 +34,7 @@ impl Evaluator {
         drawing.size = frame.camera.size_px();
         drawing.background = frame.background;
         drawing.order = frame.order;
+        drawing.edge_depth_m = frame.edge_depth_m;
         drawing.brush = frame.brush;
         drawing.surfaces.clone_from(&frame.surfaces);
         drawing.runs.clear();

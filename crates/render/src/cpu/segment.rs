@@ -108,7 +108,7 @@ fn of_strand(drawing: &Drawing, strokes: &[Stroke], strand: u32, runs: &[Run]) -
         }));
     };
     let mut drawn_as = 0;
-    if drawing.order == Order::StrandFirst {
+    if drawing.order != Order::Shifted {
         let base = strokes.iter().zip(1..).find(|(stroke, _)| {
             stroke.rank >= 0 && runs.iter().all(|run| is_clump(drawing, stroke, run))
         });

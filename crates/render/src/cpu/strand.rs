@@ -7,8 +7,8 @@
 use super::segment::{Segment, Stroke};
 use super::stroke::{Depths, Placed};
 use super::tile::{
-    HEIGHT, LANES, Lanes, Mask, NO_SAMPLES, Plane, ROWS, Target, both, cells, has, is_empty, plane,
-    select, without,
+    HEIGHT, LANES, Lanes, Mask, NO_SAMPLES, Plane, ROWS, Target, both, cells, greater, has,
+    is_empty, plane, select, without,
 };
 use crate::drawing::Order;
 use glam::Vec2;
@@ -20,6 +20,7 @@ const SAME_DEPTH: f32 = 1e-6;
 /// What stays the same from strand to strand.
 pub(super) struct Scene<'a> {
     pub(super) order: Order,
+    pub(super) edge_depth_m: f32,
     pub(super) strokes: &'a [Stroke],
     pub(super) segments: &'a [Segment],
     /// The tile's upper left pixel.
@@ -85,7 +86,7 @@ impl StrandPlanes {
         }
         self.place(scene, strand, &open);
         match scene.order {
-            Order::StrandFirst => {
+            Order::Rounded | Order::StrandFirst => {
                 let id = scene.segments[strand[0] as usize].strand;
                 self.draw_as_one(scene, u32::MAX - id, target);
             }
@@ -160,6 +161,17 @@ impl StrandPlanes {
                 &mut self.by_depth,
                 &mut self.depths,
             );
+            if scene.order == Order::Rounded {
+                let placed = &self.placed[stroke.segments.clone()];
+                round(
+                    scene,
+                    placed,
+                    &outside,
+                    true,
+                    &mut self.ratio,
+                    &mut self.depths,
+                );
+            }
         }
         if let Some(clump) = clump {
             let inside = both(&shown, &clump_samples);
@@ -170,6 +182,17 @@ impl StrandPlanes {
                 &mut self.by_depth,
                 &mut self.depths,
             );
+            if scene.order == Order::Rounded {
+                let placed = &self.placed[clump.segments.clone()];
+                round(
+                    scene,
+                    placed,
+                    &inside,
+                    false,
+                    &mut self.ratio,
+                    &mut self.depths,
+                );
+            }
         }
         composite(&self.depths, &mut shown, priority, target);
         for stroke in strokes {
@@ -248,6 +271,51 @@ fn measure(
             samples = without(&samples, &placed.covered);
         }
     }
+}
+
+/// Takes the samples, which the segments cover, as much deeper as they are far from the stroke's middle.
+#[inline(always)]
+fn round(
+    scene: &Scene,
+    placed: &[Placed],
+    samples: &Mask,
+    is_outline: bool,
+    ratio: &mut Plane,
+    depths: &mut Depths,
+) {
+    if is_empty(samples) {
+        return;
+    }
+    for cell in cells(samples) {
+        ratio[cell.index] = [1.0; LANES];
+    }
+    for placed in placed {
+        let segment = &scene.segments[placed.segment as usize];
+        placed.ratio(segment, scene.samples, samples, ratio);
+    }
+    for cell in cells(samples) {
+        let mut part = ratio[cell.index];
+        if is_outline {
+            for k in 0..LANES {
+                part[k] *= part[k];
+                part[k] *= part[k];
+            }
+        }
+        let nearest = &mut depths.inv_depth[cell.index];
+        let biased = &mut depths.biased[cell.index];
+        for k in 0..LANES {
+            let deeper_m = scene.edge_depth_m * part[k];
+            let is_taken = has(cell.bits, k);
+            nearest[k] = select(is_taken, deeper(nearest[k], deeper_m), nearest[k]);
+            biased[k] = select(is_taken, deeper(biased[k], deeper_m), biased[k]);
+        }
+    }
+}
+
+/// The inverse depth of what lies so many metres deeper. There is nothing deeper than 0 or below.
+#[inline(always)]
+fn deeper(inv_depth: f32, metres: f32) -> f32 {
+    inv_depth / (1.0 + metres * greater(inv_depth, 0.0))
 }
 
 /// Puts the samples into the picture; those that don't show are taken away.
@@ -340,7 +408,7 @@ impl Scene<'_> {
         }
         // What lies behind the nearer ones is then seen to be hidden. Shifted strokes of equal depth
         // need their strands' order.
-        if self.order == Order::StrandFirst {
+        if self.order != Order::Shifted {
             parts.sort_by(|a, b| b.inv_depth.total_cmp(&a.inv_depth));
         }
     }

@@ -95,6 +95,27 @@ impl Placed {
         }
     }
 
+    /// Lowers the squares of distance over radius to the segment's own.
+    #[inline(always)]
+    pub(super) fn ratio(
+        &self,
+        segment: &Segment,
+        samples: &[Vec2],
+        wanted: &Mask,
+        ratio: &mut Plane,
+    ) {
+        for cell in cells(&both(&self.covered, wanted)) {
+            let (x, y) = self.local(samples, cell);
+            let mut least = ratio[cell.index];
+            for k in 0..LANES {
+                let (_, ratio) = segment.sweep.attribute_point(x[k], y[k]);
+                let is_less = has(cell.bits, k) & (ratio < least[k]);
+                least[k] = select(is_less, ratio, least[k]);
+            }
+            ratio[cell.index] = least;
+        }
+    }
+
     /// Gives some of the covered samples the segment's colour where its ratio is the least so far.
     #[inline(always)]
     pub(super) fn shade(

@@ -76,13 +76,22 @@ fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
                     offer(touch.inv_depth, place, touch.color);
                 }
             }
-            Order::StrandFirst => {
+            Order::Rounded | Order::StrandFirst => {
                 let top = touches
                     .iter()
                     .rfind(|(_, rank, _)| clump.is_some() || *rank < 0);
                 if let Some((_, _, touch)) = top {
-                    let depth = clump.map_or(touch.inv_depth, |clump| clump.inv_depth);
-                    offer(depth, 0, touch.color);
+                    let (depth, part) = match clump {
+                        Some(clump) => (clump.inv_depth, clump.ratio.min(1.0)),
+                        None => (touch.inv_depth, touch.ratio.min(1.0).powi(4)),
+                    };
+                    let is_round = drawing.order == Order::Rounded;
+                    let deeper_m = if is_round {
+                        drawing.edge_depth_m * part
+                    } else {
+                        0.0
+                    };
+                    offer(depth / (1.0 + deeper_m * depth.max(0.0)), 0, touch.color);
                 }
             }
         }
