@@ -154,17 +154,8 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
 }
 
 fn effort(quick: bool) -> search::Effort {
-    if quick {
-        search::Effort {
-            even: 4,
-            suspicious: 4,
-        }
-    } else {
-        search::Effort {
-            even: 12,
-            suspicious: 12,
-        }
-    }
+    let (tiles, intervals) = if quick { (12, 6) } else { (48, 24) };
+    search::Effort { tiles, intervals }
 }
 
 /// What doesn't depend on how a look moves; lists are parallel to [`ORDERS`].
@@ -249,8 +240,8 @@ fn rows(scenes: &[SceneFigures]) -> Vec<Row> {
             for (i, step) in search::STEPS.iter().enumerate() {
                 add("largest", TICKS / step, Some(continuity.largest[i]));
             }
-            for (i, step) in search::STEPS.iter().enumerate() {
-                add("percentile", TICKS / step, Some(continuity.percentile[i]));
+            for (step, percentile) in search::STEPS.iter().zip(continuity.percentile) {
+                add("percentile", TICKS / step, Some(percentile));
             }
             add("popped-worst", TICKS, Some(continuity.popped[0]));
             add("popped-mean", TICKS, Some(continuity.popped[1]));
@@ -271,9 +262,9 @@ fn comments(options: &Options) -> Vec<String> {
         "seconds: median time to rasterise a frame of the look, as its preset says but with 4 samples; scenes \
          without a look: 480 x 360",
         "all errors: linear light, pictures half as wide and high as the presets' (480 x 360)",
-        "ORDER-largest, -percentile: the largest change of a tile of 16 x 16 pixels with hair, and its 99.9th \
-         percentile, between pictures 1/knob s apart: mean absolute difference of red, green and blue, 0 to 1; 256 \
-         samples a pixel",
+        "ORDER-largest, -percentile: the largest change of a tile of 16 x 16 pixels with hair between pictures 1/knob s \
+         apart (256 samples a pixel), and the 99.9th percentile (16 samples): mean absolute difference of red, green \
+         and blue, 0 to 1",
         "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s, as a share of \
          the hair's",
         "ORDER-warp: mean difference of a frame's hair from the frame 1/24 s before, moved as the strands have; knob: \
@@ -324,16 +315,17 @@ pub fn places(scenes: &[SceneFigures]) -> String {
         for ((order, _), figures) in ORDERS.iter().zip(&scene.orders) {
             let of = &figures.continuity;
             let Some(worst) = &of.worst else { continue };
-            let [x, y] = tiles::corner(worst.tile, worst.pictures[0].width as usize);
-            let [looked_at, drawn] = of.looked_at;
+            let [x, y] = worst.corner;
             let _ = writeln!(
                 text,
-                "{} {order}: {:.4} in 1/768 s from {:.4} s (tick {}) in the tile at {x}, {y}; of {looked_at} intervals \
-                 {drawn} with 256 samples",
+                "{} {order}: {:.4} in 1/768 s from {:.4} s (tick {}) in the tile at {x}, {y}; {} intervals of 1/384 s \
+                 searched, {} tiles drawn with 256 samples",
                 scene.name,
                 worst.change,
                 seconds(worst.tick),
                 worst.tick,
+                of.intervals,
+                of.tiles,
             );
         }
     }

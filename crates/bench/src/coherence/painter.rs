@@ -1,5 +1,6 @@
 //! Frames to pictures, in each order, and to what colours say in place of how hair looks.
 
+use glam::Vec2;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{Drawing, Frame, Order, Picture};
 
@@ -8,6 +9,7 @@ pub struct Painter {
     evaluator: Evaluator,
     rasterizer: Rasterizer,
     drawing: Drawing,
+    part: Drawing,
 }
 
 impl Painter {
@@ -23,6 +25,7 @@ impl Painter {
             evaluator: Evaluator::default(),
             rasterizer: rasterizer.map_err(|error| error.to_string())?,
             drawing: Drawing::default(),
+            part: Drawing::default(),
         })
     }
 
@@ -41,6 +44,29 @@ impl Painter {
     pub fn picture(&mut self, frame: &mut Frame, order: Order) -> Result<Picture, String> {
         self.strokes(frame, order);
         self.draw()
+    }
+
+    /// A part of the picture of [`Self::strokes`]' last frame: from column and row `corner` on, which may lie
+    /// outside, `size` pixels wide and high.
+    ///
+    /// # Errors
+    ///
+    /// When it can't be drawn.
+    pub fn part(&mut self, corner: [i32; 2], size: u32) -> Result<Picture, String> {
+        let corner = Vec2::new(corner[0] as f32, corner[1] as f32);
+        let part = &mut self.part;
+        part.clone_from(&self.drawing);
+        part.size = [size; 2];
+        let layers = part.layers.iter_mut().flat_map(|layer| &mut layer.discs);
+        for disc in part.clump.iter_mut().chain(layers) {
+            disc.center -= corner;
+        }
+        let surfaces = part.surfaces.iter_mut();
+        for vertex in surfaces.flat_map(|surface| &mut surface.vertices) {
+            vertex.position -= corner;
+        }
+        let drawn = self.rasterizer.draw(part);
+        drawn.map_err(|error| error.to_string())
     }
 
     /// The frame with hair in the colours that `color` gives to joints, all else black.

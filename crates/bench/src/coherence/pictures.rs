@@ -1,16 +1,16 @@
 //! Pictures of what changes most: the place before, after, and their difference, enlarged.
 
-use super::search::Worst;
-use super::tiles::{TILE, corner};
+use super::search::{AROUND, Worst};
+use super::tiles::TILE;
 use render::Picture;
 use std::path::Path;
 
-/// Pixels around the tile that are shown too.
-const AROUND: usize = 2 * TILE;
 /// Sides of a pixel.
-const ENLARGED: usize = 6;
+const ENLARGED: usize = 8;
 /// Pixels between the three parts, before they are enlarged.
 const GAP: usize = 2;
+/// Around the tile.
+const FRAME: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
 
 /// Writes the place as a PNG.
 ///
@@ -18,58 +18,51 @@ const GAP: usize = 2;
 ///
 /// When the file can't be written.
 pub fn write(path: &Path, worst: &Worst) -> Result<(), String> {
-    let picture = enlarged(&side_by_side(worst));
     let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|error| failed(&error))?;
     }
+    let picture = enlarged(&side_by_side(worst));
+    let bytes = png(&picture).map_err(|error| failed(&error))?;
+    std::fs::write(path, bytes).map_err(|error| failed(&error))
+}
+
+fn png(picture: &Picture) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let mut writer = encoder.write_header().map_err(|error| failed(&error))?;
-    let written = writer.write_image_data(&picture.to_srgb8());
-    written.map_err(|error| failed(&error))?;
-    writer.finish().map_err(|error| failed(&error))?;
-    std::fs::write(path, bytes).map_err(|error| failed(&error))
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&picture.to_srgb8())?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 /// Before, after, and how far each channel is apart; the tile in a frame.
 fn side_by_side(worst: &Worst) -> Picture {
     let [before, after] = &worst.pictures;
-    let [left, top] = corner(worst.tile, before.width as usize);
-    let side = TILE + 2 * AROUND;
+    let pairs = before.pixels.iter().zip(&after.pixels);
+    let apart = pairs.map(|(a, b)| [0, 1, 2].map(|c| (a[c] - b[c]).abs()));
+    let apart = Picture {
+        pixels: apart.map(|[r, g, b]| [r, g, b, 1.0]).collect(),
+        ..*before
+    };
+    let side = before.width as usize;
     let width = 3 * side + 2 * GAP;
     let mut pixels = vec![[0.0; 4]; width * side];
-    for y in 0..side {
-        for x in 0..side {
-            let at = [x + left, y + top].map(|place| place.checked_sub(AROUND));
-            let [Some(from_left), Some(from_top)] = at else {
-                continue;
-            };
-            if from_left >= before.width as usize || from_top >= before.height as usize {
-                continue;
-            }
-            let i = from_top * before.width as usize + from_left;
-            let (a, b) = (before.pixels[i], after.pixels[i]);
-            let mut apart: [f32; 4] = std::array::from_fn(|c| (a[c] - b[c]).abs());
-            apart[3] = 1.0;
-            for (part, color) in [a, b, apart].into_iter().enumerate() {
-                pixels[y * width + part * (side + GAP) + x] = color;
-            }
+    for (i, part) in [before, after, &apart].into_iter().enumerate() {
+        for (y, row) in part.pixels.chunks(side).enumerate() {
+            let start = y * width + i * (side + GAP);
+            pixels[start..start + side].copy_from_slice(row);
         }
-    }
-    for part in 0..3 {
-        let start = part * (side + GAP) + AROUND - 1;
-        for i in 0..TILE + 2 {
-            let (near, far) = (AROUND - 1, AROUND + TILE);
-            for (x, y) in [(i, near), (i, far)] {
-                pixels[y * width + start + x] = FRAME;
-            }
-            for x in [0, TILE + 1] {
-                pixels[(near + i) * width + start + x] = FRAME;
-            }
+        let mut mark = |x: usize, y: usize| pixels[y * width + i * (side + GAP) + x] = FRAME;
+        let (near, far) = (AROUND - 1, AROUND + TILE);
+        for along in near..=far {
+            mark(along, near);
+            mark(along, far);
+            mark(near, along);
+            mark(far, along);
         }
     }
     Picture {
@@ -78,8 +71,6 @@ fn side_by_side(worst: &Worst) -> Picture {
         pixels,
     }
 }
-
-const FRAME: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
 
 fn enlarged(picture: &Picture) -> Picture {
     let [width, height] = [picture.width, picture.height].map(|side| side as usize);

@@ -1,31 +1,35 @@
 //! Looks for the largest changes of an animation, and how they shrink with the time between pictures.
 //!
-//! Every interval of [`LONGEST`] ticks is looked at with few samples a pixel. Then those that change most, and
-//! some at even distances, are drawn with many samples, at every tick.
+//! All pictures 1/768 s apart are drawn with few samples a pixel. Then the tiles that change most in 1/384 s and
+//! those that do in 1/768 s are drawn with many samples. Pixels that pop are counted with few samples: many
+//! of a pixel's change with them.
 
 use super::ORDERS;
 use super::animation::{Scene, Tick};
 use super::painter::Painter;
-use super::tiles::{Change, HairTiles};
+use super::tiles::{HairTiles, TILE, corner, difference};
 use render::Picture;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// The longest time between two pictures that are compared, in ticks: 1/384 s.
-pub const LONGEST: Tick = 4;
-/// Times between pictures, in ticks.
-pub const STEPS: [Tick; 3] = [LONGEST, LONGEST / 2, LONGEST / 4];
+/// Times between pictures, in ticks: 1/384 s and its half, and a tick.
+pub const STEPS: [Tick; 3] = [LONG, SHORT, 1];
+const LONG: Tick = 4;
+const SHORT: Tick = LONG / 2;
 /// Samples a pixel while looking for what changes.
-const FEW: u32 = 16;
+pub const FEW: u32 = 16;
 /// Samples a pixel of what is measured.
 pub const MANY: u32 = 256;
+/// Pixels around a tile that are drawn with it, to be looked at.
+pub const AROUND: usize = TILE;
 
-/// How many intervals are drawn with many samples.
+/// How much is drawn after the search.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// At even distances.
-    pub even: usize,
-    /// Those where a tile changes most, and those where most pixels pop; of each.
-    pub suspicious: usize,
+    /// Tiles with many samples that change most in 1/384 s, and as many that do in 1/768 s.
+    pub tiles: usize,
+    /// Intervals in which popped pixels are counted at every tick: at even distances of time, and as many where
+    /// most have popped in 1/768 s.
+    pub intervals: usize,
 }
 
 /// Draws for the search; kept from scene to scene.
@@ -50,18 +54,20 @@ impl Painters {
     }
 }
 
-/// What was found in an order's pictures of a scene; lists are parallel to [`STEPS`].
+/// What was found in an order's pictures of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Continuity {
-    /// The largest change of a tile.
+    /// The largest change of a tile, for each of [`STEPS`].
     pub largest: [f64; 3],
-    /// What 99.9 % of the tiles' changes don't exceed, at even distances of time.
-    pub percentile: [f64; 3],
+    /// What 99.9 % of all tiles' changes don't exceed, for the first two of [`STEPS`]; with few samples.
+    pub percentile: [f64; 2],
     /// The share of the hair's pixels that pop in a tick: the most, and the mean at even distances of time.
     pub popped: [f64; 2],
-    /// Intervals that were looked at, and those drawn with many samples.
-    pub looked_at: [usize; 2],
-    /// Where a tile changes most in the second of the steps.
+    /// Intervals of 1/384 s that were looked at.
+    pub intervals: usize,
+    /// Tiles, each in an interval, that were drawn with many samples.
+    pub tiles: usize,
+    /// Where a tile changes most in 1/768 s.
     pub worst: Option<Worst>,
 }
 
@@ -70,23 +76,23 @@ pub struct Continuity {
 pub struct Worst {
     /// The moment before.
     pub tick: Tick,
-    /// The tile's number, row by row.
-    pub tile: usize,
+    /// Column and row of the tile's upper left pixel.
+    pub corner: [usize; 2],
     /// How much the tile changes.
     pub change: f64,
-    /// The pictures before and after.
+    /// The tile and [`AROUND`] pixels around it, before and after.
     pub pictures: [Picture; 2],
 }
 
 impl Continuity {
-    /// The largest change at 1/384 s over that at half the time: 2 where all change is continuous, 1
+    /// The largest change in 1/384 s over that in half the time: 2 where all change is continuous, 1
     /// where something jumps. Nothing where nothing changes.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         ratio(self.largest[0], self.largest[1])
     }
 
-    /// The same a step finer.
+    /// The same of a finer step, in the same tiles.
     #[must_use]
     pub fn fine_ratio(&self) -> Option<f64> {
         ratio(self.largest[1], self.largest[2])
@@ -103,13 +109,6 @@ fn ratio(long: f64, short: f64) -> Option<f64> {
     (short > 0.0).then(|| long / short)
 }
 
-/// What an order's picture changed by in an interval, as far as few samples show.
-#[derive(Clone, Copy, Debug)]
-struct Glance {
-    largest: f64,
-    popped: f64,
-}
-
 /// Measures a scene in every order of [`ORDERS`]. `done` is called after each interval.
 ///
 /// # Errors
@@ -123,19 +122,18 @@ pub fn measure(
 ) -> Result<Vec<Continuity>, String> {
     let starts = starts(scene);
     let glances = glance(scene, painters, &mut done)?;
-    let chosen: Vec<Chosen> = glances.iter().map(|of| choose(of, effort)).collect();
-    let mut found: Vec<Found> = ORDERS.iter().map(|_| Found::default()).collect();
-    for (i, &start) in starts.iter().enumerate() {
-        if chosen.iter().any(|chosen| chosen.contains_key(&i)) {
-            let wanted: Vec<Option<bool>> = chosen.iter().map(|of| of.get(&i).copied()).collect();
+    let plans: Vec<Plan> = glances.iter().map(|of| of.plan(effort)).collect();
+    let finished = glances.into_iter().map(Glance::finish);
+    let mut found: Vec<Found> = finished.collect();
+    for (interval, &start) in starts.iter().enumerate() {
+        let wanted: Vec<Wanted> = plans.iter().map(|plan| plan.of(interval)).collect();
+        if wanted.iter().any(Wanted::is_some) {
             refine(scene, painters, start, &wanted, &mut found)?;
         }
         done();
     }
-    let finished = found.into_iter().zip(&chosen);
-    Ok(finished
-        .map(|(found, chosen)| found.finish([starts.len(), chosen.len()]))
-        .collect())
+    let finished = found.into_iter();
+    Ok(finished.map(Found::finish).collect())
 }
 
 /// How often [`measure`] calls `done`.
@@ -144,161 +142,250 @@ pub fn length(scene: &Scene) -> usize {
     2 * starts(scene).len()
 }
 
-/// The first ticks of all intervals.
+/// The first ticks of all intervals of 1/384 s.
 fn starts(scene: &Scene) -> Vec<Tick> {
     let windows = scene.windows.iter().cloned();
     windows
-        .flat_map(|window| window.step_by(LONGEST as usize))
+        .flat_map(|window| window.step_by(LONG as usize))
         .collect()
 }
 
-/// For each order what each interval looks like with few samples.
+/// What few samples show of an order's pictures.
+#[derive(Default)]
+struct Glance {
+    /// Interval, tile and its change in 1/384 s.
+    long: Vec<(usize, usize, f64)>,
+    /// The same in its first or second 1/768 s.
+    short: Vec<(usize, usize, f64)>,
+    /// The share of pixels that pop in 1/768 s, the larger one of each interval.
+    popped: Vec<f64>,
+}
+
 fn glance(
     scene: &mut Scene,
     painters: &mut Painters,
     done: &mut impl FnMut(),
-) -> Result<Vec<Vec<Glance>>, String> {
-    let mut glances = vec![Vec::new(); ORDERS.len()];
-    for window in &scene.windows {
-        let mut before: Option<(Vec<bool>, Vec<Picture>)> = None;
-        for tick in (window.start..=window.end).step_by(LONGEST as usize) {
-            let mut frame = scene.animation.at(tick)?;
-            let hair = painters.hair.hair(&mut frame)?;
-            let mut pictures = Vec::new();
-            for (_, order) in ORDERS {
-                pictures.push(painters.few.picture(&mut frame, order)?);
+) -> Result<Vec<Glance>, String> {
+    let mut glances: Vec<Glance> = ORDERS.iter().map(|_| Glance::default()).collect();
+    for window in scene.windows.clone() {
+        let mut hair_before = painters.hair.hair(&mut scene.animation.at(window.start)?)?;
+        let mut before = few(scene, painters, window.start)?;
+        for start in window.step_by(LONG as usize) {
+            let half = few(scene, painters, start + SHORT)?;
+            let after = few(scene, painters, start + LONG)?;
+            let hair = painters.hair.hair(&mut scene.animation.at(start + LONG)?)?;
+            let tiles = HairTiles::new(after[0].width as usize, [&hair_before, &hair]);
+            for (i, glance) in glances.iter_mut().enumerate() {
+                glance.add(&tiles, [&before[i], &half[i], &after[i]]);
             }
-            if let Some((hair_before, pictures_before)) = before {
-                let width = pictures[0].width as usize;
-                let tiles = HairTiles::new(width, [&hair_before, &hair]);
-                let pairs = pictures_before.iter().zip(&pictures);
-                for (glances, (before, after)) in glances.iter_mut().zip(pairs) {
-                    let change = tiles.change(before, after);
-                    glances.push(Glance {
-                        largest: change.largest().map_or(0.0, |largest| largest.1),
-                        popped: change.popped,
-                    });
-                }
-                done();
-            }
-            before = Some((hair, pictures));
+            (before, hair_before) = (after, hair);
+            done();
         }
     }
     Ok(glances)
 }
 
-/// Numbers of intervals, and whether each is one of those at even distances.
-type Chosen = BTreeMap<usize, bool>;
+/// The pictures of a moment in each order.
+fn few(scene: &mut Scene, painters: &mut Painters, tick: Tick) -> Result<Vec<Picture>, String> {
+    let mut frame = scene.animation.at(tick)?;
+    let orders = ORDERS.iter();
+    orders
+        .map(|(_, order)| painters.few.picture(&mut frame, *order))
+        .collect()
+}
 
-fn choose(glances: &[Glance], effort: Effort) -> Chosen {
-    let mut chosen = Chosen::new();
-    for by in [
-        |glance: &Glance| glance.largest,
-        |glance: &Glance| glance.popped,
-    ] {
-        let mut by_size: Vec<usize> = (0..glances.len()).collect();
-        by_size.sort_by(|&a, &b| by(&glances[b]).total_cmp(&by(&glances[a])));
-        chosen.extend(by_size.iter().take(effort.suspicious).map(|&i| (i, false)));
+impl Glance {
+    /// Adds the next interval: its pictures at its ends and in its middle.
+    fn add(&mut self, tiles: &HairTiles, [before, half, after]: [&Picture; 3]) {
+        let interval = self.popped.len();
+        let whole = tiles.change(before, after);
+        let halves = [tiles.change(before, half), tiles.change(half, after)];
+        let of = |tiles: &[(usize, f64)]| -> Vec<(usize, usize, f64)> {
+            let tiles = tiles.iter();
+            tiles.map(|&(tile, change)| (interval, tile, change)).collect()
+        };
+        self.long.extend(of(&whole.tiles));
+        self.short.extend(halves.iter().flat_map(|half| of(&half.tiles)));
+        self.popped.push(halves[0].popped.max(halves[1].popped));
     }
-    let count = effort.even.min(glances.len());
-    chosen.extend((0..count).map(|i| ((2 * i + 1) * glances.len() / (2 * count), true)));
-    chosen
+
+    /// What to draw again.
+    fn plan(&self, effort: Effort) -> Plan {
+        let mut plan = Plan::default();
+        for changes in [&self.long, &self.short] {
+            let mut by_size: Vec<_> = changes.iter().collect();
+            by_size.sort_by(|a, b| b.2.total_cmp(&a.2));
+            for (interval, tile, _) in by_size.into_iter().take(effort.tiles) {
+                plan.tiles.entry(*interval).or_default().insert(*tile);
+            }
+        }
+        let mut by_popped: Vec<usize> = (0..self.popped.len()).collect();
+        by_popped.sort_by(|&a, &b| self.popped[b].total_cmp(&self.popped[a]));
+        let most = by_popped.into_iter().take(effort.intervals);
+        plan.popped.extend(most.map(|interval| (interval, false)));
+        let count = effort.intervals.min(self.popped.len());
+        let even = (0..count).map(|i| (2 * i + 1) * self.popped.len() / (2 * count));
+        plan.popped.extend(even.map(|interval| (interval, true)));
+        plan
+    }
+
+    fn finish(self) -> Found {
+        let percentile = |changes: Vec<(usize, usize, f64)>| {
+            let mut changes: Vec<f64> = changes.into_iter().map(|change| change.2).collect();
+            changes.sort_by(f64::total_cmp);
+            let rank = (changes.len() * 999).div_ceil(1000);
+            rank.checked_sub(1).map_or(0.0, |place| changes[place])
+        };
+        Found {
+            continuity: Continuity {
+                intervals: self.popped.len(),
+                percentile: [percentile(self.long), percentile(self.short)],
+                ..Continuity::default()
+            },
+            popped: Vec::new(),
+        }
+    }
 }
 
-/// What has been found so far.
+/// What is to be drawn again of an order, by interval.
 #[derive(Default)]
-struct Found {
-    continuity: Continuity,
-    /// Changes of all tiles at even distances of time, for each step.
-    tiles: [Vec<f64>; 3],
-    /// Shares of pixels that pop in a tick.
-    popped: Vec<f64>,
+struct Plan {
+    /// Tiles with many samples.
+    tiles: BTreeMap<usize, BTreeSet<usize>>,
+    /// Whole pictures with few samples at every tick; whether it is an interval at even distances.
+    popped: BTreeMap<usize, bool>,
 }
 
-/// Draws an interval with many samples, for each order that wants it (with whether it is one at even distances).
+/// What is to be drawn again of an order in an interval.
+struct Wanted {
+    tiles: Vec<usize>,
+    popped: Option<bool>,
+}
+
+impl Plan {
+    fn of(&self, interval: usize) -> Wanted {
+        let tiles = self.tiles.get(&interval).into_iter().flatten();
+        Wanted {
+            tiles: tiles.copied().collect(),
+            popped: self.popped.get(&interval).copied(),
+        }
+    }
+}
+
+impl Wanted {
+    fn is_some(&self) -> bool {
+        !self.tiles.is_empty() || self.popped.is_some()
+    }
+}
+
+/// An order's pictures of an interval, one each tick.
+#[derive(Default)]
+struct Pictures {
+    /// For each tick the tiles that are wanted, with what is around them.
+    tiles: Vec<Vec<Picture>>,
+    whole: Vec<Picture>,
+}
+
+/// Draws what is wanted of an interval.
 fn refine(
     scene: &mut Scene,
     painters: &mut Painters,
     start: Tick,
-    wanted: &[Option<bool>],
+    wanted: &[Wanted],
     found: &mut [Found],
 ) -> Result<(), String> {
-    let mut masks = Vec::new();
-    let mut pictures = vec![Vec::new(); ORDERS.len()];
-    for tick in start..=start + LONGEST {
+    let mut pictures: Vec<Pictures> = ORDERS.iter().map(|_| Pictures::default()).collect();
+    let mut size = [0; 2];
+    let mut hair = Vec::new();
+    for tick in start..=start + LONG {
         let mut frame = scene.animation.at(tick)?;
-        if tick == start || tick == start + LONGEST {
-            masks.push(painters.hair.hair(&mut frame)?);
-        }
+        size = frame.camera.size_px().map(|side| side as usize);
         let orders = ORDERS.iter().zip(wanted).zip(&mut pictures);
         for (((_, order), wanted), pictures) in orders {
-            if wanted.is_some() {
-                pictures.push(painters.many.picture(&mut frame, *order)?);
+            if wanted.popped.is_some() {
+                pictures.whole.push(painters.few.picture(&mut frame, *order)?);
             }
+            if wanted.tiles.is_empty() {
+                continue;
+            }
+            painters.many.strokes(&mut frame, *order);
+            let mut tiles = Vec::new();
+            for &tile in &wanted.tiles {
+                let corner = corner(tile, size[0]).map(|place| place as i32 - AROUND as i32);
+                let side = (TILE + 2 * AROUND) as u32;
+                tiles.push(painters.many.part(corner, side)?);
+            }
+            pictures.tiles.push(tiles);
+        }
+        if tick == start || tick == start + LONG {
+            hair.push(painters.hair.hair(&mut frame)?);
         }
     }
+    let hair = HairTiles::new(size[0], [&hair[0], &hair[1]]);
     for ((pictures, wanted), found) in pictures.iter().zip(wanted).zip(found) {
-        if let Some(is_even) = *wanted {
-            let tiles = HairTiles::new(pictures[0].width as usize, [&masks[0], &masks[1]]);
-            found.add(&tiles, pictures, start, is_even);
+        if let Some(is_even) = wanted.popped {
+            found.add_popped(&hair, &pictures.whole, is_even);
+        }
+        for (i, &tile) in wanted.tiles.iter().enumerate() {
+            let of_tile: Vec<&Picture> = pictures.tiles.iter().map(|tiles| &tiles[i]).collect();
+            found.add_tile(corner(tile, size[0]), size, &of_tile, start);
         }
     }
     Ok(())
 }
 
+/// What has been found so far in an order.
+struct Found {
+    continuity: Continuity,
+    /// Shares of pixels that pop in a tick, at even distances of time.
+    popped: Vec<f64>,
+}
+
 impl Found {
-    /// Adds an interval: its pictures at every tick from `start` on.
-    fn add(&mut self, tiles: &HairTiles, pictures: &[Picture], start: Tick, is_even: bool) {
-        for (i, step) in STEPS.iter().enumerate() {
-            let step = *step as usize;
-            for first in (0..LONGEST as usize).step_by(step) {
-                let pair = [&pictures[first], &pictures[first + step]];
-                let change = tiles.change(pair[0], pair[1]);
-                if is_even {
-                    self.tiles[i].extend(change.tiles.iter().map(|tile| tile.1));
-                }
-                if step == 1 {
-                    self.add_popped(change.popped, is_even);
-                }
-                self.add_largest(i, &change, start + first as Tick, pair);
+    fn add_popped(&mut self, hair: &HairTiles, pictures: &[Picture], is_even: bool) {
+        for pair in pictures.windows(2) {
+            let popped = hair.change(&pair[0], &pair[1]).popped;
+            let worst = &mut self.continuity.popped[0];
+            *worst = worst.max(popped);
+            if is_even {
+                self.popped.push(popped);
             }
         }
     }
 
-    fn add_popped(&mut self, popped: f64, is_even: bool) {
-        let worst = &mut self.continuity.popped[0];
-        *worst = worst.max(popped);
-        if is_even {
-            self.popped.push(popped);
+    /// Adds a tile of an interval, from its pictures at every tick.
+    fn add_tile(
+        &mut self,
+        corner: [usize; 2],
+        picture_size: [usize; 2],
+        pictures: &[&Picture],
+        start: Tick,
+    ) {
+        // Tiles at the right and lower edges may be smaller.
+        let size = [0, 1].map(|axis| TILE.min(picture_size[axis] - corner[axis]));
+        self.continuity.tiles += 1;
+        for (i, &step) in STEPS.iter().enumerate() {
+            for first in (0..LONG).step_by(step as usize) {
+                let pair = [first, first + step].map(|tick| pictures[tick as usize]);
+                let change = difference(pair[0], pair[1], AROUND, size);
+                let largest = &mut self.continuity.largest[i];
+                if change <= *largest {
+                    continue;
+                }
+                *largest = change;
+                if step == SHORT {
+                    self.continuity.worst = Some(Worst {
+                        tick: start + first,
+                        corner,
+                        change,
+                        pictures: pair.map(Picture::clone),
+                    });
+                }
+            }
         }
     }
 
-    fn add_largest(&mut self, step: usize, change: &Change, tick: Tick, pictures: [&Picture; 2]) {
-        let Some((tile, change)) = change.largest() else {
-            return;
-        };
-        let largest = &mut self.continuity.largest[step];
-        if change <= *largest {
-            return;
-        }
-        *largest = change;
-        if STEPS[step] == LONGEST / 2 {
-            self.continuity.worst = Some(Worst {
-                tick,
-                tile,
-                change,
-                pictures: pictures.map(Picture::clone),
-            });
-        }
-    }
-
-    fn finish(mut self, looked_at: [usize; 2]) -> Continuity {
-        self.continuity.looked_at = looked_at;
-        self.continuity.percentile = self.tiles.map(|mut changes| {
-            changes.sort_by(f64::total_cmp);
-            let rank = (changes.len() * 999).div_ceil(1000);
-            rank.checked_sub(1).map_or(0.0, |place| changes[place])
-        });
+    fn finish(mut self) -> Continuity {
         let count = self.popped.len().max(1) as f64;
         self.continuity.popped[1] = self.popped.iter().sum::<f64>() / count;
         self.continuity

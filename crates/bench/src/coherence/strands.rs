@@ -183,7 +183,7 @@ fn passing(strand: usize, u: f64, time: f64) -> DVec3 {
         4 => at(0.15, 0.02 * (u - 0.4) + 0.03 * swing),
         5 => at(0.162, -0.02 * (u - 0.4) - 0.03 * swing),
         // In front of all others.
-        _ => at(-0.25 + 0.5 * time, 0.08),
+        _ => at(-0.1 + 0.1 * time, 0.08),
     }
 }
 
