@@ -9,15 +9,17 @@
 )]
 
 mod bench;
+mod figures;
+mod html;
 mod layers;
 mod picture;
 mod presets;
 mod program;
 mod regress;
-mod report;
 mod setup;
 mod test;
 mod wasm;
+mod work;
 
 use std::process::ExitCode;
 
@@ -29,7 +31,6 @@ type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 /// Tasks that have a name and no code yet.
 const NOT_BUILT: &[(&str, &str)] = &[
     ("gallery", "Draws contact sheets of all looks"),
-    ("figures", "Redraws the source's explanatory figures"),
     ("fuzz", "Feeds random input to readers for hours"),
     ("stress", "Runs random scenes for hours"),
 ];
@@ -88,6 +89,11 @@ fn command() -> Command {
         .subcommand(
             Command::new("setup").about("Installs what the tests need and this machine lacks"),
         )
+        .subcommand(
+            Command::new("figures").about(
+                "Draws the source's explanatory figures, and measures on them what they claim",
+            ),
+        )
         .subcommand(bench::command())
         .subcommands(not_built)
 }
@@ -104,6 +110,7 @@ fn run(matches: &ArgMatches) -> Outcome {
             regress::run(filter, backend, args.get_flag("bless"))
         }
         Some(("bench", args)) => bench::run(args),
+        Some(("figures", _)) => figures::run(),
         Some(("setup", _)) => setup::run(),
         Some((name, _)) => Err(format!("{name} isn't built yet").into()),
         None => Err("no task given".into()),
