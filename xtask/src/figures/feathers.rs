@@ -64,11 +64,15 @@ pub const FIGURES: &[Figure] = &[
                shadow. Where the gray is under the full threshold they have their full size and close up; from there \
                they shrink, and at the shadow's own threshold they are points.",
         shots: &[
-            Shot::new("gray", "lit.ron", &["--only=hair.base"]),
+            Shot::new(
+                "gray",
+                "lit.ron",
+                &["--only=hair.base", "--background=B9C7CF"],
+            ),
             Shot::new(
                 "feathers",
                 "lit.ron",
-                &["--only=hair.base", "--only=hair.cel"],
+                &["--only=hair.base", "--only=hair.cel", "--background=B9C7CF"],
             ),
             // On one colour, to be measured.
             Shot::new(

@@ -15,16 +15,30 @@ pub const FIGURES: &[Figure] = &[
         title: "Highlights by the distance to the light",
         text: "The lamp hangs over the stroke's left, as in 5.10. Up to the near distance the highlight's feathers have \
                their full size; from there they shrink, and at the far distance they end.",
-        shots: &[Shot::new(
-            "near 0.2, far 0.5 head heights",
-            "lit.ron",
-            &[
-                "--only=hair.base",
-                "--only=hair.highlight",
-                "--set=clump.color=124A57",
-                "--set=clump.shading=pure",
-            ],
-        )],
+        shots: &[
+            Shot::new(
+                "near 0.2, far 0.5 head heights",
+                "lit.ron",
+                &[
+                    "--only=hair.base",
+                    "--only=hair.highlight",
+                    "--set=clump.color=124A57",
+                    "--set=clump.shading=pure",
+                    "--background=B9C7CF",
+                ],
+            ),
+            // On white, to be measured.
+            Shot::new(
+                "",
+                "lit.ron",
+                &[
+                    "--only=hair.base",
+                    "--only=hair.highlight",
+                    "--set=clump.color=124A57",
+                    "--set=clump.shading=pure",
+                ],
+            ),
+        ],
         measure: fades,
     },
     Figure {
@@ -87,7 +101,7 @@ fn distance(column: usize, width: u32) -> f64 {
 }
 
 fn fades(pictures: &[Picture]) -> Outcome<Finding> {
-    let picture = &pictures[0];
+    let picture = &pictures[1];
     let stroke = column_fill(picture, WHITE, rgb(DARK));
     let tallest = stroke.iter().copied().fold(0.0, f64::max).max(1.0);
     // The stroke is white or dark: what is not dark of its width is highlight.
