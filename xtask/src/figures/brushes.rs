@@ -23,7 +23,7 @@ pub const FIGURES: &[Figure] = &[
         number: "7.1",
         title: "Long hair with flat tails",
         text: "A brush need not be round. Half a circle, the half behind the brush's centre, ends a stroke flat. Above, \
-               one stroke with each; below, long black hair with each: the same strands, cut straight or round.",
+               one stroke with each; below, the tails of long black hair with each, on the same strands.",
         shots: &[
             Shot::new("circle", "stroke.ron", BLUNT),
             Shot::new("semicircle", "stroke.ron", FLAT),
@@ -31,12 +31,22 @@ pub const FIGURES: &[Figure] = &[
                 "circle",
                 BLACK,
                 &[
-                    "--size=480x480",
-                    "--camera=150,5,7",
+                    "--size=420x400",
+                    "--camera=150,5,3.4",
+                    "--set=camera.target=(0, -1.9, 0)",
                     "--set=path.brush=circle",
                 ],
             ),
-            Shot::new("semicircle", BLACK, &["--size=480x480", "--camera=150,5,7"]),
+            Shot::new(
+                "semicircle",
+                BLACK,
+                &[
+                    "--size=420x400",
+                    "--camera=150,5,3.4",
+                    "--set=camera.target=(0, -1.9, 0)",
+                ],
+            ),
+            Shot::new("the whole look", BLACK, &["--size=300x400"]),
         ],
         measure: ends_flat,
     },

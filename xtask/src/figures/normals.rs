@@ -1,6 +1,7 @@
 //! Which way a strand faces: Figure 5.4.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
 use super::measure::color;
 use super::{Figure, Finding, Shot};
@@ -138,9 +139,11 @@ const PANELS: [&str; 3] = [
 /// Between needles, and their length, pixels.
 const SPACING_PX: u32 = 12;
 const NEEDLE_PX: f64 = 34.0;
-/// The head's centre and the lock beside it and below, as parts of the picture's height.
-const CENTER: f64 = 0.295;
-const HANGING: std::ops::Range<f64> = 0.28..0.9;
+/// The head's centre, the lock beside it and below, and where that is quite straight, as parts of the
+/// picture's height.
+const CENTER: f64 = 0.315;
+const HANGING: Range<f64> = 0.3..0.92;
+const STRAIGHT: Range<f64> = 0.49..0.92;
 
 /// A place in the picture, and the normal there: right and up.
 struct Needle {
@@ -171,16 +174,18 @@ fn needles(lit: &[Picture]) -> Vec<Needle> {
     needles
 }
 
-/// The needles on the hanging part.
-fn hanging(needles: &[Needle], height: u32) -> impl Iterator<Item = &Needle> {
-    let is_there = move |at: &Needle| HANGING.contains(&(f64::from(at.at.1) / f64::from(height)));
-    needles.iter().filter(move |needle| is_there(needle))
+/// The needles between two parts of the picture's height.
+fn between(needles: &[Needle], height: u32, rows: Range<f64>) -> impl Iterator<Item = &Needle> {
+    let place = move |needle: &Needle| f64::from(needle.at.1) / f64::from(height);
+    needles
+        .iter()
+        .filter(move |needle| rows.contains(&place(needle)))
 }
 
 /// The row where normals on the hanging part are level.
 fn level_row(needles: &[Needle], height: u32) -> u32 {
     let tilt = |needle: &&Needle| needle.normal.1.abs();
-    let level = hanging(needles, height).min_by(|a, b| tilt(a).total_cmp(&tilt(b)));
+    let level = between(needles, height, HANGING).min_by(|a, b| tilt(a).total_cmp(&tilt(b)));
     level.map_or(0, |needle| needle.at.1)
 }
 
@@ -188,7 +193,7 @@ fn measure(pictures: &[Picture]) -> Outcome<Finding> {
     let panels: Vec<Vec<Needle>> = pictures.chunks(4).map(needles).collect();
     let (width, height) = (pictures[0].width, pictures[0].height);
     let [plain, shifted] = [0, 1].map(|i| level_row(&panels[i], height));
-    let corrected = hanging(&panels[2], height).map(|needle| needle.normal.1.abs());
+    let corrected = between(&panels[2], height, STRAIGHT).map(|needle| needle.normal.1.abs());
     let leaning = corrected.fold(0.0, f64::max);
     let sentence = format!(
         "of {height} rows, normals are level in row {plain} for the head's centre, in row {shifted} for the shifted \

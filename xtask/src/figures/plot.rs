@@ -24,7 +24,7 @@ const WIDTH: f64 = 480.0;
 const HEIGHT: f64 = 240.0;
 const LEFT: f64 = 40.0;
 const BOTTOM: f64 = 36.0;
-const TOP: f64 = 10.0;
+const TOP: f64 = 24.0;
 /// Room for the names of curves.
 const RIGHT: f64 = 190.0;
 
@@ -66,7 +66,7 @@ impl Plot<'_> {
                 &tick.to_string(),
             );
         }
-        text((x(0.0) + 8.0, y(1.0) + 8.0), "start", "#333", self.y_axis);
+        text((x(0.0) - 8.0, y(1.0) - 10.0), "start", "#333", self.y_axis);
         for (i, curve) in self.curves.iter().enumerate() {
             let row = TOP + 14.0 + 18.0 * i as f64;
             text(
@@ -122,7 +122,7 @@ mod tests {
             levels: &[("edge", 0.5)],
         };
         let svg = plot.svg();
-        assert!(svg.contains("points=\"40.0,250.0 520.0,10.0\""), "{svg}");
-        assert!(svg.contains("M40 130.0 H520") && svg.contains(">size<") && svg.contains(">edge<"));
+        assert!(svg.contains("points=\"40.0,264.0 520.0,24.0\""), "{svg}");
+        assert!(svg.contains("M40 144.0 H520") && svg.contains(">size<") && svg.contains(">edge<"));
     }
 }
