@@ -10,6 +10,7 @@
 
 mod bench;
 mod figures;
+mod gallery;
 mod html;
 mod layers;
 mod picture;
@@ -30,7 +31,6 @@ type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
 /// Tasks that have a name and no code yet.
 const NOT_BUILT: &[(&str, &str)] = &[
-    ("gallery", "Draws contact sheets of all looks"),
     ("fuzz", "Feeds random input to readers for hours"),
     ("stress", "Runs random scenes for hours"),
 ];
@@ -94,6 +94,16 @@ fn command() -> Command {
                 "Draws the source's explanatory figures, and measures on them what they claim",
             ),
         )
+        .subcommand(
+            Command::new("gallery")
+                .about("Draws a contact sheet of each look into target/gallery")
+                .arg(
+                    Arg::new("filter")
+                        .help("Only looks whose name contains this")
+                        .long("filter")
+                        .value_name("S"),
+                ),
+        )
         .subcommand(bench::command())
         .subcommands(not_built)
 }
@@ -111,6 +121,9 @@ fn run(matches: &ArgMatches) -> Outcome {
         }
         Some(("bench", args)) => bench::run(args),
         Some(("figures", _)) => figures::run(),
+        Some(("gallery", args)) => {
+            gallery::run(args.get_one::<String>("filter").map_or("", String::as_str))
+        }
         Some(("setup", _)) => setup::run(),
         Some((name, _)) => Err(format!("{name} isn't built yet").into()),
         None => Err("no task given".into()),

@@ -41,7 +41,10 @@ pub fn render_all() -> Outcome {
 }
 
 /// The presets in `folder`, by name.
-fn presets(folder: &Path) -> Outcome<Vec<PathBuf>> {
+///
+/// # Errors
+/// The folder can't be read, or has none.
+pub fn presets(folder: &Path) -> Outcome<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).map_err(|error| format!("presets: {error}"))?;
     let mut presets = Vec::new();
     for entry in entries {
