@@ -25,6 +25,8 @@ const CELLS: &[Cell] = &[
         &[
             "--only=hair.base",
             "--set=clump.size=0.1",
+            "--set=clump.mix=1",
+            "--set=clump.shrink_start=1",
             "--set=path.brush=circle",
         ],
     ),
@@ -38,7 +40,7 @@ const CELLS: &[Cell] = &[
     Cell("light from behind", &["--light=160,35"]),
     Cell("the head turns, 0.5 s", &[TURN, "--time=0.5"]),
     Cell("the head turns, 0.9 s", &[TURN, "--time=0.9"]),
-    Cell("the hair settles, 3 s", &[TURN, "--time=3"]),
+    Cell("the hair settles, 4.5 s", &[TURN, "--time=4.5"]),
     Cell("walking in wind, 1 s", &[WALK, "--time=1"]),
     Cell("walking in wind, 1.75 s", &[WALK, "--time=1.75"]),
     Cell("walking in wind, 2.5 s", &[WALK, "--time=2.5"]),
@@ -46,7 +48,7 @@ const CELLS: &[Cell] = &[
 
 const COLUMNS: u32 = 4;
 /// Size of a cell, pixels.
-const WIDTH: u32 = 400;
+const WIDTH: u32 = 320;
 const HEIGHT: u32 = 300;
 
 /// Draws the sheets of all presets whose name contains `filter`, and the page.
@@ -124,7 +126,7 @@ fn sheet(pictures: &[Result<Picture, String>]) -> Picture {
 fn page(looks: &[&str]) -> String {
     let mut page = head(
         "Looks of inkstrand",
-        "img { max-width: 100%; } td { width: 25%; padding: 2px 12px; } table { width: 100%; max-width: 1600px; }",
+        "img { max-width: 100%; } td { width: 25%; padding: 2px 12px; } table { width: 100%; max-width: 1280px; }",
     );
     page += "<h1>Looks</h1>\n<p>The cells of each sheet:</p>\n<table>\n";
     for row in CELLS.chunks(COLUMNS as usize) {

@@ -241,6 +241,23 @@ mod tests {
     }
 
     #[test]
+    fn the_cell_of_a_sheet_that_should_fail_is_named() {
+        let (_root, folders) = folders();
+        let mut case = case("sheet");
+        case.cells = vec![
+            sheet::tests::cell("a=1", None),
+            sheet::tests::cell("a=2", None),
+        ];
+        let mut picture = Picture::blank(8 * sheet::CELL, sheet::CELL);
+        picture.save(&folders.golden_picture(&case)).unwrap();
+        picture.pixels[sheet::CELL as usize] = [0, 0, 0, 257];
+        let draw = |_: &Case, path: &Path| picture.save(path);
+        let verdicts = folders.judge(&[case], draw).unwrap();
+        let sentence = verdicts[0].sentence();
+        assert!(sentence.starts_with("DIFFERS: 1 pixels") && sentence.ends_with(", in a=2"));
+    }
+
+    #[test]
     fn blessing_makes_new_and_different_pictures_golden() {
         let (_root, folders) = folders();
         let cases = [case("new"), case("other"), case("same"), case("undrawn")];
