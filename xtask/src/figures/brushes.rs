@@ -65,6 +65,30 @@ pub const FIGURES: &[Figure] = &[
                 ],
             ),
             Shot::new("semicircle", RED, &["--size=480x420", "--camera=-25,2,3"]),
+            // In one colour, to be measured, whatever the look's are.
+            Shot::new(
+                "",
+                RED,
+                &[
+                    "--size=480x420",
+                    "--camera=-25,2,3",
+                    "--only=hair.base",
+                    "--set=clump.color=1C6FB0",
+                    "--set=clump.shading=pure",
+                    "--set=path.brush=circle",
+                ],
+            ),
+            Shot::new(
+                "",
+                RED,
+                &[
+                    "--size=480x420",
+                    "--camera=-25,2,3",
+                    "--only=hair.base",
+                    "--set=clump.color=1C6FB0",
+                    "--set=clump.shading=pure",
+                ],
+            ),
         ],
         measure: cuts,
     },
@@ -92,13 +116,7 @@ fn ends_flat(pictures: &[Picture]) -> Outcome<Finding> {
 }
 
 fn cuts(pictures: &[Picture]) -> Outcome<Finding> {
-    let hair = |picture: &Picture| {
-        [0xC8_453A, 0x8E_2B33, 0x43_1419]
-            .iter()
-            .map(|hex| count(picture, rgb(*hex)))
-            .sum::<usize>()
-    };
-    let [round, flat] = [0, 1].map(|i| hair(&pictures[i]));
+    let [round, flat] = [2, 3].map(|i| count(&pictures[i], rgb(0x1C_6FB0)));
     claim(
         flat > 1000 && flat < round,
         format!(
