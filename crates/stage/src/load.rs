@@ -77,6 +77,8 @@ fn is_inside_out(mesh: &Mesh) -> bool {
 /// Hair that was read or grown.
 pub(crate) struct Hair {
     pub file: HairFile,
+    /// How many strands, the first ones, are an undercoat: no hair comes loose from it.
+    pub undercoat: usize,
     /// How many points from its root each strand keeps on the head.
     pub held: Vec<u32>,
     /// The ties that gather it.
@@ -89,6 +91,8 @@ impl Hair {
     /// Keeps these strands, in this order.
     pub fn keep(&mut self, indices: &[usize]) {
         self.file.keep(indices);
+        let is_undercoat = |i: &&usize| **i < self.undercoat;
+        self.undercoat = indices.iter().filter(is_undercoat).count();
         self.held = indices.iter().map(|&i| self.held[i]).collect();
     }
 }
@@ -126,6 +130,7 @@ pub(crate) fn hair(
     let roots: Vec<Vec3> = hair.strands.roots().collect();
     Ok(Hair {
         held: vec![1; hair.strands.len()],
+        undercoat: 0,
         file: hair,
         ties: Vec::new(),
         head: head_of(HeadFrame::find(head, &roots)),
@@ -215,6 +220,7 @@ fn grow(path: &Path, head: Option<&Mesh>) -> Result<Hair, StageError> {
             notes,
         },
         held: grown.held,
+        undercoat: grown.undercoat,
         ties: grown.ties,
         head,
     })

@@ -261,8 +261,9 @@ impl Stage {
                 at_rest: self.hair.file.strands.strand(i),
                 size: info.size,
             };
-            let infos = self.strands[..self.strand_count].iter();
-            let strands: Vec<HairStrand> = infos.enumerate().map(of_strand).collect();
+            let infos = self.strands[..self.strand_count].iter().enumerate();
+            let above = infos.skip(self.hair.undercoat);
+            let strands: Vec<HairStrand> = above.map(of_strand).collect();
             let hair = effects::Hair {
                 strands: &strands,
                 head_center: head.center,
@@ -273,7 +274,7 @@ impl Stage {
             layer.program.make_paths(&hair, seed, &mut self.made);
             let start = self.paths.len();
             for (strand, number, points) in self.made.iter() {
-                let parent = self.strands[strand];
+                let parent = self.strands[self.hair.undercoat + strand];
                 let index = self.strands.len();
                 self.strands.push(StrandInfo {
                     id: made_id(parent.id, number),
