@@ -94,6 +94,10 @@ fn builtins_that_differ_between_processors_are_refused_with_what_to_use() {
         &with_radius("vec3<f32>(joint.u).zz.x"),
         &["src/mine.wgsl:3:", "swizzle"],
     );
+    assert_error(
+        &with_radius("select(vec3<f32>(0.0), vec3<f32>(1.0), joint.u > 0.5).x"),
+        &["src/mine.wgsl:3:", "vec3<bool>(condition)"],
+    );
 }
 
 #[test]
