@@ -88,9 +88,9 @@ fn default_is_allowed(kind: &ParamKind) -> Result<(), String> {
         ParamKind::Choice { names, default } if default >= names.len() => {
             Err(format!("its default is choice {default} of {names:?}"))
         }
-        ParamKind::Choice { names, .. } if !names.iter().all(|name| is_name(name)) => {
-            Err(format!("its choices {names:?} are not names as parameters have"))
-        }
+        ParamKind::Choice { names, .. } if !names.iter().all(|name| is_name(name)) => Err(format!(
+            "its choices {names:?} are not names as parameters have"
+        )),
         ParamKind::Color { default: hex } | ParamKind::OptionalColor { default: Some(hex) }
             if parse_hex(hex).is_none() =>
         {

@@ -84,30 +84,170 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
     let across_the_view = vec3([to_eye.z, 0.0, -to_eye.x]);
     vec![
         ("an ordinary joint", good),
-        ("a clump of no size", Joint { clump_radius: 0.0, ..good }),
-        ("a tiny clump", Joint { clump_radius: 1e-30, ..good }),
-        ("a huge clump", Joint { clump_radius: 1e6, ..good }),
-        ("a root", Joint { u: 0.0, arc_length: 0.0, ..good }),
+        (
+            "a clump of no size",
+            Joint {
+                clump_radius: 0.0,
+                ..good
+            },
+        ),
+        (
+            "a tiny clump",
+            Joint {
+                clump_radius: 1e-30,
+                ..good
+            },
+        ),
+        (
+            "a huge clump",
+            Joint {
+                clump_radius: 1e6,
+                ..good
+            },
+        ),
+        (
+            "a root",
+            Joint {
+                u: 0.0,
+                arc_length: 0.0,
+                ..good
+            },
+        ),
         ("a tip", Joint { u: 1.0, ..good }),
-        ("a strand of no length", Joint { u: 0.0, arc_length: 0.0, forward: up, backward: up, ..good }),
-        ("a strand 1000 km long", Joint { arc_length: 1e6, ..good }),
-        ("a joint 1000 km away", Joint { position: vec3([1e6, -1e6, 1e6]), ..good }),
-        ("a grazing normal", Joint { normal: across_the_view, ..good }),
-        ("a normal that points at the eye", Joint { normal: to_eye, ..good }),
-        ("a normal that points away from the eye", Joint { normal: -to_eye, ..good }),
-        ("a normal along the strand", Joint { normal: good.forward, ..good }),
-        ("a strand that points at the eye", Joint { forward: to_eye, backward: -to_eye, ..good }),
-        ("a strand that turns back", Joint { backward: good.forward, ..good }),
-        ("light at the eye", Joint { light_direction: to_eye, ..good }),
-        ("light from behind the hair", Joint { light_direction: -to_eye, gray: 0.0, ..good }),
-        ("light along the normal", Joint { light_direction: good.normal, gray: 1.0, ..good }),
-        ("light against the normal", Joint { light_direction: -good.normal, gray: 0.0, ..good }),
-        ("light inside the hair", Joint { light_distance: 0.0, ..good }),
-        ("light without a place", Joint { light_distance: 1e6, ..good }),
-        ("black hair", Joint { clump_color: vec3([0.0; 3]), ..good }),
-        ("hair that glows", Joint { clump_color: vec3([100.0; 3]), ..good }),
+        (
+            "a strand of no length",
+            Joint {
+                u: 0.0,
+                arc_length: 0.0,
+                forward: up,
+                backward: up,
+                ..good
+            },
+        ),
+        (
+            "a strand 1000 km long",
+            Joint {
+                arc_length: 1e6,
+                ..good
+            },
+        ),
+        (
+            "a joint 1000 km away",
+            Joint {
+                position: vec3([1e6, -1e6, 1e6]),
+                ..good
+            },
+        ),
+        (
+            "a grazing normal",
+            Joint {
+                normal: across_the_view,
+                ..good
+            },
+        ),
+        (
+            "a normal that points at the eye",
+            Joint {
+                normal: to_eye,
+                ..good
+            },
+        ),
+        (
+            "a normal that points away from the eye",
+            Joint {
+                normal: -to_eye,
+                ..good
+            },
+        ),
+        (
+            "a normal along the strand",
+            Joint {
+                normal: good.forward,
+                ..good
+            },
+        ),
+        (
+            "a strand that points at the eye",
+            Joint {
+                forward: to_eye,
+                backward: -to_eye,
+                ..good
+            },
+        ),
+        (
+            "a strand that turns back",
+            Joint {
+                backward: good.forward,
+                ..good
+            },
+        ),
+        (
+            "light at the eye",
+            Joint {
+                light_direction: to_eye,
+                ..good
+            },
+        ),
+        (
+            "light from behind the hair",
+            Joint {
+                light_direction: -to_eye,
+                gray: 0.0,
+                ..good
+            },
+        ),
+        (
+            "light along the normal",
+            Joint {
+                light_direction: good.normal,
+                gray: 1.0,
+                ..good
+            },
+        ),
+        (
+            "light against the normal",
+            Joint {
+                light_direction: -good.normal,
+                gray: 0.0,
+                ..good
+            },
+        ),
+        (
+            "light inside the hair",
+            Joint {
+                light_distance: 0.0,
+                ..good
+            },
+        ),
+        (
+            "light without a place",
+            Joint {
+                light_distance: 1e6,
+                ..good
+            },
+        ),
+        (
+            "black hair",
+            Joint {
+                clump_color: vec3([0.0; 3]),
+                ..good
+            },
+        ),
+        (
+            "hair that glows",
+            Joint {
+                clump_color: vec3([100.0; 3]),
+                ..good
+            },
+        ),
         ("a picture of a speck of hair", Joint { unit: 1e4, ..good }),
         ("a picture of a hair's width", Joint { unit: 1e-4, ..good }),
-        ("the last strand there can be", Joint { strand: u32::MAX, ..good }),
+        (
+            "the last strand there can be",
+            Joint {
+                strand: u32::MAX,
+                ..good
+            },
+        ),
     ]
 }

@@ -28,7 +28,9 @@ pub(crate) fn made(program: &dyn LayerProgram, rest: &[Vec<Vec3>], now: &[Vec<Ve
     let mut paths = MadePaths::default();
     program.make_paths(&hair, 1, &mut paths);
     let points = paths.iter();
-    points.map(|(strand, number, points)| (strand, number, points.to_vec())).collect()
+    points
+        .map(|(strand, number, points)| (strand, number, points.to_vec()))
+        .collect()
 }
 
 pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
@@ -41,7 +43,10 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
             let at = || format!("{}, of {what}", case.name);
             for (strand, number, points) in made(&*program, &strands, &strands) {
                 if strand >= strands.len() {
-                    return Err(format!("{}: a path of strand {strand}, which is not there", at()));
+                    return Err(format!(
+                        "{}: a path of strand {strand}, which is not there",
+                        at()
+                    ));
                 }
                 if let Some(point) = points.iter().find(|point| !point.is_finite()) {
                     return Err(format!("{}: path {number} goes through {point}", at()));
@@ -85,8 +90,17 @@ fn hostile_hair() -> Vec<(&'static str, Vec<Vec<Vec3>>)> {
         ("ordinary hair", strands()),
         ("no hair", Vec::new()),
         ("a single strand", strands()[..1].to_vec()),
-        ("strands of one particle", vec![vec![Vec3::Y], vec![Vec3::X]]),
+        (
+            "strands of one particle",
+            vec![vec![Vec3::Y], vec![Vec3::X]],
+        ),
         ("strands of no length", vec![vec![Vec3::ZERO; 8]; 3]),
-        ("hair of 1000 km", vec![vec![Vec3::ZERO, Vec3::splat(1e6)], vec![Vec3::X, Vec3::splat(-1e6)]]),
+        (
+            "hair of 1000 km",
+            vec![
+                vec![Vec3::ZERO, Vec3::splat(1e6)],
+                vec![Vec3::X, Vec3::splat(-1e6)],
+            ],
+        ),
     ]
 }

@@ -17,8 +17,14 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
             Some(i) => Err(format!("{how}: joint {i} has another stroke {instance}")),
         };
         same(&evaluate(&*program, &joints, instance), "evaluated again")?;
-        same(&in_chunks(&*program, &joints, instance), "evaluated in pieces")?;
-        same(&on_threads(&*program, &joints, instance), "evaluated on threads")?;
+        same(
+            &in_chunks(&*program, &joints, instance),
+            "evaluated in pieces",
+        )?;
+        same(
+            &on_threads(&*program, &joints, instance),
+            "evaluated on threads",
+        )?;
 
         let reversed: Vec<Joint> = joints.iter().rev().copied().collect();
         let mut strokes = evaluate(&*program, &reversed, instance);
@@ -61,7 +67,8 @@ fn on_threads(program: &dyn LayerProgram, joints: &[Joint], instance: u32) -> Ve
     std::thread::scope(|scope| {
         let threads: Vec<_> = (0..4)
             .map(|number| {
-                let range = (number * part).min(joints.len())..((number + 1) * part).min(joints.len());
+                let range =
+                    (number * part).min(joints.len())..((number + 1) * part).min(joints.len());
                 scope.spawn(move || {
                     let mut strokes = Vec::new();
                     program.evaluate(lists, range, instance, 1, &mut strokes);

@@ -1,8 +1,8 @@
 //! Strokes are finite, of no negative radius, there and not there where they should be.
 
+use crate::hair;
 use crate::joint::{Joint, list};
 use crate::values::{Case, defaults, extremes, some_instances};
-use crate::{hair, values};
 use effects::wgsl::Stroke;
 use effects::{AnyEffect, LayerProgram};
 
@@ -30,7 +30,12 @@ pub(crate) fn on_any_joint(effect: &dyn AnyEffect) -> Result<(), String> {
 pub(crate) fn with_any_parameters(effect: &dyn AnyEffect) -> Result<(), String> {
     let mut joints = hair::hostile_joints();
     let ordinary = hair::joints();
-    joints.extend(ordinary.iter().step_by(7).map(|joint| ("an ordinary joint", *joint)));
+    joints.extend(
+        ordinary
+            .iter()
+            .step_by(7)
+            .map(|joint| ("an ordinary joint", *joint)),
+    );
     for case in extremes(effect) {
         look_at(effect, &case, &joints)?;
     }
@@ -58,11 +63,18 @@ fn look_at(
     for instance in some_instances(count) {
         let strokes = evaluate(&*program, &only_joints, instance);
         if strokes.len() != joints.len() {
-            return Err(format!("{} joints give {} strokes", joints.len(), strokes.len()));
+            return Err(format!(
+                "{} joints give {} strokes",
+                joints.len(),
+                strokes.len()
+            ));
         }
         for (stroke, (name, _)) in strokes.iter().zip(joints) {
             if let Some(fault) = fault(stroke) {
-                return Err(format!("{}, on {name}: stroke {instance}'s {fault}", case.name));
+                return Err(format!(
+                    "{}, on {name}: stroke {instance}'s {fault}",
+                    case.name
+                ));
             }
         }
         // A path of one joint, which has neither a joint before nor one after.
@@ -91,7 +103,8 @@ fn fault(stroke: &Stroke) -> Option<String> {
     if let Some((name, value)) = endless {
         return Some(format!("{name} is {value}"));
     }
-    let negative = |(name, value): &&(&str, f32)| *value < 0.0 && (*name == "radius" || is_color(name));
+    let negative =
+        |(name, value): &&(&str, f32)| *value < 0.0 && (*name == "radius" || is_color(name));
     let (name, value) = numbers.iter().find(negative)?;
     Some(format!("{name} is {value}: `max(.., 0.0)` is needed"))
 }
@@ -101,7 +114,7 @@ fn is_color(name: &str) -> bool {
 }
 
 pub(crate) fn something(effect: &dyn AnyEffect) -> Result<(), String> {
-    let program = effect.program(&values::defaults(effect).values);
+    let program = effect.program(&defaults(effect).values);
     let joints = hair::joints();
     let draws = |instance| {
         let strokes = evaluate(&*program, &joints, instance);
@@ -114,7 +127,7 @@ pub(crate) fn something(effect: &dyn AnyEffect) -> Result<(), String> {
 }
 
 pub(crate) fn nothing(effect: &dyn AnyEffect) -> Result<(), String> {
-    let program = effect.program(&values::defaults(effect).values);
+    let program = effect.program(&defaults(effect).values);
     let joints = hair::joints();
     for instance in 0..program.instances() {
         let strokes = evaluate(&*program, &joints, instance);
@@ -130,7 +143,10 @@ pub(crate) fn nothing(effect: &dyn AnyEffect) -> Result<(), String> {
         if !effect.inputs().contains(&"clump_radius") {
             continue;
         }
-        let bare = joints.iter().map(|joint| Joint { clump_radius: 0.0, ..*joint });
+        let bare = joints.iter().map(|joint| Joint {
+            clump_radius: 0.0,
+            ..*joint
+        });
         let strokes = evaluate(&*program, &bare.collect::<Vec<_>>(), instance);
         if let Some(stroke) = strokes.iter().find(|stroke| stroke.radius > 0.0) {
             return Err(format!(

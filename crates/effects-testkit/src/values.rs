@@ -31,7 +31,13 @@ pub(crate) fn extremes(effect: &dyn AnyEffect) -> Vec<Case> {
     }
     let mut varied = Values::defaults(table);
     for (index, param) in table.iter().enumerate() {
-        if let ParamKind::Number { min, max, varies: true, .. } = param.kind {
+        if let ParamKind::Number {
+            min,
+            max,
+            varies: true,
+            ..
+        } = param.kind
+        {
             let curve = vec![(0.0, min), (0.5, max), (0.5, min), (1.0, max)];
             varied.set(index, Value::Varying(Variation { curve, vary: 1.0 }));
         }

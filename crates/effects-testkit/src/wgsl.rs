@@ -36,7 +36,11 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
         for instance in some_instances(program.instances()) {
             let strokes = evaluate(&*program, &joints, instance);
             for (joint, rust) in joints.iter().zip(&strokes) {
-                let arguments = [inputs(&module, joint)?, Value::U32(instance), params.clone()];
+                let arguments = [
+                    inputs(&module, joint)?,
+                    Value::U32(instance),
+                    params.clone(),
+                ];
                 let wgsl = interpreter.call("stroke", &arguments)?;
                 if let Some(difference) = difference(rust, &wgsl) {
                     return Err(format!(
@@ -61,7 +65,9 @@ fn is_varied(values: &Values) -> bool {
 fn inputs(module: &naga::Module, joint: &Joint) -> Result<Value, String> {
     structure(module, "Inputs", |name| {
         let input = joint.input(name, SEED);
-        input.map(Value::from).ok_or_else(|| format!("there is no input `{name}`"))
+        input
+            .map(Value::from)
+            .ok_or_else(|| format!("there is no input `{name}`"))
     })
 }
 
@@ -91,12 +97,17 @@ fn is_four(module: &naga::Module, name: &str) -> bool {
     let members = members(module, "Params");
     let member = members.iter().find(|m| m.name.as_deref() == Some(name));
     let size = naga::VectorSize::Quad;
-    member.is_some_and(|m| matches!(module.types[m.ty].inner, TypeInner::Vector { size: s, .. } if s == size))
+    member.is_some_and(
+        |m| matches!(module.types[m.ty].inner, TypeInner::Vector { size: s, .. } if s == size),
+    )
 }
 
 fn members<'m>(module: &'m naga::Module, name: &str) -> &'m [naga::StructMember] {
     let mut types = module.types.iter().map(|(_, ty)| ty);
-    match types.find(|ty| ty.name.as_deref() == Some(name)).map(|ty| &ty.inner) {
+    match types
+        .find(|ty| ty.name.as_deref() == Some(name))
+        .map(|ty| &ty.inner)
+    {
         Some(TypeInner::Struct { members, .. }) => members,
         _ => &[],
     }
@@ -143,7 +154,8 @@ fn difference(rust: &Stroke, wgsl: &Value) -> Option<String> {
     let pairs = rust.into_iter().zip(numbers);
     pairs.into_iter().find_map(|((name, rust), wgsl)| {
         // Nothing is said of the order in which a sum is made.
-        let same = (rust - wgsl).abs() <= 1e-5 * (1.0 + wgsl.abs()) || rust.to_bits() == wgsl.to_bits();
+        let same =
+            (rust - wgsl).abs() <= 1e-5 * (1.0 + wgsl.abs()) || rust.to_bits() == wgsl.to_bits();
         let both_nan = rust.is_nan() && wgsl.is_nan();
         (!same && !both_nan).then(|| format!("{name} is {rust} in Rust and {wgsl} in WGSL"))
     })

@@ -11,7 +11,8 @@ pub struct Backlight;
 impl effects::StrokeEffect for Backlight {
     type Program = Program;
     const ID: &'static str = "example.backlight";
-    const DOC: &'static str = "light from behind: bright strokes where hair is seen at a grazing angle";
+    const DOC: &'static str =
+        "light from behind: bright strokes where hair is seen at a grazing angle";
     /// Above the highlight, which it outshines.
     const RANK: i32 = 220;
 

@@ -7,7 +7,14 @@ use std::process::{Command, Output};
 fn backlight(arguments: &[&str]) -> Output {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     Command::new(env!("CARGO"))
-        .args(["run", "--quiet", "--offline", "--example", "backlight", "--"])
+        .args([
+            "run",
+            "--quiet",
+            "--offline",
+            "--example",
+            "backlight",
+            "--",
+        ])
         .args(arguments)
         .current_dir(folder)
         .output()
@@ -17,14 +24,21 @@ fn backlight(arguments: &[&str]) -> Output {
 #[test]
 fn the_preset_is_right() {
     let output = backlight(&["check", "contre-jour.ron"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }
 
 #[test]
 fn the_effect_is_listed_with_its_parameters() {
     let output = backlight(&["effects", "example.backlight"]);
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(text.contains("one_sided") && text.contains("grazing to 1 facing"), "{text}");
+    assert!(
+        text.contains("one_sided") && text.contains("grazing to 1 facing"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -33,9 +47,22 @@ fn it_changes_the_picture() {
     let draw = |name: &str, set: &[&str]| {
         let path = folder.path().join(name);
         let picture = path.to_str().unwrap();
-        let base = ["render", "contre-jour.ron", "--size", "120x90", "--samples", "4", "-o", picture];
+        let base = [
+            "render",
+            "contre-jour.ron",
+            "--size",
+            "120x90",
+            "--samples",
+            "4",
+            "-o",
+            picture,
+        ];
         let output = backlight(&[&base, set].concat());
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
         std::fs::read(path).unwrap()
     };
     let with = draw("with.png", &[]);

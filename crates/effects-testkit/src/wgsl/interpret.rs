@@ -43,7 +43,8 @@ impl<'m> Interpreter<'m> {
         let function = functions
             .find(|function| function.name.as_deref() == Some(name))
             .ok_or_else(|| format!("WGSL has no function `{name}`"))?;
-        self.run(function, arguments)?.ok_or_else(|| format!("`{name}` returns nothing"))
+        self.run(function, arguments)?
+            .ok_or_else(|| format!("`{name}` returns nothing"))
     }
 
     fn run(&self, function: &Function, arguments: &[Value]) -> Result<Option<Value>, String> {
@@ -77,9 +78,11 @@ impl<'m> Interpreter<'m> {
                 let members = members.iter().map(|member| self.zero(member.ty));
                 Ok(Value::List(members.collect::<Result<_, _>>()?))
             }
-            TypeInner::Array { base, size: naga::ArraySize::Constant(size), .. } => {
-                Ok(Value::List(vec![self.zero(*base)?; size.get() as usize]))
-            }
+            TypeInner::Array {
+                base,
+                size: naga::ArraySize::Constant(size),
+                ..
+            } => Ok(Value::List(vec![self.zero(*base)?; size.get() as usize])),
             other => Err(format!("{other:?} is not known here")),
         }
     }
@@ -134,12 +137,24 @@ impl Call<'_> {
                 }
             }
             Statement::Block(block) => return self.block(block),
-            Statement::If { condition, accept, reject } => {
-                let branch = if self.value(*condition)?.bool()? { accept } else { reject };
+            Statement::If {
+                condition,
+                accept,
+                reject,
+            } => {
+                let branch = if self.value(*condition)?.bool()? {
+                    accept
+                } else {
+                    reject
+                };
                 return self.block(branch);
             }
             Statement::Switch { selector, cases } => return self.switch(*selector, cases),
-            Statement::Loop { body, continuing, break_if } => {
+            Statement::Loop {
+                body,
+                continuing,
+                break_if,
+            } => {
                 return self.repeat(body, continuing, *break_if);
             }
             Statement::Break => return Ok(Flow::Break),
@@ -155,7 +170,11 @@ impl Call<'_> {
                 };
                 *self.variables[variable].part_mut(&way)? = value;
             }
-            Statement::Call { function, arguments, result } => {
+            Statement::Call {
+                function,
+                arguments,
+                result,
+            } => {
                 let arguments = arguments.iter().map(|argument| self.value(*argument));
                 let arguments: Vec<Value> = arguments.collect::<Result<_, _>>()?;
                 let function = &self.interpreter.module.functions[*function];
@@ -247,15 +266,19 @@ impl Call<'_> {
             Expression::Splat { size, value } => {
                 Ok(Value::List(vec![self.value(*value)?; *size as usize]))
             }
-            Expression::Swizzle { size, vector, pattern } => {
+            Expression::Swizzle {
+                size,
+                vector,
+                pattern,
+            } => {
                 let vector = self.value(*vector)?;
-                let parts = pattern[..*size as usize].iter().map(|c| vector.part(*c as usize));
+                let parts = pattern[..*size as usize]
+                    .iter()
+                    .map(|c| vector.part(*c as usize));
                 Ok(Value::List(parts.collect::<Result<_, _>>()?))
             }
             Expression::FunctionArgument(index) => Ok(self.arguments[*index as usize].clone()),
-            Expression::LocalVariable(variable) => {
-                Ok(Value::Pointer(variable.index(), Vec::new()))
-            }
+            Expression::LocalVariable(variable) => Ok(Value::Pointer(variable.index(), Vec::new())),
             Expression::Load { pointer } => {
                 let Value::Pointer(variable, way) = self.value(*pointer)? else {
                     return Err("a load from no variable".to_owned());
@@ -266,7 +289,11 @@ impl Call<'_> {
             Expression::Binary { op, left, right } => {
                 math::binary(*op, &self.value(*left)?, &self.value(*right)?)
             }
-            Expression::Select { condition, accept, reject } => {
+            Expression::Select {
+                condition,
+                accept,
+                reject,
+            } => {
                 let [accept, reject] = [self.value(*accept)?, self.value(*reject)?];
                 math::select(&self.value(*condition)?, &accept, &reject)
             }
@@ -274,14 +301,22 @@ impl Call<'_> {
                 let argument = self.value(*argument)?;
                 relational(*fun, &argument)
             }
-            Expression::Math { fun, arg, arg1, arg2, arg3 } => {
+            Expression::Math {
+                fun,
+                arg,
+                arg1,
+                arg2,
+                arg3,
+            } => {
                 let arguments = [Some(*arg), *arg1, *arg2, *arg3].into_iter().flatten();
                 let arguments: Result<Vec<_>, _> = arguments.map(|a| self.value(a)).collect();
                 math::call(*fun, &arguments?)
             }
-            Expression::As { expr, kind, convert: Some(_) } => {
-                math::convert(&self.value(*expr)?, *kind)
-            }
+            Expression::As {
+                expr,
+                kind,
+                convert: Some(_),
+            } => math::convert(&self.value(*expr)?, *kind),
             other => Err(format!("{other:?} is not known here")),
         }
     }
@@ -289,7 +324,10 @@ impl Call<'_> {
 
 fn relational(fun: RelationalFunction, argument: &Value) -> Result<Value, String> {
     let parts = match argument {
-        Value::List(parts) => parts.iter().map(Value::bool).collect::<Result<Vec<_>, _>>()?,
+        Value::List(parts) => parts
+            .iter()
+            .map(Value::bool)
+            .collect::<Result<Vec<_>, _>>()?,
         scalar => vec![scalar.bool()?],
     };
     match fun {

@@ -100,7 +100,11 @@ pub(crate) fn select(condition: &Value, accept: &Value, reject: &Value) -> Resul
     match condition {
         Bool(true) => Ok(accept.clone()),
         Bool(false) => Ok(reject.clone()),
-        _ => each([condition, accept, reject], &|[condition, accept, reject]| {
+        _ => each([condition, accept, reject], &|[
+            condition,
+            accept,
+            reject,
+        ]| {
             select(condition, accept, reject)
         }),
     }
@@ -152,7 +156,9 @@ pub(crate) fn call(fun: Fun, arguments: &[Value]) -> Result<Value, String> {
         },
         (_, [a]) => each([a], &|[a]| one(fun, a).ok_or_else(wrong)),
         (_, [a, b]) => each([a, b], &|[a, b]| two(fun, a, b).ok_or_else(wrong)),
-        (_, [a, b, c]) => each([a, b, c], &|[a, b, c]| three(fun, a, b, c).ok_or_else(wrong)),
+        (_, [a, b, c]) => each([a, b, c], &|[a, b, c]| {
+            three(fun, a, b, c).ok_or_else(wrong)
+        }),
         _ => Err(wrong()),
     }
 }
@@ -162,7 +168,9 @@ fn dot(a: &Value, b: &Value) -> Result<f32, String> {
         (List(_), List(_)) => {
             let pairs = a.numbers().into_iter().zip(b.numbers());
             let products = pairs.map(|(a, b)| a * b);
-            products.reduce(|sum, product| sum + product).ok_or_else(|| "a dot of nothing".to_owned())
+            products
+                .reduce(|sum, product| sum + product)
+                .ok_or_else(|| "a dot of nothing".to_owned())
         }
         _ => Err(format!("a dot of {a:?} and {b:?}")),
     }

@@ -91,5 +91,7 @@ pub(crate) fn each<const N: usize>(
         });
         each(parts, apply)
     };
-    Ok(Value::List((0..length).map(component).collect::<Result<_, _>>()?))
+    Ok(Value::List(
+        (0..length).map(component).collect::<Result<_, _>>()?,
+    ))
 }
