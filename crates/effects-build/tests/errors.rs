@@ -150,6 +150,11 @@ fn parameters_need_words_range_and_default() {
     for (text, message) in wrong {
         assert_error(&params(text), &["src/mine.wgsl:", message]);
     }
+    // At the parameter's own line.
+    assert_error(
+        &params("    /// W.\n    /// @range 0..1\n    width: f32,"),
+        &["src/mine.wgsl:8:5: Params.width: its comment needs"],
+    );
     assert_error(
         &params("/// W.\n/// @default 1\nw: vec2<f32>,"),
         &["an f32, a u32, a vec3<f32> (a colour) or a vec4<f32>"],
