@@ -425,7 +425,15 @@ fn threads_are_those_that_were_asked_for() {
     let most_threads = |threads: &str| {
         let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_inkstrand"))
             .current_dir(folder.path())
-            .args(["render", "small.ron", "--frames", "0-40", "--quiet", "--threads", threads])
+            .args([
+                "render",
+                "small.ron",
+                "--frames",
+                "0-40",
+                "--quiet",
+                "--threads",
+                threads,
+            ])
             .spawn()
             .unwrap();
         let tasks = format!("/proc/{}/task", program.id());

@@ -12,7 +12,10 @@ const OPTIMISED: &str = "profile.dev.package.\"*\".opt-level=2";
 const NOT_USED: &str = "profile.dev.package.hair-sim.opt-level=0";
 
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../..")
+        .canonicalize()
+        .unwrap()
 }
 
 /// A block of code, and the words before it.
@@ -110,7 +113,11 @@ impl Crate {
     #[track_caller]
     fn fail(&self, arguments: &[&str]) -> String {
         let output = self.cargo(arguments);
-        assert!(!output.status.success(), "{arguments:?} succeeds: {}", text(&output));
+        assert!(
+            !output.status.success(),
+            "{arguments:?} succeeds: {}",
+            text(&output)
+        );
         text(&output)
     }
 
@@ -154,12 +161,30 @@ fn the_tutorial_is_right() {
     // The picture has the dye in it, and without the layer it has not.
     let draw = |name: &str, more: &[&str]| {
         let size = ["--size", "160x120", "--samples", "4", "-o", name];
-        dip_dye.succeed(&[&["run", "--quiet", "--", "render", "look.ron"], &size[..], more].concat());
+        dip_dye.succeed(
+            &[
+                &["run", "--quiet", "--", "render", "look.ron"],
+                &size[..],
+                more,
+            ]
+            .concat(),
+        );
         count(&dip_dye.path(name), [0x3F, 0xC1, 0xC0])
     };
     let dyed = draw("dyed.png", &[]);
     assert!(dyed > 300, "{dyed} pixels of 19200 are dyed");
-    assert_eq!(draw("plain.png", &["--set", "tutorial.dip.start=1", "--set", "tutorial.dip.raggedness=0"]), 0);
+    assert_eq!(
+        draw(
+            "plain.png",
+            &[
+                "--set",
+                "tutorial.dip.start=1",
+                "--set",
+                "tutorial.dip.raggedness=0"
+            ]
+        ),
+        0
+    );
 
     // It is a good effect.
     dip_dye.succeed(&["test", "--quiet"]);
@@ -173,11 +198,20 @@ fn the_tutorial_is_right() {
     let [misspelt_input, misspelt_parameter] = told[..] else {
         panic!("{told:?}")
     };
-    assert_says(&dip_dye.fail_with("joint.clump_radius", "joint.clump_radus"), misspelt_input);
+    assert_says(
+        &dip_dye.fail_with("joint.clump_radius", "joint.clump_radus"),
+        misspelt_input,
+    );
     let unknown = dip_dye.fail_with("across, clump_radius", "acros, clump_radius");
-    assert_says(&unknown, "src/dip.wgsl:1:16: there is no input `acros`; there are: position,");
+    assert_says(
+        &unknown,
+        "src/dip.wgsl:1:16: there is no input `acros`; there are: position,",
+    );
     let undeclared = dip_dye.fail_with("u, across, clump", "u, clump");
-    assert_says(&undeclared, "src/dip.wgsl:20:54: error: invalid field accessor `across`");
+    assert_says(
+        &undeclared,
+        "src/dip.wgsl:20:54: error: invalid field accessor `across`",
+    );
     let broken = dip_dye.fail_with("let share = ", "let share  ");
     assert_says(&broken, "src/dip.wgsl:18:16: error: expected");
     let wrong_type = dip_dye.fail_with("begin + 0.1, joint.u", "begin + 0.1, joint.seed");
@@ -189,7 +223,10 @@ fn the_tutorial_is_right() {
     assert_says(&select, "src/dip.wgsl:20:");
     assert_says(&select, "vec3<bool>(condition)");
     let no_default = dip_dye.fail_with(" @default 0.55", "");
-    assert_says(&no_default, "src/dip.wgsl:6:5: Params.start: its comment needs `@default VALUE`");
+    assert_says(
+        &no_default,
+        "src/dip.wgsl:6:5: Params.start: its comment needs `@default VALUE`",
+    );
 
     // And those in the preset in the preset.
     dip_dye.change("look.ron", |text| text.replace("start:", "strat:"));
@@ -202,8 +239,14 @@ fn the_effect_has_thirty_lines() {
     let markdown = fs::read_to_string(root().join(TUTORIAL)).unwrap();
     let lines = |file: &str| {
         let blocks = blocks(&markdown);
-        let block = blocks.iter().find(|block| block.file() == Some(file)).unwrap();
-        let of_effect = block.text.lines().take_while(|line| !line.starts_with("fn main"));
+        let block = blocks
+            .iter()
+            .find(|block| block.file() == Some(file))
+            .unwrap();
+        let of_effect = block
+            .text
+            .lines()
+            .take_while(|line| !line.starts_with("fn main"));
         of_effect.filter(|line| !line.is_empty()).count()
     };
     let all = lines("src/dip.wgsl") + lines("src/main.rs");

@@ -117,7 +117,7 @@ impl Rasterizer {
             instructions,
             workers,
         } = self;
-        let draw = || {
+        let mut draw = || {
             check::check(drawing)?;
             let mut picture = empty_picture(drawing.size)?;
             let strokes = segment::strokes_in_order(drawing);

@@ -3,22 +3,16 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// Runs the program in the crate's folder.
+/// Runs the program, which `cargo test` has built beside this test, in the crate's folder.
 fn backlight(arguments: &[&str]) -> Output {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    Command::new(env!("CARGO"))
-        .args([
-            "run",
-            "--quiet",
-            "--offline",
-            "--example",
-            "backlight",
-            "--",
-        ])
+    let test = std::env::current_exe().unwrap();
+    let built = test.parent().and_then(Path::parent).unwrap();
+    let program = built.join("examples/backlight");
+    Command::new(&program)
         .args(arguments)
-        .current_dir(folder)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
-        .unwrap()
+        .unwrap_or_else(|error| panic!("{}: {error}; run all of `cargo test`", program.display()))
 }
 
 #[test]

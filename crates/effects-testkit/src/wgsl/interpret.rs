@@ -356,3 +356,100 @@ fn literal_value(literal: Literal) -> Result<Value, String> {
         other => Err(format!("{other:?} is not known here")),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What `fn f(x: u32, v: vec3<f32>) -> T` of this body returns for 5 and (1, -2, 4).
+    #[track_caller]
+    fn assert_returns(ty: &str, body: &str, expected: Value) {
+        let text = format!(
+            "struct S {{ a: f32, v: vec3<f32>, }}\nconst K = array<f32, 3>(7.0, 8.0, 9.0);\n\
+             fn twice(x: f32) -> f32 {{ return 2.0 * x; }}\n\
+             fn f(x: u32, v: vec3<f32>) -> {ty} {{ {body} }}"
+        );
+        let module = naga::front::wgsl::parse_str(&text).unwrap();
+        let arguments = [Value::U32(5), Value::list([1.0, -2.0, 4.0])];
+        let returned = Interpreter::new(&module).call("f", &arguments);
+        assert_eq!(returned, Ok(expected), "{body}");
+    }
+
+    #[test]
+    fn expressions() {
+        assert_returns("f32", "return 2.0 * v.z - v.y / 4.0;", Value::F32(8.5));
+        assert_returns("u32", "return (x << 30u) ^ 7u;", Value::U32(0x4000_0007));
+        assert_returns("u32", "return x * 0xffffffffu % 7u;", Value::U32(6));
+        assert_returns("i32", "return -i32(x) / 2i;", Value::I32(-2));
+        assert_returns("vec3<f32>", "return v.zxy;", Value::list([4.0, 1.0, -2.0]));
+        assert_returns(
+            "vec2<f32>",
+            "return abs(v).xy + 1.0;",
+            Value::list([2.0, 3.0]),
+        );
+        assert_returns("f32", "return dot(v, v.yzx);", Value::F32(-6.0));
+        assert_returns(
+            "vec3<f32>",
+            "return cross(v, v.yzx);",
+            Value::list([-18.0, -9.0, 0.0]),
+        );
+        assert_returns(
+            "f32",
+            "return length(vec2<f32>(3.0, v.z));",
+            Value::F32(5.0),
+        );
+        assert_returns(
+            "f32",
+            "return smoothstep(0.0, 8.0, v.z - 2.0);",
+            Value::F32(0.15625),
+        );
+        assert_returns("f32", "return mix(1.0, 5.0, 1.0 / v.z);", Value::F32(2.0));
+        assert_returns(
+            "bool",
+            "return all(v > vec3<f32>(0.0));",
+            Value::Bool(false),
+        );
+        assert_returns(
+            "vec3<f32>",
+            "return select(v, vec3<f32>(0.0), v < vec3<f32>(0.0));",
+            Value::list([1.0, 0.0, 4.0]),
+        );
+        assert_returns("f32", "return K[x - 3u];", Value::F32(9.0));
+    }
+
+    #[test]
+    fn statements() {
+        assert_returns(
+            "f32",
+            "var s: S; s.v = v; s.v.y = twice(3.0); return s.v.y + s.a;",
+            Value::F32(6.0),
+        );
+        assert_returns(
+            "u32",
+            "var sum: u32; for (var i = 0u; i < 99u; i++) { if (i == 1u) { continue; } \
+             if (i > x) { break; } sum += i; } return sum;",
+            Value::U32(14),
+        );
+        assert_returns(
+            "f32",
+            "switch x { case 1u, 5u: { return 1.0; } default: { return 2.0; } }",
+            Value::F32(1.0),
+        );
+        assert_returns(
+            "u32",
+            "var i = x; loop { i -= 1u; continuing { break if i < 3u; } } return i;",
+            Value::U32(2),
+        );
+    }
+
+    #[test]
+    fn what_is_not_known_and_what_never_ends_is_told() {
+        let run = |body: &str| {
+            let module =
+                naga::front::wgsl::parse_str(&format!("fn f() -> f32 {{ {body} }}")).unwrap();
+            Interpreter::new(&module).call("f", &[]).unwrap_err()
+        };
+        assert!(run("var x = 1.0; return atan2(x, x);").contains("Atan2"));
+        assert!(run("var i = 0u; while (i < 2u) { i = 0u; } return 1.0;").contains("rounds"));
+    }
+}
