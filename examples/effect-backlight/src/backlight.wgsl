@@ -65,7 +65,10 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let edge = max(params.edge + shift, 0.0);
     let lit = smoothstep(-0.5, 0.5, dot(joint.light_direction, normal));
     let rim = feather_share(facing, full, edge) * mix(1.0, lit, params.one_sided);
-    let share = without_hairlines(rim, basic, 0.5 * params.thinnest * joint.unit);
+    // Tips too thin for their strokes catch no light: it would glitter.
+    let thinnest = 0.5 * params.thinnest * joint.unit;
+    let wide = saturate((basic - thinnest) / max(thinnest, 0.001));
+    let share = without_hairlines(rim * wide, basic, thinnest);
 
     let light = mix(params.inner_color, params.color, rim);
     let offset = place * joint.clump_radius * joint.across;

@@ -60,6 +60,6 @@ fn it_changes_the_picture() {
         std::fs::read(path).unwrap()
     };
     let with = draw("with.png", &[]);
-    let without = draw("without.png", &["--set", "example.backlight.fullness=0"]);
+    let without = draw("without.png", &["--set", "rim.fullness=0"]);
     assert_ne!(with, without);
 }
