@@ -240,7 +240,7 @@ fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
         text: PRELUDE.to_owned(),
         inputs: Vec::new(),
     };
-    let module = check::parse(&source)?;
+    let (module, _) = check::parse(&source)?;
     let Some(comments) = &module.doc_comments else {
         return Ok(Vec::new());
     };

@@ -9,7 +9,8 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Turns frames into drawings, and keeps its lists from frame to frame.
+/// Turns frames into drawings, on the threads of the rayon pool that it is called in. Keeps its lists
+/// from frame to frame.
 #[derive(Default)]
 pub struct Evaluator {
     joints: Joints,
