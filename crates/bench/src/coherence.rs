@@ -23,7 +23,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Every order of strokes, with its name in presets. One more is one more line.
-pub const ORDERS: [(&str, Order); 2] = [
+pub const ORDERS: [(&str, Order); 3] = [
+    ("rounded", Order::Rounded),
     ("strand_first", Order::StrandFirst),
     ("shifted", Order::Shifted),
 ];
@@ -67,6 +68,8 @@ pub struct SceneFigures {
     pub name: String,
     /// What it is for.
     pub kind: Kind,
+    /// How far strands move.
+    pub motion: search::Motion,
     /// Parallel to [`ORDERS`].
     pub orders: Vec<Figures>,
 }
@@ -102,16 +105,23 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     let mut pictures = Vec::new();
     for scene in &mut scenes {
         progress.set_message(scene.name.clone());
-        let of_look = match of_looks.iter().find(|(name, _)| Some(name) == scene.look_name()) {
+        let of_look = match of_looks
+            .iter()
+            .find(|(name, _)| Some(name) == scene.look_name())
+        {
             Some((_, of_look)) => of_look.clone(),
             None => {
                 let of_look = OfLook::measure(scene, options)?;
-                of_looks.extend(scene.look_name().map(|name| (name.clone(), of_look.clone())));
+                of_looks.extend(
+                    scene
+                        .look_name()
+                        .map(|name| (name.clone(), of_look.clone())),
+                );
                 of_look
             }
         };
         let effort = effort(options.quick);
-        let found = search::measure(scene, &mut painters, effort, || progress.inc(1))?;
+        let (found, motion) = search::measure(scene, &mut painters, effort, || progress.inc(1))?;
         let warps = warp::measure(scene, options.threads)?;
         for ((name, _), continuity) in ORDERS.iter().zip(&found) {
             if let Some(worst) = &continuity.worst {
@@ -125,6 +135,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
         figures.push(SceneFigures {
             name: scene.name.clone(),
             kind: scene.kind,
+            motion,
             orders: orders
                 .map(|(i, (continuity, warp))| Figures {
                     continuity,
@@ -299,20 +310,26 @@ pub fn summary(scenes: &[SceneFigures]) -> String {
     text
 }
 
-/// Where in each scene most changes: for whoever wants to look at it.
+/// How far strands move in each scene, and where most changes: for whoever wants to look at it.
 #[must_use]
 pub fn places(scenes: &[SceneFigures]) -> String {
     let mut text = String::new();
     for scene in scenes {
+        let [long, short] = scene.motion.0;
+        let _ = writeln!(
+            text,
+            "{}: strands move up to {long:.3} px in 1/384 s, {:.3} times as far as in half the time",
+            scene.name,
+            long / short,
+        );
         for ((order, _), figures) in ORDERS.iter().zip(&scene.orders) {
             let of = &figures.continuity;
             let Some(worst) = &of.worst else { continue };
             let [x, y] = worst.corner;
             let _ = writeln!(
                 text,
-                "{} {order}: {:.4} in 1/768 s from {:.4} s (tick {}) in the tile at {x}, {y}; {} intervals of 1/384 s \
+                "  {order}: {:.4} in 1/768 s from {:.4} s (tick {}) in the tile at {x}, {y}; {} intervals of 1/384 s \
                  searched, {} tiles drawn with 256 samples",
-                scene.name,
                 worst.change,
                 seconds(worst.tick),
                 worst.tick,

@@ -37,7 +37,12 @@ struct CoherenceOptions {
     #[command(flatten)]
     common: Options,
     /// Scenes whose names hold TEXT alone, such as twin-tails-orbit
-    #[arg(long, value_name = "TEXT", default_value = "", hide_default_value = true)]
+    #[arg(
+        long,
+        value_name = "TEXT",
+        default_value = "",
+        hide_default_value = true
+    )]
     only: String,
 }
 
@@ -225,6 +230,17 @@ mod tests {
             panic!("another suite");
         };
         assert!(options.peers && options.common.threads == Some(2));
+        let line = [
+            "bench",
+            "coherence",
+            "--quick",
+            "--only",
+            "twin-tails-orbit",
+        ];
+        let Suite::Coherence(options) = Arguments::try_parse_from(line).unwrap().suite else {
+            panic!("another suite");
+        };
+        assert!(options.common.quick && options.only == "twin-tails-orbit");
         // What is stored is measured with care.
         let line = ["bench", "dynamics", "--quick", "--store"];
         assert!(Arguments::try_parse_from(line).is_err());

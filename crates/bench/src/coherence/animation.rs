@@ -71,20 +71,20 @@ impl Motion {
         }
     }
 
-    /// When it is looked at: stretches of time, a second in all, or a quarter of one.
+    /// When it is looked at: stretches of time, a second in all, or an eighth of one.
     #[must_use]
     pub fn windows(self, quick: bool) -> Vec<Range<Tick>> {
         match self {
             // From six sides.
             Self::Orbit => {
-                let length = TICKS / if quick { 24 } else { 6 };
+                let length = TICKS / if quick { 48 } else { 6 };
                 let starts = (0..6).map(|sixth| sixth * 2 * TICKS);
                 starts.map(|start| start..start + length).collect()
             }
             // Shakes begin after two seconds; then also the wind freshens.
             Self::Shake | Self::Wind => {
                 let start = 2 * TICKS + TICKS / 2;
-                let length = if quick { TICKS / 4 } else { TICKS };
+                let length = TICKS / if quick { 8 } else { 1 };
                 vec![start..start + length]
             }
         }
@@ -256,7 +256,7 @@ pub fn scenes(
 ) -> Result<Vec<Scene>, String> {
     let mut scenes = Vec::new();
     let wanted = |name: &str| name.contains(only);
-    let second = vec![0..if quick { TICKS / 4 } else { TICKS }];
+    let second = vec![0..TICKS / if quick { 8 } else { 1 }];
     for (name, kind, open) in Strands::ALL {
         if wanted(name) {
             scenes.push(Scene {
@@ -268,7 +268,10 @@ pub fn scenes(
             });
         }
     }
-    for look in looks(root)?.into_iter().chain(data.map(|data| sintel(root, data))) {
+    for look in looks(root)?
+        .into_iter()
+        .chain(data.map(|data| sintel(root, data)))
+    {
         if quick && only.is_empty() && !QUICK_LOOKS.contains(&look.name.as_str()) {
             continue;
         }

@@ -12,6 +12,8 @@ use stroke_path::{Camera, OrbitView, PathKind, Paths, sin_cos_degrees};
 const PARTICLES: u32 = 16;
 /// 1/300 of the head's height, as all sizes.
 const SIZE: f32 = 14.0;
+/// How much deeper than its middle a round clump's edge lies, in head heights: as in presets.
+const EDGE_DEPTH: f32 = 0.02;
 const HEAD: Head = Head {
     center: Vec3::new(0.0, 0.0, -0.3),
     height_m: 0.24,
@@ -146,6 +148,7 @@ impl Animation for Strands {
             surfaces: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),
+            edge_depth_m: EDGE_DEPTH * HEAD.height_m,
             brush: Brush::Circle,
         })
     }
@@ -190,11 +193,7 @@ fn passing(strand: usize, u: f64, time: f64) -> DVec3 {
 fn curl(_: usize, u: f64, time: f64) -> DVec3 {
     let (sin, cos) = sin_cos_degrees(720.0 * u);
     let deep = 0.04 * sine(time - 0.1) * sine(u + 0.5 * time);
-    DVec3::new(
-        0.08 * sin + 0.05 * time,
-        0.1 - 0.2 * u + 0.06 * cos,
-        deep,
-    )
+    DVec3::new(0.08 * sin + 0.05 * time, 0.1 - 0.2 * u + 0.06 * cos, deep)
 }
 
 #[cfg(test)]
@@ -209,9 +208,8 @@ mod tests {
             let [width, height] = frame.camera.size_px().map(|side| side as f32);
             for run in &frame.paths.runs {
                 let mut joints = frame.paths.center[run.joints.clone()].iter();
-                let is_seen = joints.any(|at| {
-                    (0.0..width).contains(&at.x) && (0.0..height).contains(&at.y)
-                });
+                let is_seen =
+                    joints.any(|at| (0.0..width).contains(&at.x) && (0.0..height).contains(&at.y));
                 assert!(is_seen, "{name}: strand {}", run.strand);
             }
             assert_eq!(frame.paths.runs.len(), frame.strands.len(), "{name}");
