@@ -157,7 +157,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
 }
 
 fn effort(quick: bool) -> search::Effort {
-    let (tiles, intervals) = if quick { (12, 6) } else { (48, 24) };
+    let (tiles, intervals) = if quick { (16, 4) } else { (64, 16) };
     search::Effort { tiles, intervals }
 }
 
@@ -266,10 +266,10 @@ fn comments(options: &Options) -> Vec<String> {
          without a look: 480 x 360",
         "all errors: linear light, pictures half as wide and high as the presets' (480 x 360)",
         "ORDER-largest, -percentile: the largest change of a tile of 16 x 16 pixels with hair between pictures 1/knob s \
-         apart (256 samples a pixel), and the 99.9th percentile (16 samples): mean absolute difference of red, green \
+         apart (256 samples a pixel), and the 99.9th percentile (4 samples): mean absolute difference of red, green \
          and blue, 0 to 1",
-        "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s, as a share of \
-         the hair's",
+        "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s (4 samples), as a \
+         share of the hair's",
         "ORDER-warp: mean difference of a frame's hair from the frame 1/24 s before, moved as the strands have; knob: \
          samples a pixel",
         "ORDER-still: pixels that change though nothing moves",
