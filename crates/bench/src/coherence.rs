@@ -68,6 +68,8 @@ pub struct SceneFigures {
     pub name: String,
     /// What it is for.
     pub kind: Kind,
+    /// How far strands move.
+    pub motion: search::Motion,
     /// Parallel to [`ORDERS`].
     pub orders: Vec<Figures>,
 }
@@ -119,7 +121,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
             }
         };
         let effort = effort(options.quick);
-        let found = search::measure(scene, &mut painters, effort, || progress.inc(1))?;
+        let (found, motion) = search::measure(scene, &mut painters, effort, || progress.inc(1))?;
         let warps = warp::measure(scene, options.threads)?;
         for ((name, _), continuity) in ORDERS.iter().zip(&found) {
             if let Some(worst) = &continuity.worst {
@@ -133,6 +135,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
         figures.push(SceneFigures {
             name: scene.name.clone(),
             kind: scene.kind,
+            motion,
             orders: orders
                 .map(|(i, (continuity, warp))| Figures {
                     continuity,
@@ -154,7 +157,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
 }
 
 fn effort(quick: bool) -> search::Effort {
-    let (tiles, intervals) = if quick { (12, 6) } else { (48, 24) };
+    let (tiles, intervals) = if quick { (16, 4) } else { (64, 16) };
     search::Effort { tiles, intervals }
 }
 
@@ -263,10 +266,10 @@ fn comments(options: &Options) -> Vec<String> {
          without a look: 480 x 360",
         "all errors: linear light, pictures half as wide and high as the presets' (480 x 360)",
         "ORDER-largest, -percentile: the largest change of a tile of 16 x 16 pixels with hair between pictures 1/knob s \
-         apart (256 samples a pixel), and the 99.9th percentile (16 samples): mean absolute difference of red, green \
+         apart (256 samples a pixel), and the 99.9th percentile (4 samples): mean absolute difference of red, green \
          and blue, 0 to 1",
-        "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s, as a share of \
-         the hair's",
+        "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s (4 samples), as a \
+         share of the hair's",
         "ORDER-warp: mean difference of a frame's hair from the frame 1/24 s before, moved as the strands have; knob: \
          samples a pixel",
         "ORDER-still: pixels that change though nothing moves",
@@ -307,20 +310,26 @@ pub fn summary(scenes: &[SceneFigures]) -> String {
     text
 }
 
-/// Where in each scene most changes: for whoever wants to look at it.
+/// How far strands move in each scene, and where most changes: for whoever wants to look at it.
 #[must_use]
 pub fn places(scenes: &[SceneFigures]) -> String {
     let mut text = String::new();
     for scene in scenes {
+        let [long, short] = scene.motion.0;
+        let _ = writeln!(
+            text,
+            "{}: strands move up to {long:.3} px in 1/384 s, {:.3} times as far as in half the time",
+            scene.name,
+            long / short,
+        );
         for ((order, _), figures) in ORDERS.iter().zip(&scene.orders) {
             let of = &figures.continuity;
             let Some(worst) = &of.worst else { continue };
             let [x, y] = worst.corner;
             let _ = writeln!(
                 text,
-                "{} {order}: {:.4} in 1/768 s from {:.4} s (tick {}) in the tile at {x}, {y}; {} intervals of 1/384 s \
+                "  {order}: {:.4} in 1/768 s from {:.4} s (tick {}) in the tile at {x}, {y}; {} intervals of 1/384 s \
                  searched, {} tiles drawn with 256 samples",
-                scene.name,
                 worst.change,
                 seconds(worst.tick),
                 worst.tick,

@@ -230,6 +230,17 @@ mod tests {
             panic!("another suite");
         };
         assert!(options.peers && options.common.threads == Some(2));
+        let line = [
+            "bench",
+            "coherence",
+            "--quick",
+            "--only",
+            "twin-tails-orbit",
+        ];
+        let Suite::Coherence(options) = Arguments::try_parse_from(line).unwrap().suite else {
+            panic!("another suite");
+        };
+        assert!(options.common.quick && options.only == "twin-tails-orbit");
         // What is stored is measured with care.
         let line = ["bench", "dynamics", "--quick", "--store"];
         assert!(Arguments::try_parse_from(line).is_err());

@@ -71,20 +71,20 @@ impl Motion {
         }
     }
 
-    /// When it is looked at: stretches of time, a second in all, or a quarter of one.
+    /// When it is looked at: stretches of time, half a second in all, or an eighth of one.
     #[must_use]
     pub fn windows(self, quick: bool) -> Vec<Range<Tick>> {
         match self {
             // From six sides.
             Self::Orbit => {
-                let length = TICKS / if quick { 24 } else { 6 };
+                let length = TICKS / if quick { 48 } else { 12 };
                 let starts = (0..6).map(|sixth| sixth * 2 * TICKS);
                 starts.map(|start| start..start + length).collect()
             }
             // Shakes begin after two seconds; then also the wind freshens.
             Self::Shake | Self::Wind => {
                 let start = 2 * TICKS + TICKS / 2;
-                let length = if quick { TICKS / 4 } else { TICKS };
+                let length = TICKS / if quick { 8 } else { 2 };
                 vec![start..start + length]
             }
         }
@@ -256,13 +256,13 @@ pub fn scenes(
 ) -> Result<Vec<Scene>, String> {
     let mut scenes = Vec::new();
     let wanted = |name: &str| name.contains(only);
-    let second = vec![0..if quick { TICKS / 4 } else { TICKS }];
+    let start = vec![0..TICKS / if quick { 8 } else { 2 }];
     for (name, kind, open) in Strands::ALL {
         if wanted(name) {
             scenes.push(Scene {
                 name: name.to_owned(),
                 kind,
-                windows: second.clone(),
+                windows: start.clone(),
                 animation: Box::new(open()?),
                 look: None,
             });
@@ -272,12 +272,10 @@ pub fn scenes(
         .into_iter()
         .chain(data.map(|data| sintel(root, data)))
     {
-        if quick && only.is_empty() && !QUICK_LOOKS.contains(&look.name.as_str()) {
-            continue;
-        }
         for motion in MOTIONS {
             let name = format!("{}-{}", look.name, motion.name());
-            if wanted(&name) {
+            let is_quick = !only.is_empty() || QUICK.contains(&name.as_str());
+            if wanted(&name) && (!quick || is_quick) {
                 scenes.push(Scene {
                     name,
                     kind: Kind::Hair,
@@ -291,8 +289,13 @@ pub fn scenes(
     Ok(scenes)
 }
 
-/// The looks of a quick run: the most outlines, and the sharpest contrast.
-const QUICK_LOOKS: [&str; 2] = ["manga-ink", "twin-tails"];
+/// The looks of a quick run in motion: the most outlines, and the sharpest contrast.
+const QUICK: [&str; 4] = [
+    "manga-ink-orbit",
+    "twin-tails-orbit",
+    "twin-tails-shake",
+    "twin-tails-wind",
+];
 
 /// Pictures are half as wide and high as the presets': 480 x 360.
 pub const PART: u32 = 2;

@@ -1,13 +1,14 @@
 //! Looks for the largest changes of an animation, and how they shrink with the time between pictures.
 //!
 //! All pictures 1/768 s apart are drawn with few samples a pixel. Then the tiles that change most in 1/384 s and
-//! those that do in 1/768 s are drawn with many samples. Pixels that pop are counted with few samples: many
-//! of a pixel's change with them.
+//! those that do in 1/768 s are drawn with many samples. Pixels that pop are counted with few samples: an edge that
+//! moves by less than a quarter of a pixel in a tick changes one sample of four, and does not count.
 
 use super::ORDERS;
 use super::animation::{Scene, Tick};
 use super::painter::Painter;
 use super::tiles::{HairTiles, TILE, corner, difference};
+use glam::Vec2;
 use render::Picture;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +17,7 @@ pub const STEPS: [Tick; 3] = [LONG, SHORT, 1];
 const LONG: Tick = 4;
 const SHORT: Tick = LONG / 2;
 /// Samples a pixel while looking for what changes.
-pub const FEW: u32 = 16;
+pub const FEW: u32 = 4;
 /// Samples a pixel of what is measured.
 pub const MANY: u32 = 256;
 /// Pixels around a tile that are drawn with it, to be looked at.
@@ -109,6 +110,11 @@ fn ratio(long: f64, short: f64) -> Option<f64> {
     (short > 0.0).then(|| long / short)
 }
 
+/// How far a joint of a strand moves on the screen at most, in pixels: in 1/384 s, and in half of it. Were these not
+/// about 2 to 1, it would not be the drawing that jumps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Motion(pub [f64; 2]);
+
 /// Measures a scene in every order of [`ORDERS`]. `done` is called after each interval.
 ///
 /// # Errors
@@ -119,9 +125,9 @@ pub fn measure(
     painters: &mut Painters,
     effort: Effort,
     mut done: impl FnMut(),
-) -> Result<Vec<Continuity>, String> {
+) -> Result<(Vec<Continuity>, Motion), String> {
     let starts = starts(scene);
-    let glances = glance(scene, painters, &mut done)?;
+    let (glances, motion) = glance(scene, painters, &mut done)?;
     let plans: Vec<Plan> = glances.iter().map(|of| of.plan(effort)).collect();
     let finished = glances.into_iter().map(Glance::finish);
     let mut found: Vec<Found> = finished.collect();
@@ -132,8 +138,8 @@ pub fn measure(
         }
         done();
     }
-    let finished = found.into_iter();
-    Ok(finished.map(Found::finish).collect())
+    let found = found.into_iter().map(Found::finish);
+    Ok((found.collect(), motion))
 }
 
 /// How often [`measure`] calls `done`.
@@ -165,33 +171,62 @@ fn glance(
     scene: &mut Scene,
     painters: &mut Painters,
     done: &mut impl FnMut(),
-) -> Result<Vec<Glance>, String> {
+) -> Result<(Vec<Glance>, Motion), String> {
     let mut glances: Vec<Glance> = ORDERS.iter().map(|_| Glance::default()).collect();
+    let mut motion = Motion::default();
     for window in scene.windows.clone() {
-        let mut hair_before = painters.hair.hair(&mut scene.animation.at(window.start)?)?;
-        let mut before = few(scene, painters, window.start)?;
+        let mut before = Moment::new(scene, painters, window.start)?;
         for start in window.step_by(LONG as usize) {
-            let half = few(scene, painters, start + SHORT)?;
-            let after = few(scene, painters, start + LONG)?;
-            let hair = painters.hair.hair(&mut scene.animation.at(start + LONG)?)?;
-            let tiles = HairTiles::new(after[0].width as usize, [&hair_before, &hair]);
+            let half = Moment::new(scene, painters, start + SHORT)?;
+            let after = Moment::new(scene, painters, start + LONG)?;
+            let width = after.pictures[0].width as usize;
+            let hair = HairTiles::new(width, [&before.hair, &after.hair]);
             for (i, glance) in glances.iter_mut().enumerate() {
-                glance.add(&tiles, [&before[i], &half[i], &after[i]]);
+                let pictures = [&before, &half, &after].map(|moment| &moment.pictures[i]);
+                glance.add(&hair, pictures);
             }
-            (before, hair_before) = (after, hair);
+            motion.add(&before, &half, &after);
+            before = after;
             done();
         }
     }
-    Ok(glances)
+    Ok((glances, motion))
 }
 
-/// The pictures of a moment in each order.
-fn few(scene: &mut Scene, painters: &mut Painters, tick: Tick) -> Result<Vec<Picture>, String> {
-    let mut frame = scene.animation.at(tick)?;
-    let orders = ORDERS.iter();
-    orders
-        .map(|(_, order)| painters.few.picture(&mut frame, *order))
-        .collect()
+/// A moment as few samples show it.
+struct Moment {
+    /// In each order.
+    pictures: Vec<Picture>,
+    /// Which pixels show hair.
+    hair: Vec<bool>,
+    /// Where joints are on the screen.
+    joints: Vec<Vec2>,
+}
+
+impl Moment {
+    fn new(scene: &mut Scene, painters: &mut Painters, tick: Tick) -> Result<Self, String> {
+        let mut frame = scene.animation.at(tick)?;
+        let mut pictures = Vec::new();
+        for (_, order) in ORDERS {
+            pictures.push(painters.few.picture(&mut frame, order)?);
+        }
+        Ok(Self {
+            pictures,
+            hair: painters.hair.hair(&mut frame)?,
+            joints: frame.paths.center.clone(),
+        })
+    }
+}
+
+impl Motion {
+    fn add(&mut self, before: &Moment, half: &Moment, after: &Moment) {
+        let pairs = [(0, before, after), (1, before, half), (1, half, after)];
+        for (i, from, to) in pairs {
+            let moved = from.joints.iter().zip(&to.joints);
+            let farthest = moved.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+            self.0[i] = self.0[i].max(f64::from(farthest));
+        }
+    }
 }
 
 impl Glance {
@@ -202,10 +237,13 @@ impl Glance {
         let halves = [tiles.change(before, half), tiles.change(half, after)];
         let of = |tiles: &[(usize, f64)]| -> Vec<(usize, usize, f64)> {
             let tiles = tiles.iter();
-            tiles.map(|&(tile, change)| (interval, tile, change)).collect()
+            tiles
+                .map(|&(tile, change)| (interval, tile, change))
+                .collect()
         };
         self.long.extend(of(&whole.tiles));
-        self.short.extend(halves.iter().flat_map(|half| of(&half.tiles)));
+        self.short
+            .extend(halves.iter().flat_map(|half| of(&half.tiles)));
         self.popped.push(halves[0].popped.max(halves[1].popped));
     }
 
@@ -303,7 +341,9 @@ fn refine(
         let orders = ORDERS.iter().zip(wanted).zip(&mut pictures);
         for (((_, order), wanted), pictures) in orders {
             if wanted.popped.is_some() {
-                pictures.whole.push(painters.few.picture(&mut frame, *order)?);
+                pictures
+                    .whole
+                    .push(painters.few.picture(&mut frame, *order)?);
             }
             if wanted.tiles.is_empty() {
                 continue;
@@ -389,5 +429,67 @@ impl Found {
         let count = self.popped.len().max(1) as f64;
         self.continuity.popped[1] = self.popped.iter().sum::<f64>() / count;
         self.continuity
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::animation::Kind;
+    use super::super::strands::Strands;
+    use super::*;
+    use render::Order;
+
+    /// What an order's pictures of a scene of strands show in a time.
+    fn measured(name: &str, window: std::ops::Range<Tick>, order: Order) -> Continuity {
+        let (_, kind, open) = Strands::ALL.iter().find(|of| of.0 == name).unwrap();
+        let mut scene = Scene {
+            name: name.to_owned(),
+            kind: *kind,
+            windows: vec![window.clone()],
+            animation: Box::new(open().unwrap()),
+            look: None,
+        };
+        assert_ne!(kind, &Kind::Hair);
+        let mut painters = Painters::new(2).unwrap();
+        let effort = Effort {
+            tiles: 3,
+            intervals: 1,
+        };
+        let mut count = 0;
+        let (found, motion) = measure(&mut scene, &mut painters, effort, || count += 1).unwrap();
+        assert_eq!(count, length(&scene));
+        let [long, short] = motion.0;
+        assert!(
+            long > 0.01 && (long / short - 2.0).abs() < 0.05,
+            "{motion:?}"
+        );
+        let place = ORDERS.iter().position(|of| of.1 == order).unwrap();
+        assert_eq!(found[place].intervals as Tick, window.len() as Tick / LONG);
+        found[place].clone()
+    }
+
+    #[test]
+    fn what_moves_steadily_scores_two() {
+        for (_, order) in ORDERS {
+            let found = measured("control-continuous", 100..108, order);
+            let ratio = found.ratio().unwrap();
+            assert!((1.9..2.1).contains(&ratio), "{order:?}: {ratio}");
+            assert_eq!(found.popped, [0.0; 2]);
+            assert!((3..=6).contains(&found.tiles));
+        }
+    }
+
+    #[test]
+    fn what_jumps_scores_one_and_is_found() {
+        for (_, order) in ORDERS {
+            // It jumps from tick 138 to 139.
+            let found = measured("control-jumping", 132..144, order);
+            let ratio = found.ratio().unwrap();
+            assert!((0.95..1.05).contains(&ratio), "{order:?}: {ratio}");
+            assert!(found.popped[0] > 0.5, "{:?}", found.popped);
+            let worst = found.worst.unwrap();
+            assert_eq!(worst.tick, 138);
+            assert_eq!(worst.pictures[0].width as usize, TILE + 2 * AROUND);
+        }
     }
 }

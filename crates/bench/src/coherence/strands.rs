@@ -12,6 +12,8 @@ use stroke_path::{Camera, OrbitView, PathKind, Paths, sin_cos_degrees};
 const PARTICLES: u32 = 16;
 /// 1/300 of the head's height, as all sizes.
 const SIZE: f32 = 14.0;
+/// How much deeper than its middle a round clump's edge lies, in head heights: as in presets.
+const EDGE_DEPTH: f32 = 0.02;
 const HEAD: Head = Head {
     center: Vec3::new(0.0, 0.0, -0.3),
     height_m: 0.24,
@@ -146,7 +148,7 @@ impl Animation for Strands {
             surfaces: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),
-            edge_depth_m: 0.02 * HEAD.height_m,
+            edge_depth_m: EDGE_DEPTH * HEAD.height_m,
             brush: Brush::Circle,
         })
     }

@@ -73,3 +73,96 @@ fn of_hair(scene: &SceneFigures, own: Option<&Figures>) -> Vec<Target> {
     }
     targets
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coherence::search::{Continuity, Motion};
+    use crate::targets::report;
+
+    /// A scene whose figures reach everything.
+    fn good() -> SceneFigures {
+        let figures = Figures {
+            continuity: Continuity {
+                largest: [0.1, 0.05, 0.025],
+                popped: [0.01, 0.001],
+                ..Continuity::default()
+            },
+            warp: [None; 2],
+            still: Some(0),
+            seconds: 0.01,
+        };
+        SceneFigures {
+            name: "scene".to_owned(),
+            kind: Kind::Hair,
+            motion: Motion::default(),
+            orders: vec![figures; ORDERS.len()],
+        }
+    }
+
+    fn missed(scene: SceneFigures) -> Vec<String> {
+        let targets = targets(&[scene]);
+        let missed = targets.iter().filter(|target| !target.is_met());
+        missed.map(|target| target.text.clone()).collect()
+    }
+
+    /// The figures of the order that is held to something.
+    fn own(scene: &mut SceneFigures) -> &mut Figures {
+        let place = ORDERS.iter().position(|of| of.1 == Order::default());
+        &mut scene.orders[place.unwrap()]
+    }
+
+    #[test]
+    fn good_figures_are_met() {
+        let targets = targets(&[good()]);
+        assert_eq!(targets.len(), 5);
+        assert!(targets.iter().all(Target::is_met), "{}", report(&targets));
+    }
+
+    #[test]
+    fn each_bad_figure_is_missed() {
+        let cases: [(fn(&mut Figures), &str); 5] = [
+            (|own| own.continuity.largest[1] = 0.06, "in half"),
+            (|own| own.continuity.popped[0] = 0.011, "worst"),
+            (|own| own.continuity.popped[1] = 0.0011, "mean"),
+            (|own| own.seconds = 0.0131, "time"),
+            (|own| own.still = Some(1), "nothing moves"),
+        ];
+        for (spoil, text) in cases {
+            let mut scene = good();
+            spoil(own(&mut scene));
+            let missed = missed(scene);
+            assert!(missed.len() == 1 && missed[0].contains(text), "{missed:?}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_pop_is_met_beside_anything() {
+        let mut scene = good();
+        for figures in &mut scene.orders {
+            figures.continuity.popped = [0.0; 2];
+        }
+        assert!(missed(scene).is_empty());
+        let mut scene = good();
+        for figures in &mut scene.orders {
+            figures.continuity.popped = [0.0; 2];
+        }
+        own(&mut scene).continuity.popped = [1e-4; 2];
+        assert_eq!(missed(scene).len(), 2);
+    }
+
+    #[test]
+    fn the_measure_is_held_to_its_controls() {
+        for (kind, largest, met) in [
+            (Kind::Continuous, [0.1, 0.051], true),
+            (Kind::Continuous, [0.1, 0.06], false),
+            (Kind::Jumping, [0.1, 0.1], true),
+            (Kind::Jumping, [0.1, 0.08], false),
+            (Kind::Jumping, [0.0, 0.0], false),
+        ] {
+            let mut scene = SceneFigures { kind, ..good() };
+            own(&mut scene).continuity.largest = [largest[0], largest[1], 0.0];
+            assert_eq!(missed(scene).is_empty(), met, "{kind:?} {largest:?}");
+        }
+    }
+}

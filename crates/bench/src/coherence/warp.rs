@@ -10,6 +10,8 @@ use render::{Frame, Order, Picture};
 const FRAME: Tick = TICKS / 24;
 /// Samples a pixel: a fast picture, and one of 8 x 8.
 pub const SAMPLES: [u32; 2] = [4, 64];
+/// Stretches of a scene's time that are looked at, at most.
+const MOST_WINDOWS: usize = 2;
 /// Farthest that anything moves from frame to frame, in pixels.
 const REACH: f32 = 256.0;
 
@@ -26,37 +28,41 @@ pub fn measure(scene: &mut Scene, threads: usize) -> Result<Vec<[Option<f64>; 2]
         painters.push(Painter::new(samples, threads)?);
     }
     let mut errors = vec![[Mean::default(); 2]; ORDERS.len()];
-    for window in &scene.windows {
-        let mut before: Option<Before> = None;
-        for tick in (window.start..=window.end).step_by(FRAME as usize) {
-            let mut frame = scene.animation.at(tick)?;
-            let now = Before::new(&mut frame, &mut motion_painter, &mut painters)?;
-            if let Some(before) = before.filter(|before| before.centers.len() == now.centers.len())
-            {
+    for window in scene.windows.iter().take(MOST_WINDOWS).cloned() {
+        let mut before = Shown::new(
+            &mut scene.animation.at(window.start)?,
+            &mut motion_painter,
+            &mut painters,
+        )?;
+        for tick in window.step_by(FRAME as usize) {
+            let mut frame = scene.animation.at(tick + FRAME)?;
+            let after = Shown::new(&mut frame, &mut motion_painter, &mut painters)?;
+            // Strands that enter or leave the view have no motion from one to the other.
+            if before.centers.len() == after.centers.len() {
                 for (i, (_, order)) in ORDERS.iter().enumerate() {
-                    let moved = motion(&mut frame, *order, &before, &now, &mut motion_painter)?;
+                    let moved = motion(&mut frame, *order, &before, &after, &mut motion_painter)?;
                     for sampling in 0..SAMPLES.len() {
-                        let pictures = [&before.pictures[i][sampling], &now.pictures[i][sampling]];
+                        let pictures = [&before, &after].map(|of| &of.pictures[i][sampling]);
                         errors[i][sampling].add(pictures, &moved);
                     }
                 }
             }
-            before = Some(now);
+            before = after;
         }
     }
     let means = errors.into_iter();
     Ok(means.map(|means| means.map(Mean::value)).collect())
 }
 
-/// A frame that the next one is compared with.
-struct Before {
+/// What a frame shows.
+struct Shown {
     /// Of the clumps' joints on the screen.
     centers: Vec<Vec2>,
     /// By order and sampling.
     pictures: Vec<Vec<Picture>>,
 }
 
-impl Before {
+impl Shown {
     fn new(
         frame: &mut Frame,
         centers: &mut Painter,
@@ -79,13 +85,13 @@ impl Before {
 fn motion(
     frame: &mut Frame,
     order: Order,
-    before: &Before,
-    now: &Before,
+    before: &Shown,
+    after: &Shown,
     painter: &mut Painter,
 ) -> Result<Vec<Option<Vec2>>, String> {
     // Colours can hold 0 to 1.
     let color = |joint: usize| {
-        let moved = now.centers[joint] - before.centers[joint];
+        let moved = after.centers[joint] - before.centers[joint];
         let shares = (moved / (2.0 * REACH) + 0.5).clamp(Vec2::ZERO, Vec2::ONE);
         [shares.x, shares.y, 1.0]
     };
