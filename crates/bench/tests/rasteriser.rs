@@ -160,6 +160,7 @@ fn drawing() -> impl Strategy<Value = Drawing> {
     });
     let order = prop_oneof![
         (0.0..0.5f32).prop_map(|depth_m| (Order::Rounded, depth_m)),
+        (0.0..0.5f32).prop_map(|depth_m| (Order::Scattered, depth_m)),
         Just((Order::StrandFirst, 0.0)),
         Just((Order::Shifted, 0.0)),
     ];
@@ -286,7 +287,7 @@ fn radius_zero_draws_nothing_even_at_a_sample() {
 
 #[test]
 fn portraits_agree_sample_for_sample() {
-    let orders = [Order::Rounded, Order::StrandFirst, Order::Shifted];
+    let orders = Order::ALL;
     let brushes = [Brush::Circle, Brush::Semicircle];
     for (order, brush) in orders
         .into_iter()

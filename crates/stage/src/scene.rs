@@ -355,8 +355,7 @@ impl Settings {
         Ok(Self {
             size: scene.size("size"),
             background: scene.optional_color("background"),
-            order: [Order::Rounded, Order::StrandFirst, Order::Shifted]
-                [scene.choice("order") as usize],
+            order: Order::ALL[scene.choice("order") as usize],
             edge_depth_m: scene.number("edge_depth") * head.height_m,
             path: match path.choice("kind") {
                 0 => PathKind::Linear { subdivision },
