@@ -202,8 +202,8 @@ fn times(scene: &mut Scene, options: &Options) -> Result<Vec<f64>, String> {
         });
     }
     let effort = Effort {
-        rounds: if options.quick { 4 } else { 8 },
-        each: Duration::from_millis(if options.quick { 150 } else { 600 }),
+        rounds: 8,
+        each: Duration::from_millis(if options.quick { 600 } else { 2000 }),
     };
     medians(&mut runs, effort, || ())
 }

@@ -62,12 +62,12 @@ impl Motion {
         }
     }
 
-    /// Its script in `presets/motions`.
+    /// Its script, in the project's folder.
     fn script(self) -> Option<&'static str> {
         match self {
             Self::Orbit => None,
-            Self::Shake => Some("nod-and-shake.motion.ron"),
-            Self::Wind => Some("walk-in-wind.motion.ron"),
+            Self::Shake => Some("crates/bench/src/coherence/shake.motion.ron"),
+            Self::Wind => Some("presets/motions/walk-in-wind.motion.ron"),
         }
     }
 
@@ -81,9 +81,9 @@ impl Motion {
                 let starts = (0..6).map(|sixth| sixth * 2 * TICKS);
                 starts.map(|start| start..start + length).collect()
             }
-            // Shakes begin after two seconds; then also the wind freshens.
+            // Once hair swings, and when the wind has freshened.
             Self::Shake | Self::Wind => {
-                let start = 2 * TICKS + TICKS / 2;
+                let start = if self == Self::Wind { 2 * TICKS } else { TICKS } + TICKS / 2;
                 let length = TICKS / if quick { 8 } else { 2 };
                 vec![start..start + length]
             }
@@ -96,6 +96,8 @@ impl Motion {
 pub struct Look {
     /// In the table.
     pub name: String,
+    /// The project's folder.
+    root: PathBuf,
     preset: PathBuf,
     hair: Option<PathBuf>,
     head: Option<PathBuf>,
@@ -118,6 +120,7 @@ pub fn looks(root: &Path) -> Result<Vec<Look>, String> {
             let name = preset.file_stem().unwrap_or_default();
             looks.push(Look {
                 name: name.to_string_lossy().into_owned(),
+                root: root.to_owned(),
                 preset,
                 hair: None,
                 head: None,
@@ -134,6 +137,7 @@ pub fn looks(root: &Path) -> Result<Vec<Look>, String> {
 pub fn sintel(root: &Path, data: &Path) -> Look {
     Look {
         name: "sintel".to_owned(),
+        root: root.to_owned(),
         preset: root.join("presets/outlined.ron"),
         hair: Some(data.join("sintel/sintel_hair_16points.tfx")),
         head: Some(data.join("sintel/sintel.obj")),
@@ -172,13 +176,12 @@ impl Look {
         if self.guides > 0 {
             preset.set("hair.guides", &self.guides.to_string())?;
         }
-        let preset_folder = self.preset.parent().unwrap_or(Path::new("")).to_owned();
         let script = motion.and_then(Motion::script);
         let files = Files {
             hair: self.hair.clone(),
             head: self.head.clone(),
-            motion: script.map(|file| preset_folder.join("motions").join(file)),
-            preset_folder,
+            motion: script.map(|file| self.root.join(file)),
+            preset_folder: self.root.join("presets"),
             ..Files::default()
         };
         Ok(MovingLook {
