@@ -15,7 +15,6 @@ use rayon::prelude::*;
 
 use crate::{
     Strands,
-    collision::Collider,
     forces::mutual::{Course, Mutual, Pair},
     lanes::{LANES, Quat, Vec3 as LaneVec3},
     params::Params,
@@ -26,7 +25,7 @@ pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
 use drive::{Drive, Hair};
 use instructions::Instructions;
-pub use scene::{DynamicsError, Fault, Pose, Roots, Scene, Stats};
+pub use scene::{Acceleration, DynamicsError, Fault, Pose, Roots, Scene, Stats};
 
 /// The most groups of batches, so of tasks in a step.
 const MOST_GROUPS: usize = 64;
@@ -270,6 +269,7 @@ impl Solver {
                 first_points,
                 root,
                 base,
+                accelerations: accelerations(batch, scene),
                 calm,
                 hair: hair.map(|h| Hair {
                     mutual: &h.mutual,
@@ -312,39 +312,7 @@ impl Solver {
     }
 
     fn check(&self, state: &State, scene: &Scene, dt: f64) -> Result<(), DynamicsError> {
-        if !(dt > 0.0 && dt <= 10.0) {
-            return Err(DynamicsError::Step(dt));
-        }
-        if !scene.gravity.is_finite() {
-            return Err(DynamicsError::Scene("gravity"));
-        }
-        if !scene.wind.is_finite() {
-            return Err(DynamicsError::Scene("wind"));
-        }
-        if !scene.colliders.iter().all(Collider::is_finite) {
-            return Err(DynamicsError::Scene("collider"));
-        }
-        let points: usize = self.points.iter().sum();
-        if let Some(found) = scene.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
-            return Err(DynamicsError::Goal {
-                found,
-                expected: points,
-            });
-        }
-        match scene.roots {
-            Roots::Head(pose)
-                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
-            {
-                return Err(DynamicsError::Scene("head"));
-            }
-            Roots::Each(poses) if poses.len() != self.len() => {
-                return Err(DynamicsError::Poses {
-                    found: poses.len(),
-                    expected: self.len(),
-                });
-            }
-            _ => {}
-        }
+        scene.check(dt, self.len(), self.points.iter().sum())?;
         let fits = state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count())
             && self.hair.as_ref().is_none_or(|h| {
@@ -422,6 +390,21 @@ fn roots(batch: &Batch, scene: &Scene) -> (LaneVec3, Quat) {
         base.set(lane, pose.rotation * batch.base.get(lane));
     }
     (root, base)
+}
+
+/// The accelerations of every lane's root at both ends of the step, where they are known.
+fn accelerations(batch: &Batch, scene: &Scene) -> Option<[LaneVec3; 2]> {
+    let (Roots::Head(_), Some(ends)) = (scene.roots, scene.acceleration) else {
+        return None;
+    };
+    let of_roots = |end: Acceleration| {
+        let mut roots = batch.root;
+        for lane in 0..LANES {
+            roots.set(lane, end.of(batch.root.get(lane)));
+        }
+        roots
+    };
+    Some(ends.map(of_roots))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What a step is given and what it tells.
 
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 
 use crate::{collision::Collider, forces::wind::Wind, params::GRAVITY};
 
@@ -30,6 +30,19 @@ impl Pose {
         self.rotation.conjugate() * (at - self.translation)
     }
 
+    /// The pose at `share` of the way to another, 0 to 1: along the chord, which needs no sine.
+    pub(crate) fn towards(self, to: Self, share: f64) -> Self {
+        let short = if self.rotation.dot(to.rotation) < 0.0 {
+            -to.rotation
+        } else {
+            to.rotation
+        };
+        Self {
+            rotation: (self.rotation * (1.0 - share) + short * share).normalize(),
+            translation: self.translation.lerp(to.translation, share),
+        }
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
         self.rotation.is_finite() && self.translation.is_finite()
     }
@@ -44,11 +57,52 @@ pub enum Roots<'a> {
     Each(&'a [Pose]),
 }
 
+impl Roots<'_> {
+    /// The pose of a strand's root, by the strand's index.
+    pub(crate) fn of(&self, strand: usize) -> Pose {
+        match self {
+            Self::Head(pose) => *pose,
+            Self::Each(poses) => poses[strand],
+        }
+    }
+}
+
+/// How the motion of a head changes: what is at `p` in style space is accelerated by `turn * p + shift`, the second
+/// derivatives of its pose's rotation, as a matrix, and translation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Acceleration {
+    /// In 1/s^2.
+    pub turn: DMat3,
+    /// In m/s^2.
+    pub shift: DVec3,
+}
+
+impl Acceleration {
+    /// Of a head that is at the middle one of three poses, `dt` seconds apart: their second difference.
+    #[must_use]
+    pub fn between(poses: [Pose; 3], dt: f64) -> Self {
+        let [before, now, after] = poses;
+        let rate = 1.0 / (dt * dt);
+        let turn = |pose: Pose| DMat3::from_quat(pose.rotation);
+        Self {
+            turn: (turn(before) - turn(now) * 2.0 + turn(after)) * rate,
+            shift: (before.translation - now.translation * 2.0 + after.translation) * rate,
+        }
+    }
+
+    pub(super) fn of(&self, root: DVec3) -> DVec3 {
+        self.turn * root + self.shift
+    }
+}
+
 /// What acts on the strands in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
     /// Where the roots are at the end of the step.
     pub roots: Roots<'a>,
+    /// The head's acceleration when the step starts and when it ends. Where it is not given, it is the change of the
+    /// roots' mean velocity from the step before to this one: what acts then lags by half a step.
+    pub acceleration: Option<[Acceleration; 2]>,
     /// In m/s^2.
     pub gravity: DVec3,
     /// The motion of the air.
@@ -64,6 +118,7 @@ impl Default for Scene<'_> {
     fn default() -> Self {
         Self {
             roots: Roots::Head(Pose::IDENTITY),
+            acceleration: None,
             gravity: DVec3::new(0.0, -GRAVITY, 0.0),
             wind: Wind::default(),
             colliders: &[],
@@ -73,6 +128,44 @@ impl Default for Scene<'_> {
 }
 
 impl Scene<'_> {
+    /// Whether a step of `dt` seconds of so many strands, with so many points in all, can be made in it.
+    pub(crate) fn check(&self, dt: f64, strands: usize, points: usize) -> Result<(), DynamicsError> {
+        if !(dt > 0.0 && dt <= 10.0) {
+            return Err(DynamicsError::Step(dt));
+        }
+        if !self.gravity.is_finite() {
+            return Err(DynamicsError::Scene("gravity"));
+        }
+        let finite = |a: &Acceleration| a.turn.is_finite() && a.shift.is_finite();
+        if !self.acceleration.iter().flatten().all(finite) {
+            return Err(DynamicsError::Scene("acceleration"));
+        }
+        if !self.wind.is_finite() {
+            return Err(DynamicsError::Scene("wind"));
+        }
+        if !self.colliders.iter().all(Collider::is_finite) {
+            return Err(DynamicsError::Scene("collider"));
+        }
+        if let Some(found) = self.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
+            return Err(DynamicsError::Goal {
+                found,
+                expected: points,
+            });
+        }
+        match self.roots {
+            Roots::Head(pose)
+                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
+            {
+                Err(DynamicsError::Scene("head"))
+            }
+            Roots::Each(poses) if poses.len() != strands => Err(DynamicsError::Poses {
+                found: poses.len(),
+                expected: strands,
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// Whether nothing in it moves but, perhaps, the roots.
     pub(super) fn is_calm(&self) -> bool {
         let still = |c: &Collider| c.before == c.now;
@@ -125,7 +218,7 @@ pub struct Stats {
 }
 
 impl Stats {
-    pub(super) fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         Self {
             strands: self.strands + other.strands,
             iterations: self.iterations + other.iterations,
