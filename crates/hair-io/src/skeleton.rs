@@ -160,7 +160,10 @@ impl BoneMotion {
         let (rotation, place) = self.pose(|joint| joint.at(time));
         let (rest, rest_place) = self.rest;
         if rotation.is_finite() {
-            ((rotation * rest.conjugate()).normalize(), place - rest_place)
+            (
+                (rotation * rest.conjugate()).normalize(),
+                place - rest_place,
+            )
         } else {
             // A parent that is scaled to nothing.
             (DQuat::IDENTITY, DVec3::ZERO)
@@ -169,7 +172,8 @@ impl BoneMotion {
 
     /// The bone's turn and place in the world, its joints being so in their parents' spaces.
     fn pose(&self, local: impl Fn(&Joint) -> DAffine3) -> (DQuat, DVec3) {
-        let world = (self.chain.iter()).fold(DAffine3::IDENTITY, |world, joint| world * local(joint));
+        let world =
+            (self.chain.iter()).fold(DAffine3::IDENTITY, |world, joint| world * local(joint));
         let (_, rotation, place) = world.to_scale_rotation_translation();
         (rotation.normalize(), place)
     }
@@ -205,7 +209,8 @@ impl Joint {
 /// The nodes from the outermost parent to the bone of this name.
 fn chain_to<'a>(document: &'a Document, bone: &str) -> Result<Vec<gltf::Node<'a>>, SkeletonError> {
     let nodes: Vec<gltf::Node> = document.nodes().collect();
-    let named = |is: &dyn Fn(&str) -> bool| nodes.iter().position(|node| node.name().is_some_and(is));
+    let named =
+        |is: &dyn Fn(&str) -> bool| nodes.iter().position(|node| node.name().is_some_and(is));
     let exact = named(&|name| name == bone);
     let Some(found) = exact.or_else(|| named(&|name| name.eq_ignore_ascii_case(bone))) else {
         let names = nodes.iter().filter_map(gltf::Node::name).map(str::to_owned);
@@ -246,7 +251,10 @@ fn find_animation<'a>(
     let named = animations.iter().find(|a| a.name() == Some(wanted));
     let found = named.or_else(|| animations.get(number?));
     found.cloned().ok_or_else(|| {
-        let name = |a: &Animation| a.name().map_or_else(|| a.index().to_string(), str::to_owned);
+        let name = |a: &Animation| {
+            a.name()
+                .map_or_else(|| a.index().to_string(), str::to_owned)
+        };
         SkeletonError::Animation {
             wanted: wanted.to_owned(),
             names: nearest(animations.iter().map(name).collect(), wanted),

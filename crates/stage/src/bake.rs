@@ -63,11 +63,7 @@ pub(crate) fn read(path: &Path, own: &Strands) -> Result<Motion, StageError> {
 /// How `other` differs from `own` in its number of strands and points, both sorted by id.
 pub(crate) fn difference(own: &Strands, other: &Strands) -> Option<String> {
     if other.len() != own.len() {
-        return Some(format!(
-            "{} strands in place of {}",
-            other.len(),
-            own.len()
-        ));
+        return Some(format!("{} strands in place of {}", other.len(), own.len()));
     }
     (0..own.len()).find_map(|i| {
         let (id, points) = (own.id(i), own.strand(i).len());

@@ -110,8 +110,7 @@ pub(crate) fn hair(
     notes: &mut Vec<String>,
 ) -> Result<Hair, StageError> {
     let own = preset.hair.text("file");
-    let path =
-        chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
+    let path = chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
     strands(preset, &path, head, notes)
 }
 

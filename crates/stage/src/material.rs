@@ -39,7 +39,8 @@ impl Material {
         }
         let rotation = rotation.as_quat();
         self.now.clear();
-        self.now.extend(self.rest.iter().map(|normal| rotation * *normal));
+        self.now
+            .extend(self.rest.iter().map(|normal| rotation * *normal));
     }
 
     /// The normals at rest, and those of now, to be changed.
@@ -62,17 +63,18 @@ impl Material {
                 continue;
             };
             let normal = self.now[strand.start];
-            carry(&points[strand.clone()], rotation * first, normal, &mut self.now[strand]);
+            carry(
+                &points[strand.clone()],
+                rotation * first,
+                normal,
+                &mut self.now[strand],
+            );
         }
     }
 
     /// The normals at the joints of paths, across the path there; `of_path` gives the points of the strand that a
     /// run follows.
-    pub fn at_joints(
-        &mut self,
-        paths: &Paths,
-        of_path: impl Fn(usize) -> Range<usize>,
-    ) {
+    pub fn at_joints(&mut self, paths: &Paths, of_path: impl Fn(usize) -> Range<usize>) {
         self.joints.clear();
         for run in &paths.runs {
             let normals = &self.now[of_path(run.strand)];
@@ -80,7 +82,8 @@ impl Material {
                 let tangent = (paths.forward[joint] - paths.backward[joint])
                     .normalize_or(paths.forward[joint]);
                 let normal = between(normals, paths.u[joint]);
-                self.joints.push(across(normal, tangent).normalize_or(tangent.any_orthonormal_vector()));
+                self.joints
+                    .push(across(normal, tangent).normalize_or(tangent.any_orthonormal_vector()));
             }
         }
     }
@@ -107,7 +110,8 @@ fn direction(points: &[Vec3]) -> Option<Vec3> {
 fn between(normals: &[Vec3], u: f32) -> Vec3 {
     let last = normals.len() - 1;
     // The tip's own entry repeats that of the last link.
-    let of_particle = |i: usize| normals[i.saturating_sub(1)] + normals[i.min(last.saturating_sub(1))];
+    let of_particle =
+        |i: usize| normals[i.saturating_sub(1)] + normals[i.min(last.saturating_sub(1))];
     let place = u * last as f32;
     let first = (place as usize).min(last);
     of_particle(first).lerp(of_particle((first + 1).min(last)), place - first as f32)
@@ -180,7 +184,11 @@ mod tests {
                 let t = i as f32 / 29.0;
                 let curl = 0.02 * (t - 0.5).max(0.0);
                 let (sin, cos) = (20.0 * t).sin_cos();
-                Vec3::new(0.1 + 0.1 * t + curl * cos, 0.1 * t - 0.4 * t * t, curl * sin)
+                Vec3::new(
+                    0.1 + 0.1 * t + curl * cos,
+                    0.1 * t - 0.4 * t * t,
+                    curl * sin,
+                )
             })
             .collect()
     }
@@ -196,7 +204,10 @@ mod tests {
     fn normals_are_across_their_links_without_twist_and_point_outwards() {
         let points = styled();
         let material = at_rest(&points);
-        let tangents: Vec<Vec3> = points.windows(2).map(|p| (p[1] - p[0]).normalize()).collect();
+        let tangents: Vec<Vec3> = points
+            .windows(2)
+            .map(|p| (p[1] - p[0]).normalize())
+            .collect();
         let mut out = 0.0;
         for (k, tangent) in tangents.iter().enumerate() {
             let normal = material.now[k];
@@ -229,7 +240,10 @@ mod tests {
     fn what_only_turns_with_the_head_is_followed_exactly() {
         let points = styled();
         let rotation = DQuat::from_rotation_y(1.2) * DQuat::from_rotation_x(0.4);
-        let moved: Vec<Vec3> = points.iter().map(|p| rotation.as_quat() * *p + Vec3::Y).collect();
+        let moved: Vec<Vec3> = points
+            .iter()
+            .map(|p| rotation.as_quat() * *p + Vec3::Y)
+            .collect();
         let mut material = at_rest(&points);
         let all = || std::iter::once(0..points.len());
         material.turn(&points, all(), Vec3::ZERO, rotation);

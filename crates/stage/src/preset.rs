@@ -319,6 +319,8 @@ pub(crate) fn missing(folder: &Path, param: &str, name: &str) -> Option<String> 
     let wrong = path.file_name().unwrap_or_default().to_string_lossy();
     Some(match nearest(&wrong, names.iter().map(String::as_str)) {
         Some(near) => format!("{param}: there is no `{shown}`, did you mean `{near}`?"),
-        None => format!("{param}: there is no `{shown}`; file names are relative to the file that they stand in"),
+        None => format!(
+            "{param}: there is no `{shown}`; file names are relative to the file that they stand in"
+        ),
     })
 }

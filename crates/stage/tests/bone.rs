@@ -15,7 +15,11 @@ fn character(folder: &Path) {
         &[0.0, 0.0, 0.0, 1.0, 0.0, half, 0.0, half],
         &[0.0, 1.0, 0.0, 0.0, 1.12, 0.0],
     ];
-    let bytes: Vec<u8> = numbers.concat().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let bytes: Vec<u8> = numbers
+        .concat()
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
     fs::write(folder.join("walker.bin"), bytes).unwrap();
     let text = r#"{
         "asset": {"version": "2.0"},
@@ -102,7 +106,10 @@ fn the_animation_may_repeat() {
 fn what_is_not_there_is_named() {
     let fails = |motion: &str, expected: &str| {
         let message = scene(motion).err().unwrap();
-        assert!(message.contains(expected), "`{expected}` is missing in:\n{message}");
+        assert!(
+            message.contains(expected),
+            "`{expected}` is missing in:\n{message}"
+        );
     };
     fails("gltf: \"walkr.gltf\"", "look.ron:2:17: gltf: there is no");
     fails("gltf: \"walkr.gltf\"", "did you mean `walker.gltf`?");
@@ -110,8 +117,17 @@ fn what_is_not_there_is_named() {
         "gltf: \"walker.gltf\", bone: \"hed\"",
         "walker.gltf: there is no bone `hed`; the nearest names are: head, ",
     );
-    fails("gltf: \"walker.gltf\", animation: \"lok\"", "no animation `lok`; the nearest names are: look");
-    fails("gltf: \"walker.gltf\", bone: head", "bone: expected a text in double quotes");
+    fails(
+        "gltf: \"walker.gltf\", animation: \"lok\"",
+        "no animation `lok`; the nearest names are: look",
+    );
+    fails(
+        "gltf: \"walker.gltf\", bone: head",
+        "bone: expected a text in double quotes",
+    );
     fails("gltf: \"bob.style.ron\"", "bob.style.ron: it is not glTF");
-    fails("gltf: \"walker.gltf\", animation: 0", "animation: expected a text in double quotes");
+    fails(
+        "gltf: \"walker.gltf\", animation: 0",
+        "animation: expected a text in double quotes",
+    );
 }

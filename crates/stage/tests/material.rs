@@ -82,8 +82,15 @@ fn they_are_across_the_strand_and_change_gently_along_it_and_in_time() {
                 }
             }
             if let Some(before) = &before {
-                let still = before.iter().zip(&normals).filter(|(a, b)| a.dot(**b) > 0.5).count();
-                assert!(still as f32 > 0.97 * normals.len() as f32, "{style}, frame {step}");
+                let still = before
+                    .iter()
+                    .zip(&normals)
+                    .filter(|(a, b)| a.dot(**b) > 0.5)
+                    .count();
+                assert!(
+                    still as f32 > 0.97 * normals.len() as f32,
+                    "{style}, frame {step}"
+                );
             }
             before = Some(normals);
         }
@@ -146,7 +153,11 @@ fn paths_that_layers_make_have_them_of_their_strand() {
     let folder = tempfile::tempdir().unwrap();
     let text = "(version: 1, head: (shape: bust), hair: (file: \"h.style.ron\"), clump: (normal: material),
         layers: [(effect: \"hair.base\"), (effect: \"hair.fine\")])";
-    fs::copy(presets().join("styles/bob.style.ron"), folder.path().join("h.style.ron")).unwrap();
+    fs::copy(
+        presets().join("styles/bob.style.ron"),
+        folder.path().join("h.style.ron"),
+    )
+    .unwrap();
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     let preset = Preset::parse("look.ron", text, &registry).unwrap();

@@ -39,7 +39,10 @@ impl Buffers {
             why,
         };
         match buffer.source() {
-            Source::Bin => self.blob.take().ok_or_else(|| refused("the file has no binary part".to_owned())),
+            Source::Bin => self
+                .blob
+                .take()
+                .ok_or_else(|| refused("the file has no binary part".to_owned())),
             Source::Uri(uri) => match uri.strip_prefix("data:") {
                 Some(data) => {
                     let text = data.split_once(";base64,").map(|(_, text)| text);

@@ -10,7 +10,8 @@ fn character(channels: &[(usize, &str, &str, &[f32], &[f32])]) -> Value {
     let mut bytes = Vec::new();
     let (mut views, mut accessors) = (Vec::new(), Vec::new());
     let mut push = |numbers: &[f32], kind: &str, count: usize| {
-        views.push(json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": numbers.len() * 4}));
+        views
+            .push(json!({"buffer": 0, "byteOffset": bytes.len(), "byteLength": numbers.len() * 4}));
         bytes.extend(numbers.iter().flat_map(|x| x.to_le_bytes()));
         accessors.push(json!({
             "bufferView": accessors.len(), "componentType": 5126, "count": count, "type": kind,
@@ -21,7 +22,11 @@ fn character(channels: &[(usize, &str, &str, &[f32], &[f32])]) -> Value {
     let (mut samplers, mut targets) = (Vec::new(), Vec::new());
     for (node, path, interpolation, times, values) in channels {
         let input = push(times, "SCALAR", times.len());
-        let (kind, width) = if *path == "rotation" { ("VEC4", 4) } else { ("VEC3", 3) };
+        let (kind, width) = if *path == "rotation" {
+            ("VEC4", 4)
+        } else {
+            ("VEC3", 3)
+        };
         let output = push(values, kind, values.len() / width);
         targets.push(json!({"sampler": samplers.len(), "target": {"node": node, "path": path}}));
         samplers.push(json!({"input": input, "output": output, "interpolation": interpolation}));
@@ -51,8 +56,14 @@ fn read(file: &Value, bone: &str, animation: Option<&str>) -> Result<BoneMotion,
 #[track_caller]
 fn assert_pose(motion: &BoneMotion, time: f64, turned: DQuat, moved: DVec3) {
     let (rotation, translation) = motion.at(time);
-    assert!(rotation.dot(turned).abs() > 1.0 - 1e-9, "{time}: {rotation}");
-    assert!((translation - moved).length() < 1e-6, "{time}: {translation}");
+    assert!(
+        rotation.dot(turned).abs() > 1.0 - 1e-9,
+        "{time}: {rotation}"
+    );
+    assert!(
+        (translation - moved).length() < 1e-6,
+        "{time}: {translation}"
+    );
 }
 
 #[test]
@@ -72,7 +83,12 @@ fn a_bone_moves_with_its_parents() {
     for i in 0..=10 {
         let share = f64::from(i) / 10.0;
         let angle = std::f64::consts::FRAC_PI_2 * share;
-        assert_pose(&motion, 1.0 + share, DQuat::from_rotation_y(angle), DVec3::ZERO);
+        assert_pose(
+            &motion,
+            1.0 + share,
+            DQuat::from_rotation_y(angle),
+            DVec3::ZERO,
+        );
     }
     assert_pose(&motion, 3.0, quarter, DVec3::Y * 0.25);
     assert_pose(&motion, 99.0, quarter, DVec3::Y * 0.5);
@@ -81,7 +97,12 @@ fn a_bone_moves_with_its_parents() {
     let file = character(&[(0, "rotation", "STEP", &[1.0], &lean)]);
     let motion = read(&file, "Head", Some("1")).unwrap();
     let side = DVec3::new(-0.5, -0.5, 0.0);
-    assert_pose(&motion, 0.0, DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2), side);
+    assert_pose(
+        &motion,
+        0.0,
+        DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2),
+        side,
+    );
 }
 
 #[test]
@@ -110,9 +131,15 @@ fn what_is_not_there_is_named() {
     let file = character(&[(0, "translation", "STEP", &[0.0], &rise)]);
     let error = |bone, animation| read(&file, bone, animation).unwrap_err().to_string();
     let message = error("haed", None);
-    assert_eq!(message, "there is no bone `haed`; the nearest names are: Head, neck, hips");
+    assert_eq!(
+        message,
+        "there is no bone `haed`; the nearest names are: Head, neck, hips"
+    );
     let message = error("head", Some("trun"));
-    assert!(message.contains("no animation `trun`; the nearest names are: turn, 1"), "{message}");
+    assert!(
+        message.contains("no animation `trun`; the nearest names are: turn, 1"),
+        "{message}"
+    );
     let mut still = file.clone();
     still.as_object_mut().unwrap().remove("animations");
     let message = read(&still, "head", None).unwrap_err().to_string();
@@ -129,19 +156,43 @@ fn broken_files_are_refused() {
         let message = read(&file, "head", None).unwrap_err().to_string();
         assert!(message.contains(expected), "{path}: {message}");
     };
-    broken("/buffers/0/uri", json!("data:application/octet-stream;base64,AAAA"), "beyond its buffer");
+    broken(
+        "/buffers/0/uri",
+        json!("data:application/octet-stream;base64,AAAA"),
+        "beyond its buffer",
+    );
     broken("/buffers/0/uri", json!("nowhere.bin"), "nowhere.bin");
     broken("/accessors/1/count", json!(1), "2 keys and 1 values");
     broken("/accessors/1/count", json!(usize::MAX), "beyond its buffer");
-    broken("/accessors/0/type", json!("VEC2"), "accessor 0 is not of 1 numbers");
-    broken("/accessors/0/componentType", json!(5125), "accessor 0 is not of 1 numbers");
-    broken("/nodes/2", json!({"name": "Head", "children": [0]}), "its own parent");
+    broken(
+        "/accessors/0/type",
+        json!("VEC2"),
+        "accessor 0 is not of 1 numbers",
+    );
+    broken(
+        "/accessors/0/componentType",
+        json!(5125),
+        "accessor 0 is not of 1 numbers",
+    );
+    broken(
+        "/nodes/2",
+        json!({"name": "Head", "children": [0]}),
+        "its own parent",
+    );
     let nan = [0.0, 1.0, 0.0, f32::NAN, 2.0, 0.0];
     let file = character(&[(0, "translation", "LINEAR", &[0.0, 1.0], &nan)]);
     let message = read(&file, "head", None).unwrap_err().to_string();
-    assert!(message.contains("channel 0: accessor 1 has numbers that are not finite"), "{message}");
+    assert!(
+        message.contains("channel 0: accessor 1 has numbers that are not finite"),
+        "{message}"
+    );
     let file = character(&[(0, "translation", "LINEAR", &[1.0, 1.0], &rise)]);
-    assert!(read(&file, "head", None).unwrap_err().to_string().contains("must increase"));
+    assert!(
+        read(&file, "head", None)
+            .unwrap_err()
+            .to_string()
+            .contains("must increase")
+    );
     for text in ["", "{", "glTF\0\0\0\0", "[]"] {
         let error = BoneMotion::from_bytes(text.as_bytes(), Path::new(""), "head", None);
         assert!(matches!(error, Err(SkeletonError::Gltf(_))), "{text}");

@@ -106,7 +106,11 @@ impl Value for DQuat {
 
     fn whole(self) -> Self {
         let length = self.length();
-        if length > 0.0 { self * (1.0 / length) } else { Self::IDENTITY }
+        if length > 0.0 {
+            self * (1.0 / length)
+        } else {
+            Self::IDENTITY
+        }
     }
 }
 
@@ -116,7 +120,11 @@ impl<T: Value> Track<T> {
         let times: Vec<f64> = times.into_iter().map(|[time]| time).collect();
         let values = T::read(sampler, buffers)?;
         let kind = sampler.interpolation();
-        let of_a_key = if kind == Interpolation::CubicSpline { 3 } else { 1 };
+        let of_a_key = if kind == Interpolation::CubicSpline {
+            3
+        } else {
+            1
+        };
         let increase = times.windows(2).all(|pair| pair[0] < pair[1]);
         if times.is_empty() || values.len() != times.len() * of_a_key || !increase {
             return Err(TrackError::Keys {

@@ -274,7 +274,11 @@ impl Rod {
         let goals = self.goals_at(scene, head);
         let mut stats = Stats {
             strands: 1,
-            wind: if gusts.blows && self.drag > 0.0 { self.links.len() } else { 0 },
+            wind: if gusts.blows && self.drag > 0.0 {
+                self.links.len()
+            } else {
+                0
+            },
             ..Stats::default()
         };
         let part = dt / f64::from(substeps);
@@ -286,7 +290,11 @@ impl Rod {
                 colliders: scene.colliders,
                 share,
             };
-            let now = if substep == substeps { head } else { before.towards(head, share) };
+            let now = if substep == substeps {
+                head
+            } else {
+                before.towards(head, share)
+            };
             self.predict(&acting, &goals, now, part, substeps);
             for sweep in 0..sweeps {
                 self.sweep(sweep % 2 == 1, part);
@@ -319,7 +327,11 @@ impl Rod {
         self.scratch.points.copy_from_slice(&self.points);
         self.scratch.frames.copy_from_slice(&self.frames);
         self.scratch.bend.fill(DVec3::ZERO);
-        let goals_before = if self.goals.is_empty() { goals } else { &self.goals };
+        let goals_before = if self.goals.is_empty() {
+            goals
+        } else {
+            &self.goals
+        };
         let whole = dt * f64::from(substeps);
         for i in 1..self.points.len() {
             let (point, velocity) = (&mut self.points[i], &mut self.velocities[i]);
@@ -331,10 +343,8 @@ impl Rod {
             let rate = 2.0 * stiffness.sqrt();
             let goal = goals_before[i].lerp(goals[i], acting.share);
             let drift = (goals[i] - goals_before[i]) / whole;
-            let push = acting.gravity
-                + air * self.drag
-                + (goal - *point) * stiffness
-                + drift * rate;
+            let push =
+                acting.gravity + air * self.drag + (goal - *point) * stiffness + drift * rate;
             let slower = 1.0 + dt * (self.drag + rate + dt * stiffness);
             *velocity = (*velocity + push * dt) / slower;
             *point += *velocity * dt;
@@ -431,8 +441,12 @@ impl Rod {
         let from = self.head;
         let turn = to.rotation * from.rotation.conjugate();
         let carried = |point: DVec3| to.to_world(from.to_local(point));
-        self.points.iter_mut().for_each(|point| *point = carried(*point));
-        self.goals.iter_mut().for_each(|goal| *goal = carried(*goal));
+        self.points
+            .iter_mut()
+            .for_each(|point| *point = carried(*point));
+        self.goals
+            .iter_mut()
+            .for_each(|goal| *goal = carried(*goal));
         for v in self.velocities.iter_mut().chain(&mut self.spins) {
             *v = turn * *v;
         }

@@ -9,11 +9,7 @@ use glam::{DVec3, Vec3};
 /// neighbours (Catmull and Rom's). It rests at both ends, and stays there before the first key and after
 /// the last.
 #[must_use]
-pub fn key_weights(
-    count: usize,
-    time_of: impl Fn(usize) -> f64,
-    time: f64,
-) -> [(usize, f64); 4] {
+pub fn key_weights(count: usize, time_of: impl Fn(usize) -> f64, time: f64) -> [(usize, f64); 4] {
     let next = (0..count).find(|&key| time_of(key) > time).unwrap_or(count);
     if next == 0 || next == count {
         let end = next.saturating_sub(1);
@@ -66,7 +62,10 @@ mod tests {
 
     fn at(keys: [f64; 4], time: f64) -> f64 {
         let weights = key_weights(4, |key| TIMES[key], time);
-        weights.iter().map(|(key, weight)| keys[*key] * weight).sum()
+        weights
+            .iter()
+            .map(|(key, weight)| keys[*key] * weight)
+            .sum()
     }
 
     #[test]
@@ -86,7 +85,10 @@ mod tests {
     fn weights_add_up_to_one_and_a_straight_way_stays_straight() {
         for i in 0..=60 {
             let time = f64::from(i) * 0.05;
-            let sum: f64 = key_weights(4, |key| TIMES[key], time).iter().map(|(_, w)| w).sum();
+            let sum: f64 = key_weights(4, |key| TIMES[key], time)
+                .iter()
+                .map(|(_, w)| w)
+                .sum();
             assert!((sum - 1.0).abs() < 1e-12);
             // Between inner keys, where slopes are the neighbours', a straight way in time is kept.
             if (1.0..=1.5).contains(&time) {

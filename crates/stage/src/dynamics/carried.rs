@@ -113,12 +113,7 @@ impl Carried {
     }
 
     /// Turns the normals of the carried strands as their guides' links have turned.
-    pub fn turn(
-        &self,
-        rest: &[Vec3],
-        normals: &mut [Vec3],
-        turns: impl Fn(usize) -> Vec<DQuat>,
-    ) {
+    pub fn turn(&self, rest: &[Vec3], normals: &mut [Vec3], turns: impl Fn(usize) -> Vec<DQuat>) {
         let turned = self.turned(&turns);
         for (range, carriers) in self.ranges.iter().zip(&self.carriers) {
             let last = (range.len() - 1) as f32;

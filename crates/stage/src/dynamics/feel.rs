@@ -154,7 +154,10 @@ pub(crate) fn unsupported(values: &Values) -> Option<(&'static str, String)> {
     match SolverKind::of(values) {
         SolverKind::Xpbd => {
             let name = ["damping", "links", "volume"].into_iter().find(asks)?;
-            Some((name, format!("{name}: solver: xpbd has none; leave it out, or take solver: rods")))
+            Some((
+                name,
+                format!("{name}: solver: xpbd has none; leave it out, or take solver: rods"),
+            ))
         }
         SolverKind::Rods if values.is_given("substeps") => Some((
             "substeps",

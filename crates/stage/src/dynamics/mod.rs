@@ -17,14 +17,14 @@ use crate::motion::MotionScript;
 use crate::neck::rigid;
 use bodies::Bodies;
 use carried::Carried;
-use feel::SolverKind;
-use running::{Run, Running};
 use effects::Values;
+use feel::SolverKind;
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::compare::Xpbd;
 use hair_sim::{Acceleration, Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind};
 use render::Head;
+use running::{Run, Running};
 use std::ops::Range;
 
 /// Where a simulated strand's points go.
@@ -200,7 +200,8 @@ impl Dynamics {
                 *point = moved.as_vec3();
             }
         }
-        self.carried.carry(points, |strand| self.strands.turns(strand));
+        self.carried
+            .carry(points, |strand| self.strands.turns(strand));
         self.bodies.keep_out(self.carried.ranges(), pose, points);
         Ok(())
     }
@@ -228,7 +229,8 @@ impl Dynamics {
         shapes.sample_smooth(time, &mut self.shape);
         self.goal.clear();
         let parts = self.guides.iter().map(|part| part.points.clone());
-        self.goal.extend(parts.flatten().map(|point| self.shape[point]));
+        self.goal
+            .extend(parts.flatten().map(|point| self.shape[point]));
     }
 
     /// The script's time after a number of steps.

@@ -52,6 +52,8 @@ where
     fn turns(&self, strand: usize) -> Vec<DQuat> {
         let rest = self.solver.frames(&self.start, strand).into_iter();
         let now = self.solver.frames(&self.state, strand).into_iter();
-        now.zip(rest).map(|(now, rest)| now * rest.inverse()).collect()
+        now.zip(rest)
+            .map(|(now, rest)| now * rest.inverse())
+            .collect()
     }
 }

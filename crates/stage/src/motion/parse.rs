@@ -250,7 +250,10 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
     }
     if let Some(hold) = plain.iter().find(|field| field.name == "hold") {
         if script.shapes.is_empty() {
-            reader.error(hold.name, "hold: the script has no `shapes` to pull hair to");
+            reader.error(
+                hold.name,
+                "hold: the script has no `shapes` to pull hair to",
+            );
         }
     }
     reader.report()?;
@@ -262,7 +265,10 @@ fn shape<'a>(reader: &mut Reader<'a>, item: &'a str) -> KeyShape {
     let values = reader.values(&fields, SHAPE, "a shape");
     let field = |name: &str| fields.iter().find(|field| field.name == name);
     if let (Some(at), None) = (field("at"), field("hair")) {
-        reader.error(at.name, "at: there is no `hair` that it could be a moment of");
+        reader.error(
+            at.name,
+            "at: there is no `hair` that it could be a moment of",
+        );
     }
     KeyShape {
         time: f64::from(values.number("time")),

@@ -37,7 +37,11 @@ fn part_of(rotation: DQuat, share: f64) -> DQuat {
     if rotation == DQuat::IDENTITY || share == 1.0 {
         return rotation;
     }
-    let short = if rotation.w < 0.0 { -rotation } else { rotation };
+    let short = if rotation.w < 0.0 {
+        -rotation
+    } else {
+        rotation
+    };
     (DQuat::IDENTITY * (1.0 - share) + short * share).normalize()
 }
 

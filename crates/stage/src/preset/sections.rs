@@ -227,7 +227,11 @@ pub const MOTION: &[Param] = &[
          script's moves come on top.",
         ParamKind::Text,
     ),
-    param("bone", "The character's bone that the head follows; \"head\" without it.", ParamKind::Text),
+    param(
+        "bone",
+        "The character's bone that the head follows; \"head\" without it.",
+        ParamKind::Text,
+    ),
     param(
         "animation",
         "The character's animation, by its name or its number, 0 first; the first without it.",
