@@ -101,7 +101,7 @@ pub(crate) fn step(
         length: first,
         damping: batch.damping * (1.0 / (2.0 * d)),
         base: root.mid,
-        pull: root.pull_mid,
+        pull: root.pull,
     };
     iterations += solve(batch, scratch, &stage, active, &mut failed, Which::Mid);
 

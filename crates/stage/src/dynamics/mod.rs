@@ -22,7 +22,7 @@ use feel::SolverKind;
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::compare::Xpbd;
-use hair_sim::{Acceleration, Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind};
+use hair_sim::{Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind};
 use render::Head;
 use running::{Run, Running};
 use std::ops::Range;
@@ -169,13 +169,8 @@ impl Dynamics {
             let shoulders = ends.map(|steps| self.shoulders_at(steps, script));
             let (steady, gust) = script.wind_at(self.time_of(self.done + 1));
             self.aim(script.within(self.time_of(self.done + 1)));
-            let after = self.pose_at(self.done + 2, script);
-            let earlier = self.pose_at(self.done - 1, script);
-            let accelerations = [[earlier, before, now], [before, now, after]]
-                .map(|poses| Acceleration::between(poses, self.step));
             let scene = Scene {
                 roots: Roots::Head(now),
-                acceleration: Some(accelerations),
                 gravity: self.gravity,
                 wind: Wind {
                     steady,
