@@ -6,6 +6,9 @@ use hair_sim::{Material, Mutual, Natural, Params, Profile};
 use render::Head;
 use std::f64::consts::TAU;
 
+/// Steps within a step of the solvers that take some.
+const SUBSTEPS: i32 = 64;
+
 /// The section `dynamics`.
 pub const DYNAMICS: &[Param] = &[
     choice(
@@ -112,7 +115,7 @@ pub const DYNAMICS: &[Param] = &[
         ParamKind::Integer {
             min: 1,
             max: 1000,
-            default: 64,
+            default: SUBSTEPS,
         },
     ),
     number(
@@ -159,7 +162,7 @@ pub(crate) fn unsupported(values: &Values) -> Option<(&'static str, String)> {
                 format!("{name}: solver: xpbd has none; leave it out, or take solver: rods"),
             ))
         }
-        SolverKind::Rods if values.is_given("substeps") => Some((
+        SolverKind::Rods if values.integer("substeps") != SUBSTEPS => Some((
             "substeps",
             "substeps: solver: rods takes a step as one; leave it out, or set `step`".to_owned(),
         )),
