@@ -133,7 +133,7 @@ fn what_is_not_there_is_named() {
     let message = error("haed", None);
     assert_eq!(
         message,
-        "there is no bone `haed`; the nearest names are: Head, neck, hips"
+        "there is no bone `haed`; the nearest names are: Head, hips, neck"
     );
     let message = error("head", Some("trun"));
     assert!(
