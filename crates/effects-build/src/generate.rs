@@ -202,6 +202,9 @@ fn gather(source: &Source) -> TokenStream {
         match input.name {
             "seed" => quote!(seed: ::effects::strand_seed(seed, joints.strand[index])),
             "unit" => quote!(unit: joints.unit(index)),
+            "material_normal" => {
+                quote!(material_normal: joints.material_normal_or_zero(index))
+            }
             _ => quote!(#field: joints.#field[index]),
         }
     });

@@ -50,6 +50,8 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
     // 5.4, with all of the correction.
     let outward = position.normalize();
     let normal = (outward - outward.dot(backward) * backward).normalize();
+    // Across the strand too, but turned about it.
+    let material_normal = 0.8 * normal + 0.6 * backward.cross(normal);
     let to_light = LIGHT - position;
     let light = to_light.normalize();
     let view = (EYE - position).normalize();
@@ -71,6 +73,7 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         across: vec2([-ahead.y, ahead.x]),
         unit: 0.8,
         normal: vec3(normal.to_array()),
+        material_normal: vec3(material_normal.to_array()),
         clump_radius: 18.0 * (1.0 - u) * (0.3 + u),
         clump_color: vec3([0.2, 0.4, 0.8]),
         gray: light.dot(normal).max(0.0),

@@ -105,6 +105,7 @@ inputs! {
     view_direction: Vec3<f32>,
     across: Vec2<f32>,
     normal: Vec3<f32>,
+    material_normal: Vec3<f32>,
     clump_radius: f32,
     clump_color: Vec3<f32>,
     gray: f32,

@@ -15,7 +15,6 @@ use rayon::prelude::*;
 
 use crate::{
     Strands,
-    collision::Collider,
     forces::mutual::{Course, Mutual, Pair},
     lanes::{LANES, Quat, Vec3 as LaneVec3},
     params::Params,
@@ -312,39 +311,7 @@ impl Solver {
     }
 
     fn check(&self, state: &State, scene: &Scene, dt: f64) -> Result<(), DynamicsError> {
-        if !(dt > 0.0 && dt <= 10.0) {
-            return Err(DynamicsError::Step(dt));
-        }
-        if !scene.gravity.is_finite() {
-            return Err(DynamicsError::Scene("gravity"));
-        }
-        if !scene.wind.is_finite() {
-            return Err(DynamicsError::Scene("wind"));
-        }
-        if !scene.colliders.iter().all(Collider::is_finite) {
-            return Err(DynamicsError::Scene("collider"));
-        }
-        let points: usize = self.points.iter().sum();
-        if let Some(found) = scene.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
-            return Err(DynamicsError::Goal {
-                found,
-                expected: points,
-            });
-        }
-        match scene.roots {
-            Roots::Head(pose)
-                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
-            {
-                return Err(DynamicsError::Scene("head"));
-            }
-            Roots::Each(poses) if poses.len() != self.len() => {
-                return Err(DynamicsError::Poses {
-                    found: poses.len(),
-                    expected: self.len(),
-                });
-            }
-            _ => {}
-        }
+        scene.check(dt, self.len(), self.points.iter().sum())?;
         let fits = state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count())
             && self.hair.as_ref().is_none_or(|h| {

@@ -82,6 +82,7 @@ fn drawing_on(
         seed,
         layers: &layers,
         layer_joints,
+        material_normals: &[],
         surfaces: Vec::new(),
         background: None,
         order: Order::Rounded,

@@ -131,6 +131,9 @@ impl Evaluator {
         let across = paths.across.iter().map(|v| vec2(v.to_array()));
         fill(&mut joints.across, read.has("across"), across);
 
+        let normals = frame.material_normals.iter().map(world);
+        fill(&mut joints.material_normal, true, normals);
+
         let strand_of_joint = || {
             let runs = paths.runs.iter();
             runs.flat_map(|run| run.joints.clone().map(|_| &frame.strands[run.strand]))

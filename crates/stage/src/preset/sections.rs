@@ -222,11 +222,35 @@ pub const LIGHT: &[Param] = &[
 ];
 
 /// The section `motion`.
-pub const MOTION: &[Param] = &[param(
-    "file",
-    "How the head moves and the wind blows, relative to the preset: .motion.ron.",
-    ParamKind::Text,
-)];
+pub const MOTION: &[Param] = &[
+    param(
+        "file",
+        "How head, wind and hair move, relative to the preset: .motion.ron.",
+        ParamKind::Text,
+    ),
+    param(
+        "gltf",
+        "A character whose animation moves the head, relative to the preset: .glb, .gltf or .vrm. The \
+         script's moves come on top.",
+        ParamKind::Text,
+    ),
+    param(
+        "bone",
+        "The character's bone that the head follows; \"head\" without it.",
+        ParamKind::Text,
+    ),
+    param(
+        "animation",
+        "The character's animation, by its name or its number, 0 first; the first without it.",
+        ParamKind::Text,
+    ),
+    choice(
+        "repeat",
+        "Whether the character's animation starts again at its end.",
+        &["false", "true"],
+        0,
+    ),
+];
 
 /// The section `path`.
 pub const PATH: &[Param] = &[
@@ -264,7 +288,7 @@ pub const SECTIONS: &[(&str, &str, &[Param])] = &[
     ),
     ("camera", "From where it is seen.", CAMERA),
     ("light", "Where the light comes from.", LIGHT),
-    ("motion", "How the head moves and the wind blows.", MOTION),
+    ("motion", "How head, wind and hair move.", MOTION),
     (
         "dynamics",
         "How hair swings, bends and returns to its style.",
