@@ -9,6 +9,7 @@ pub mod npz;
 pub mod own;
 pub mod peers;
 pub mod reference;
+pub mod ring;
 pub mod rods;
 pub mod statics;
 pub mod stored;

@@ -388,6 +388,25 @@ impl Solver {
         })
     }
 
+    /// The velocities of a strand's points in the world, root first, in m/s. The root's is that of its last step.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::points`].
+    pub fn velocities<'a>(
+        &self,
+        state: &'a State,
+        strand: usize,
+    ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
+        let (batch, lane) = self.places[strand];
+        let state = &state.batches[batch];
+        let root = state.root_velocity.get(lane);
+        (0..self.points[strand]).map(move |i| match i {
+            0 => root,
+            _ => root + state.v[i - 1].get(lane),
+        })
+    }
+
     /// The material frames of a strand's links in the world, root first: the third axis points along the link.
     ///
     /// # Panics
