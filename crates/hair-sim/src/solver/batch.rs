@@ -28,8 +28,8 @@ pub(crate) struct Batch {
     /// Whether any strand has drag; a goal.
     pub has_drag: bool,
     pub has_goal: bool,
-    /// Whether nothing in the strands or the air takes energy from them.
-    pub conserves: bool,
+    /// Strands from which nothing in them or in the air takes energy.
+    pub conserves: Mask,
     /// Distance kept from colliders, in m.
     pub thickness: Lane,
     pub friction: Lane,
@@ -89,7 +89,7 @@ impl Batch {
             drag_along: Lane::ZERO,
             has_drag: members.iter().any(|m| m.2.drag > 0.0),
             has_goal: members.iter().any(|m| m.2.has_goal()),
-            conserves: members.iter().all(|m| m.2.conserves()),
+            conserves: Mask::NONE,
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
             styled: vec![Vec3::ZERO; count],
@@ -100,6 +100,8 @@ impl Batch {
         for (lane, (index, rest, params)) in members.iter().enumerate() {
             batch.fill(lane, *index, rest, params);
         }
+        let conserves = |lane: usize| members.get(lane).is_some_and(|m| m.2.conserves());
+        batch.conserves = Mask::new(std::array::from_fn(conserves));
         batch.used = Mask::new(batch.counts.map(|count| count > 0));
         batch
     }

@@ -137,7 +137,7 @@ pub(crate) fn step(
     failed = failed
         .or(turned_too_far(batch, state, scratch, &root))
         .and(active);
-    let before = if batch.conserves {
+    let before = if batch.conserves.any() {
         state.energy(batch, root.pull)
     } else {
         Lane::ZERO
@@ -149,8 +149,8 @@ pub(crate) fn step(
     if failed.any() {
         fallback::step(batch, state, scratch, drive, &root, failed);
     }
-    if batch.conserves {
-        take_gain(batch, state, &root, before, active);
+    if batch.conserves.any() {
+        take_gain(batch, state, &root, before, active.and(batch.conserves));
     }
     let aside = state.aside().and(batch.used);
     if aside.any() {
