@@ -190,7 +190,8 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, d
             let goal: DVec3 = pose.rotation * goal;
             if goal.is_finite() {
                 now.set(lane, goal);
-            } else if pose.is_finite() {
+            } else if pose.is_finite() && batch.particles[k].goal[lane] > 0.0 {
+                // Where nothing pulls, nothing is broken.
                 state.set_aside[lane].get_or_insert(Reason::Goal);
             }
         }
