@@ -66,6 +66,9 @@ pub(crate) fn step(
     let asleep = asleep(state, drive, batch.used);
     stats.asleep = asleep.count();
     if asleep == batch.used && !state.aside().and(batch.used).any() {
+        // Strands of a root alone have nothing that could sleep.
+        state.root = Vec3::pick(batch.used, state.root, root.root);
+        state.root_velocity = Vec3::pick(batch.used, state.root_velocity, root.velocity);
         return stats;
     }
     let active = prepare(
