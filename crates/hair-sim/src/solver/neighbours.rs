@@ -32,8 +32,9 @@ pub(super) fn pairs(
         first.push(total);
         total += batch.count() * LANES;
         for lane in 0..LANES {
-            let Some(index) = batch.strands[lane].filter(|_| state.set_aside[lane].is_none())
-            else {
+            // A root alone has nothing to act with, and would take the place of a neighbour that has.
+            let acts = state.set_aside[lane].is_none() && batch.counts[lane] > 0;
+            let Some(index) = batch.strands[lane].filter(|_| acts) else {
                 continue;
             };
             let root = state.root.get(lane);
