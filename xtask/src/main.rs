@@ -16,6 +16,7 @@ mod program;
 mod regress;
 mod report;
 mod setup;
+mod stress;
 mod test;
 mod wasm;
 
@@ -31,7 +32,6 @@ const NOT_BUILT: &[(&str, &str)] = &[
     ("gallery", "Draws contact sheets of all looks"),
     ("figures", "Redraws the source's explanatory figures"),
     ("fuzz", "Feeds random input to readers for hours"),
-    ("stress", "Runs random scenes for hours"),
 ];
 
 fn command() -> Command {
@@ -89,6 +89,7 @@ fn command() -> Command {
             Command::new("setup").about("Installs what the tests need and this machine lacks"),
         )
         .subcommand(bench::command())
+        .subcommand(stress::command())
         .subcommands(not_built)
 }
 
@@ -105,6 +106,7 @@ fn run(matches: &ArgMatches) -> Outcome {
         }
         Some(("bench", args)) => bench::run(args),
         Some(("setup", _)) => setup::run(),
+        Some(("stress", args)) => stress::run(args),
         Some((name, _)) => Err(format!("{name} isn't built yet").into()),
         None => Err("no task given".into()),
     }

@@ -225,3 +225,6 @@ impl IndexMut<usize> for Lane {
         &mut self.0[lane]
     }
 }
+
+#[cfg(test)]
+mod properties;

@@ -262,6 +262,9 @@ fn curl(rotation: DVec3) -> DVec3 {
 }
 
 #[cfg(test)]
+mod properties;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use glam::Vec3;

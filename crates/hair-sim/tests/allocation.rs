@@ -40,12 +40,12 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// 200 strands of different lengths on a ball.
+/// 40 strands of different lengths on a ball.
 fn style() -> Strands {
     let mut strands = Strands::new();
-    for s in 0..200_u32 {
+    for s in 0..40_u32 {
         let angle = s as f32 * 2.399_963;
-        let up = 1.0 - 1.2 * (s as f32 + 0.5) / 200.0;
+        let up = 1.0 - 1.2 * (s as f32 + 0.5) / 40.0;
         let level = (1.0 - up * up).sqrt();
         let out = Vec3::new(level * angle.cos(), up, level * angle.sin());
         let links = 10 + s % 12;
@@ -72,14 +72,23 @@ struct Happened {
 
 /// A head that shakes, and now and then turns so fast that strands need the safe integrator.
 fn head(step: usize) -> Pose {
-    let angle = if step % 50 < 4 { 2.0 * (step % 50) as f64 } else { 0.6 * (0.3 * step as f64).sin() };
+    let angle = if step % 50 < 4 {
+        2.0 * (step % 50) as f64
+    } else {
+        0.6 * (0.3 * step as f64).sin()
+    };
     Pose {
         rotation: DQuat::from_rotation_y(angle),
         translation: DVec3::ZERO,
     }
 }
 
-fn run(solver: &mut Solver, state: &mut State, goal: &[Vec3], steps: std::ops::Range<usize>) -> Happened {
+fn run(
+    solver: &mut Solver,
+    state: &mut State,
+    goal: &[Vec3],
+    steps: std::ops::Range<usize>,
+) -> Happened {
     let mut happened = Happened::default();
     for step in steps {
         let colliders = [Collider {
@@ -111,7 +120,7 @@ fn run(solver: &mut Solver, state: &mut State, goal: &[Vec3], steps: std::ops::R
     happened
 }
 
-/// The allocations in 200 steps, after a warm-up of 100.
+/// The allocations in 100 steps, after a warm-up of 60.
 fn allocations(threads: usize) -> usize {
     let rest = style();
     let goal = rest.points().to_vec();
@@ -129,9 +138,9 @@ fn allocations(threads: usize) -> usize {
             ..Mutual::default()
         };
         solver.interact(&mut state, &mutual).unwrap();
-        run(&mut solver, &mut state, &goal, 0..100);
+        run(&mut solver, &mut state, &goal, 0..60);
         let before = ALLOCATIONS.load(Relaxed);
-        let happened = run(&mut solver, &mut state, &goal, 100..300);
+        let happened = run(&mut solver, &mut state, &goal, 60..160);
         let count = ALLOCATIONS.load(Relaxed) - before;
         // The count means nothing unless all was there.
         assert!(happened.contacts > 1000 && happened.wind > 1000);
@@ -144,7 +153,7 @@ fn allocations(threads: usize) -> usize {
 // One test: the count is that of the whole process.
 #[test]
 fn a_warm_step_allocates_nothing() {
-    for threads in [1, 2, 8] {
+    for threads in [1, 2, 4] {
         assert_eq!(allocations(threads), 0, "{threads} threads");
     }
 }

@@ -90,7 +90,13 @@ impl Case {
         let of_one_kind = rng.bool();
         let first = params(rng, &rest, 0, has_goals);
         let params: Vec<Params> = (0..count)
-            .map(|s| if of_one_kind { first } else { params(rng, &rest, s, has_goals) })
+            .map(|s| {
+                if of_one_kind {
+                    first
+                } else {
+                    params(rng, &rest, s, has_goals)
+                }
+            })
             .collect();
         let mutual = (rng.u8(..3) == 0).then(|| mutual(rng));
         let frames = frames(rng, &rest, has_goals);
@@ -200,7 +206,11 @@ fn points(rng: &mut Rng, kind: u8, links: usize, length: f64) -> Vec<Vec3> {
 }
 
 fn params(rng: &mut Rng, rest: &Strands, strand: usize, has_goals: bool) -> Params {
-    let length: f64 = rest.strand(strand).windows(2).map(|w| f64::from(w[0].distance(w[1]))).sum();
+    let length: f64 = rest
+        .strand(strand)
+        .windows(2)
+        .map(|w| f64::from(w[0].distance(w[1])))
+        .sum();
     let mut material = Material::from_gamma(spread(rng, 1e-4, 1e6), length.max(1e-3));
     material.young = material.young.clamp(1e-3, 1e20);
     material.twist_ratio = spread(rng, 0.1, 10.0);
@@ -236,7 +246,11 @@ fn params(rng: &mut Rng, rest: &Strands, strand: usize, has_goals: bool) -> Para
         damping: one_of(rng, &[0.0, 0.005, 0.1, 2.0]),
         drag: one_of(rng, &[0.0, 0.0, 2.0, 30.0, 1e3, 1e4]),
         drag_along: one_of(rng, &[0.0, 0.5, 1.0]),
-        goal: if has_goals { goal } else { Profile::constant(0.0) },
+        goal: if has_goals {
+            goal
+        } else {
+            Profile::constant(0.0)
+        },
         thickness: one_of(rng, &[0.0, 1e-3, 0.02]),
         friction: one_of(rng, &[0.0, 0.3, 5.0]),
     }
@@ -279,7 +293,10 @@ struct Act {
 fn act(rng: &mut Rng) -> Act {
     use Motion::{Dashes, Flips, Jumps, Nods, Spins, Still};
     Act {
-        motion: one_of(rng, &[Still, Still, Still, Nods, Nods, Jumps, Flips, Spins, Dashes]),
+        motion: one_of(
+            rng,
+            &[Still, Still, Still, Nods, Nods, Jumps, Flips, Spins, Dashes],
+        ),
         axis: direction(rng),
         gravity: rng.u8(..8),
         wind: rng.u8(..6),
@@ -290,7 +307,18 @@ fn act(rng: &mut Rng) -> Act {
 }
 
 fn frames(rng: &mut Rng, rest: &Strands, has_goals: bool) -> Vec<Frame> {
-    let dt = one_of(rng, &[1.0 / 240.0, 1.0 / 120.0, 1.0 / 60.0, 1.0 / 24.0, 1.0 / 24.0, 0.2, 1.0]);
+    let dt = one_of(
+        rng,
+        &[
+            1.0 / 240.0,
+            1.0 / 120.0,
+            1.0 / 60.0,
+            1.0 / 24.0,
+            1.0 / 24.0,
+            0.2,
+            1.0,
+        ],
+    );
     let changes_step = rng.u8(..5) == 0;
     let wind_seed = rng.u64(..);
     let mut head = Pose::IDENTITY;
@@ -301,7 +329,11 @@ fn frames(rng: &mut Rng, rest: &Strands, has_goals: bool) -> Vec<Frame> {
         let mut bodies: Vec<(Body, Pose, DVec3)> = (0..act.bodies).map(|_| body(rng)).collect();
         let start = head;
         for i in 0..length {
-            let dt = if changes_step { spread(rng, 1.0 / 240.0, 1.0) } else { dt };
+            let dt = if changes_step {
+                spread(rng, 1.0 / 240.0, 1.0)
+            } else {
+                dt
+            };
             head = moved(start, &act, i, dt);
             let each = act.by_strand.then(|| {
                 let apart = |s: usize| Pose {

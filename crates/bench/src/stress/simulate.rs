@@ -99,10 +99,17 @@ impl<'a> Run<'a> {
             done.map_err(|error| error.to_string())?;
         }
         for (place, &strand) in how.order.iter().enumerate() {
-            let broken = |what| matches!(what, Broken::Rest(..) | Broken::Folds(_) | Broken::IsPoint);
-            let faults = case.faults.iter().filter(|f| how.has_faults && f.strand == strand);
+            let broken =
+                |what| matches!(what, Broken::Rest(..) | Broken::Folds(_) | Broken::IsPoint);
+            let faults = case
+                .faults
+                .iter()
+                .filter(|f| how.has_faults && f.strand == strand);
             if faults.clone().any(|f| broken(f.what)) && !aside[place] {
-                return Err(format!("strand {} is broken and nobody says so", rest.id(place)));
+                return Err(format!(
+                    "strand {} is broken and nobody says so",
+                    rest.id(place)
+                ));
             }
         }
         Ok(Self {
@@ -201,9 +208,16 @@ impl<'a> Run<'a> {
         )];
         match index / 8 % 6 {
             0 => bad.gravity = nan,
-            1 => bad.wind = Wind { steady: nan, ..bad.wind },
+            1 => {
+                bad.wind = Wind {
+                    steady: nan,
+                    ..bad.wind
+                }
+            }
             2 => bad.colliders = &body,
-            3 => bad.goal = Some(&[Vec3::ZERO; 3][..usize::from(self.rest.points().len() != 1) * 3]),
+            3 => {
+                bad.goal = Some(&[Vec3::ZERO; 3][..usize::from(self.rest.points().len() != 1) * 3])
+            }
             4 => bad_dt = [0.0, -1.0, f64::NAN, f64::INFINITY, 11.0][index % 5],
             _ => bad.roots = Roots::Each(&[]),
         }
@@ -220,7 +234,9 @@ impl<'a> Run<'a> {
                 | DynamicsError::Goal { .. }
                 | DynamicsError::Poses { .. },
             ) if self.state == before => Ok(()),
-            other => Err(format!("a broken scene was not refused as it must be: {other:?}")),
+            other => Err(format!(
+                "a broken scene was not refused as it must be: {other:?}"
+            )),
         }
     }
 
@@ -235,9 +251,11 @@ impl<'a> Run<'a> {
                 (None, true) => return Err(format!("strand {id} is broken and nobody says so")),
                 _ => {}
             }
-            self.check_shape(place, frame).map_err(|error| format!("strand {id} {error}"))?;
+            self.check_shape(place, frame)
+                .map_err(|error| format!("strand {id} {error}"))?;
             if !self.aside[place] {
-                self.check_energy(place, index).map_err(|error| format!("strand {id} {error}"))?;
+                self.check_energy(place, index)
+                    .map_err(|error| format!("strand {id} {error}"))?;
             }
         }
         Ok(())
@@ -248,7 +266,11 @@ impl<'a> Run<'a> {
         if !points.iter().all(|p| p.is_finite()) {
             return Err("is not finite".to_owned());
         }
-        if !self.solver.velocities(&self.state, place).all(|v| v.is_finite()) {
+        if !self
+            .solver
+            .velocities(&self.state, place)
+            .all(|v| v.is_finite())
+        {
             return Err("has no finite velocity".to_owned());
         }
         let mut frames = self.solver.frames(&self.state, place);
@@ -258,7 +280,12 @@ impl<'a> Run<'a> {
         if self.aside[place] {
             return Ok(());
         }
-        let styled: Vec<DVec3> = self.rest.strand(place).iter().map(|p| p.as_dvec3()).collect();
+        let styled: Vec<DVec3> = self
+            .rest
+            .strand(place)
+            .iter()
+            .map(|p| p.as_dvec3())
+            .collect();
         let head = match &frame.each {
             Some(each) => each[self.how.order[place]],
             None => frame.head,
@@ -287,7 +314,9 @@ impl<'a> Run<'a> {
         // Two frames back: a root that stops is braked in the step after.
         let before = index.checked_sub(2).map(|i| &self.case.frames[i..index]);
         let driven = before.is_none_or(|before| {
-            before.iter().any(|b| drives(self.case, params, b, frame, strand))
+            before
+                .iter()
+                .any(|b| drives(self.case, params, b, frame, strand))
         });
         if driven {
             let length: f64 = (self.rest.strand(place).windows(2))
@@ -302,7 +331,9 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let gain = (energy - ceiling) / scale;
-        Err(format!("gains energy that nothing gives it: {gain:.1e} of its own"))
+        Err(format!(
+            "gains energy that nothing gives it: {gain:.1e} of its own"
+        ))
     }
 
     /// A hash a strand, by its place in the case.

@@ -234,3 +234,6 @@ pub(crate) fn potential(
     }
     sum
 }
+
+#[cfg(test)]
+mod properties;

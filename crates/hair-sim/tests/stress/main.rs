@@ -8,6 +8,7 @@ mod bodies;
 mod broken;
 mod extremes;
 mod flight;
+mod ordinary;
 mod rest;
 mod roots;
 mod winds;
