@@ -9,7 +9,6 @@ pub mod npz;
 pub mod own;
 pub mod peers;
 pub mod reference;
-pub mod ring;
 pub mod rods;
 pub mod statics;
 pub mod stored;
@@ -63,7 +62,7 @@ pub struct Measured {
 /// When a solver refuses a scene, a counter isn't what it must be, a peer fails, or a file cannot be read or written.
 pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
     let scenes = scenes(options.quick);
-    progress.set_length(scenes.len() as u64 + statics::GAMMAS.len() as u64 * 3 + 3);
+    progress.set_length(scenes.len() as u64 + statics::GAMMAS.len() as u64 * 3 + 2);
     let data = options.data.as_deref();
     let truths = [
         (10.0, falls::truth(10.0, 40, data)?),
@@ -89,9 +88,6 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     }
     progress.set_message("cantilevers");
     rows.extend(alone.install(|| statics::rows(|| progress.inc(1)))?);
-    progress.set_message("a twisted ring");
-    rows.extend(alone.install(ring::rows)?);
-    progress.inc(1);
     progress.set_message("many strands");
     let moving = motion::measure(options.threads, options.quick, effort(options.quick))?;
     rows.extend(moving.rows);
@@ -133,13 +129,7 @@ fn scene(gamma: f64, count: usize) -> String {
 
 /// Falls first, one strand before many: the order of the scenes in the files.
 fn place_of(scene: &str) -> (usize, String) {
-    let kinds = [
-        "drop-",
-        statics::SCENE,
-        ring::SCENE,
-        "motion-",
-        targets::FULL,
-    ];
+    let kinds = ["drop-", statics::SCENE, "motion-", targets::FULL];
     let kind = kinds.iter().position(|kind| scene.starts_with(kind));
     (kind.unwrap_or(kinds.len()), scene.to_owned())
 }
@@ -196,7 +186,6 @@ fn comments(options: &Options, truths: &[(f64, Truth)]) -> Vec<String> {
         "  mujoco-*, pypbd-*: other programs; knob: steps of 1/24 s",
         "cantilever-GAMMA: the same strand at rest; knob: elements; seconds: for a second; error: of the tip over the length",
         "  steps of inkstrand 1/24 s, mass-spring 1/384 s, xpbd-sweeps 1/1536 s with 20 sweeps",
-        "ring: the twist at which a ring leaves its plane; knob: elements; error: over Michell's threshold; seconds: of the search",
         "motion-STRANDSxELEMENTS: on a head that shakes; full-: with the head in their way, wind and links; knob: threads",
         "  seconds: for a step of 1/60 s of all strands; xpbd-sweeps: 20 sweeps",
     ];

@@ -1,6 +1,5 @@
 //! Our figures as they were, so that worse ones are seen: errors, and times over those of a yardstick.
 
-use super::ring;
 use super::statics::SCENE;
 use super::targets::{OWN, XPBD_STEPS};
 use crate::results::{Row, table};
@@ -38,7 +37,7 @@ pub fn file(rows: &[Row]) -> Result<String, String> {
                 .error
                 .map_or(String::new(), |error| format!("{error:.4e}"));
             // What is run only once has no time to hold it to.
-            let time = if row.scene.starts_with(SCENE) || row.scene == ring::SCENE {
+            let time = if row.scene.starts_with(SCENE) {
                 String::new()
             } else {
                 format!("{:.4e}", row.seconds / yardstick)

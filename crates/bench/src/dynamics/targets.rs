@@ -1,6 +1,6 @@
 //! What our strands are held to, by themselves and against others.
 
-use super::{ring, statics};
+use super::statics;
 use crate::results::Row;
 use crate::targets::{Found, Limit, Point, Target, curve, time_at};
 
@@ -69,11 +69,6 @@ fn at_rest(rows: &[Row]) -> Vec<Target> {
             });
         }
     }
-    targets.push(Target {
-        text: "ring: threshold of 20 elements, its distance from Michell's".to_owned(),
-        found: find(rows, ring::SCENE, method, 20).and_then(|row| Some(Found::Is(row.error?))),
-        limit: Limit::AtMost(0.03),
-    });
     targets
 }
 
@@ -206,7 +201,6 @@ mod tests {
             rows.push(row(scene, "mujoco-chain", 1, 10.0 * seconds, 0.25));
             rows.push(row(scene, "mujoco-chain", 256, 900.0 * seconds, 0.001));
         }
-        rows.push(row("ring", "inkstrand", 20, 0.1, 0.02));
         rows.push(row("drop-100", "inkstrand-20", 1, 1e-4, 0.11));
         rows.push(row("drop-100", "inkstrand-20", 2, 2e-4, 0.05));
         rows.push(row("full-72x20", "inkstrand", 2, 6e-5, 0.0));
@@ -224,7 +218,7 @@ mod tests {
         let targets = all(&good());
         assert_eq!(
             targets.len(),
-            5 + 1 + 4 + 1 + 2 + 4 + 2 + 1,
+            5 + 4 + 1 + 2 + 4 + 2 + 1,
             "{}",
             report(&targets)
         );
@@ -237,7 +231,6 @@ mod tests {
         for (scene, method, knob, slower, worse, missed) in [
             ("cantilever-10", "inkstrand", 20, 1.0, 1.3, 1),
             ("cantilever-1", "inkstrand", 40, 1.0, 2.0, 1),
-            ("ring", "inkstrand", 20, 1.0, 1.6, 1),
             ("drop-10", "inkstrand-20", 1, 1.01, 1.0, 2),
             ("drop-10", "inkstrand-20", 2, 1.0, 1.2, 1),
             ("drop-10-x72", "xpbd-steps", 256, 0.01, 1.0, 1),

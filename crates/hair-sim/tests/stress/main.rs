@@ -7,7 +7,6 @@ mod bits;
 mod bodies;
 mod broken;
 mod extremes;
-mod flight;
 mod ordinary;
 mod rest;
 mod roots;
