@@ -4,7 +4,7 @@ pub(crate) mod batch;
 mod drive;
 mod fallback;
 mod finish;
-mod instructions;
+pub(crate) mod instructions;
 mod integrate;
 mod neighbours;
 mod scene;
@@ -277,7 +277,7 @@ impl Solver {
                     courses: &h.courses,
                 }),
             };
-            Stats::from(instructions.step(batch, state, scratch, &drive))
+            Stats::from(integrate::step(instructions, batch, state, scratch, &drive))
         };
         let group = self.group;
         let sum = (self.batches.par_chunks(group).enumerate())

@@ -79,7 +79,7 @@ impl Contact {
         let spring = here * d * d * (1.0 / (SETTLE * SETTLE));
         let damper = here * d * (1.0 / SETTLE);
         let slide = here * d * self.slip;
-        let n = Sym3::outer(self.normal, spring + damper - slide) + Sym3::diagonal(slide);
+        let n = Sym3::outer(slide, self.normal, spring + damper - slide);
         let carried = free_y + self.flow * d;
         let out = self.normal * (spring * level + (damper - slide) * self.normal.dot(carried));
         node.n += n;
