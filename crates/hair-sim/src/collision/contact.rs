@@ -1,10 +1,10 @@
 //! Contact of particles with bodies: once a step, the path of every particle against every body gives at most one
 //! plane, behind which the particle is held in the stages of the step.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::{
-    lanes::{LANES, Lane, Mask, Sym3, Vec3},
+    lanes::{LANES, Lane, Mask, Number, Sym3, Vec3},
     solver::batch::{Batch, BatchState},
     solver::sweep::Node,
 };
@@ -95,6 +95,46 @@ impl Contact {
     }
 }
 
+/// A ball around a body, and how the body moves in a step: what lies far off is known by this alone.
+pub(crate) struct Guard {
+    center: DVec3,
+    radius: f64,
+    /// From where something was, as the body carries it along: `carry` times the place, and `shift`.
+    carry: DMat3,
+    shift: DVec3,
+}
+
+impl Guard {
+    pub(crate) fn new(collider: &Collider) -> Self {
+        let (center, radius) = collider.shape.ball();
+        let (before, now) = (collider.before, collider.now);
+        let carry = DMat3::from_quat(now.rotation) * DMat3::from_quat(before.rotation).transpose();
+        Self {
+            center: now.to_world(center),
+            radius,
+            carry,
+            shift: now.translation - carry * before.translation,
+        }
+    }
+
+    /// Whether particles that go from `from` to `to` and keep `keep` may come near the body. A little more than
+    /// [`Path::against`] asks for, which has the last word.
+    #[inline(always)]
+    fn is_near<T: Number>(&self, from: Vec3<T>, to: Vec3<T>, keep: T) -> Mask {
+        const MARGIN: f64 = 1e-6;
+        let carried = Vec3::all(self.shift)
+            + Vec3::all(self.carry.x_axis).scale(from.x)
+            + Vec3::all(self.carry.y_axis).scale(from.y)
+            + Vec3::all(self.carry.z_axis).scale(from.z);
+        let way = (to - carried).length_squared().sqrt();
+        let reach = way + keep + T::splat(self.radius + NEAR + MARGIN);
+        let apart = (to - Vec3::all(self.center)).length_squared().sqrt();
+        let (apart, reach) = (apart.store(), reach.store());
+        // What is no number is near.
+        reach.lt(apart).not()
+    }
+}
+
 /// How the frames of the roots move in a step.
 pub(crate) struct Course {
     pub root: Vec3,
@@ -118,10 +158,11 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
 }
 
 /// Finds the planes of a step. Returns the number of particles that have one.
-pub(crate) fn detect(
+#[inline(always)]
+pub(crate) fn detect<T: Number>(
     batch: &Batch,
     state: &BatchState,
-    colliders: &[Collider],
+    (colliders, guards): (&[Collider], &[Guard]),
     course: &Course,
     active: Mask,
     contacts: &mut [Contact],
@@ -132,12 +173,21 @@ pub(crate) fn detect(
         let contact = &mut contacts[k];
         contact.on = Lane::ZERO;
         contact.holds = Lane::ZERO;
-        let y0 = state.y[k];
-        let y1 = y0 + state.v[k] * dt + state.a[k] * (0.5 * dt * dt);
-        let (p0, p1) = (state.root + y0, course.root + y1);
-        let keep = batch.thickness + state.skin[k];
+        let y0 = state.y[k].load::<T>();
+        let y1 = y0 + state.v[k].load() * dt + state.a[k].load() * (0.5 * dt * dt);
+        let (p0, p1) = (state.root.load() + y0, course.root.load() + y1);
+        let keep = batch.thickness.load::<T>() + state.skin[k].load();
+        let mut near = Mask::NONE;
+        for guard in guards {
+            near = near.or(guard.is_near(p0, p1, keep));
+        }
+        let near = near.and(active);
+        if !near.any() {
+            continue;
+        }
+        let (p0, p1, keep) = (p0.store(), p1.store(), keep.store());
         for lane in 0..LANES {
-            if !active.get(lane) || k >= batch.counts[lane] {
+            if !near.get(lane) || k >= batch.counts[lane] {
                 continue;
             }
             let path = Path {

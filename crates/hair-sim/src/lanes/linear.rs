@@ -82,6 +82,12 @@ impl<T: Number> Vec3<T> {
         Self::new(zero, zero, zero)
     }
 
+    /// The same for all strands.
+    #[inline(always)]
+    pub(crate) fn all(v: DVec3) -> Self {
+        Self::new(T::splat(v.x), T::splat(v.y), T::splat(v.z))
+    }
+
     /// As [`Number::choose`].
     #[inline(always)]
     pub(crate) fn choose(condition: T::Condition, yes: Self, no: Self) -> Self {

@@ -70,7 +70,10 @@ pub(crate) fn step(
         return stats;
     }
     let awake = asleep.not();
-    let active = prepare(batch, state, scratch, drive, &root, awake, &mut stats);
+    let active = run!(
+        instructions,
+        prepare(batch, state, scratch, drive, &root, awake, &mut stats)
+    );
 
     let d = 0.5 * GAMMA * drive.dt;
     let mut failed = Mask::NONE;
@@ -88,11 +91,14 @@ pub(crate) fn step(
             which,
         );
     }
-    let too_far = turned_too_far(batch, state, scratch, &root);
+    let too_far = run!(instructions, turned_too_far(batch, state, scratch, &root));
     failed = failed.or(too_far).and(active);
     stats.fallbacks = failed.count();
     let before = batch.conserves.then(|| state.energy(batch, root.pull));
-    finish(batch, state, scratch, active.and(failed.not()), d);
+    run!(
+        instructions,
+        finish(batch, state, scratch, active.and(failed.not()), d)
+    );
     if failed.any() {
         fallback::step(instructions, batch, state, scratch, drive, &root, failed);
     }
