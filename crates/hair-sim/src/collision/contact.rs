@@ -157,7 +157,7 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
     }
 }
 
-/// Finds the planes of a step. Returns the number of particles that have one.
+/// Finds the planes of a step. Returns the number of particles that have one; `touched` are their places on the strands.
 #[inline(always)]
 pub(crate) fn detect<T: Number>(
     batch: &Batch,
@@ -166,8 +166,10 @@ pub(crate) fn detect<T: Number>(
     course: &Course,
     active: Mask,
     contacts: &mut [Contact],
+    touched: &mut Vec<usize>,
 ) -> usize {
     let mut count = 0;
+    touched.clear();
     let dt = course.dt;
     for k in 0..batch.count() {
         let contact = &mut contacts[k];
@@ -200,6 +202,9 @@ pub(crate) fn detect<T: Number>(
                 continue;
             };
             count += 1;
+            if touched.last() != Some(&k) {
+                touched.push(k);
+            }
             let (before, now) = (collider.before, collider.now);
             let normal = now.rotation * plane.normal;
             let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
@@ -302,5 +307,52 @@ impl Path {
             normal,
             depth: (at - end).dot(normal),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{collision::Shape, solver::Pose};
+    use glam::DQuat;
+
+    #[test]
+    fn a_ball_around_a_body_hides_nothing_that_the_body_meets() {
+        let shape = Shape::Capsule {
+            from: DVec3::new(-0.1, 0.0, 0.05),
+            to: DVec3::new(0.2, 0.1, 0.0),
+            radius: 0.05,
+        };
+        let collider = Collider {
+            shape,
+            before: Pose {
+                rotation: DQuat::from_rotation_x(0.4),
+                translation: DVec3::new(0.0, 0.3, 0.0),
+            },
+            now: Pose {
+                rotation: DQuat::from_rotation_y(1.1),
+                translation: DVec3::new(0.02, 0.25, 0.01),
+            },
+        };
+        let guard = Guard::new(&collider);
+        let (mut met, mut hidden) = (0, 0);
+        for i in 0..20_000 {
+            let spread = |k: i32| f64::from((i * 7919 + k * 104_729) % 1009) / 1009.0 - 0.5;
+            let from = DVec3::new(spread(1), spread(2) + 0.3, spread(3));
+            let to = from + DVec3::new(spread(4), spread(5), spread(6)) * 0.05;
+            let path = Path {
+                from,
+                to,
+                keep: 1e-3,
+                dt: 0.01,
+            };
+            let keep = Lane::splat(path.keep);
+            let near = guard.is_near(Vec3::splat(from), Vec3::splat(to), keep);
+            let meets = path.against(&collider).is_some();
+            assert!(near.get(0) || !meets, "{from} {to}");
+            met += usize::from(meets);
+            hidden += usize::from(!near.get(0));
+        }
+        assert!(met > 1000 && hidden > 1000, "{met} {hidden}");
     }
 }

@@ -455,3 +455,20 @@ impl<T: Number> Quat<T> {
         by.times(self).normalize()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_inverse_undoes_its_matrix_however_uneven() {
+        let v = Vec3::splat(DVec3::new(0.3, -0.7, 0.2));
+        for uneven in [1e-8, 1e-3, 1.0, 1e8] {
+            let matrix = Sym3::outer(Lane::splat(uneven), v, Lane::ONE);
+            let got = matrix.apply(matrix.inverse().apply(v)).get(2);
+            let error = (got - v.get(2)).length();
+            // As good as elimination: the error grows with the quotient of the largest and the least stretch.
+            assert!(error < 1e-15 * (10.0 + 10.0 / uneven), "{uneven}: {error}");
+        }
+    }
+}

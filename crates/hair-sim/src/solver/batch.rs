@@ -304,9 +304,10 @@ pub(crate) struct Scratch {
     pub wind: Vec<Vec3>,
     pub springs: Vec<Spring>,
     pub contacts: Vec<Contact>,
-    /// Whether there are any of these in this step.
+    /// The places on the strands where particles have contacts in this step.
+    pub touched: Vec<usize>,
+    /// Whether there are any springs in this step.
     pub has_springs: bool,
-    pub has_contacts: bool,
 }
 
 /// A strand's shape in the course of a step.
@@ -359,8 +360,8 @@ impl Scratch {
             wind: vec![Vec3::ZERO; count],
             springs: vec![Spring::NONE; count],
             contacts: vec![Contact::NONE; count],
+            touched: Vec::with_capacity(count),
             has_springs: false,
-            has_contacts: false,
         }
     }
 }

@@ -150,7 +150,7 @@ pub(crate) fn prepare<T: Number>(
             stats.wind = active.count() * batch.count();
         }
     }
-    scratch.has_contacts = false;
+    scratch.touched.clear();
     if !drive.scene.colliders.is_empty() {
         if !state.skin_known {
             contact::settle_in(batch, state, drive.scene.colliders);
@@ -162,9 +162,11 @@ pub(crate) fn prepare<T: Number>(
             gamma: GAMMA,
         };
         let bodies = (drive.scene.colliders, drive.guards);
-        let contacts = &mut scratch.contacts;
-        stats.contacts = contact::detect::<T>(batch, state, bodies, &course, active, contacts);
-        scratch.has_contacts = stats.contacts > 0;
+        let Scratch {
+            contacts, touched, ..
+        } = scratch;
+        stats.contacts =
+            contact::detect::<T>(batch, state, bodies, &course, active, contacts, touched);
     }
     active
 }

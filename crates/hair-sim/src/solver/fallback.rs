@@ -61,7 +61,7 @@ pub(super) fn step(
         );
     };
     minimise(scratch, which);
-    if scratch.has_contacts {
+    if !scratch.touched.is_empty() {
         // Planes that the strand met on the way.
         let met = hold(batch, scratch, h, Which::Trial, which);
         minimise(scratch, met);
@@ -140,7 +140,7 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
     for k in 0..batch.count() {
         let v = (trial.y[k] - state.y[k]) * rate;
         let a = (v - state.v[k]) * rate;
-        if scratch.has_contacts {
+        if !scratch.touched.is_empty() {
             let press = scratch.contacts[k].pressure(trial.y[k]);
             state.press[k] = good.pick(press, state.press[k]);
         }

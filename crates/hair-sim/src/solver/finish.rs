@@ -117,7 +117,7 @@ pub(super) fn finish<T: Number>(
         let along = v - before;
         before = v;
         velocity += along - t.scale(along.dot(t) * T::splat(UNSTRETCH));
-        let a = if scratch.has_contacts {
+        let a = if !scratch.touched.is_empty() {
             settle_contact(state, scratch, k, a, which, &mut struck)
         } else {
             state.press[k] = which.pick(Lane::ZERO, state.press[k]);

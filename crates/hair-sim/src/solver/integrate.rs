@@ -291,9 +291,9 @@ pub(super) fn assemble(
     which: Which,
 ) {
     run!(instructions, load(batch, scratch, stage, which));
-    if scratch.has_contacts {
-        for contact in &mut scratch.contacts[..batch.count()] {
-            contact.holds = Lane::ZERO;
+    if !scratch.touched.is_empty() {
+        for &k in &scratch.touched {
+            scratch.contacts[k].holds = Lane::ZERO;
         }
         hold(batch, scratch, stage.length, which, Mask::ALL);
     }
@@ -407,8 +407,9 @@ pub(super) fn hold(
     among: Mask,
 ) -> Mask {
     let mut new = Mask::NONE;
-    for k in 0..batch.count() {
-        let contact = scratch.contacts[k];
+    for i in 0..scratch.touched.len() {
+        let k = scratch.touched[i];
+        let contact = &scratch.contacts[k];
         let level = if which == Which::Mid {
             contact.mid
         } else {
@@ -456,11 +457,7 @@ fn solve(
         let broken = largest.is_finite().not();
         *failed = failed.or(broken.and(open));
         let done = small.or(broken);
-        let met = if scratch.has_contacts {
-            hold(batch, scratch, setup.length, which, open.and(broken.not()))
-        } else {
-            Mask::NONE
-        };
+        let met = hold(batch, scratch, setup.length, which, open.and(broken.not()));
         open = open.and(done.not()).or(met);
     }
     *failed = failed.or(open);

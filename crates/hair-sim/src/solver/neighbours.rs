@@ -183,3 +183,38 @@ fn closest(to: DVec3, particles: &[DVec3]) -> Option<usize> {
     (0..particles.len())
         .min_by(|&a, &b| distance(&particles[a]).total_cmp(&distance(&particles[b])))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn strand(i: usize, root: DVec3) -> Strand {
+        Strand {
+            id: i as u32,
+            batch: i,
+            lane: 0,
+            root,
+            particles: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn cells_find_what_a_look_at_all_finds() {
+        let spread = |i: usize, k: usize| ((i * 7919 + k * 104_729) % 1009) as f64 / 1009.0;
+        let place = |i: usize| DVec3::new(spread(i, 1), spread(i, 2), 0.1 * spread(i, 3));
+        // Many side by side, two in one place, and one far away.
+        let mut strands: Vec<Strand> = (0..300).map(|i| strand(i, place(i))).collect();
+        strands.push(strand(300, place(17)));
+        strands.push(strand(301, DVec3::splat(90.0)));
+        let cells = Cells::new(&strands);
+        for strand in &strands {
+            let mut all: Vec<usize> = (0..strands.len()).filter(|&i| i != strand.batch).collect();
+            all.sort_by(|&a, &b| {
+                let distance = |i: usize| (strands[i].root - strand.root).length_squared();
+                distance(a).total_cmp(&distance(b)).then(a.cmp(&b))
+            });
+            assert_eq!(cells.nearest(strand, &strands, 16), all[..16]);
+        }
+        assert!(cells.nearest(&strands[0], &strands[..1], 4).is_empty());
+    }
+}
