@@ -116,8 +116,8 @@ impl RestStrand {
                 RestLink {
                     length,
                     mass: 0.0,
-                    bend: 1e-100,
-                    twist: 1e-100,
+                    bend: 1e-40,
+                    twist: 1e-40,
                     natural: DVec3::ZERO,
                     frame: if length > 0.0 {
                         from_axis(edge / length)

@@ -32,10 +32,9 @@ fn rows(m: Mat3) -> DMat3 {
 
 /// A symmetric matrix; positive definite where `more` is.
 fn symmetric(a: DVec3, b: DVec3, c: DVec3, more: f64) -> (Sym3, DMat3) {
-    let lanes = Sym3::outer(vec(a), Lane::ONE)
-        + Sym3::outer(vec(b), Lane::ONE)
-        + Sym3::outer(vec(c), Lane::ONE)
-        + Sym3::diagonal(Lane::splat(more));
+    let lanes = Sym3::outer(Lane::ZERO, vec(a), Lane::ONE)
+        + Sym3::outer(Lane::ZERO, vec(b), Lane::ONE)
+        + Sym3::outer(Lane::splat(more), vec(c), Lane::ONE);
     let outer = |v: DVec3| DMat3::from_cols(v * v.x, v * v.y, v * v.z);
     let plain = outer(a) + outer(b) + outer(c) + DMat3::from_diagonal(DVec3::splat(more));
     (lanes, plain)
@@ -61,21 +60,6 @@ proptest! {
     }
 
     #[test]
-    fn a_frame_that_is_pointed_points_there_by_the_least_turn(q in rotation(), to in vector()) {
-        let to = to.normalize_or(DVec3::Y);
-        let from = q * DVec3::Z;
-        let pointed = quat(q).pointed(vec(to)).get(3);
-        if from.dot(to) > -0.94 {
-            prop_assert!((pointed * DVec3::Z - to).length() < 1e-12);
-            let turned = (pointed * q.conjugate()).normalize();
-            let angle = 2.0 * turned.w.abs().min(1.0).acos();
-            prop_assert!((angle - from.angle_between(to)).abs() < 1e-6);
-        } else if from.dot(to) < -0.96 {
-            prop_assert_eq!(pointed, q);
-        }
-    }
-
-    #[test]
     fn a_turn_is_by_twice_the_arc_tangent_of_its_half(q in rotation(), turn in vector()) {
         let turned = quat(q).turned(vec(turn)).get(3);
         let angle = 2.0 * (0.5 * turn.length()).atan();
@@ -96,7 +80,6 @@ proptest! {
         let m = Mat3(vec(a), vec(b), vec(c));
         let plain = rows(m);
         prop_assert!((m.apply(vec(v)).get(3) - plain * v).length() < 1e-13);
-        prop_assert!((m.combine(vec(v)).get(3) - plain.transpose() * v).length() < 1e-13);
         prop_assert!(apart(rows(m.transpose()), plain.transpose()) < 1e-15);
         let cross = DMat3::from_cols(v.cross(DVec3::X), v.cross(DVec3::Y), v.cross(DVec3::Z));
         prop_assert!(apart(rows(m.times_cross(vec(v))), plain * cross) < 1e-13);

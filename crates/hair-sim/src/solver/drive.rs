@@ -3,13 +3,13 @@
 use glam::{DVec3, Vec3 as Point};
 
 use crate::{
-    collision::contact::{self, Course},
+    collision::contact::{self, Course, Guard},
     forces::{
         mutual::{self, Course as ParticleCourse, Mutual, Own, Pair},
         springs::Spring,
         wind::Gusts,
     },
-    lanes::{LANES, Lane, Mask, Quat, Vec3},
+    lanes::{LANES, Lane, Mask, Number, Quat, Vec3},
 };
 
 use super::{
@@ -22,6 +22,8 @@ use super::{
 pub(crate) struct Drive<'a> {
     pub dt: f64,
     pub scene: &'a Scene<'a>,
+    /// Of its colliders.
+    pub guards: &'a [Guard],
     pub gusts: &'a Gusts,
     /// The index of every strand's first point in the list of all.
     pub first_points: &'a [usize],
@@ -101,7 +103,7 @@ fn whole_poses(state: &mut BatchState, drive: &Drive) -> (Vec3, Quat) {
 
 /// Finds contacts, and fills in the air's motion and the springs of the step. Returns the strands that step.
 #[inline(always)]
-pub(crate) fn prepare(
+pub(crate) fn prepare<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
     scratch: &mut Scratch,
@@ -127,7 +129,7 @@ pub(crate) fn prepare(
             dt: drive.dt,
         };
         let springs = &mut scratch.springs;
-        stats.hair = mutual::act(
+        stats.hair = mutual::act::<T>(
             hair.mutual,
             hair.pairs,
             hair.courses,
@@ -139,14 +141,16 @@ pub(crate) fn prepare(
     let active = batch.used.and(state.aside().not()).and(awake);
     if batch.has_drag {
         for k in 0..batch.count() {
-            let air = drive.gusts.velocity(state.root + state.y[k]);
-            scratch.wind[k] = air - root.velocity;
+            let air = drive
+                .gusts
+                .velocity(state.root.load::<T>() + state.y[k].load());
+            scratch.wind[k] = (air - root.velocity.load()).store();
         }
         if drive.gusts.blows {
             stats.wind = active.count() * batch.count();
         }
     }
-    scratch.has_contacts = false;
+    scratch.touched.clear();
     if !drive.scene.colliders.is_empty() {
         if !state.skin_known {
             contact::settle_in(batch, state, drive.scene.colliders);
@@ -157,10 +161,12 @@ pub(crate) fn prepare(
             dt: drive.dt,
             gamma: GAMMA,
         };
-        let colliders = drive.scene.colliders;
-        let contacts = &mut scratch.contacts;
-        stats.contacts = contact::detect(batch, state, colliders, &course, active, contacts);
-        scratch.has_contacts = stats.contacts > 0;
+        let bodies = (drive.scene.colliders, drive.guards);
+        let Scratch {
+            contacts, touched, ..
+        } = scratch;
+        stats.contacts =
+            contact::detect::<T>(batch, state, bodies, &course, active, contacts, touched);
     }
     active
 }
