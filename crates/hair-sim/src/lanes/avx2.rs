@@ -3,7 +3,7 @@
 //! The `unsafe` here calls single instructions. A test of the processor is behind each: values of this type are used only in what
 //! [`Instructions::run`](crate::solver::instructions::Instructions) calls with AVX2, which is where these functions are inlined. That the
 //! compiler finds the vectors in plain arrays was tried: the larger loops came out as single numbers or halves of registers,
-//! and took twice the time to run and five times the time to compile.
+//! and took twice the time to compile. Without AVX2 (half a register at once) a step takes about twice as long.
 #![allow(unsafe_code, reason = "half of the time, see the module")]
 
 use std::arch::x86_64::{

@@ -216,6 +216,7 @@ mod tests {
             });
             assert_eq!(cells.nearest(strand, &strands, 16), all[..16]);
         }
-        assert!(cells.nearest(&strands[0], &strands[..1], 4).is_empty());
+        let one = &strands[..1];
+        assert!(Cells::new(one).nearest(&one[0], one, 4).is_empty());
     }
 }
