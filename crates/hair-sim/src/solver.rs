@@ -24,7 +24,7 @@ use crate::{
 
 pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
-use drive::{Drive, Hair};
+use drive::{Drive, Hair, whole_poses};
 use instructions::Instructions;
 pub use scene::{DynamicsError, Fault, Pose, Roots, Scene, Stats};
 
@@ -323,6 +323,7 @@ impl Solver {
         self.check(state, &scene, 1.0)?;
         for (batch, state) in self.batches.iter().zip(&mut state.batches) {
             let (root, base) = roots(batch, &scene);
+            let (root, base) = whole_poses(state, root, base);
             state.teleport(root, base);
         }
         Ok(())

@@ -61,7 +61,7 @@ pub(crate) struct RootMotion {
 impl RootMotion {
     #[inline(always)]
     pub(crate) fn new(state: &mut BatchState, drive: &Drive) -> Self {
-        let (root, base) = whole_poses(state, drive);
+        let (root, base) = whole_poses(state, drive.root, drive.base);
         let velocity = (root - state.root) * (1.0 / drive.dt);
         let acceleration = (velocity - state.root_velocity) * (1.0 / drive.dt);
         let turn_end = base.times(state.base.conjugate());
@@ -84,11 +84,11 @@ impl RootMotion {
     }
 }
 
-/// The poses at the end of the step; where one is broken, that before, and its strand is set aside.
+/// The poses that roots are to have; where one is broken, that before, and its strand is set aside.
 #[inline(always)]
-fn whole_poses(state: &mut BatchState, drive: &Drive) -> (Vec3, Quat) {
-    let size = drive.base.v.length_squared() + drive.base.w * drive.base.w;
-    let place = drive.root.length_squared();
+pub(super) fn whole_poses(state: &mut BatchState, root: Vec3, base: Quat) -> (Vec3, Quat) {
+    let size = base.v.length_squared() + base.w * base.w;
+    let place = root.length_squared();
     let whole = (place.is_finite())
         .and(size.lt(Lane::splat(1.001)))
         .and(size.gt(Lane::splat(0.999)));
@@ -97,8 +97,8 @@ fn whole_poses(state: &mut BatchState, drive: &Drive) -> (Vec3, Quat) {
             state.set_aside[lane].get_or_insert(Reason::Root);
         }
     }
-    let base = Quat::pick(whole, drive.base, state.base).normalize();
-    (Vec3::pick(whole, drive.root, state.root), base)
+    let base = Quat::pick(whole, base, state.base).normalize();
+    (Vec3::pick(whole, root, state.root), base)
 }
 
 /// Finds contacts, and fills in the air's motion and the springs of the step. Returns the strands that step.

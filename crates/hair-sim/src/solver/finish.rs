@@ -82,7 +82,9 @@ pub(super) fn take_gain(
     let turned = root.turn_end.v.length_squared() + (root.pull - state.pull).length_squared();
     let driven = turned.gt(Lane::splat(1e-24));
     state.pull = root.pull;
-    state.ceiling = driven.pick(before, state.ceiling);
+    // A strand that is set aside may be folded, and its energy no number.
+    let known = which.and(driven).and(before.is_finite());
+    state.ceiling = known.pick(before, state.ceiling);
     let gain = (state.energy(batch, root.pull) - state.ceiling).max(Lane::ZERO);
     let mut motion = Lane::ZERO;
     for k in 0..batch.count() {
