@@ -18,6 +18,7 @@ mod presets;
 mod program;
 mod regress;
 mod setup;
+mod stress;
 mod test;
 mod wasm;
 mod work;
@@ -32,7 +33,6 @@ type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 /// Tasks that have a name and no code yet.
 const NOT_BUILT: &[(&str, &str)] = &[
     ("fuzz", "Feeds random input to readers for hours"),
-    ("stress", "Runs random scenes for hours"),
 ];
 
 fn command() -> Command {
@@ -105,6 +105,7 @@ fn command() -> Command {
                 ),
         )
         .subcommand(bench::command())
+        .subcommand(stress::command())
         .subcommands(not_built)
 }
 
@@ -125,6 +126,7 @@ fn run(matches: &ArgMatches) -> Outcome {
             gallery::run(args.get_one::<String>("filter").map_or("", String::as_str))
         }
         Some(("setup", _)) => setup::run(),
+        Some(("stress", args)) => stress::run(args),
         Some((name, _)) => Err(format!("{name} isn't built yet").into()),
         None => Err("no task given".into()),
     }

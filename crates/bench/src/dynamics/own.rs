@@ -24,7 +24,8 @@ impl Own {
                 .push(strand as u32, &rods.points(strand), None)
                 .map_err(|error| error.to_string())?;
         }
-        let (solver, state) = Solver::new(&strands, &rods.params()).map_err(|error| error.to_string())?;
+        let (solver, state) =
+            Solver::new(&strands, &rods.params()).map_err(|error| error.to_string())?;
         Ok(Self { solver, state })
     }
 }

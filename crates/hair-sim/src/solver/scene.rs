@@ -97,7 +97,12 @@ impl Default for Scene<'_> {
 
 impl Scene<'_> {
     /// Whether a step of `dt` seconds of so many strands, with so many points in all, can be made in it.
-    pub(crate) fn check(&self, dt: f64, strands: usize, points: usize) -> Result<(), DynamicsError> {
+    pub(crate) fn check(
+        &self,
+        dt: f64,
+        strands: usize,
+        points: usize,
+    ) -> Result<(), DynamicsError> {
         if !(dt > 0.0 && dt <= 10.0) {
             return Err(DynamicsError::Step(dt));
         }

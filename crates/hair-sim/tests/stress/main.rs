@@ -7,6 +7,7 @@ mod bits;
 mod bodies;
 mod broken;
 mod extremes;
+mod ordinary;
 mod rest;
 mod roots;
 mod winds;
