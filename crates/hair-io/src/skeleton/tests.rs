@@ -4,9 +4,11 @@ use serde_json::{Value, json};
 
 const QUARTER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// A character of hips, neck and head, the neck 1.4 m up and the head 0.1 m above it. `channels` are (node, property,
-/// interpolation, times, values).
-fn character(channels: &[(usize, &str, &str, &[f32], &[f32])]) -> Value {
+/// Node, property, interpolation, times, values.
+type Channel<'a> = (usize, &'a str, &'a str, &'a [f32], &'a [f32]);
+
+/// A character of hips, neck and head, the neck 1.4 m up and the head 0.1 m above it.
+fn character(channels: &[Channel]) -> Value {
     let mut bytes = Vec::new();
     let (mut views, mut accessors) = (Vec::new(), Vec::new());
     let mut push = |numbers: &[f32], kind: &str, count: usize| {

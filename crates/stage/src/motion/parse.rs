@@ -248,13 +248,12 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
             }
         }
     }
-    if let Some(hold) = plain.iter().find(|field| field.name == "hold") {
-        if script.shapes.is_empty() {
-            reader.error(
-                hold.name,
-                "hold: the script has no `shapes` to pull hair to",
-            );
-        }
+    let hold = plain.iter().find(|field| field.name == "hold");
+    if let Some(hold) = hold.filter(|_| script.shapes.is_empty()) {
+        reader.error(
+            hold.name,
+            "hold: the script has no `shapes` to pull hair to",
+        );
     }
     reader.report()?;
     Ok(script)
