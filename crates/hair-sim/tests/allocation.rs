@@ -1,4 +1,5 @@
-//! A step allocates nothing once everything has happened that will: what is in a step is in the solver's own room.
+//! What a step works with is in the solver's own room: once everything has happened that will, it makes two small lists.
+#![allow(clippy::print_stdout, reason = "tests show the figures that they hold")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};

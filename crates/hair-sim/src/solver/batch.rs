@@ -143,6 +143,13 @@ impl Batch {
     }
 }
 
+/// A pull that there cannot be.
+const NO_PULL: Vec3 = Vec3::new(
+    Lane::splat(f64::MAX),
+    Lane::splat(f64::MAX),
+    Lane::splat(f64::MAX),
+);
+
 /// Everything of a batch that decides its future.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct BatchState {
@@ -193,8 +200,7 @@ impl BatchState {
             press: vec![Lane::ZERO; count],
             goal: Vec::new(),
             broken: Vec::new(),
-            // None that there can be.
-            pull: Vec3::splat(DVec3::MAX),
+            pull: NO_PULL,
             ceiling: Lane::ZERO,
             quiet: [0; LANES],
             restart: [true; LANES],
@@ -278,7 +284,8 @@ impl BatchState {
         self.a.iter_mut().for_each(turned);
         self.goal.iter_mut().for_each(turned);
         turned(&mut self.root_velocity);
-        turned(&mut self.pull);
+        // The next step finds out anew what energy there is.
+        self.pull = NO_PULL;
         self.root = root;
         self.base = base;
     }

@@ -284,6 +284,12 @@ fn a_state_can_be_saved_whatever_is_set_aside() {
     points[at(2) + 3].x = f32::NAN;
     points[at(3)].y = f32::INFINITY;
     let (mut solver, mut state) = Solver::with(&rest, |_| params).unwrap();
+    let turned = Roots::Head(Pose {
+        rotation: DQuat::from_rotation_y(0.7),
+        translation: DVec3::ONE,
+    });
+    solver.teleport(&mut state, turned).unwrap();
+    assert_eq!(restored(&state), state, "before the first step");
     let mut poses = [Pose::IDENTITY; 7];
     for i in 0..10 {
         poses[4].translation.x = if i == 3 { f64::NAN } else { 0.0 };

@@ -7,7 +7,6 @@ mod bits;
 mod bodies;
 mod broken;
 mod extremes;
-mod ordinary;
 mod rest;
 mod roots;
 mod winds;
