@@ -12,8 +12,8 @@ fn make(rest: &Strands) -> (Solver, State) {
     let params = |s: usize| {
         let id = rest.id(s);
         Params {
-            goal: Profile::constant(if id % 2 == 0 { 3.0 } else { 0.0 }),
-            drag: if id % 3 == 0 { 0.0 } else { 2.0 },
+            goal: Profile::constant(if id.is_multiple_of(2) { 3.0 } else { 0.0 }),
+            drag: if id.is_multiple_of(3) { 0.0 } else { 2.0 },
             damping: if id % 5 < 2 { 0.0 } else { 0.005 },
             ..Params::default()
         }
