@@ -164,7 +164,7 @@ impl<'a> Run<'a> {
             colliders: &colliders,
             goal: goal.as_deref(),
         };
-        if index % 8 == 0 {
+        if index.is_multiple_of(8) {
             self.refuse(index, &scene, frame.dt)?;
         }
         if frame.teleports {
