@@ -31,9 +31,7 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
 /// Tasks that have a name and no code yet.
-const NOT_BUILT: &[(&str, &str)] = &[
-    ("fuzz", "Feeds random input to readers for hours"),
-];
+const NOT_BUILT: &[(&str, &str)] = &[("fuzz", "Feeds random input to readers for hours")];
 
 fn command() -> Command {
     let not_built = NOT_BUILT.iter().map(|&(name, does)| {

@@ -69,7 +69,7 @@ pub fn write(path: &Path, text: &str) -> io::Result<()> {
 ///
 /// # Errors
 ///
-/// As [`write`], in words.
+/// As [`write()`], in words.
 pub fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
     let path = out.join(name);
     write(&path, text).map_err(|error| format!("{}: {error}", path.display()))

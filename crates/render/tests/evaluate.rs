@@ -188,8 +188,7 @@ fn what_faces_the_light_is_bright() {
 
 #[test]
 fn outlines_go_around_flat_ends() {
-    let list =
-        "[(effect: \"hair.silhouette\", params: (width: 4, ratio: 10, root_fade: 0)), (effect: \"hair.base\")]";
+    let list = "[(effect: \"hair.silhouette\", params: (width: 4, ratio: 10, root_fade: 0)), (effect: \"hair.base\")]";
     let (round, _) = drawing(list, &[], 1);
     let (flat, _) = drawing_with(list, &[], 1, Brush::Semicircle);
     let [outline, base] = [0, 1].map(|layer| &flat.layers[layer].discs);
@@ -225,8 +224,7 @@ fn a_layer_draws_on_its_own_paths_alone() {
 
 #[test]
 fn numbers_vary_along_the_strand_and_from_strand_to_strand() {
-    let list =
-        "[(effect: \"hair.silhouette\", params: (ratio: 10, root_fade: 0, width: (curve: [(0, 2), (1, 6)])))]";
+    let list = "[(effect: \"hair.silhouette\", params: (ratio: 10, root_fade: 0, width: (curve: [(0, 2), (1, 6)])))]";
     let (drawing, _) = drawing(list, &[("size", "(value: 1, vary: 0.5)")], 1);
     let (outline, clump) = (&drawing.layers[0].discs, &drawing.clump);
     // The clump's sizes differ by strand alone; lines are 2 units at the root and 6 at the tip.
