@@ -81,9 +81,9 @@ impl Motion {
                 let starts = (0..6).map(|sixth| sixth * 2 * TICKS);
                 starts.map(|start| start..start + length).collect()
             }
-            // Once hair swings, and when the wind has freshened.
+            // Once hair swings.
             Self::Shake | Self::Wind => {
-                let start = if self == Self::Wind { 2 * TICKS } else { TICKS } + TICKS / 2;
+                let start = TICKS + TICKS / 4;
                 let length = TICKS / if quick { 8 } else { 2 };
                 vec![start..start + length]
             }
