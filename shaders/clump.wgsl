@@ -1,4 +1,4 @@
-//! inputs: position, backward, u, strand_mean, head_center, strand_size, light_direction, seed
+//! inputs: position, backward, u, strand_mean, head_center, strand_size, light_direction, seed, material_normal
 // The clump: what all layers share of a strand. Size 5.1 to 5.3, normal 5.4, basic colour.
 
 struct Params {
@@ -34,6 +34,10 @@ struct Params {
     /// How far the normal is turned to be across the strand (K in 5.4); 1 is exactly across.
     /// @range 0..1 @default 1
     normal_correction: f32,
+    /// What lights a strand: outward points away from the head, across the strand (5.4); material turns as
+    /// the strand twists.
+    /// @choices outward material @default outward
+    normal: u32,
     /// Basic colour.
     /// @default "3FC1C0"
     color: vec3<f32>,
@@ -65,7 +69,11 @@ fn clump(joint: Inputs, params: Params) -> Clump {
     let variation = 1.0 + params.size_variation * random_signed(joint.seed, 1u);
     let radius = joint.strand_size * params.size * variation * profile * root;
 
-    let normal = corrected_normal(joint, params);
+    var normal = corrected_normal(joint, params);
+    // Zero where nobody has worked it out.
+    if (params.normal == 1u && dot(joint.material_normal, joint.material_normal) > 0.0) {
+        normal = joint.material_normal;
+    }
     var color = params.color;
     if (params.shading == 1u) {
         let gray = max(dot(joint.light_direction, normal), 0.0);

@@ -30,7 +30,15 @@ pub fn command() -> Command {
         )
         .arg(flag("quick").help("Within two minutes on two cores"))
         .arg(flag("check").help("Fails if a target is missed"))
-        .arg(flag("peers").help("Other programs too, where they are installed: dynamics"))
+        .arg(
+            Arg::new("peers")
+                .long("peers")
+                .help("Other programs too, by the scripts in DIR or in the folder that INKSTRAND_PEERS names: dynamics")
+                .value_name("DIR")
+                .num_args(0..=1)
+                .require_equals(true)
+                .default_missing_value(""),
+        )
 }
 
 /// Runs the suite of `args`, its table going where ours goes.
@@ -42,7 +50,8 @@ pub fn run(args: &ArgMatches) -> Outcome {
     if !SUITES.contains(&(name, true)) {
         return Err(format!("bench {name} isn't built yet").into());
     }
-    if args.get_flag("peers") && name != "dynamics" {
+    let peers = args.get_one::<String>("peers");
+    if peers.is_some() && name != "dynamics" {
         return Err(format!("bench {name} has no peers to run: those of dynamics alone").into());
     }
     let mut command = cargo(&[
@@ -53,10 +62,15 @@ pub fn run(args: &ArgMatches) -> Outcome {
         "--bin=bench",
     ]);
     command.args(["--", name]);
-    for flag in ["quick", "check", "peers"] {
+    for flag in ["quick", "check"] {
         if args.get_flag(flag) {
             command.arg(format!("--{flag}"));
         }
+    }
+    match peers.map(String::as_str) {
+        None => {}
+        Some("") => _ = command.arg("--peers"),
+        Some(folder) => _ = command.arg(format!("--peers={folder}")),
     }
     succeed(command)
 }

@@ -9,15 +9,19 @@
 )]
 
 mod bench;
+mod figures;
+mod gallery;
+mod html;
 mod layers;
 mod picture;
 mod presets;
 mod program;
 mod regress;
-mod report;
 mod setup;
+mod stress;
 mod test;
 mod wasm;
+mod work;
 
 use std::process::ExitCode;
 
@@ -28,10 +32,7 @@ type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
 /// Tasks that have a name and no code yet.
 const NOT_BUILT: &[(&str, &str)] = &[
-    ("gallery", "Draws contact sheets of all looks"),
-    ("figures", "Redraws the source's explanatory figures"),
     ("fuzz", "Feeds random input to readers for hours"),
-    ("stress", "Runs random scenes for hours"),
 ];
 
 fn command() -> Command {
@@ -88,7 +89,23 @@ fn command() -> Command {
         .subcommand(
             Command::new("setup").about("Installs what the tests need and this machine lacks"),
         )
+        .subcommand(
+            Command::new("figures").about(
+                "Draws the source's explanatory figures, and measures on them what they claim",
+            ),
+        )
+        .subcommand(
+            Command::new("gallery")
+                .about("Draws a contact sheet of each look into target/gallery")
+                .arg(
+                    Arg::new("filter")
+                        .help("Only looks whose name contains this")
+                        .long("filter")
+                        .value_name("S"),
+                ),
+        )
         .subcommand(bench::command())
+        .subcommand(stress::command())
         .subcommands(not_built)
 }
 
@@ -104,7 +121,12 @@ fn run(matches: &ArgMatches) -> Outcome {
             regress::run(filter, backend, args.get_flag("bless"))
         }
         Some(("bench", args)) => bench::run(args),
+        Some(("figures", _)) => figures::run(),
+        Some(("gallery", args)) => {
+            gallery::run(args.get_one::<String>("filter").map_or("", String::as_str))
+        }
         Some(("setup", _)) => setup::run(),
+        Some(("stress", args)) => stress::run(args),
         Some((name, _)) => Err(format!("{name} isn't built yet").into()),
         None => Err("no task given".into()),
     }

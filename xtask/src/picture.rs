@@ -91,6 +91,56 @@ impl Picture {
         Ok(writer.finish()?)
     }
 
+    /// A transparent picture.
+    pub fn blank(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            pixels: vec![[0; 4]; (width * height) as usize],
+        }
+    }
+
+    /// Puts `other` into this picture, its upper left corner at `(x, y)`.
+    ///
+    /// # Panics
+    /// It doesn't fit.
+    pub fn paste(&mut self, other: &Self, (x, y): (u32, u32)) {
+        let rows = other.pixels.chunks_exact(other.width as usize);
+        for (row, pixels) in rows.enumerate() {
+            let start = ((y + row as u32) * self.width + x) as usize;
+            self.pixels[start..start + pixels.len()].copy_from_slice(pixels);
+        }
+    }
+
+    /// The part of this picture whose upper left corner is at `(x, y)`.
+    ///
+    /// # Panics
+    /// It reaches out of the picture.
+    pub fn cut(&self, (x, y): (u32, u32), (width, height): (u32, u32)) -> Self {
+        let row = |row: u32| {
+            let start = ((y + row) * self.width + x) as usize;
+            &self.pixels[start..start + width as usize]
+        };
+        Self {
+            width,
+            height,
+            pixels: (0..height).flat_map(row).copied().collect(),
+        }
+    }
+
+    /// The pixel in column `x` and row `y`.
+    ///
+    /// # Panics
+    /// Outside the picture.
+    pub fn pixel(&self, x: u32, y: u32) -> [u16; 4] {
+        self.pixels[(y * self.width + x) as usize]
+    }
+
+    /// The pixels of column `x`, from the top.
+    pub fn column(&self, x: u32) -> impl Iterator<Item = [u16; 4]> {
+        (0..self.height).map(move |y| self.pixel(x, y))
+    }
+
     /// True if all pixels are the same: nothing was drawn.
     pub fn is_blank(&self) -> bool {
         self.pixels.windows(2).all(|pair| pair[0] == pair[1])
@@ -217,6 +267,15 @@ pub mod tests {
                 assert_eq!(shows, i == 17, "channel {channel}, pixel {i}: {pixel:?}");
             }
         }
+    }
+
+    #[test]
+    fn what_is_pasted_can_be_cut_out_again() {
+        let mut sheet = Picture::blank(20, 9);
+        sheet.paste(&made(), (11, 2));
+        assert_eq!(sheet.cut((11, 2), (8, 6)), made());
+        assert_eq!(sheet.cut((3, 2), (8, 6)), Picture::blank(8, 6));
+        assert_eq!(sheet.pixel(11 + 3, 2 + 4), made().pixel(3, 4));
     }
 
     #[test]

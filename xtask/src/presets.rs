@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::Outcome;
 use crate::picture::Picture;
-use crate::program::{self, Inkstrand};
-use crate::{Outcome, regress};
+use crate::program::{self, Inkstrand, sum_up};
 
 const WIDTH: u32 = 160;
 const HEIGHT: u32 = 120;
@@ -37,11 +37,14 @@ pub fn render_all() -> Outcome {
             }
         }
     }
-    regress::sum_up(presets.len(), &failures)
+    sum_up(presets.len(), &failures)
 }
 
 /// The presets in `folder`, by name.
-fn presets(folder: &Path) -> Outcome<Vec<PathBuf>> {
+///
+/// # Errors
+/// The folder can't be read, or has none.
+pub fn presets(folder: &Path) -> Outcome<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).map_err(|error| format!("presets: {error}"))?;
     let mut presets = Vec::new();
     for entry in entries {

@@ -82,6 +82,16 @@ impl Inkstrand {
         }
     }
 
+    /// What presets may say: `inkstrand effects --json`.
+    ///
+    /// # Errors
+    /// The program fails, or writes no JSON.
+    pub fn schema(&self) -> Outcome<Value> {
+        let output = Command::new(&self.0).args(["effects", "--json"]).output()?;
+        finished(&output)?;
+        Ok(serde_json::from_slice(&output.stdout)?)
+    }
+
     /// `inkstrand render ARGS -o picture --quiet`, run in the project's root.
     ///
     /// # Errors
@@ -104,6 +114,22 @@ impl Inkstrand {
         }
         Err(format!("{}: success, but no picture", line_of(&command)).into())
     }
+}
+
+/// Ends a run over `total` things by naming those that failed.
+///
+/// # Errors
+/// Some did.
+pub fn sum_up(total: usize, failures: &[String]) -> Outcome {
+    if failures.is_empty() {
+        return Ok(());
+    }
+    Err(format!(
+        "{} of {total} failed: {}",
+        failures.len(),
+        failures.join(", ")
+    )
+    .into())
 }
 
 fn finished(output: &Output) -> Outcome {

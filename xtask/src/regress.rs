@@ -1,46 +1,23 @@
 //! Golden pictures: what the program draws now against what it drew when a person last looked.
 //!
 //! `tests/golden/cases.toml` lists the cases, `tests/golden/NAME.png` are the pictures. They must
-//! be the same bit by bit; how they differ is shown in `target/regress/index.html`.
+//! be the same bit by bit; how they differ is shown in `target/regress/index.html`. Beside the cases
+//! of the list there is a contact sheet for each effect, with a cell for each end of each parameter.
 
-use std::collections::BTreeSet;
+mod case;
+mod extremes;
+mod report;
+mod sheet;
+mod verdict;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-
-use crate::picture::{Difference, Picture};
-use crate::program::{self, Inkstrand};
-use crate::{Outcome, report};
-
-/// The list of cases, as `cases.toml` holds it.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Cases {
-    case: Vec<Case>,
-}
-
-/// A picture that must stay as it is.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Case {
-    /// The name of its file, without `.png`.
-    pub name: String,
-    /// What `inkstrand render` gets, the preset first.
-    pub args: Vec<String>,
-}
-
-/// What came of a case. The pictures lie in the folder of the report as `NAME.expected.png`,
-/// `NAME.actual.png` and `NAME.difference.png`.
-#[derive(Debug, PartialEq)]
-pub enum Verdict {
-    Same,
-    /// No golden picture yet.
-    New,
-    Differs(Difference),
-    /// No picture, or one that can't be compared; the reason.
-    Failed(String),
-}
+use crate::picture::Picture;
+use crate::program::{self, Inkstrand, sum_up};
+use crate::{Outcome, work};
+use case::Case;
+use verdict::Verdict;
 
 /// The folders that a run reads and writes.
 struct Folders {
@@ -61,7 +38,9 @@ pub fn run(filter: &str, backend: &str, bless: bool) -> Outcome {
         golden: program::root().join("tests/golden"),
         report: program::root().join("target/regress"),
     };
+    let program = Inkstrand::build()?;
     let mut cases = folders.cases()?;
+    cases.extend(extremes::cases(&folders.golden, &program.schema()?)?);
     if filter.is_empty() {
         folders.find_strays(&cases)?;
     }
@@ -70,12 +49,19 @@ pub fn run(filter: &str, backend: &str, bless: bool) -> Outcome {
         return Err(format!("no case has {filter:?} in its name").into());
     }
 
-    let program = Inkstrand::build()?;
-    let backend = format!("--backend={backend}");
+    // All cores draw, a picture each.
+    let common = [format!("--backend={backend}"), "--threads=1".to_owned()];
     let draw = |case: &Case, picture: &Path| {
-        let mut args = case.args.clone();
-        args.push(backend.clone());
-        program.render(&args, picture)
+        let args = [&case.args[..], &common].concat();
+        if case.cells.is_empty() {
+            program.render(&args, picture)
+        } else {
+            sheet::draw(&case.cells, picture, |sets, path| {
+                let sets = sets.iter().map(|set| format!("--set={set}"));
+                let args: Vec<String> = args.iter().cloned().chain(sets).collect();
+                program.render(&args, path)
+            })
+        }
     };
     let verdicts = folders.judge(&cases, draw)?;
     let page = folders.report.join("index.html");
@@ -93,43 +79,12 @@ pub fn run(filter: &str, backend: &str, bless: bool) -> Outcome {
     sum_up(cases.len(), &failures)
 }
 
-/// Ends a run over `total` things by naming those that failed.
-///
-/// # Errors
-/// Some did.
-pub fn sum_up(total: usize, failures: &[String]) -> Outcome {
-    if failures.is_empty() {
-        return Ok(());
-    }
-    Err(format!(
-        "{} of {total} failed: {}",
-        failures.len(),
-        failures.join(", ")
-    )
-    .into())
-}
-
-impl Verdict {
-    /// One line for the maintainer.
-    pub fn sentence(&self) -> String {
-        match self {
-            Self::Same => "ok".to_owned(),
-            Self::New => "NEW: look at it, then `cargo xtask regress --bless`".to_owned(),
-            Self::Differs(Difference { pixels, largest }) => {
-                let steps = f32::from(*largest) / 257.0;
-                format!("DIFFERS: {pixels} pixels, by {steps:.3}/255 at most")
-            }
-            Self::Failed(reason) => format!("FAILED: {reason}"),
-        }
-    }
-}
-
 impl Folders {
     fn cases(&self) -> Outcome<Vec<Case>> {
         let path = self.golden.join("cases.toml");
         let text = fs::read_to_string(&path);
         let text = text.map_err(|error| format!("{}: {error}", path.display()))?;
-        parse(&text).map_err(|error| format!("{}: {error}", path.display()).into())
+        case::parse(&text).map_err(|error| format!("{}: {error}", path.display()).into())
     }
 
     /// Golden pictures that no case draws are dead weight, or a case lost by mistake.
@@ -149,20 +104,21 @@ impl Folders {
     fn judge(
         &self,
         cases: &[Case],
-        draw: impl Fn(&Case, &Path) -> Outcome,
+        draw: impl Fn(&Case, &Path) -> Outcome + Sync,
     ) -> Outcome<Vec<Verdict>> {
         if self.report.exists() {
             fs::remove_dir_all(&self.report)?;
         }
         fs::create_dir_all(&self.report)?;
-        let verdict = |case: &Case| {
-            let verdict = draw(case, &self.picture(case, "actual"))
+        let verdicts = work::on_all_cores(cases, "pictures", |case| {
+            draw(case, &self.picture(case, "actual"))
                 .and_then(|()| self.compare(case))
-                .unwrap_or_else(|error| Verdict::Failed(error.to_string()));
+                .unwrap_or_else(|error| Verdict::Failed(error.to_string()))
+        });
+        for (case, verdict) in cases.iter().zip(&verdicts) {
             println!("  {}: {}", case.name, verdict.sentence());
-            verdict
-        };
-        Ok(cases.iter().map(verdict).collect())
+        }
+        Ok(verdicts)
     }
 
     fn compare(&self, case: &Case) -> Outcome<Verdict> {
@@ -176,9 +132,10 @@ impl Folders {
         let Some(difference) = expected.compare(&actual)? else {
             return Ok(Verdict::Same);
         };
+        let cells = sheet::cells_that_differ(&case.cells, &expected, &actual);
         let shown = expected.amplified_difference(&actual, difference.largest);
         shown.save(&self.picture(case, "difference"))?;
-        Ok(Verdict::Differs(difference))
+        Ok(Verdict::Differs { difference, cells })
     }
 
     /// Copies the pictures that aren't golden yet. Those that are stay untouched, whatever
@@ -212,34 +169,12 @@ impl Folders {
     }
 }
 
-/// Reads the list of cases. Names become names of files, so they are held to letters that are
-/// the same everywhere.
-fn parse(text: &str) -> Outcome<Vec<Case>> {
-    let Cases { case: cases } = toml::from_str(text)?;
-    if cases.is_empty() {
-        return Err("there is no case".into());
-    }
-    let mut names = BTreeSet::new();
-    for Case { name, args } in &cases {
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-        if name.is_empty() || !name.chars().all(plain) {
-            return Err(format!("case {name:?}: a name is of a-z, 0-9 and -").into());
-        }
-        if !names.insert(name) {
-            return Err(format!("case {name:?} is there twice").into());
-        }
-        if args.is_empty() {
-            return Err(format!("case {name:?} has no preset in its args").into());
-        }
-    }
-    Ok(cases)
-}
-
 #[cfg(test)]
 mod tests {
     use tempfile::TempDir;
 
     use super::*;
+    use crate::picture::Difference;
     use crate::picture::tests::made;
 
     fn folders() -> (TempDir, Folders) {
@@ -256,6 +191,7 @@ mod tests {
         Case {
             name: name.to_owned(),
             args: vec!["presets/made.ron".to_owned()],
+            cells: Vec::new(),
         }
     }
 
@@ -287,7 +223,8 @@ mod tests {
             largest: 257,
         };
         let verdict = verdict(&made(), &actual);
-        assert_eq!(verdict, Verdict::Differs(difference));
+        let cells = Vec::new();
+        assert_eq!(verdict, Verdict::Differs { difference, cells });
         assert_eq!(
             verdict.sentence(),
             "DIFFERS: 1 pixels, by 1.000/255 at most"
@@ -301,6 +238,23 @@ mod tests {
         actual.pixels.truncate(40);
         let reason = "8x5 in place of 8x6".to_owned();
         assert_eq!(verdict(&made(), &actual), Verdict::Failed(reason));
+    }
+
+    #[test]
+    fn the_cell_of_a_sheet_that_should_fail_is_named() {
+        let (_root, folders) = folders();
+        let mut case = case("sheet");
+        case.cells = vec![
+            sheet::tests::cell("a=1", None),
+            sheet::tests::cell("a=2", None),
+        ];
+        let mut picture = Picture::blank(8 * sheet::CELL, sheet::CELL);
+        picture.save(&folders.golden_picture(&case)).unwrap();
+        picture.pixels[sheet::CELL as usize] = [0, 0, 0, 257];
+        let draw = |_: &Case, path: &Path| picture.save(path);
+        let verdicts = folders.judge(&[case], draw).unwrap();
+        let sentence = verdicts[0].sentence();
+        assert!(sentence.starts_with("DIFFERS: 1 pixels") && sentence.ends_with(", in a=2"));
     }
 
     #[test]
@@ -318,7 +272,7 @@ mod tests {
 
         let verdicts = folders.judge(&cases, draw).unwrap();
         assert_eq!(verdicts[0], Verdict::New);
-        assert!(matches!(verdicts[1], Verdict::Differs(_)));
+        assert!(matches!(verdicts[1], Verdict::Differs { .. }));
         assert_eq!(verdicts[2], Verdict::Same);
         let reason = "line 3: no such effect".to_owned();
         assert_eq!(verdicts[3], Verdict::Failed(reason));
@@ -348,23 +302,5 @@ mod tests {
         fs::write(folders.golden_picture(&case), "no picture").unwrap();
         let verdicts = folders.judge(&[case], draw_made).unwrap();
         assert!(matches!(verdicts[0], Verdict::Failed(_)));
-    }
-
-    #[test]
-    fn lists_of_cases_are_checked() {
-        let good = "[[case]]\nname = 'a-1'\nargs = ['presets/a.ron', '--size', '8x6']\n";
-        assert_eq!(parse(good).unwrap()[0].args.len(), 3);
-        for (text, complaint) in [
-            ("case = []", "no case"),
-            ("", "missing field"),
-            ("[[case]]\nname = '../a'\nargs = ['p']", "a name is of"),
-            ("[[case]]\nname = ''\nargs = ['p']", "a name is of"),
-            ("[[case]]\nname = 'a'\nargs = []", "no preset"),
-            ("[[case]]\nname = 'a'\narg = ['p']", "unknown field"),
-            (&[good, good].concat(), "twice"),
-        ] {
-            let error = parse(text).unwrap_err().to_string();
-            assert!(error.contains(complaint), "{text:?}: {error}");
-        }
     }
 }

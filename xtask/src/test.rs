@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use crate::program::{cargo, succeed};
-use crate::{Outcome, layers, presets, regress, wasm};
+use crate::{Outcome, figures, layers, presets, regress, wasm};
 
 /// A step's name, and what it does; its output goes to the terminal.
 type Step = (&'static str, fn() -> Outcome);
@@ -32,6 +32,7 @@ const STEPS: &[Step] = &[
     }),
     ("wasm", wasm::build),
     ("presets", presets::render_all),
+    ("figures", figures::run),
     ("regressions", || regress::run("", "cpu", false)),
 ];
 

@@ -23,8 +23,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Every order of strokes, with its name in presets. One more is one more line.
-pub const ORDERS: [(&str, Order); 3] = [
+pub const ORDERS: [(&str, Order); 4] = [
     ("rounded", Order::Rounded),
+    ("scattered", Order::Scattered),
     ("strand_first", Order::StrandFirst),
     ("shifted", Order::Shifted),
 ];

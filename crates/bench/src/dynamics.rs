@@ -199,10 +199,7 @@ fn comments(options: &Options, truths: &[(f64, Truth)]) -> Vec<String> {
 }
 
 fn write(measured: &Measured, out: &Path) -> Result<(), String> {
-    let save = |name: &str, text: &str| {
-        let path = out.join(name);
-        results::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
-    };
+    let save = |name, text: &str| results::save(out, name, text);
     save(
         "dynamics.csv",
         &results::csv("dynamics", &measured.comments, &measured.rows),
@@ -212,25 +209,4 @@ fn write(measured: &Measured, out: &Path) -> Result<(), String> {
         "dynamics.svg",
         &plot::time_against_error(&measured.rows, errors)?,
     )
-}
-
-/// The rows as a table to read.
-#[must_use]
-pub fn summary(rows: &[Row]) -> String {
-    let header = format!(
-        "{:16} {:24} {:>5} {:>12} {:>10}",
-        "scene", "method", "knob", "ms", "error"
-    );
-    let lines = rows.iter().map(|row| {
-        let error = row
-            .error
-            .map_or(String::new(), |error| format!("{error:.5}"));
-        let milliseconds = 1e3 * row.seconds;
-        format!(
-            "{:16} {:24} {:5} {milliseconds:12.4} {error:>10}",
-            row.scene, row.method, row.knob
-        )
-    });
-    let lines: Vec<String> = std::iter::once(header).chain(lines).collect();
-    lines.join("\n") + "\n"
 }

@@ -7,6 +7,7 @@ pub mod dynamics;
 pub mod oracle;
 pub mod plot;
 pub mod results;
+pub mod stress;
 pub mod strokes;
 pub mod targets;
 pub mod timing;

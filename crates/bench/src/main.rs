@@ -1,4 +1,4 @@
-//! Measures time against error: `bench SUITE`.
+//! Measures time against error: `bench SUITE`; and runs random scenes: `bench stress`.
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,
@@ -7,12 +7,13 @@
 
 use bench::dynamics::{self, peers::Peers, stored};
 use bench::targets::{Target, report};
-use bench::{coherence, results, strokes};
+use bench::{coherence, results, stress, strokes};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::{Duration, SystemTime};
 
 /// Measures time against error. Build it in release.
 #[derive(Parser)]
@@ -30,6 +31,8 @@ enum Suite {
     Dynamics(DynamicsOptions),
     /// Coherence: how continuous pictures are in time, in every order of strokes
     Coherence(CoherenceOptions),
+    /// No measure: random scenes with hostile numbers, in which strands must hold
+    Stress(StressOptions),
 }
 
 #[derive(clap::Args)]
@@ -50,12 +53,37 @@ struct CoherenceOptions {
 struct DynamicsOptions {
     #[command(flatten)]
     common: Options,
-    /// Other programs too: INKSTRAND_PEERS names the folder of their scripts, INKSTRAND_PYTHON the Python that has them
-    #[arg(long)]
-    peers: bool,
+    /// Other programs too: their scripts are in DIR or in the folder that INKSTRAND_PEERS names; INKSTRAND_PYTHON names the
+    /// Python that has them
+    #[arg(long, value_name = "DIR", num_args = 0..=1, require_equals = true)]
+    peers: Option<Option<PathBuf>>,
     /// Stores our figures as those that later ones are checked against
     #[arg(long, conflicts_with = "quick")]
     store: bool,
+}
+
+#[derive(clap::Args)]
+struct StressOptions {
+    /// One scene alone, that of this seed
+    #[arg(long, value_name = "S", conflicts_with_all = ["hours", "from"])]
+    seed: Option<u64>,
+    /// For how long [default: a minute]
+    #[arg(long, value_name = "N", value_parser = hours)]
+    hours: Option<Duration>,
+    /// The first seed of many [default: by the clock]
+    #[arg(long, value_name = "S")]
+    from: Option<u64>,
+    /// Goes on after a scene that fails
+    #[arg(long)]
+    keep_going: bool,
+}
+
+fn hours(text: &str) -> Result<Duration, String> {
+    let hours: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if (0.0..=1e5).contains(&hours) {
+        return Ok(Duration::from_secs_f64(3600.0 * hours));
+    }
+    Err("from 0 to 100000 hours".to_owned())
 }
 
 #[derive(clap::Args)]
@@ -75,13 +103,15 @@ struct Options {
 }
 
 fn main() -> ExitCode {
-    if cfg!(debug_assertions) {
+    let suite = Arguments::parse().suite;
+    if cfg!(debug_assertions) && !matches!(suite, Suite::Stress(_)) {
         eprintln!("bench: this is no release build: its times say nothing");
     }
-    let measured = match Arguments::parse().suite {
+    let measured = match suite {
         Suite::Strokes(options) => strokes(&options),
         Suite::Dynamics(options) => dynamics(&options),
         Suite::Coherence(options) => coherence(&options),
+        Suite::Stress(options) => stress(&options),
     };
     measured.unwrap_or_else(|error| {
         eprintln!("bench: {error}");
@@ -109,7 +139,7 @@ fn strokes(options: &Options) -> Result<ExitCode, String> {
         threads: options.threads(),
     };
     let measured = with_progress(|progress| strokes::run(&suite, progress))?;
-    println!("{}", strokes::summary(&measured.rows));
+    println!("{}", results::summary(&measured.rows));
     println!("{}", report(&measured.targets));
     println!("{}", strokes::NOT_MEASURED);
     for file in ["strokes.csv", "strokes-errors.csv", "strokes.svg"] {
@@ -125,10 +155,12 @@ fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, String> {
         quick: common.quick,
         threads: common.threads(),
         data: std::env::var_os("INKSTRAND_DATA").map(PathBuf::from),
-        peers: options.peers.then(|| Peers::from_environment(&root())),
+        peers: (options.peers.as_ref())
+            .map(|folder| Peers::new(folder.as_deref()))
+            .transpose()?,
     };
     let measured = with_progress(|progress| dynamics::run(&suite, progress))?;
-    println!("{}", dynamics::summary(&measured.rows));
+    println!("{}", results::summary(&measured.rows));
     println!("{}", report(&measured.targets));
     for peer in &measured.missing {
         println!("{peer}");
@@ -175,6 +207,35 @@ fn coherence(options: &CoherenceOptions) -> Result<ExitCode, String> {
         println!("wrote {}", picture.display());
     }
     Ok(exit_code(&measured.targets, common.check))
+}
+
+/// Failures are told at once, each with the command that runs its scene again.
+fn stress(options: &StressOptions) -> Result<ExitCode, String> {
+    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+    let clock = now.map_or(0, |now| now.as_secs());
+    let which = match options.seed {
+        Some(seed) => stress::Which::One(seed),
+        None => {
+            let first = options.from.unwrap_or(clock);
+            let time = options.hours.unwrap_or(Duration::from_secs(60));
+            stress::Which::From(first, time)
+        }
+    };
+    let summary = with_progress(|progress| {
+        let failed = |seed: u64, error: &str| {
+            progress.suspend(|| {
+                println!("FAILED seed {seed}: {error}");
+                println!("   again: cargo xtask stress --seed {seed}");
+            });
+        };
+        stress::run(which, options.keep_going, progress, failed)
+    })?;
+    println!("{summary}");
+    Ok(if summary.failures.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    })
 }
 
 /// Runs a suite under a bar, which is gone afterwards.
@@ -229,7 +290,12 @@ mod tests {
         let Suite::Dynamics(options) = Arguments::try_parse_from(line).unwrap().suite else {
             panic!("another suite");
         };
-        assert!(options.peers && options.common.threads == Some(2));
+        assert!(options.peers == Some(None) && options.common.threads == Some(2));
+        let line = ["bench", "dynamics", "--peers=scripts"];
+        let Suite::Dynamics(options) = Arguments::try_parse_from(line).unwrap().suite else {
+            panic!("another suite");
+        };
+        assert_eq!(options.peers, Some(Some("scripts".into())));
         let line = [
             "bench",
             "coherence",
@@ -244,6 +310,26 @@ mod tests {
         // What is stored is measured with care.
         let line = ["bench", "dynamics", "--quick", "--store"];
         assert!(Arguments::try_parse_from(line).is_err());
+    }
+
+    #[test]
+    fn a_scene_is_asked_for_by_its_seed_or_many_by_their_time() {
+        let parse = |line: &[&str]| {
+            let line = ["bench", "stress"].iter().chain(line);
+            let suite = Arguments::try_parse_from(line).ok()?.suite;
+            let Suite::Stress(options) = suite else {
+                panic!("another suite");
+            };
+            Some(options)
+        };
+        let options = parse(&["--hours", "0.5", "--from", "7"]).unwrap();
+        assert_eq!(options.hours, Some(Duration::from_secs(1800)));
+        assert!(options.from == Some(7) && !options.keep_going);
+        assert!(parse(&["--seed", "18446744073709551615"]).is_some());
+        for bad in ["-1", "NaN", "inf", "1e300", "soon"] {
+            assert!(parse(&[&format!("--hours={bad}")]).is_none(), "{bad}");
+        }
+        assert!(parse(&["--seed", "1", "--hours", "1"]).is_none());
     }
 
     #[test]

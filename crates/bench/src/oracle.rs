@@ -66,8 +66,8 @@ fn row(scene: &Scene, width: u32, y: u32, positions: &[DVec2]) -> Vec<[f32; 4]> 
 fn pixel(scene: &Scene, corner: DVec2, positions: &[DVec2]) -> [f32; 4] {
     let scene = scene.within(corner, corner + 1.0);
     let mut sum = [0.0; 4];
-    for position in positions {
-        if let Some([red, green, blue]) = scene.color(corner + *position) {
+    for (number, position) in (0..).zip(positions) {
+        if let Some([red, green, blue]) = scene.color(corner + *position, number) {
             for (total, value) in sum.iter_mut().zip([red, green, blue, 1.0]) {
                 *total += value.clamp(0.0, 1.0);
             }

@@ -65,6 +65,42 @@ pub fn write(path: &Path, text: &str) -> io::Result<()> {
     std::fs::rename(&part, path)
 }
 
+/// Writes a file of a suite into the folder `out`.
+///
+/// # Errors
+///
+/// As [`write`], in words.
+pub fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
+    let path = out.join(name);
+    write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The rows as a table to read.
+#[must_use]
+pub fn summary(rows: &[Row]) -> String {
+    let width = |text: fn(&Row) -> &str| {
+        let widths = rows.iter().map(|row| text(row).chars().count());
+        widths.max().unwrap_or(0).max("method".len())
+    };
+    let (scenes, methods) = (width(|row| &row.scene), width(|row| &row.method));
+    let mut text = format!(
+        "{:scenes$} {:methods$} {:>5} {:>12} {:>10}\n",
+        "scene", "method", "knob", "ms", "error"
+    );
+    for row in rows {
+        let error = row
+            .error
+            .map_or(String::new(), |error| format!("{error:.5}"));
+        let milliseconds = 1e3 * row.seconds;
+        let _ = writeln!(
+            text,
+            "{:scenes$} {:methods$} {:5} {milliseconds:12.4} {error:>10}",
+            row.scene, row.method, row.knob
+        );
+    }
+    text
+}
+
 /// What a reader of any times must know: the machine, its threads, the versions of what was timed.
 #[must_use]
 pub fn machine(threads: usize, packages: &[&str]) -> Vec<String> {
@@ -119,6 +155,15 @@ mod tests {
             suite,scene,method,knob,seconds,error\n\
             strokes,ponytails,sweep,4,0.012500000,5.000e-1\n\
             strokes,ponytails,sweep,4,0.012500000,\n";
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn the_table_to_read_is_as_wide_as_its_names() {
+        let text = summary(&[row(Some(0.5)), row(None)]);
+        let expected = "scene     method  knob           ms      error\n\
+            ponytails sweep      4      12.5000    0.50000\n\
+            ponytails sweep      4      12.5000           \n";
         assert_eq!(text, expected);
     }
 

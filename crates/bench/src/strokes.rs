@@ -286,10 +286,7 @@ fn comments(scenes: &[Scene], options: &Options) -> Vec<String> {
 }
 
 fn write(measured: &Measured, out: &Path) -> Result<(), String> {
-    let save = |name: &str, text: &str| {
-        let path = out.join(name);
-        results::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
-    };
+    let save = |name, text: &str| results::save(out, name, text);
     let lines = measured.differences.iter().map(|row| {
         let (scene, method, knob, of) = row;
         format!(
@@ -316,24 +313,3 @@ fn write(measured: &Measured, out: &Path) -> Result<(), String> {
 /// What was set as a target and is not measured here.
 pub const NOT_MEASURED: &str = "Not measured: stamping and sweeping on a graphics device (that backend isn't built yet)\n\
     and whole frames of the looks of table 6.1 (suite `frame`, not built yet).";
-
-/// The rows as a table to read.
-#[must_use]
-pub fn summary(rows: &[Row]) -> String {
-    let header = format!(
-        "{:12} {:26} {:>5} {:>10} {:>10}",
-        "scene", "method", "knob", "ms", "error"
-    );
-    let lines = rows.iter().map(|row| {
-        let error = row
-            .error
-            .map_or(String::new(), |error| format!("{error:.5}"));
-        let milliseconds = 1e3 * row.seconds;
-        format!(
-            "{:12} {:26} {:5} {milliseconds:10.2} {error:>10}",
-            row.scene, row.method, row.knob
-        )
-    });
-    let lines: Vec<String> = std::iter::once(header).chain(lines).collect();
-    lines.join("\n") + "\n"
-}

@@ -3,12 +3,12 @@
 
 use crate::compose::{Entry, Source};
 use crate::error::{BuildError, at};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{BinaryOperator, Expression, Handle, MathFunction as Math, Module, Span, TypeInner};
 
-/// Parses and validates a composed source. Errors begin with the author's place, naga's own text
-/// and the source line follow.
-pub(crate) fn parse(source: &Source) -> Result<Module, BuildError> {
+/// Parses and validates a composed source, and tells its expressions' types. Errors begin with the
+/// author's place, naga's own text and the source line follow.
+pub(crate) fn parse(source: &Source) -> Result<(Module, ModuleInfo), BuildError> {
     let mut options = naga::front::wgsl::Options::new();
     options.parse_doc_comments = true;
     let module = naga::front::wgsl::Frontend::new_with_options(options)
@@ -18,20 +18,20 @@ pub(crate) fn parse(source: &Source) -> Result<Module, BuildError> {
             let span = error.labels().next().map(|(span, _)| span);
             at(source, span.unwrap_or_default(), text)
         })?;
-    validate(&module).map_err(|error| {
+    let info = validate(&module).map_err(|error| {
         let text = error.emit_to_string_with_path(&source.text, &source.path);
         // The innermost of the nested places that naga names.
         let length = |span: &Span| span.to_range().map_or(usize::MAX, |range| range.len());
         let span = error.spans().map(|(span, _)| *span).min_by_key(length);
         at(source, span.unwrap_or_default(), text)
     })?;
-    Ok(module)
+    Ok((module, info))
 }
 
 #[allow(clippy::result_large_err, reason = "naga's own type, once a build")]
 pub(crate) fn validate(
     module: &Module,
-) -> Result<naga::valid::ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
+) -> Result<ModuleInfo, naga::WithSpan<naga::valid::ValidationError>> {
     Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(module)
 }
 
@@ -106,7 +106,11 @@ pub(crate) fn entry_point(
 }
 
 /// Refuses what the CPU would answer differently, or not at all.
-pub(crate) fn builtins(module: &Module, source: &Source) -> Result<(), BuildError> {
+pub(crate) fn builtins(
+    module: &Module,
+    info: &ModuleInfo,
+    source: &Source,
+) -> Result<(), BuildError> {
     if let Some((handle, _)) = module.global_variables.iter().next() {
         let span = module.global_variables.get_span(handle);
         return Err(at(
@@ -115,7 +119,11 @@ pub(crate) fn builtins(module: &Module, source: &Source) -> Result<(), BuildErro
             "an effect has no variables outside its functions",
         ));
     }
-    for (_, function) in module.functions.iter() {
+    for (function_handle, function) in module.functions.iter() {
+        let type_of = |expression: Handle<Expression>| {
+            let types = &info[function_handle];
+            types[expression].ty.inner_with(&module.types)
+        };
         for (handle, expression) in function.expressions.iter() {
             let refuse =
                 |message: String| Err(at(source, function.expressions.get_span(handle), message));
@@ -133,6 +141,19 @@ pub(crate) fn builtins(module: &Module, source: &Source) -> Result<(), BuildErro
                          as in `vec2<f32>(v.z, v.x)`"
                             .to_owned(),
                     );
+                }
+                Expression::Select {
+                    condition, accept, ..
+                } => {
+                    if let (&TypeInner::Vector { size, .. }, TypeInner::Scalar(_)) =
+                        (type_of(accept), type_of(condition))
+                    {
+                        return refuse(format!(
+                            "`select` between vectors takes a condition for each component in \
+                             effects: write it as `vec{}<bool>(condition)`",
+                            size as u8
+                        ));
+                    }
                 }
                 Expression::As { convert: None, .. } => {
                     return refuse("`bitcast` is not available in effects".to_owned());

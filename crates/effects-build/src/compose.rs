@@ -51,6 +51,7 @@ pub const INPUTS: &[Input] = &[
     input("light_distance", "f32", true, true, "distance to the light, head heights; 1e6 for a direction"),
     input("view_direction", "vec3<f32>", true, true, "unit vector to the eye"),
     input("across", "vec2<f32>", true, true, "unit vector across the path on the screen (x right, y down)"),
+    input("material_normal", "vec3<f32>", true, true, "unit vector across the strand that turns as it twists, outwards at rest; cross(forward, it) is the binormal"),
     input("unit", "f32", false, true, "one unit of the layer's widths in 1/300 of the head's height: 1, or a pixel's size at 720 lines"),
     input("normal", "vec3<f32>", false, true, "the clump's unit normal (5.4)"),
     input("clump_radius", "f32", false, true, "the clump's radius, 1/300 of the head's height (5.3)"),

@@ -202,6 +202,9 @@ fn gather(source: &Source) -> TokenStream {
         match input.name {
             "seed" => quote!(seed: ::effects::strand_seed(seed, joints.strand[index])),
             "unit" => quote!(unit: joints.unit(index)),
+            "material_normal" => {
+                quote!(material_normal: joints.material_normal_or_zero(index))
+            }
             _ => quote!(#field: joints.#field[index]),
         }
     });
@@ -240,7 +243,7 @@ fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
         text: PRELUDE.to_owned(),
         inputs: Vec::new(),
     };
-    let module = check::parse(&source)?;
+    let (module, _) = check::parse(&source)?;
     let Some(comments) = &module.doc_comments else {
         return Ok(Vec::new());
     };

@@ -100,9 +100,9 @@ pub fn translate_effect(author: &str, path: &str) -> Result<String, BuildError> 
 
 fn translate(author: &str, path: &str, entry: compose::Entry) -> Result<String, BuildError> {
     let source = compose::compose(author, path, entry)?;
-    let module = check::parse(&source)?;
+    let (module, info) = check::parse(&source)?;
     check::entry_point(&module, &source, entry)?;
-    check::builtins(&module, &source)?;
+    check::builtins(&module, &info, &source)?;
     let params = params::read(&module, &source)?;
     generate::effect(module, &source, &params, entry)
 }

@@ -14,7 +14,7 @@
 use crate::check::named_type;
 use crate::compose::Source;
 use crate::error::{BuildError, at};
-use naga::{Module, Scalar, TypeInner, VectorSize};
+use naga::{Module, Scalar, Span, TypeInner, VectorSize};
 
 /// One parameter.
 pub(crate) struct Param {
@@ -106,9 +106,30 @@ pub(crate) fn read(module: &Module, source: &Source) -> Result<Vec<Param>, Build
                 &module.types[member.ty].inner,
                 &Annotations::read(comments),
             )
-            .map_err(|message| at(source, span, format!("Params.{name}: {message}")))
+            .map_err(|message| {
+                let place = member_span(source, span, &name);
+                at(source, place, format!("Params.{name}: {message}"))
+            })
         })
         .collect()
+}
+
+/// Where a member's name stands in its struct, of which naga tells the whole's place alone.
+fn member_span(source: &Source, structure: Span, name: &str) -> Span {
+    let Some(range) = structure.to_range() else {
+        return structure;
+    };
+    let mut start = range.start;
+    for line in source.text[range].split_inclusive('\n') {
+        let code = line.trim_start();
+        let after = code.strip_prefix(name).map(str::trim_start);
+        if after.is_some_and(|rest| rest.starts_with(':')) {
+            let place = (start + line.len() - code.len()) as u32;
+            return Span::new(place, place + name.len() as u32);
+        }
+        start += line.len();
+    }
+    structure
 }
 
 fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, String> {

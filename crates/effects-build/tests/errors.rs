@@ -94,6 +94,10 @@ fn builtins_that_differ_between_processors_are_refused_with_what_to_use() {
         &with_radius("vec3<f32>(joint.u).zz.x"),
         &["src/mine.wgsl:3:", "swizzle"],
     );
+    assert_error(
+        &with_radius("select(vec3<f32>(0.0), vec3<f32>(1.0), joint.u > 0.5).x"),
+        &["src/mine.wgsl:3:", "vec3<bool>(condition)"],
+    );
 }
 
 #[test]
@@ -146,6 +150,11 @@ fn parameters_need_words_range_and_default() {
     for (text, message) in wrong {
         assert_error(&params(text), &["src/mine.wgsl:", message]);
     }
+    // At the parameter's own line.
+    assert_error(
+        &params("    /// W.\n    /// @range 0..1\n    width: f32,"),
+        &["src/mine.wgsl:8:5: Params.width: its comment needs"],
+    );
     assert_error(
         &params("/// W.\n/// @default 1\nw: vec2<f32>,"),
         &["an f32, a u32, a vec3<f32> (a colour) or a vec4<f32>"],

@@ -1,4 +1,4 @@
-//! inputs: clump_radius, unit
+//! inputs: clump_radius, unit, u
 
 struct Params {
     /// How far the line reaches past the clump.
@@ -7,12 +7,18 @@ struct Params {
     /// The line is never wider than this share of the clump's radius, so that tips stay points.
     /// @range 0..10 @default 0.6
     ratio: f32,
+    /// Over how much of the strand the line grows from nothing at the root: roots crowd together, and their
+    /// lines would make a mess of the crown. 0 is full lines from the root on.
+    /// @unit 0 root to 1 tip @range 0..1 @default 0.15
+    root_fade: f32,
     /// Colour of the line.
     /// @default "124A57"
     color: vec3<f32>,
 }
 
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
-    let width = min(params.width * joint.unit, params.ratio * joint.clump_radius);
+    let whole = min(params.width * joint.unit, params.ratio * joint.clump_radius);
+    let fade = select(1.0, smoothstep(0.0, params.root_fade, joint.u), joint.u < params.root_fade);
+    let width = whole * fade;
     return Stroke(vec2<f32>(0.0), joint.clump_radius + width, 0.0, params.color);
 }

@@ -1,6 +1,6 @@
 //! The joints of all strands, as effects see them: one list per input, empty where nobody reads it.
 
-use crate::wgsl::{Vec2, Vec3, hash};
+use crate::wgsl::{Vec2, Vec3, hash, vec3};
 
 /// Lists of what joints offer. Every list that an active effect declares has one entry per joint;
 /// the others are empty. Names, types and units are those of `effects_build::INPUTS`.
@@ -23,6 +23,7 @@ pub struct Joints {
     pub light_distance: Vec<f32>,
     pub view_direction: Vec<Vec3<f32>>,
     pub across: Vec<Vec2<f32>>,
+    pub material_normal: Vec<Vec3<f32>>,
     /// A screen pixel at 720 lines in 1/300 of the head's height; empty where the layer's unit is
     /// not a pixel.
     pub pixel: Vec<f32>,
@@ -37,6 +38,14 @@ impl Joints {
     #[must_use]
     pub fn unit(&self, index: usize) -> f32 {
         self.pixel.get(index).copied().unwrap_or(1.0)
+    }
+
+    /// The material normal of joint `index`; zero where the frame has none, as the clump reads it only where its
+    /// parameters say so.
+    #[must_use]
+    pub fn material_normal_or_zero(&self, index: usize) -> Vec3<f32> {
+        let zero = vec3([0.0; 3]);
+        self.material_normal.get(index).copied().unwrap_or(zero)
     }
 }
 
@@ -97,6 +106,7 @@ const NAMES: &[&str] = &[
     "light_distance",
     "view_direction",
     "across",
+    "material_normal",
     "unit",
     "normal",
     "clump_radius",

@@ -2,7 +2,8 @@
 //!
 //! An effect is a WGSL function of one stroke joint, translated to Rust at build time by
 //! `effects-build`, so that the same text runs on both backends. See [`StrokeEffect`] for how one is
-//! written, and [`Joints`] for what a joint offers.
+//! written, and [`Joints`] for what a joint offers; `docs/an-effect-in-30-lines.md` makes one from an
+//! empty crate to a picture. `effects-testkit` tells whether it is a good one.
 
 // The translated WGSL names this crate by its name, here as everywhere.
 extern crate self as effects;

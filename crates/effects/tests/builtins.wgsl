@@ -43,6 +43,7 @@ fn t_length(a: vec3<f32>) -> f32 { return length(a); }
 fn t_distance(a: vec2<f32>, b: vec2<f32>) -> f32 { return distance(a, b); }
 fn t_normalize(a: vec3<f32>) -> vec3<f32> { return normalize(a); }
 fn t_select(a: f32, b: f32, c: bool) -> f32 { return select(a, b, c); }
+fn t_select_vec(a: vec3<f32>, b: vec3<f32>, c: bool) -> vec3<f32> { return select(a, b, vec3<bool>(c)); }
 
 fn t_zeroed(assign: bool) -> f32 {
     var x: f32;

@@ -74,6 +74,9 @@ fn builtins_are_wgsls() {
         ],
         [1.0, 2.0]
     );
+    let (a, b) = (vec3([1.0, 2.0, 3.0]), vec3([4.0, 5.0, 6.0]));
+    let selected = [false, true].map(|c| t::t_select_vec(a, b, Scalar(c)));
+    assert_eq!(selected, [a, b]);
 }
 
 #[test]

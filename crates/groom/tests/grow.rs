@@ -67,6 +67,7 @@ fn style(zones: Vec<Zone>) -> Style {
         seed: 1,
         scalp: Scalp::default(),
         undercoat: false,
+        cap: 0.05,
         zones,
         edits: Vec::new(),
         drawn: Vec::new(),
@@ -417,17 +418,29 @@ fn a_zone_keeps_its_clumps_when_others_change() {
 }
 
 #[test]
-fn the_undercoat_lies_in_the_scalp_and_leaves_the_face_free() {
-    let mut bare = style(Vec::new());
-    bare.undercoat = true;
-    let coat = grow(&bare, &SHELL).strands;
-    assert!(coat.len() > 50);
-    for (index, points) in coat.iter().enumerate() {
-        let radius = coat.size(index).unwrap() / 300.0;
-        for p in points {
-            assert!(lift(*p) <= 0.0 && lift(*p) > -radius);
-            assert!(bare.scalp.contains(SHELL.place(*p)), "{p}");
+fn the_undercoat_lies_below_its_cap_and_leaves_the_face_free() {
+    for cap in [0.0, 0.05] {
+        let bare = Style {
+            undercoat: true,
+            cap,
+            ..style(Vec::new())
+        };
+        let grown = grow(&bare, &SHELL);
+        let coat = grown.strands;
+        assert!(coat.len() > 50);
+        assert_eq!(grown.undercoat, coat.len());
+        let mut highest = f32::NEG_INFINITY;
+        for (index, points) in coat.iter().enumerate() {
+            let radius = coat.size(index).unwrap() / 300.0;
+            for p in points {
+                highest = highest.max(lift(*p) + 0.5 * radius);
+                assert!(
+                    lift(*p) > -radius && bare.scalp.contains(SHELL.place(*p)),
+                    "{p}"
+                );
+            }
         }
+        assert!((highest - cap).abs() < 0.005, "{highest} for {cap}");
     }
 }
 

@@ -10,6 +10,7 @@ use hair_sim::{Motion, Strands};
 use crate::mesh::Mesh;
 use crate::obj::{self, ObjError};
 use crate::orient::{self, Axes, Given, Orientation};
+use crate::skeleton::SkeletonError;
 use crate::strands_ron::{self, StrandsRonError};
 use crate::tfx::{self, TfxError};
 
@@ -70,6 +71,14 @@ pub enum HairError {
         path: PathBuf,
         /// What is wrong in it.
         source: ObjError,
+    },
+    /// A character that gives no motion.
+    #[error("{}: {source}", path.display())]
+    Skeleton {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong in it.
+        source: Box<SkeletonError>,
     },
     /// A scale that is no number above 0, or that makes positions too large for numbers.
     #[error(

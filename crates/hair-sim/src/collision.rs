@@ -6,3 +6,6 @@ mod shape;
 
 pub use grid::{GridError, SignedDistance};
 pub use shape::{Collider, Shape};
+
+#[cfg(test)]
+mod properties;

@@ -1,8 +1,14 @@
-//! Arithmetic on [`LANES`] strands at once: plain arrays that the compiler turns into vector instructions.
+//! Arithmetic on [`LANES`] strands at once.
+//!
+//! What is kept of a batch is an array of numbers in place of one, a [`Lane`]. The loops that take the time are generic in the
+//! [`Number`] that they work with: they load lanes, work in registers of the machine's instruction set, and store
+//! lanes. For a machine without one of these the number is the array itself.
 //!
 //! Every operation works lane by lane, so that a strand's numbers never depend on its neighbours in
 //! a batch, and there is no fused multiply-add, so that they are the same on every processor.
 
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod avx2;
 mod linear;
 
 pub(crate) use linear::{Mat3, Quat, Sym3, Vec3};
@@ -10,17 +16,100 @@ pub(crate) use linear::{Mat3, Quat, Sym3, Vec3};
 use std::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, Neg, Sub, SubAssign};
 
 /// The number of strands that are worked on together.
-pub(crate) const LANES: usize = 8;
+pub(crate) const LANES: usize = 4;
 
 /// One number for each strand of a batch.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[repr(C, align(64))]
+#[repr(C, align(32))]
 pub(crate) struct Lane(pub [f64; LANES]);
+
+/// What the loops that take the time work with: [`LANES`] numbers, of one strand each.
+pub(crate) trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// A decision for each.
+    type Condition: Copy;
+
+    fn load(lane: &Lane) -> Self;
+    fn store(self) -> Lane;
+    fn splat(value: f64) -> Self;
+    fn sqrt(self) -> Self;
+    fn less(self, than: Self) -> Self::Condition;
+    fn condition(mask: &Mask) -> Self::Condition;
+    /// `yes` where the condition holds, else `no`.
+    fn choose(condition: Self::Condition, yes: Self, no: Self) -> Self;
+}
+
+impl Number for Lane {
+    type Condition = Mask;
+
+    #[inline(always)]
+    fn load(lane: &Lane) -> Self {
+        *lane
+    }
+    #[inline(always)]
+    fn store(self) -> Lane {
+        self
+    }
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Self([value; LANES])
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+    #[inline(always)]
+    fn less(self, than: Self) -> Mask {
+        self.lt(than)
+    }
+    #[inline(always)]
+    fn condition(mask: &Mask) -> Mask {
+        *mask
+    }
+    #[inline(always)]
+    fn choose(condition: Mask, yes: Self, no: Self) -> Self {
+        condition.pick(yes, no)
+    }
+}
+
+impl Lane {
+    #[inline(always)]
+    pub(crate) fn load<T: Number>(&self) -> T {
+        T::load(self)
+    }
+}
+
+/// Loading and storing of structs of numbers.
+macro_rules! stored {
+    ($type:ident { $($field:tt),+ }) => {
+        impl $type<$crate::lanes::Lane> {
+            #[inline(always)]
+            #[allow(dead_code, reason = "made for every struct")]
+            pub(crate) fn load<T: $crate::lanes::Number>(&self) -> $type<T> {
+                $type { $($field: self.$field.load()),+ }
+            }
+        }
+        impl<T: $crate::lanes::Number> $type<T> {
+            #[inline(always)]
+            #[allow(dead_code, reason = "made for every struct")]
+            pub(crate) fn store(self) -> $type<$crate::lanes::Lane> {
+                $type { $($field: self.$field.store()),+ }
+            }
+        }
+    };
+}
+pub(crate) use stored;
 
 /// One decision for each strand of a batch: all bits or none, as vector instructions want it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(C, align(64))]
-pub(crate) struct Mask([u64; LANES]);
+#[repr(C, align(32))]
+pub(crate) struct Mask(pub(super) [u64; LANES]);
 
 impl Lane {
     pub(crate) const ZERO: Self = Self([0.0; LANES]);
@@ -225,3 +314,6 @@ impl IndexMut<usize> for Lane {
         &mut self.0[lane]
     }
 }
+
+#[cfg(test)]
+mod properties;

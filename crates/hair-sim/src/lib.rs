@@ -17,6 +17,7 @@
 //! precision a position of 0.3 m is known to 3e-8 m, which at a step of 1/24 s is already 2e-5 of gravity).
 
 mod collision;
+pub mod compare;
 mod forces;
 mod lanes;
 mod math;
@@ -24,11 +25,13 @@ mod motion;
 mod params;
 mod rest;
 mod solver;
+mod strand_solver;
 mod strands;
 
 pub use collision::{Collider, GridError, Shape, SignedDistance};
 pub use forces::{mutual::Mutual, wind::Wind};
-pub use motion::{Motion, MotionError};
+pub use motion::{Motion, MotionError, key_weights};
 pub use params::{GRAVITY, Material, Natural, Params, Profile};
 pub use solver::{DynamicsError, Fault, Pose, Reason, Roots, Scene, Solver, State, Stats};
+pub use strand_solver::StrandSolver;
 pub use strands::{StrandError, Strands};

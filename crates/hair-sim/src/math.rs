@@ -57,6 +57,9 @@ fn cos_core(x: f64) -> f64 {
 }
 
 #[cfg(test)]
+mod properties;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

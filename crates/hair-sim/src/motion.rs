@@ -1,5 +1,9 @@
 //! Played-back motion: positions of the same points at given times.
 
+mod spline;
+
+pub use spline::key_weights;
+
 use glam::Vec3;
 
 /// Positions of all points of some [`Strands`](crate::Strands) at increasing times.

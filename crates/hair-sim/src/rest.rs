@@ -116,8 +116,8 @@ impl RestStrand {
                 RestLink {
                     length,
                     mass: 0.0,
-                    bend: 1e-100,
-                    twist: 1e-100,
+                    bend: 1e-40,
+                    twist: 1e-40,
                     natural: DVec3::ZERO,
                     frame: if length > 0.0 {
                         from_axis(edge / length)
@@ -260,6 +260,9 @@ fn curl(rotation: DVec3) -> DVec3 {
     let half = (0.5 * angle).min(1.4);
     rotation * (2.0 * sin(half) / (cos(half) * angle))
 }
+
+#[cfg(test)]
+mod properties;
 
 #[cfg(test)]
 mod tests {

@@ -4,7 +4,7 @@ pub(crate) mod batch;
 mod drive;
 mod fallback;
 mod finish;
-mod instructions;
+pub(crate) mod instructions;
 mod integrate;
 mod neighbours;
 mod scene;
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use crate::{
     Strands,
-    collision::Collider,
+    collision::contact::Guard,
     forces::mutual::{Course, Mutual, Pair},
     lanes::{LANES, Quat, Vec3 as LaneVec3},
     params::Params,
@@ -24,7 +24,7 @@ use crate::{
 
 pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
-use drive::{Drive, Hair};
+use drive::{Drive, Hair, whole_poses};
 use instructions::Instructions;
 pub use scene::{DynamicsError, Fault, Pose, Roots, Scene, Stats};
 
@@ -55,20 +55,27 @@ struct HairHair {
     mutual: Mutual,
     /// Of every batch.
     pairs: Vec<Vec<Pair>>,
-    /// The index of every batch's first particle, and the courses of all: batch by batch, particle by particle, lane
-    /// by lane.
-    first: Vec<usize>,
+    /// Of every particle: batch by batch, particle by particle, lane by lane.
     courses: Vec<Course>,
 }
 
 impl HairHair {
     /// Where every particle is, and where its own motion takes it.
     fn follow(&mut self, batches: &[Batch], states: &[BatchState], scene: &Scene, dt: f64) {
-        for ((batch, state), &first) in batches.iter().zip(states).zip(&self.first) {
+        let mut left = &mut self.courses[..];
+        let mut courses = Vec::with_capacity(batches.len());
+        for batch in batches {
+            courses.push(
+                left.split_off_mut(..batch.count() * LANES)
+                    .unwrap_or_default(),
+            );
+        }
+        let each = batches.par_iter().zip(states).zip(courses);
+        // A task for fewer of them costs more than they do.
+        each.with_min_len(64).for_each(|((batch, state), courses)| {
             let (root, _) = roots(batch, scene);
-            for k in 0..batch.count() {
+            for (k, courses) in courses.chunks_exact_mut(LANES).enumerate() {
                 let (before, now) = (state.root + state.y[k], root + state.y[k] + state.v[k] * dt);
-                let courses = &mut self.courses[first + k * LANES..][..LANES];
                 for (lane, course) in courses.iter_mut().enumerate() {
                     let (before, now) = (before.get(lane), now.get(lane));
                     // A root without a pose is the strand's own fault, not its neighbours'.
@@ -76,7 +83,7 @@ impl HairHair {
                     *course = Course { before, now };
                 }
             }
-        }
+        });
     }
 }
 
@@ -212,7 +219,7 @@ impl Solver {
                 most,
             });
         }
-        let (pairs, first) = neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
+        let pairs = neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
         for (pairs, state) in pairs.iter().zip(&mut state.batches) {
             state.broken = vec![[false; LANES]; pairs.len()];
         }
@@ -220,7 +227,6 @@ impl Solver {
         self.hair = Some(HairHair {
             mutual: *mutual,
             pairs,
-            first,
             courses: vec![Course::default(); total],
         });
         Ok(())
@@ -256,6 +262,7 @@ impl Solver {
         let acting = scene.fingerprint();
         let calm = acting == state.last && self.hair.is_none() && scene.is_calm();
         state.last = acting;
+        let guards: Vec<Guard> = scene.colliders.iter().map(Guard::new).collect();
         if let Some(hair) = &mut self.hair {
             hair.follow(&self.batches, &state.batches, scene, dt);
         }
@@ -266,6 +273,7 @@ impl Solver {
             let drive = Drive {
                 dt,
                 scene,
+                guards: &guards,
                 gusts: &gusts,
                 first_points,
                 root,
@@ -277,18 +285,27 @@ impl Solver {
                     courses: &h.courses,
                 }),
             };
-            Stats::from(instructions.step(batch, state, scratch, &drive))
+            Stats::from(integrate::step(instructions, batch, state, scratch, &drive))
         };
         let group = self.group;
-        let sum = (self.batches.par_chunks(group).enumerate())
-            .zip(state.batches.par_chunks_mut(group))
-            .zip(self.scratch.par_iter_mut())
-            .map(|(((index, batches), states), scratch)| {
+        let one_group =
+            |index: usize, batches: &[Batch], states: &mut [BatchState], scratch: &mut Scratch| {
                 (batches.iter().zip(states).enumerate())
                     .map(|(i, (batch, state))| step(index * group + i, batch, state, scratch))
                     .fold(Stats::default(), Stats::plus)
-            })
-            .reduce(Stats::default, Stats::plus);
+            };
+        let sum = if let [scratch] = &mut self.scratch[..] {
+            // A task for the only one would take longer than the strand.
+            one_group(0, &self.batches, &mut state.batches, scratch)
+        } else {
+            (self.batches.par_chunks(group).enumerate())
+                .zip(state.batches.par_chunks_mut(group))
+                .zip(self.scratch.par_iter_mut())
+                .map(|(((index, batches), states), scratch)| {
+                    one_group(index, batches, states, scratch)
+                })
+                .reduce(Stats::default, Stats::plus)
+        };
         state.time += dt;
         Ok(sum)
     }
@@ -306,45 +323,14 @@ impl Solver {
         self.check(state, &scene, 1.0)?;
         for (batch, state) in self.batches.iter().zip(&mut state.batches) {
             let (root, base) = roots(batch, &scene);
+            let (root, base) = whole_poses(state, root, base);
             state.teleport(root, base);
         }
         Ok(())
     }
 
     fn check(&self, state: &State, scene: &Scene, dt: f64) -> Result<(), DynamicsError> {
-        if !(dt > 0.0 && dt <= 10.0) {
-            return Err(DynamicsError::Step(dt));
-        }
-        if !scene.gravity.is_finite() {
-            return Err(DynamicsError::Scene("gravity"));
-        }
-        if !scene.wind.is_finite() {
-            return Err(DynamicsError::Scene("wind"));
-        }
-        if !scene.colliders.iter().all(Collider::is_finite) {
-            return Err(DynamicsError::Scene("collider"));
-        }
-        let points: usize = self.points.iter().sum();
-        if let Some(found) = scene.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
-            return Err(DynamicsError::Goal {
-                found,
-                expected: points,
-            });
-        }
-        match scene.roots {
-            Roots::Head(pose)
-                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
-            {
-                return Err(DynamicsError::Scene("head"));
-            }
-            Roots::Each(poses) if poses.len() != self.len() => {
-                return Err(DynamicsError::Poses {
-                    found: poses.len(),
-                    expected: self.len(),
-                });
-            }
-            _ => {}
-        }
+        scene.check(dt, self.len(), self.points.iter().sum())?;
         let fits = state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count())
             && self.hair.as_ref().is_none_or(|h| {
@@ -385,6 +371,25 @@ impl Solver {
         (0..self.points[strand]).map(move |i| match i {
             0 => root,
             _ => root + state.y[i - 1].get(lane),
+        })
+    }
+
+    /// The velocities of a strand's points in the world, root first, in m/s. The root's is that of its last step.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::points`].
+    pub fn velocities<'a>(
+        &self,
+        state: &'a State,
+        strand: usize,
+    ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
+        let (batch, lane) = self.places[strand];
+        let state = &state.batches[batch];
+        let root = state.root_velocity.get(lane);
+        (0..self.points[strand]).map(move |i| match i {
+            0 => root,
+            _ => root + state.v[i - 1].get(lane),
         })
     }
 

@@ -1,11 +1,12 @@
 //! The command line of inkstrand, as a library: a third party's program is its own effects plus one
-//! line.
+//! line. `examples/effect-backlight` is one.
 //!
 //! ```no_run
-//! let mut registry = effects::Registry::new();
-//! effects_builtin::register(&mut registry).unwrap();
-//! // registry.register::<backlight::Backlight>().unwrap();
-//! std::process::exit(if inkstrand::run(&registry) == std::process::ExitCode::SUCCESS { 0 } else { 1 });
+//! fn main() -> std::process::ExitCode {
+//!     let mut registry = inkstrand::builtin_effects();
+//!     // registry.register::<my_effects::Mine>().expect("no other effect has its id");
+//!     inkstrand::run(&registry)
+//! }
 //! ```
 
 #![allow(
@@ -44,6 +45,14 @@ impl<E: std::error::Error> From<E> for Failure {
 #[must_use]
 pub fn command() -> clap::Command {
     cli::Arguments::command()
+}
+
+/// The effects that inkstrand ships, to register others beside them.
+#[must_use]
+pub fn builtin_effects() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).expect("no two of them have one id");
+    registry
 }
 
 /// Runs the program with these effects on the process's arguments: 0 done, 1 failed, 2 wrong usage.

@@ -417,3 +417,36 @@ fn real_hair_on_its_head() {
         .code(1)
         .stderr(contains("half.tfx"));
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn threads_are_those_that_were_asked_for() {
+    let folder = folder();
+    let most_threads = |threads: &str| {
+        let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_inkstrand"))
+            .current_dir(folder.path())
+            .args([
+                "render",
+                "small.ron",
+                "--frames",
+                "0-40",
+                "--quiet",
+                "--threads",
+                threads,
+            ])
+            .spawn()
+            .unwrap();
+        let tasks = format!("/proc/{}/task", program.id());
+        let mut most = 0;
+        while program.try_wait().unwrap().is_none() {
+            most = fs::read_dir(&tasks).map_or(most, |tasks| most.max(tasks.count()));
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        assert!(program.wait().unwrap().success());
+        most
+    };
+    // Beside those that draw there are the first, which waits, and one that listens for interrupts.
+    for threads in [1, 3] {
+        assert_eq!(most_threads(&threads.to_string()), threads + 2);
+    }
+}

@@ -59,11 +59,12 @@ pub enum RasterizerError {
 
 /// Draws [`Drawing`]s. Keeps its threads and its memory from picture to picture.
 pub struct Rasterizer {
-    pool: rayon::ThreadPool,
+    /// Its own threads, or none where it draws on the caller's.
+    pool: Option<rayon::ThreadPool>,
     samples: Vec<Vec2>,
     parts: Parts,
     instructions: Instructions,
-    /// One for each thread.
+    /// One for each thread, once it has drawn.
     workers: Vec<Mutex<Worker>>,
 }
 
@@ -77,8 +78,9 @@ struct Parts {
 }
 
 impl Rasterizer {
-    /// A rasteriser with that many samples in a pixel ([`sample_positions`]) and that many threads
-    /// (as many as there are cores if `None`).
+    /// A rasteriser with that many samples in a pixel ([`sample_positions`]) and that many threads of its
+    /// own. With `None` it draws on the caller's: those of the rayon pool that [`Self::draw`] is called
+    /// in, so that a program needs one pool for all that it does.
     ///
     /// # Errors
     ///
@@ -88,19 +90,15 @@ impl Rasterizer {
         if let Some(threads) = threads.filter(|t| !(1..=MAX_THREADS).contains(t)) {
             return Err(RasterizerError::Threads(threads));
         }
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.unwrap_or(0)) // 0 is rayon's own choice
-            .build()?;
-        let workers = (0..pool.current_num_threads())
-            .map(|_| Mutex::new(Worker::new()))
-            .collect();
+        let own_pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = threads.map(own_pool).transpose()?;
         let available = Instructions::available();
         Ok(Self {
             pool,
             samples,
             instructions: *available.last().unwrap_or(&Instructions::Compiled),
             parts: Parts::default(),
-            workers,
+            workers: Vec::new(),
         })
     }
 
@@ -119,7 +117,7 @@ impl Rasterizer {
             instructions,
             workers,
         } = self;
-        pool.install(|| {
+        let mut draw = || {
             check::check(drawing)?;
             let mut picture = empty_picture(drawing.size)?;
             let strokes = segment::strokes_in_order(drawing);
@@ -130,6 +128,8 @@ impl Rasterizer {
                 parts,
                 samples,
             };
+            let threads = rayon::current_num_threads();
+            workers.resize_with(threads, || Mutex::new(Worker::new()));
             let band_length = drawing.size[0] as usize * tile::HEIGHT;
             picture
                 .pixels
@@ -144,7 +144,11 @@ impl Rasterizer {
                     instructions.draw_band(&mut worker, &frame, band, pixels);
                 });
             Ok(picture)
-        })
+        };
+        match pool {
+            Some(pool) => pool.install(draw),
+            None => draw(),
+        }
     }
 }
 
@@ -262,10 +266,12 @@ impl Worker {
             segments: &frame.parts.segments,
             origin,
             samples: frame.samples,
+            first_sample: 0,
         };
         scene.strands(segments_of_tile, &mut self.parts);
-        for samples in frame.samples.chunks(tile::GROUP) {
+        for (group, samples) in frame.samples.chunks(tile::GROUP).enumerate() {
             scene.samples = samples;
+            scene.first_sample = group * tile::GROUP;
             self.target.clear(samples.len(), background);
             let triangles = self.triangles_of_tiles.bin(tile);
             if !triangles.is_empty() {

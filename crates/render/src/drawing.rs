@@ -90,6 +90,10 @@ pub enum Order {
     /// deeper than its middle, outside of the clump times r^8.
     #[default]
     Rounded,
+    /// As [`StrandFirst`](Self::StrandFirst), with every strand moved away from the eye in each sample, by a part
+    /// of [`Drawing::edge_depth_m`] of its own ([`scatter`]): strands that are nearly as deep fade into
+    /// each other, the more smoothly the more samples a pixel has.
+    Scattered,
     /// First within a strand by rank, then among strands and surfaces by depth.
     ///
     /// Within the strand's clump the highest rank that covers the sample gives the colour (the later
@@ -101,6 +105,27 @@ pub enum Order {
     /// The source's plain shift: every stroke by its own depth against every other (5.2). Among
     /// equal depths the higher rank, the later layer, the later instance, then the lower number.
     Shifted,
+}
+
+impl Order {
+    /// Every order, the default first.
+    pub const ALL: [Self; 4] = [
+        Self::Rounded,
+        Self::Scattered,
+        Self::StrandFirst,
+        Self::Shifted,
+    ];
+}
+
+/// The part, from 0 to 1, of the edge's depth that a strand is moved away by in a sample
+/// ([`Order::Scattered`]), by the strand's number and the sample's: the samples of a pixel share the range evenly.
+#[must_use]
+pub fn scatter(strand: u32, sample: u32) -> f32 {
+    let mixed = (strand ^ (strand >> 16)).wrapping_mul(0x45D9_F3B5);
+    let mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x2C1B_3C6D);
+    // Steps of the golden section spread any number of samples evenly.
+    let place = mixed.wrapping_add(sample.wrapping_mul(0x9E37_79B9));
+    (place >> 8) as f32 / (1 << 24) as f32
 }
 
 /// Everything on the screen, ready to be drawn.

@@ -87,6 +87,8 @@ pub struct Frame<'a> {
     /// For each layer the joints of `paths` that it draws on, whole runs: the strands', or those of
     /// paths that its effect made. No joint is on two layers' own paths.
     pub layer_joints: &'a [Range<usize>],
+    /// The material normal of each joint of `paths`; empty where neither the clump nor a layer reads it.
+    pub material_normals: &'a [Vec3],
     /// The head's surfaces on the screen.
     pub surfaces: Vec<Surface>,
     /// Linear colour behind everything, or a transparent picture.

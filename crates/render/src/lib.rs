@@ -6,7 +6,9 @@ mod frame;
 mod picture;
 mod samples;
 
-pub use drawing::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex};
+pub use drawing::{
+    Brush, Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex, scatter,
+};
 pub use frame::{Frame, Head, Light, StrandInfo};
 pub use picture::Picture;
 pub use samples::{MAX_SAMPLES, SampleCountError, sample_positions};

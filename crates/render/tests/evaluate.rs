@@ -82,6 +82,7 @@ fn drawing_on(
         seed,
         layers: &layers,
         layer_joints,
+        material_normals: &[],
         surfaces: Vec::new(),
         background: None,
         order: Order::Rounded,
@@ -131,7 +132,7 @@ fn depth_offsets_count_among_strands_and_not_against_the_head() {
 fn widths_are_units_of_the_head_or_pixels_at_720_lines() {
     let radii = |units: &str, joint: usize| {
         let list = format!(
-            "[(effect: \"hair.silhouette\", units: {units}, params: (width: 4, ratio: 10))]"
+            "[(effect: \"hair.silhouette\", units: {units}, params: (width: 4, ratio: 10, root_fade: 0))]"
         );
         let (drawing, _) = drawing(&list, &[], 1);
         let discs = &drawing.layers[0].discs;
@@ -147,7 +148,7 @@ fn widths_are_units_of_the_head_or_pixels_at_720_lines() {
 
 #[test]
 fn lines_are_never_wider_than_their_share_of_the_clump() {
-    let list = "[(effect: \"hair.silhouette\", params: (width: 100, ratio: 0.5))]";
+    let list = "[(effect: \"hair.silhouette\", params: (width: 100, ratio: 0.5, root_fade: 0))]";
     let (drawing, _) = drawing(list, &[], 1);
     let line = drawing.layers[0].discs[0].radius;
     assert_near(line, 1.5 * drawing.clump[0].radius);
@@ -188,7 +189,7 @@ fn what_faces_the_light_is_bright() {
 #[test]
 fn outlines_go_around_flat_ends() {
     let list =
-        "[(effect: \"hair.silhouette\", params: (width: 4, ratio: 10)), (effect: \"hair.base\")]";
+        "[(effect: \"hair.silhouette\", params: (width: 4, ratio: 10, root_fade: 0)), (effect: \"hair.base\")]";
     let (round, _) = drawing(list, &[], 1);
     let (flat, _) = drawing_with(list, &[], 1, Brush::Semicircle);
     let [outline, base] = [0, 1].map(|layer| &flat.layers[layer].discs);
@@ -225,7 +226,7 @@ fn a_layer_draws_on_its_own_paths_alone() {
 #[test]
 fn numbers_vary_along_the_strand_and_from_strand_to_strand() {
     let list =
-        "[(effect: \"hair.silhouette\", params: (ratio: 10, width: (curve: [(0, 2), (1, 6)])))]";
+        "[(effect: \"hair.silhouette\", params: (ratio: 10, root_fade: 0, width: (curve: [(0, 2), (1, 6)])))]";
     let (drawing, _) = drawing(list, &[("size", "(value: 1, vary: 0.5)")], 1);
     let (outline, clump) = (&drawing.layers[0].discs, &drawing.clump);
     // The clump's sizes differ by strand alone; lines are 2 units at the root and 6 at the tip.

@@ -53,20 +53,26 @@ pub(crate) fn read(path: &Path, own: &Strands) -> Result<Motion, StageError> {
         path: path.to_owned(),
         what,
     };
-    let baked = &file.strands;
-    if baked.len() != own.len() {
-        return Err(other(format!(
-            "{} strands in place of {}",
-            baked.len(),
-            own.len()
-        )));
-    }
-    for i in 0..own.len() {
-        let (id, points) = (own.id(i), own.strand(i).len());
-        if baked.id(i) != id || baked.strand(i).len() != points {
-            return Err(other(format!("no strand {id} of {points} points")));
-        }
+    if let Some(what) = difference(own, &file.strands) {
+        return Err(other(what));
     }
     file.motion
         .ok_or_else(|| other("no motion in it".to_owned()))
+}
+
+/// How `other` differs from `own` in its number of strands and points, both sorted by id.
+pub(crate) fn difference(own: &Strands, other: &Strands) -> Option<String> {
+    if other.len() != own.len() {
+        return Some(format!("{} strands in place of {}", other.len(), own.len()));
+    }
+    (0..own.len()).find_map(|i| {
+        let (id, points) = (own.id(i), own.strand(i).len());
+        match other.strand(i).len() {
+            _ if other.id(i) != id => Some(format!("no strand {id}")),
+            found if found != points => Some(format!(
+                "strand {id} has {found} points in place of {points}"
+            )),
+            _ => None,
+        }
+    })
 }

@@ -48,6 +48,9 @@ pub enum StageError {
     /// The simulation refuses its parameters or a step.
     #[error("dynamics: {0}")]
     Dynamics(#[from] hair_sim::DynamicsError),
+    /// The solver cannot do what the preset asks of it.
+    #[error("dynamics: {0}")]
+    Unsupported(String),
     /// A layer measures the distance to the light.
     #[error(
         "layer `{0}` goes by the distance to the light, and this light has no place: \
@@ -65,6 +68,9 @@ pub enum StageError {
     /// Frames that make no motion.
     #[error("bake: {0}")]
     Bake(hair_sim::MotionError),
+    /// Key shapes that make no motion.
+    #[error("shapes: {0}")]
+    Shapes(hair_sim::MotionError),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),

@@ -6,11 +6,13 @@ mod dynamics;
 mod files;
 mod head;
 mod load;
+mod material;
 mod motion;
 mod neck;
 mod part;
 mod preset;
 mod scene;
+mod shapes;
 mod style;
 mod table;
 

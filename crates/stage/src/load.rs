@@ -3,13 +3,15 @@
 use crate::bake;
 use crate::files::{Files, StageError};
 use crate::head::HeadModel;
-use crate::motion::{self, MotionScript};
+use crate::motion::{self, Bone, MotionScript};
 use crate::preset::Preset;
+use crate::shapes;
 use crate::style;
 use glam::Vec3;
 use groom::{Guides, Tie};
 use hair_io::orient::Axes;
-use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
+use hair_io::{BoneMotion, HairFile, HairOptions, HeadFrame, Mesh};
+use hair_sim::Motion;
 use render::{Head, StrandInfo};
 use std::path::{Path, PathBuf};
 
@@ -77,8 +79,12 @@ fn is_inside_out(mesh: &Mesh) -> bool {
 /// Hair that was read or grown.
 pub(crate) struct Hair {
     pub file: HairFile,
+    /// How many strands, the first ones, are an undercoat: no hair comes loose from it.
+    pub undercoat: usize,
     /// How many points from its root each strand keeps on the head.
     pub held: Vec<u32>,
+    /// The shapes that a script wants of it at times.
+    pub shapes: Option<Motion>,
     /// The ties that gather it.
     pub ties: Vec<Tie>,
     /// The head that it stands on.
@@ -88,7 +94,14 @@ pub(crate) struct Hair {
 impl Hair {
     /// Keeps these strands, in this order.
     pub fn keep(&mut self, indices: &[usize]) {
+        if let Some(shapes) = &self.shapes {
+            let strands = &self.file.strands;
+            let points = indices.iter().flat_map(|&i| strands.point_range(i));
+            self.shapes = Some(shapes.select(&points.collect::<Vec<_>>()));
+        }
         self.file.keep(indices);
+        let is_undercoat = |i: &&usize| **i < self.undercoat;
+        self.undercoat = indices.iter().filter(is_undercoat).count();
         self.held = indices.iter().map(|&i| self.held[i]).collect();
     }
 }
@@ -100,15 +113,21 @@ pub(crate) fn hair(
     head: Option<&Mesh>,
     notes: &mut Vec<String>,
 ) -> Result<Hair, StageError> {
+    let own = preset.hair.text("file");
+    let path = chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
+    strands(preset, &path, head, notes)
+}
+
+/// All strands of a file or style as the preset reads hair, sorted by id.
+pub(crate) fn strands(
+    preset: &Preset,
+    path: &Path,
+    head: Option<&Mesh>,
+    notes: &mut Vec<String>,
+) -> Result<Hair, StageError> {
     let values = &preset.hair;
-    let path = chosen(
-        files.hair.as_ref(),
-        values.text("file"),
-        &files.preset_folder,
-    )
-    .ok_or(StageError::NoHair)?;
     if path.to_string_lossy().ends_with(".style.ron") {
-        let mut hair = grow(&path, head)?;
+        let mut hair = grow(path, head)?;
         notes.append(&mut hair.file.notes);
         return Ok(hair);
     }
@@ -117,7 +136,7 @@ pub(crate) fn hair(
         scale: scale(values.number("scale")),
         offset: None,
     };
-    let mut hair = hair_io::read_hair(&path, &HairOptions { given, head })?;
+    let mut hair = hair_io::read_hair(path, &HairOptions { given, head })?;
     notes.append(&mut hair.notes);
     let mut by_id: Vec<usize> = (0..hair.strands.len()).collect();
     by_id.sort_by_key(|&i| hair.strands.id(i));
@@ -126,7 +145,9 @@ pub(crate) fn hair(
     let roots: Vec<Vec3> = hair.strands.roots().collect();
     Ok(Hair {
         held: vec![1; hair.strands.len()],
+        undercoat: 0,
         file: hair,
+        shapes: None,
         ties: Vec::new(),
         head: head_of(HeadFrame::find(head, &roots)),
     })
@@ -148,17 +169,43 @@ pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<()
     Ok(())
 }
 
-/// The motion script, if any.
-pub(crate) fn motion(preset: &Preset, files: &Files) -> Result<MotionScript, StageError> {
+/// How many points from its root a strand keeps on the head, at least its root.
+pub(crate) fn held(hair: &Hair, strand: usize) -> usize {
+    let points = hair.file.strands.strand(strand).len();
+    (hair.held[strand].max(1) as usize).min(points)
+}
+
+/// What moves head, wind and hair; the hair is given its key shapes.
+pub(crate) fn motion(
+    preset: &Preset,
+    files: &Files,
+    hair: &mut Hair,
+    mesh: Option<&Mesh>,
+) -> Result<MotionScript, StageError> {
     let own = preset.motion.text("file");
-    let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) else {
-        return Ok(MotionScript::default());
-    };
-    let text = std::fs::read_to_string(&path).map_err(|source| StageError::Read {
-        path: path.clone(),
-        source,
-    })?;
-    Ok(motion::parse(&path.display().to_string(), &text)?)
+    let mut script = MotionScript::default();
+    if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
+        let text = std::fs::read_to_string(&path).map_err(|source| StageError::Read {
+            path: path.clone(),
+            source,
+        })?;
+        script = motion::parse(&path.display().to_string(), &text)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        hair.shapes = shapes::load(preset, &script, folder, hair, mesh)?;
+    }
+    let values = &preset.motion;
+    if let Some(name) = values.text("gltf") {
+        script.bone = Some(Bone {
+            motion: BoneMotion::read(
+                &files.preset_folder.join(name),
+                values.text("bone").unwrap_or("head"),
+                values.text("animation"),
+            )?,
+            repeats: values.choice("repeat") == 1,
+            head_height_m: f64::from(hair.head.height_m),
+        });
+    }
+    Ok(script)
 }
 
 /// Keeps as many strands as the preset asks for, and says what size each is: its own, the preset's, or
@@ -215,6 +262,8 @@ fn grow(path: &Path, head: Option<&Mesh>) -> Result<Hair, StageError> {
             notes,
         },
         held: grown.held,
+        undercoat: grown.undercoat,
+        shapes: None,
         ties: grown.ties,
         head,
     })

@@ -127,6 +127,7 @@ mod tests {
         let pose = HeadPose {
             turn: DVec3::new(70.0, -20.0, 10.0),
             shift: DVec3::new(0.0, 0.5, 0.0),
+            base: DQuat::from_rotation_y(0.3),
         };
         let (rotation, translation) = rigid(pose, head);
         let posed = neck.posed(pose).clone();

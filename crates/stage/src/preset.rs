@@ -4,6 +4,7 @@ mod sections;
 
 pub use sections::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, SCENE, SECTIONS};
 
+use crate::dynamics;
 use crate::files::Files;
 use effects::preset::{
     Field, LayerSpec, Place, PresetError, PresetErrors, Reader, nearest, suggestion,
@@ -39,13 +40,25 @@ pub struct Preset<'r> {
     pub clump: Values,
     /// The layers, in the order of the file.
     pub layers: Vec<LayerSpec<'r>>,
-    /// Where the file names the hair.
-    hair_place: Option<Place>,
-    /// Where the file names the head.
-    head_place: Option<Place>,
-    /// Where the file names the motion.
-    motion_place: Option<Place>,
+    /// Where the file names other files.
+    named: Vec<Named>,
 }
+
+/// A place where a preset names a file.
+struct Named {
+    /// The section and its parameter.
+    section: &'static str,
+    param: &'static str,
+    place: Place,
+}
+
+/// What names a file: sections and their parameters.
+const FILES: [(&str, &str); 4] = [
+    ("hair", "file"),
+    ("head", "file"),
+    ("motion", "file"),
+    ("motion", "gltf"),
+];
 
 impl<'r> Preset<'r> {
     /// What stands in a preset beside its sections and layers.
@@ -115,24 +128,35 @@ impl<'r> Preset<'r> {
             reader.error(reader.text(), message);
         }
 
+        let mut named = Vec::new();
         let mut section = |name: &str| {
             let (_, _, table) = SECTIONS
                 .iter()
                 .find(|(known, ..)| *known == name)
                 .unwrap_or_else(|| panic!("no section `{name}`"));
             let Some(field) = field(name) else {
-                return (Values::defaults(table), None);
+                return Values::defaults(table);
             };
             let fields = reader.fields(field.value, name);
-            let file = fields.iter().find(|field| field.name == "file");
-            let place = file.map(|file| reader.place(file.value));
-            (reader.values(&fields, table, name), place)
+            for (section, param) in FILES.into_iter().filter(|(section, _)| *section == name) {
+                let file = fields.iter().find(|field| field.name == param);
+                named.extend(file.map(|file| Named {
+                    section,
+                    param,
+                    place: reader.place(file.value),
+                }));
+            }
+            let values = reader.values(&fields, table, name);
+            if let Some((param, message)) = unsupported(name, &values) {
+                let field = fields.iter().find(|field| field.name == param);
+                reader.error(field.map_or(name, |field| field.name), message);
+            }
+            values
         };
-        let ((hair, hair_place), (head, head_place)) = (section("hair"), section("head"));
-        let (scene, camera, light) = (section("scene").0, section("camera").0, section("light").0);
-        let (path, clump) = (section("path").0, section("clump").0);
-        let (motion, motion_place) = section("motion");
-        let dynamics = section("dynamics").0;
+        let (hair, head) = (section("hair"), section("head"));
+        let (scene, camera, light) = (section("scene"), section("camera"), section("light"));
+        let (path, clump) = (section("path"), section("clump"));
+        let (motion, dynamics) = (section("motion"), section("dynamics"));
         let layers = match field("layers") {
             Some(field) => reader.layers(field.value, registry, &known),
             None => {
@@ -154,9 +178,7 @@ impl<'r> Preset<'r> {
             path,
             clump,
             layers,
-            hair_place,
-            head_place,
-            motion_place,
+            named,
         })
     }
 
@@ -166,20 +188,22 @@ impl<'r> Preset<'r> {
     ///
     /// For each that is not there, at its place in the preset, with the nearest name in its folder.
     pub fn check_files(&self, files: &Files) -> Result<(), PresetErrors> {
-        let named = [
-            (&self.hair_place, &self.hair, &files.hair),
-            (&self.head_place, &self.head, &files.head),
-            (&self.motion_place, &self.motion, &files.motion),
-        ];
-        let mut errors: Vec<PresetError> = named
-            .into_iter()
-            .filter(|(_, _, given)| given.is_none())
-            .filter_map(|(place, values, _)| {
-                let message = missing(&files.preset_folder, values.text("file")?)?;
-                let place = place.clone()?;
-                Some(PresetError { place, message })
-            })
-            .collect();
+        let missing_file = |named: &Named| {
+            let (values, given) = match (named.section, named.param) {
+                ("hair", _) => (&self.hair, &files.hair),
+                ("head", _) => (&self.head, &files.head),
+                (_, "file") => (&self.motion, &files.motion),
+                _ => (&self.motion, &None),
+            };
+            if given.is_some() {
+                return None;
+            }
+            let name = values.text(named.param)?;
+            let message = missing(&files.preset_folder, named.param, name)?;
+            let place = named.place.clone();
+            Some(PresetError { place, message })
+        };
+        let mut errors: Vec<PresetError> = self.named.iter().filter_map(missing_file).collect();
         errors.sort_by_key(|e| (e.place.line, e.place.column));
         if errors.is_empty() {
             Ok(())
@@ -216,12 +240,8 @@ impl<'r> Preset<'r> {
         };
         section.set_text(owner, param, text)?;
         // What the file says is no longer what is meant.
-        match name {
-            "hair.file" => self.hair_place = None,
-            "head.file" => self.head_place = None,
-            "motion.file" => self.motion_place = None,
-            _ => {}
-        }
+        self.named
+            .retain(|named| (named.section, named.param) != (owner, param));
         Ok(())
     }
 
@@ -251,6 +271,11 @@ impl<'r> Preset<'r> {
     }
 }
 
+/// What a section asks for that cannot be: a parameter, and why.
+fn unsupported(section: &str, values: &Values) -> Option<(&'static str, String)> {
+    (section == "dynamics").then(|| dynamics::unsupported(values))?
+}
+
 /// The error of a file of a version that this build doesn't read: nothing else in it means what it
 /// seems to mean.
 fn newer_version(reader: &Reader, fields: &[Field]) -> Option<PresetError> {
@@ -263,15 +288,15 @@ fn newer_version(reader: &Reader, fields: &[Field]) -> Option<PresetError> {
     })
 }
 
-/// What is wrong with a file name of the preset, where there is no such file.
-fn missing(folder: &Path, name: &str) -> Option<String> {
+/// What is wrong with the file name that `param` gives, where there is no such file.
+pub(crate) fn missing(folder: &Path, param: &str, name: &str) -> Option<String> {
     let path = folder.join(name);
     if path.is_file() {
         return None;
     }
     let shown = path.display();
     if path.is_dir() {
-        return Some(format!("file: `{shown}` is a folder, not a file"));
+        return Some(format!("{param}: `{shown}` is a folder, not a file"));
     }
     let parent = path.parent().unwrap_or(Path::new(""));
     let parent = if parent.as_os_str().is_empty() {
@@ -281,7 +306,7 @@ fn missing(folder: &Path, name: &str) -> Option<String> {
     };
     let Ok(entries) = std::fs::read_dir(parent) else {
         return Some(format!(
-            "file: there is no `{shown}`, nor a folder `{}`; file names are relative to the preset",
+            "{param}: there is no `{shown}`, nor a folder `{}`; file names are relative to the file that they stand in",
             parent.display()
         ));
     };
@@ -293,7 +318,9 @@ fn missing(folder: &Path, name: &str) -> Option<String> {
     names.sort();
     let wrong = path.file_name().unwrap_or_default().to_string_lossy();
     Some(match nearest(&wrong, names.iter().map(String::as_str)) {
-        Some(near) => format!("file: there is no `{shown}`, did you mean `{near}`?"),
-        None => format!("file: there is no `{shown}`; file names are relative to the preset"),
+        Some(near) => format!("{param}: there is no `{shown}`, did you mean `{near}`?"),
+        None => format!(
+            "{param}: there is no `{shown}`; file names are relative to the file that they stand in"
+        ),
     })
 }

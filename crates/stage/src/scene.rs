@@ -1,10 +1,11 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
 use crate::bake::Bake;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{self, Dynamics};
 use crate::files::{Files, StageError};
 use crate::head::{self, HeadPaint};
 use crate::load::{self, Hair};
+use crate::material::Material;
 use crate::motion::{HeadPose, MotionScript};
 use crate::neck::{Neck, rigid};
 use crate::preset::Preset;
@@ -26,6 +27,9 @@ const INSIDE_MARGIN: f32 = 0.6;
 /// on the skin.
 const OUTLINE_MARGIN: f32 = 0.04;
 
+/// The clump's choice of normal that reads material frames.
+const MATERIAL: u32 = 1;
+
 /// A scene that makes frames. What a frame needs is kept and reused.
 pub struct Stage {
     hair: Hair,
@@ -34,6 +38,10 @@ pub struct Stage {
     /// How many of them are the hair's.
     strand_count: usize,
     made: MadePaths,
+    /// The strand that each made path belongs to.
+    made_of: Vec<usize>,
+    /// Normals of the links, where something reads them.
+    material: Option<Material>,
     layer_joints: Vec<Range<usize>>,
     neck: Option<Neck>,
     /// Where the head is while nothing moves.
@@ -86,13 +94,20 @@ impl Stage {
         let mesh = model.as_ref().map(|model| &model.mesh);
         let mut hair = load::hair(preset, files, mesh, &mut notes)?;
         let head = hair.head;
+        let script = load::motion(preset, files, &mut hair, mesh)?;
         if let Some(model) = &mut model {
             model.add_ties(&hair.ties);
         }
         let strands = load::keep_guides(preset, &mut hair);
         load::bake(preset, files, &mut hair)?;
+        if let Some((_, message)) = dynamics::unsupported(&preset.dynamics) {
+            return Err(StageError::Unsupported(message));
+        }
         let settings = Settings::new(preset, head)?;
         let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
+        let clump = Varied::<clump::Program>::new(&preset.clump);
+        let reads_material = clump.base().normal == MATERIAL
+            || (layers.iter()).any(|layer| layer.program.inputs().has("material_normal"));
         let without_light = |layer: &&Layer| layer.program.needs_point_light();
         if let Some(layer) = layers
             .iter()
@@ -107,17 +122,19 @@ impl Stage {
             strand_count: strands.len(),
             strands,
             made: MadePaths::default(),
+            made_of: Vec::new(),
+            material: reads_material.then(Material::default),
             layer_joints: Vec::new(),
             neck: model.map(|model| Neck::new(model, head)),
             head,
-            script: load::motion(preset, files)?,
+            script,
             pose: HeadPose::default(),
             dynamics_values: preset.dynamics.clone(),
             fps: preset.scene.number("fps"),
             dynamics: None,
             notes,
             seed: preset.seed,
-            clump: Varied::new(&preset.clump),
+            clump,
             layers,
             settings,
             paths: Paths::new(),
@@ -184,11 +201,19 @@ impl Stage {
             motion.sample(time as f32, &mut self.points);
             return Ok(());
         }
-        let (rotation, translation) = rigid(self.pose, self.head);
-        for (point, rest) in self.points.iter_mut().zip(self.hair.file.strands.points()) {
-            *point = (rotation * rest.as_dvec3() + translation).as_vec3();
+        let is_simulated = Dynamics::moves(&self.dynamics_values, &self.script);
+        match &self.hair.shapes {
+            // Without dynamics hair is where its keys have it.
+            Some(shapes) if !is_simulated => {
+                shapes.sample_smooth(self.script.within(time), &mut self.points);
+            }
+            _ => (self.points).copy_from_slice(self.hair.file.strands.points()),
         }
-        if !Dynamics::moves(&self.dynamics_values, &self.script) {
+        let (rotation, translation) = rigid(self.pose, self.head);
+        for point in &mut self.points {
+            *point = (rotation * point.as_dvec3() + translation).as_vec3();
+        }
+        if !is_simulated {
             return Ok(());
         }
         let dynamics = match &mut self.dynamics {
@@ -200,6 +225,7 @@ impl Stage {
                     &sizes,
                     self.neck.as_ref().map(Neck::rest_mesh),
                     &self.dynamics_values,
+                    self.script.hold,
                     self.fps,
                     self.seed,
                 )?)
@@ -250,6 +276,7 @@ impl Stage {
         let of_hair = 0..self.paths.len();
         let head = self.posed_head();
         self.layer_joints.clear();
+        self.made_of.clear();
         for layer in &self.layers {
             if !layer.program.has_own_paths() {
                 self.layer_joints.push(of_hair.clone());
@@ -261,8 +288,9 @@ impl Stage {
                 at_rest: self.hair.file.strands.strand(i),
                 size: info.size,
             };
-            let infos = self.strands[..self.strand_count].iter();
-            let strands: Vec<HairStrand> = infos.enumerate().map(of_strand).collect();
+            let infos = self.strands[..self.strand_count].iter().enumerate();
+            let above = infos.skip(self.hair.undercoat);
+            let strands: Vec<HairStrand> = above.map(of_strand).collect();
             let hair = effects::Hair {
                 strands: &strands,
                 head_center: head.center,
@@ -273,8 +301,9 @@ impl Stage {
             layer.program.make_paths(&hair, seed, &mut self.made);
             let start = self.paths.len();
             for (strand, number, points) in self.made.iter() {
-                let parent = self.strands[strand];
+                let parent = self.strands[self.hair.undercoat + strand];
                 let index = self.strands.len();
+                self.made_of.push(strand);
                 self.strands.push(StrandInfo {
                     id: made_id(parent.id, number),
                     ..parent
@@ -285,6 +314,36 @@ impl Stage {
             self.layer_joints.push(start..self.paths.len());
         }
         Ok(())
+    }
+
+    /// Fills in the material normals of all joints, where something reads them.
+    fn find_material_normals(&mut self) {
+        let Some(material) = &mut self.material else {
+            return;
+        };
+        let rest = &self.hair.file.strands;
+        let strands = || (0..rest.len()).map(|strand| rest.point_range(strand));
+        let (rotation, _) = rigid(self.pose, self.head);
+        material.turn(rest.points(), strands(), self.head.center, rotation);
+        let is_simulated = Dynamics::moves(&self.dynamics_values, &self.script);
+        match &self.dynamics {
+            _ if self.hair.file.motion.is_some() => {
+                material.follow(rest.points(), &self.points, strands(), rotation);
+            }
+            _ if self.hair.shapes.is_some() && !is_simulated => {
+                material.follow(rest.points(), &self.points, strands(), rotation);
+            }
+            Some(dynamics) => {
+                let (rest, now) = material.rest_and_now();
+                dynamics.turn_normals(rest, now);
+            }
+            None => {}
+        }
+        let of_path = |strand: usize| match strand.checked_sub(self.strand_count) {
+            Some(made) => rest.point_range(self.made_of[made]),
+            None => rest.point_range(strand),
+        };
+        material.at_joints(&self.paths, of_path);
     }
 
     /// The frame of the hair as it stands.
@@ -310,6 +369,7 @@ impl Stage {
                 .push_strand(i, particles, settings.path, &camera)?;
         }
         self.push_made_paths(&camera)?;
+        self.find_material_normals();
         let (settings, camera) = (&self.settings, &*self.camera.insert(camera));
         let light = settings.light(camera, head);
         let surfaces = match &mut self.neck {
@@ -326,6 +386,7 @@ impl Stage {
             seed: self.seed,
             layers: &self.layers,
             layer_joints: &self.layer_joints,
+            material_normals: self.material.as_ref().map_or(&[], Material::joints),
             surfaces,
             background: settings.background,
             order: settings.order,
@@ -354,8 +415,7 @@ impl Settings {
         Ok(Self {
             size: scene.size("size"),
             background: scene.optional_color("background"),
-            order: [Order::Rounded, Order::StrandFirst, Order::Shifted]
-                [scene.choice("order") as usize],
+            order: Order::ALL[scene.choice("order") as usize],
             edge_depth_m: scene.number("edge_depth") * head.height_m,
             path: match path.choice("kind") {
                 0 => PathKind::Linear { subdivision },

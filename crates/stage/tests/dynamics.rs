@@ -121,6 +121,61 @@ fn warm_up_is_before_the_first_frame() {
 }
 
 #[test]
+fn the_solver_for_comparison_does_nearly_the_same() {
+    let plain = [("dynamics.links", "0"), ("dynamics.volume", "0")];
+    let mut rigid = scene(
+        "twin-tails.style.ron",
+        Some(TURN),
+        &[("dynamics.solver", "none")],
+    );
+    let mut rods = scene("twin-tails.style.ron", Some(TURN), &plain);
+    let xpbd = [("dynamics.solver", "xpbd"), ("dynamics.substeps", "200")];
+    let mut xpbd = scene("twin-tails.style.ron", Some(TURN), &xpbd);
+    let (held, wanted, other) = (
+        means(&mut rigid, 0.5),
+        means(&mut rods, 0.5),
+        means(&mut xpbd, 0.5),
+    );
+    assert!(xpbd.simulated().strands > 50);
+    let mean = |a: &[Vec3], b: &[Vec3]| {
+        a.iter().zip(b).map(|(a, b)| a.distance(*b)).sum::<f32>() / a.len() as f32
+    };
+    let (swung, apart) = (mean(&held, &wanted), mean(&wanted, &other));
+    assert!(apart < 0.5 * swung, "{apart} of {swung}");
+    // The same again from the start.
+    means(&mut xpbd, 0.0);
+    assert!(means(&mut xpbd, 0.5) == other);
+}
+
+#[test]
+fn what_a_solver_cannot_do_is_refused_at_its_place() {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let error = |dynamics: &str| {
+        let text = format!("(version: 1, dynamics: ({dynamics}), layers: [])");
+        let preset = Preset::parse("look.ron", &text, &registry);
+        preset
+            .err()
+            .map(|errors| errors.to_string())
+            .unwrap_or_default()
+    };
+    let links = error("solver: xpbd, links: 2");
+    assert!(
+        links.contains("look.ron:1:39: links: solver: xpbd has none"),
+        "{links}"
+    );
+    assert!(error("solver: xpbd, damping: 0.5").contains("damping: solver: xpbd"));
+    assert!(error("solver: rods, substeps: 4").contains("substeps: solver: rods"));
+    for good in [
+        "solver: xpbd, links: 0, volume: 0",
+        "solver: xpbd, substeps: 9",
+        "links: 3",
+    ] {
+        assert!(!error(good).contains("solver:"), "{good}");
+    }
+}
+
+#[test]
 fn extremes_stay_finite() {
     let script = "(version: 1, moves: [(move: turn, length: 0.1, angle: 3600), (move: walk, step: 5, rate: 50)], \
                   winds: [(speed: 200, gusts: 200)])";
@@ -139,6 +194,11 @@ fn extremes_stay_finite() {
             ("dynamics.hold", "100"),
             ("dynamics.damping", "100"),
             ("dynamics.drag", "100"),
+        ],
+        [
+            ("dynamics.solver", "xpbd"),
+            ("dynamics.stiffness", "1000"),
+            ("dynamics.step", "0.1"),
         ],
         [
             ("dynamics.shape", "curl"),

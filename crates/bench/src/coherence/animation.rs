@@ -85,7 +85,7 @@ impl Motion {
             Self::Shake | Self::Wind => {
                 let start = TICKS + TICKS / 4;
                 let length = TICKS / if quick { 8 } else { 2 };
-                vec![start..start + length]
+                std::iter::once(start..start + length).collect()
             }
         }
     }
@@ -259,7 +259,7 @@ pub fn scenes(
 ) -> Result<Vec<Scene>, String> {
     let mut scenes = Vec::new();
     let wanted = |name: &str| name.contains(only);
-    let start = vec![0..TICKS / if quick { 8 } else { 2 }];
+    let start: Vec<_> = std::iter::once(0..TICKS / if quick { 8 } else { 2 }).collect();
     for (name, kind, open) in Strands::ALL {
         if wanted(name) {
             scenes.push(Scene {

@@ -145,6 +145,7 @@ impl Animation for Strands {
             seed: 1,
             layers: &style.layers,
             layer_joints: &self.layer_joints,
+            material_normals: &[],
             surfaces: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),

@@ -121,7 +121,8 @@ mod tests {
 
     #[test]
     fn each_bad_figure_is_missed() {
-        let cases: [(fn(&mut Figures), &str); 5] = [
+        type Spoil = fn(&mut Figures);
+        let cases: [(Spoil, &str); 5] = [
             (|own| own.continuity.largest[1] = 0.06, "in half"),
             (|own| own.continuity.popped[0] = 0.011, "worst"),
             (|own| own.continuity.popped[1] = 0.0011, "mean"),

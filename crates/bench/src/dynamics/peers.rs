@@ -9,6 +9,9 @@ use std::process::Command;
 const MANY_STRANDS: &str = include_str!("peers_many.py");
 /// Side by side.
 const STRANDS: usize = 72;
+/// What the folder is.
+const SCRIPTS: &str = "--peers=DIR or INKSTRAND_PEERS must name the folder of bench_mujoco.py and bench_pbd.py, scripts that \
+    drive the other programs";
 /// How to get what is missing.
 pub const INSTALL: &str = "python3 -m venv venv && venv/bin/pip install mujoco==4.0.0 pypbd scipy numpy, \
     then INKSTRAND_PYTHON=venv/bin/python";
@@ -31,15 +34,20 @@ struct Peer {
 }
 
 impl Peers {
-    /// The folder that `INKSTRAND_PEERS` names, by default `../shared/peers` beside the project `root`, and the
-    /// Python that `INKSTRAND_PYTHON` names, by default `python3`.
-    #[must_use]
-    pub fn from_environment(root: &Path) -> Self {
+    /// The scripts of `folder`, or of the one that `INKSTRAND_PEERS` names; and the Python that `INKSTRAND_PYTHON` names, by
+    /// default `python3`.
+    ///
+    /// # Errors
+    ///
+    /// When neither names a folder.
+    pub fn new(folder: Option<&Path>) -> Result<Self, String> {
         let variable = |name| std::env::var_os(name).map(PathBuf::from);
-        Self {
-            folder: variable("INKSTRAND_PEERS").unwrap_or_else(|| root.join("../shared/peers")),
+        let folder = folder.map(Path::to_owned);
+        Ok(Self {
+            folder: (folder.or_else(|| variable("INKSTRAND_PEERS")))
+                .ok_or_else(|| format!("--peers: no folder is named; {SCRIPTS}"))?,
             python: variable("INKSTRAND_PYTHON").unwrap_or_else(|| "python3".into()),
-        }
+        })
     }
 
     /// Rows of what can be run, and a line for each that can't; the scripts' own files go to `out`.
@@ -49,10 +57,7 @@ impl Peers {
     /// When there are no scripts, no Python, or a script fails.
     pub fn rows(&self, out: &Path, quick: bool) -> Result<(Vec<Row>, Vec<String>), String> {
         if !self.folder.join("bench_mujoco.py").exists() {
-            return Err(format!(
-                "no peers in {}: INKSTRAND_PEERS must name the folder of bench_mujoco.py and bench_pbd.py",
-                self.folder.display()
-            ));
+            return Err(format!("no peers in {}; {SCRIPTS}", self.folder.display()));
         }
         let folder = self
             .folder

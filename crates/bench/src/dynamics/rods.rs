@@ -1,7 +1,7 @@
 //! What every solver of this suite is given, and what it must do.
 
-use glam::DVec3;
-use hair_sim::Pose;
+use glam::{DVec3, Vec3};
+use hair_sim::{Material, Natural, Params, Pose};
 use rayon::prelude::*;
 
 /// Standard gravity in m/s^2, along -Y.
@@ -47,6 +47,31 @@ impl Rods {
     #[must_use]
     pub fn bending(&self) -> f64 {
         GRAVITY * self.length.powi(3) / self.gamma
+    }
+
+    /// The points of a strand at rest.
+    #[must_use]
+    pub fn points(&self, strand: usize) -> Vec<Vec3> {
+        let (root, direction) = self.roots[strand];
+        (0..=self.elements)
+            .map(|i| (root + direction * (self.element() * i as f64)).as_vec3())
+            .collect()
+    }
+
+    /// As `hair_sim` has them: straight by nature, no damping but the drag.
+    #[must_use]
+    pub fn params(&self) -> Params {
+        Params {
+            material: Material {
+                twist_ratio: TWIST_RATIO,
+                ..Material::from_gamma(self.gamma, self.length)
+            },
+            natural: Natural::Styled,
+            damping: 0.0,
+            drag: self.drag,
+            drag_along: 1.0,
+            ..Params::default()
+        }
     }
 
     /// A unit vector across `direction`, the same one every time.

@@ -280,3 +280,61 @@ fn a_layer_of_no_instances_draws_nothing() {
     add_layer(&mut drawing, 0, RED, &[]);
     assert_eq!(shown(&drawing), [0.0; 4]);
 }
+
+/// Two discs of radius 8, 12 pixels apart, whose middles differ in depth: they meet where
+/// `d + e (x / 8)^2 = e ((12 - x) / 8)^2`, at `x = 6 - 8 d / (3 e)`.
+#[test]
+fn round_strokes_meet_where_their_depths_do() {
+    const EDGE_DEPTH_M: f32 = 0.5;
+    let depth = |metres: f32| 1.0 / (2.0 + metres);
+    for behind_m in [-0.3_f32, 0.0, 0.2, 0.6] {
+        let discs = [
+            disc(20.0, 32.0, 8.0, depth(behind_m)),
+            disc(32.0, 32.0, 8.0, depth(0.0)),
+        ];
+        let mut drawing = clumps(&[&discs[..1], &discs[1..]]);
+        drawing.edge_depth_m = EDGE_DEPTH_M;
+        add_layer(&mut drawing, 0, RED, &[&discs]);
+        drawing.layers[0].colors[1] = BLUE;
+        let border = 26.0 - f64::from(8.0 * behind_m / (3.0 * EDGE_DEPTH_M));
+        let border = border.clamp(24.0, 28.0);
+        let at = |x| sample_in(Order::Rounded, &drawing, x, 32.0);
+        assert_eq!(at(border - 0.05), opaque(RED), "{behind_m}");
+        assert_eq!(at(border + 0.05), opaque(BLUE), "{behind_m}");
+    }
+}
+
+/// An outline's edge lies deeper than its inside by the eighth power of its part of the radius: where
+/// another clump cuts it, it becomes thinner.
+#[test]
+fn outlines_taper_where_they_sink_into_a_clump() {
+    const EDGE_DEPTH_M: f32 = 0.5;
+    let (offset_m, deeper_m) = (0.1_f32, 0.3_f32);
+    let near = disc(32.0, 32.0, 8.0, 1.0);
+    // So wide that it is flat here.
+    let under = disc(32.0, 32.0, 1e6, 1.0 / (2.0 + offset_m + deeper_m));
+    let none = disc(0.0, 0.0, 0.0, 1.0);
+    let outline = disc(32.0, 32.0, 16.0, 1.0 / (2.0 + offset_m));
+    let mut drawing = clumps(&[&[near], &[under]]);
+    drawing.edge_depth_m = EDGE_DEPTH_M;
+    add_layer(&mut drawing, -1, RED, &[&[outline, none]]);
+    add_layer(&mut drawing, 0, GREEN, &[&[near, under]]);
+    drawing.layers[1].colors[1] = BLUE;
+    let border = 32.0 + 16.0 * (f64::from(deeper_m / EDGE_DEPTH_M)).powf(1.0 / 8.0);
+    let at = |x| sample_in(Order::Rounded, &drawing, x, 32.0);
+    assert_eq!(at(32.0 + 7.9), opaque(GREEN));
+    assert_eq!(at(border - 0.05), opaque(RED));
+    assert_eq!(at(border + 0.05), opaque(BLUE));
+}
+
+#[test]
+fn round_strokes_sink_into_surfaces_at_their_edges() {
+    let mut drawing = strokes(&[&[at(0.5)]]);
+    drawing.edge_depth_m = 0.4;
+    add_wall(&mut drawing, 1.0 / 2.1, -1.0, [RED, BLUE]);
+    // 0.4 (x / 8)^2 = 0.1
+    let border = 32.0 + 4.0;
+    let at = |x| sample_in(Order::Rounded, &drawing, x, X);
+    assert_eq!(at(border - 0.05), opaque(WHITE));
+    assert_eq!(at(border + 0.05), opaque(BLUE));
+}

@@ -24,6 +24,8 @@ pub struct Grown {
     /// The clumps, each with its size and an id that only its zone's place in the list and its own
     /// number decide; ids increase.
     pub strands: Strands,
+    /// How many of them, the first ones, are the undercoat's.
+    pub undercoat: usize,
     /// How many points from its root each clump keeps on the head: pressed to the scalp, or gathered
     /// in a tie.
     pub held: Vec<u32>,
@@ -46,9 +48,10 @@ impl Grown {
 pub fn grow(style: &Style, shell: &Shell) -> Grown {
     let mut grown = Grown::default();
     if style.undercoat {
-        for (number, (points, size)) in (0..).zip(undercoat(&style.scalp, shell)) {
+        for (number, (points, size)) in (0..).zip(undercoat(&style.scalp, style.cap, shell)) {
             grown.push(UNDERCOAT, number, &points, points.len(), size);
         }
+        grown.undercoat = grown.strands.len();
     }
     for (half, side) in [(0, 1.0), (MOST_CLUMPS, -1.0)] {
         let is_there = |(_, drawn): &(u32, &Drawn)| half == 0 || drawn.mirror;

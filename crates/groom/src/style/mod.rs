@@ -30,6 +30,8 @@ pub struct Style {
     pub scalp: Scalp,
     /// Whether a coat of flat clumps covers the scalp below all zones.
     pub undercoat: bool,
+    /// How high the undercoat stands above the skin at the whorl, head heights.
+    pub cap: f32,
     /// The zones.
     pub zones: Vec<Zone>,
     /// Changes of single clumps of the zones.

@@ -1,10 +1,10 @@
 //! Contact of particles with bodies: once a step, the path of every particle against every body gives at most one
 //! plane, behind which the particle is held in the stages of the step.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::{
-    lanes::{LANES, Lane, Mask, Sym3, Vec3},
+    lanes::{LANES, Lane, Mask, Number, Sym3, Vec3},
     solver::batch::{Batch, BatchState},
     solver::sweep::Node,
 };
@@ -79,7 +79,7 @@ impl Contact {
         let spring = here * d * d * (1.0 / (SETTLE * SETTLE));
         let damper = here * d * (1.0 / SETTLE);
         let slide = here * d * self.slip;
-        let n = Sym3::outer(self.normal, spring + damper - slide) + Sym3::diagonal(slide);
+        let n = Sym3::outer(slide, self.normal, spring + damper - slide);
         let carried = free_y + self.flow * d;
         let out = self.normal * (spring * level + (damper - slide) * self.normal.dot(carried));
         node.n += n;
@@ -92,6 +92,46 @@ impl Contact {
     pub(crate) fn pressure(&self, y: Vec3) -> Lane {
         let depth = (self.end - self.normal.dot(y)).max(Lane::ZERO);
         depth * self.holds * (1.0 / (SETTLE * SETTLE))
+    }
+}
+
+/// A ball around a body, and how the body moves in a step: what lies far off is known by this alone.
+pub(crate) struct Guard {
+    center: DVec3,
+    radius: f64,
+    /// From where something was, as the body carries it along: `carry` times the place, and `shift`.
+    carry: DMat3,
+    shift: DVec3,
+}
+
+impl Guard {
+    pub(crate) fn new(collider: &Collider) -> Self {
+        let (center, radius) = collider.shape.ball();
+        let (before, now) = (collider.before, collider.now);
+        let carry = DMat3::from_quat(now.rotation) * DMat3::from_quat(before.rotation).transpose();
+        Self {
+            center: now.to_world(center),
+            radius,
+            carry,
+            shift: now.translation - carry * before.translation,
+        }
+    }
+
+    /// Whether particles that go from `from` to `to` and keep `keep` may come near the body. A little more than
+    /// [`Path::against`] asks for, which has the last word.
+    #[inline(always)]
+    fn is_near<T: Number>(&self, from: Vec3<T>, to: Vec3<T>, keep: T) -> Mask {
+        const MARGIN: f64 = 1e-6;
+        let carried = Vec3::all(self.shift)
+            + Vec3::all(self.carry.x_axis).scale(from.x)
+            + Vec3::all(self.carry.y_axis).scale(from.y)
+            + Vec3::all(self.carry.z_axis).scale(from.z);
+        let way = (to - carried).length_squared().sqrt();
+        let reach = way + keep + T::splat(self.radius + NEAR + MARGIN);
+        let apart = (to - Vec3::all(self.center)).length_squared().sqrt();
+        let (apart, reach) = (apart.store(), reach.store());
+        // What is no number is near.
+        reach.lt(apart).not()
     }
 }
 
@@ -117,27 +157,39 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
     }
 }
 
-/// Finds the planes of a step. Returns the number of particles that have one.
-pub(crate) fn detect(
+/// Finds the planes of a step. Returns the number of particles that have one; `touched` are their places on the strands.
+#[inline(always)]
+pub(crate) fn detect<T: Number>(
     batch: &Batch,
     state: &BatchState,
-    colliders: &[Collider],
+    (colliders, guards): (&[Collider], &[Guard]),
     course: &Course,
     active: Mask,
     contacts: &mut [Contact],
+    touched: &mut Vec<usize>,
 ) -> usize {
     let mut count = 0;
+    touched.clear();
     let dt = course.dt;
     for k in 0..batch.count() {
         let contact = &mut contacts[k];
         contact.on = Lane::ZERO;
         contact.holds = Lane::ZERO;
-        let y0 = state.y[k];
-        let y1 = y0 + state.v[k] * dt + state.a[k] * (0.5 * dt * dt);
-        let (p0, p1) = (state.root + y0, course.root + y1);
-        let keep = batch.thickness + state.skin[k];
+        let y0 = state.y[k].load::<T>();
+        let y1 = y0 + state.v[k].load() * dt + state.a[k].load() * (0.5 * dt * dt);
+        let (p0, p1) = (state.root.load() + y0, course.root.load() + y1);
+        let keep = batch.thickness.load::<T>() + state.skin[k].load();
+        let mut near = Mask::NONE;
+        for guard in guards {
+            near = near.or(guard.is_near(p0, p1, keep));
+        }
+        let near = near.and(active);
+        if !near.any() {
+            continue;
+        }
+        let (p0, p1, keep) = (p0.store(), p1.store(), keep.store());
         for lane in 0..LANES {
-            if !active.get(lane) || k >= batch.counts[lane] {
+            if !near.get(lane) || k >= batch.counts[lane] {
                 continue;
             }
             let path = Path {
@@ -150,6 +202,9 @@ pub(crate) fn detect(
                 continue;
             };
             count += 1;
+            if touched.last() != Some(&k) {
+                touched.push(k);
+            }
             let (before, now) = (collider.before, collider.now);
             let normal = now.rotation * plane.normal;
             let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
@@ -252,5 +307,52 @@ impl Path {
             normal,
             depth: (at - end).dot(normal),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{collision::Shape, solver::Pose};
+    use glam::DQuat;
+
+    #[test]
+    fn a_ball_around_a_body_hides_nothing_that_the_body_meets() {
+        let shape = Shape::Capsule {
+            from: DVec3::new(-0.1, 0.0, 0.05),
+            to: DVec3::new(0.2, 0.1, 0.0),
+            radius: 0.05,
+        };
+        let collider = Collider {
+            shape,
+            before: Pose {
+                rotation: DQuat::from_rotation_x(0.4),
+                translation: DVec3::new(0.0, 0.3, 0.0),
+            },
+            now: Pose {
+                rotation: DQuat::from_rotation_y(1.1),
+                translation: DVec3::new(0.02, 0.25, 0.01),
+            },
+        };
+        let guard = Guard::new(&collider);
+        let (mut met, mut hidden) = (0, 0);
+        for i in 0..20_000 {
+            let spread = |k: i32| f64::from((i * 7919 + k * 104_729) % 1009) / 1009.0 - 0.5;
+            let from = DVec3::new(spread(1), spread(2) + 0.3, spread(3));
+            let to = from + DVec3::new(spread(4), spread(5), spread(6)) * 0.05;
+            let path = Path {
+                from,
+                to,
+                keep: 1e-3,
+                dt: 0.01,
+            };
+            let keep = Lane::splat(path.keep);
+            let near = guard.is_near(Vec3::splat(from), Vec3::splat(to), keep);
+            let meets = path.against(&collider).is_some();
+            assert!(near.get(0) || !meets, "{from} {to}");
+            met += usize::from(meets);
+            hidden += usize::from(!near.get(0));
+        }
+        assert!(met > 1000 && hidden > 1000, "{met} {hidden}");
     }
 }

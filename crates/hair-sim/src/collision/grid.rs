@@ -18,6 +18,9 @@ pub struct SignedDistance {
     cell: f64,
     size: [usize; 3],
     values: Vec<f32>,
+    /// A ball around the mesh.
+    center: DVec3,
+    radius: f64,
 }
 
 /// Why a mesh has no grid of distances.
@@ -71,6 +74,10 @@ impl SignedDistance {
             low = low.min(corner(i));
             high = high.max(corner(i));
         }
+        let center = (low + high) * 0.5;
+        let radius = (triangles.iter().flatten())
+            .map(|&i| (corner(i) - center).length())
+            .fold(0.0, f64::max);
         let margin = 3.0 * cell;
         let extent = (high - low + 2.0 * margin) / cell;
         let count = (extent.x + 2.0).floor() * (extent.y + 2.0).floor() * (extent.z + 2.0).floor();
@@ -92,6 +99,8 @@ impl SignedDistance {
                 cell,
                 size,
                 values: vec![f32::MAX; size[0] * size[1] * size[2]],
+                center,
+                radius,
             },
             nearest: vec![u32::MAX; size[0] * size[1] * size[2]],
             triangles: &triangles,
@@ -100,6 +109,11 @@ impl SignedDistance {
         build.spread();
         build.sign();
         Ok(build.grid)
+    }
+
+    /// Centre and radius of a ball around the mesh.
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        (self.center, self.radius)
     }
 
     pub(crate) fn numbers(&self) -> [DVec3; 3] {

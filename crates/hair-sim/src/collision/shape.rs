@@ -78,6 +78,17 @@ impl Shape<'_> {
         }
     }
 
+    /// Centre and radius of a ball around it.
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        match self {
+            Self::Sphere { center, radius } => (*center, *radius),
+            Self::Capsule { from, to, radius } => {
+                ((*from + *to) * 0.5, radius + 0.5 * (*to - *from).length())
+            }
+            Self::Grid(grid) => grid.ball(),
+        }
+    }
+
     /// Numbers that tell it from other shapes.
     pub(crate) fn numbers(&self) -> [DVec3; 3] {
         match self {

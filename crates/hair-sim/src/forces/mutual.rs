@@ -9,7 +9,7 @@
 
 use glam::DVec3;
 
-use crate::lanes::{LANES, Lane, Mask, Vec3};
+use crate::lanes::{LANES, Lane, Mask, Number, Vec3};
 
 use super::springs::Spring;
 
@@ -105,7 +105,8 @@ pub(crate) struct Own<'a> {
 }
 
 /// Adds the pairs of a batch to its springs. `broken` are the links that hold no more.
-pub(crate) fn act(
+#[inline(always)]
+pub(crate) fn act<T: Number>(
     mutual: &Mutual,
     pairs: &[Pair],
     courses: &[Course],
@@ -114,19 +115,15 @@ pub(crate) fn act(
     springs: &mut [Spring],
 ) -> Counts {
     let mut counts = Counts::default();
-    let (link, push) = (Lane::splat(mutual.link), Lane::splat(mutual.repulsion));
     let half = Lane::splat(0.5);
     for (pair, broken) in pairs.iter().zip(broken) {
-        let (mut before, mut now) = (Vec3::ZERO, Vec3::ZERO);
-        for lane in 0..LANES {
-            let course = &courses[pair.other[lane] as usize];
-            before.set(lane, course.before);
-            now.set(lane, course.now);
-        }
-        let y = own.y[pair.at];
-        let (before, now) = (before - own.root_before, now - own.root_now);
+        let others = pair.other.map(|other| &courses[other as usize]);
+        let y = own.y[pair.at].load::<T>();
+        let before = gather(others.map(|o| o.before)) - own.root_before.load();
+        let now = gather(others.map(|o| o.now)) - own.root_now.load();
         let apart = before - y;
-        let length = apart.length_squared().sqrt();
+        let size = apart.length_squared().sqrt();
+        let length = size.store();
         let stretch = (length - pair.length).max(pair.length - length);
 
         let linked = pair.linked.gt(half);
@@ -138,12 +135,11 @@ pub(crate) fn act(
         let holds = linked.and(gone.not());
         counts.links += holds.count();
         if holds.any() {
-            let [x, y, z] = own.frames[pair.at].axes();
-            let o = pair.offset;
-            let offset = x * o.x + y * o.y + z * o.z;
-            let stiffness = holds.pick(link, Lane::ZERO);
-            let spring = &mut springs[pair.at];
+            let offset = own.frames[pair.at].load().rotate(pair.offset.load());
+            let stiffness = T::choose(T::condition(&holds), T::splat(mutual.link), T::splat(0.0));
+            let mut spring = springs[pair.at].load();
             spring.pull(stiffness, before - offset, now - offset, own.gamma, own.dt);
+            springs[pair.at] = spring.store();
         }
 
         let keep = pair.length.min(Lane::splat(mutual.distance));
@@ -152,13 +148,24 @@ pub(crate) fn act(
         if close.any() {
             // Away along the line between them; strands in one place stay together.
             let safe = length.max(Lane::splat(1e-9));
-            let away = apart * (keep / safe).min(Lane::splat(10.0));
-            let stiffness = close
-                .and(length.gt(Lane::splat(1e-9)))
-                .pick(push, Lane::ZERO);
-            let spring = &mut springs[pair.at];
+            let away = apart.scale((keep / safe).min(Lane::splat(10.0)).load());
+            let pushes = close.and(length.gt(Lane::splat(1e-9)));
+            let push = T::splat(mutual.repulsion);
+            let stiffness = T::choose(T::condition(&pushes), push, T::splat(0.0));
+            let mut spring = springs[pair.at].load();
             spring.pull(stiffness, before - away, now - away, own.gamma, own.dt);
+            springs[pair.at] = spring.store();
         }
     }
     counts
+}
+
+/// The vectors of four strands side by side.
+#[inline(always)]
+fn gather<T: Number>(each: [DVec3; LANES]) -> Vec3<T> {
+    Vec3::new(
+        Lane(each.map(|v| v.x)).load(),
+        Lane(each.map(|v| v.y)).load(),
+        Lane(each.map(|v| v.z)).load(),
+    )
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::{
-    lanes::{Lane, Vec3},
+    lanes::{Number, Vec3},
     math::{cos, sin},
 };
 
@@ -40,7 +40,7 @@ impl Default for Wind {
 /// space and time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gusts {
-    steady: Vec3,
+    steady: DVec3,
     waves: [Wave; WAVES],
     /// Whether there is any wind; any gust.
     pub blows: bool,
@@ -50,11 +50,11 @@ pub(crate) struct Gusts {
 #[derive(Clone, Copy, Debug)]
 struct Wave {
     /// Turns per metre.
-    number: Vec3,
+    number: DVec3,
     /// In turns.
-    phase: Lane,
+    phase: f64,
     /// In m/s.
-    amplitude: Vec3,
+    amplitude: DVec3,
 }
 
 impl Wind {
@@ -68,9 +68,9 @@ impl Wind {
     /// The field at `time` seconds.
     pub(crate) fn at(&self, time: f64) -> Gusts {
         let mut waves = [Wave {
-            number: Vec3::ZERO,
-            phase: Lane::ZERO,
-            amplitude: Vec3::ZERO,
+            number: DVec3::ZERO,
+            phase: 0.0,
+            amplitude: DVec3::ZERO,
         }; WAVES];
         let gusts = self.gust != 0.0;
         if gusts {
@@ -88,14 +88,14 @@ impl Wind {
                 // A sine's mean square is a half.
                 let speed = self.gust * (2.0 / WAVES as f64).sqrt();
                 *wave = Wave {
-                    number: Vec3::splat(number),
-                    phase: Lane::splat(phase - phase.floor()),
-                    amplitude: Vec3::splat(across * speed),
+                    number,
+                    phase: phase - phase.floor(),
+                    amplitude: across * speed,
                 };
             }
         }
         Gusts {
-            steady: Vec3::splat(self.steady),
+            steady: self.steady,
             waves,
             blows: gusts || self.steady != DVec3::ZERO,
             gusts,
@@ -106,11 +106,12 @@ impl Wind {
 impl Gusts {
     /// The air's velocity at a place in the world.
     #[inline(always)]
-    pub(crate) fn velocity(&self, at: Vec3) -> Vec3 {
-        let mut sum = self.steady;
+    pub(crate) fn velocity<T: Number>(&self, at: Vec3<T>) -> Vec3<T> {
+        let mut sum = Vec3::all(self.steady);
         if self.gusts {
             for wave in &self.waves {
-                sum += wave.amplitude * sine_of_turns(wave.number.dot(at) + wave.phase);
+                let turns = Vec3::all(wave.number).dot(at) + T::splat(wave.phase);
+                sum += Vec3::all(wave.amplitude).scale(sine_of_turns(turns));
             }
         }
         sum
@@ -119,15 +120,15 @@ impl Gusts {
 
 /// sin(2 pi x) within 0.1 %, continuous: a gust needs no more.
 #[inline(always)]
-fn sine_of_turns(x: Lane) -> Lane {
+fn sine_of_turns<T: Number>(x: T) -> T {
     // Adding this leaves no fraction: rounding to the nearest whole number, on every processor.
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    let r = x - ((x + ROUND) - ROUND);
+    let round = T::splat(6_755_399_441_055_744.0);
+    let magnitude = |x: T| T::choose(x.less(-x), -x, x);
+    let r = x - ((x + round) - round);
     // sin(2 pi r) = 8 r - 16 r |r|, a parabola, and a second one of it: odd, exact at the quarters.
-    let magnitude = r.max(-r);
-    let p = r * 8.0 - r * magnitude * 16.0;
-    let q = p * p.max(-p);
-    p * 0.775_160_7 + q * 0.224_839_3
+    let p = r * T::splat(8.0) - r * magnitude(r) * T::splat(16.0);
+    let q = p * magnitude(p);
+    p * T::splat(0.775_160_7) + q * T::splat(0.224_839_3)
 }
 
 /// A hash of (seed, index) in 0 to 1 (SplitMix64, Steele et al. 2014).

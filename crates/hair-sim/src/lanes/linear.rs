@@ -1,48 +1,54 @@
-//! Vectors, matrices and rotations of lanes.
+//! Vectors, matrices and rotations, of one strand or of a batch.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 use glam::{DQuat, DVec3};
 
-use super::{Lane, Mask};
+use super::{Lane, Mask, Number, stored};
 
 /// Three coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub(crate) struct Vec3 {
-    pub x: Lane,
-    pub y: Lane,
-    pub z: Lane,
+pub(crate) struct Vec3<T = Lane> {
+    pub x: T,
+    pub y: T,
+    pub z: T,
 }
+stored!(Vec3 { x, y, z });
 
 /// A symmetric 3 x 3 matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sym3 {
-    pub xx: Lane,
-    pub yy: Lane,
-    pub zz: Lane,
-    pub xy: Lane,
-    pub xz: Lane,
-    pub yz: Lane,
+pub(crate) struct Sym3<T = Lane> {
+    pub xx: T,
+    pub yy: T,
+    pub zz: T,
+    pub xy: T,
+    pub xz: T,
+    pub yz: T,
 }
+stored!(Sym3 {
+    xx,
+    yy,
+    zz,
+    xy,
+    xz,
+    yz
+});
 
 /// A 3 x 3 matrix, by rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Mat3(pub Vec3, pub Vec3, pub Vec3);
+pub(crate) struct Mat3<T = Lane>(pub Vec3<T>, pub Vec3<T>, pub Vec3<T>);
+stored!(Mat3 { 0, 1, 2 });
 
 /// A rotation as a unit quaternion.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub(crate) struct Quat {
-    pub v: Vec3,
-    pub w: Lane,
+pub(crate) struct Quat<T = Lane> {
+    pub v: Vec3<T>,
+    pub w: T,
 }
+stored!(Quat { v, w });
 
 impl Vec3 {
     pub(crate) const ZERO: Self = Self::new(Lane::ZERO, Lane::ZERO, Lane::ZERO);
-
-    #[inline(always)]
-    pub(crate) const fn new(x: Lane, y: Lane, z: Lane) -> Self {
-        Self { x, y, z }
-    }
 
     #[inline(always)]
     pub(crate) fn splat(v: DVec3) -> Self {
@@ -60,7 +66,45 @@ impl Vec3 {
     }
 
     #[inline(always)]
-    pub(crate) fn dot(self, o: Self) -> Lane {
+    pub(crate) fn pick(mask: Mask, yes: Self, no: Self) -> Self {
+        Self::new(
+            mask.pick(yes.x, no.x),
+            mask.pick(yes.y, no.y),
+            mask.pick(yes.z, no.z),
+        )
+    }
+}
+
+impl<T: Number> Vec3<T> {
+    #[inline(always)]
+    pub(crate) fn zero() -> Self {
+        let zero = T::splat(0.0);
+        Self::new(zero, zero, zero)
+    }
+
+    /// The same for all strands.
+    #[inline(always)]
+    pub(crate) fn all(v: DVec3) -> Self {
+        Self::new(T::splat(v.x), T::splat(v.y), T::splat(v.z))
+    }
+
+    /// As [`Number::choose`].
+    #[inline(always)]
+    pub(crate) fn choose(condition: T::Condition, yes: Self, no: Self) -> Self {
+        Self::new(
+            T::choose(condition, yes.x, no.x),
+            T::choose(condition, yes.y, no.y),
+            T::choose(condition, yes.z, no.z),
+        )
+    }
+
+    #[inline(always)]
+    pub(crate) const fn new(x: T, y: T, z: T) -> Self {
+        Self { x, y, z }
+    }
+
+    #[inline(always)]
+    pub(crate) fn dot(self, o: Self) -> T {
         self.x * o.x + self.y * o.y + self.z * o.z
     }
 
@@ -74,21 +118,18 @@ impl Vec3 {
     }
 
     #[inline(always)]
-    pub(crate) fn length_squared(self) -> Lane {
+    pub(crate) fn length_squared(self) -> T {
         self.dot(self)
     }
 
+    /// Times a number.
     #[inline(always)]
-    pub(crate) fn pick(mask: Mask, yes: Self, no: Self) -> Self {
-        Self::new(
-            mask.pick(yes.x, no.x),
-            mask.pick(yes.y, no.y),
-            mask.pick(yes.z, no.z),
-        )
+    pub(crate) fn scale(self, s: T) -> Self {
+        Self::new(self.x * s, self.y * s, self.z * s)
     }
 }
 
-impl Add for Vec3 {
+impl<T: Number> Add for Vec3<T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
@@ -96,7 +137,7 @@ impl Add for Vec3 {
     }
 }
 
-impl Sub for Vec3 {
+impl<T: Number> Sub for Vec3<T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
@@ -104,7 +145,7 @@ impl Sub for Vec3 {
     }
 }
 
-impl Neg for Vec3 {
+impl<T: Number> Neg for Vec3<T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -116,48 +157,47 @@ impl Mul<Lane> for Vec3 {
     type Output = Self;
     #[inline(always)]
     fn mul(self, s: Lane) -> Self {
-        Self::new(self.x * s, self.y * s, self.z * s)
+        self.scale(s)
     }
 }
 
-impl Mul<f64> for Vec3 {
+impl<T: Number> Mul<f64> for Vec3<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, s: f64) -> Self {
-        Self::new(self.x * s, self.y * s, self.z * s)
+        self.scale(T::splat(s))
     }
 }
 
-impl AddAssign for Vec3 {
+impl<T: Number> AddAssign for Vec3<T> {
     #[inline(always)]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
-impl Sym3 {
-    pub(crate) const ZERO: Self = Self::diagonal(Lane::ZERO);
-
+impl<T: Number> Sym3<T> {
     #[inline(always)]
-    pub(crate) const fn diagonal(d: Lane) -> Self {
+    pub(crate) fn diagonal(d: T) -> Self {
+        let zero = T::splat(0.0);
         Self {
             xx: d,
             yy: d,
             zz: d,
-            xy: Lane::ZERO,
-            xz: Lane::ZERO,
-            yz: Lane::ZERO,
+            xy: zero,
+            xz: zero,
+            yz: zero,
         }
     }
 
-    /// `s` v v^T.
+    /// `d` on the diagonal, and `s` v v^T.
     #[inline(always)]
-    pub(crate) fn outer(v: Vec3, s: Lane) -> Self {
+    pub(crate) fn outer(d: T, v: Vec3<T>, s: T) -> Self {
         let (sx, sy, sz) = (v.x * s, v.y * s, v.z * s);
         Self {
-            xx: sx * v.x,
-            yy: sy * v.y,
-            zz: sz * v.z,
+            xx: d + sx * v.x,
+            yy: d + sy * v.y,
+            zz: d + sz * v.z,
             xy: sx * v.y,
             xz: sx * v.z,
             yz: sy * v.z,
@@ -166,7 +206,7 @@ impl Sym3 {
 
     /// Only the part above the diagonal of a product that is symmetric.
     #[inline(always)]
-    pub(crate) fn upper_of_product(a: Mat3, b: Mat3) -> Self {
+    pub(crate) fn upper_of_product(a: Mat3<T>, b: Mat3<T>) -> Self {
         let [bx, by, bz] = b.columns();
         Self {
             xx: a.0.dot(bx),
@@ -179,7 +219,7 @@ impl Sym3 {
     }
 
     #[inline(always)]
-    pub(crate) fn rows(self) -> Mat3 {
+    pub(crate) fn rows(self) -> Mat3<T> {
         Mat3(
             Vec3::new(self.xx, self.xy, self.xz),
             Vec3::new(self.xy, self.yy, self.yz),
@@ -188,35 +228,34 @@ impl Sym3 {
     }
 
     #[inline(always)]
-    pub(crate) fn apply(self, v: Vec3) -> Vec3 {
+    pub(crate) fn apply(self, v: Vec3<T>) -> Vec3<T> {
         self.rows().apply(v)
     }
 
-    /// The inverse of a positive definite matrix, by its factors L D L^T.
+    /// The inverse of a positive definite matrix: cofactors over the determinant, that by way of the complement of the first
+    /// number. It needs one quotient, elimination three after each other. Where one direction is `n` times as stiff as
+    /// the others, the error is 1e-16 n^2: 1e-9 for a contact in a step of 1/24 s.
     #[inline(always)]
     pub(crate) fn inverse(self) -> Self {
-        let i0 = self.xx.recip();
-        let (l1, l2) = (self.xy * i0, self.xz * i0);
-        let d1 = self.yy - l1 * self.xy;
-        let i1 = d1.recip();
-        let e = self.yz - l1 * self.xz;
-        let l3 = e * i1;
-        let i2 = (self.zz - l2 * self.xz - l3 * e).recip();
-        // Rows of L^-1: (1), (-l1, 1), (m, -l3, 1).
-        let m = l1 * l3 - l2;
-        let (m2, l3_2) = (m * i2, l3 * i2);
+        let zz = self.xx * self.yy - self.xy * self.xy;
+        let yz = self.xy * self.xz - self.xx * self.yz;
+        let yy = self.xx * self.zz - self.xz * self.xz;
+        let s = self.xx / (zz * yy - yz * yz);
+        let xx = self.yy * self.zz - self.yz * self.yz;
+        let xy = self.xz * self.yz - self.xy * self.zz;
+        let xz = self.xy * self.yz - self.xz * self.yy;
         Self {
-            xx: i0 + l1 * l1 * i1 + m * m2,
-            yy: i1 + l3 * l3_2,
-            zz: i2,
-            xy: -(l1 * i1) - m2 * l3,
-            xz: m2,
-            yz: -l3_2,
+            xx: xx * s,
+            yy: yy * s,
+            zz: zz * s,
+            xy: xy * s,
+            xz: xz * s,
+            yz: yz * s,
         }
     }
 }
 
-impl Add for Sym3 {
+impl<T: Number> Add for Sym3<T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
@@ -231,7 +270,7 @@ impl Add for Sym3 {
     }
 }
 
-impl Sub for Sym3 {
+impl<T: Number> Sub for Sym3<T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
@@ -246,18 +285,21 @@ impl Sub for Sym3 {
     }
 }
 
-impl AddAssign for Sym3 {
+impl<T: Number> AddAssign for Sym3<T> {
     #[inline(always)]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
-impl Mat3 {
-    pub(crate) const ZERO: Self = Self(Vec3::ZERO, Vec3::ZERO, Vec3::ZERO);
+impl<T: Number> Mat3<T> {
+    #[inline(always)]
+    pub(crate) fn zero() -> Self {
+        Self(Vec3::zero(), Vec3::zero(), Vec3::zero())
+    }
 
     #[inline(always)]
-    pub(crate) fn columns(self) -> [Vec3; 3] {
+    pub(crate) fn columns(self) -> [Vec3<T>; 3] {
         [
             Vec3::new(self.0.x, self.1.x, self.2.x),
             Vec3::new(self.0.y, self.1.y, self.2.y),
@@ -272,7 +314,7 @@ impl Mat3 {
     }
 
     #[inline(always)]
-    pub(crate) fn apply(self, v: Vec3) -> Vec3 {
+    pub(crate) fn apply(self, v: Vec3<T>) -> Vec3<T> {
         Vec3::new(self.0.dot(v), self.1.dot(v), self.2.dot(v))
     }
 
@@ -282,16 +324,18 @@ impl Mat3 {
         Self(to.apply(self.0), to.apply(self.1), to.apply(self.2))
     }
 
-    /// The same, of the transpose.
-    #[inline(always)]
-    pub(crate) fn combine(self, v: Vec3) -> Vec3 {
-        self.0 * v.x + self.1 * v.y + self.2 * v.z
-    }
-
     /// The matrix times (r x): the rows crossed with r.
     #[inline(always)]
-    pub(crate) fn times_cross(self, r: Vec3) -> Self {
+    pub(crate) fn times_cross(self, r: Vec3<T>) -> Self {
         Self(self.0.cross(r), self.1.cross(r), self.2.cross(r))
+    }
+}
+
+impl<T: Number> Sub for Mat3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self(self.0 - o.0, self.1 - o.1, self.2 - o.2)
     }
 }
 
@@ -313,11 +357,38 @@ impl Quat {
         self.w[lane] = q.w;
     }
 
+    #[inline(always)]
+    pub(crate) fn pick(mask: Mask, yes: Self, no: Self) -> Self {
+        Self {
+            v: Vec3::pick(mask, yes.v, no.v),
+            w: mask.pick(yes.w, no.w),
+        }
+    }
+}
+
+impl<T: Number> Quat<T> {
+    #[inline(always)]
+    pub(crate) fn identity() -> Self {
+        Self {
+            v: Vec3::zero(),
+            w: T::splat(1.0),
+        }
+    }
+
+    /// As [`Number::choose`].
+    #[inline(always)]
+    pub(crate) fn choose(condition: T::Condition, yes: Self, no: Self) -> Self {
+        Self {
+            v: Vec3::choose(condition, yes.v, no.v),
+            w: T::choose(condition, yes.w, no.w),
+        }
+    }
+
     /// First `o`, then `self`.
     #[inline(always)]
     pub(crate) fn times(self, o: Self) -> Self {
         Self {
-            v: o.v * self.w + self.v * o.w + self.v.cross(o.v),
+            v: o.v.scale(self.w) + self.v.scale(o.w) + self.v.cross(o.v),
             w: self.w * o.w - self.v.dot(o.v),
         }
     }
@@ -332,22 +403,22 @@ impl Quat {
 
     #[inline(always)]
     pub(crate) fn normalize(self) -> Self {
-        let s = (self.v.length_squared() + self.w * self.w).sqrt().recip();
+        let s = T::splat(1.0) / (self.v.length_squared() + self.w * self.w).sqrt();
         Self {
-            v: self.v * s,
+            v: self.v.scale(s),
             w: self.w * s,
         }
     }
 
     /// The three axes of the frame: columns of the rotation matrix.
     #[inline(always)]
-    pub(crate) fn axes(self) -> [Vec3; 3] {
+    pub(crate) fn axes(self) -> [Vec3<T>; 3] {
         let (v, w) = (self.v, self.w);
         let (x2, y2, z2) = (v.x + v.x, v.y + v.y, v.z + v.z);
         let (xx, yy, zz) = (v.x * x2, v.y * y2, v.z * z2);
         let (xy, xz, yz) = (v.x * y2, v.x * z2, v.y * z2);
         let (wx, wy, wz) = (w * x2, w * y2, w * z2);
-        let one = Lane::ONE;
+        let one = T::splat(1.0);
         [
             Vec3::new(one - (yy + zz), xy + wz, xz - wy),
             Vec3::new(xy - wz, one - (xx + zz), yz + wx),
@@ -357,48 +428,49 @@ impl Quat {
 
     /// The third axis: the tangent of a link.
     #[inline(always)]
-    pub(crate) fn tangent(self) -> Vec3 {
+    pub(crate) fn tangent(self) -> Vec3<T> {
         let (v, w) = (self.v, self.w);
         let (x2, y2) = (v.x + v.x, v.y + v.y);
         Vec3::new(
             x2 * v.z + w * y2,
             y2 * v.z - w * x2,
-            Lane::ONE - (x2 * v.x + y2 * v.y),
+            T::splat(1.0) - (x2 * v.x + y2 * v.y),
         )
     }
 
-    /// The least rotation of this frame that points its third axis along the unit vector `to`. Where the two
-    /// are nearly opposite the frame stays.
+    /// A vector of this frame in the world.
     #[inline(always)]
-    pub(crate) fn pointed(self, to: Vec3) -> Self {
-        let from = self.tangent();
-        let w = from.dot(to) + 1.0;
-        let turned = Self {
-            v: from.cross(to),
-            w,
-        };
-        Self::pick(
-            w.gt(Lane::splat(0.05)),
-            turned.times(self).normalize(),
-            self,
-        )
+    pub(crate) fn rotate(self, u: Vec3<T>) -> Vec3<T> {
+        let half = self.v.cross(u);
+        let whole = half + half;
+        u + whole.scale(self.w) + self.v.cross(whole)
     }
 
     /// Turned by the rotation whose Rodrigues vector (tan of the half angle along its axis) is half of `turn`.
     #[inline(always)]
-    pub(crate) fn turned(self, turn: Vec3) -> Self {
+    pub(crate) fn turned(self, turn: Vec3<T>) -> Self {
         let by = Self {
             v: turn * 0.5,
-            w: Lane::ONE,
+            w: T::splat(1.0),
         };
         by.times(self).normalize()
     }
+}
 
-    #[inline(always)]
-    pub(crate) fn pick(mask: Mask, yes: Self, no: Self) -> Self {
-        Self {
-            v: Vec3::pick(mask, yes.v, no.v),
-            w: mask.pick(yes.w, no.w),
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_inverse_undoes_its_matrix_however_uneven() {
+        let v = Vec3::splat(DVec3::new(0.3, -0.7, 0.2));
+        for uneven in [1e-4, 1e-2, 1.0, 1e8] {
+            let matrix = Sym3::outer(Lane::splat(uneven), v, Lane::ONE);
+            let got = matrix.apply(matrix.inverse().apply(v)).get(2);
+            let error = (got - v.get(2)).length();
+            // One stiff direction, as a contact makes it, is the worst.
+            let bound = 1e-15 * (10.0 + 10.0 / (uneven * uneven));
+            assert!(error < bound, "{uneven}: {error}");
         }
     }
 }

@@ -5,12 +5,12 @@ use glam::DVec3;
 use crate::{
     collision::contact::Contact,
     forces::springs::Spring,
-    lanes::{LANES, Lane, Mask, Quat, Vec3},
+    lanes::{LANES, Lane, Mask, Quat, Vec3, stored},
     params::Params,
     rest::RestStrand,
 };
 
-use super::sweep::{Elimination, Node, half_turn};
+use super::sweep::{Elimination, Joint, Node, Pose, half_turn};
 
 /// [`LANES`] strands and their constants. A shorter strand is continued by links without length, mass and force,
 /// which add exactly nothing.
@@ -28,8 +28,8 @@ pub(crate) struct Batch {
     /// Whether any strand has drag; a goal.
     pub has_drag: bool,
     pub has_goal: bool,
-    /// Whether nothing in the strands or the air takes energy from them.
-    pub conserves: bool,
+    /// Strands from which nothing in them or in the air takes energy.
+    pub conserves: Mask,
     /// Distance kept from colliders, in m.
     pub thickness: Lane,
     pub friction: Lane,
@@ -44,30 +44,38 @@ pub(crate) struct Batch {
 
 /// A link and the joint at its root end: see [`crate::rest::RestLink`].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Link {
-    pub length: Lane,
-    pub bend: Lane,
-    pub twist: Lane,
-    pub natural: Vec3,
+pub(crate) struct Link<T = Lane> {
+    pub length: T,
+    pub bend: T,
+    pub twist: T,
+    pub natural: Vec3<T>,
     /// 1 for links of strands, 0 for those that only fill the batch.
-    pub counts: Lane,
+    pub counts: T,
 }
+stored!(Link {
+    length,
+    bend,
+    twist,
+    natural,
+    counts
+});
 
 /// The particle at a link's tip end.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Particle {
-    pub mass: Lane,
+pub(crate) struct Particle<T = Lane> {
+    pub mass: T,
     /// In 1/s.
-    pub drag: Lane,
+    pub drag: T,
     /// In 1/s^2.
-    pub goal: Lane,
+    pub goal: T,
 }
+stored!(Particle { mass, drag, goal });
 
 impl Batch {
     pub(crate) fn new(members: &[(usize, &RestStrand, &Params)]) -> Self {
         let count = members.iter().map(|m| m.1.links.len()).max().unwrap_or(0);
         // So soft that what rounding leaves of its moments is lost in any number beside it.
-        let soft = Lane::splat(1e-100);
+        let soft = Lane::splat(1e-40);
         let link = Link {
             length: Lane::ZERO,
             bend: soft,
@@ -89,7 +97,7 @@ impl Batch {
             drag_along: Lane::ZERO,
             has_drag: members.iter().any(|m| m.2.drag > 0.0),
             has_goal: members.iter().any(|m| m.2.has_goal()),
-            conserves: members.iter().all(|m| m.2.conserves()),
+            conserves: Mask::NONE,
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
             styled: vec![Vec3::ZERO; count],
@@ -100,6 +108,8 @@ impl Batch {
         for (lane, (index, rest, params)) in members.iter().enumerate() {
             batch.fill(lane, *index, rest, params);
         }
+        let conserves = |lane: usize| members.get(lane).is_some_and(|m| m.2.conserves());
+        batch.conserves = Mask::new(std::array::from_fn(conserves));
         batch.used = Mask::new(batch.counts.map(|count| count > 0));
         batch
     }
@@ -132,6 +142,13 @@ impl Batch {
         self.links.len()
     }
 }
+
+/// A pull that there cannot be.
+const NO_PULL: Vec3 = Vec3::new(
+    Lane::splat(f64::MAX),
+    Lane::splat(f64::MAX),
+    Lane::splat(f64::MAX),
+);
 
 /// Everything of a batch that decides its future.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -183,8 +200,7 @@ impl BatchState {
             press: vec![Lane::ZERO; count],
             goal: Vec::new(),
             broken: Vec::new(),
-            // None that there can be.
-            pull: Vec3::splat(DVec3::MAX),
+            pull: NO_PULL,
             ceiling: Lane::ZERO,
             quiet: [0; LANES],
             restart: [true; LANES],
@@ -268,7 +284,8 @@ impl BatchState {
         self.a.iter_mut().for_each(turned);
         self.goal.iter_mut().for_each(turned);
         turned(&mut self.root_velocity);
-        turned(&mut self.pull);
+        // The next step finds out anew what energy there is.
+        self.pull = NO_PULL;
         self.root = root;
         self.base = base;
     }
@@ -278,6 +295,7 @@ impl BatchState {
 #[derive(Clone, Debug)]
 pub(crate) struct Scratch {
     pub nodes: Vec<Node>,
+    pub joints: Vec<Joint>,
     pub eliminations: Vec<Elimination>,
     pub turns: Vec<Vec3>,
     /// The turn of every joint at the start of the step, and what damping holds to in a stage.
@@ -295,9 +313,10 @@ pub(crate) struct Scratch {
     pub wind: Vec<Vec3>,
     pub springs: Vec<Spring>,
     pub contacts: Vec<Contact>,
-    /// Whether there are any of these in this step.
+    /// The places on the strands where particles have contacts in this step.
+    pub touched: Vec<usize>,
+    /// Whether there are any springs in this step.
     pub has_springs: bool,
-    pub has_contacts: bool,
 }
 
 /// A strand's shape in the course of a step.
@@ -306,6 +325,8 @@ pub(crate) struct Stage {
     pub y: Vec<Vec3>,
     pub v: Vec<Vec3>,
     pub frames: Vec<Quat>,
+    /// The third axes of the frames.
+    pub tangents: Vec<Vec3>,
 }
 
 impl Stage {
@@ -314,6 +335,19 @@ impl Stage {
             y: vec![Vec3::ZERO; count],
             v: vec![Vec3::ZERO; count],
             frames: vec![Quat::IDENTITY; count],
+            tangents: vec![Vec3::ZERO; count],
+        }
+    }
+}
+
+impl Stage {
+    #[inline(always)]
+    pub(crate) fn pose<'a>(&'a self, base: &'a Quat) -> Pose<'a> {
+        Pose {
+            base,
+            y: &self.y,
+            frames: &self.frames,
+            tangents: &self.tangents,
         }
     }
 }
@@ -321,8 +355,9 @@ impl Stage {
 impl Scratch {
     pub(crate) fn new(count: usize) -> Self {
         Self {
-            nodes: vec![Node::ZERO; count],
-            eliminations: vec![Elimination::ZERO; count],
+            nodes: vec![Node::<Lane>::zero(); count],
+            joints: vec![Joint::<Lane>::zero(); count],
+            eliminations: vec![Elimination::<Lane>::zero(); count],
             turns: vec![Vec3::ZERO; count],
             turn_start: vec![Vec3::ZERO; count],
             past: vec![Vec3::ZERO; count],
@@ -334,8 +369,8 @@ impl Scratch {
             wind: vec![Vec3::ZERO; count],
             springs: vec![Spring::NONE; count],
             contacts: vec![Contact::NONE; count],
+            touched: Vec::with_capacity(count),
             has_springs: false,
-            has_contacts: false,
         }
     }
 }

@@ -3,13 +3,13 @@
 use glam::{DVec3, Vec3 as Point};
 
 use crate::{
-    collision::contact::{self, Course},
+    collision::contact::{self, Course, Guard},
     forces::{
         mutual::{self, Course as ParticleCourse, Mutual, Own, Pair},
         springs::Spring,
         wind::Gusts,
     },
-    lanes::{LANES, Lane, Mask, Quat, Vec3},
+    lanes::{LANES, Lane, Mask, Number, Quat, Vec3},
 };
 
 use super::{
@@ -22,6 +22,8 @@ use super::{
 pub(crate) struct Drive<'a> {
     pub dt: f64,
     pub scene: &'a Scene<'a>,
+    /// Of its colliders.
+    pub guards: &'a [Guard],
     pub gusts: &'a Gusts,
     /// The index of every strand's first point in the list of all.
     pub first_points: &'a [usize],
@@ -59,7 +61,7 @@ pub(crate) struct RootMotion {
 impl RootMotion {
     #[inline(always)]
     pub(crate) fn new(state: &mut BatchState, drive: &Drive) -> Self {
-        let (root, base) = whole_poses(state, drive);
+        let (root, base) = whole_poses(state, drive.root, drive.base);
         let velocity = (root - state.root) * (1.0 / drive.dt);
         let acceleration = (velocity - state.root_velocity) * (1.0 / drive.dt);
         let turn_end = base.times(state.base.conjugate());
@@ -82,11 +84,11 @@ impl RootMotion {
     }
 }
 
-/// The poses at the end of the step; where one is broken, that before, and its strand is set aside.
+/// The poses that roots are to have; where one is broken, that before, and its strand is set aside.
 #[inline(always)]
-fn whole_poses(state: &mut BatchState, drive: &Drive) -> (Vec3, Quat) {
-    let size = drive.base.v.length_squared() + drive.base.w * drive.base.w;
-    let place = drive.root.length_squared();
+pub(super) fn whole_poses(state: &mut BatchState, root: Vec3, base: Quat) -> (Vec3, Quat) {
+    let size = base.v.length_squared() + base.w * base.w;
+    let place = root.length_squared();
     let whole = (place.is_finite())
         .and(size.lt(Lane::splat(1.001)))
         .and(size.gt(Lane::splat(0.999)));
@@ -95,13 +97,13 @@ fn whole_poses(state: &mut BatchState, drive: &Drive) -> (Vec3, Quat) {
             state.set_aside[lane].get_or_insert(Reason::Root);
         }
     }
-    let base = Quat::pick(whole, drive.base, state.base).normalize();
-    (Vec3::pick(whole, drive.root, state.root), base)
+    let base = Quat::pick(whole, base, state.base).normalize();
+    (Vec3::pick(whole, root, state.root), base)
 }
 
 /// Finds contacts, and fills in the air's motion and the springs of the step. Returns the strands that step.
 #[inline(always)]
-pub(crate) fn prepare(
+pub(crate) fn prepare<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
     scratch: &mut Scratch,
@@ -127,7 +129,7 @@ pub(crate) fn prepare(
             dt: drive.dt,
         };
         let springs = &mut scratch.springs;
-        stats.hair = mutual::act(
+        stats.hair = mutual::act::<T>(
             hair.mutual,
             hair.pairs,
             hair.courses,
@@ -139,14 +141,16 @@ pub(crate) fn prepare(
     let active = batch.used.and(state.aside().not()).and(awake);
     if batch.has_drag {
         for k in 0..batch.count() {
-            let air = drive.gusts.velocity(state.root + state.y[k]);
-            scratch.wind[k] = air - root.velocity;
+            let air = drive
+                .gusts
+                .velocity(state.root.load::<T>() + state.y[k].load());
+            scratch.wind[k] = (air - root.velocity.load()).store();
         }
         if drive.gusts.blows {
             stats.wind = active.count() * batch.count();
         }
     }
-    scratch.has_contacts = false;
+    scratch.touched.clear();
     if !drive.scene.colliders.is_empty() {
         if !state.skin_known {
             contact::settle_in(batch, state, drive.scene.colliders);
@@ -157,10 +161,12 @@ pub(crate) fn prepare(
             dt: drive.dt,
             gamma: GAMMA,
         };
-        let colliders = drive.scene.colliders;
-        let contacts = &mut scratch.contacts;
-        stats.contacts = contact::detect(batch, state, colliders, &course, active, contacts);
-        scratch.has_contacts = stats.contacts > 0;
+        let bodies = (drive.scene.colliders, drive.guards);
+        let Scratch {
+            contacts, touched, ..
+        } = scratch;
+        stats.contacts =
+            contact::detect::<T>(batch, state, bodies, &course, active, contacts, touched);
     }
     active
 }
@@ -190,7 +196,8 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, d
             let goal: DVec3 = pose.rotation * goal;
             if goal.is_finite() {
                 now.set(lane, goal);
-            } else if pose.is_finite() {
+            } else if pose.is_finite() && batch.particles[k].goal[lane] > 0.0 {
+                // Where nothing pulls, nothing is broken.
                 state.set_aside[lane].get_or_insert(Reason::Goal);
             }
         }

@@ -5,13 +5,14 @@
 //! (Kane et al. 2000; Martin et al. 2011). Every accepted step lowers it, so the shape is always finite and
 //! the motion loses energy.
 
-use crate::lanes::{LANES, Lane, Mask, Quat, Vec3};
+use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
 
 use super::{
     batch::{Batch, BatchState, Reason, Scratch},
     drive::{Drive, RootMotion},
+    instructions::{Instructions, run},
     integrate::{StageSetup, Which, assemble, hold, turn_links},
-    sweep::{Elastic, Pose, ascend, descend, potential},
+    sweep::{Elastic, ascend, descend, joints, potential},
 };
 
 const MOST_ITERATIONS: usize = 40;
@@ -21,6 +22,7 @@ const LARGEST_TURN: f64 = 0.7;
 
 /// Steps the lanes in `which`. Those that have no finite answer here either are set aside.
 pub(super) fn step(
+    instructions: Instructions,
     batch: &Batch,
     state: &mut BatchState,
     scratch: &mut Scratch,
@@ -35,8 +37,10 @@ pub(super) fn step(
         scratch.free_v[k] = state.v[k];
         scratch.past[k] = scratch.turn_start[k];
         let frame = root.turn_end.times(state.frames[k]).normalize();
-        y += frame.tangent() * batch.links[k].length;
+        let tangent = frame.tangent();
+        y += tangent * batch.links[k].length;
         scratch.trial.frames[k] = frame;
+        scratch.trial.tangents[k] = tangent;
         scratch.trial.y[k] = y;
     }
     let setup = StageSetup {
@@ -45,24 +49,38 @@ pub(super) fn step(
         base: root.end,
         pull: root.pull,
     };
-    assemble(batch, scratch, &setup, Which::Trial);
+    assemble(instructions, batch, scratch, &setup, Which::Trial);
     let elastic = Elastic {
         h2: h * h,
         damping: setup.damping,
     };
-    minimise(batch, scratch, setup.base, &elastic, which);
-    if scratch.has_contacts {
+    let minimise = |scratch: &mut Scratch, which: Mask| {
+        run!(
+            instructions,
+            minimise(batch, scratch, &setup.base, &elastic, which)
+        );
+    };
+    minimise(scratch, which);
+    if !scratch.touched.is_empty() {
         // Planes that the strand met on the way.
         let met = hold(batch, scratch, h, Which::Trial, which);
-        minimise(batch, scratch, setup.base, &elastic, met);
+        minimise(scratch, met);
     }
     take(batch, state, scratch, which, drive.dt);
 }
 
 /// Damped Newton on `scratch.trial`.
-fn minimise(batch: &Batch, scratch: &mut Scratch, base: Quat, elastic: &Elastic, which: Mask) {
+#[inline(always)]
+fn minimise<T: Number>(
+    batch: &Batch,
+    scratch: &mut Scratch,
+    base: &Quat,
+    elastic: &Elastic,
+    which: Mask,
+) {
     let Scratch {
         nodes,
+        joints: ready,
         eliminations,
         turns,
         past,
@@ -72,28 +90,15 @@ fn minimise(batch: &Batch, scratch: &mut Scratch, base: Quat, elastic: &Elastic,
     } = scratch;
     let links = &batch.links;
     let mut open = which;
-    let mut energy = potential(
-        links,
-        Pose {
-            base,
-            y: &trial.y,
-            frames: &trial.frames,
-        },
-        nodes,
-        past,
-        elastic,
-    );
+    let mut energy = potential(links, trial.pose(base), nodes, past, elastic);
     for _ in 0..MOST_ITERATIONS {
         if !open.any() {
             return;
         }
-        let pose = Pose {
-            base,
-            y: &trial.y,
-            frames: &trial.frames,
-        };
-        ascend(links, pose, nodes, past, elastic, eliminations);
-        let largest = descend(links, &trial.frames, eliminations, turns).sqrt();
+        let pose = trial.pose(base);
+        joints::<T>(links, pose, past, elastic, ready);
+        ascend::<T>(links, pose, nodes, ready, eliminations);
+        let largest = descend::<T>(links, &trial.tangents, eliminations, turns);
         let mut scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
         let mut untried = open.and(largest.is_finite());
         let mut moved = Mask::NONE;
@@ -105,17 +110,13 @@ fn minimise(batch: &Batch, scratch: &mut Scratch, base: Quat, elastic: &Elastic,
                 end.frames[k] = trial.frames[k];
                 end.y[k] = trial.y[k];
             }
-            turn_links(batch, end, turns, scale, untried);
-            let pose = Pose {
-                base,
-                y: &end.y,
-                frames: &end.frames,
-            };
-            let tried = potential(links, pose, nodes, past, elastic);
+            turn_links::<T>(batch, end, turns, scale, untried);
+            let tried = potential(links, end.pose(base), nodes, past, elastic);
             let better = untried.and(energy.lt(tried).not()).and(tried.is_finite());
             for k in 0..batch.count() {
                 trial.frames[k] = Quat::pick(better, end.frames[k], trial.frames[k]);
                 trial.y[k] = Vec3::pick(better, end.y[k], trial.y[k]);
+                trial.tangents[k] = Vec3::pick(better, end.tangents[k], trial.tangents[k]);
             }
             energy = better.pick(tried, energy);
             moved = moved.or(better);
@@ -139,7 +140,7 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
     for k in 0..batch.count() {
         let v = (trial.y[k] - state.y[k]) * rate;
         let a = (v - state.v[k]) * rate;
-        if scratch.has_contacts {
+        if !scratch.touched.is_empty() {
             let press = scratch.contacts[k].pressure(trial.y[k]);
             state.press[k] = good.pick(press, state.press[k]);
         }

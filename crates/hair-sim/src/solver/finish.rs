@@ -1,6 +1,6 @@
 //! The end of a step: which strands it holds for, what the next one starts from, and which strands sleep.
 
-use crate::lanes::{LANES, Lane, Mask, Quat, Vec3};
+use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
 
 use super::{
     batch::{Batch, BatchState, Scratch},
@@ -49,21 +49,24 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
 }
 
 #[inline(always)]
-pub(super) fn turned_too_far(
+pub(super) fn turned_too_far<T: Number>(
     batch: &Batch,
     state: &BatchState,
     scratch: &Scratch,
     root: &RootMotion,
 ) -> Mask {
-    let mut least = Lane::ONE;
+    let mut least = T::splat(1.0);
+    let turn = root.turn_end.load::<T>();
     for k in 0..batch.count() {
-        let carried = root.turn_end.times(state.frames[k]).tangent();
-        let still = state.frames[k].tangent();
-        let now = scratch.end.frames[k].tangent();
+        let before = state.frames[k].load().tangent();
+        let now = scratch.end.tangents[k].load();
         // Turned with the skin, or left where it was: either is an ordinary motion.
-        least = least.min(carried.dot(now).max(still.dot(now)));
+        let (carried, still) = (turn.rotate(before).dot(now), before.dot(now));
+        let cosine = T::choose(carried.less(still), still, carried);
+        // What is no number is the least.
+        least = T::choose(least.less(cosine), least, cosine);
     }
-    least.gt(Lane::splat(LEAST_COSINE)).not()
+    least.store().gt(Lane::splat(LEAST_COSINE)).not()
 }
 
 /// Where nothing takes energy from the strands, nothing may bring any: what errors of the steps add to the energy that a
@@ -79,7 +82,9 @@ pub(super) fn take_gain(
     let turned = root.turn_end.v.length_squared() + (root.pull - state.pull).length_squared();
     let driven = turned.gt(Lane::splat(1e-24));
     state.pull = root.pull;
-    state.ceiling = driven.pick(before, state.ceiling);
+    // A strand that is set aside may be folded, and its energy no number.
+    let known = which.and(driven).and(before.is_finite());
+    state.ceiling = known.pick(before, state.ceiling);
     let gain = (state.energy(batch, root.pull) - state.ceiling).max(Lane::ZERO);
     let mut motion = Lane::ZERO;
     for k in 0..batch.count() {
@@ -95,7 +100,7 @@ pub(super) fn take_gain(
 
 /// Takes the end stage of the lanes in `which` as the new state.
 #[inline(always)]
-pub(super) fn finish(
+pub(super) fn finish<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
     scratch: &Scratch,
@@ -105,22 +110,23 @@ pub(super) fn finish(
     let mut struck = Mask::new(state.restart).and(which.not());
     let end = &scratch.end;
     let rate = 1.0 / d;
-    let mut before = Vec3::ZERO;
-    let mut velocity = Vec3::ZERO;
+    let mut before = Vec3::zero();
+    let mut velocity = Vec3::<T>::zero();
     for k in 0..batch.count() {
-        let a = (end.v[k] - scratch.free_v[k]) * rate;
-        let t = end.frames[k].tangent();
-        let along = end.v[k] - before;
-        before = end.v[k];
-        velocity += along - t * (along.dot(t) * UNSTRETCH);
-        let a = if scratch.has_contacts {
+        let v = end.v[k].load::<T>();
+        let a = ((v - scratch.free_v[k].load()) * rate).store();
+        let t = end.tangents[k].load();
+        let along = v - before;
+        before = v;
+        velocity += along - t.scale(along.dot(t) * T::splat(UNSTRETCH));
+        let a = if !scratch.touched.is_empty() {
             settle_contact(state, scratch, k, a, which, &mut struck)
         } else {
             state.press[k] = which.pick(Lane::ZERO, state.press[k]);
             a
         };
         state.a[k] = Vec3::pick(which, a, state.a[k]);
-        state.v[k] = Vec3::pick(which, velocity, state.v[k]);
+        state.v[k] = Vec3::pick(which, velocity.store(), state.v[k]);
         state.y[k] = Vec3::pick(which, end.y[k], state.y[k]);
         state.frames[k] = Quat::pick(which, end.frames[k], state.frames[k]);
     }

@@ -3,16 +3,9 @@
 //! Only widths differ, never the arithmetic: additions and products are not contracted, roots and quotients
 //! are rounded as IEEE 754 says. So every set gives the same bits.
 //!
-//! This needs the one `unsafe` block of the crate: calling a function that is compiled for instructions which
-//! not every machine has. Measured with 72 strands of 20 particles in wind, one thread, the best of many runs: 370 us a
-//! step as compiled (SSE2), 172 us with AVX2. AVX-512 was slower than AVX2 (the compiler mixes widths), so it
-//! is not here.
-
-use super::{
-    batch::{Batch, BatchState, Scratch},
-    drive::Drive,
-    integrate::{self, BatchStats},
-};
+//! This needs `unsafe`: here to call a function that is compiled for instructions which not every machine has, and in
+//! [`crate::lanes::avx2`] for the instructions themselves. Measured before it was written so, with 72 strands of 20 particles in
+//! wind, one thread, the best of many runs: 370 us a step for SSE2, 172 us for AVX2.
 
 /// Vector instructions that this machine has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,27 +26,38 @@ impl Instructions {
         }
         Self::Compiled
     }
-
-    /// [`integrate::step`] in these instructions.
-    #[allow(unsafe_code, reason = "half of the time, see the module")]
-    pub(super) fn step(
-        self,
-        batch: &Batch,
-        state: &mut BatchState,
-        scratch: &mut Scratch,
-        drive: &Drive,
-    ) -> BatchStats {
-        match self {
-            Self::Compiled => integrate::step(batch, state, scratch, drive),
-            // SAFETY: a value of this kind is made by `best` only, which looked for it.
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => unsafe { avx2(batch, state, scratch, drive) },
-        }
-    }
 }
 
+/// Calls a function that is generic in its [`Number`](crate::lanes::Number) in the given instructions. It, and all that it calls, must be
+/// `#[inline(always)]`: what is not inlined is compiled for the program's own instructions.
+macro_rules! run {
+    ($instructions:expr, $kernel:ident($($argument:expr),* $(,)?)) => {
+        match $instructions {
+            $crate::solver::instructions::Instructions::Compiled => {
+                $kernel::<$crate::lanes::Lane>($($argument),*)
+            }
+            #[cfg(target_arch = "x86_64")]
+            $crate::solver::instructions::Instructions::Avx2 => {
+                $crate::solver::instructions::avx2(
+                    #[inline(always)]
+                    || $kernel::<$crate::lanes::avx2::Avx2>($($argument),*),
+                )
+            }
+        }
+    };
+}
+pub(super) use run;
+
+/// `work`, compiled for AVX2.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn avx2(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, drive: &Drive) -> BatchStats {
-    integrate::step(batch, state, scratch, drive)
+#[allow(unsafe_code, reason = "half of the time, see the module")]
+#[inline(always)]
+pub(super) fn avx2<R>(work: impl FnOnce() -> R) -> R {
+    #[target_feature(enable = "avx2")]
+    #[inline(never)]
+    fn compiled<R>(work: impl FnOnce() -> R) -> R {
+        work()
+    }
+    // SAFETY: `run` calls this for a value that is made by `Instructions::best` only, which looked for AVX2.
+    unsafe { compiled(work) }
 }

@@ -14,7 +14,7 @@
 
 use crate::{
     forces::mutual::Counts,
-    lanes::{Lane, Mask, Quat, Sym3, Vec3},
+    lanes::{Lane, Mask, Number, Quat, Sym3, Vec3},
 };
 
 use super::{
@@ -22,7 +22,8 @@ use super::{
     drive::{Drive, RootMotion, prepare},
     fallback,
     finish::{asleep, count_quiet, finish, take_gain, turned_too_far},
-    sweep::{Elastic, Node, Pose, ascend, descend, half_turn},
+    instructions::{Instructions, run},
+    sweep::{Elastic, Node, ascend, descend, half_turn, joints},
 };
 
 /// 2 - sqrt 2.
@@ -54,8 +55,8 @@ pub(crate) struct BatchStats {
 }
 
 /// Advances a batch by `drive.dt`.
-#[inline(always)]
 pub(crate) fn step(
+    instructions: Instructions,
     batch: &Batch,
     state: &mut BatchState,
     scratch: &mut Scratch,
@@ -66,91 +67,46 @@ pub(crate) fn step(
     let asleep = asleep(state, drive, batch.used);
     stats.asleep = asleep.count();
     if asleep == batch.used && !state.aside().and(batch.used).any() {
+        // Strands of a root alone have nothing that could sleep.
+        state.root = Vec3::pick(batch.used, state.root, root.root);
+        state.root_velocity = Vec3::pick(batch.used, state.root_velocity, root.velocity);
         return stats;
     }
-    let active = prepare(
-        batch,
-        state,
-        scratch,
-        drive,
-        &root,
-        asleep.not(),
-        &mut stats,
+    let awake = asleep.not();
+    let active = run!(
+        instructions,
+        prepare(batch, state, scratch, drive, &root, awake, &mut stats)
     );
-    remember_turns(batch, state, scratch);
 
-    let h = drive.dt;
-    let d = 0.5 * GAMMA * h;
+    let d = 0.5 * GAMMA * drive.dt;
     let mut failed = Mask::NONE;
-    let mut iterations = 0;
-
-    // The trapezoidal stage; backward Euler over the same time where accelerations are unknown.
-    let restart = Mask::new(state.restart);
-    let first = restart.pick(Lane::splat(2.0 * d), Lane::splat(d));
-    let known = restart.pick(Lane::ZERO, Lane::splat(d));
-    for k in 0..batch.count() {
-        scratch.free_v[k] = state.v[k] + state.a[k] * known;
-        scratch.free_y[k] = state.y[k] + state.v[k] * known;
-        scratch.past[k] = scratch.turn_start[k];
-    }
-    let Scratch { mid, .. } = scratch;
-    for k in 0..batch.count() {
-        mid.frames[k] = root.turn_mid.times(state.frames[k]);
-    }
-    let stage = StageSetup {
-        length: first,
-        damping: batch.damping * (1.0 / (2.0 * d)),
-        base: root.mid,
-        pull: root.pull,
-    };
-    iterations += solve(batch, scratch, &stage, active, &mut failed, Which::Mid);
-
-    // The backward difference stage: X = alpha x1 - beta x0.
-    let alpha = 1.0 / (GAMMA * (2.0 - GAMMA));
-    let beta = (1.0 - GAMMA) * (1.0 - GAMMA) * alpha;
-    for k in 0..batch.count() {
-        let mid = &scratch.mid;
-        scratch.free_v[k] = mid.v[k] * alpha - state.v[k] * beta;
-        scratch.free_y[k] = mid.y[k] * alpha - state.y[k] * beta;
-    }
-    if batch.damping != Lane::ZERO {
-        let mut before = root.mid;
-        for k in 0..batch.count() {
-            let after = scratch.mid.frames[k];
-            scratch.past[k] =
-                half_turn(before, after) * (2.0 * alpha) - scratch.turn_start[k] * beta;
-            before = after;
-        }
-    }
-    let onward = root.turn_end.times(root.turn_mid.conjugate());
-    for k in 0..batch.count() {
-        scratch.end.frames[k] = onward.times(scratch.mid.frames[k]);
-    }
-    let stage = StageSetup {
-        length: Lane::splat(d),
-        damping: batch.damping * (1.0 / d),
-        base: root.end,
-        pull: root.pull,
-    };
-    iterations += solve(batch, scratch, &stage, active, &mut failed, Which::End);
-
-    failed = failed
-        .or(turned_too_far(batch, state, scratch, &root))
-        .and(active);
-    let before = if batch.conserves {
-        state.energy(batch, root.pull)
-    } else {
-        Lane::ZERO
-    };
-    finish(batch, state, scratch, active.and(failed.not()), d);
     stats.strands = active.count();
-    stats.iterations = iterations;
-    stats.fallbacks = failed.count();
-    if failed.any() {
-        fallback::step(batch, state, scratch, drive, &root, failed);
+    for which in [Which::Mid, Which::End] {
+        let setup = run!(instructions, begin(batch, state, scratch, &root, d, which));
+        assemble(instructions, batch, scratch, &setup, which);
+        stats.iterations += solve(
+            instructions,
+            batch,
+            scratch,
+            &setup,
+            active,
+            &mut failed,
+            which,
+        );
     }
-    if batch.conserves {
-        take_gain(batch, state, &root, before, active);
+    let too_far = run!(instructions, turned_too_far(batch, state, scratch, &root));
+    failed = failed.or(too_far).and(active);
+    stats.fallbacks = failed.count();
+    let before = (batch.conserves.any()).then(|| state.energy(batch, root.pull));
+    run!(
+        instructions,
+        finish(batch, state, scratch, active.and(failed.not()), d)
+    );
+    if failed.any() {
+        fallback::step(instructions, batch, state, scratch, drive, &root, failed);
+    }
+    if let Some(before) = before {
+        take_gain(batch, state, &root, before, active.and(batch.conserves));
     }
     let aside = state.aside().and(batch.used);
     if aside.any() {
@@ -162,20 +118,6 @@ pub(crate) fn step(
     state.root_velocity = root.velocity;
     state.base = root.end;
     stats
-}
-
-#[inline(always)]
-fn remember_turns(batch: &Batch, state: &BatchState, scratch: &mut Scratch) {
-    if batch.damping == Lane::ZERO {
-        scratch.turn_start[..batch.count()].fill(Vec3::ZERO);
-        return;
-    }
-    let mut before = state.base;
-    for k in 0..batch.count() {
-        let c = half_turn(before, state.frames[k]);
-        scratch.turn_start[k] = c + c;
-        before = state.frames[k];
-    }
 }
 
 /// Whose shape a stage works on.
@@ -208,56 +150,258 @@ pub(super) struct StageSetup {
     pub pull: Vec3,
 }
 
-/// Mass and forces on every particle for a stage from `free_y`, `free_v`.
+/// The base of a stage, `free_y` and `free_v`, what damping holds to, and the shape to begin with.
 #[inline(always)]
-pub(super) fn assemble(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, which: Which) {
-    let d = stage.length;
-    let d2 = d * d;
-    for k in 0..batch.count() {
-        let mass = batch.particles[k].mass;
-        let target = scratch.free_y[k] + scratch.free_v[k] * d + stage.pull * d2;
-        scratch.nodes[k] = Node {
-            n: Sym3::diagonal(mass),
-            b: target * mass,
+fn begin<T: Number>(
+    batch: &Batch,
+    state: &BatchState,
+    scratch: &mut Scratch,
+    root: &RootMotion,
+    d: f64,
+    which: Which,
+) -> StageSetup {
+    let restart = Mask::new(state.restart);
+    let Scratch {
+        mid,
+        end,
+        free_y,
+        free_v,
+        turn_start,
+        past,
+        ..
+    } = scratch;
+    let damps = batch.damping != Lane::ZERO;
+    if which == Which::Mid {
+        if damps {
+            turns::<T>(&state.base, &state.frames, turn_start);
+            past.copy_from_slice(turn_start);
+        }
+        // The trapezoidal stage; backward Euler over the same time where accelerations are unknown.
+        let known = restart.pick(Lane::ZERO, Lane::splat(d));
+        combine::<T>(free_y, (&state.y, Lane::ONE), (&state.v, known));
+        combine::<T>(free_v, (&state.v, Lane::ONE), (&state.a, known));
+        let length = restart.pick(Lane::splat(2.0 * d), Lane::splat(d));
+        predict::<T>(
+            batch,
+            (free_y, free_v, length),
+            root.turn_mid,
+            &state.frames,
+            mid,
+        );
+        return StageSetup {
+            length,
+            damping: batch.damping * (1.0 / (2.0 * d)),
+            base: root.mid,
+            pull: root.pull,
         };
     }
-    if batch.has_drag {
-        let less = batch.drag_along - Lane::ONE;
+    // The backward difference stage: X = alpha x1 - beta x0.
+    let alpha = 1.0 / (GAMMA * (2.0 - GAMMA));
+    let beta = (1.0 - GAMMA) * (1.0 - GAMMA) * alpha;
+    let (alpha, less) = (Lane::splat(alpha), Lane::splat(-beta));
+    if damps {
+        turns::<T>(&root.mid, &mid.frames[..batch.count()], past);
         for k in 0..batch.count() {
-            let particle = &batch.particles[k];
-            let rate = particle.mass * particle.drag * d;
-            let t = scratch.shape(which).frames[k].tangent();
-            let n = Sym3::diagonal(rate) + Sym3::outer(t, rate * less);
-            let node = &mut scratch.nodes[k];
-            node.n += n;
-            node.b += n.apply(scratch.free_y[k] + scratch.wind[k] * d);
+            past[k] = past[k] * alpha + turn_start[k] * less;
         }
     }
-    if scratch.has_springs {
-        for k in 0..batch.count() {
-            let mass = batch.particles[k].mass;
-            let spring = &scratch.springs[k];
-            let to = if which == Which::Mid {
-                spring.mid
-            } else {
-                spring.end
-            };
-            let node = &mut scratch.nodes[k];
-            node.n += Sym3::diagonal((spring.stiffness * d2 + spring.rate * d) * mass);
-            let carried = scratch.free_y[k] * spring.rate + spring.flow * d;
-            node.b += (to * d2 + carried * d) * mass;
-        }
+    combine::<T>(free_y, (&mid.y, alpha), (&state.y, less));
+    combine::<T>(free_v, (&mid.v, alpha), (&state.v, less));
+    let length = Lane::splat(d);
+    let onward = root.turn_end.times(root.turn_mid.conjugate());
+    predict::<T>(batch, (free_y, free_v, length), onward, &mid.frames, end);
+    StageSetup {
+        length,
+        damping: batch.damping * (1.0 / d),
+        base: root.end,
+        pull: root.pull,
     }
-    if scratch.has_contacts {
-        for contact in &mut scratch.contacts[..batch.count()] {
-            contact.holds = Lane::ZERO;
+}
+
+/// The turn of every joint, 2 tan(angle / 2) times its axis, in the frame of its link.
+#[inline(always)]
+fn turns<T: Number>(base: &Quat, frames: &[Quat], out: &mut [Vec3]) {
+    for k in 0..frames.len() {
+        let before = if k == 0 { base } else { &frames[k - 1] };
+        let half = half_turn::<T>(before.load(), frames[k].load());
+        out[k] = (half + half).store();
+    }
+}
+
+/// The sum of two lists, each times its own number.
+#[inline(always)]
+fn combine<T: Number>(out: &mut [Vec3], one: (&[Vec3], Lane), other: (&[Vec3], Lane)) {
+    for ((out, a), b) in out.iter_mut().zip(one.0).zip(other.0) {
+        let sum = a.load::<T>().scale(one.1.load()) + b.load().scale(other.1.load());
+        *out = sum.store();
+    }
+}
+
+/// Turns every link, carried along by `carry` from `frames`, along the free motion, and sets the particles.
+#[inline(always)]
+fn predict<T: Number>(
+    batch: &Batch,
+    (free_y, free_v, time): (&[Vec3], &[Vec3], Lane),
+    carry: Quat,
+    frames: &[Quat],
+    shape: &mut Stage,
+) {
+    let count = batch.count();
+    let (links, frames) = (&batch.links[..count], &frames[..count]);
+    let (free_y, free_v) = (&free_y[..count], &free_v[..count]);
+    let (ys, next) = (&mut shape.y[..count], &mut shape.frames[..count]);
+    let tangents = &mut shape.tangents[..count];
+    let (mut free, mut y) = (Vec3::zero(), Vec3::zero());
+    // Of the link before, not normalised.
+    let mut turn = Quat::identity();
+    for k in 0..count {
+        let length: T = links[k].length.load();
+        let place = free_y[k].load::<T>() + free_v[k].load().scale(time.load());
+        let frame = carry.load().times(frames[k].load());
+        turn = pointing(frame.tangent(), place - free, length, turn);
+        free = place;
+        let frame = turn.times(frame).normalize();
+        let tangent = frame.tangent();
+        y += tangent.scale(length);
+        ys[k] = y.store();
+        next[k] = frame.store();
+        tangents[k] = tangent.store();
+    }
+}
+
+/// The least rotation (not normalised) that points `tangent` along `chord`; none where they are nearly opposite. A link that has
+/// no direction of its own goes with the one before it.
+#[inline(always)]
+fn pointing<T: Number>(tangent: Vec3<T>, chord: Vec3<T>, length: T, before: Quat<T>) -> Quat<T> {
+    let squared = chord.length_squared();
+    let size = squared.sqrt();
+    let turn = Quat {
+        v: tangent.cross(chord),
+        w: tangent.dot(chord) + size,
+    };
+    let is_ahead = (size * T::splat(0.05)).less(turn.w);
+    let turn = Quat::choose(is_ahead, turn, Quat::identity());
+    let is_clear = (length * length * T::splat(0.01)).less(squared);
+    Quat::choose(is_clear, turn, before)
+}
+
+/// Mass and forces on every particle for a stage from `free_y`, `free_v`.
+pub(super) fn assemble(
+    instructions: Instructions,
+    batch: &Batch,
+    scratch: &mut Scratch,
+    stage: &StageSetup,
+    which: Which,
+) {
+    run!(instructions, load(batch, scratch, stage, which));
+    if !scratch.touched.is_empty() {
+        for &k in &scratch.touched {
+            scratch.contacts[k].holds = Lane::ZERO;
         }
         hold(batch, scratch, stage.length, which, Mask::ALL);
     }
 }
 
-/// Lets the planes hold particles that are behind them, in the strands of `among`. Returns the strands where any is new.
+/// All but the contacts.
 #[inline(always)]
+fn load<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, which: Which) {
+    weigh::<T>(batch, scratch, stage);
+    if batch.has_drag {
+        drag::<T>(batch, scratch, stage.length, which);
+    }
+    if scratch.has_springs {
+        spring::<T>(batch, scratch, stage.length, which);
+    }
+}
+
+#[inline(always)]
+fn weigh<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup) {
+    let count = batch.count();
+    let Scratch {
+        nodes,
+        free_y,
+        free_v,
+        ..
+    } = scratch;
+    let (nodes, particles) = (&mut nodes[..count], &batch.particles[..count]);
+    let (free_y, free_v) = (&free_y[..count], &free_v[..count]);
+    for k in 0..count {
+        let (mass, d) = (particles[k].mass.load::<T>(), stage.length.load::<T>());
+        let fall = stage.pull.load().scale(d * d);
+        let target = free_y[k].load() + free_v[k].load().scale(d) + fall;
+        let node = Node {
+            n: Sym3::diagonal(mass),
+            b: target.scale(mass),
+        };
+        nodes[k] = node.store();
+    }
+}
+
+#[inline(always)]
+fn drag<T: Number>(batch: &Batch, scratch: &mut Scratch, length: Lane, which: Which) {
+    let count = batch.count();
+    let Scratch {
+        nodes,
+        free_y,
+        wind,
+        mid,
+        end,
+        trial,
+        ..
+    } = scratch;
+    let tangents = match which {
+        Which::Mid => &mid.tangents,
+        Which::End => &end.tangents,
+        Which::Trial => &trial.tangents,
+    };
+    let (nodes, particles) = (&mut nodes[..count], &batch.particles[..count]);
+    let (free_y, wind, tangents) = (&free_y[..count], &wind[..count], &tangents[..count]);
+    for k in 0..count {
+        let (particle, d) = (particles[k].load::<T>(), length.load::<T>());
+        let rate = particle.mass * particle.drag * d;
+        let less = batch.drag_along.load::<T>() - T::splat(1.0);
+        let n = Sym3::outer(rate, tangents[k].load(), rate * less);
+        let carried = free_y[k].load() + wind[k].load().scale(d);
+        let node = nodes[k].load();
+        let node = Node {
+            n: node.n + n,
+            b: node.b + n.apply(carried),
+        };
+        nodes[k] = node.store();
+    }
+}
+
+#[inline(always)]
+fn spring<T: Number>(batch: &Batch, scratch: &mut Scratch, length: Lane, which: Which) {
+    let count = batch.count();
+    let Scratch {
+        nodes,
+        free_y,
+        springs,
+        ..
+    } = scratch;
+    let (nodes, particles) = (&mut nodes[..count], &batch.particles[..count]);
+    let (free_y, springs) = (&free_y[..count], &springs[..count]);
+    for k in 0..count {
+        let to = if which == Which::Mid {
+            &springs[k].mid
+        } else {
+            &springs[k].end
+        };
+        let (mass, d) = (particles[k].mass.load::<T>(), length.load::<T>());
+        let spring = springs[k].load();
+        let carried = free_y[k].load().scale(spring.rate) + spring.flow.scale(d);
+        let stiffness = (spring.stiffness * (d * d) + spring.rate * d) * mass;
+        let node = nodes[k].load();
+        let node = Node {
+            n: node.n + Sym3::diagonal(stiffness),
+            b: node.b + (to.load().scale(d * d) + carried.scale(d)).scale(mass),
+        };
+        nodes[k] = node.store();
+    }
+}
+
+/// Lets the planes hold particles that are behind them, in the strands of `among`. Returns the strands where any is new.
 pub(super) fn hold(
     batch: &Batch,
     scratch: &mut Scratch,
@@ -266,8 +410,9 @@ pub(super) fn hold(
     among: Mask,
 ) -> Mask {
     let mut new = Mask::NONE;
-    for k in 0..batch.count() {
-        let contact = scratch.contacts[k];
+    for i in 0..scratch.touched.len() {
+        let k = scratch.touched[i];
+        let contact = &scratch.contacts[k];
         let level = if which == Which::Mid {
             contact.mid
         } else {
@@ -284,10 +429,10 @@ pub(super) fn hold(
     new
 }
 
-/// Newton's method for a stage, starting from frames that were carried along with the skin. Returns the number
+/// Newton's method for a stage, starting from its shape. Returns the number
 /// of iterations, summed over strands; lanes that did not converge are added to `failed`.
-#[inline(always)]
 fn solve(
+    instructions: Instructions,
     batch: &Batch,
     scratch: &mut Scratch,
     setup: &StageSetup,
@@ -295,8 +440,6 @@ fn solve(
     failed: &mut Mask,
     which: Which,
 ) -> usize {
-    predict(batch, scratch, setup, which);
-    assemble(batch, scratch, setup, which);
     let elastic = Elastic {
         h2: setup.length * setup.length,
         damping: setup.damping,
@@ -308,96 +451,82 @@ fn solve(
             break;
         }
         iterations += open.count();
-        let Scratch {
-            nodes,
-            eliminations,
-            turns,
-            past,
-            mid,
-            end,
-            ..
-        } = &mut *scratch;
-        let shape = if which == Which::Mid { mid } else { end };
-        let pose = Pose {
-            base: setup.base,
-            y: &shape.y,
-            frames: &shape.frames,
-        };
-        ascend(&batch.links, pose, nodes, past, &elastic, eliminations);
-        let largest = descend(&batch.links, &shape.frames, eliminations, turns).sqrt();
-        let scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
-        turn_links(batch, shape, turns, scale, open);
+        let largest = run!(
+            instructions,
+            newton(batch, scratch, setup, &elastic, open, which)
+        );
         // Lanes whose numbers are broken stop as well, and fail.
         let small = largest.lt(Lane::splat(SMALL_TURN));
         let broken = largest.is_finite().not();
         *failed = failed.or(broken.and(open));
         let done = small.or(broken);
-        let met = if scratch.has_contacts {
-            hold(batch, scratch, setup.length, which, open.and(broken.not()))
-        } else {
-            Mask::NONE
-        };
+        let met = hold(batch, scratch, setup.length, which, open.and(broken.not()));
         open = open.and(done.not()).or(met);
     }
     *failed = failed.or(open);
-    let rate = setup.length.recip();
-    let Scratch {
-        mid, end, free_y, ..
-    } = scratch;
-    let shape = if which == Which::Mid { mid } else { end };
-    for k in 0..batch.count() {
-        shape.v[k] = (shape.y[k] - free_y[k]) * rate;
-    }
     iterations
 }
 
-/// Turns every link along the free motion and sets the particles.
+/// One step of Newton's method for the lanes in `open`. Returns the largest turn of a link that it asks for.
 #[inline(always)]
-fn predict(batch: &Batch, scratch: &mut Scratch, setup: &StageSetup, which: Which) {
+fn newton<T: Number>(
+    batch: &Batch,
+    scratch: &mut Scratch,
+    setup: &StageSetup,
+    elastic: &Elastic,
+    open: Mask,
+    which: Which,
+) -> Lane {
     let Scratch {
+        nodes,
+        joints: ready,
+        eliminations,
+        turns,
+        past,
         mid,
         end,
         free_y,
-        free_v,
         ..
     } = scratch;
     let shape = if which == Which::Mid { mid } else { end };
-    let mut before = Vec3::ZERO;
-    let mut y = Vec3::ZERO;
-    let mut turn = Quat::IDENTITY;
-    for k in 0..batch.count() {
-        let length = batch.links[k].length;
-        let free = free_y[k] + free_v[k] * setup.length;
-        let chord = free - before;
-        before = free;
-        let squared = chord.length_squared();
-        let frame = shape.frames[k];
-        let clear = squared.gt(length * length * 0.01);
-        let to = chord * squared.sqrt().recip();
-        // A link that has no direction of its own goes with the one before it.
-        let next = Quat::pick(clear, frame.pointed(to), turn.times(frame));
-        turn = next.times(frame.conjugate());
-        shape.frames[k] = next;
-        y += next.tangent() * length;
-        shape.y[k] = y;
+    let pose = shape.pose(&setup.base);
+    joints::<T>(&batch.links, pose, past, elastic, ready);
+    ascend::<T>(&batch.links, pose, nodes, ready, eliminations);
+    let largest = descend::<T>(&batch.links, &shape.tangents, eliminations, turns);
+    let scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
+    turn_links::<T>(batch, shape, turns, scale, open);
+    let rate = setup.length.recip();
+    let count = batch.count();
+    let (v, y, free_y) = (&mut shape.v[..count], &shape.y[..count], &free_y[..count]);
+    for k in 0..count {
+        v[k] = (y[k] - free_y[k]) * rate;
     }
+    largest
 }
 
 /// Turns the links of the lanes in `which` by `scale` times `turns`, and moves the particles along.
 #[inline(always)]
-pub(super) fn turn_links(
+pub(super) fn turn_links<T: Number>(
     batch: &Batch,
     shape: &mut Stage,
     turns: &[Vec3],
     scale: Lane,
     which: Mask,
 ) {
-    let mut y = Vec3::ZERO;
-    for k in 0..batch.count() {
-        let frame = shape.frames[k];
-        let frame = Quat::pick(which, frame.turned(turns[k] * scale), frame);
-        shape.frames[k] = frame;
-        y += frame.tangent() * batch.links[k].length;
-        shape.y[k] = y;
+    let count = batch.count();
+    let (links, turns) = (&batch.links[..count], &turns[..count]);
+    let (ys, frames) = (&mut shape.y[..count], &mut shape.frames[..count]);
+    let tangents = &mut shape.tangents[..count];
+    let (scale, which) = (scale.load(), T::condition(&which));
+    let mut y = Vec3::zero();
+    for k in 0..count {
+        let frame = frames[k].load::<T>();
+        let turned = frame.turned(turns[k].load().scale(scale));
+        let frame = Quat::choose(which, turned, frame);
+        let tangent = frame.tangent();
+        y += tangent.scale(links[k].length.load());
+        ys[k] = y.store();
+        frames[k] = frame.store();
+        tangents[k] = tangent.store();
     }
 }

@@ -1,6 +1,9 @@
 //! Which strands are neighbours: see [`crate::forces::mutual`].
 
+use std::{cmp::Ordering, collections::HashMap};
+
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::{
     forces::mutual::{Mutual, Pair},
@@ -18,13 +21,13 @@ struct Strand {
     particles: Vec<DVec3>,
 }
 
-/// The pairs of every batch, and the index of every batch's first particle in the list of all.
+/// The pairs of every batch. Particles are numbered batch by batch, particle by particle, lane by lane.
 pub(super) fn pairs(
     batches: &[Batch],
     states: &[BatchState],
     ids: &[u32],
     mutual: &Mutual,
-) -> (Vec<Vec<Pair>>, Vec<usize>) {
+) -> Vec<Vec<Pair>> {
     let mut first = Vec::with_capacity(batches.len());
     let mut total = 0;
     let mut strands = Vec::new();
@@ -32,8 +35,9 @@ pub(super) fn pairs(
         first.push(total);
         total += batch.count() * LANES;
         for lane in 0..LANES {
-            let Some(index) = batch.strands[lane].filter(|_| state.set_aside[lane].is_none())
-            else {
+            // A root alone has nothing to act with, and would take the place of a neighbour that has.
+            let acts = state.set_aside[lane].is_none() && batch.counts[lane] > 0;
+            let Some(index) = batch.strands[lane].filter(|_| acts) else {
                 continue;
             };
             let root = state.root.get(lane);
@@ -54,8 +58,12 @@ pub(super) fn pairs(
         .iter()
         .map(|b| vec![None; b.count() * mutual.neighbours])
         .collect();
-    for strand in &strands {
-        for (n, other) in nearest(strand, &strands, mutual.neighbours).enumerate() {
+    let cells = Cells::new(&strands);
+    let nearest: Vec<Vec<usize>> = (strands.par_iter())
+        .map(|strand| cells.nearest(strand, &strands, mutual.neighbours))
+        .collect();
+    for (strand, nearest) in strands.iter().zip(nearest) {
+        for (n, other) in nearest.into_iter().map(|i| &strands[i]).enumerate() {
             let count = batches[strand.batch].count();
             for k in (1..strand.particles.len()).step_by(2) {
                 let Some(partner) = closest(strand.particles[k], &other.particles) else {
@@ -85,32 +93,130 @@ pub(super) fn pairs(
             }
         }
     }
-    (pairs, first)
+    pairs
 }
 
-/// The strands with the nearest roots; of the same distance, the lower id first.
-fn nearest<'a>(
-    strand: &Strand,
-    all: &'a [Strand],
-    count: usize,
-) -> impl Iterator<Item = &'a Strand> {
-    let mut others: Vec<(f64, u32, usize)> = all
-        .iter()
-        .enumerate()
-        .filter(|(_, o)| (o.batch, o.lane) != (strand.batch, strand.lane))
-        .map(|(i, o)| ((o.root - strand.root).length_squared(), o.id, i))
-        .collect();
-    let count = count.min(others.len());
-    if count > 0 {
-        others.select_nth_unstable_by(count - 1, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        others[..count].sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+/// The strands by the cubes of space that their roots are in.
+struct Cells {
+    low: DVec3,
+    /// The edge of a cube in m.
+    size: f64,
+    strands: HashMap<[i64; 3], Vec<usize>>,
+}
+
+impl Cells {
+    /// With a few strands in each cube that has any, where roots lie on a surface.
+    fn new(strands: &[Strand]) -> Self {
+        let mut low = DVec3::INFINITY;
+        let mut high = DVec3::NEG_INFINITY;
+        for strand in strands {
+            low = low.min(strand.root);
+            high = high.max(strand.root);
+        }
+        let extent = (high - low).length();
+        let size = (extent / (strands.len() as f64).sqrt()).max(1e-9);
+        let mut cells = Self {
+            low,
+            size,
+            strands: HashMap::new(),
+        };
+        for (i, strand) in strands.iter().enumerate() {
+            let cell = cells.cell(strand.root);
+            cells.strands.entry(cell).or_default().push(i);
+        }
+        cells
     }
-    others.truncate(count);
-    others.into_iter().map(|o| &all[o.2])
+
+    fn cell(&self, at: DVec3) -> [i64; 3] {
+        ((at - self.low) / self.size)
+            .floor()
+            .to_array()
+            .map(|v| v as i64)
+    }
+
+    /// The strands with the nearest roots, nearest first; of the same distance, the lower id first.
+    fn nearest(&self, strand: &Strand, all: &[Strand], count: usize) -> Vec<usize> {
+        let count = count.min(all.len() - 1);
+        let order = |a: &usize, b: &usize| {
+            let distance = |i: usize| (all[i].root - strand.root).length_squared();
+            (distance(*a).total_cmp(&distance(*b))).then(all[*a].id.cmp(&all[*b].id))
+        };
+        let is_other = |i: &usize| (all[*i].batch, all[*i].lane) != (strand.batch, strand.lane);
+        let [x, y, z] = self.cell(strand.root);
+        // Cubes around that of the root, until none farther away can hold a nearer one; where they are almost all empty,
+        // all strands.
+        for ring in 1..=4 {
+            let mut found = Vec::new();
+            for i in x - ring..=x + ring {
+                for j in y - ring..=y + ring {
+                    for k in z - ring..=z + ring {
+                        let here = self.strands.get(&[i, j, k]);
+                        found.extend(here.into_iter().flatten().copied().filter(is_other));
+                    }
+                }
+            }
+            let certain = self.size * ring as f64;
+            let is_certain = |i: &&usize| (all[**i].root - strand.root).length() <= certain;
+            if found.iter().filter(is_certain).count() >= count {
+                return first(found, count, order);
+            }
+        }
+        first((0..all.len()).filter(is_other).collect(), count, order)
+    }
+}
+
+/// The first `count` in an order.
+fn first(
+    mut all: Vec<usize>,
+    count: usize,
+    order: impl Fn(&usize, &usize) -> Ordering,
+) -> Vec<usize> {
+    if 0 < count && count < all.len() {
+        all.select_nth_unstable_by(count - 1, &order);
+    }
+    all.truncate(count);
+    all.sort_by(order);
+    all
 }
 
 fn closest(to: DVec3, particles: &[DVec3]) -> Option<usize> {
     let distance = |p: &DVec3| (*p - to).length_squared();
     (0..particles.len())
         .min_by(|&a, &b| distance(&particles[a]).total_cmp(&distance(&particles[b])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn strand(i: usize, root: DVec3) -> Strand {
+        Strand {
+            id: i as u32,
+            batch: i,
+            lane: 0,
+            root,
+            particles: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn cells_find_what_a_look_at_all_finds() {
+        let spread = |i: usize, k: usize| ((i * 7919 + k * 104_729) % 1009) as f64 / 1009.0;
+        let place = |i: usize| DVec3::new(spread(i, 1), spread(i, 2), 0.1 * spread(i, 3));
+        // Many side by side, two in one place, and one far away.
+        let mut strands: Vec<Strand> = (0..300).map(|i| strand(i, place(i))).collect();
+        strands.push(strand(300, place(17)));
+        strands.push(strand(301, DVec3::splat(90.0)));
+        let cells = Cells::new(&strands);
+        for strand in &strands {
+            let mut all: Vec<usize> = (0..strands.len()).filter(|&i| i != strand.batch).collect();
+            all.sort_by(|&a, &b| {
+                let distance = |i: usize| (strands[i].root - strand.root).length_squared();
+                distance(a).total_cmp(&distance(b)).then(a.cmp(&b))
+            });
+            assert_eq!(cells.nearest(strand, &strands, 16), all[..16]);
+        }
+        let one = &strands[..1];
+        assert!(Cells::new(one).nearest(&one[0], one, 4).is_empty());
+    }
 }

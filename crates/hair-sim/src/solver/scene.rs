@@ -30,6 +30,19 @@ impl Pose {
         self.rotation.conjugate() * (at - self.translation)
     }
 
+    /// The pose at `share` of the way to another, 0 to 1: along the chord, which needs no sine.
+    pub(crate) fn towards(self, to: Self, share: f64) -> Self {
+        let short = if self.rotation.dot(to.rotation) < 0.0 {
+            -to.rotation
+        } else {
+            to.rotation
+        };
+        Self {
+            rotation: (self.rotation * (1.0 - share) + short * share).normalize(),
+            translation: self.translation.lerp(to.translation, share),
+        }
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
         self.rotation.is_finite() && self.translation.is_finite()
     }
@@ -42,6 +55,16 @@ pub enum Roots<'a> {
     Head(Pose),
     /// One pose per strand.
     Each(&'a [Pose]),
+}
+
+impl Roots<'_> {
+    /// The pose of a strand's root, by the strand's index.
+    pub(crate) fn of(&self, strand: usize) -> Pose {
+        match self {
+            Self::Head(pose) => *pose,
+            Self::Each(poses) => poses[strand],
+        }
+    }
 }
 
 /// What acts on the strands in a step.
@@ -73,6 +96,45 @@ impl Default for Scene<'_> {
 }
 
 impl Scene<'_> {
+    /// Whether a step of `dt` seconds of so many strands, with so many points in all, can be made in it.
+    pub(crate) fn check(
+        &self,
+        dt: f64,
+        strands: usize,
+        points: usize,
+    ) -> Result<(), DynamicsError> {
+        if !(dt > 0.0 && dt <= 10.0) {
+            return Err(DynamicsError::Step(dt));
+        }
+        if !self.gravity.is_finite() {
+            return Err(DynamicsError::Scene("gravity"));
+        }
+        if !self.wind.is_finite() {
+            return Err(DynamicsError::Scene("wind"));
+        }
+        if !self.colliders.iter().all(Collider::is_finite) {
+            return Err(DynamicsError::Scene("collider"));
+        }
+        if let Some(found) = self.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
+            return Err(DynamicsError::Goal {
+                found,
+                expected: points,
+            });
+        }
+        match self.roots {
+            Roots::Head(pose)
+                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
+            {
+                Err(DynamicsError::Scene("head"))
+            }
+            Roots::Each(poses) if poses.len() != strands => Err(DynamicsError::Poses {
+                found: poses.len(),
+                expected: strands,
+            }),
+            _ => Ok(()),
+        }
+    }
+
     /// Whether nothing in it moves but, perhaps, the roots.
     pub(super) fn is_calm(&self) -> bool {
         let still = |c: &Collider| c.before == c.now;
@@ -125,7 +187,7 @@ pub struct Stats {
 }
 
 impl Stats {
-    pub(super) fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         Self {
             strands: self.strands + other.strands,
             iterations: self.iterations + other.iterations,

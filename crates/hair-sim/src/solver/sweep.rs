@@ -17,199 +17,279 @@
 //!
 //! Adding a link and eliminating its turn gives the next such quadratic: this is the articulated-body recursion
 //! (Featherstone 1983) in coordinates of rotation, with the joints' springs inside, as an implicit step needs them.
+//!
+//! What the joints add doesn't wait for the recursion, so it is made ready before ([`joints`]): that loop has nothing to
+//! wait for, and the other less to do.
 
-use crate::lanes::{Lane, Mat3, Quat, Sym3, Vec3};
+use crate::lanes::{Lane, Mat3, Number, Quat, Sym3, Vec3, stored};
 
 use super::batch::Link;
 
 /// The quadratic model of what acts on one particle: its gradient at y is N y - b.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Node {
-    pub n: Sym3,
-    pub b: Vec3,
+pub(crate) struct Node<T = Lane> {
+    pub n: Sym3<T>,
+    pub b: Vec3<T>,
 }
+stored!(Node { n, b });
 
-impl Node {
-    pub(crate) const ZERO: Self = Self {
-        n: Sym3::ZERO,
-        b: Vec3::ZERO,
-    };
-
-    #[inline(always)]
-    pub(crate) fn gradient(&self, y: Vec3) -> Vec3 {
-        self.n.apply(y) - self.b
+impl<T: Number> Node<T> {
+    pub(crate) fn zero() -> Self {
+        Self {
+            n: Sym3::diagonal(T::splat(0.0)),
+            b: Vec3::zero(),
+        }
     }
 }
 
-/// What the way back needs of a joint: turn = q p - s - t x.
+/// Moment on a joint and its stiffness, in world axes, both times h^2.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Elimination {
-    shift: Mat3,
-    before: Mat3,
-    alone: Vec3,
+pub(crate) struct Joint<T = Lane> {
+    moment: Vec3<T>,
+    stiffness: Sym3<T>,
+}
+stored!(Joint { moment, stiffness });
+
+impl<T: Number> Joint<T> {
+    pub(crate) fn zero() -> Self {
+        Self {
+            moment: Vec3::zero(),
+            stiffness: Sym3::diagonal(T::splat(0.0)),
+        }
+    }
 }
 
-impl Elimination {
-    pub(crate) const ZERO: Self = Self {
-        shift: Mat3::ZERO,
-        before: Mat3::ZERO,
-        alone: Vec3::ZERO,
-    };
+/// What the way back needs of a joint: turn = before p - alone - shift x.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Elimination<T = Lane> {
+    shift: Mat3<T>,
+    before: Mat3<T>,
+    alone: Vec3<T>,
+}
+stored!(Elimination {
+    shift,
+    before,
+    alone
+});
+
+impl<T: Number> Elimination<T> {
+    pub(crate) fn zero() -> Self {
+        Self {
+            shift: Mat3::zero(),
+            before: Mat3::zero(),
+            alone: Vec3::zero(),
+        }
+    }
 }
 
 /// How joints resist in a stage.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Elastic {
+pub(crate) struct Elastic<T = Lane> {
     /// The square of the stage's length in s.
-    pub h2: Lane,
+    pub h2: T,
     /// Time of damping over the time from `past` to the stage's end.
-    pub damping: Lane,
+    pub damping: T,
+}
+stored!(Elastic { h2, damping });
+
+/// A strand's shape: particles from the root, frames of links and their tangents, and the frame of the skin.
+#[derive(Clone, Copy)]
+pub(crate) struct Pose<'a> {
+    pub base: &'a Quat,
+    pub y: &'a [Vec3],
+    pub frames: &'a [Quat],
+    pub tangents: &'a [Vec3],
 }
 
 /// The turn c = tan(angle / 2) times the axis, from frame to frame, in either frame.
 #[inline(always)]
-pub(crate) fn half_turn(before: Quat, after: Quat) -> Vec3 {
+pub(crate) fn half_turn<T: Number>(before: Quat<T>, after: Quat<T>) -> Vec3<T> {
     let q = before.conjugate().times(after);
-    q.v * q.w.recip()
+    q.v.scale(T::splat(1.0) / q.w)
 }
 
-/// Moment on the joint and its stiffness in world axes, both times h^2.
+/// Makes the joints ready. `past[k]` is the turn that damping holds to.
 #[inline(always)]
-fn joint(link: &Link, c: Vec3, past: Vec3, after: Quat, elastic: &Elastic) -> (Vec3, Sym3) {
-    let u = c + c;
-    let e = u - link.natural + (u - past) * elastic.damping;
-    let (bend, twist) = (link.bend * elastic.h2, link.twist * elastic.h2);
-    let e = Vec3::new(e.x * bend, e.y * bend, e.z * twist);
-    // du = G df with G = 1 + [c] + c c^T; the moment is G^T B e.
-    let moment = e - c.cross(e) + c * c.dot(e);
-    // G^T B G = bend (1 + c c) (1 + c c^T) + (twist - bend) g g^T, g the last row of G.
-    let g = Vec3::new(c.x * c.z - c.y, c.y * c.z + c.x, Lane::ONE + c.z * c.z);
-    let stretch = elastic.damping + Lane::ONE;
-    let round = bend * (c.length_squared() + 1.0) * stretch;
-    let [ax, ay, az] = after.axes();
-    let axes = Mat3(ax, ay, az);
-    let stiffness = Sym3::diagonal(round)
-        + Sym3::outer(axes.combine(c), round)
-        + Sym3::outer(axes.combine(g), (twist - bend) * stretch);
-    (axes.combine(moment), stiffness)
-}
-
-/// From tip to root: fills `out` with what [`descend`] needs. `y[k]`, `frames[k]` and `nodes[k]` are of link k
-/// and the particle at its end; `past[k]` is the turn that damping holds to.
-#[inline(always)]
-pub(crate) fn ascend(
+pub(crate) fn joints<T: Number>(
     links: &[Link],
     pose: Pose,
-    nodes: &[Node],
     past: &[Vec3],
     elastic: &Elastic,
-    out: &mut [Elimination],
+    out: &mut [Joint],
 ) {
     let count = links.len();
-    let (y, frames) = (&pose.y[..count], &pose.frames[..count]);
-    let (nodes, past, out) = (&nodes[..count], &past[..count], &mut out[..count]);
-    let mut a = Sym3::ZERO;
-    let mut c_columns = [Vec3::ZERO; 3];
-    let mut d = Sym3::ZERO;
-    let mut a_linear = Vec3::ZERO;
-    let mut d_linear = Vec3::ZERO;
-    let mut force = Vec3::ZERO;
-    for k in (0..count).rev() {
-        let link = &links[k];
-        // The particle at the link's end.
-        let gradient = nodes[k].gradient(y[k]);
-        a += nodes[k].n;
-        a_linear += gradient;
-        force += gradient;
-
-        // Its place is that of the joint plus f x r.
-        let after = frames[k];
-        let t = after.tangent();
-        let r = t * link.length;
-        let arows = a.rows();
-        // Columns of W = C - A [r], which couples the joint's shift to the link's turn.
-        let ar = arows.times_cross(r).columns();
-        let w = [
-            c_columns[0] - ar[0],
-            c_columns[1] - ar[1],
-            c_columns[2] - ar[2],
-        ];
-        let rw = [r.cross(w[0]), r.cross(w[1]), r.cross(w[2])];
-        let rc = [
-            r.cross(c_columns[0]),
-            r.cross(c_columns[1]),
-            r.cross(c_columns[2]),
-        ];
-        // Tension stiffens the link against turning; compression is left out, which keeps the step downhill.
-        let tension = (-force.dot(r)).max(Lane::ZERO);
-        let own = Sym3 {
-            xx: d.xx + rw[0].x + rc[0].x,
-            yy: d.yy + rw[1].y + rc[1].y,
-            zz: d.zz + rw[2].z + rc[2].z,
-            xy: d.xy + rw[1].x + rc[0].y,
-            xz: d.xz + rw[2].x + rc[0].z,
-            yz: d.yz + rw[2].y + rc[1].z,
-        } + Sym3::diagonal(tension)
-            - Sym3::outer(t, tension);
-        let own_linear = d_linear + r.cross(a_linear);
-
-        // The joint's spring, between the link before and this one.
-        let before = if k == 0 { pose.base } else { frames[k - 1] };
-        let half = half_turn(before, after);
-        let (moment, stiffness) = joint(link, half, past[k], after, elastic);
-        let inverse = (own + stiffness).inverse().rows();
-        let w_rows = Mat3(w[0], w[1], w[2]); // W^T
-        let shift = inverse.times(w_rows);
-        let before = inverse.times(stiffness.rows());
-        let alone = inverse.apply(own_linear + moment);
-        out[k] = Elimination {
-            shift,
-            before,
-            alone,
-        };
-
-        let w_matrix = w_rows.transpose();
-        a = a - Sym3::upper_of_product(w_matrix, shift);
-        c_columns = w_matrix.times(before).columns();
-        d = Sym3::upper_of_product(own.rows(), before);
-        a_linear = a_linear - w_matrix.apply(alone);
-        d_linear = stiffness.apply(alone) - moment;
+    let (frames, tangents) = (&pose.frames[..count], &pose.tangents[..count]);
+    let (past, out) = (&past[..count], &mut out[..count]);
+    for k in 0..count {
+        let before = if k == 0 { pose.base } else { &frames[k - 1] };
+        let joint: Joint<T> = joint(
+            &links[k].load(),
+            past[k].load(),
+            before.load(),
+            frames[k].load(),
+            tangents[k].load(),
+            &elastic.load(),
+        );
+        out[k] = joint.store();
     }
 }
 
-/// A strand's shape: particles from the root, frames of links, and the frame of the skin.
-#[derive(Clone, Copy)]
-pub(crate) struct Pose<'a> {
-    pub base: Quat,
-    pub y: &'a [Vec3],
-    pub frames: &'a [Quat],
+/// Of the turn from `before` to `after`, whose third axis is `t`.
+#[inline(always)]
+fn joint<T: Number>(
+    link: &Link<T>,
+    past: Vec3<T>,
+    before: Quat<T>,
+    after: Quat<T>,
+    t: Vec3<T>,
+    elastic: &Elastic<T>,
+) -> Joint<T> {
+    let one = T::splat(1.0);
+    let stretch = elastic.damping + one;
+    let turn = after.times(before.conjugate());
+    let c = turn.v.scale(one / turn.w);
+    // u - natural + (u - past) damping, with u = 2 c.
+    let rest = after.rotate(link.natural + past.scale(elastic.damping));
+    let e = c.scale(stretch + stretch) - rest;
+    let bend = link.bend * elastic.h2;
+    let more = link.twist * elastic.h2 - bend;
+    let e = e.scale(bend) + t.scale(more * e.dot(t));
+    // du = G df with G = 1 + [c] + c c^T; the moment is G^T B e.
+    let moment = e - c.cross(e) + c.scale(c.dot(e));
+    // G^T B G = bend (1 + c c) (1 + c c^T) + (twist - bend) g g^T with g = G^T t.
+    let g = c.scale(c.dot(t)) + t + t.cross(c);
+    let round = bend * (c.length_squared() + one) * stretch;
+    let stiffness = Sym3::outer(round, c, round) + Sym3::outer(T::splat(0.0), g, more * stretch);
+    Joint { moment, stiffness }
 }
 
-/// From root to tip: the turn of every link, in world axes, into `turns`. Returns the square of the largest.
+/// The quadratic of what lies beyond a joint (see the module), and the sum of forces there.
+struct Beyond<T = Lane> {
+    a: Sym3<T>,
+    c_columns: Mat3<T>,
+    d: Sym3<T>,
+    a_linear: Vec3<T>,
+    d_linear: Vec3<T>,
+    force: Vec3<T>,
+}
+
+/// From tip to root: fills `out` with what [`descend`] needs. `pose.y[k]`, `pose.tangents[k]` and `nodes[k]` are of link k
+/// and the particle at its end, `joints[k]` is at its start.
 #[inline(always)]
-pub(crate) fn descend(
+pub(crate) fn ascend<T: Number>(
     links: &[Link],
-    frames: &[Quat],
+    pose: Pose,
+    nodes: &[Node],
+    joints: &[Joint],
+    out: &mut [Elimination],
+) {
+    let count = links.len();
+    let (y, tangents) = (&pose.y[..count], &pose.tangents[..count]);
+    let (nodes, joints) = (&nodes[..count], &joints[..count]);
+    let out = &mut out[..count];
+    let mut beyond = Beyond {
+        a: Sym3::<T>::diagonal(T::splat(0.0)),
+        c_columns: Mat3::zero(),
+        d: Sym3::diagonal(T::splat(0.0)),
+        a_linear: Vec3::zero(),
+        d_linear: Vec3::zero(),
+        force: Vec3::zero(),
+    };
+    for k in (0..count).rev() {
+        let t: Vec3<T> = tangents[k].load();
+        let r = t.scale(links[k].length.load());
+        let elimination;
+        let (node, joint) = (nodes[k].load(), joints[k].load());
+        (beyond, elimination) = eliminate(beyond, y[k].load(), t, r, node, joint);
+        out[k] = elimination.store();
+    }
+}
+
+/// Adds a link along `r` with a particle at its end `y`, and eliminates its turn.
+#[inline(always)]
+fn eliminate<T: Number>(
+    beyond: Beyond<T>,
+    y: Vec3<T>,
+    t: Vec3<T>,
+    r: Vec3<T>,
+    node: Node<T>,
+    joint: Joint<T>,
+) -> (Beyond<T>, Elimination<T>) {
+    // The particle at the link's end.
+    let gradient = node.n.apply(y) - node.b;
+    let a = beyond.a + node.n;
+    let a_linear = beyond.a_linear + gradient;
+    let force = beyond.force + gradient;
+
+    // Its place is that of the joint plus f x r. Columns of W = C - A [r], which couples the joint's shift to the
+    // link's turn:
+    let c = beyond.c_columns;
+    let w = c - a.rows().times_cross(r).transpose();
+    let rw = Mat3(r.cross(w.0), r.cross(w.1), r.cross(w.2));
+    let rc = Mat3(r.cross(c.0), r.cross(c.1), r.cross(c.2));
+    // Tension stiffens the link against turning; compression is left out, which keeps the step downhill.
+    let (zero, tension) = (T::splat(0.0), -force.dot(r));
+    let tension = T::choose(tension.less(zero), zero, tension);
+    let d = beyond.d;
+    let own = Sym3 {
+        xx: d.xx + rc.0.x + rw.0.x,
+        yy: d.yy + rc.1.y + rw.1.y,
+        zz: d.zz + rc.2.z + rw.2.z,
+        xy: d.xy + rc.0.y + rw.1.x,
+        xz: d.xz + rc.0.z + rw.2.x,
+        yz: d.yz + rc.1.z + rw.2.y,
+    } + Sym3::outer(tension, t, -tension);
+    let own_linear = beyond.d_linear + r.cross(a_linear);
+
+    // The joint's spring, between the link before and this one.
+    let Joint { moment, stiffness } = joint;
+    let inverse = (own + stiffness).inverse().rows();
+    let shift = inverse.times(w); // of W^T, whose rows are W's columns
+    let before = inverse.times(stiffness.rows());
+    let alone = inverse.apply(own_linear + moment);
+
+    let w = w.transpose();
+    let beyond = Beyond {
+        a: a - Sym3::upper_of_product(w, shift),
+        c_columns: w.times(before).transpose(),
+        d: Sym3::upper_of_product(own.rows(), before),
+        a_linear: a_linear - w.apply(alone),
+        // stiffness alone - moment, without the difference of large numbers.
+        d_linear: own_linear - own.apply(alone),
+        force,
+    };
+    let elimination = Elimination {
+        shift,
+        before,
+        alone,
+    };
+    (beyond, elimination)
+}
+
+/// From root to tip: the turn of every link, in world axes, into `turns`. Returns the largest.
+#[inline(always)]
+pub(crate) fn descend<T: Number>(
+    links: &[Link],
+    tangents: &[Vec3],
     eliminations: &[Elimination],
     turns: &mut [Vec3],
 ) -> Lane {
     let count = links.len();
-    let (frames, eliminations, turns) = (
-        &frames[..count],
-        &eliminations[..count],
-        &mut turns[..count],
-    );
-    let mut shift = Vec3::ZERO;
-    let mut turn = Vec3::ZERO;
-    let mut largest = Lane::ZERO;
+    let (tangents, eliminations) = (&tangents[..count], &eliminations[..count]);
+    let turns = &mut turns[..count];
+    let mut shift = Vec3::<T>::zero();
+    let mut turn = Vec3::<T>::zero();
+    let mut largest = T::splat(0.0);
     for k in 0..count {
-        let e = &eliminations[k];
+        let e: Elimination<T> = eliminations[k].load();
         turn = e.before.apply(turn) - e.alone - e.shift.apply(shift);
-        turns[k] = turn;
-        largest = largest.max(turn.length_squared() * links[k].counts);
-        shift += turn.cross(frames[k].tangent() * links[k].length);
+        turns[k] = turn.store();
+        shift += turn.cross(tangents[k].load().scale(links[k].length.load()));
+        let squared = turn.length_squared() * links[k].counts.load();
+        // What is no number stays: every turn after it is none.
+        largest = T::choose(squared.less(largest), largest, squared);
     }
-    largest
+    largest.sqrt().store()
 }
 
 /// The energy that a stage minimises, for a pose: it goes down in every step that is accepted.
@@ -221,7 +301,7 @@ pub(crate) fn potential(
     elastic: &Elastic,
 ) -> Lane {
     let mut sum = Lane::ZERO;
-    let mut before = pose.base;
+    let mut before = *pose.base;
     for (k, link) in links.iter().enumerate() {
         let y = pose.y[k];
         sum += (nodes[k].n.apply(y) * 0.5 - nodes[k].b).dot(y);
@@ -234,3 +314,6 @@ pub(crate) fn potential(
     }
     sum
 }
+
+#[cfg(test)]
+mod properties;

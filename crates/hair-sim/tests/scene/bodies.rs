@@ -1,7 +1,7 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Collider, Params, Pose, Scene, Shape, SignedDistance, Solver, State};
+use hair_sim::{Collider, Params, Pose, Shape, SignedDistance, Solver, State};
 
-use crate::{farthest, params, run, shape, straight};
+use crate::{after, among, farthest, params, run, shape, straight};
 
 const BALL: Shape = Shape::Sphere {
     center: DVec3::ZERO,
@@ -32,10 +32,7 @@ fn hair_lies_on_a_ball() {
         let rest = straight(Vec3::new(0.0, 0.102, 0.0), Vec3::new(1.0, 0.0, 0.0));
         let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
         let colliders = [collider];
-        let scene = Scene {
-            colliders: &colliders,
-            ..Scene::default()
-        };
+        let scene = among(&colliders);
         let (mut contacts, mut deepest) = (0, 0.0_f64);
         for _ in 0..240 {
             contacts += solver
@@ -60,16 +57,10 @@ fn hair_lies_on_a_ball() {
 fn a_mesh_is_as_the_ball_that_it_shows() {
     let (points, triangles) = mesh();
     let grid = SignedDistance::new(&points, &triangles, 0.004).unwrap();
-    let [ball, mesh] = [BALL, Shape::Grid(&grid)].map(|shape_| {
+    let [ball, mesh] = [BALL, Shape::Grid(&grid)].map(|shape| {
         let rest = straight(Vec3::new(0.0, 0.102, 0.0), Vec3::X);
-        let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
-        let colliders = [Collider::fixed(shape_, Pose::IDENTITY)];
-        let scene = Scene {
-            colliders: &colliders,
-            ..Scene::default()
-        };
-        run(&mut solver, &mut state, &scene, 1.0 / 24.0, 240);
-        shape(&solver, &state)
+        let colliders = [Collider::fixed(shape, Pose::IDENTITY)];
+        after(&rest, &params(200.0), &among(&colliders), 1.0 / 24.0, 240)
     });
     let error = farthest(&ball, &mesh);
     assert!(error < 3e-3, "{error}");
@@ -110,10 +101,7 @@ fn a_fast_ball_does_not_pass_through() {
             before: place(i),
             now: place(i + 1),
         }];
-        let scene = Scene {
-            colliders: &colliders,
-            ..Scene::default()
-        };
+        let scene = among(&colliders);
         solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
         // All that the ball swept is in front of it, or was pushed over it.
         let center = place(i + 1).translation;
@@ -141,10 +129,7 @@ fn friction_holds_what_slides_without_it() {
         let rest = straight(Vec3::new(0.0, 0.003, 0.0), Vec3::Z);
         let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
         let colliders = [Collider::fixed(large, Pose::IDENTITY)];
-        let mut scene = Scene {
-            colliders: &colliders,
-            ..Scene::default()
-        };
+        let mut scene = among(&colliders);
         run(&mut solver, &mut state, &scene, 1.0 / 60.0, 60);
         let before = shape(&solver, &state);
         scene.gravity.x = 2.0;
@@ -168,10 +153,7 @@ fn a_style_that_starts_inside_a_body_stays_where_it_is() {
     let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
     let before = shape(&solver, &state);
     let colliders = [Collider::fixed(BALL, Pose::IDENTITY)];
-    let scene = Scene {
-        colliders: &colliders,
-        ..Scene::default()
-    };
+    let scene = among(&colliders);
     run(&mut solver, &mut state, &scene, 1.0 / 24.0, 240);
     let moved = farthest(&before, &shape(&solver, &state));
     assert!(moved < 1e-9, "{moved}");

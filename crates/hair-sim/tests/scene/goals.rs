@@ -1,7 +1,7 @@
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{Params, Pose, Profile, Roots, Scene, Solver};
 
-use crate::{farthest, params, run, shape, straight};
+use crate::{after, farthest, params, shape, straight};
 
 fn bent(amount: f32) -> Vec<Vec3> {
     // Links of the same length, turning evenly.
@@ -72,9 +72,8 @@ fn where_goals_hold_the_strand_does_not_hang_on_the_step() {
         ..Scene::default()
     };
     let [coarse, fine] = [1.0 / 24.0, 1.0 / 240.0].map(|dt: f64| {
-        let (mut solver, mut state) = Solver::new(&straight(Vec3::ZERO, Vec3::X), &p).unwrap();
-        run(&mut solver, &mut state, &scene, dt, (40.0 / dt) as usize);
-        shape(&solver, &state)
+        let steps = (40.0 / dt) as usize;
+        after(&straight(Vec3::ZERO, Vec3::X), &p, &scene, dt, steps)
     });
     let error = farthest(&coarse, &fine);
     assert!(error < 1e-6, "{error}");

@@ -10,7 +10,7 @@ mod sleep;
 mod wind;
 
 use glam::{DVec3, Vec3};
-use hair_sim::{Material, Natural, Params, Scene, Solver, State, Strands};
+use hair_sim::{Collider, Material, Natural, Params, Scene, Solver, State, Strands, Wind};
 
 /// Metres.
 const LENGTH: f64 = 0.2;
@@ -41,6 +41,29 @@ fn run(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64, steps: us
     for _ in 0..steps {
         let stats = solver.step(state, scene, dt).unwrap();
         assert_eq!(stats.set_aside, 0);
+    }
+}
+
+/// The shape of the first of `strands` after `steps` in a scene.
+fn after(strands: &Strands, params: &Params, scene: &Scene, dt: f64, steps: usize) -> Vec<DVec3> {
+    let (mut solver, mut state) = Solver::new(strands, params).unwrap();
+    run(&mut solver, &mut state, scene, dt, steps);
+    shape(&solver, &state)
+}
+
+/// These bodies, and nothing else that is out of the ordinary.
+fn among<'a>(colliders: &'a [Collider<'a>]) -> Scene<'a> {
+    Scene {
+        colliders,
+        ..Scene::default()
+    }
+}
+
+/// This wind, and nothing else that is out of the ordinary.
+fn in_wind(wind: Wind) -> Scene<'static> {
+    Scene {
+        wind,
+        ..Scene::default()
     }
 }
 

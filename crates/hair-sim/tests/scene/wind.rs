@@ -1,7 +1,7 @@
 use glam::{DVec3, Vec3};
 use hair_sim::{GRAVITY, Params, Scene, Solver, Wind};
 
-use crate::{farthest, params, run, shape, straight};
+use crate::{after, farthest, in_wind, params, shape, straight};
 
 #[test]
 fn steady_wind_on_round_particles_is_as_another_gravity() {
@@ -11,24 +11,19 @@ fn steady_wind_on_round_particles_is_as_another_gravity() {
         damping: 0.2,
         ..params(30.0)
     };
-    let (mut solver, start) = Solver::new(&straight(Vec3::ZERO, Vec3::X), &p).unwrap();
-    let wind = DVec3::new(2.0, 0.5, -1.0);
-    let mut blown = start.clone();
-    let scene = Scene {
-        wind: Wind {
-            steady: wind,
-            ..Wind::default()
-        },
+    let rest = straight(Vec3::ZERO, Vec3::X);
+    let steady = DVec3::new(2.0, 0.5, -1.0);
+    let wind = in_wind(Wind {
+        steady,
+        ..Wind::default()
+    });
+    let blown = after(&rest, &p, &wind, 0.05, 2000);
+    let gravity = Scene {
+        gravity: DVec3::new(0.0, -GRAVITY, 0.0) + steady * 3.0,
         ..Scene::default()
     };
-    run(&mut solver, &mut blown, &scene, 0.05, 2000);
-    let mut pulled = start;
-    let scene = Scene {
-        gravity: DVec3::new(0.0, -GRAVITY, 0.0) + wind * 3.0,
-        ..Scene::default()
-    };
-    run(&mut solver, &mut pulled, &scene, 0.05, 2000);
-    let error = farthest(&shape(&solver, &blown), &shape(&solver, &pulled));
+    let pulled = after(&rest, &p, &gravity, 0.05, 2000);
+    let error = farthest(&blown, &pulled);
     assert!(error < 1e-7, "{error}");
 }
 
@@ -43,16 +38,11 @@ fn wind_tilts_a_limp_strand_by_the_drag_across_it() {
             damping: 0.05,
             ..params(1e7)
         };
-        let (mut solver, mut state) = Solver::new(&straight(Vec3::ZERO, Vec3::NEG_Y), &p).unwrap();
-        let scene = Scene {
-            wind: Wind {
-                steady: DVec3::new(2.0, 0.0, 0.0),
-                ..Wind::default()
-            },
-            ..Scene::default()
-        };
-        run(&mut solver, &mut state, &scene, 0.05, 1000);
-        let points = shape(&solver, &state);
+        let wind = in_wind(Wind {
+            steady: DVec3::new(2.0, 0.0, 0.0),
+            ..Wind::default()
+        });
+        let points = after(&straight(Vec3::ZERO, Vec3::NEG_Y), &p, &wind, 0.05, 1000);
         let link = points[20] - points[2];
         let tan = link.x / -link.y;
         assert!((tan - 6.0 / GRAVITY).abs() < 1e-3, "{along}: {tan}");
@@ -64,14 +54,11 @@ fn gusts_move_hair_and_other_seeds_move_it_otherwise() {
     let (mut solver, start) = Solver::new(&straight(Vec3::ZERO, Vec3::X), &params(20.0)).unwrap();
     let blow = |solver: &mut Solver, seed: u64, gust: f64| {
         let mut state = start.clone();
-        let scene = Scene {
-            wind: Wind {
-                gust,
-                seed,
-                ..Wind::default()
-            },
-            ..Scene::default()
-        };
+        let scene = in_wind(Wind {
+            gust,
+            seed,
+            ..Wind::default()
+        });
         let mut felt = 0;
         for _ in 0..48 {
             felt += solver.step(&mut state, &scene, 1.0 / 24.0).unwrap().wind;

@@ -2,16 +2,31 @@
 
 use glam::{DQuat, DVec3};
 use hair_sim::{
-    Collider, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Strands, Wind,
+    Collider, Mutual, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Strands, Wind,
 };
 
 use crate::{strand, style};
 
-fn params() -> Params {
-    Params {
-        goal: Profile::constant(3.0),
-        ..Params::default()
-    }
+/// Strands that differ in what they are made of, and act on each other.
+fn make(rest: &Strands) -> (Solver, State) {
+    let params = |s: usize| {
+        let id = rest.id(s);
+        Params {
+            goal: Profile::constant(if id.is_multiple_of(2) { 3.0 } else { 0.0 }),
+            drag: if id.is_multiple_of(3) { 0.0 } else { 2.0 },
+            damping: if id % 5 < 2 { 0.0 } else { 0.005 },
+            ..Params::default()
+        }
+    };
+    let (mut solver, mut state) = Solver::with(rest, params).unwrap();
+    let mutual = Mutual {
+        reach: 0.1,
+        distance: 0.05,
+        break_at: 0.01,
+        ..Mutual::default()
+    };
+    solver.interact(&mut state, &mutual).unwrap();
+    (solver, state)
 }
 
 /// Half a second of everything at once, from `from` on.
@@ -58,7 +73,7 @@ fn threads_do_not_matter() {
             .build()
             .unwrap();
         pool.install(|| {
-            let (mut solver, mut state) = Solver::new(&rest, &params()).unwrap();
+            let (mut solver, mut state) = make(&rest);
             run(&mut solver, &mut state, 0, 24);
             state
         })
@@ -79,9 +94,9 @@ fn the_order_of_strands_does_not_matter() {
         .map(|i| i * 8 % count as usize)
         .collect();
     let shuffled = rest.select(&order);
-    let (mut solver, mut state) = Solver::new(&rest, &params()).unwrap();
+    let (mut solver, mut state) = make(&rest);
     run(&mut solver, &mut state, 0, 24);
-    let (mut other, mut other_state) = Solver::new(&shuffled, &params()).unwrap();
+    let (mut other, mut other_state) = make(&shuffled);
     run(&mut other, &mut other_state, 0, 24);
     for (place, &index) in order.iter().enumerate() {
         assert_eq!(
@@ -95,11 +110,11 @@ fn the_order_of_strands_does_not_matter() {
 #[test]
 fn a_saved_state_goes_on_as_if_nothing_had_happened() {
     let rest = style(20, 12, 0.2);
-    let (mut solver, mut state) = Solver::new(&rest, &params()).unwrap();
+    let (mut solver, mut state) = make(&rest);
     run(&mut solver, &mut state, 0, 12);
     let saved = serde_json::to_string(&state).unwrap();
     run(&mut solver, &mut state, 12, 24);
-    let (mut fresh, _) = Solver::new(&rest, &params()).unwrap();
+    let (mut fresh, _) = make(&rest);
     let mut restored: State = serde_json::from_str(&saved).unwrap();
     run(&mut fresh, &mut restored, 12, 24);
     assert_eq!(state, restored);

@@ -1,7 +1,7 @@
 //! Row 5: strands in the same place, and bodies that begin inside, swallow and race.
 
 use glam::{DQuat, DVec3};
-use hair_sim::{Collider, Material, Params, Pose, Scene, Shape, Solver, Strands};
+use hair_sim::{Collider, Material, Mutual, Params, Pose, Scene, Shape, Solver, Strands};
 
 use crate::{check, step, strand, style};
 
@@ -28,6 +28,34 @@ fn strands_in_the_same_place_move_as_one() {
     for s in 1..12 {
         assert!(solver.points(&state, s).eq(first.iter().copied()));
     }
+}
+
+#[test]
+fn strands_in_the_same_place_that_act_on_each_other_come_to_no_harm() {
+    let mut rest = Strands::new();
+    for s in 0..12 {
+        rest.push(s, &strand(s / 4, 20, 0.2), None).unwrap();
+    }
+    let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
+    let mutual = Mutual {
+        link: 1e5,
+        repulsion: 1e6,
+        reach: 0.1,
+        distance: 0.1,
+        ..Mutual::default()
+    };
+    solver.interact(&mut state, &mutual).unwrap();
+    let mut links = 0;
+    for i in 0..96 {
+        let scene = Scene {
+            gravity: DVec3::new(f64::from(i % 7) * 5.0, -9.81, 0.0),
+            ..Scene::default()
+        };
+        links += solver.step(&mut state, &scene, 1.0 / 24.0).unwrap().links;
+        assert_eq!(solver.faults(&state), []);
+        check(&solver, &state, &rest, "coincident, acting");
+    }
+    assert!(links > 1000, "{links}");
 }
 
 #[test]

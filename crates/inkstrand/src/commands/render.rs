@@ -19,6 +19,14 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
     if options.backend == Backend::Gpu {
         return Err(not_built("the gpu backend"));
     }
+    // All that runs in parallel runs in here: simulation, effects and rasteriser.
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads.unwrap_or(0) as usize) // 0 is rayon's own choice
+        .build()?;
+    pool.install(|| draw(options, registry))
+}
+
+fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
     let text = read_preset(&options.preset).map_err(Failure::Failed)?;
     let mut preset = parse(&options.preset, &text, registry)?;
     options.scene.apply(&mut preset).map_err(Failure::Usage)?;
@@ -38,7 +46,7 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
         transparent,
     )
     .map_err(Failure::Usage)?;
-    let mut painter = Painter::new(samples, options.threads)?;
+    let mut painter = Painter::new(samples)?;
 
     let (first, last) = options.frames.unwrap_or((0, 0));
     let bar = progress_bar(options.quiet, u64::from(last - first) + 1);
@@ -86,10 +94,10 @@ struct Painter {
 }
 
 impl Painter {
-    fn new(samples: u32, threads: Option<u32>) -> Result<Self, Failure> {
+    fn new(samples: u32) -> Result<Self, Failure> {
         Ok(Self {
             evaluator: Evaluator::default(),
-            rasterizer: Rasterizer::new(samples, threads.map(|n| n as usize))?,
+            rasterizer: Rasterizer::new(samples, None)?,
             drawing: Drawing::default(),
             samples,
         })

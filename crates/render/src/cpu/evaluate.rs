@@ -9,7 +9,8 @@ use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Turns frames into drawings, and keeps its lists from frame to frame.
+/// Turns frames into drawings, on the threads of the rayon pool that it is called in. Keeps its lists
+/// from frame to frame.
 #[derive(Default)]
 pub struct Evaluator {
     joints: Joints,
@@ -129,6 +130,9 @@ impl Evaluator {
         );
         let across = paths.across.iter().map(|v| vec2(v.to_array()));
         fill(&mut joints.across, read.has("across"), across);
+
+        let normals = frame.material_normals.iter().map(world);
+        fill(&mut joints.material_normal, true, normals);
 
         let strand_of_joint = || {
             let runs = paths.runs.iter();

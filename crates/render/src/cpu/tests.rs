@@ -376,7 +376,7 @@ fn biased_depth_decides_against_surfaces() {
             shadow: GREEN,
             ..square(surface)
         }];
-        for order in [Order::Rounded, Order::StrandFirst, Order::Shifted] {
+        for order in Order::ALL {
             drawing.order = order;
             assert_eq!(
                 middle(&drawing),
@@ -404,7 +404,7 @@ fn before_a_surface_with_a_margin_strokes_must_be_nearer() {
             shadow: GREEN,
             ..square(1.0 / wall_m)
         }];
-        for order in [Order::Rounded, Order::StrandFirst, Order::Shifted] {
+        for order in Order::ALL {
             drawing.order = order;
             assert_eq!(middle(&drawing), opaque(expected), "{wall_m} m, {order:?}");
         }

@@ -92,17 +92,8 @@ impl Carried {
 
     /// Moves the carried strands: each keeps its place in the frames of its guides, whose links have turned
     /// as `turns` says (one rotation a link).
-    pub fn carry<I: Iterator<Item = DQuat>>(
-        &self,
-        points: &mut [Vec3],
-        turns: impl Fn(usize) -> I,
-    ) {
-        if self.ranges.is_empty() {
-            return;
-        }
-        let turned: Vec<Vec<Quat>> = (0..self.guides.len())
-            .map(|guide| turns(guide).map(|turn| turn.as_quat()).collect())
-            .collect();
+    pub fn carry(&self, points: &mut [Vec3], turns: impl Fn(usize) -> Vec<DQuat>) {
+        let turned = self.turned(&turns);
         for (range, carriers) in self.ranges.iter().zip(&self.carriers) {
             let last = (range.len() - 1) as f32;
             // The root stays with the head.
@@ -113,13 +104,40 @@ impl Carried {
                     .iter()
                     .map(|&(guide, weight)| {
                         let own = self.guides[guide].clone();
-                        let links = &turned[guide];
-                        let link = ((u * links.len() as f32) as usize).min(links.len() - 1);
                         let offset = rest - at(&self.rest[own.clone()], u);
-                        weight * (at(&points[own], u) + links[link] * offset)
+                        weight * (at(&points[own], u) + link_at(&turned[guide], u) * offset)
                     })
                     .sum();
             }
         }
     }
+
+    /// Turns the normals of the carried strands as their guides' links have turned.
+    pub fn turn(&self, rest: &[Vec3], normals: &mut [Vec3], turns: impl Fn(usize) -> Vec<DQuat>) {
+        let turned = self.turned(&turns);
+        for (range, carriers) in self.ranges.iter().zip(&self.carriers) {
+            let last = (range.len() - 1) as f32;
+            for point in range.clone() {
+                let u = (point - range.start) as f32 / last;
+                let turn = |&(guide, weight): &(usize, f32)| {
+                    weight * (link_at(&turned[guide], u) * rest[point])
+                };
+                let sum: Vec3 = carriers.iter().map(turn).sum();
+                normals[point] = sum.normalize_or(normals[point]);
+            }
+        }
+    }
+
+    /// How each guide's links have turned; nothing where nothing is carried.
+    fn turned(&self, turns: &dyn Fn(usize) -> Vec<DQuat>) -> Vec<Vec<Quat>> {
+        let guides = 0..self.guides.len();
+        guides
+            .map(|guide| turns(guide).iter().map(|turn| turn.as_quat()).collect())
+            .collect()
+    }
+}
+
+/// The turn of the link at share `u` of a guide.
+fn link_at(links: &[Quat], u: f32) -> Quat {
+    links[((u * links.len() as f32) as usize).min(links.len() - 1)]
 }

@@ -6,12 +6,16 @@ use hair_sim::{Material, Mutual, Natural, Params, Profile};
 use render::Head;
 use std::f64::consts::TAU;
 
+/// Steps within a step of the solvers that take some.
+const SUBSTEPS: i32 = 64;
+
 /// The section `dynamics`.
 pub const DYNAMICS: &[Param] = &[
     choice(
         "solver",
-        "rods: strands bend and twist as elastic rods; none: hair turns with the head.",
-        &["rods", "none"],
+        "rods: strands bend and twist as elastic rods; xpbd: for comparison, rods by position based \
+         dynamics, slower and softer, without damping, links and volume; none: hair turns with the head.",
+        &["rods", "xpbd", "none"],
         0,
     ),
     choice(
@@ -43,7 +47,7 @@ pub const DYNAMICS: &[Param] = &[
     ),
     number(
         "hold",
-        "Factor on the pull back to the style.",
+        "Factor on the pull back to the style, or to the script's `shapes`.",
         "",
         0.0..=100.0,
         1.0,
@@ -105,6 +109,15 @@ pub const DYNAMICS: &[Param] = &[
         0.0..=0.1,
         0.0,
     ),
+    param(
+        "substeps",
+        "Steps within a step, of solver: xpbd: fewer make hair softer.",
+        ParamKind::Integer {
+            min: 1,
+            max: 1000,
+            default: SUBSTEPS,
+        },
+    ),
     number(
         "warm_up",
         "Time that is simulated before the first frame.",
@@ -122,6 +135,40 @@ pub const DYNAMICS: &[Param] = &[
         },
     ),
 ];
+
+/// What moves the hair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SolverKind {
+    Rods,
+    Xpbd,
+    None,
+}
+
+impl SolverKind {
+    /// The preset's choice.
+    pub fn of(values: &Values) -> Self {
+        [Self::Rods, Self::Xpbd, Self::None][values.choice("solver") as usize]
+    }
+}
+
+/// What the preset says of dynamics that its solver cannot do: a parameter, and why.
+pub(crate) fn unsupported(values: &Values) -> Option<(&'static str, String)> {
+    let asks = |name: &&str| values.is_given(name) && values.number(name) > 0.0;
+    match SolverKind::of(values) {
+        SolverKind::Xpbd => {
+            let name = ["damping", "links", "volume"].into_iter().find(asks)?;
+            Some((
+                name,
+                format!("{name}: solver: xpbd has none; leave it out, or take solver: rods"),
+            ))
+        }
+        SolverKind::Rods if values.integer("substeps") != SUBSTEPS => Some((
+            "substeps",
+            "substeps: solver: rods takes a step as one; leave it out, or set `step`".to_owned(),
+        )),
+        SolverKind::Rods | SolverKind::None => None,
+    }
+}
 
 /// What a word means.
 ///
@@ -216,11 +263,11 @@ pub(crate) struct Feel {
 }
 
 impl Feel {
-    /// The section `dynamics` on a head.
-    pub fn new(values: &Values, head: Head) -> Self {
+    /// The section `dynamics` on a head; `hold` is in place of the word's where hair has key shapes.
+    pub fn new(values: &Values, head: Head, hold: Option<[f64; 3]>) -> Self {
         let number = |name| f64::from(values.number(name));
         let word = &WORDS[values.choice("feel") as usize];
-        let hold = word.hold.map(|pull| pull * number("hold"));
+        let hold = hold.unwrap_or(word.hold).map(|pull| pull * number("hold"));
         let radius = number("curl_radius") * f64::from(head.height_m);
         let climb = number("curl_pitch") * f64::from(head.height_m) / TAU;
         let helix = radius * radius + climb * climb;

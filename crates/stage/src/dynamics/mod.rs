@@ -6,21 +6,25 @@
 mod bodies;
 mod carried;
 pub(crate) mod feel;
+mod running;
 
 pub use feel::DYNAMICS;
-pub(crate) use feel::Feel;
+pub(crate) use feel::{Feel, unsupported};
 
 use crate::files::StageError;
-use crate::load::Hair;
+use crate::load::{self, Hair};
 use crate::motion::MotionScript;
 use crate::neck::rigid;
 use bodies::Bodies;
 use carried::Carried;
 use effects::Values;
+use feel::SolverKind;
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
-use hair_sim::{Pose, Roots, Scene, Solver, State, Stats, Strands, Wind};
+use hair_sim::compare::Xpbd;
+use hair_sim::{Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind};
 use render::Head;
+use running::{Run, Running};
 use std::ops::Range;
 
 /// Where a simulated strand's points go.
@@ -33,10 +37,12 @@ struct Part {
 
 /// The solver with its strands, and the time it has come to.
 pub(crate) struct Dynamics {
-    solver: Solver,
-    state: State,
-    start: State,
+    strands: Box<dyn Running>,
     guides: Vec<Part>,
+    /// The shapes that pull at all points of the scene; where they have these at a time, and the guides' points.
+    shapes: Option<Motion>,
+    shape: Vec<Vec3>,
+    goal: Vec<Vec3>,
     carried: Carried,
     bodies: Bodies,
     head: Head,
@@ -52,7 +58,8 @@ pub(crate) struct Dynamics {
 }
 
 impl Dynamics {
-    /// The dynamics of hair whose strands have these sizes (1/300 head heights), on a head of this mesh.
+    /// The dynamics of hair whose strands have these sizes (1/300 head heights), on a head of this mesh. `hold` is
+    /// the pull to its key shapes, where it has some.
     ///
     /// # Errors
     ///
@@ -62,17 +69,18 @@ impl Dynamics {
         sizes: &[f32],
         mesh: Option<&Mesh>,
         values: &Values,
+        hold: [f64; 3],
         fps: f32,
         seed: u32,
     ) -> Result<Self, StageError> {
-        let feel = Feel::new(values, hair.head);
+        let hold = hair.shapes.as_ref().map(|_| hold);
+        let feel = Feel::new(values, hair.head, hold);
         let all = &hair.file.strands;
         let mut free = Strands::new();
         let mut parts = Vec::new();
         for strand in 0..all.len() {
             let range = all.point_range(strand);
-            let held = (hair.held[strand].max(1) as usize).min(range.len());
-            let points = range.start + held - 1..range.end;
+            let points = range.start + load::held(hair, strand) - 1..range.end;
             // A strand that the head holds to its tip has nothing to simulate.
             if points.len() > 1 {
                 free.push(strand as u32, &all.points()[points.clone()], None)?;
@@ -87,10 +95,19 @@ impl Dynamics {
             let length_m: f32 = links.map(|link| link[0].distance(link[1])).sum();
             feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
         };
-        let (mut solver, mut state) = Solver::with(&chosen, params)?;
-        if let Some(mutual) = feel::mutual(values, hair.head) {
-            solver.interact(&mut state, &mutual)?;
-        }
+        let strands: Box<dyn Running> = match SolverKind::of(values) {
+            SolverKind::Xpbd => {
+                let substeps = values.integer("substeps").unsigned_abs();
+                Box::new(Run::new(Xpbd::with(&chosen, params, substeps, 1)?))
+            }
+            SolverKind::Rods | SolverKind::None => {
+                let (mut solver, mut state) = Solver::with(&chosen, params)?;
+                if let Some(mutual) = feel::mutual(values, hair.head) {
+                    solver.interact(&mut state, &mutual)?;
+                }
+                Box::new(Run::new((solver, state)))
+            }
+        };
         let step = match f64::from(values.number("step")) {
             0.0 => 1.0 / f64::from(fps),
             step => step,
@@ -101,12 +118,13 @@ impl Dynamics {
         });
         let guides: Vec<Part> = guides.collect();
         Ok(Self {
-            start: state.clone(),
+            shapes: hair.shapes.clone(),
+            shape: all.points().to_vec(),
+            goal: Vec::new(),
             carried,
             guides,
             bodies: Bodies::new(mesh, hair.head),
-            solver,
-            state,
+            strands,
             head: hair.head,
             gravity: DVec3::new(0.0, -9.81 * f64::from(values.number("gravity")), 0.0),
             seed: u64::from(seed),
@@ -125,7 +143,7 @@ impl Dynamics {
     /// Whether hair moves in a scene: a script drives it, or it is not at rest by itself.
     pub fn moves(values: &Values, script: &MotionScript) -> bool {
         let is_at_rest = values.choice("shape") == 0 && values.number("gravity") == 1.0;
-        values.choice("solver") == 0 && !(script.is_still() && is_at_rest)
+        SolverKind::of(values) != SolverKind::None && !(script.is_still() && is_at_rest)
     }
 
     /// Steps to `time` (seconds) of a script, and writes the points of what moves.
@@ -142,15 +160,15 @@ impl Dynamics {
         let wanted = ((time / self.step).round() as i64 + self.warm_up).max(0);
         if wanted < self.done || self.done == 0 {
             self.done = 0;
-            self.state.clone_from(&self.start);
             let first = Roots::Head(self.pose_at(0, script));
-            self.solver.teleport(&mut self.state, first)?;
+            self.strands.restart(first)?;
         }
         while self.done < wanted {
             let ends = [self.done, self.done + 1];
             let [before, now] = ends.map(|steps| self.pose_at(steps, script));
             let shoulders = ends.map(|steps| self.shoulders_at(steps, script));
             let (steady, gust) = script.wind_at(self.time_of(self.done + 1));
+            self.aim(script.within(self.time_of(self.done + 1)));
             let scene = Scene {
                 roots: Roots::Head(now),
                 gravity: self.gravity,
@@ -161,9 +179,9 @@ impl Dynamics {
                     seed: self.seed,
                 },
                 colliders: &self.bodies.colliders([before, now], shoulders),
-                goal: None,
+                goal: self.shapes.as_ref().map(|_| &self.goal[..]),
             };
-            self.stats = self.solver.step(&mut self.state, &scene, self.step)?;
+            self.stats = self.strands.step(&scene, self.step)?;
             self.done += 1;
         }
         if self.done == 0 {
@@ -172,19 +190,42 @@ impl Dynamics {
         }
         let pose = self.pose_at(self.done, script);
         for part in &self.guides {
-            let moved = self.solver.points(&self.state, part.strand);
+            let moved = self.strands.points(part.strand);
             for (point, moved) in points[part.points.clone()].iter_mut().zip(moved) {
                 *point = moved.as_vec3();
             }
         }
-        let turns = |strand| {
-            let rest = self.solver.frames(&self.start, strand);
-            let now = self.solver.frames(&self.state, strand);
-            now.zip(rest).map(|(now, rest)| now * rest.inverse())
-        };
-        self.carried.carry(points, turns);
+        self.carried
+            .carry(points, |strand| self.strands.turns(strand));
         self.bodies.keep_out(self.carried.ranges(), pose, points);
         Ok(())
+    }
+
+    /// Turns the normals of the links that move from those at rest, both in the list of the scene's points.
+    pub fn turn_normals(&self, rest: &[Vec3], normals: &mut [Vec3]) {
+        if self.done == 0 {
+            return;
+        }
+        for part in &self.guides {
+            let mut last = part.points.start;
+            for (link, turn) in part.points.clone().zip(self.strands.turns(part.strand)) {
+                normals[link] = turn.as_quat() * rest[link];
+                last = link;
+            }
+            normals[part.points.end - 1] = normals[last];
+        }
+        let turns = |strand| self.strands.turns(strand);
+        self.carried.turn(rest, normals, turns);
+    }
+
+    /// Takes the goals of the script's own `time` from the key shapes.
+    fn aim(&mut self, time: f64) {
+        let Some(shapes) = &self.shapes else { return };
+        shapes.sample_smooth(time, &mut self.shape);
+        self.goal.clear();
+        let parts = self.guides.iter().map(|part| part.points.clone());
+        self.goal
+            .extend(parts.flatten().map(|point| self.shape[point]));
     }
 
     /// The script's time after a number of steps.

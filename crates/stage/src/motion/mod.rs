@@ -2,14 +2,18 @@
 //!
 //! A script is a function of time alone. Its head starts from the pose of the files; moves add up.
 
+mod bone;
 mod parse;
 mod pose;
 
+pub(crate) use bone::Bone;
 pub use parse::MOTION_PARTS;
 pub(crate) use parse::parse;
 pub(crate) use pose::HeadPose;
 
-use glam::DVec3;
+use effects::preset::Place;
+use glam::{DQuat, DVec3};
+use hair_sim::key_weights;
 use stroke_path::sin_cos_degrees;
 
 /// A script of motion.
@@ -17,6 +21,12 @@ use stroke_path::sin_cos_degrees;
 pub(crate) struct MotionScript {
     /// Seconds after which it starts again; nothing never does.
     pub period: Option<f64>,
+    /// How the bone of an animation moves the head, below all else.
+    pub bone: Option<Bone>,
+    /// Key shapes of the hair, times ascending.
+    pub shapes: Vec<KeyShape>,
+    /// Pull of the hair to its key shapes at root, middle and tip, 1/s^2.
+    pub hold: [f64; 3],
     /// Keyframes of the head, times ascending.
     pub keys: Vec<Key>,
     /// Moves of the head.
@@ -34,6 +44,19 @@ pub(crate) struct Key {
     pub turn: DVec3,
     /// Head heights.
     pub shift: DVec3,
+}
+
+/// The shape that hair has at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct KeyShape {
+    /// Seconds.
+    pub time: f64,
+    /// The file that it is in, relative to the script; the hair's own shape without one.
+    pub file: Option<String>,
+    /// When it is so in a file with motion, seconds.
+    pub at: Option<f32>,
+    /// Where the script says so.
+    pub place: Place,
 }
 
 /// What a move does.
@@ -90,19 +113,26 @@ const WIND_RISE: f64 = 0.4;
 impl MotionScript {
     /// Whether nothing moves.
     pub fn is_still(&self) -> bool {
-        self.keys.is_empty() && self.moves.is_empty() && self.winds.is_empty()
+        let head_is = self.keys.is_empty() && self.moves.is_empty() && self.bone.is_none();
+        head_is && self.winds.is_empty() && self.shapes.is_empty()
     }
 
     /// The head's pose at `time` (seconds).
     pub fn head_at(&self, time: f64) -> HeadPose {
         let time = self.within(time);
         let (mut turn, mut shift) = self.keyed(time);
+        let mut base = DQuat::IDENTITY;
+        if let Some(bone) = &self.bone {
+            let (rotation, moved) = bone.at(time);
+            base = rotation;
+            shift += moved;
+        }
         for part in &self.moves {
             let (t, s) = part.at(time);
             turn += t;
             shift += s;
         }
-        HeadPose { turn, shift }
+        HeadPose { base, turn, shift }
     }
 
     /// The steady wind and the speed of gusts at `time`: m/s.
@@ -119,47 +149,22 @@ impl MotionScript {
         (steady, gusts)
     }
 
-    fn within(&self, time: f64) -> f64 {
+    /// The script's own time at `time`.
+    pub fn within(&self, time: f64) -> f64 {
         self.period.map_or(time, |period| time.rem_euclid(period))
     }
 
-    /// The keyframes' spline at `time`: Hermite's cubics with the slopes of the neighbours (Catmull and
-    /// Rom's); before the first and after the last the head rests.
+    /// The keyframes' spline at `time`.
     fn keyed(&self, time: f64) -> (DVec3, DVec3) {
-        let keys = &self.keys;
-        let next = keys.partition_point(|key| key.time <= time);
-        let (Some(first), Some(last)) = (keys.first(), keys.last()) else {
-            return (DVec3::ZERO, DVec3::ZERO);
-        };
-        if next == 0 {
-            return (first.turn, first.shift);
+        let (mut turn, mut shift) = (DVec3::ZERO, DVec3::ZERO);
+        if self.keys.is_empty() {
+            return (turn, shift);
         }
-        if next == keys.len() {
-            return (last.turn, last.shift);
+        for (key, weight) in key_weights(self.keys.len(), |key| self.keys[key].time, time) {
+            turn += self.keys[key].turn * weight;
+            shift += self.keys[key].shift * weight;
         }
-        let slope = |i: usize| {
-            if i == 0 || i + 1 == keys.len() {
-                return (DVec3::ZERO, DVec3::ZERO);
-            }
-            let (a, b) = (&keys[i - 1], &keys[i + 1]);
-            let seconds = b.time - a.time;
-            ((b.turn - a.turn) / seconds, (b.shift - a.shift) / seconds)
-        };
-        let (a, b) = (&keys[next - 1], &keys[next]);
-        let (slope_a, slope_b) = (slope(next - 1), slope(next));
-        let seconds = b.time - a.time;
-        let t = (time - a.time) / seconds;
-        let cubic = |a: DVec3, b: DVec3, slope_a: DVec3, slope_b: DVec3| {
-            let (t2, t3) = (t * t, t * t * t);
-            a * (2.0 * t3 - 3.0 * t2 + 1.0)
-                + slope_a * (seconds * (t3 - 2.0 * t2 + t))
-                + b * (3.0 * t2 - 2.0 * t3)
-                + slope_b * (seconds * (t3 - t2))
-        };
-        (
-            cubic(a.turn, b.turn, slope_a.0, slope_b.0),
-            cubic(a.shift, b.shift, slope_a.1, slope_b.1),
-        )
+        (turn, shift)
     }
 }
 

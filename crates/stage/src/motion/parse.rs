@@ -1,6 +1,6 @@
 //! Scripts of motion as text.
 
-use super::{Key, MotionScript, Move, MoveKind, Wind};
+use super::{Key, KeyShape, MotionScript, Move, MoveKind, Wind};
 use crate::part::FilePart;
 use crate::table::{choice, number, param};
 use effects::preset::{Field, PresetErrors, Reader};
@@ -26,6 +26,37 @@ const MOTION: &[Param] = &[
     number(
         "period",
         "Time after which the script starts again; 0 never does.",
+        "s",
+        0.0..=FOREVER,
+        0.0,
+    ),
+    Param {
+        name: "hold",
+        doc: "Pull of the hair to its `shapes` at the root, half way and at the tip, as a quadratic \
+              between: acceleration per metre, damped critically. (0, 0, 0) leaves it to dynamics; from \
+              about (10000, 10000, 10000) on it is where the shapes have it.",
+        unit: "1/s^2",
+        kind: ParamKind::Triple {
+            min: 0.0,
+            max: 1e7,
+            default: HOLD,
+        },
+    },
+];
+
+const HOLD: [f32; 3] = [400.0, 200.0, 100.0];
+
+const SHAPE: &[Param] = &[
+    number("time", "When hair has the shape.", "s", 0.0..=FOREVER, 0.0),
+    param(
+        "hair",
+        "The shape, relative to the script: .style.ron, .strands.ron or .tfx, of the same strands and as \
+         many points as the hair. Without it the hair's own.",
+        ParamKind::Text,
+    ),
+    number(
+        "at",
+        "The moment in a file with motion, such as a bake.",
         "s",
         0.0..=FOREVER,
         0.0,
@@ -132,8 +163,8 @@ const WIND: &[Param] = &[
 pub const MOTION_PARTS: &[FilePart] = &[
     FilePart {
         name: "script",
-        doc: "How the head moves and the wind blows, a file of its own: NAME.motion.ron.",
-        example: "(version: 1, moves: [...], keys: [...], winds: [...])",
+        doc: "How head, wind and hair move, a file of its own: NAME.motion.ron.",
+        example: "(version: 1, moves: [...], keys: [...], winds: [...], shapes: [...])",
         table: MOTION,
         places: &[],
     },
@@ -158,6 +189,13 @@ pub const MOTION_PARTS: &[FilePart] = &[
         table: WIND,
         places: &[],
     },
+    FilePart {
+        name: "shapes",
+        doc: "Key shapes of the hair, joined by a spline; `hold` of the script pulls hair to them.",
+        example: "shapes: [(time: 0), (time: 0.6, hair: \"../styles/blown.style.ron\"), ...]",
+        table: SHAPE,
+        places: &[],
+    },
 ];
 
 /// Reads the script `text`, which messages call `file`.
@@ -171,7 +209,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
     reader.report()?;
     let (lists, plain): (Vec<Field>, Vec<Field>) = fields
         .into_iter()
-        .partition(|field| ["keys", "moves", "winds"].contains(&field.name));
+        .partition(|field| ["keys", "moves", "winds", "shapes"].contains(&field.name));
     if plain.iter().all(|field| field.name != "version") {
         reader.error(
             text,
@@ -181,6 +219,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
     let top = reader.values(&plain, MOTION, "the motion");
     let mut script = MotionScript {
         period: Some(f64::from(top.number("period"))).filter(|period| *period > 0.0),
+        hold: top.triple("hold").map(f64::from),
         ..MotionScript::default()
     };
     for list in lists {
@@ -193,6 +232,13 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
                     }
                     script.keys.push(key);
                 }
+                "shapes" => {
+                    let shape = shape(&mut reader, item);
+                    if (script.shapes.last()).is_some_and(|last| last.time >= shape.time) {
+                        reader.error(item, "shapes: times must ascend");
+                    }
+                    script.shapes.push(shape);
+                }
                 "moves" => script
                     .moves
                     .push(moved(&reader.section(item, MOVE, "a move"))),
@@ -202,8 +248,33 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
             }
         }
     }
+    let hold = plain.iter().find(|field| field.name == "hold");
+    if let Some(hold) = hold.filter(|_| script.shapes.is_empty()) {
+        reader.error(
+            hold.name,
+            "hold: the script has no `shapes` to pull hair to",
+        );
+    }
     reader.report()?;
     Ok(script)
+}
+
+fn shape<'a>(reader: &mut Reader<'a>, item: &'a str) -> KeyShape {
+    let fields = reader.fields(item, "a shape");
+    let values = reader.values(&fields, SHAPE, "a shape");
+    let field = |name: &str| fields.iter().find(|field| field.name == name);
+    if let (Some(at), None) = (field("at"), field("hair")) {
+        reader.error(
+            at.name,
+            "at: there is no `hair` that it could be a moment of",
+        );
+    }
+    KeyShape {
+        time: f64::from(values.number("time")),
+        file: values.text("hair").map(str::to_owned),
+        at: values.is_given("at").then(|| values.number("at")),
+        place: reader.place(field("hair").map_or(item, |hair| hair.value)),
+    }
 }
 
 fn key(values: &Values) -> Key {

@@ -6,6 +6,8 @@ use stroke_path::sin_cos_degrees;
 /// How far a head is from where its file has it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct HeadPose {
+    /// The turn of an animation's bone, outside the others; a unit quaternion.
+    pub base: DQuat,
     /// Turns in degrees: towards the character's left, up, towards the left shoulder; in this order from
     /// the outermost.
     pub turn: DVec3,
@@ -23,10 +25,24 @@ impl HeadPose {
         };
         // Looking up turns the face (+Z) to +Y: backwards about +X. Leaning to the left shoulder (+X) turns +Y
         // to +X: backwards about +Z.
-        about(DVec3::Y, self.turn.x)
+        part_of(self.base, share)
+            * about(DVec3::Y, self.turn.x)
             * about(DVec3::NEG_X, self.turn.y)
             * about(DVec3::NEG_Z, self.turn.z)
     }
+}
+
+/// A share of a rotation, 0 to 1: along the chord, which needs no sine.
+fn part_of(rotation: DQuat, share: f64) -> DQuat {
+    if rotation == DQuat::IDENTITY || share == 1.0 {
+        return rotation;
+    }
+    let short = if rotation.w < 0.0 {
+        -rotation
+    } else {
+        rotation
+    };
+    (DQuat::IDENTITY * (1.0 - share) + short * share).normalize()
 }
 
 #[cfg(test)]

@@ -129,13 +129,13 @@ pub const SCENE: &[Param] = &[
     number("fps", "Frames a second.", "1/s", 1.0..=1000.0, 24.0),
     choice(
         "order",
-        "Within a strand by rank, then by depth of round clumps or of flat ones; or every stroke by its shifted depth.",
-        &["rounded", "strand_first", "shifted"],
+        "Within a strand by rank, then by depth: of round clumps, of clumps that fade into each other, or of flat ones; or every stroke by its shifted depth.",
+        &["rounded", "scattered", "strand_first", "shifted"],
         0,
     ),
     number(
         "edge_depth",
-        "How much deeper than its middle a round clump's edge lies.",
+        "How much deeper than its middle a round clump's edge lies; or the difference of depths over which clumps fade.",
         "head heights",
         0.0..=1.0,
         0.02,
@@ -222,11 +222,35 @@ pub const LIGHT: &[Param] = &[
 ];
 
 /// The section `motion`.
-pub const MOTION: &[Param] = &[param(
-    "file",
-    "How the head moves and the wind blows, relative to the preset: .motion.ron.",
-    ParamKind::Text,
-)];
+pub const MOTION: &[Param] = &[
+    param(
+        "file",
+        "How head, wind and hair move, relative to the preset: .motion.ron.",
+        ParamKind::Text,
+    ),
+    param(
+        "gltf",
+        "A character whose animation moves the head, relative to the preset: .glb, .gltf or .vrm. The \
+         script's moves come on top.",
+        ParamKind::Text,
+    ),
+    param(
+        "bone",
+        "The character's bone that the head follows; \"head\" without it.",
+        ParamKind::Text,
+    ),
+    param(
+        "animation",
+        "The character's animation, by its name or its number, 0 first; the first without it.",
+        ParamKind::Text,
+    ),
+    choice(
+        "repeat",
+        "Whether the character's animation starts again at its end.",
+        &["false", "true"],
+        0,
+    ),
+];
 
 /// The section `path`.
 pub const PATH: &[Param] = &[
@@ -264,7 +288,7 @@ pub const SECTIONS: &[(&str, &str, &[Param])] = &[
     ),
     ("camera", "From where it is seen.", CAMERA),
     ("light", "Where the light comes from.", LIGHT),
-    ("motion", "How the head moves and the wind blows.", MOTION),
+    ("motion", "How head, wind and hair move.", MOTION),
     (
         "dynamics",
         "How hair swings, bends and returns to its style.",

@@ -8,7 +8,7 @@ mod lines;
 mod zone;
 
 use crate::part::FilePart;
-use crate::table::{choice, param};
+use crate::table::{choice, number, param};
 use clumps::{DRAWN, EDIT};
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::{Param, ParamKind};
@@ -43,6 +43,13 @@ const STYLE: &[Param] = &[
         "Whether flat clumps cover the scalp below all zones, so that none of it shows.",
         &["false", "true"],
         1,
+    ),
+    number(
+        "cap",
+        "How high the undercoat stands above the skin at the whorl: roots sink into it, so that the crown is no valley.",
+        "head heights",
+        0.0..=0.3,
+        0.05,
     ),
 ];
 
@@ -133,6 +140,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
         seed: top.integer("seed").unsigned_abs(),
         scalp: scalp(&mut reader, &lists),
         undercoat: top.choice("undercoat") == 1,
+        cap: top.number("cap"),
         zones: Vec::new(),
         edits: Vec::new(),
         drawn: Vec::new(),

@@ -203,7 +203,7 @@ proptest! {
         colors in proptest::collection::vec([any_number(), any_number(), any_number()], 12),
         surface in any_surface(),
         rank in -1..2_i32,
-        order in 0..3_usize,
+        order in 0..4_usize,
         size in [1..40_u32, 1..40],
     ) {
         let drawing = Drawing {
@@ -213,7 +213,7 @@ proptest! {
             layers: vec![LayerStrokes { name: String::new(), rank, instances: 2, discs, colors }],
             surfaces: vec![surface],
             background: None,
-            order: [Order::Rounded, Order::StrandFirst, Order::Shifted][order],
+            order: Order::ALL[order],
             edge_depth_m: 1e30,
             brush: Brush::default(),
         };

@@ -166,7 +166,7 @@ fn a_dropped_strand_hides_nothing() {
         shadow: GREEN,
         ..square(2.0)
     }];
-    for order in [Order::Rounded, Order::StrandFirst, Order::Shifted] {
+    for order in Order::ALL {
         drawing.order = order;
         assert_eq!(at(&drawing, 10, 10), opaque(BLUE));
     }
@@ -231,14 +231,14 @@ fn any_drawing() -> impl Strategy<Value = Drawing> {
     const JOINTS: usize = 12;
     let clump = proptest::collection::vec(any_disc(), JOINTS);
     let layers = proptest::collection::vec(any_layer(JOINTS), 1..4);
-    (clump, layers, 0..3_usize, any::<bool>()).prop_map(|(clump, layers, order, is_half)| Drawing {
+    (clump, layers, 0..4_usize, any::<bool>()).prop_map(|(clump, layers, order, is_half)| Drawing {
         size: [35, 27],
         runs: [(2, 0..4), (3, 4..7), (3, 7..8), (9, 8..12)]
             .map(|(strand, joints)| Run { strand, joints })
             .to_vec(),
         clump,
         layers,
-        order: [Order::Rounded, Order::StrandFirst, Order::Shifted][order],
+        order: Order::ALL[order],
         edge_depth_m: 0.3,
         brush: if is_half {
             Brush::Semicircle

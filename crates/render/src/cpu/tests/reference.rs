@@ -1,7 +1,7 @@
 //! The rules of [`crate::drawing`] written down sample by sample, without tiles, planes or clipping.
 
 use super::super::segment::strokes_in_order;
-use crate::drawing::{Brush, Disc, Drawing, Order, Run};
+use crate::drawing::{Brush, Disc, Drawing, Order, Run, scatter};
 use crate::picture::Picture;
 use crate::samples::sample_positions;
 use glam::DVec2;
@@ -25,9 +25,9 @@ pub(super) fn draw(drawing: &Drawing, samples: u32) -> Picture {
     for y in 0..height {
         for x in 0..width {
             let mut sum = [0.0_f32; 4];
-            for offset in &offsets {
+            for (number, offset) in (0..).zip(&offsets) {
                 let position = DVec2::new(f64::from(x), f64::from(y)) + offset.as_dvec2();
-                if let Some([red, green, blue]) = sample(drawing, position) {
+                if let Some([red, green, blue]) = sample(drawing, position, number) {
                     for (sum, value) in sum.iter_mut().zip([red, green, blue, 1.0]) {
                         *sum += value;
                     }
@@ -43,7 +43,7 @@ pub(super) fn draw(drawing: &Drawing, samples: u32) -> Picture {
     }
 }
 
-fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
+fn sample(drawing: &Drawing, position: DVec2, number: u32) -> Option<[f32; 3]> {
     let strokes = strokes_in_order(drawing);
     let joints = drawing.clump.len();
     // (inverse depth, place of the stroke, colour)
@@ -53,7 +53,8 @@ fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
             best = Some((depth, place, color));
         }
     };
-    for runs in drawing.runs.chunk_by(|a, b| a.strand == b.strand) {
+    let strands = drawing.runs.chunk_by(|a, b| a.strand == b.strand);
+    for (strand, runs) in (0..).zip(strands) {
         let no_colors = vec![[0.0; 3]; joints];
         let clump = touch(runs, &drawing.clump, &no_colors, drawing.brush, position);
         let touches: Vec<(usize, i32, Touch)> = strokes
@@ -76,7 +77,7 @@ fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
                     offer(touch.inv_depth, place, touch.color);
                 }
             }
-            Order::Rounded | Order::StrandFirst => {
+            Order::Rounded | Order::Scattered | Order::StrandFirst => {
                 let top = touches
                     .iter()
                     .rfind(|(_, rank, _)| clump.is_some() || *rank < 0);
@@ -85,11 +86,10 @@ fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
                         Some(clump) => (clump.inv_depth, clump.ratio.min(1.0)),
                         None => (touch.inv_depth, touch.ratio.min(1.0).powi(4)),
                     };
-                    let is_round = drawing.order == Order::Rounded;
-                    let deeper_m = if is_round {
-                        drawing.edge_depth_m * part
-                    } else {
-                        0.0
+                    let deeper_m = match drawing.order {
+                        Order::Rounded => drawing.edge_depth_m * part,
+                        Order::Scattered => drawing.edge_depth_m * scatter(strand, number),
+                        Order::StrandFirst | Order::Shifted => 0.0,
                     };
                     offer(depth / (1.0 + deeper_m * depth.max(0.0)), 0, touch.color);
                 }

@@ -2,27 +2,23 @@
 
 use std::fmt::Write;
 
-use crate::regress::{Case, Verdict};
+use super::case::Case;
+use super::sheet;
+use super::verdict::Verdict;
+use crate::html::{escape, head};
 
-const HEAD: &str = "<!doctype html>
-<html lang=\"en\">
-<meta charset=\"utf-8\">
-<title>Golden pictures</title>
-<style>
-body { font: 14px sans-serif; margin: 2em; background: #eee; }
-section { margin: 0 0 2em; }
-figure { display: inline-block; margin: 0 1em 0 0; }
+const STYLE: &str =
+    "section { margin: 0 0 2em; } figure { display: inline-block; margin: 0 1em 0 0; }
 img { display: block; max-width: 30vw; border: 1px solid #999; image-rendering: pixelated;
   background: repeating-conic-gradient(#fff 0 25%, #ddd 0 50%) 0 0 / 16px 16px; }
-h2.same { color: #272; } h2.wrong { color: #a22; }
-</style>
-";
+.cell { display: inline-block; width: 96px; height: 96px; border: 1px solid #999; }
+h2.same { color: #272; } h2.wrong { color: #a22; }";
 
 /// The page of a run. Cases that are wrong come first, then those that are right.
 pub fn page<'a>(results: impl Iterator<Item = (&'a Case, &'a Verdict)>) -> String {
     let (same, wrong): (Vec<_>, Vec<_>) =
         results.partition(|(_, verdict)| **verdict == Verdict::Same);
-    let mut page = HEAD.to_owned();
+    let mut page = head("Golden pictures", STYLE);
     let count = format!("{} passed, {} failed", same.len(), wrong.len());
     push(
         &mut page,
@@ -38,7 +34,7 @@ fn section(page: &mut String, case: &Case, verdict: &Verdict) {
     let (class, pictures): (_, &[&str]) = match verdict {
         Verdict::Same => ("same", &["actual"]),
         Verdict::New => ("wrong", &["actual"]),
-        Verdict::Differs(_) => ("wrong", &["expected", "actual", "difference"]),
+        Verdict::Differs { .. } => ("wrong", &["expected", "actual", "difference"]),
         Verdict::Failed(_) => ("wrong", &["expected", "actual"]),
     };
     let name = &case.name;
@@ -60,19 +56,46 @@ fn section(page: &mut String, case: &Case, verdict: &Verdict) {
             ),
         );
     }
+    let differing: &[String] = match verdict {
+        Verdict::Differs { cells, .. } => cells,
+        _ => &[],
+    };
+    if !case.cells.is_empty() {
+        cells(page, case, pictures, differing);
+    }
     page.push_str("</section>\n");
+}
+
+/// The cells of a sheet that differ, one a row, cut out of its pictures; all of them where none does.
+fn cells(page: &mut String, case: &Case, pictures: &[&str], differing: &[String]) {
+    page.push_str("<table>\n");
+    for (index, cell) in case.cells.iter().enumerate() {
+        if !differing.is_empty() && !differing.contains(&cell.name) {
+            continue;
+        }
+        push(
+            page,
+            format_args!("<tr><td><code>{}</code></td>", escape(&cell.name)),
+        );
+        let (x, y) = sheet::corner(index);
+        for what in pictures {
+            push(
+                page,
+                format_args!(
+                    "<td><span class=\"cell\" title=\"{what}\" \
+                     style=\"background: url({}.{what}.png) -{x}px -{y}px\"></span></td>",
+                    case.name
+                ),
+            );
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</table>\n");
 }
 
 fn push(page: &mut String, text: std::fmt::Arguments) {
     // Writing to a String cannot fail.
     let _ = page.write_fmt(text);
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -85,12 +108,16 @@ mod tests {
         let case = |name: &str| Case {
             name: name.to_owned(),
             args: vec!["presets/<a>.ron".to_owned()],
+            cells: Vec::new(),
         };
         let cases = [case("good"), case("bad"), case("undrawn")];
-        let differs = Verdict::Differs(Difference {
-            pixels: 7,
-            largest: 514,
-        });
+        let differs = Verdict::Differs {
+            difference: Difference {
+                pixels: 7,
+                largest: 514,
+            },
+            cells: Vec::new(),
+        };
         let failed = Verdict::Failed("expected `>` & found `<`".to_owned());
         let verdicts = [Verdict::Same, differs, failed];
         let page = page(cases.iter().zip(&verdicts));

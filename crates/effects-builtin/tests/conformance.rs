@@ -1,0 +1,37 @@
+//! Each effect holds to what every effect must hold to.
+
+use effects_builtin::{Base, Cel, Fine, Highlight, Silhouette};
+use effects_testkit::{assert_conforms, assert_steady};
+
+#[test]
+fn base() {
+    assert_conforms::<Base>();
+    assert_steady::<Base>(&[]);
+}
+
+#[test]
+fn silhouette() {
+    assert_conforms::<Silhouette>();
+    assert_steady::<Silhouette>(&[]);
+}
+
+#[test]
+fn cel() {
+    assert_conforms::<Cel>();
+    assert_steady::<Cel>(&[]);
+    assert_steady::<Cel>(&[("region", "lighter"), ("full", "0.8"), ("threshold", "0.5")]);
+}
+
+#[test]
+fn highlight() {
+    assert_conforms::<Highlight>();
+    for kind in ["specular", "distance", "ring"] {
+        assert_steady::<Highlight>(&[("kind", kind)]);
+    }
+}
+
+#[test]
+fn fine() {
+    assert_conforms::<Fine>();
+    assert_steady::<Fine>(&[]);
+}

@@ -1,0 +1,197 @@
+//! What every stroke effect must hold to, as tests that an effect crate runs on its own effects:
+//!
+//! ```ignore
+//! #[test]
+//! fn it_conforms() {
+//!     effects_testkit::assert_conforms::<Backlight>();
+//! }
+//!
+//! #[test]
+//! fn nothing_pops() {
+//!     effects_testkit::assert_steady::<Backlight>(&[("threshold", "0.4")]);
+//! }
+//! ```
+//!
+//! [`assert_conforms`] is for all effects. [`assert_steady`] is for those whose strokes change little
+//! where their inputs do; with a hard step they can't, so it takes the parameters to hold it for.
+
+mod descriptor;
+mod hair;
+mod joint;
+mod motion;
+mod paths;
+mod repeat;
+mod strokes;
+mod undeclared;
+mod values;
+mod wgsl;
+
+use effects::{AnyEffect, Registry, StrokeEffect};
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What is checked, in the order of the checks, and how.
+const CHECKS: &[(&str, Check)] = &[
+    ("it says what it is", descriptor::words),
+    ("its rank and depth offset are a layer's", descriptor::order),
+    (
+        "its parameters are documented and their defaults allowed",
+        descriptor::parameters,
+    ),
+    (READS, undeclared::check),
+    (
+        "its strokes are finite and not negative, whatever the joint",
+        strokes::on_any_joint,
+    ),
+    (
+        "its strokes are finite and not negative, whatever the parameters",
+        strokes::with_any_parameters,
+    ),
+    ("it draws something", strokes::something),
+    ("where it draws nothing the radius is 0", strokes::nothing),
+    (
+        "the same joint has the same stroke, bit for bit",
+        repeat::check,
+    ),
+    (
+        "its paths are finite, and the same ones in every frame",
+        paths::check,
+    ),
+    ("its Rust is its WGSL", wgsl::check),
+];
+
+/// Where this fails the other checks would say nothing but the same.
+const READS: &str = "it reads what it declares, and nothing else";
+
+type Check = fn(&dyn AnyEffect) -> Result<(), String>;
+
+/// A check that an effect did not pass.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// What should hold.
+    pub check: &'static str,
+    /// What does not, and what to do about it.
+    pub message: String,
+}
+
+/// All checks that an effect did not pass.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failures {
+    /// The effect's id.
+    pub effect: &'static str,
+    /// At least one.
+    pub failures: Vec<Failure>,
+}
+
+impl fmt::Display for Failures {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.failures.len();
+        let noun = if count == 1 { "check" } else { "checks" };
+        write!(f, "effect `{}` fails {count} {noun}", self.effect)?;
+        for Failure { check, message } in &self.failures {
+            write!(f, "\n- {check}:\n  {}", message.replace('\n', "\n  "))?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Failures {}
+
+/// Panics with all that is wrong with an effect ([`conforms`]).
+///
+/// # Panics
+///
+/// When a check fails.
+#[track_caller]
+pub fn assert_conforms<E: StrokeEffect>() {
+    if let Err(failures) = conforms::<E>() {
+        panic!("{failures}");
+    }
+}
+
+/// Holds an effect to what every effect must hold to.
+///
+/// # Errors
+///
+/// With all checks that fail, and what is wrong.
+pub fn conforms<E: StrokeEffect>() -> Result<(), Failures> {
+    with_effect::<E>(|effect| {
+        let mut failures = Vec::new();
+        for (check, run) in CHECKS {
+            failures.extend(failure(check, || run(effect)));
+            if failures.last().is_some_and(|last| last.check == READS) {
+                break;
+            }
+        }
+        failures
+    })
+}
+
+/// Panics where strokes jump ([`steady`]).
+///
+/// # Panics
+///
+/// When they do.
+#[track_caller]
+pub fn assert_steady<E: StrokeEffect>(parameters: &[(&str, &str)]) {
+    if let Err(failures) = steady::<E>(parameters) {
+        panic!("{failures}");
+    }
+}
+
+/// Holds an effect, with these parameters as `--set` takes them, to strokes that change little where an
+/// input does: as the eye, the light or the hair moves, nothing pops.
+///
+/// Each input in turn runs through its range while the others rest. Where the strokes of two moments
+/// differ much, the time between them is halved again and again: a steep slope gets flat, a jump stays.
+///
+/// # Errors
+///
+/// With the input that makes the strokes jump and where.
+pub fn steady<E: StrokeEffect>(parameters: &[(&str, &str)]) -> Result<(), Failures> {
+    with_effect::<E>(|effect| {
+        let check = "small changes of its inputs change its strokes little";
+        failure(check, || motion::check(effect, parameters))
+            .into_iter()
+            .collect()
+    })
+}
+
+/// Runs checks on a registered effect.
+fn with_effect<E: StrokeEffect>(
+    check: impl FnOnce(&dyn AnyEffect) -> Vec<Failure>,
+) -> Result<(), Failures> {
+    let mut registry = Registry::new();
+    let failures = match registry.register::<E>() {
+        Ok(()) => registry.get(E::ID).map(check).unwrap_or_default(),
+        Err(error) => vec![Failure {
+            check: "its id is well formed",
+            message: error.to_string(),
+        }],
+    };
+    if failures.is_empty() {
+        return Ok(());
+    }
+    Err(Failures {
+        effect: E::ID,
+        failures,
+    })
+}
+
+/// What a check finds wrong; a panic is wrong too.
+fn failure(check: &'static str, run: impl FnOnce() -> Result<(), String>) -> Option<Failure> {
+    let result = catch_unwind(AssertUnwindSafe(run));
+    let message = match result {
+        Ok(Ok(())) => return None,
+        Ok(Err(message)) => message,
+        Err(panic) => format!("it panics: {}", panic_text(panic.as_ref())),
+    };
+    Some(Failure { check, message })
+}
+
+/// What a panic says.
+fn panic_text(panic: &dyn std::any::Any) -> &str {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("without a message")
+}

@@ -1,0 +1,160 @@
+//! Strokes are finite, of no negative radius, there and not there where they should be.
+
+use crate::hair;
+use crate::joint::{Joint, list};
+use crate::values::{Case, defaults, extremes, some_instances};
+use effects::wgsl::Stroke;
+use effects::{AnyEffect, LayerProgram};
+
+/// Strokes side by side, at most: no clump is so wide that more would be seen.
+const MOST_INSTANCES: u32 = 1024;
+
+/// A radius that nobody sees, in 1/300 of the head's height.
+const DUST: f32 = 1e-3;
+
+/// Share of a stroke's joints that may be dust: where it tapers, some are.
+const MOST_DUST: f32 = 0.05;
+
+/// The strokes of `instance` at these joints. The layer's seed is 1.
+pub(crate) fn evaluate(program: &dyn LayerProgram, joints: &[Joint], instance: u32) -> Vec<Stroke> {
+    let joints_as_lists = list(joints, program.inputs());
+    let mut strokes = Vec::new();
+    program.evaluate(&joints_as_lists, 0..joints.len(), instance, 1, &mut strokes);
+    strokes
+}
+
+pub(crate) fn on_any_joint(effect: &dyn AnyEffect) -> Result<(), String> {
+    look_at(effect, &defaults(effect), &hair::hostile_joints())
+}
+
+pub(crate) fn with_any_parameters(effect: &dyn AnyEffect) -> Result<(), String> {
+    let mut joints = hair::hostile_joints();
+    let ordinary = hair::joints();
+    joints.extend(
+        ordinary
+            .iter()
+            .step_by(7)
+            .map(|joint| ("an ordinary joint", *joint)),
+    );
+    for case in extremes(effect) {
+        look_at(effect, &case, &joints)?;
+    }
+    Ok(())
+}
+
+/// What is wrong with the strokes of these joints.
+fn look_at(
+    effect: &dyn AnyEffect,
+    case: &Case,
+    joints: &[(&'static str, Joint)],
+) -> Result<(), String> {
+    let program = effect.program(&case.values);
+    let (count, shortest) = (program.instances(), program.shortest());
+    if count > MOST_INSTANCES {
+        return Err(format!(
+            "{}: it has {count} strokes side by side, more than {MOST_INSTANCES}",
+            case.name
+        ));
+    }
+    if !(shortest >= 0.0 && shortest.is_finite()) {
+        return Err(format!("{}: its `shortest` is {shortest}", case.name));
+    }
+    let only_joints: Vec<Joint> = joints.iter().map(|(_, joint)| *joint).collect();
+    for instance in some_instances(count) {
+        let strokes = evaluate(&*program, &only_joints, instance);
+        if strokes.len() != joints.len() {
+            return Err(format!(
+                "{} joints give {} strokes",
+                joints.len(),
+                strokes.len()
+            ));
+        }
+        for (stroke, (name, _)) in strokes.iter().zip(joints) {
+            if let Some(fault) = fault(stroke) {
+                return Err(format!(
+                    "{}, on {name}: stroke {instance}'s {fault}",
+                    case.name
+                ));
+            }
+        }
+        // A path of one joint, which has neither a joint before nor one after.
+        for joint in &only_joints {
+            if evaluate(&*program, std::slice::from_ref(joint), instance).len() != 1 {
+                return Err(format!("{}: a single joint gives no stroke", case.name));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is not as it should be in a stroke.
+fn fault(stroke: &Stroke) -> Option<String> {
+    let [red, green, blue] = stroke.color.to_array();
+    let numbers = [
+        ("radius", stroke.radius),
+        ("offset.x", stroke.offset.x),
+        ("offset.y", stroke.offset.y),
+        ("depth_offset", stroke.depth_offset),
+        ("red", red),
+        ("green", green),
+        ("blue", blue),
+    ];
+    let endless = numbers.iter().find(|(_, value)| !value.is_finite());
+    if let Some((name, value)) = endless {
+        return Some(format!("{name} is {value}"));
+    }
+    let negative =
+        |(name, value): &&(&str, f32)| *value < 0.0 && (*name == "radius" || is_color(name));
+    let (name, value) = numbers.iter().find(negative)?;
+    Some(format!("{name} is {value}: `max(.., 0.0)` is needed"))
+}
+
+fn is_color(name: &str) -> bool {
+    ["red", "green", "blue"].contains(&name)
+}
+
+pub(crate) fn something(effect: &dyn AnyEffect) -> Result<(), String> {
+    let program = effect.program(&defaults(effect).values);
+    let joints = hair::joints();
+    let draws = |instance| {
+        let strokes = evaluate(&*program, &joints, instance);
+        strokes.iter().any(|stroke| stroke.radius > 0.0)
+    };
+    if (0..program.instances()).any(draws) {
+        return Ok(());
+    }
+    Err("at its defaults it draws nothing on a head of hair that is lit from the front".to_owned())
+}
+
+pub(crate) fn nothing(effect: &dyn AnyEffect) -> Result<(), String> {
+    let program = effect.program(&defaults(effect).values);
+    let joints = hair::joints();
+    for instance in 0..program.instances() {
+        let strokes = evaluate(&*program, &joints, instance);
+        let dust = |stroke: &&Stroke| stroke.radius > 0.0 && stroke.radius < DUST;
+        let share = strokes.iter().filter(dust).count() as f32 / strokes.len() as f32;
+        if share > MOST_DUST {
+            return Err(format!(
+                "at {:.0} % of the joints stroke {instance} is thinner than {DUST} units, and drawn \
+                 though nobody sees it: return a radius of 0 there",
+                100.0 * share
+            ));
+        }
+        if !effect.inputs().contains(&"clump_radius") {
+            continue;
+        }
+        let bare = joints.iter().map(|joint| Joint {
+            clump_radius: 0.0,
+            ..*joint
+        });
+        let strokes = evaluate(&*program, &bare.collect::<Vec<_>>(), instance);
+        if let Some(stroke) = strokes.iter().find(|stroke| stroke.radius > 0.0) {
+            return Err(format!(
+                "where the clump has no size, as at tips, stroke {instance} has the radius {}: \
+                 tips are to be points",
+                stroke.radius
+            ));
+        }
+    }
+    Ok(())
+}

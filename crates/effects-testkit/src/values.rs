@@ -1,0 +1,109 @@
+//! Parameters to try effects with.
+
+use effects::{AnyEffect, ParamKind, Value, Values, Variation};
+
+/// Parameters, and what to call them in a message.
+pub(crate) struct Case {
+    pub name: String,
+    pub values: Values,
+}
+
+/// An effect's defaults.
+pub(crate) fn defaults(effect: &dyn AnyEffect) -> Case {
+    Case {
+        name: "at its defaults".to_owned(),
+        values: Values::defaults(effect.params()),
+    }
+}
+
+/// The defaults, each parameter at each of its extremes, all that vary along the strand, and some
+/// mixtures of extremes.
+pub(crate) fn extremes(effect: &dyn AnyEffect) -> Vec<Case> {
+    let table = effect.params();
+    let mut cases = vec![defaults(effect)];
+    for (index, param) in table.iter().enumerate() {
+        for value in extreme_values(&param.kind) {
+            let mut values = Values::defaults(table);
+            let name = format!("with {} = {}", param.name, text(&value, &param.kind));
+            values.set(index, value);
+            cases.push(Case { name, values });
+        }
+    }
+    let mut varied = Values::defaults(table);
+    for (index, param) in table.iter().enumerate() {
+        if let ParamKind::Number {
+            min,
+            max,
+            varies: true,
+            ..
+        } = param.kind
+        {
+            let curve = vec![(0.0, min), (0.5, max), (0.5, min), (1.0, max)];
+            varied.set(index, Value::Varying(Variation { curve, vary: 1.0 }));
+        }
+    }
+    cases.push(Case {
+        name: "with numbers that vary over all of their ranges".to_owned(),
+        values: varied,
+    });
+    cases.extend((0..32).map(|number| mixture(effect, number)));
+    cases
+}
+
+/// Every parameter at one of its extremes, the same ones for the same `number`.
+fn mixture(effect: &dyn AnyEffect, number: u32) -> Case {
+    let mut values = Values::defaults(effect.params());
+    let mut names = Vec::new();
+    for (index, param) in effect.params().iter().enumerate() {
+        let mut choices = extreme_values(&param.kind);
+        if choices.is_empty() {
+            continue;
+        }
+        let hash = effects::wgsl::hash(number ^ effects::wgsl::hash(index as u32));
+        let value = choices.swap_remove(hash as usize % choices.len());
+        names.push(format!("{} = {}", param.name, text(&value, &param.kind)));
+        values.set(index, value);
+    }
+    Case {
+        name: format!("with {}", names.join(", ")),
+        values,
+    }
+}
+
+/// The values at the ends of a parameter's range, all of a choice.
+pub(crate) fn extreme_values(kind: &ParamKind) -> Vec<Value> {
+    let (black, white) = (Value::Color(Some([0.0; 3])), Value::Color(Some([1.0; 3])));
+    match *kind {
+        ParamKind::Number { min, max, .. } => vec![Value::Number(min), Value::Number(max)],
+        ParamKind::Integer { min, max, .. } => vec![Value::Integer(min), Value::Integer(max)],
+        ParamKind::Choice { names, .. } => (0..names.len() as u32).map(Value::Choice).collect(),
+        ParamKind::Color { .. } => vec![black, white],
+        ParamKind::OptionalColor { .. } => vec![Value::Color(None), black, white],
+        // No effect has these: they are for sections of presets.
+        ParamKind::Text | ParamKind::Triple { .. } | ParamKind::Size { .. } => Vec::new(),
+    }
+}
+
+/// A value as a preset has it.
+pub(crate) fn text(value: &Value, kind: &ParamKind) -> String {
+    match (value, kind) {
+        (Value::Number(number), _) => number.to_string(),
+        (Value::Integer(number), _) => number.to_string(),
+        (Value::Choice(index), ParamKind::Choice { names, .. }) => {
+            names[*index as usize].to_owned()
+        }
+        (Value::Color(None), _) => "none".to_owned(),
+        (Value::Color(Some(color)), _) => match color {
+            [0.0, 0.0, 0.0] => "000000".to_owned(),
+            _ => "FFFFFF".to_owned(),
+        },
+        (other, _) => format!("{other:?}"),
+    }
+}
+
+/// The strokes to try of `count`: the first, one in the middle and the last.
+pub(crate) fn some_instances(count: u32) -> Vec<u32> {
+    let mut some = vec![0, count / 2, count.saturating_sub(1)];
+    some.dedup();
+    some
+}

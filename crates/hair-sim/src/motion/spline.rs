@@ -1,0 +1,114 @@
+//! Keyframes joined by a spline.
+
+use super::Motion;
+use glam::{DVec3, Vec3};
+
+/// The keys that decide the spline at `time`, by their indices, with weights that add up to 1.
+///
+/// The spline is Hermite's cubic through `count` keys at increasing times, 1 or more, with the slopes of the
+/// neighbours (Catmull and Rom's). It rests at both ends, and stays there before the first key and after
+/// the last.
+#[must_use]
+pub fn key_weights(count: usize, time_of: impl Fn(usize) -> f64, time: f64) -> [(usize, f64); 4] {
+    let next = (0..count).find(|&key| time_of(key) > time).unwrap_or(count);
+    if next == 0 || next == count {
+        let end = next.saturating_sub(1);
+        return [(end, 1.0), (end, 0.0), (end, 0.0), (end, 0.0)];
+    }
+    let [a, b] = [next - 1, next];
+    let seconds = time_of(b) - time_of(a);
+    let t = (time - time_of(a)) / seconds;
+    let (t2, t3) = (t * t, t * t * t);
+    let slope_a = seconds * (t3 - 2.0 * t2 + t);
+    let slope_b = seconds * (t3 - t2);
+    let (mut at_a, mut at_b) = (2.0 * t3 - 3.0 * t2 + 1.0, 3.0 * t2 - 2.0 * t3);
+    let (mut before, mut after) = ((a, 0.0), (b, 0.0));
+    if a > 0 {
+        let share = slope_a / (time_of(b) - time_of(a - 1));
+        before = (a - 1, -share);
+        at_b += share;
+    }
+    if b + 1 < count {
+        let share = slope_b / (time_of(b + 1) - time_of(a));
+        after = (b + 1, share);
+        at_a -= share;
+    }
+    [before, (a, at_a), (b, at_b), after]
+}
+
+impl Motion {
+    /// Writes the positions at `time` (seconds) into `points`: on a spline through the samples, as [`key_weights`]
+    /// has it.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::sample`].
+    pub fn sample_smooth(&self, time: f64, points: &mut [Vec3]) {
+        let time_of = |key: usize| f64::from(self.times[key]);
+        let keys = key_weights(self.times.len(), time_of, time);
+        assert_eq!(points.len(), self.samples[0].len());
+        for (i, point) in points.iter_mut().enumerate() {
+            let weighted = keys.map(|(key, weight)| self.samples[key][i].as_dvec3() * weight);
+            *point = weighted.into_iter().sum::<DVec3>().as_vec3();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TIMES: [f64; 4] = [0.0, 1.0, 1.5, 3.0];
+
+    fn at(keys: [f64; 4], time: f64) -> f64 {
+        let weights = key_weights(4, |key| TIMES[key], time);
+        weights
+            .iter()
+            .map(|(key, weight)| keys[*key] * weight)
+            .sum()
+    }
+
+    #[test]
+    fn keys_are_passed_through_without_a_corner() {
+        let keys = [2.0, -1.0, 5.0, 0.5];
+        for (key, time) in keys.iter().zip(TIMES) {
+            assert!((at(keys, time) - key).abs() < 1e-12);
+        }
+        for time in TIMES {
+            let slopes = [-1e-6, 1e-6].map(|step| (at(keys, time + step) - at(keys, time)) / step);
+            assert!((slopes[0] - slopes[1]).abs() < 1e-4, "{time}: {slopes:?}");
+        }
+        assert_eq!((at(keys, -7.0), at(keys, 9.0)), (2.0, 0.5));
+    }
+
+    #[test]
+    fn weights_add_up_to_one_and_a_straight_way_stays_straight() {
+        for i in 0..=60 {
+            let time = f64::from(i) * 0.05;
+            let sum: f64 = key_weights(4, |key| TIMES[key], time)
+                .iter()
+                .map(|(_, w)| w)
+                .sum();
+            assert!((sum - 1.0).abs() < 1e-12);
+            // Between inner keys, where slopes are the neighbours', a straight way in time is kept.
+            if (1.0..=1.5).contains(&time) {
+                assert!((at(TIMES, time) - time).abs() < 1e-12, "{time}");
+            }
+        }
+    }
+
+    #[test]
+    fn shapes_are_joined_smoothly() {
+        let shape = |x: f32| vec![Vec3::ZERO, Vec3::new(x, -1.0, 0.0)];
+        let motion = Motion::new(vec![(0.0, shape(0.0)), (1.0, shape(1.0))]).unwrap();
+        let mut points = [Vec3::ZERO; 2];
+        motion.sample_smooth(0.25, &mut points);
+        // It starts slowly: 3 t^2 - 2 t^3.
+        assert_eq!(points, [Vec3::ZERO, Vec3::new(0.15625, -1.0, 0.0)]);
+        motion.sample_smooth(7.0, &mut points);
+        assert_eq!(points[1].x, 1.0);
+        let still = Motion::new(vec![(5.0, shape(3.0))]).unwrap();
+        still.sample_smooth(0.0, &mut points);
+        assert_eq!(points[1].x, 3.0);
+    }
+}

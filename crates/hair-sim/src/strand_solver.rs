@@ -1,0 +1,66 @@
+//! What every solver of strands can do.
+
+use crate::{DynamicsError, Roots, Scene, Solver, State, Stats};
+use glam::{DQuat, DVec3};
+
+/// A solver of strands: constants and room to work in, apart from the state that it advances.
+///
+/// [`Solver`] is the one to use; those of [`compare`](crate::compare) are for comparison. What a scene may hold that a
+/// solver leaves out, it says itself.
+pub trait StrandSolver {
+    /// All that decides what happens next.
+    type State: Clone;
+
+    /// Advances the strands by `dt` seconds.
+    ///
+    /// # Errors
+    ///
+    /// When the step, the state or the scene is none. The state is untouched then.
+    fn step(
+        &mut self,
+        state: &mut Self::State,
+        scene: &Scene,
+        dt: f64,
+    ) -> Result<Stats, DynamicsError>;
+
+    /// Puts the roots elsewhere at once: shape and motion are carried along.
+    ///
+    /// # Errors
+    ///
+    /// When the poses or the state are none.
+    fn teleport(&self, state: &mut Self::State, to: Roots) -> Result<(), DynamicsError>;
+
+    /// The points of a strand in the world, root first, in m.
+    ///
+    /// # Panics
+    ///
+    /// When there is no such strand, or the state is not of this solver's.
+    fn points(&self, state: &Self::State, strand: usize) -> Vec<DVec3>;
+
+    /// The frames of a strand's links in the world, root first: the third axis points along the link.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::points`].
+    fn frames(&self, state: &Self::State, strand: usize) -> Vec<DQuat>;
+}
+
+impl StrandSolver for Solver {
+    type State = State;
+
+    fn step(&mut self, state: &mut State, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError> {
+        Self::step(self, state, scene, dt)
+    }
+
+    fn teleport(&self, state: &mut State, to: Roots) -> Result<(), DynamicsError> {
+        Self::teleport(self, state, to)
+    }
+
+    fn points(&self, state: &State, strand: usize) -> Vec<DVec3> {
+        Self::points(self, state, strand).collect()
+    }
+
+    fn frames(&self, state: &State, strand: usize) -> Vec<DQuat> {
+        Self::frames(self, state, strand).collect()
+    }
+}

@@ -1,0 +1,96 @@
+//! Key shapes: hair in the shapes that a motion script wants of it.
+
+use crate::bake::difference;
+use crate::files::StageError;
+use crate::load::{self, Hair};
+use crate::motion::{KeyShape, MotionScript};
+use crate::preset::{Preset, missing};
+use effects::preset::{PresetError, PresetErrors};
+use glam::Vec3;
+use hair_io::Mesh;
+use hair_sim::{Motion, Strands};
+use std::path::Path;
+
+/// The shapes that `script`, a file in `folder`, wants of all strands of the hair; none where it wants none.
+///
+/// What a style holds on the head stays there: from it on each strand has the key's shape.
+///
+/// # Errors
+///
+/// When a file cannot be read, or is not of the same strands.
+pub(crate) fn load(
+    preset: &Preset,
+    script: &MotionScript,
+    folder: &Path,
+    hair: &Hair,
+    head: Option<&Mesh>,
+) -> Result<Option<Motion>, StageError> {
+    let mut samples = Vec::with_capacity(script.shapes.len());
+    let mut mistakes = Vec::new();
+    for key in &script.shapes {
+        let shape = match &key.file {
+            None => Ok(hair.file.strands.points().to_vec()),
+            Some(name) => read(preset, key, name, folder, hair, head)?,
+        };
+        match shape {
+            Ok(points) => samples.push((key.time as f32, hung(hair, points))),
+            Err(message) => mistakes.push(PresetError {
+                place: key.place.clone(),
+                message,
+            }),
+        }
+    }
+    if !mistakes.is_empty() {
+        return Err(PresetErrors(mistakes).into());
+    }
+    if samples.is_empty() {
+        return Ok(None);
+    }
+    Ok(Some(Motion::new(samples).map_err(StageError::Shapes)?))
+}
+
+/// The points of one shape, or what is wrong with its file's name or strands.
+fn read(
+    preset: &Preset,
+    key: &KeyShape,
+    name: &str,
+    folder: &Path,
+    hair: &Hair,
+    head: Option<&Mesh>,
+) -> Result<Result<Vec<Vec3>, String>, StageError> {
+    if let Some(message) = missing(folder, "hair", name) {
+        return Ok(Err(message));
+    }
+    let other = load::strands(preset, &folder.join(name), head, &mut Vec::new())?.file;
+    if let Some(what) = difference(&hair.file.strands, &other.strands) {
+        return Ok(Err(format!(
+            "hair: `{name}` is not of the same strands: {what}"
+        )));
+    }
+    let mut points = other.strands.points().to_vec();
+    match (&other.motion, key.at) {
+        (Some(motion), at) => motion.sample(at.unwrap_or(0.0), &mut points),
+        (None, Some(at)) => {
+            return Ok(Err(format!(
+                "hair: `{name}` has no motion, so no moment {at} s"
+            )));
+        }
+        (None, None) => {}
+    }
+    Ok(Ok(points))
+}
+
+/// The shape of `points` hung from what the head holds of the hair.
+fn hung(hair: &Hair, mut points: Vec<Vec3>) -> Vec<Vec3> {
+    let own: &Strands = &hair.file.strands;
+    for strand in 0..own.len() {
+        let range = own.point_range(strand);
+        let last_held = range.start + load::held(hair, strand) - 1;
+        let shift = own.points()[last_held] - points[last_held];
+        points[range.start..=last_held].copy_from_slice(&own.points()[range.start..=last_held]);
+        for point in &mut points[last_held + 1..range.end] {
+            *point += shift;
+        }
+    }
+    points
+}
