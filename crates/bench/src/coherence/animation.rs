@@ -71,20 +71,20 @@ impl Motion {
         }
     }
 
-    /// When it is looked at: stretches of time, half a second in all, or an eighth of one.
+    /// When it is looked at: stretches of time, half a second in all, or a tenth of one.
     #[must_use]
     pub fn windows(self, quick: bool) -> Vec<Range<Tick>> {
         match self {
             // From six sides.
             Self::Orbit => {
-                let length = TICKS / if quick { 48 } else { 12 };
+                let length = TICKS / if quick { 64 } else { 12 };
                 let starts = (0..6).map(|sixth| sixth * 2 * TICKS);
                 starts.map(|start| start..start + length).collect()
             }
-            // Once hair swings, and when the wind has freshened.
+            // Once hair swings.
             Self::Shake | Self::Wind => {
-                let start = if self == Self::Wind { 2 * TICKS } else { TICKS } + TICKS / 2;
-                let length = TICKS / if quick { 8 } else { 2 };
+                let start = TICKS + TICKS / 4;
+                let length = if quick { TICKS / 64 * 6 } else { TICKS / 2 };
                 std::iter::once(start..start + length).collect()
             }
         }

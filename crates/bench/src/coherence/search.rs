@@ -1,8 +1,8 @@
 //! Looks for the largest changes of an animation, and how they shrink with the time between pictures.
 //!
 //! All pictures 1/768 s apart are drawn with few samples a pixel. Then the tiles that change most in 1/384 s and
-//! those that do in 1/768 s are drawn with many samples. Pixels that pop are counted with few samples: an edge that
-//! moves by less than a quarter of a pixel in a tick changes one sample of four, and does not count.
+//! those that do in 1/768 s are drawn with many samples. Pixels that pop are counted with [`POP_SAMPLES`]: an edge that
+//! moves by less than a quarter of a pixel in a tick changes two of them, and does not count.
 
 use super::ORDERS;
 use super::animation::{Scene, Tick};
@@ -18,6 +18,8 @@ const LONG: Tick = 4;
 const SHORT: Tick = LONG / 2;
 /// Samples a pixel while looking for what changes.
 pub const FEW: u32 = 4;
+/// Samples a pixel while counting pixels that pop.
+pub const POP_SAMPLES: u32 = 8;
 /// Samples a pixel of what is measured.
 pub const MANY: u32 = 256;
 /// Pixels around a tile that are drawn with it, to be looked at.
@@ -37,6 +39,7 @@ pub struct Effort {
 pub struct Painters {
     hair: Painter,
     few: Painter,
+    popped: Painter,
     many: Painter,
 }
 
@@ -50,6 +53,7 @@ impl Painters {
         Ok(Self {
             hair: Painter::new(1, threads)?,
             few: Painter::new(FEW, threads)?,
+            popped: Painter::new(POP_SAMPLES, threads)?,
             many: Painter::new(MANY, threads)?,
         })
     }
@@ -290,7 +294,7 @@ impl Glance {
 struct Plan {
     /// Tiles with many samples.
     tiles: BTreeMap<usize, BTreeSet<usize>>,
-    /// Whole pictures with few samples at every tick; whether it is an interval at even distances.
+    /// Whole pictures at every tick; whether it is an interval at even distances.
     popped: BTreeMap<usize, bool>,
 }
 
@@ -343,7 +347,7 @@ fn refine(
             if wanted.popped.is_some() {
                 pictures
                     .whole
-                    .push(painters.few.picture(&mut frame, *order)?);
+                    .push(painters.popped.picture(&mut frame, *order)?);
             }
             if wanted.tiles.is_empty() {
                 continue;
