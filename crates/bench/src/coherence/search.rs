@@ -478,8 +478,8 @@ mod tests {
             let found = measured("control-continuous", 100..108, order);
             let ratio = found.ratio().unwrap();
             assert!((1.9..2.1).contains(&ratio), "{order:?}: {ratio}");
-            // An edge may cross two samples of one pixel in a tick.
-            assert!(found.popped[0] < 1e-3, "{order:?}: {:?}", found.popped);
+            // In a tick an edge may cross several samples of a pixel: this is what the measure can tell.
+            assert!(found.popped[0] < 5e-3, "{order:?}: {:?}", found.popped);
             assert!((3..=6).contains(&found.tiles));
         }
     }
