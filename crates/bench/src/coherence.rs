@@ -22,8 +22,11 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::Duration;
 
+/// An order and its name.
+pub type NamedOrder = (&'static str, Order);
+
 /// Every order of strokes, with its name in presets. One more is one more line.
-pub const ORDERS: [(&str, Order); 4] = [
+pub const ORDERS: [NamedOrder; 4] = [
     ("rounded", Order::Rounded),
     ("scattered", Order::Scattered),
     ("strand_first", Order::StrandFirst),
@@ -71,8 +74,10 @@ pub struct SceneFigures {
     pub kind: Kind,
     /// How far strands move.
     pub motion: search::Motion,
-    /// Parallel to [`ORDERS`].
-    pub orders: Vec<Figures>,
+    /// What it was drawn in.
+    pub orders: Vec<NamedOrder>,
+    /// Parallel to `orders`.
+    pub figures: Vec<Figures>,
 }
 
 /// What was found in an order's pictures of a scene.
@@ -124,7 +129,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
         let effort = effort(options.quick);
         let (found, motion) = search::measure(scene, &mut painters, effort, || progress.inc(1))?;
         let warps = warp::measure(scene, options.threads)?;
-        for ((name, _), continuity) in ORDERS.iter().zip(&found) {
+        for ((name, _), continuity) in scene.orders.iter().zip(&found) {
             if let Some(worst) = &continuity.worst {
                 let file = format!("coherence/{}-{name}.png", scene.name);
                 let path = options.out.join(file);
@@ -132,12 +137,13 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
                 pictures.push(path);
             }
         }
-        let orders = found.into_iter().zip(warps).enumerate();
+        let both = found.into_iter().zip(warps).enumerate();
         figures.push(SceneFigures {
             name: scene.name.clone(),
             kind: scene.kind,
             motion,
-            orders: orders
+            orders: scene.orders.clone(),
+            figures: both
                 .map(|(i, (continuity, warp))| Figures {
                     continuity,
                     warp,
@@ -158,11 +164,11 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
 }
 
 fn effort(quick: bool) -> search::Effort {
-    let (tiles, intervals) = if quick { (16, 3) } else { (64, 16) };
+    let (tiles, intervals) = if quick { (16, 2) } else { (64, 16) };
     search::Effort { tiles, intervals }
 }
 
-/// What doesn't depend on how a look moves; lists are parallel to [`ORDERS`].
+/// What doesn't depend on how a look moves; lists are parallel to the scene's orders.
 #[derive(Clone)]
 struct OfLook {
     seconds: Vec<f64>,
@@ -173,7 +179,7 @@ impl OfLook {
     fn measure(scene: &mut Scene, options: &Options) -> Result<Self, String> {
         let seconds = times(scene, options)?;
         let still = match &scene.look {
-            Some(look) => Some(changes_of_still(look, options.threads)?),
+            Some(look) => Some(changes_of_still(look, &scene.orders, options.threads)?),
             None => None,
         };
         Ok(Self { seconds, still })
@@ -192,10 +198,10 @@ fn times(scene: &mut Scene, options: &Options) -> Result<Vec<f64>, String> {
     };
     let mut painter = Painter::new(1, options.threads)?;
     let mut runs = Vec::new();
-    for (_, order) in ORDERS {
+    for (_, order) in &scene.orders {
         let rasterizer = Rasterizer::new(TIMED_SAMPLES, Some(options.threads));
         let mut rasterizer = rasterizer.map_err(|error| error.to_string())?;
-        let drawing = painter.strokes(&mut frame, order).clone();
+        let drawing = painter.strokes(&mut frame, *order).clone();
         runs.push(move || {
             let drawn = rasterizer.draw(&drawing);
             drawn.map(drop).map_err(|error| error.to_string())
@@ -210,15 +216,19 @@ fn times(scene: &mut Scene, options: &Options) -> Result<Vec<f64>, String> {
 
 /// For each order how many pixels of a look differ in pictures of the same moment, and of later ones at which
 /// nothing has moved.
-fn changes_of_still(look: &Look, threads: usize) -> Result<Vec<usize>, String> {
+fn changes_of_still(
+    look: &Look,
+    orders: &[NamedOrder],
+    threads: usize,
+) -> Result<Vec<usize>, String> {
     let mut look = look.open(None, PART)?;
     let mut changes = Vec::new();
-    for (_, order) in ORDERS {
+    for (_, order) in orders {
         let mut painter = Painter::new(STILL_SAMPLES, threads)?;
-        let first = painter.picture(&mut look.at(0)?, order)?;
+        let first = painter.picture(&mut look.at(0)?, *order)?;
         let mut changed = 0;
         for tick in STILL {
-            let again = painter.picture(&mut look.at(tick)?, order)?;
+            let again = painter.picture(&mut look.at(tick)?, *order)?;
             let pairs = first.pixels.iter().zip(&again.pixels);
             changed += pairs.filter(|(a, b)| a != b).count();
         }
@@ -230,7 +240,7 @@ fn changes_of_still(look: &Look, threads: usize) -> Result<Vec<usize>, String> {
 fn rows(scenes: &[SceneFigures]) -> Vec<Row> {
     let mut rows = Vec::new();
     for scene in scenes {
-        for ((order, _), figures) in ORDERS.iter().zip(&scene.orders) {
+        for ((order, _), figures) in scene.orders.iter().zip(&scene.figures) {
             let mut add = |measure: &str, knob: u32, error: Option<f64>| {
                 rows.push(Row {
                     scene: scene.name.clone(),
@@ -269,7 +279,7 @@ fn comments(options: &Options) -> Vec<String> {
         "ORDER-largest, -percentile: the largest change of a tile of 16 x 16 pixels with hair between pictures 1/knob s \
          apart (256 samples a pixel), and the 99.9th percentile (4 samples): mean absolute difference of red, green \
          and blue, 0 to 1",
-        "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s (8 samples), as a \
+        "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s (16 samples), as a \
          share of the hair's",
         "ORDER-warp: mean difference of a frame's hair from the frame 1/24 s before, moved as the strands have; knob: \
          samples a pixel",
@@ -290,7 +300,7 @@ pub fn summary(scenes: &[SceneFigures]) -> String {
         value.map_or(String::new(), |value| format!("{value:.digits$}"))
     };
     for scene in scenes {
-        for ((order, _), figures) in ORDERS.iter().zip(&scene.orders) {
+        for ((order, _), figures) in scene.orders.iter().zip(&scene.figures) {
             let of = &figures.continuity;
             let _ = writeln!(
                 text,
@@ -323,7 +333,7 @@ pub fn places(scenes: &[SceneFigures]) -> String {
             scene.name,
             long / short,
         );
-        for ((order, _), figures) in ORDERS.iter().zip(&scene.orders) {
+        for ((order, _), figures) in scene.orders.iter().zip(&scene.figures) {
             let of = &figures.continuity;
             let Some(worst) = &of.worst else { continue };
             let [x, y] = worst.corner;

@@ -6,8 +6,9 @@
 //! the drawing.
 
 use super::strands::Strands;
+use super::{NamedOrder, ORDERS};
 use effects::Registry;
-use render::Frame;
+use render::{Frame, Order};
 use stage::{Files, Preset, Stage};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -225,6 +226,8 @@ pub struct Scene {
     pub animation: Box<dyn Animation>,
     /// The look that it is, if it is one.
     pub look: Option<Look>,
+    /// What it is drawn in.
+    pub orders: Vec<NamedOrder>,
 }
 
 impl Scene {
@@ -246,7 +249,8 @@ pub enum Kind {
     Jumping,
 }
 
-/// The scenes whose names hold `only`; a few looks and less time where it must be quick.
+/// The scenes whose names hold `only`. Where it must be quick: less time and, of all scenes, a few looks in the
+/// order of presets and the source's.
 ///
 /// # Errors
 ///
@@ -258,6 +262,10 @@ pub fn scenes(
     only: &str,
 ) -> Result<Vec<Scene>, String> {
     let mut scenes = Vec::new();
+    let mut orders = ORDERS.to_vec();
+    if quick && only.is_empty() {
+        orders.retain(|(_, order)| [Order::default(), Order::Shifted].contains(order));
+    }
     let wanted = |name: &str| name.contains(only);
     let start: Vec<_> = std::iter::once(0..TICKS / if quick { 8 } else { 2 }).collect();
     for (name, kind, open) in Strands::ALL {
@@ -268,6 +276,7 @@ pub fn scenes(
                 windows: start.clone(),
                 animation: Box::new(open()?),
                 look: None,
+                orders: orders.clone(),
             });
         }
     }
@@ -285,6 +294,7 @@ pub fn scenes(
                     windows: motion.windows(quick),
                     animation: Box::new(look.open(Some(motion), PART)?),
                     look: Some(look.clone()),
+                    orders: orders.clone(),
                 });
             }
         }

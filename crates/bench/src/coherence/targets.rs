@@ -1,7 +1,7 @@
 //! What pictures in motion are held to.
 
 use super::animation::Kind;
-use super::{Figures, ORDERS, SceneFigures};
+use super::{Figures, SceneFigures};
 use crate::targets::{Found, Limit, Target};
 use render::Order;
 
@@ -21,7 +21,7 @@ pub fn targets(scenes: &[SceneFigures]) -> Vec<Target> {
 }
 
 fn of_order(scene: &SceneFigures, order: Order) -> Option<&Figures> {
-    let mut orders = ORDERS.iter().zip(&scene.orders);
+    let mut orders = scene.orders.iter().zip(&scene.figures);
     orders
         .find(|((_, found), _)| *found == order)
         .map(|(_, figures)| figures)
@@ -77,6 +77,7 @@ fn of_hair(scene: &SceneFigures, own: Option<&Figures>) -> Vec<Target> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::coherence::ORDERS;
     use crate::coherence::search::{Continuity, Motion};
     use crate::targets::report;
 
@@ -96,7 +97,8 @@ mod tests {
             name: "scene".to_owned(),
             kind: Kind::Hair,
             motion: Motion::default(),
-            orders: vec![figures; ORDERS.len()],
+            orders: ORDERS.to_vec(),
+            figures: vec![figures; ORDERS.len()],
         }
     }
 
@@ -109,7 +111,7 @@ mod tests {
     /// The figures of the order that is held to something.
     fn own(scene: &mut SceneFigures) -> &mut Figures {
         let place = ORDERS.iter().position(|of| of.1 == Order::default());
-        &mut scene.orders[place.unwrap()]
+        &mut scene.figures[place.unwrap()]
     }
 
     #[test]
@@ -140,12 +142,12 @@ mod tests {
     #[test]
     fn what_does_not_pop_is_met_beside_anything() {
         let mut scene = good();
-        for figures in &mut scene.orders {
+        for figures in &mut scene.figures {
             figures.continuity.popped = [0.0; 2];
         }
         assert!(missed(scene).is_empty());
         let mut scene = good();
-        for figures in &mut scene.orders {
+        for figures in &mut scene.figures {
             figures.continuity.popped = [0.0; 2];
         }
         own(&mut scene).continuity.popped = [1e-4; 2];

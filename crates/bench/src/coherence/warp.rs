@@ -1,6 +1,6 @@
 //! How well a picture is the one before, moved as the strands have moved.
 
-use super::ORDERS;
+use super::NamedOrder;
 use super::animation::{Scene, TICKS, Tick};
 use super::painter::Painter;
 use glam::Vec2;
@@ -15,7 +15,7 @@ const MOST_WINDOWS: usize = 2;
 /// Farthest that anything moves from frame to frame, in pixels.
 const REACH: f32 = 256.0;
 
-/// For each of [`ORDERS`] and each of [`SAMPLES`] the mean difference of a frame's hair from the frame before,
+/// For each of a scene's orders and each of [`SAMPLES`] the mean difference of a frame's hair from the frame before,
 /// warped: of red, green and blue, linear light, 0 to 1. Nothing where no two frames can be compared.
 ///
 /// # Errors
@@ -27,19 +27,25 @@ pub fn measure(scene: &mut Scene, threads: usize) -> Result<Vec<[Option<f64>; 2]
     for samples in SAMPLES {
         painters.push(Painter::new(samples, threads)?);
     }
-    let mut errors = vec![[Mean::default(); 2]; ORDERS.len()];
+    let mut errors = vec![[Mean::default(); 2]; scene.orders.len()];
     for window in scene.windows.iter().take(MOST_WINDOWS).cloned() {
         let mut before = Shown::new(
             &mut scene.animation.at(window.start)?,
+            &scene.orders,
             &mut motion_painter,
             &mut painters,
         )?;
         for tick in window.step_by(FRAME as usize) {
             let mut frame = scene.animation.at(tick + FRAME)?;
-            let after = Shown::new(&mut frame, &mut motion_painter, &mut painters)?;
+            let after = Shown::new(
+                &mut frame,
+                &scene.orders,
+                &mut motion_painter,
+                &mut painters,
+            )?;
             // Strands that enter or leave the view have no motion from one to the other.
             if before.centers.len() == after.centers.len() {
-                for (i, (_, order)) in ORDERS.iter().enumerate() {
+                for (i, (_, order)) in scene.orders.iter().enumerate() {
                     let moved = motion(&mut frame, *order, &before, &after, &mut motion_painter)?;
                     for sampling in 0..SAMPLES.len() {
                         let pictures = [&before, &after].map(|of| &of.pictures[i][sampling]);
@@ -65,15 +71,16 @@ struct Shown {
 impl Shown {
     fn new(
         frame: &mut Frame,
+        orders: &[NamedOrder],
         centers: &mut Painter,
         painters: &mut [Painter],
     ) -> Result<Self, String> {
         let drawing = centers.strokes(frame, Order::default());
         let centers = drawing.clump.iter().map(|disc| disc.center).collect();
         let mut pictures = Vec::new();
-        for (_, order) in ORDERS {
+        for (_, order) in orders {
             let of_order = painters.iter_mut();
-            let of_order = of_order.map(|painter| painter.picture(frame, order));
+            let of_order = of_order.map(|painter| painter.picture(frame, *order));
             pictures.push(of_order.collect::<Result<_, _>>()?);
         }
         Ok(Self { centers, pictures })
