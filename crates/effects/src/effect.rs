@@ -3,7 +3,7 @@
 use crate::param::{Param, Values};
 use crate::varied::Varied;
 use crate::wgsl::Stroke;
-use crate::{Hair, InputSet, Joints, MadePaths};
+use crate::{Hair, InputSet, Joints, MadePaths, ProgramSource};
 use std::ops::Range;
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
@@ -132,6 +132,8 @@ pub trait LayerProgram: Send + Sync {
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths);
     /// What is read of a joint.
     fn inputs(&self) -> InputSet;
+    /// The same for a graphics card.
+    fn source(&self) -> ProgramSource<'_>;
     /// Appends the discs of stroke `instance` at these joints. `seed` is the layer's.
     fn evaluate(
         &self,
@@ -198,6 +200,10 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn inputs(&self) -> InputSet {
         self.0.inputs()
+    }
+
+    fn source(&self) -> ProgramSource<'_> {
+        self.0.source()
     }
 
     fn evaluate(

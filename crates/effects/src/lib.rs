@@ -18,6 +18,7 @@ mod paths;
 pub mod preset;
 mod registry;
 pub mod smooth;
+mod source;
 mod varied;
 pub mod wgsl;
 
@@ -28,6 +29,7 @@ pub use layer::{Layer, Units, layer_seed};
 pub use param::{Param, ParamKind, Value, Values};
 pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
 pub use registry::{Registry, RegistryError};
+pub use source::ProgramSource;
 pub use varied::{Variation, Varied};
 
 /// The runtime of the translated WGSL.

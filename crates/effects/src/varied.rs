@@ -3,6 +3,7 @@
 use crate::effect::Parameters;
 use crate::layer::layer_seed;
 use crate::param::{ParamKind, Value, Values};
+use crate::source::{self, ProgramSource};
 use crate::wgsl::random_signed;
 use crate::{InputSet, Joints, strand_seed};
 use serde::Deserialize;
@@ -83,16 +84,19 @@ impl Variation {
 pub struct Varied<P: Parameters> {
     base: P::Params,
     varying: Vec<Varying>,
+    /// For a graphics card: [`ProgramSource::words`] and [`ProgramSource::varying`].
+    words: Vec<u32>,
+    indices: Vec<usize>,
 }
 
 #[derive(Clone, Debug)]
-struct Varying {
+pub(crate) struct Varying {
     /// Of the parameter in its table.
-    index: usize,
+    pub(crate) index: usize,
     /// From the parameter's name, so that parameters vary apart from each other.
-    seed: u32,
-    range: [f32; 2],
-    variation: Variation,
+    pub(crate) seed: u32,
+    pub(crate) range: [f32; 2],
+    pub(crate) variation: Variation,
 }
 
 impl<P: Parameters> Varied<P> {
@@ -112,9 +116,24 @@ impl<P: Parameters> Varied<P> {
                 variation: variation.clone(),
             })
         });
+        let varying: Vec<Varying> = varying.collect();
         Self {
             base: P::params(values),
-            varying: varying.collect(),
+            words: source::words(P::PARAMS, values, &varying),
+            indices: varying.iter().map(|v| v.index).collect(),
+            varying,
+        }
+    }
+
+    /// The program for a graphics card.
+    #[must_use]
+    pub fn source(&self) -> ProgramSource<'_> {
+        ProgramSource {
+            wgsl: P::WGSL,
+            inputs: P::INPUTS,
+            params: P::PARAMS,
+            words: &self.words,
+            varying: &self.indices,
         }
     }
 

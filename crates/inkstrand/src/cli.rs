@@ -227,7 +227,7 @@ pub(crate) enum Backend {
     Auto,
     /// The CPU: exact, any number of samples
     Cpu,
-    /// A GPU, or fail (not built yet)
+    /// A GPU, or a driver that draws in software where there is none; else fail
     Gpu,
 }
 

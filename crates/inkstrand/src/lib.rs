@@ -18,6 +18,7 @@
 mod cli;
 mod commands;
 mod output;
+mod painter;
 mod stats;
 mod whole_file;
 

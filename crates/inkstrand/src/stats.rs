@@ -1,10 +1,10 @@
 //! `--stats`: one line of JSON a frame.
 
-use render::Drawing;
+use render::{Drawing, Frame};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(crate) struct FrameStats {
     pub frame: u32,
     pub backend: &'static str,
@@ -23,11 +23,14 @@ pub(crate) struct Milliseconds {
     pub paths: f64,
     pub effects: f64,
     pub raster: f64,
+    /// On a graphics card that keeps time: strokes, sorting into tiles, tiles. Parts of `effects` and `raster`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub card: Option<[f64; 3]>,
     /// The whole frame, without encoding the file.
     pub total: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(crate) struct StrandCounts {
     pub total: usize,
     pub culled: usize,
@@ -40,14 +43,31 @@ pub(crate) struct LayerCounts {
     pub segments: usize,
 }
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(crate) struct Bytes {
-    /// What the drawing's lists hold.
+    /// What the drawing's lists hold, or the graphics card's buffers.
     pub buffers: usize,
 }
 
-/// Joints and segments of each layer.
-pub(crate) fn layer_counts(drawing: &Drawing) -> BTreeMap<String, LayerCounts> {
+/// Joints and segments of each layer of a frame.
+pub(crate) fn frame_counts(frame: &Frame) -> BTreeMap<String, LayerCounts> {
+    let layers = frame.layers.iter().zip(frame.layer_joints);
+    let counts = layers.map(|(layer, joints)| {
+        let instances = layer.program.instances() as usize;
+        let runs = frame.paths.runs.iter().map(|run| &run.joints);
+        let drawn = runs.filter(|run| joints.start <= run.start && run.end <= joints.end);
+        let segments: usize = drawn.map(|run| run.len() - 1).sum();
+        let counts = LayerCounts {
+            joints: joints.len() * instances,
+            segments: segments * instances,
+        };
+        (layer.name.clone(), counts)
+    });
+    counts.collect()
+}
+
+/// Joints and segments of each layer of a drawing.
+pub(crate) fn drawing_counts(drawing: &Drawing) -> BTreeMap<String, LayerCounts> {
     let segments: usize = drawing.runs.iter().map(|run| run.joints.len() - 1).sum();
     drawing
         .layers

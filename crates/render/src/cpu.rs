@@ -9,7 +9,6 @@
 //! `inline(always)`, or it would be compiled without them.
 
 mod bin;
-mod check;
 mod evaluate;
 mod instructions;
 mod rows;
@@ -23,10 +22,11 @@ mod tile;
 #[cfg(test)]
 mod tests;
 
-pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
+pub use crate::check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use evaluate::Evaluator;
 pub use stamp::Stamper;
 
+use crate::check;
 use crate::drawing::Drawing;
 use crate::picture::Picture;
 use crate::samples::{SampleCountError, sample_positions};

@@ -100,3 +100,17 @@ pub struct Frame<'a> {
     /// What strokes are made of.
     pub brush: Brush,
 }
+
+/// For each joint the length of its run up to there as it is seen, metres at its depth, appended.
+pub(crate) fn seen_lengths(paths: &Paths, lengths: &mut Vec<f32>) {
+    for run in &paths.runs {
+        let mut length = 0.0;
+        for i in run.joints.clone() {
+            if i > run.joints.start {
+                let scale = 0.5 * (paths.px_per_metre[i] + paths.px_per_metre[i - 1]);
+                length += paths.center[i].distance(paths.center[i - 1]) / scale;
+            }
+            lengths.push(length);
+        }
+    }
+}

@@ -2,23 +2,17 @@
 
 use super::read_preset;
 use super::scene::{open, parse};
-use crate::cli::{Backend, Numbers, RenderOptions};
+use crate::Failure;
+use crate::cli::{Numbers, RenderOptions};
 use crate::output::Output;
-use crate::stats::{Bytes, FrameStats, Milliseconds, StrandCounts, buffer_bytes, layer_counts};
+use crate::painter::Painter;
 use crate::whole_file::WholeFile;
-use crate::{Failure, not_built};
 use effects::Registry;
 use indicatif::{ProgressBar, ProgressStyle};
-use render::Drawing;
-use render::cpu::{Evaluator, Rasterizer};
-use stage::{Preset, Stage};
+use stage::Preset;
 use std::io::{IsTerminal as _, Write as _};
-use std::time::Instant;
 
 pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
-    if options.backend == Backend::Gpu {
-        return Err(not_built("the gpu backend"));
-    }
     // All that runs in parallel runs in here: simulation, effects and rasteriser.
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads.unwrap_or(0) as usize) // 0 is rayon's own choice
@@ -46,7 +40,7 @@ fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
         transparent,
     )
     .map_err(Failure::Usage)?;
-    let mut painter = Painter::new(samples)?;
+    let mut painter = Painter::new(options.backend, samples, options.quiet)?;
 
     let (first, last) = options.frames.unwrap_or((0, 0));
     let bar = progress_bar(options.quiet, u64::from(last - first) + 1);
@@ -83,70 +77,6 @@ fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
         stats.finish()?;
     }
     Ok(())
-}
-
-/// What turns a scene into pictures, kept from frame to frame.
-struct Painter {
-    evaluator: Evaluator,
-    rasterizer: Rasterizer,
-    drawing: Drawing,
-    samples: u32,
-}
-
-impl Painter {
-    fn new(samples: u32) -> Result<Self, Failure> {
-        Ok(Self {
-            evaluator: Evaluator::default(),
-            rasterizer: Rasterizer::new(samples, None)?,
-            drawing: Drawing::default(),
-            samples,
-        })
-    }
-
-    fn paint(
-        &mut self,
-        stage: &mut Stage,
-        frame: u32,
-        time: f32,
-    ) -> Result<(render::Picture, FrameStats), Failure> {
-        let mut milliseconds = Milliseconds::default();
-        let started = Instant::now();
-        let mut lap = started;
-        let mut since_last = || {
-            let now = Instant::now();
-            let passed = now.duration_since(lap);
-            lap = now;
-            passed.as_secs_f64() * 1e3
-        };
-        stage.advance_to(time)?;
-        milliseconds.simulate = since_last();
-        let described = stage.frame()?;
-        milliseconds.paths = since_last();
-        self.evaluator.evaluate(&described, &mut self.drawing);
-        milliseconds.effects = since_last();
-        let picture = self.rasterizer.draw(&self.drawing)?;
-        milliseconds.raster = since_last();
-        milliseconds.total = started.elapsed().as_secs_f64() * 1e3;
-
-        let stats = FrameStats {
-            frame,
-            backend: "cpu",
-            size: self.drawing.size,
-            samples: self.samples,
-            milliseconds,
-            strands: StrandCounts {
-                total: stage.strand_count(),
-                culled: stage.culled(),
-                asleep: stage.simulated().asleep,
-            },
-            layers: layer_counts(&self.drawing),
-            bytes: Bytes {
-                buffers: buffer_bytes(&self.drawing),
-            },
-            reused: false,
-        };
-        Ok((picture, stats))
-    }
 }
 
 /// Puts the command line's options in place of the preset's.

@@ -1,7 +1,7 @@
 //! Joints to strokes on the screen, by the layers' own WGSL in Rust.
 
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
-use crate::frame::{FAR_LIGHT, Frame};
+use crate::frame::{FAR_LIGHT, Frame, seen_lengths};
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, vec2, vec3};
 use effects::{InputSet, Joints, Layer, Units, clump, layer_seed};
@@ -228,17 +228,7 @@ impl Evaluator {
         if !frame.layers.iter().any(is_read) {
             return;
         }
-        let paths = frame.paths;
-        for run in &paths.runs {
-            let mut length = 0.0;
-            for i in run.joints.clone() {
-                if i > run.joints.start {
-                    let scale = 0.5 * (paths.px_per_metre[i] + paths.px_per_metre[i - 1]);
-                    length += paths.center[i].distance(paths.center[i - 1]) / scale;
-                }
-                self.seen_length.push(length);
-            }
-        }
+        seen_lengths(frame.paths, &mut self.seen_length);
     }
 
     /// The size of a pixel at 720 lines, for layers whose widths are pixels.

@@ -4,7 +4,8 @@
 use super::bin::{Bins, Bounds, cells};
 use super::instructions::Instructions;
 use super::tile::{self, LANE, LANES, NOTHING, Sums, Target, overwrite, row_start, select};
-use super::{DrawError, RasterizerError, check, empty_picture, segment};
+use super::{DrawError, RasterizerError, empty_picture, segment};
+use crate::check;
 use crate::drawing::{Brush, Drawing, Run};
 use crate::picture::Picture;
 use crate::samples::sample_positions;

@@ -151,17 +151,8 @@ const DISC_RULE: &str =
     "its numbers must be finite, its radius 0 or more, its place and radius at most 1e9 pixels";
 
 /// Looks at every number of the drawing, so that drawing itself can't fail.
-pub(super) fn check(drawing: &Drawing) -> Result<(), DrawError> {
-    let [width, height] = drawing.size;
-    if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
-        return Err(DrawError::Size(width, height));
-    }
-    if drawing.background.is_some_and(|color| !is_finite(&color)) {
-        return Err(DrawError::Background);
-    }
-    if !(0.0..=f32::MAX).contains(&drawing.edge_depth_m) {
-        return Err(DrawError::EdgeDepth(drawing.edge_depth_m));
-    }
+pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
+    check_picture(drawing.size, drawing.background, drawing.edge_depth_m)?;
     check_runs(drawing)?;
     let joints = drawing.clump.len();
     if let Some(joint) = drawing.clump.par_iter().position_first(|d| !is_disc(d)) {
@@ -171,10 +162,33 @@ pub(super) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     for layer in &drawing.layers {
         check_layer(layer, joints)?;
     }
-    for (index, surface) in drawing.surfaces.iter().enumerate() {
+    check_surfaces(&drawing.surfaces)
+}
+
+/// Looks at what a picture is, whatever is in it.
+pub(crate) fn check_picture(
+    [width, height]: [u32; 2],
+    background: Option<[f32; 3]>,
+    edge_depth_m: f32,
+) -> Result<(), DrawError> {
+    if !(1..=MAX_SIZE).contains(&width) || !(1..=MAX_SIZE).contains(&height) {
+        return Err(DrawError::Size(width, height));
+    }
+    if background.is_some_and(|color| !is_finite(&color)) {
+        return Err(DrawError::Background);
+    }
+    if !(0.0..=f32::MAX).contains(&edge_depth_m) {
+        return Err(DrawError::EdgeDepth(edge_depth_m));
+    }
+    Ok(())
+}
+
+/// Looks at every number of the surfaces.
+pub(crate) fn check_surfaces(surfaces: &[Surface]) -> Result<(), DrawError> {
+    for (index, surface) in surfaces.iter().enumerate() {
         check_surface(index, surface)?;
     }
-    let triangles = drawing.surfaces.iter().map(|s| s.triangles.len()).sum();
+    let triangles = surfaces.iter().map(|s| s.triangles.len()).sum();
     if u32::try_from(triangles).is_err() {
         return Err(DrawError::TriangleCount(triangles));
     }

@@ -1,0 +1,205 @@
+//! What the shaders' structs look like from Rust: `shaders/gpu/frame.wgsl`, `drawn.wgsl`, `joint.wgsl`.
+
+use crate::frame::Frame;
+use effects::InputSet;
+use rayon::prelude::*;
+use std::fmt::Write as _;
+
+/// `GpuFrame`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct GpuFrame {
+    pub(super) size: [u32; 2],
+    pub(super) tiles: [u32; 2],
+    pub(super) joints: u32,
+    pub(super) chunks: u32,
+    pub(super) triangles: u32,
+    pub(super) samples: u32,
+    pub(super) eye: [f32; 3],
+    pub(super) near_m: f32,
+    pub(super) head_center: [f32; 3],
+    pub(super) head_height_m: f32,
+    pub(super) light: [f32; 3],
+    pub(super) light_is_point: u32,
+    pub(super) background: [f32; 4],
+    pub(super) unit_m: f32,
+    pub(super) pixel_px: f32,
+    pub(super) edge_depth_m: f32,
+    pub(super) chunk_capacity: u32,
+    pub(super) triangle_capacity: u32,
+    pub(super) is_semicircle: u32,
+    pub(super) surfaces_at: u32,
+    pub(super) writes_samples: u32,
+}
+
+/// Bytes of a `GpuDisc`, and of a `GpuClump`.
+pub(super) const DISC_BYTES: u64 = 32;
+pub(super) const CLUMP_BYTES: u64 = 32;
+/// Words of a strand's record: id, mean, size.
+pub(super) const STRAND_WORDS: usize = 5;
+/// Width and height of a tile, pixels.
+pub(super) const TILE: u32 = 16;
+/// Most segments of a chunk.
+pub(super) const CHUNK: usize = 8;
+/// Invocations of a workgroup, but for the tiles'.
+pub(super) const WORKGROUP: u32 = 64;
+
+/// What there is of a joint in its record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Field {
+    Center,
+    Depth,
+    PxPerMetre,
+    Strand,
+    Position,
+    /// First and last joint of its run.
+    Run,
+    Forward,
+    Backward,
+    U,
+    ArcLength,
+    Across,
+    MaterialNormal,
+    SeenLength,
+}
+
+use Field::{
+    Across, ArcLength, Backward, Center, Depth, Forward, MaterialNormal, Position, PxPerMetre, Run,
+    SeenLength, Strand, U,
+};
+
+/// All fields: the name of the place in WGSL, and how many words it takes.
+const FIELDS: [(Field, &str, u32); 13] = [
+    (Center, "GPU_AT_CENTER", 2),
+    (Depth, "GPU_AT_DEPTH", 1),
+    (PxPerMetre, "GPU_AT_PX_PER_METRE", 1),
+    (Strand, "GPU_AT_STRAND", 1),
+    (Position, "GPU_AT_POSITION", 3),
+    (Run, "GPU_AT_RUN", 2),
+    (Forward, "GPU_AT_FORWARD", 3),
+    (Backward, "GPU_AT_BACKWARD", 3),
+    (U, "GPU_AT_U", 1),
+    (ArcLength, "GPU_AT_ARC_LENGTH", 1),
+    (Across, "GPU_AT_ACROSS", 2),
+    (MaterialNormal, "GPU_AT_MATERIAL_NORMAL", 3),
+    (SeenLength, "GPU_AT_SEEN_LENGTH", 1),
+];
+
+/// A joint's record: what somebody reads of it, and nothing else.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct JointLayout {
+    fields: Vec<Field>,
+    words: u32,
+}
+
+/// What is read of joints beside the effects' inputs.
+#[derive(Clone, Copy)]
+pub(super) struct Needs {
+    pub(super) inputs: InputSet,
+    pub(super) has_material_normals: bool,
+    pub(super) is_smoothed: bool,
+    pub(super) is_semicircle: bool,
+}
+
+impl JointLayout {
+    pub(super) fn new(needs: Needs) -> Self {
+        let Needs {
+            inputs,
+            has_material_normals,
+            is_smoothed,
+            is_semicircle,
+        } = needs;
+        let is_needed = |field: Field| match field {
+            Center | Depth | PxPerMetre | Strand | Position => true,
+            Run => is_smoothed || is_semicircle,
+            Forward => inputs.has("forward"),
+            Backward => inputs.has("backward"),
+            U => inputs.has("u") || is_semicircle,
+            ArcLength => inputs.has("arc_length"),
+            Across => inputs.has("across") || is_semicircle,
+            MaterialNormal => inputs.has("material_normal") && has_material_normals,
+            SeenLength => is_smoothed,
+        };
+        let needed = FIELDS.iter().filter(|(field, ..)| is_needed(*field));
+        Self {
+            fields: needed.clone().map(|(field, ..)| *field).collect(),
+            words: needed.map(|(_, _, words)| words).sum(),
+        }
+    }
+
+    /// Whether the records have a material normal.
+    pub(super) fn has_material_normal(&self) -> bool {
+        self.fields.contains(&MaterialNormal)
+    }
+
+    /// The places in the record as WGSL constants. Of what isn't there the place is 0, which nobody reads.
+    pub(super) fn constants(&self) -> String {
+        let mut text = format!("const GPU_JOINT_WORDS: u32 = {}u;\n", self.words);
+        let mut next = 0;
+        for (field, name, words) in FIELDS {
+            let is_there = self.fields.contains(&field);
+            let place = if is_there { next } else { 0 };
+            let _ = writeln!(text, "const {name}: u32 = {place}u;");
+            next += if is_there { words } else { 0 };
+        }
+        text
+    }
+
+    /// The records of all joints of a frame, in place of what was there. `seen_length` is empty where it isn't needed.
+    pub(super) fn fill(&self, frame: &Frame, seen_length: &[f32], records: &mut Vec<u32>) {
+        const JOINTS: usize = 1024;
+        let each = self.words as usize;
+        let runs = &frame.paths.runs;
+        records.clear();
+        records.resize(frame.paths.len() * each, 0);
+        records
+            .par_chunks_mut(JOINTS * each)
+            .enumerate()
+            .for_each(|(part, records)| {
+                let first = part * JOINTS;
+                let mut run = runs.partition_point(|run| run.joints.end <= first);
+                for (joint, record) in (first..).zip(records.chunks_exact_mut(each)) {
+                    while runs[run].joints.end <= joint {
+                        run += 1;
+                    }
+                    self.write(frame, run, joint, seen_length, record);
+                }
+            });
+    }
+
+    fn write(
+        &self,
+        frame: &Frame,
+        run: usize,
+        joint: usize,
+        seen_length: &[f32],
+        record: &mut [u32],
+    ) {
+        let (paths, run) = (frame.paths, &frame.paths.runs[run]);
+        let mut places = record.iter_mut();
+        let mut push = |words: &[u32]| {
+            for (place, word) in places.by_ref().take(words.len()).zip(words) {
+                *place = *word;
+            }
+        };
+        let bits2 = |v: glam::Vec2| v.to_array().map(f32::to_bits);
+        let bits3 = |v: glam::Vec3| v.to_array().map(f32::to_bits);
+        for field in &self.fields {
+            match field {
+                Center => push(&bits2(paths.center[joint])),
+                Depth => push(&[paths.depth[joint].to_bits()]),
+                PxPerMetre => push(&[paths.px_per_metre[joint].to_bits()]),
+                Strand => push(&[run.strand as u32]),
+                Position => push(&bits3(paths.position[joint])),
+                Run => push(&[run.joints.start as u32, run.joints.end as u32 - 1]),
+                Forward => push(&bits3(paths.forward[joint])),
+                Backward => push(&bits3(paths.backward[joint])),
+                U => push(&[paths.u[joint].to_bits()]),
+                ArcLength => push(&[paths.arc_length[joint].to_bits()]),
+                Across => push(&bits2(paths.across[joint])),
+                MaterialNormal => push(&bits3(frame.material_normals[joint])),
+                SeenLength => push(&[seen_length[joint].to_bits()]),
+            }
+        }
+    }
+}

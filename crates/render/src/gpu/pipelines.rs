@@ -1,0 +1,99 @@
+//! Compute pipelines, and what they bind.
+
+use super::error::GpuError;
+use wgpu::{BindGroupLayout, BufferBindingType, ComputePipeline, Device};
+
+/// What a binding of group 0 is; its number is its place in the list.
+#[derive(Clone, Copy)]
+pub(super) enum Binding {
+    Uniform,
+    Read,
+    Write,
+}
+
+use Binding::{Read, Uniform, Write};
+
+/// `clump_main`: frame, joints, strands, words, clumps, discs.
+pub(super) const CLUMP: &[Binding] = &[Uniform, Read, Read, Read, Write, Write];
+/// `stroke_main`: frame, joints, strands, words, clumps, discs.
+pub(super) const STROKES: &[Binding] = &[Uniform, Read, Read, Read, Read, Write];
+/// `smooth`: the same, and windows.
+pub(super) const SMOOTH: &[Binding] = &[Uniform, Read, Read, Read, Read, Write, Write];
+/// `bins`: frame, chunks, tables, discs, corners, triangles, counters, starts, entries.
+pub(super) const BINS: &[Binding] =
+    &[Uniform, Read, Read, Read, Read, Read, Write, Write, Write];
+/// `tiles`: frame, chunks, tables, discs, corners, triangles, starts, entries, picture, sample places.
+pub(super) const TILES: &[Binding] = &[
+    Uniform, Read, Read, Read, Read, Read, Read, Read, Write, Uniform,
+];
+
+/// A group of that many bindings, for compute shaders.
+pub(super) fn layout(device: &Device, name: &str, bindings: &[Binding]) -> BindGroupLayout {
+    let entries: Vec<_> = (bindings.iter().zip(0..))
+        .map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: match kind {
+                    Uniform => BufferBindingType::Uniform,
+                    Read => BufferBindingType::Storage { read_only: true },
+                    Write => BufferBindingType::Storage { read_only: false },
+                },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(name),
+        entries: &entries,
+    })
+}
+
+/// The pipelines of a shader's entry points, in their order.
+///
+/// # Errors
+///
+/// When the shader or a pipeline is refused; `name` says whose it is.
+pub(super) fn pipelines(
+    device: &Device,
+    name: &str,
+    text: &str,
+    layout: &BindGroupLayout,
+    entry_points: &[&str],
+) -> Result<Vec<ComputePipeline>, GpuError> {
+    let refused = |error: wgpu::Error| GpuError::Shader {
+        name: name.to_owned(),
+        message: error.to_string(),
+    };
+    let invalid = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(name),
+        source: wgpu::ShaderSource::Wgsl(text.into()),
+    });
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(name),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    });
+    let made = entry_points
+        .iter()
+        .map(|entry_point| {
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry_point),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            })
+        })
+        .collect();
+    let errors = [pollster::block_on(internal.pop()), pollster::block_on(invalid.pop())];
+    match errors.into_iter().flatten().next() {
+        Some(error) => Err(refused(error)),
+        None => Ok(made),
+    }
+}

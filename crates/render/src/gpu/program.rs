@@ -1,0 +1,127 @@
+//! The text of a compute shader that runs an effect, or the clump, at every joint.
+
+use super::layout::JointLayout;
+use effects::{ParamKind, ProgramSource};
+use std::fmt::Write as _;
+
+const FRAME: &str = include_str!("../../../../shaders/gpu/frame.wgsl");
+const JOINT: &str = include_str!("../../../../shaders/gpu/joint.wgsl");
+const PRELUDE: &str = include_str!("../../../../shaders/prelude.wgsl");
+const CLUMP_MAIN: &str = include_str!("../../../../shaders/gpu/clump_main.wgsl");
+const STROKE_MAIN: &str = include_str!("../../../../shaders/gpu/stroke_main.wgsl");
+const SMOOTH: &str = include_str!("../../../../shaders/gpu/smooth.wgsl");
+const DRAWN: &str = include_str!("../../../../shaders/gpu/drawn.wgsl");
+const BINS: &str = include_str!("../../../../shaders/gpu/bins.wgsl");
+const SWEEP: &str = include_str!("../../../../shaders/gpu/sweep.wgsl");
+const TILES: &str = include_str!("../../../../shaders/gpu/tiles.wgsl");
+
+/// Words before a layer's parameters: `shaders/gpu/joint.wgsl` names them.
+pub(super) const LAYER_WORDS: u32 = 8;
+
+/// The clump's shader.
+pub(super) fn clump(source: &ProgramSource, layout: &JointLayout) -> String {
+    [source.wgsl, FRAME, &layout.constants(), JOINT, &gather(source, layout), CLUMP_MAIN].join("\n")
+}
+
+/// A layer's shader.
+pub(super) fn strokes(source: &ProgramSource, layout: &JointLayout) -> String {
+    [source.wgsl, FRAME, &layout.constants(), JOINT, &gather(source, layout), STROKE_MAIN]
+        .join("\n")
+}
+
+/// What smooths layers: entry points `find_gaps`, `close_gaps`, `find_specks` and `open_specks`, in that order.
+pub(super) fn smooth(layout: &JointLayout) -> String {
+    [PRELUDE, FRAME, &layout.constants(), JOINT, SMOOTH].join("\n")
+}
+
+/// What sorts into tiles.
+pub(super) fn bins() -> String {
+    [FRAME, DRAWN, BINS].join("\n")
+}
+
+/// What draws tiles in an order, given by its number in `tiles.wgsl`.
+pub(super) fn tiles(order: u32) -> String {
+    let order = format!("const ORDER: u32 = {order}u;\n");
+    [&order, FRAME, DRAWN, SWEEP, TILES].join("\n")
+}
+
+/// `gpu_inputs` and `gpu_params`: an effect's inputs and parameters at a joint.
+fn gather(source: &ProgramSource, layout: &JointLayout) -> String {
+    let inputs: Vec<String> = source.inputs.iter().map(|name| input(name, layout)).collect();
+    let mut text = format!(
+        "fn gpu_inputs(joint: u32) -> Inputs {{\n    return Inputs({});\n}}\n",
+        inputs.join(", ")
+    );
+    let mut at = LAYER_WORDS;
+    let mut params = Vec::new();
+    for (index, param) in source.params.iter().enumerate() {
+        let words = match param.kind {
+            ParamKind::Number { .. } if source.varying.contains(&index) => {
+                params.push(format!(
+                    "gpu_varied({LAYER_WORDS}u + gpu_words[{at}u], gpu_scalar(joint, GPU_AT_U), gpu_seed(joint))"
+                ));
+                1
+            }
+            ParamKind::Number { .. } => {
+                params.push(format!("gpu_word({at}u)"));
+                1
+            }
+            ParamKind::Integer { .. } | ParamKind::Choice { .. } => {
+                params.push(format!("gpu_words[{at}u]"));
+                1
+            }
+            ParamKind::Color { .. } => {
+                params.push(vector(3, at));
+                3
+            }
+            _ => {
+                params.push(vector(4, at));
+                4
+            }
+        };
+        at += words;
+    }
+    let _ = writeln!(
+        text,
+        "fn gpu_params(joint: u32) -> Params {{\n    return Params({});\n}}",
+        params.join(", ")
+    );
+    text
+}
+
+fn vector(size: u32, at: u32) -> String {
+    let words: Vec<String> = (at..at + size).map(|at| format!("gpu_word({at}u)")).collect();
+    format!("vec{size}<f32>({})", words.join(", "))
+}
+
+/// The value of an input at joint `joint`.
+fn input(name: &str, layout: &JointLayout) -> String {
+    let text = match name {
+        "position" => "gpu_vec3(joint, GPU_AT_POSITION)",
+        "forward" => "gpu_vec3(joint, GPU_AT_FORWARD)",
+        "backward" => "gpu_vec3(joint, GPU_AT_BACKWARD)",
+        "u" => "gpu_scalar(joint, GPU_AT_U)",
+        "arc_length" => "gpu_scalar(joint, GPU_AT_ARC_LENGTH)",
+        "strand" => "gpu_of_strand(joint, 0u)",
+        "seed" => "gpu_seed(joint)",
+        "strand_mean" => "gpu_strand_mean(joint)",
+        "head_center" => "gpu_frame.head_center",
+        "strand_size" => "bitcast<f32>(gpu_of_strand(joint, 4u))",
+        "light_direction" => "gpu_light_direction(joint)",
+        "light_distance" => "gpu_light_distance(joint)",
+        "view_direction" => "gpu_view_direction(joint)",
+        "across" => "gpu_vec2(joint, GPU_AT_ACROSS)",
+        "material_normal" if layout.has_material_normal() => {
+            "gpu_vec3(joint, GPU_AT_MATERIAL_NORMAL)"
+        }
+        // Zero where nobody has worked it out.
+        "material_normal" => "vec3<f32>(0.0)",
+        "unit" => "gpu_unit(joint)",
+        "normal" => "gpu_clumps[joint].normal",
+        "clump_radius" => "gpu_clumps[joint].radius",
+        "clump_color" => "gpu_clumps[joint].color",
+        "gray" => "gpu_clumps[joint].gray",
+        other => return format!("gpu_has_no_input_{other}()"),
+    };
+    text.to_owned()
+}

@@ -1,0 +1,222 @@
+//! A frame as the words that a graphics card reads.
+
+use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
+use super::program::LAYER_WORDS;
+use crate::frame::Frame;
+use effects::{InputSet, Layer, Units, layer_seed};
+use std::ops::Range;
+
+/// Words of a stroke's record in the tables.
+const STROKE_WORDS: usize = 3;
+
+/// A frame taken apart. Keeps its lists from frame to frame.
+#[derive(Default)]
+pub(super) struct SceneWords {
+    pub(super) layout: JointLayout,
+    pub(super) joints: Vec<u32>,
+    pub(super) strands: Vec<u32>,
+    pub(super) chunks: Vec<u32>,
+    pub(super) tables: Vec<u32>,
+    pub(super) surfaces_at: u32,
+    pub(super) corners: Vec<u32>,
+    pub(super) triangles: Vec<u32>,
+    pub(super) clump: Vec<u32>,
+    pub(super) layers: Vec<LayerScene>,
+    /// Discs of all strokes, the clump's first.
+    pub(super) discs: usize,
+    seen_length: Vec<f32>,
+}
+
+/// A layer in a frame.
+#[derive(Default)]
+pub(super) struct LayerScene {
+    /// What it is, then its parameters.
+    pub(super) words: Vec<u32>,
+    /// Joints that it draws on.
+    pub(super) joints: usize,
+    pub(super) instances: u32,
+    pub(super) is_smoothed: bool,
+}
+
+/// A layer's place among the strokes.
+struct Placed {
+    rank: i32,
+    layer: usize,
+    instances: u32,
+    joints: Range<usize>,
+    first_disc: usize,
+}
+
+impl SceneWords {
+    /// Takes the frame apart, in place of the one before.
+    pub(super) fn fill(&mut self, frame: &Frame) {
+        let is_smoothed = |layer: &Layer| layer.program.shortest() > 0.0;
+        let needs = Needs {
+            inputs: (frame.layers.iter())
+                .map(|layer| layer.program.inputs())
+                .fold(frame.clump.inputs(), InputSet::union),
+            has_material_normals: !frame.material_normals.is_empty(),
+            is_smoothed: frame.layers.iter().any(is_smoothed),
+            is_semicircle: frame.brush == crate::Brush::Semicircle,
+        };
+        self.layout = JointLayout::new(needs);
+        self.seen_length.clear();
+        if needs.is_smoothed {
+            crate::frame::seen_lengths(frame.paths, &mut self.seen_length);
+        }
+        self.layout.fill(frame, &self.seen_length, &mut self.joints);
+        self.fill_strands(frame);
+        let placed = self.fill_layers(frame);
+        self.fill_chunks_and_tables(frame, &placed);
+        self.fill_surfaces(frame);
+    }
+
+    fn fill_strands(&mut self, frame: &Frame) {
+        self.strands.clear();
+        for strand in frame.strands {
+            let [x, y, z] = strand.mean.to_array();
+            let numbers = [x, y, z, strand.size].map(f32::to_bits);
+            self.strands.push(strand.id);
+            self.strands.extend(numbers);
+        }
+    }
+
+    /// The layers' own words, and their places in the order of strokes.
+    fn fill_layers(&mut self, frame: &Frame) -> Vec<Placed> {
+        self.clump.clear();
+        self.clump.push(layer_seed(frame.seed, "clump"));
+        self.clump.resize(LAYER_WORDS as usize, 0);
+        self.clump.extend(frame.clump.source().words);
+
+        self.discs = frame.paths.len();
+        self.layers.resize_with(frame.layers.len(), Default::default);
+        let mut placed = Vec::new();
+        let layers = frame.layers.iter().zip(frame.layer_joints).enumerate();
+        for (index, (layer, joints)) in layers {
+            let scene = &mut self.layers[index];
+            let shortest = layer.program.shortest();
+            scene.joints = joints.len();
+            scene.instances = layer.program.instances();
+            scene.is_smoothed = shortest > 0.0;
+            let first_disc = self.discs;
+            self.discs += scene.joints * scene.instances as usize;
+            scene.words.clear();
+            scene.words.extend([
+                layer_seed(frame.seed, &layer.name),
+                // As if the frame's first joint had a disc: wrapping, as the shader's sums are.
+                (first_disc as u32).wrapping_sub(joints.start as u32),
+                joints.start as u32,
+                scene.joints as u32,
+                shortest.to_bits(),
+                layer.depth_offset.to_bits(),
+                u32::from(layer.units == Units::Pixels),
+                u32::from(layer.program.has_own_paths()),
+            ]);
+            scene.words.extend(layer.program.source().words);
+            placed.push(Placed {
+                rank: layer.rank,
+                layer: index,
+                instances: scene.instances,
+                joints: joints.clone(),
+                first_disc,
+            });
+        }
+        // As they lie, low first; instances of a layer follow each other.
+        placed.sort_by_key(|p| (p.rank, p.layer));
+        placed
+    }
+
+    /// Bytes of all discs.
+    pub(super) fn disc_bytes(&self) -> u64 {
+        self.discs as u64 * DISC_BYTES
+    }
+
+    /// Pieces of runs, and which strokes each has.
+    fn fill_chunks_and_tables(&mut self, frame: &Frame, placed: &[Placed]) {
+        // Runs that the same layers draw on share a list.
+        let mut lists: Vec<Vec<bool>> = Vec::new();
+        let mut last = None;
+        self.chunks.clear();
+        for run in &frame.paths.runs {
+            let draws = |p: &Placed| {
+                p.joints.start <= run.joints.start && run.joints.end <= p.joints.end
+            };
+            let is_as = |list: &Vec<bool>| placed.iter().map(draws).eq(list.iter().copied());
+            let list = match last {
+                Some(list) if is_as(&lists[list]) => list,
+                _ => lists.iter().position(is_as).unwrap_or_else(|| {
+                    lists.push(placed.iter().map(draws).collect());
+                    lists.len() - 1
+                }),
+            };
+            last = Some(list);
+            let segments = run.joints.len() - 1;
+            for first in (0..segments.max(1)).step_by(CHUNK) {
+                self.chunks.extend([
+                    run.strand as u32,
+                    (run.joints.start + first) as u32,
+                    (segments - first).min(CHUNK) as u32,
+                    list as u32,
+                ]);
+            }
+        }
+
+        let strokes_in = |list: &[bool]| -> usize {
+            let drawn = placed.iter().zip(list).filter(|(_, is_drawn)| **is_drawn);
+            1 + drawn.map(|(p, _)| p.instances as usize).sum::<usize>()
+        };
+        let counts: Vec<usize> = lists.iter().map(|list| strokes_in(list)).collect();
+        let records_at = 2 * lists.len() + counts.iter().sum::<usize>();
+        let record = |number: usize| (records_at + STROKE_WORDS * number) as u32;
+        self.tables.clear();
+        let mut list_at = 2 * lists.len();
+        for count in &counts {
+            self.tables.extend([list_at as u32, *count as u32]);
+            list_at += count;
+        }
+        for list in &lists {
+            self.tables.push(record(0));
+            let mut number = 1;
+            for (p, is_drawn) in placed.iter().zip(list) {
+                let numbers = number..number + p.instances as usize;
+                number = numbers.end;
+                if *is_drawn {
+                    self.tables.extend(numbers.map(record));
+                }
+            }
+        }
+        // The clump's discs begin at the buffer's start.
+        self.tables.extend([0, 0, 0]);
+        let mut number = 0;
+        for p in placed {
+            for instance in 0..p.instances as usize {
+                number += 1;
+                let first = (p.first_disc + instance * p.joints.len()) as u32;
+                let first = first.wrapping_sub(p.joints.start as u32);
+                self.tables.extend([first, number, u32::from(p.rank >= 0)]);
+            }
+        }
+    }
+
+    fn fill_surfaces(&mut self, frame: &Frame) {
+        self.surfaces_at = self.tables.len() as u32;
+        self.corners.clear();
+        self.triangles.clear();
+        for (surface, number) in frame.surfaces.iter().zip(0..) {
+            let [lr, lg, lb] = surface.light;
+            let [sr, sg, sb] = surface.shadow;
+            let numbers = [lr, lg, lb, sr, sg, sb, surface.margin_m];
+            self.tables.extend(numbers.map(f32::to_bits));
+            let first = self.corners.len() as u32 / 4;
+            for vertex in &surface.vertices {
+                let [x, y] = vertex.position.to_array();
+                let numbers = [x, y, vertex.inv_depth, vertex.tone];
+                self.corners.extend(numbers.map(f32::to_bits));
+            }
+            for [a, b, c] in &surface.triangles {
+                self.triangles
+                    .extend([first + a, first + b, first + c, number]);
+            }
+        }
+    }
+}

@@ -1,0 +1,190 @@
+// Sorts what is drawn into the tiles that it may reach: pieces of runs (chunks), and triangles. First they are
+// counted, then the tiles' lists get their places, then they are filled.
+
+/// For each tile the number of chunks, then of triangles; then, where the next goes.
+@group(0) @binding(6) var<storage, read_write> counters: array<atomic<u32>>;
+/// Where each tile's list of chunks begins, and the end of the last; the same for triangles.
+@group(0) @binding(7) var<storage, read_write> starts: array<u32>;
+/// All lists of chunks, then all of triangles.
+@group(0) @binding(8) var<storage, read_write> entries: array<u32>;
+
+/// A box on the screen, in tiles: columns and rows, ends excluded.
+struct Tiles {
+    first: vec2<u32>,
+    end: vec2<u32>,
+}
+
+/// Room for rounding around everything that is drawn, in pixels.
+const MARGIN: f32 = 0.02;
+
+fn tiles_of(low: vec2<f32>, high: vec2<f32>) -> Tiles {
+    let size = vec2<f32>(gpu_frame.size);
+    // Nothing where the box doesn't touch the picture.
+    if (!(low.x <= size.x && low.y <= size.y && high.x >= 0.0 && high.y >= 0.0)) {
+        return Tiles(vec2<u32>(0u), vec2<u32>(0u));
+    }
+    let first = vec2<u32>(clamp(low - MARGIN, vec2<f32>(0.0), size)) / TILE;
+    let last = vec2<u32>(clamp(high + MARGIN, vec2<f32>(0.0), size)) / TILE;
+    return Tiles(first, min(last + 1u, gpu_frame.tiles));
+}
+
+fn tiles_of_chunk(index: u32) -> Tiles {
+    let chunk = chunks[index];
+    var low = vec2<f32>(1e30);
+    var high = vec2<f32>(-1e30);
+    let first = tables[2u * chunk.strokes];
+    let count = tables[2u * chunk.strokes + 1u];
+    for (var s = 0u; s < count; s++) {
+        let disc = tables[tables[first + s] + STROKE_FIRST_DISC] + chunk.first_joint;
+        for (var j = 0u; j <= chunk.segments; j++) {
+            let center = discs[disc + j].center;
+            let radius = discs[disc + j].radius;
+            // A stroke may taper to a point, but two points draw nothing.
+            let before = discs[disc + max(j, 1u) - 1u].radius;
+            let after = discs[disc + min(j + 1u, chunk.segments)].radius;
+            if (max(radius, max(before, after)) > 0.0) {
+                low = min(low, center - radius);
+                high = max(high, center + radius);
+            }
+        }
+    }
+    return tiles_of(low, high);
+}
+
+fn tiles_of_triangle(index: u32) -> Tiles {
+    let triangle = triangles[index];
+    let a = corners[triangle.corners.x].position;
+    let b = corners[triangle.corners.y].position;
+    let c = corners[triangle.corners.z].position;
+    return tiles_of(min(min(a, b), c), max(max(a, b), c));
+}
+
+@compute @workgroup_size(64)
+fn count_chunks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = gpu_index(group, groups, local);
+    if (index < gpu_frame.chunks) {
+        count(tiles_of_chunk(index), 0u);
+    }
+}
+
+@compute @workgroup_size(64)
+fn count_triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = gpu_index(group, groups, local);
+    if (index < gpu_frame.triangles) {
+        count(tiles_of_triangle(index), tile_count());
+    }
+}
+
+fn tile_count() -> u32 {
+    return gpu_frame.tiles.x * gpu_frame.tiles.y;
+}
+
+fn count(tiles: Tiles, counter: u32) {
+    for (var y = tiles.first.y; y < tiles.end.y; y++) {
+        for (var x = tiles.first.x; x < tiles.end.x; x++) {
+            atomicAdd(&counters[counter + y * gpu_frame.tiles.x + x], 1u);
+        }
+    }
+}
+
+@compute @workgroup_size(64)
+fn fill_chunks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = gpu_index(group, groups, local);
+    if (index < gpu_frame.chunks) {
+        fill(tiles_of_chunk(index), index, 0u, 0u, gpu_frame.chunk_capacity);
+    }
+}
+
+@compute @workgroup_size(64)
+fn fill_triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = gpu_index(group, groups, local);
+    if (index < gpu_frame.triangles) {
+        fill(tiles_of_triangle(index), index, tile_count(), gpu_frame.chunk_capacity, gpu_frame.triangle_capacity);
+    }
+}
+
+/// Puts an item into the lists of those tiles, as far as there is room; a tile whose list has none looks at all items.
+fn fill(tiles: Tiles, item: u32, counter: u32, first: u32, capacity: u32) {
+    for (var y = tiles.first.y; y < tiles.end.y; y++) {
+        for (var x = tiles.first.x; x < tiles.end.x; x++) {
+            let place = atomicAdd(&counters[counter + y * gpu_frame.tiles.x + x], 1u);
+            if (place < capacity) {
+                entries[first + place] = item;
+            }
+        }
+    }
+}
+
+const SCAN: u32 = 256u;
+var<workgroup> sums: array<u32, SCAN>;
+
+/// Gives every list its place: those before it have so many entries.
+@compute @workgroup_size(SCAN)
+fn place_lists(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let tiles = tile_count();
+    let counter = group.x * tiles;
+    let start = group.x * (tiles + 1u);
+    let each = (tiles + SCAN - 1u) / SCAN;
+    let first = min(local * each, tiles);
+    let end = min(first + each, tiles);
+    var sum = 0u;
+    for (var tile = first; tile < end; tile++) {
+        sum += atomicLoad(&counters[counter + tile]);
+    }
+    sums[local] = sum;
+    workgroupBarrier();
+    var before = 0u;
+    for (var other = 0u; other < local; other++) {
+        before += sums[other];
+    }
+    for (var tile = first; tile < end; tile++) {
+        let items = atomicLoad(&counters[counter + tile]);
+        starts[start + tile] = before;
+        atomicStore(&counters[counter + tile], before);
+        before += items;
+    }
+    if (local == SCAN - 1u) {
+        starts[start + tiles] = before;
+    }
+}
+
+const SORT: u32 = 64u;
+var<workgroup> list: vec2<u32>;
+
+/// Sorts a tile's list of chunks, which came in any order: so strands are together, and all is drawn in one order.
+@compute @workgroup_size(SORT)
+fn sort_chunks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let tile = group.y * groups.x + group.x;
+    if (tile >= tile_count()) { return; }
+    if (local == 0u) {
+        list = vec2<u32>(starts[tile], starts[tile + 1u]);
+    }
+    let place = workgroupUniformLoad(&list);
+    if (place.y > gpu_frame.chunk_capacity) { return; }
+    let start = place.x;
+    let items = place.y - place.x;
+    // A bitonic network over the next power of two, whose missing items count as the largest (Batcher, "Sorting networks
+    // and their applications", 1968), with every comparison upwards, so that these stay at the end.
+    for (var block = 2u; block < 2u * items; block *= 2u) {
+        for (var half = block / 2u; half > 0u; half /= 2u) {
+            for (var pair = local; ; pair += SORT) {
+                let low = pair / half * 2u * half + pair % half;
+                if (low >= items) { break; }
+                var high = low + half;
+                if (half == block / 2u) {
+                    // The first step of a block compares it with its mirror image.
+                    high = low / block * block + block - 1u - low % block;
+                }
+                if (high < items) {
+                    let a = entries[start + low];
+                    let b = entries[start + high];
+                    if (b < a) {
+                        entries[start + low] = b;
+                        entries[start + high] = a;
+                    }
+                }
+            }
+            storageBarrier();
+        }
+    }
+}

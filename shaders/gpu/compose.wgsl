@@ -1,0 +1,87 @@
+// Puts a prepared frame into somebody else's render pass: one triangle over all of it. Composed behind frame.wgsl.
+
+struct Pass {
+    /// A view depth d has the depth `depth.x + depth.y / d` in the pass.
+    depth: vec2<f32>,
+    /// 1 where the pass's colours are stored as they are written, and meant as sRGB.
+    encodes: u32,
+    spare: u32,
+}
+
+@group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
+/// Every sample: its colour and its inverse depth, 0 where nothing is.
+@group(0) @binding(1) var<storage, read> samples: array<vec4<f32>>;
+@group(0) @binding(2) var<uniform> target_pass: Pass;
+
+@vertex
+fn cover_all(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+    let x = select(-1.0, 3.0, index == 1u);
+    let y = select(-1.0, 3.0, index == 2u);
+    return vec4<f32>(x, y, 0.0, 1.0);
+}
+
+struct Shown {
+    /// Alpha is multiplied in.
+    @location(0) color: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+fn first_sample(position: vec4<f32>) -> u32 {
+    let pixel = vec2<u32>(position.xy);
+    return (pixel.y * gpu_frame.size.x + pixel.x) * gpu_frame.samples;
+}
+
+fn is_outside(position: vec4<f32>) -> bool {
+    return any(vec2<u32>(position.xy) >= gpu_frame.size);
+}
+
+fn encoded(color: vec3<f32>) -> vec3<f32> {
+    if (target_pass.encodes == 0u) {
+        return color;
+    }
+    // IEC 61966-2-1.
+    let high = 1.055 * pow(max(color, vec3<f32>(0.0031308)), vec3<f32>(1.0 / 2.4)) - 0.055;
+    return select(high, 12.92 * color, color <= vec3<f32>(0.0031308));
+}
+
+fn depth_in_pass(inv_depth: f32) -> f32 {
+    return clamp(target_pass.depth.x + target_pass.depth.y * inv_depth, 0.0, 1.0);
+}
+
+/// In a pass with as many samples as were prepared: each by itself.
+@fragment
+fn show_sample(@builtin(position) position: vec4<f32>, @builtin(sample_index) index: u32) -> Shown {
+    if (is_outside(position)) {
+        discard;
+    }
+    let shown = samples[first_sample(position) + index];
+    if (shown.w <= 0.0) {
+        discard;
+    }
+    return Shown(vec4<f32>(encoded(shown.xyz), 1.0), depth_in_pass(shown.w));
+}
+
+/// In a pass with one sample: their mean over what is there, at the depth of the nearest.
+@fragment
+fn show_mean(@builtin(position) position: vec4<f32>) -> Shown {
+    if (is_outside(position)) {
+        discard;
+    }
+    let first = first_sample(position);
+    var color = vec3<f32>(0.0);
+    var count = 0.0;
+    var nearest = 0.0;
+    for (var k = 0u; k < gpu_frame.samples; k++) {
+        let shown = samples[first + k];
+        if (shown.w > 0.0) {
+            color += shown.xyz;
+            count += 1.0;
+            nearest = max(nearest, shown.w);
+        }
+    }
+    if (count == 0.0) {
+        discard;
+    }
+    let alpha = count / f32(gpu_frame.samples);
+    return Shown(vec4<f32>(encoded(color / count) * alpha, alpha), depth_in_pass(nearest));
+}

@@ -1,0 +1,43 @@
+// What is drawn, as the passes that sort it into tiles and the one that draws the tiles see it.
+
+/// Width and height of a tile in pixels.
+const TILE: u32 = 16u;
+
+struct Chunk {
+    /// The strand's number; numbers never decrease.
+    strand: u32,
+    first_joint: u32,
+    /// Segments between joints; 0 for a single disc.
+    segments: u32,
+    /// Which list of strokes it has.
+    strokes: u32,
+}
+
+struct Corner {
+    position: vec2<f32>,
+    inv_depth: f32,
+    tone: f32,
+}
+
+struct Triangle {
+    corners: vec3<u32>,
+    surface: u32,
+}
+
+/// A stroke's record in the tables: where its discs would begin, if the frame's first joint had one; its number in the order
+/// of strokes, from 1 (0 is the clump); whether it is clipped to the clump, as ranks from 0 on are.
+const STROKE_FIRST_DISC: u32 = 0u;
+const STROKE_NUMBER: u32 = 1u;
+const STROKE_IS_CLIPPED: u32 = 2u;
+
+/// A surface's record in the tables: colour where the tone is 0 or more, colour below, margin.
+const SURFACE_WORDS: u32 = 7u;
+
+@group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
+@group(0) @binding(1) var<storage, read> chunks: array<Chunk>;
+/// Of each list of strokes where it begins and how many it has; the lists, of places in this buffer; the strokes; the
+/// surfaces.
+@group(0) @binding(2) var<storage, read> tables: array<u32>;
+@group(0) @binding(3) var<storage, read> discs: array<GpuDisc>;
+@group(0) @binding(4) var<storage, read> corners: array<Corner>;
+@group(0) @binding(5) var<storage, read> triangles: array<Triangle>;

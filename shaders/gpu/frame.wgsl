@@ -1,0 +1,64 @@
+// What all passes on a GPU know of a frame, and the strokes' discs.
+// The Rust side of these structs is crates/render/src/gpu/layout.rs.
+
+struct GpuFrame {
+    /// Width and height in pixels.
+    size: vec2<u32>,
+    /// Columns and rows of tiles.
+    tiles: vec2<u32>,
+    joints: u32,
+    chunks: u32,
+    triangles: u32,
+    /// Samples in a pixel.
+    samples: u32,
+    /// Place of the eye, metres.
+    eye: vec3<f32>,
+    near_m: f32,
+    head_center: vec3<f32>,
+    head_height_m: f32,
+    /// The unit vector to the light, or its place.
+    light: vec3<f32>,
+    light_is_point: u32,
+    /// Linear colour; the last is 0 for a transparent picture.
+    background: vec4<f32>,
+    /// Metres in 1/300 of the head's height.
+    unit_m: f32,
+    /// A pixel at 720 lines, in pixels.
+    pixel_px: f32,
+    edge_depth_m: f32,
+    /// Entries that the tiles' lists of chunks and of triangles have room for.
+    chunk_capacity: u32,
+    triangle_capacity: u32,
+    is_semicircle: u32,
+    /// Where the surfaces' records begin among the tables.
+    surfaces_at: u32,
+    /// 0 to write the mean of each pixel, 1 every sample.
+    writes_samples: u32,
+}
+
+/// One disc of a stroke on the screen.
+struct GpuDisc {
+    /// Pixels.
+    center: vec2<f32>,
+    /// Pixels.
+    radius: f32,
+    /// 1/m, the order among strands.
+    inv_depth: f32,
+    /// Linear.
+    color: vec3<f32>,
+    /// 1/m, the order against surfaces.
+    biased: f32,
+}
+
+/// The clump of a joint.
+struct GpuClump {
+    normal: vec3<f32>,
+    radius: f32,
+    color: vec3<f32>,
+    gray: f32,
+}
+
+/// Which invocation of a grid this is: workgroups are counted row after row, as one row is too short for many.
+fn gpu_index(group: vec3<u32>, groups: vec3<u32>, local: u32) -> u32 {
+    return (group.y * groups.x + group.x) * 64u + local;
+}

@@ -1,0 +1,151 @@
+// Takes stretches and gaps of a layer's strokes away that are too short, as they are seen: closing and opening of
+// grayscale morphology. What crates/effects/src/smooth.rs does, joint by joint: it says why.
+
+@group(0) @binding(4) var<storage, read> gpu_clumps: array<GpuClump>;
+@group(0) @binding(5) var<storage, read_write> gpu_discs: array<GpuDisc>;
+/// For each disc the least size in the window that begins there, and in the one that ends there.
+@group(0) @binding(6) var<storage, read_write> windows: array<vec2<f32>>;
+
+/// The joints of a run, and its stroke's first disc as if joint 0 had one.
+struct Run {
+    first: u32,
+    last: u32,
+    disc: u32,
+    length: f32,
+}
+
+fn run_of(joint: u32, instance: u32) -> Run {
+    let first = gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_RUN];
+    let last = gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_RUN + 1u];
+    let whole = seen(last) - seen(first);
+    // Of a short strand no more than a third counts as short.
+    let length = min(gpu_word(GPU_SHORTEST) * gpu_frame.head_height_m, whole / 3.0);
+    return Run(first, last, gpu_first_disc(instance), length);
+}
+
+fn window(run: Run, joint: u32) -> u32 {
+    return run.disc + joint - gpu_first_disc(0u) - gpu_words[GPU_FIRST_JOINT];
+}
+
+fn seen(joint: u32) -> f32 {
+    return gpu_scalar(joint, GPU_AT_SEEN_LENGTH);
+}
+
+/// The size at a joint; negated while gaps are closed.
+fn size(run: Run, joint: u32, sign: f32) -> f32 {
+    return sign * gpu_discs[run.disc + joint].radius;
+}
+
+fn between(run: Run, joint: u32, place: f32, sign: f32) -> f32 {
+    let before = seen(joint);
+    let way = (place - before) / (seen(joint + 1u) - before);
+    let start = size(run, joint, sign);
+    return start + way * (size(run, joint + 1u, sign) - start);
+}
+
+/// The least value from `joint` to the window's length after it. In a closed strand the windows at its end are its last
+/// one, in an open one they reach beyond.
+fn least_after(run: Run, joint: u32, sign: f32, is_closed: bool) -> f32 {
+    let end = seen(joint) + run.length;
+    var least = size(run, joint, sign);
+    for (var j = joint + 1u; j <= run.last; j++) {
+        if (seen(j) > end) {
+            return min(least, between(run, j - 1u, end, sign));
+        }
+        least = min(least, size(run, j, sign));
+    }
+    if (is_closed) {
+        return least_before(run, run.last, sign);
+    }
+    return least;
+}
+
+fn least_before(run: Run, joint: u32, sign: f32) -> f32 {
+    let start = seen(joint) - run.length;
+    var least = size(run, joint, sign);
+    for (var j = joint; j > run.first; j--) {
+        if (seen(j - 1u) < start) {
+            return min(least, between(run, j - 1u, start, sign));
+        }
+        least = min(least, size(run, j - 1u, sign));
+    }
+    return least;
+}
+
+fn least_before_in_closed(run: Run, joint: u32, sign: f32) -> f32 {
+    if (seen(joint) - run.length < seen(run.first)) {
+        // The first window, unless the strand begins just there.
+        return least_after(run, run.first, sign, false);
+    }
+    return least_before(run, joint, sign);
+}
+
+/// The greatest of the windows that hold a joint.
+fn opened(run: Run, joint: u32) -> f32 {
+    let place = seen(joint);
+    var greatest = windows[window(run, joint)].x;
+    greatest = max(greatest, windows[window(run, joint)].y);
+    for (var j = joint + 1u; j <= run.last; j++) {
+        if (seen(j) > place + run.length) {
+            break;
+        }
+        greatest = max(greatest, windows[window(run, j)].y);
+    }
+    for (var j = joint; j > run.first; j--) {
+        if (seen(j - 1u) < place - run.length) {
+            break;
+        }
+        greatest = max(greatest, windows[window(run, j - 1u)].x);
+    }
+    return greatest;
+}
+
+@compute @workgroup_size(64)
+fn find_gaps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = gpu_index(group, groups, local);
+    if (index >= gpu_words[GPU_JOINT_COUNT]) { return; }
+    let joint = gpu_words[GPU_FIRST_JOINT] + index;
+    let run = run_of(joint, group.z);
+    windows[window(run, joint)] = vec2<f32>(least_after(run, joint, -1.0, false), least_before(run, joint, -1.0));
+}
+
+@compute @workgroup_size(64)
+fn close_gaps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = gpu_index(group, groups, local);
+    if (index >= gpu_words[GPU_JOINT_COUNT]) { return; }
+    let joint = gpu_words[GPU_FIRST_JOINT] + index;
+    let run = run_of(joint, group.z);
+    if (run.length > 0.0) {
+        gpu_discs[run.disc + joint].radius = -opened(run, joint);
+    }
+}
+
+@compute @workgroup_size(64)
+fn find_specks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = gpu_index(group, groups, local);
+    if (index >= gpu_words[GPU_JOINT_COUNT]) { return; }
+    let joint = gpu_words[GPU_FIRST_JOINT] + index;
+    let run = run_of(joint, group.z);
+    windows[window(run, joint)] = vec2<f32>(least_after(run, joint, 1.0, true), least_before_in_closed(run, joint, 1.0));
+}
+
+/// Takes specks away, and turns sizes into pixels.
+@compute @workgroup_size(64)
+fn open_specks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = gpu_index(group, groups, local);
+    if (index >= gpu_words[GPU_JOINT_COUNT]) { return; }
+    let joint = gpu_words[GPU_FIRST_JOINT] + index;
+    let run = run_of(joint, group.z);
+    let at = run.disc + joint;
+    var radius = gpu_discs[at].radius;
+    if (run.length > 0.0) {
+        radius = opened(run, joint);
+    }
+    if (gpu_frame.is_semicircle != 0u && joint == run.last && gpu_scalar(joint, GPU_AT_U) == 1.0) {
+        gpu_discs[at].center += gpu_ahead(joint, radius, gpu_clumps[joint].radius);
+    }
+    gpu_discs[at].radius = min(radius * gpu_unit_px(joint), GPU_LARGEST_PX);
+    if (gpu_words[GPU_HAS_OWN_PATHS] != 0u && group.z == 0u) {
+        gpu_discs[joint] = gpu_discs[at];
+    }
+}
