@@ -1,11 +1,13 @@
 // Sorts what is drawn into the tiles that it may reach: pieces of runs (chunks), and triangles. First they are
 // counted, then the tiles' lists get their places, then they are filled.
 
-/// For each tile the number of chunks, then of triangles; then, where the next goes.
+/// For each tile the number of chunks, then of triangles; then, where the next goes. Behind them for each chunk the bits of
+/// its nearest disc's inverse depth, which order as the numbers do, none being below 0.
 @group(0) @binding(6) var<storage, read_write> counters: array<atomic<u32>>;
 /// Where each tile's list of chunks begins, and the end of the last; the same for triangles.
 @group(0) @binding(7) var<storage, read_write> starts: array<u32>;
-/// All lists of chunks, then all of triangles.
+/// All lists of chunks, then all of triangles; then, for each entry of a list of chunks, the bits of the inverse depth that
+/// nothing of its strand exceeds in this tile.
 @group(0) @binding(8) var<storage, read_write> entries: array<u32>;
 
 /// A box on the screen, in tiles: columns and rows, ends excluded.
@@ -51,6 +53,21 @@ fn tiles_of_chunk(index: u32) -> Tiles {
     return tiles_of(low, high);
 }
 
+fn nearest_of_chunk(index: u32) -> f32 {
+    let chunk = chunks[index];
+    let first = tables[2u * chunk.strokes];
+    let count = tables[2u * chunk.strokes + 1u];
+    var nearest = 0.0;
+    for (var s = 0u; s < count; s++) {
+        let disc = tables[tables[first + s] + STROKE_FIRST_DISC] + chunk.first_joint;
+        for (var j = 0u; j <= chunk.segments; j++) {
+            nearest = max(nearest, discs[disc + j].inv_depth);
+        }
+    }
+    // Where it is worked out again, rounding may be otherwise.
+    return nearest * 1.00001;
+}
+
 fn tiles_of_triangle(index: u32) -> Tiles {
     let triangle = triangles[index];
     let a = corners[triangle.corners.x].position;
@@ -64,6 +81,7 @@ fn count_chunks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups
     let index = gpu_index(group, groups, local);
     if (index < gpu_frame.chunks) {
         count(tiles_of_chunk(index), 0u);
+        atomicStore(&counters[2u * tile_count() + index], bitcast<u32>(nearest_of_chunk(index)));
     }
 }
 
@@ -151,20 +169,44 @@ fn place_lists(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocatio
 const SORT: u32 = 64u;
 var<workgroup> list: vec2<u32>;
 
-/// Sorts a tile's list of chunks, which came in any order: so strands are together, and all is drawn in one order.
+/// Sorts a tile's list of chunks, which came in any order. First by their numbers, so that the chunks of a strand come
+/// together; then by the nearest that there is of a strand in the tile, so that what lies behind is found to be
+/// hidden. All is drawn in one order.
 @compute @workgroup_size(SORT)
 fn sort_chunks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let tile = group.y * groups.x + group.x;
-    if (tile >= tile_count()) { return; }
     if (local == 0u) {
         list = vec2<u32>(starts[tile], starts[tile + 1u]);
     }
     let place = workgroupUniformLoad(&list);
     if (place.y > gpu_frame.chunk_capacity) { return; }
-    let start = place.x;
-    let items = place.y - place.x;
-    // A bitonic network over the next power of two, whose missing items count as the largest (Batcher, "Sorting networks
-    // and their applications", 1968), with every comparison upwards, so that these stay at the end.
+    sort(place.x, place.y - place.x, false, local);
+    let nearest_at = gpu_frame.chunk_capacity + gpu_frame.triangle_capacity;
+    for (var item = place.x + local; item < place.y; item += SORT) {
+        entries[nearest_at + item] = nearest_of_strand(item, place);
+    }
+    storageBarrier();
+    sort(place.x, place.y - place.x, true, local);
+}
+
+/// The nearest of all chunks of an entry's strand in a list.
+fn nearest_of_strand(item: u32, place: vec2<u32>) -> u32 {
+    let nearest_at = 2u * tile_count();
+    let strand = chunks[entries[item]].strand;
+    var nearest = atomicLoad(&counters[nearest_at + entries[item]]);
+    for (var other = item; other > place.x && chunks[entries[other - 1u]].strand == strand; other--) {
+        nearest = max(nearest, atomicLoad(&counters[nearest_at + entries[other - 1u]]));
+    }
+    for (var other = item + 1u; other < place.y && chunks[entries[other]].strand == strand; other++) {
+        nearest = max(nearest, atomicLoad(&counters[nearest_at + entries[other]]));
+    }
+    return nearest;
+}
+
+/// Sorts a list by a bitonic network over the next power of two, whose missing items count as the largest (Batcher,
+/// "Sorting networks and their applications", 1968), with every comparison upwards, so that these stay at the end.
+fn sort(start: u32, items: u32, is_by_depth: bool, local: u32) {
+    let nearest_at = start + gpu_frame.chunk_capacity + gpu_frame.triangle_capacity;
     for (var block = 2u; block < 2u * items; block *= 2u) {
         for (var half = block / 2u; half > 0u; half /= 2u) {
             for (var pair = local; ; pair += SORT) {
@@ -178,7 +220,15 @@ fn sort_chunks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
                 if (high < items) {
                     let a = entries[start + low];
                     let b = entries[start + high];
-                    if (b < a) {
+                    var is_turned = b < a;
+                    if (is_by_depth) {
+                        let near_a = entries[nearest_at + low];
+                        let near_b = entries[nearest_at + high];
+                        is_turned = near_b > near_a || (near_b == near_a && is_turned);
+                        entries[nearest_at + low] = max(near_a, near_b);
+                        entries[nearest_at + high] = min(near_a, near_b);
+                    }
+                    if (is_turned) {
                         entries[start + low] = b;
                         entries[start + high] = a;
                     }

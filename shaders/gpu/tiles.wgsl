@@ -30,10 +30,16 @@ const BATCH: u32 = 128u;
 const NOTHING: f32 = -3e38;
 const FAR_RATIO: f32 = 3e38;
 
-/// A batch's things that reach the tile, six vectors each.
+/// A batch's things that reach the tile: for each its box, then six vectors.
+var<workgroup> boxes: array<vec4<f32>, BATCH>;
 var<workgroup> batch: array<vec4<f32>, 6u * BATCH>;
+/// Nothing of a segment's strand is nearer in this tile, 1/m.
+var<workgroup> nearest_of: array<f32, BATCH>;
 /// A bit for each thing of the batch: whether it reaches the tile.
 var<workgroup> reaching: array<atomic<u32>, BATCH / 32u>;
+/// Whether anything that is still to come may show somewhere.
+var<workgroup> open_pixels: atomic<u32>;
+var<workgroup> is_open: u32;
 /// The tile's list: its first entry and its length; all there is, where the list has no room.
 var<workgroup> list: vec3<u32>;
 
@@ -103,6 +109,11 @@ struct Segment {
 
 fn store(slot: u32, s: Segment) {
     let at = 6u * slot;
+    let end = s.sweep.origin + s.sweep.axis * s.sweep.length;
+    boxes[slot] = vec4<f32>(
+        min(s.sweep.origin - s.sweep.radius, end - s.sweep.smaller_radius) - 0.01,
+        max(s.sweep.origin + s.sweep.radius, end + s.sweep.smaller_radius) + 0.01,
+    );
     batch[at] = vec4<f32>(s.sweep.origin, s.sweep.axis);
     batch[at + 1u] = vec4<f32>(s.sweep.length, s.sweep.inv_length, s.sweep.radius, s.sweep.smaller_radius);
     batch[at + 2u] = vec4<f32>(s.sweep.shrink, s.sweep.a, s.sweep.inv_a, s.sweep.beyond_apex);
@@ -115,6 +126,12 @@ fn store(slot: u32, s: Segment) {
 /// Added to whole numbers that pass as floating point ones: as such they are normal numbers, whose bits no processor
 /// changes. Less than 2^30 of them are told apart.
 const KEEPS_BITS: vec4<u32> = vec4<u32>(0x20000000u);
+
+/// Whether a pixel of the tile is outside of a kept thing's box: most are, and that is all they need to know.
+fn is_beside(slot: u32, pixel: vec2<f32>) -> bool {
+    let box = boxes[slot];
+    return pixel.x > box.z || pixel.y > box.w || pixel.x + 1.0 < box.x || pixel.y + 1.0 < box.y;
+}
 
 fn segment_in(slot: u32) -> Segment {
     let at = 6u * slot;
@@ -254,6 +271,7 @@ fn reaching_count() -> u32 {
 /// A triangle seen from the tile: for each edge its value at the corner and its slopes, then depth and tone.
 struct Placed {
     is_there: bool,
+    box: vec4<f32>,
     edges: array<vec3<f32>, 3>,
     depth: vec3<f32>,
     depth_range: vec2<f32>,
@@ -294,6 +312,7 @@ fn place(index: u32, tile: vec2<f32>) -> Placed {
     }
     let edges = array<vec3<f32>, 3>(edge(pb, pc), edge(pc, pa), edge(pa, pb));
     placed.is_there = true;
+    placed.box = vec4<f32>(low, high);
     placed.depth = (a.inv_depth * edges[0] + b.inv_depth * edges[1] + c.inv_depth * edges[2]) / area;
     placed.tone = (a.tone * edges[0] + b.tone * edges[1] + c.tone * edges[2]) / area;
     let side = sign(area);
@@ -306,6 +325,7 @@ fn place(index: u32, tile: vec2<f32>) -> Placed {
 
 fn store_triangle(slot: u32, t: Placed, index: u32) {
     let at = 6u * slot;
+    boxes[slot] = t.box;
     batch[at] = vec4<f32>(t.edges[0], t.depth_range.x);
     batch[at + 1u] = vec4<f32>(t.edges[1], t.depth_range.y);
     batch[at + 2u] = vec4<f32>(t.edges[2], t.tone_range.x);
@@ -519,8 +539,8 @@ fn draw_tile(
         samples.red = vec4<f32>(gpu_frame.background.x);
         samples.green = vec4<f32>(gpu_frame.background.y);
         samples.blue = vec4<f32>(gpu_frame.background.z);
-        draw_surfaces(tile, tile_count + 1u + tile_index, local, x, y, &samples);
-        draw_strands(tile, tile_index, local, x, y, first_sample, &samples);
+        draw_surfaces(tile, tile_count + 1u + tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
+        draw_strands(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, first_sample, &samples);
         sum += write_samples(corner + pixel.xy, first_sample, samples);
     }
     let at = corner + pixel.xy;
@@ -563,7 +583,21 @@ fn entry(found: vec3<u32>, index: u32) -> u32 {
     return entries[found.x + index];
 }
 
-fn draw_surfaces(tile: vec2<f32>, at: u32, local: u32, x: vec4<f32>, y: vec4<f32>, samples: ptr<function, Samples>) {
+/// The inverse depth that nothing of an entry's strand exceeds in this tile; a list that is none knows nothing.
+fn nearest_in(found: vec3<u32>, index: u32) -> f32 {
+    if (found.z == 0u) {
+        return 3e38;
+    }
+    return bitcast<f32>(entries[gpu_frame.chunk_capacity + gpu_frame.triangle_capacity + found.x + index]);
+}
+
+/// The farthest of what the samples show.
+fn farthest(samples: ptr<function, Samples>) -> f32 {
+    let strand = (*samples).strand;
+    return min(min(strand.x, strand.y), min(strand.z, strand.w));
+}
+
+fn draw_surfaces(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<f32>, y: vec4<f32>, samples: ptr<function, Samples>) {
     let found = find_list(at, gpu_frame.chunk_capacity, gpu_frame.triangle_capacity, gpu_frame.triangles, local);
     for (var first = 0u; first < found.y; first += BATCH) {
         if (local < BATCH / 32u) {
@@ -586,13 +620,16 @@ fn draw_surfaces(tile: vec2<f32>, at: u32, local: u32, x: vec4<f32>, y: vec4<f32
         workgroupBarrier();
         let count = reaching_count();
         for (var slot = 0u; slot < count; slot++) {
+            if (is_beside(slot, pixel)) {
+                continue;
+            }
             draw_triangle(slot, x, y, samples);
         }
         workgroupBarrier();
     }
 }
 
-fn draw_strands(tile: vec2<f32>, at: u32, local: u32, x: vec4<f32>, y: vec4<f32>, first_sample: u32, samples: ptr<function, Samples>) {
+fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<f32>, y: vec4<f32>, first_sample: u32, samples: ptr<function, Samples>) {
     let found = find_list(at, 0u, gpu_frame.chunk_capacity, gpu_frame.chunks, local);
     var strand = no_strand();
     var number = 0u;
@@ -603,8 +640,24 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, x: vec4<f32>, y: vec4<f32>
         if (local < BATCH / 32u) {
             atomicStore(&reaching[local], 0u);
         }
+        if (local == 0u) {
+            atomicStore(&open_pixels, 0u);
+        }
         workgroupBarrier();
+        // From the nearest on: where all samples show something nearer, so they do to the end. A strand that
+        // has begun is not yet among what they show.
+        if (farthest(samples) <= nearest_in(found, next)) {
+            atomicOr(&open_pixels, 1u);
+        }
+        workgroupBarrier();
+        if (local == 0u) {
+            is_open = atomicLoad(&open_pixels);
+        }
+        if (workgroupUniformLoad(&is_open) == 0u) {
+            break;
+        }
         var seen: Found;
+        var nearest_seen = 0.0;
         // All walk along the entries of the batch; each looks at the segment that is its own.
         var offset = 0u;
         while (next < found.y && offset < BATCH) {
@@ -613,6 +666,7 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, x: vec4<f32>, y: vec4<f32>
             let taken = min(items - item, BATCH - offset);
             if (local >= offset && local < offset + taken) {
                 seen = look_at(chunk, item + local - offset, tile);
+                nearest_seen = nearest_in(found, next);
             }
             offset += taken;
             item += taken;
@@ -626,11 +680,16 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, x: vec4<f32>, y: vec4<f32>
         }
         workgroupBarrier();
         if (seen.is_there) {
-            store(slot_of(local), seen.segment);
+            let slot = slot_of(local);
+            store(slot, seen.segment);
+            nearest_of[slot] = nearest_seen;
         }
         workgroupBarrier();
         let count = reaching_count();
         for (var slot = 0u; slot < count; slot++) {
+            if (nearest_of[slot] < farthest(samples) || is_beside(slot, pixel)) {
+                continue;
+            }
             let segment = segment_in(slot);
             if (ORDER == SHIFTED) {
                 offer(samples, segment, x, y);

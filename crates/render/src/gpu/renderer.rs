@@ -210,7 +210,7 @@ fn check_limits(device: &Device) -> Result<(), GpuError> {
         (
             "bytes that a workgroup shares",
             limits.max_compute_workgroup_storage_size,
-            12_544,
+            15_360,
         ),
         (
             "workgroups in a row",
@@ -363,7 +363,7 @@ impl Renderer {
         let triangles = self.scene.triangles.len() as u64 / 4;
         let guess = [chunks * (8 + tiles / 128), triangles * 4 + 4 * tiles];
         let limits = self.device.limits();
-        let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) / 4 / 4;
+        let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) / 4 / 8;
         [0, 1].map(|i| {
             let needed = u64::from(self.entries_needed[i]);
             let wanted = if needed > 0 {
@@ -506,10 +506,12 @@ impl Renderer {
         let joints = scene.discs.min(scene.joints.len()) as u64;
         note(buffers.clumps.reserve(device, joints * CLUMP_BYTES)?);
         note(buffers.discs.reserve(device, scene.disc_bytes())?);
-        note(buffers.counters.reserve(device, tile_count * 2 * 4)?);
+        let chunks = scene.chunks.len() as u64 / 4;
+        note(buffers.counters.reserve(device, (tile_count * 2 + chunks) * 4)?);
         note(buffers.starts.reserve(device, (tile_count + 1) * 2 * 4)?);
         let frame: &GpuFrame = bytemuck::from_bytes(bytemuck::cast_slice(settings));
-        let entries = u64::from(frame.chunk_capacity) + u64::from(frame.triangle_capacity);
+        // A chunk's entry has a second word.
+        let entries = 2 * u64::from(frame.chunk_capacity) + u64::from(frame.triangle_capacity);
         note(buffers.entries.reserve(device, entries * 4)?);
         note(buffers.picture.reserve(device, picture_bytes)?);
         if made > 0 {
