@@ -1,4 +1,5 @@
-// Puts a prepared frame into somebody else's render pass: one triangle over all of it. Composed behind frame.wgsl.
+// Puts a prepared frame into somebody else's render pass: one triangle over all of it. Composed behind frame.wgsl,
+// with compose_samples.wgsl or compose_mean.wgsl.
 
 struct Pass {
     /// A view depth d has the depth `depth.x + depth.y / d` in the pass.
@@ -46,42 +47,4 @@ fn encoded(color: vec3<f32>) -> vec3<f32> {
 
 fn depth_in_pass(inv_depth: f32) -> f32 {
     return clamp(target_pass.depth.x + target_pass.depth.y * inv_depth, 0.0, 1.0);
-}
-
-/// In a pass with as many samples as were prepared: each by itself.
-@fragment
-fn show_sample(@builtin(position) position: vec4<f32>, @builtin(sample_index) index: u32) -> Shown {
-    if (is_outside(position)) {
-        discard;
-    }
-    let shown = samples[first_sample(position) + index];
-    if (shown.w <= 0.0) {
-        discard;
-    }
-    return Shown(vec4<f32>(encoded(shown.xyz), 1.0), depth_in_pass(shown.w));
-}
-
-/// In a pass with one sample: their mean over what is there, at the depth of the nearest.
-@fragment
-fn show_mean(@builtin(position) position: vec4<f32>) -> Shown {
-    if (is_outside(position)) {
-        discard;
-    }
-    let first = first_sample(position);
-    var color = vec3<f32>(0.0);
-    var count = 0.0;
-    var nearest = 0.0;
-    for (var k = 0u; k < gpu_frame.samples; k++) {
-        let shown = samples[first + k];
-        if (shown.w > 0.0) {
-            color += shown.xyz;
-            count += 1.0;
-            nearest = max(nearest, shown.w);
-        }
-    }
-    if (count == 0.0) {
-        discard;
-    }
-    let alpha = count / f32(gpu_frame.samples);
-    return Shown(vec4<f32>(encoded(color / count) * alpha, alpha), depth_in_pass(nearest));
 }

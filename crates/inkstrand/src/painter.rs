@@ -2,9 +2,7 @@
 
 use crate::Failure;
 use crate::cli::Backend;
-use crate::stats::{
-    Bytes, FrameStats, StrandCounts, buffer_bytes, drawing_counts, frame_counts,
-};
+use crate::stats::{Bytes, FrameStats, StrandCounts, buffer_bytes, drawing_counts, frame_counts};
 use render::cpu::{Evaluator, Rasterizer};
 use render::gpu::{AdapterKind, GpuError, Offscreen};
 use render::{Drawing, Picture};
@@ -162,5 +160,7 @@ fn tell(is_quiet: bool, error: &GpuError) {
 }
 
 fn explained(error: GpuError) -> Failure {
-    Failure::Failed(format!("{error}\n--backend cpu draws without a graphics card"))
+    Failure::Failed(format!(
+        "{error}\n--backend cpu draws without a graphics card"
+    ))
 }

@@ -21,6 +21,7 @@
 
 mod adapter;
 mod buffer;
+mod compose;
 mod error;
 mod layout;
 mod offscreen;
@@ -30,6 +31,7 @@ mod renderer;
 mod scene;
 
 pub use adapter::{AdapterKind, Gpu};
+pub use compose::{PassDepth, PassFormat};
 pub use error::GpuError;
 pub use offscreen::Offscreen;
-pub use renderer::{GpuStats, Output, Renderer};
+pub use renderer::{GpuStats, Renderer};

@@ -346,27 +346,47 @@ impl Stage {
         material.at_joints(&self.paths, of_path);
     }
 
-    /// The frame of the hair as it stands.
+    /// The frame of the hair as it stands, seen by the preset's camera.
     ///
     /// # Errors
     ///
     /// When camera or paths cannot be made.
     pub fn frame(&mut self) -> Result<Frame<'_>, StageError> {
-        let head = self.posed_head();
         let settings = &self.settings;
         let view = OrbitView {
             target: self.head.center + settings.target * self.head.height_m,
             ..settings.view
         };
-        let near_m = NEAR * self.head.height_m;
-        let camera = Camera::orbit(view, settings.size, near_m)?;
+        let camera = Camera::orbit(view, settings.size, self.near_m())?;
+        self.frame_seen_by(camera)
+    }
+
+    /// From which view depth on a camera should see this scene, metres.
+    #[must_use]
+    pub fn near_m(&self) -> f32 {
+        NEAR * self.head.height_m
+    }
+
+    /// Where the head is while nothing moves, and how large.
+    #[must_use]
+    pub fn head(&self) -> Head {
+        self.head
+    }
+
+    /// The frame of the hair as it stands, seen by a camera of the caller's.
+    ///
+    /// # Errors
+    ///
+    /// When paths cannot be made.
+    pub fn frame_seen_by(&mut self, camera: Camera) -> Result<Frame<'_>, StageError> {
+        let head = self.posed_head();
         self.paths.clear();
         self.strands.truncate(self.strand_count);
         for (i, info) in self.strands.iter_mut().enumerate() {
             let particles = &self.points[self.hair.file.strands.point_range(i)];
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
             self.paths
-                .push_strand(i, particles, settings.path, &camera)?;
+                .push_strand(i, particles, self.settings.path, &camera)?;
         }
         self.push_made_paths(&camera)?;
         self.find_material_normals();

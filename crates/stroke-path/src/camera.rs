@@ -5,7 +5,7 @@
 //! screen is in pixels, x to the right and y down, (0, 0) at the picture's upper left corner.
 
 use crate::angle::sin_cos_degrees;
-use glam::{Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 
 /// The widest vertical field of view, in degrees (not itself allowed).
 const MAX_FIELD_OF_VIEW_DEGREES: f32 = 170.0;
@@ -51,6 +51,9 @@ pub enum CameraError {
     /// The near distance is above 0 and finite.
     #[error("the near distance of {0} m is not a finite number above 0")]
     Near(f32),
+    /// A view is a rotation and a translation.
+    #[error("the view matrix is not a rotation and a translation")]
+    View,
     /// Each number is allowed, but together they exceed what a 32-bit number can hold.
     #[error("the camera's distance, field of view and near distance together are out of range")]
     Extreme,
@@ -112,6 +115,47 @@ impl Camera {
         };
         let finite = camera.eye.is_finite() && camera.px_per_metre(near_m).is_finite();
         finite.then_some(camera).ok_or(CameraError::Extreme)
+    }
+
+    /// A camera as programs with matrices of their own have it: `view_from_world` is a rotation and a translation
+    /// into a right-handed view space whose x runs right, y up and z towards the viewer, as glam's `look_at_rh` makes it. The
+    /// picture's middle lies on the view axis, and its pixels are square.
+    ///
+    /// # Errors
+    ///
+    /// When the matrix is something else, or a number is out of its range; see [`CameraError`].
+    pub fn from_view(
+        view_from_world: Mat4,
+        vertical_fov_degrees: f32,
+        size_px: [u32; 2],
+        near_m: f32,
+    ) -> Result<Self, CameraError> {
+        let [right, up, back] = [0, 1, 2].map(|i| view_from_world.row(i).truncate());
+        let is_rigid = view_from_world.is_finite()
+            && view_from_world.row(3) == Vec4::W
+            && [right, up, back]
+                .iter()
+                .all(|axis| (axis.length() - 1.0).abs() < 1e-3)
+            && right.cross(up).distance(back) < 1e-3;
+        if !is_rigid {
+            return Err(CameraError::View);
+        }
+        let shift = view_from_world.w_axis.truncate();
+        let eye = -(right * shift.x + up * shift.y + back * shift.z);
+        let level = OrbitView {
+            target: eye,
+            yaw_degrees: 0.0,
+            pitch_degrees: 0.0,
+            distance_m: 1.0,
+            vertical_fov_degrees,
+        };
+        Ok(Self {
+            eye,
+            right,
+            up,
+            forward: -back,
+            ..Self::orbit(level, size_px, near_m)?
+        })
     }
 
     /// The camera's place in the world, in metres.

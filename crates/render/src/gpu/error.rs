@@ -59,6 +59,16 @@ pub enum GpuError {
     /// wgpu refuses what it is asked to do: a fault of this program.
     #[error("the graphics card refuses to draw: {0}")]
     Refused(String),
+    /// A pass shows samples as they are, or one value a pixel.
+    #[error(
+        "the render pass has {pass} samples, where {prepared} are prepared: it must have as many, or 1"
+    )]
+    PassSamples {
+        /// The pass's.
+        pass: u32,
+        /// The frame's.
+        prepared: u32,
+    },
     /// The frame is not one.
     #[error(transparent)]
     Draw(#[from] DrawError),

@@ -2,7 +2,7 @@
 
 use super::adapter::{AdapterKind, Gpu};
 use super::error::GpuError;
-use super::renderer::{GpuStats, Output, Renderer};
+use super::renderer::{GpuStats, Renderer};
 use crate::frame::Frame;
 use crate::picture::Picture;
 
@@ -67,7 +67,7 @@ impl Offscreen {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
             label: Some("picture"),
         });
-        self.renderer.prepare(&mut encoder, frame, samples, Output::Picture)?;
+        self.renderer.draw_picture(&mut encoder, frame, samples)?;
         let [width, height] = frame.camera.size_px();
         let bytes = u64::from(width) * u64::from(height) * size_of::<[f32; 4]>() as u64;
         let is_enough = |buffer: &wgpu::Buffer| buffer.size() >= bytes;

@@ -20,8 +20,7 @@ pub(super) const STROKES: &[Binding] = &[Uniform, Read, Read, Read, Read, Write]
 /// `smooth`: the same, and windows.
 pub(super) const SMOOTH: &[Binding] = &[Uniform, Read, Read, Read, Read, Write, Write];
 /// `bins`: frame, chunks, tables, discs, corners, triangles, counters, starts, entries.
-pub(super) const BINS: &[Binding] =
-    &[Uniform, Read, Read, Read, Read, Read, Write, Write, Write];
+pub(super) const BINS: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Write, Write, Write];
 /// `tiles`: frame, chunks, tables, discs, corners, triangles, starts, entries, picture, sample places.
 pub(super) const TILES: &[Binding] = &[
     Uniform, Read, Read, Read, Read, Read, Read, Read, Write, Uniform,
@@ -91,7 +90,10 @@ pub(super) fn pipelines(
             })
         })
         .collect();
-    let errors = [pollster::block_on(internal.pop()), pollster::block_on(invalid.pop())];
+    let errors = [
+        pollster::block_on(internal.pop()),
+        pollster::block_on(invalid.pop()),
+    ];
     match errors.into_iter().flatten().next() {
         Some(error) => Err(refused(error)),
         None => Ok(made),

@@ -13,6 +13,9 @@ const SMOOTH: &str = include_str!("../../../../shaders/gpu/smooth.wgsl");
 const DRAWN: &str = include_str!("../../../../shaders/gpu/drawn.wgsl");
 const BINS: &str = include_str!("../../../../shaders/gpu/bins.wgsl");
 const SWEEP: &str = include_str!("../../../../shaders/gpu/sweep.wgsl");
+const COMPOSE: &str = include_str!("../../../../shaders/gpu/compose.wgsl");
+const COMPOSE_SAMPLES: &str = include_str!("../../../../shaders/gpu/compose_samples.wgsl");
+const COMPOSE_MEAN: &str = include_str!("../../../../shaders/gpu/compose_mean.wgsl");
 const TILES: &str = include_str!("../../../../shaders/gpu/tiles.wgsl");
 
 /// Words before a layer's parameters: `shaders/gpu/joint.wgsl` names them.
@@ -20,13 +23,28 @@ pub(super) const LAYER_WORDS: u32 = 8;
 
 /// The clump's shader.
 pub(super) fn clump(source: &ProgramSource, layout: &JointLayout) -> String {
-    [source.wgsl, FRAME, &layout.constants(), JOINT, &gather(source, layout), CLUMP_MAIN].join("\n")
+    [
+        source.wgsl,
+        FRAME,
+        &layout.constants(),
+        JOINT,
+        &gather(source, layout),
+        CLUMP_MAIN,
+    ]
+    .join("\n")
 }
 
 /// A layer's shader.
 pub(super) fn strokes(source: &ProgramSource, layout: &JointLayout) -> String {
-    [source.wgsl, FRAME, &layout.constants(), JOINT, &gather(source, layout), STROKE_MAIN]
-        .join("\n")
+    [
+        source.wgsl,
+        FRAME,
+        &layout.constants(),
+        JOINT,
+        &gather(source, layout),
+        STROKE_MAIN,
+    ]
+    .join("\n")
 }
 
 /// What smooths layers: entry points `find_gaps`, `close_gaps`, `find_specks` and `open_specks`, in that order.
@@ -45,9 +63,23 @@ pub(super) fn tiles(order: u32) -> String {
     [&order, FRAME, DRAWN, SWEEP, TILES].join("\n")
 }
 
+/// What puts a frame into a render pass with so many samples.
+pub(super) fn compose(samples: u32) -> String {
+    let show = if samples > 1 {
+        COMPOSE_SAMPLES
+    } else {
+        COMPOSE_MEAN
+    };
+    [FRAME, COMPOSE, show].join("\n")
+}
+
 /// `gpu_inputs` and `gpu_params`: an effect's inputs and parameters at a joint.
 fn gather(source: &ProgramSource, layout: &JointLayout) -> String {
-    let inputs: Vec<String> = source.inputs.iter().map(|name| input(name, layout)).collect();
+    let inputs: Vec<String> = source
+        .inputs
+        .iter()
+        .map(|name| input(name, layout))
+        .collect();
     let mut text = format!(
         "fn gpu_inputs(joint: u32) -> Inputs {{\n    return Inputs({});\n}}\n",
         inputs.join(", ")
@@ -90,7 +122,9 @@ fn gather(source: &ProgramSource, layout: &JointLayout) -> String {
 }
 
 fn vector(size: u32, at: u32) -> String {
-    let words: Vec<String> = (at..at + size).map(|at| format!("gpu_word({at}u)")).collect();
+    let words: Vec<String> = (at..at + size)
+        .map(|at| format!("gpu_word({at}u)"))
+        .collect();
     format!("vec{size}<f32>({})", words.join(", "))
 }
 

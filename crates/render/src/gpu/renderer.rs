@@ -1,6 +1,7 @@
 //! Draws frames on a device, in somebody's command encoder.
 
 use super::buffer::Growing;
+use super::compose::{Composer, PassFormat};
 use super::error::GpuError;
 use super::layout::{CLUMP_BYTES, GpuFrame, STRAND_WORDS, TILE, WORKGROUP};
 use super::pipelines::{self, Binding, layout, pipelines};
@@ -12,15 +13,6 @@ use crate::frame::{Frame, Light};
 use crate::samples::sample_positions;
 use effects::ProgramSource;
 use wgpu::{BindGroup, BindGroupLayout, BufferUsages, ComputePipeline, Device, Queue};
-
-/// What is kept of a prepared frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Output {
-    /// The mean of each pixel, for a picture.
-    Picture,
-    /// Every sample's colour and depth, to be put into a render pass.
-    Samples,
-}
 
 /// What a renderer has, and what its last frame took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,6 +30,15 @@ pub struct GpuStats {
     pub milliseconds: Option<[f64; 3]>,
 }
 
+/// What is kept of a drawn frame.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Keeps {
+    /// The mean of each pixel.
+    Means,
+    /// Every sample's colour and depth.
+    Samples,
+}
+
 /// Draws frames on a device. Long-lived: it keeps pipelines and buffers from frame to frame.
 pub struct Renderer {
     device: Device,
@@ -51,6 +52,7 @@ pub struct Renderer {
     layers: Vec<LayerPrograms>,
     smooth: Option<Smooth>,
     groups: Option<Groups>,
+    composer: Option<Composer>,
     /// Entries that the tiles' lists needed in the last frame that is known of: chunks, triangles.
     entries_needed: [u32; 2],
     report: Report,
@@ -254,7 +256,13 @@ impl Renderer {
             "fill_triangles",
             "sort_chunks",
         ];
-        let bins = pipelines(device, "bins", &program::bins(), &layouts.bins, &entry_points)?;
+        let bins = pipelines(
+            device,
+            "bins",
+            &program::bins(),
+            &layouts.bins,
+            &entry_points,
+        )?;
         Ok(Self {
             device: device.clone(),
             queue: queue.clone(),
@@ -267,6 +275,7 @@ impl Renderer {
             layers: Vec::new(),
             smooth: None,
             groups: None,
+            composer: None,
             entries_needed: [0; 2],
             report: Report::new(device, queue),
             stats: GpuStats::default(),
@@ -284,6 +293,7 @@ impl Renderer {
             pipelines: self.bins.len()
                 + usize::from(self.tiles.is_some())
                 + usize::from(self.clump.is_some())
+                + usize::from(self.composer.is_some())
                 + self.layers.len()
                 + smooth,
             buffers: alive.clone().count(),
@@ -292,20 +302,74 @@ impl Renderer {
         }
     }
 
-    /// Draws a frame into the renderer's own memory, with so many samples a pixel: records all passes in `encoder`, and
-    /// writes the buffers that they read. The frame is there once the encoder has been submitted.
+    /// Makes a frame ready for [`Self::render`] in a pass of that format, with `samples` a pixel: records compute passes in
+    /// `encoder`, and writes the buffers that they read. `encoder` is to be submitted before, or as, that of
+    /// the pass.
     ///
     /// # Errors
     ///
-    /// When the frame is no frame, is larger than the device allows, or the driver refuses a shader. Then nothing was
-    /// recorded.
+    /// When the frame is no frame, is larger than the device allows, or the driver refuses a shader; when the pass has
+    /// neither one sample nor as many as are prepared. Then nothing was recorded, and [`Self::render`] draws nothing.
     pub fn prepare(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         frame: &Frame,
         samples: u32,
-        output: Output,
+        pass: PassFormat,
     ) -> Result<(), GpuError> {
+        let before = self.composer.take();
+        if pass.samples != 1 && pass.samples != samples {
+            return Err(GpuError::PassSamples {
+                pass: pass.samples,
+                prepared: samples,
+            });
+        }
+        let is_new = self.draw(encoder, frame, samples, Keeps::Samples)?;
+        let mut composer = match before {
+            Some(composer) if composer.fits(&pass) => composer,
+            _ => Composer::new(&self.device, pass)?,
+        };
+        let buffers = &self.buffers;
+        let (Some(frame), Some(drawn)) = (buffers.frame.get(), buffers.picture.get()) else {
+            return Err(GpuError::Memory);
+        };
+        composer.prepare(&self.device, &self.queue, pass, [frame, drawn], is_new)?;
+        self.composer = Some(composer);
+        Ok(())
+    }
+
+    /// Puts the prepared frame into a pass of the format that it was prepared for, over the upper left part of it that is as
+    /// large as the frame's picture: where hair and head are, in front of what is farther there and behind what is nearer.
+    /// They leave their depth, for what is drawn after them.
+    pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if let Some(composer) = &self.composer {
+            composer.render(pass);
+        }
+    }
+
+    /// Records a picture: [`Self::picture`] holds its pixels once the encoder has been submitted.
+    pub(super) fn draw_picture(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame,
+        samples: u32,
+    ) -> Result<(), GpuError> {
+        self.draw(encoder, frame, samples, Keeps::Means).map(|_| ())
+    }
+
+    /// The drawn pixels: red, green, blue and alpha.
+    pub(super) fn picture(&self) -> Option<&wgpu::Buffer> {
+        self.buffers.picture.get()
+    }
+
+    /// Records all passes of a frame. Whether there are other buffers than before.
+    fn draw(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame,
+        samples: u32,
+        keeps: Keeps,
+    ) -> Result<bool, GpuError> {
         let size = frame.camera.size_px();
         check_picture(size, frame.background, frame.edge_depth_m)?;
         check_surfaces(&frame.surfaces)?;
@@ -319,9 +383,9 @@ impl Renderer {
         let tile_count = u64::from(tiles[0]) * u64::from(tiles[1]);
         let [chunk_capacity, triangle_capacity] = self.capacities(tile_count);
         let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let values = match output {
-            Output::Picture => pixels,
-            Output::Samples => pixels * u64::from(samples),
+        let values = match keeps {
+            Keeps::Means => pixels,
+            Keeps::Samples => pixels * u64::from(samples),
         };
         let settings = GpuFrame {
             size,
@@ -333,27 +397,18 @@ impl Renderer {
             chunk_capacity,
             triangle_capacity,
             surfaces_at: self.scene.surfaces_at,
-            writes_samples: u32::from(output == Output::Samples),
+            writes_samples: u32::from(keeps == Keeps::Samples),
             ..settings(frame)
         };
         self.write_buffers(&settings, &places, tile_count, values * 16)?;
+        let is_new = self.groups.is_none();
         let groups = match self.groups.take() {
             Some(groups) => groups,
             None => self.make_groups()?,
         };
         self.record(encoder, &groups, &settings);
         self.groups = Some(groups);
-        Ok(())
-    }
-
-    /// The prepared frame's pixels or samples: red, green, blue, and alpha or inverse depth.
-    pub(super) fn picture(&self) -> Option<&wgpu::Buffer> {
-        self.buffers.picture.get()
-    }
-
-    /// The prepared frame's settings.
-    pub(super) fn frame_buffer(&self) -> Option<&wgpu::Buffer> {
-        self.buffers.frame.get()
+        Ok(is_new)
     }
 
     /// How many entries the tiles' lists have room for: what the last frame needed and half as much, or a
@@ -363,7 +418,11 @@ impl Renderer {
         let triangles = self.scene.triangles.len() as u64 / 4;
         let guess = [chunks * (8 + tiles / 128), triangles * 4 + 4 * tiles];
         let limits = self.device.limits();
-        let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) / 4 / 8;
+        let most = limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size)
+            / 4
+            / 8;
         [0, 1].map(|i| {
             let needed = u64::from(self.entries_needed[i]);
             let wanted = if needed > 0 {
@@ -385,10 +444,17 @@ impl Renderer {
         };
         let clump = frame.clump.source();
         let made_from = key(&clump);
-        if self.clump.as_ref().is_none_or(|program| program.made_from != made_from) {
+        if self
+            .clump
+            .as_ref()
+            .is_none_or(|program| program.made_from != made_from)
+        {
             let text = program::clump(&clump, &self.scene.layout);
             let pipeline = self.one_pipeline("the clump", &text, &self.layouts.clump)?;
-            self.clump = Some(Program { made_from, pipeline });
+            self.clump = Some(Program {
+                made_from,
+                pipeline,
+            });
         }
         let mut before = std::mem::take(&mut self.layers);
         for layer in frame.layers {
@@ -399,11 +465,13 @@ impl Renderer {
                 Some(place) => before.remove(place),
                 None => {
                     let text = program::strokes(&source, &self.scene.layout);
-                    let pipeline =
-                        self.one_pipeline(layer.effect, &text, &self.layouts.strokes)?;
+                    let pipeline = self.one_pipeline(layer.effect, &text, &self.layouts.strokes)?;
                     self.groups = None;
                     LayerPrograms {
-                        program: Program { made_from, pipeline },
+                        program: Program {
+                            made_from,
+                            pipeline,
+                        },
                         words: Growing::new(
                             "a layer's parameters",
                             BufferUsages::STORAGE | BufferUsages::COPY_DST,
@@ -415,27 +483,49 @@ impl Renderer {
         }
         let is_smoothed = self.scene.layers.iter().any(|layer| layer.is_smoothed);
         let groups_smooth = self.groups.as_ref().map_or(0, |groups| {
-            groups.layers.iter().filter(|(_, smooth)| smooth.is_some()).count()
+            groups
+                .layers
+                .iter()
+                .filter(|(_, smooth)| smooth.is_some())
+                .count()
         });
-        let layers_smooth = self.scene.layers.iter().filter(|layer| layer.is_smoothed).count();
+        let layers_smooth = self
+            .scene
+            .layers
+            .iter()
+            .filter(|layer| layer.is_smoothed)
+            .count();
         if !before.is_empty() || groups_smooth != layers_smooth {
             self.groups = None;
         }
         if !is_smoothed {
             self.smooth = None;
             self.buffers.windows.drop_buffer();
-        } else if self.smooth.as_ref().is_none_or(|s| s.joint_constants != joint_constants) {
+        } else if self
+            .smooth
+            .as_ref()
+            .is_none_or(|s| s.joint_constants != joint_constants)
+        {
             let entry_points = ["find_gaps", "close_gaps", "find_specks", "open_specks"];
             let text = program::smooth(&self.scene.layout);
-            let made =
-                pipelines(&self.device, "smooth", &text, &self.layouts.smooth, &entry_points)?;
+            let made = pipelines(
+                &self.device,
+                "smooth",
+                &text,
+                &self.layouts.smooth,
+                &entry_points,
+            )?;
             self.stats.made += made.len();
             self.smooth = Some(Smooth {
                 joint_constants,
                 pipelines: made,
             });
         }
-        if self.tiles.as_ref().is_none_or(|(order, _)| *order != frame.order) {
+        if self
+            .tiles
+            .as_ref()
+            .is_none_or(|(order, _)| *order != frame.order)
+        {
             let number = match frame.order {
                 Order::Rounded => 0,
                 Order::Scattered => 1,
@@ -443,10 +533,18 @@ impl Renderer {
                 Order::Shifted => 3,
             };
             let text = program::tiles(number);
-            let made =
-                pipelines(&self.device, "tiles", &text, &self.layouts.tiles, &["draw_tile"])?;
+            let made = pipelines(
+                &self.device,
+                "tiles",
+                &text,
+                &self.layouts.tiles,
+                &["draw_tile"],
+            )?;
             self.stats.made += made.len();
-            self.tiles = made.into_iter().next().map(|pipeline| (frame.order, pipeline));
+            self.tiles = made
+                .into_iter()
+                .next()
+                .map(|pipeline| (frame.order, pipeline));
         }
         Ok(())
     }
@@ -507,7 +605,11 @@ impl Renderer {
         note(buffers.clumps.reserve(device, joints * CLUMP_BYTES)?);
         note(buffers.discs.reserve(device, scene.disc_bytes())?);
         let chunks = scene.chunks.len() as u64 / 4;
-        note(buffers.counters.reserve(device, (tile_count * 2 + chunks) * 4)?);
+        note(
+            buffers
+                .counters
+                .reserve(device, (tile_count * 2 + chunks) * 4)?,
+        );
         note(buffers.starts.reserve(device, (tile_count + 1) * 2 * 4)?);
         let frame: &GpuFrame = bytemuck::from_bytes(bytemuck::cast_slice(settings));
         // A chunk's entry has a second word.
@@ -549,17 +651,33 @@ impl Renderer {
             ];
             let strokes = group(&self.layouts.strokes, &bound)?;
             bound.push(&b.windows);
-            let smooth = layer.is_smoothed.then(|| group(&self.layouts.smooth, &bound));
+            let smooth = layer
+                .is_smoothed
+                .then(|| group(&self.layouts.smooth, &bound));
             Ok((strokes, smooth.transpose()?))
         });
-        let mut bins = vec![&b.frame, &b.chunks, &b.tables, &b.discs, &b.corners, &b.triangles];
+        let mut bins = vec![
+            &b.frame,
+            &b.chunks,
+            &b.tables,
+            &b.discs,
+            &b.corners,
+            &b.triangles,
+        ];
         let mut tiles = bins.clone();
         bins.extend([&b.counters, &b.starts, &b.entries]);
         tiles.extend([&b.starts, &b.entries, &b.picture, &b.sample_places]);
         Ok(Groups {
             clump: group(
                 &self.layouts.clump,
-                &[&b.frame, &b.joints, &b.strands, &b.clump_words, &b.clumps, &b.discs],
+                &[
+                    &b.frame,
+                    &b.joints,
+                    &b.strands,
+                    &b.clump_words,
+                    &b.clumps,
+                    &b.discs,
+                ],
             )?,
             layers: layers.collect::<Result<_, GpuError>>()?,
             bins: group(&self.layouts.bins, &bins)?,
@@ -592,7 +710,12 @@ impl Renderer {
         let mut pass = begin(encoder, "strokes", 0);
         pass.set_bind_group(0, &groups.clump, &[]);
         run(&mut pass, &clump.pipeline, frame.joints, 1);
-        let layers = self.scene.layers.iter().zip(&self.layers).zip(&groups.layers);
+        let layers = self
+            .scene
+            .layers
+            .iter()
+            .zip(&self.layers)
+            .zip(&groups.layers);
         for ((layer, programs), (strokes, smooth)) in layers {
             let (joints, instances) = (layer.joints as u32, layer.instances);
             pass.set_bind_group(0, strokes, &[]);
@@ -608,8 +731,14 @@ impl Renderer {
 
         let mut pass = begin(encoder, "bins", 1);
         pass.set_bind_group(0, &groups.bins, &[]);
-        if let [count_chunks, count_triangles, place, fill_chunks, fill_triangles, sort] =
-            &self.bins[..]
+        if let [
+            count_chunks,
+            count_triangles,
+            place,
+            fill_chunks,
+            fill_triangles,
+            sort,
+        ] = &self.bins[..]
         {
             run(&mut pass, count_chunks, frame.chunks, 1);
             run(&mut pass, count_triangles, frame.triangles, 1);
@@ -665,7 +794,12 @@ fn settings(frame: &Frame) -> GpuFrame {
         head_height_m: frame.head.height_m,
         light: light.to_array(),
         light_is_point: is_point,
-        background: [red, green, blue, if frame.background.is_some() { 1.0 } else { 0.0 }],
+        background: [
+            red,
+            green,
+            blue,
+            if frame.background.is_some() { 1.0 } else { 0.0 },
+        ],
         unit_m: frame.head.unit_m(),
         pixel_px: frame.camera.size_px()[1] as f32 / 720.0,
         edge_depth_m: frame.edge_depth_m,
@@ -713,7 +847,8 @@ impl Report {
     }
 
     fn set_state(&self, state: u8) {
-        self.state.store(state, std::sync::atomic::Ordering::Release);
+        self.state
+            .store(state, std::sync::atomic::Ordering::Release);
     }
 
     fn timestamps(&self, stage: u32) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
@@ -753,10 +888,11 @@ impl Report {
         }
         self.set_state(MAPPING);
         let state = std::sync::Arc::clone(&self.state);
-        self.read_back.map_async(wgpu::MapMode::Read, .., move |result| {
-            let next = if result.is_ok() { MAPPED } else { FAILED };
-            state.store(next, std::sync::atomic::Ordering::Release);
-        });
+        self.read_back
+            .map_async(wgpu::MapMode::Read, .., move |result| {
+                let next = if result.is_ok() { MAPPED } else { FAILED };
+                state.store(next, std::sync::atomic::Ordering::Release);
+            });
     }
 
     /// The entries that the tiles' lists needed, and the stages' milliseconds, where they are there.

@@ -89,7 +89,8 @@ impl SceneWords {
         self.clump.extend(frame.clump.source().words);
 
         self.discs = frame.paths.len();
-        self.layers.resize_with(frame.layers.len(), Default::default);
+        self.layers
+            .resize_with(frame.layers.len(), Default::default);
         let mut placed = Vec::new();
         let layers = frame.layers.iter().zip(frame.layer_joints).enumerate();
         for (index, (layer, joints)) in layers {
@@ -138,9 +139,8 @@ impl SceneWords {
         let mut last = None;
         self.chunks.clear();
         for run in &frame.paths.runs {
-            let draws = |p: &Placed| {
-                p.joints.start <= run.joints.start && run.joints.end <= p.joints.end
-            };
+            let draws =
+                |p: &Placed| p.joints.start <= run.joints.start && run.joints.end <= p.joints.end;
             let is_as = |list: &Vec<bool>| placed.iter().map(draws).eq(list.iter().copied());
             let list = match last {
                 Some(list) if is_as(&lists[list]) => list,

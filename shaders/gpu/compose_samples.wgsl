@@ -1,0 +1,12 @@
+/// In a pass with as many samples as were prepared: each by itself.
+@fragment
+fn show(@builtin(position) position: vec4<f32>, @builtin(sample_index) index: u32) -> Shown {
+    if (is_outside(position)) {
+        discard;
+    }
+    let shown = samples[first_sample(position) + index];
+    if (shown.w <= 0.0) {
+        discard;
+    }
+    return Shown(vec4<f32>(encoded(shown.xyz), 1.0), depth_in_pass(shown.w));
+}
