@@ -212,7 +212,7 @@ fn check_limits(device: &Device) -> Result<(), GpuError> {
         (
             "bytes that a workgroup shares",
             limits.max_compute_workgroup_storage_size,
-            15_360,
+            7_680,
         ),
         (
             "workgroups in a row",
