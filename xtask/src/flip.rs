@@ -34,7 +34,7 @@ pub fn differences(reference: &Picture, test: &Picture) -> Vec<f64> {
         (test.width, test.height)
     );
     let size = (reference.width as usize, reference.height as usize);
-    let opponents = [reference, test].map(|picture| opponent_channels(picture));
+    let opponents = [reference, test].map(opponent_channels);
     let seen = [0, 1].map(|i| perceived(&opponents[i], size));
     let features = [0, 1].map(|i| Features::of(&opponents[i][0], size));
     let largest = hyab(hunt_lab([0.0, 1.0, 0.0]), hunt_lab([0.0, 0.0, 1.0])).powf(Q_COLOR);
