@@ -1,6 +1,8 @@
 //! The rasteriser held against the reference: sample for sample at its own sample positions, and
 //! at many samples against the regular grid.
 
+#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+
 mod scenes;
 
 use bench::{compare, oracle};
@@ -247,7 +249,7 @@ proptest! {
 fn small_drawings_agree_on_a_graphics_card() {
     let card = match Offscreen::open(AdapterKind::Any) {
         Ok(card) => RefCell::new(card),
-        Err(GpuError::NoAdapter { .. }) if std::env::var_os("CI").is_none() => {
+        Err(GpuError::NoAdapter { .. }) if std::env::var_os("CI").is_none_or(|ci| ci != "true") => {
             eprintln!("SKIPPED: no driver for a graphics card; `cargo xtask setup` installs one");
             return;
         }
