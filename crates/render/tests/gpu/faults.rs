@@ -1,6 +1,6 @@
 //! What goes wrong on a graphics card is told, and nothing panics.
 
-use crate::scene::{Scene, driver, layers, noop, registry};
+use crate::scene::{Scene, driver, driver_gpu, layers, noop, registry};
 use effects::wgsl::Stroke;
 use effects::{Joints, Param, Parameters, Program, StrokeEffect, Values};
 use render::gpu::{GpuError, Offscreen, PassFormat, Renderer};
@@ -120,11 +120,6 @@ fn a_lost_card_says_so_from_then_on() {
             assert!(matches!(error, GpuError::Lost(_)), "{error}");
         }
     }
-}
-
-fn driver_gpu() -> Option<render::gpu::Gpu> {
-    driver()?;
-    render::gpu::Gpu::open(render::gpu::AdapterKind::Any).ok()
 }
 
 #[test]

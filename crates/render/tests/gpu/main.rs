@@ -5,5 +5,6 @@
 
 mod agree;
 mod faults;
+mod prelude;
 mod scene;
 mod warm;

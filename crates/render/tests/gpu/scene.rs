@@ -214,3 +214,9 @@ pub fn driver() -> Option<Offscreen> {
         Err(error) => panic!("{error}"),
     }
 }
+
+/// The same, bare.
+pub fn driver_gpu() -> Option<Gpu> {
+    driver()?;
+    Gpu::open(AdapterKind::Any).ok()
+}
