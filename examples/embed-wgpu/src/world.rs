@@ -4,7 +4,7 @@ use crate::PassSettings;
 use crate::view::{DEPTH_FORMAT, View};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Quat, Vec3};
-use std::f32::consts::{FRAC_PI_4, SQRT_2, TAU};
+use std::f32::consts::{SQRT_2, TAU};
 use std::ops::Range;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{BufferUsages, RenderPass, RenderPipeline, vertex_attr_array};
@@ -133,9 +133,9 @@ impl World {
     #[must_use]
     pub fn cubes(&self, time: f32) -> ([Vec3; 2], f32) {
         let height = self.head.height_m;
-        let middle = self.head.center - 0.35 * height * Vec3::Y;
-        let out = Quat::from_rotation_y(0.45 + 0.7 * time) * Vec3::Z * 1.25 * height;
-        ([middle + out, middle - out], 0.17 * height)
+        let middle = self.head.center - 0.45 * height * Vec3::Y;
+        let out = Quat::from_rotation_y(1.0 + 0.7 * time) * Vec3::Z * 1.4 * height;
+        ([middle + out, middle - out], 0.2 * height)
     }
 
     /// Everything to its place at `time` (seconds), and the camera.
@@ -147,7 +147,7 @@ impl World {
         };
         let (cubes, half) = self.cubes(time);
         let cube = |middle: Vec3| {
-            let turned = Quat::from_rotation_y(1.3 * time) * Quat::from_rotation_y(FRAC_PI_4);
+            let turned = Quat::from_rotation_y(0.9 + 1.3 * time) * Quat::from_rotation_x(0.5);
             let size = half * Vec3::new(SQRT_2, 2.0, SQRT_2);
             Mat4::from_scale_rotation_translation(size, turned, middle)
         };
@@ -159,7 +159,7 @@ impl World {
             (cube(cubes[0]), CUBE_COLORS[0]),
             (cube(cubes[1]), CUBE_COLORS[1]),
             (
-                Mat4::from_scale_rotation_translation(Vec3::splat(0.95 * height), tilt, at(-0.75)),
+                Mat4::from_scale_rotation_translation(Vec3::splat(1.05 * height), tilt, at(-0.65)),
                 GLASS_COLOR,
             ),
         ];
