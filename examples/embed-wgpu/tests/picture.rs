@@ -41,7 +41,7 @@ fn gpu() -> Option<Gpu> {
 }
 
 fn preset() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets/twin-tails.ron")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/look/few.ron")
 }
 
 fn open(gpu: Gpu, samples: u32, depth: DepthRange) -> Outcome<Demo> {
@@ -206,6 +206,7 @@ fn the_program_writes_a_picture() {
     let _ = std::fs::remove_file(&path);
     let program = || Command::new(env!("CARGO_BIN_EXE_embed-wgpu"));
     let output = program()
+        .arg(preset())
         .args(["--size", "120x90", "--time", "0.2", "--picture"])
         .arg(&path)
         .output()
