@@ -55,7 +55,7 @@ impl Orbit {
     };
 
     /// How fast it goes round by itself, radians a second.
-    const SPEED: f32 = 0.15;
+    const SPEED: f32 = 0.1;
 
     /// Where it is so many seconds later.
     #[must_use]
@@ -91,9 +91,9 @@ impl View {
     /// The eye looks at the middle of a scene around that head.
     #[must_use]
     pub fn of(head: render::Head, orbit: Orbit, size_px: [u32; 2], depth: DepthRange) -> Self {
-        let target = head.center - 0.9 * head.height_m * Vec3::Y;
+        let target = head.center - 0.95 * head.height_m * Vec3::Y;
         let back = Quat::from_rotation_y(orbit.yaw) * Quat::from_rotation_x(-orbit.pitch) * Vec3::Z;
-        let eye = target + 7.0 * head.height_m * back;
+        let eye = target + 7.2 * head.height_m * back;
         let (near_m, far_m) = (0.1 * head.height_m, 40.0 * head.height_m);
         let fov = Self::VERTICAL_FOV_DEGREES.to_radians();
         let aspect = size_px[0] as f32 / size_px[1] as f32;

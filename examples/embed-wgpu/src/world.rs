@@ -134,7 +134,7 @@ impl World {
     pub fn cubes(&self, time: f32) -> ([Vec3; 2], f32) {
         let height = self.head.height_m;
         let middle = self.head.center - 0.45 * height * Vec3::Y;
-        let out = Quat::from_rotation_y(1.0 + 0.7 * time) * Vec3::Z * 1.4 * height;
+        let out = Quat::from_rotation_y(1.0 + 0.9 * time) * Vec3::Z * 1.4 * height;
         ([middle + out, middle - out], 0.2 * height)
     }
 
@@ -154,8 +154,8 @@ impl World {
         // It sways, so that it goes through the hair in other places all the time.
         let tilt = Quat::from_rotation_y(0.5 * time) * Quat::from_rotation_x(0.3);
         let placed = [
-            (upright(Vec3::new(4.5, 0.1, 4.5), at(-3.0)), FLOOR_COLOR),
-            (upright(Vec3::new(0.5, 1.6, 0.5), at(-2.2)), PEDESTAL_COLOR),
+            (upright(Vec3::new(3.6, 0.1, 3.6), at(-2.65)), FLOOR_COLOR),
+            (upright(Vec3::new(0.42, 1.2, 0.42), at(-2.0)), PEDESTAL_COLOR),
             (cube(cubes[0]), CUBE_COLORS[0]),
             (cube(cubes[1]), CUBE_COLORS[1]),
             (

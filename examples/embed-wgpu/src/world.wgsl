@@ -1,4 +1,4 @@
-// The program's own meshes: flat facets in two tones.
+// The program's own meshes: flat facets, in light or in shadow.
 
 struct World {
     clip_from_world: mat4x4<f32>,
@@ -34,6 +34,7 @@ fn light(vertex: Vertex) -> @location(0) vec4<f32> {
     let across = normalize(cross(dpdx(vertex.position), dpdy(vertex.position)));
     let to_eye = world.eye - vertex.position;
     let normal = across * sign(dot(across, to_eye));
-    let bright = 0.55 + 0.45 * smoothstep(-0.02, 0.02, dot(normal, world.to_light) - 0.2);
+    let facing = dot(normal, world.to_light);
+    let bright = 0.45 + 0.3 * smoothstep(0.18, 0.22, facing) + 0.25 * max(facing, 0.0);
     return vec4<f32>(vertex.color.rgb * bright, vertex.color.a);
 }
