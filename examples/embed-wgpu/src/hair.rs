@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 /// Samples that the hair is drawn with in each pixel. A pass must have as many, or 1: then they make the edges' alpha.
 pub const SAMPLES: u32 = 4;
 
+/// Steps of the simulation in a second of the scene.
+const STEPS_PER_SECOND: f32 = 60.0;
+
 /// Hair and head of a preset, on the program's device.
 pub struct Hair {
     /// The scene: simulates the hair, and gives frames.
@@ -38,7 +41,9 @@ impl Hair {
             motion,
             ..Files::default()
         };
-        let preset = Preset::parse(&name, &text, &registry)?;
+        let mut preset = Preset::parse(&name, &text, &registry)?;
+        // Presets are made for the frame rates of film.
+        preset.set("scene.fps", &STEPS_PER_SECOND.to_string())?;
         Ok(Self {
             stage: Stage::new(&preset, &files)?,
             renderer: Renderer::new(device, queue)?,
@@ -64,6 +69,8 @@ impl Hair {
         view: &View,
         pass: PassFormat,
     ) -> Outcome<render::Light> {
+        // Hair stands where its nearest step has it, and so must the head.
+        let time = (time * STEPS_PER_SECOND).round() / STEPS_PER_SECOND;
         self.stage.advance_to(time)?;
         let camera = view.as_inkstrand_sees_it()?;
         let frame = self.stage.frame_seen_by(camera)?;

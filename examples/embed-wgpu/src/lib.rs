@@ -225,3 +225,8 @@ impl Attachments {
         }
     }
 }
+
+/// The README's code, compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

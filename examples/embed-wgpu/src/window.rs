@@ -57,11 +57,11 @@ impl ApplicationHandler for App {
             WindowEvent::Resized(size) => viewer.resize(size),
             WindowEvent::Occluded(is_hidden) => viewer.is_hidden = is_hidden,
             WindowEvent::CursorMoved { position, .. } => viewer.point(position),
-            WindowEvent::MouseInput { state, button, .. } => {
-                if button == MouseButton::Left {
-                    viewer.is_dragged = state == ElementState::Pressed;
-                }
-            }
+            WindowEvent::MouseInput {
+                state,
+                button: MouseButton::Left,
+                ..
+            } => viewer.is_dragged = state == ElementState::Pressed,
             WindowEvent::KeyboardInput { event, .. } => viewer.press(&event, events),
             WindowEvent::RedrawRequested => {
                 if let Err(error) = viewer.draw() {

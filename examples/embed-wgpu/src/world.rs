@@ -155,7 +155,10 @@ impl World {
         let tilt = Quat::from_rotation_y(0.5 * time) * Quat::from_rotation_x(0.3);
         let placed = [
             (upright(Vec3::new(3.6, 0.1, 3.6), at(-2.65)), FLOOR_COLOR),
-            (upright(Vec3::new(0.42, 1.2, 0.42), at(-2.0)), PEDESTAL_COLOR),
+            (
+                upright(Vec3::new(0.42, 1.2, 0.42), at(-2.0)),
+                PEDESTAL_COLOR,
+            ),
             (cube(cubes[0]), CUBE_COLORS[0]),
             (cube(cubes[1]), CUBE_COLORS[1]),
             (
