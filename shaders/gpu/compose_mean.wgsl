@@ -1,6 +1,5 @@
 /// In a pass with one sample: their mean over what is there, at the depth of the nearest.
-@fragment
-fn show(@builtin(position) position: vec4<f32>) -> Shown {
+fn mean_at(position: vec4<f32>) -> Shown {
     if (is_outside(position)) {
         discard;
     }
@@ -21,4 +20,15 @@ fn show(@builtin(position) position: vec4<f32>) -> Shown {
     }
     let alpha = count / f32(gpu_frame.samples);
     return Shown(vec4<f32>(encoded(color / count) * alpha, alpha), depth_in_pass(nearest));
+}
+
+@fragment
+fn show(@builtin(position) position: vec4<f32>) -> Shown {
+    return mean_at(position);
+}
+
+/// For a pass without depths.
+@fragment
+fn show_color(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    return mean_at(position).color;
 }

@@ -1,7 +1,7 @@
 // What is drawn, as the passes that sort it into tiles and the one that draws the tiles see it.
 
 /// Width and height of a tile in pixels.
-const TILE: u32 = 16u;
+const TILE: u32 = 8u;
 
 struct Chunk {
     /// The strand's number; numbers never decrease.

@@ -25,7 +25,7 @@ const SHIFTED: u32 = 3u;
 /// Segments between two joints that a chunk has at most.
 const CHUNK: u32 = 8u;
 /// Things that are looked at in one go.
-const BATCH: u32 = 128u;
+const BATCH: u32 = 64u;
 /// Stands for the inverse depth of nothing.
 const NOTHING: f32 = -3e38;
 const FAR_RATIO: f32 = 3e38;
@@ -517,7 +517,7 @@ fn offer(samples: ptr<function, Samples>, s: Segment, x: vec4<f32>, y: vec4<f32>
 
 // ---- The tile
 
-@compute @workgroup_size(16, 16)
+@compute @workgroup_size(TILE, TILE)
 fn draw_tile(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_id) pixel: vec3<u32>,

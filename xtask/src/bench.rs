@@ -11,8 +11,8 @@ const SUITES: &[(&str, bool)] = &[
     ("dynamics", true),
     ("coherence", true),
     ("skip", false),
-    ("scale", false),
-    ("frame", false),
+    ("scale", true),
+    ("frame", true),
     ("all", false),
 ];
 
@@ -23,7 +23,7 @@ pub fn command() -> Command {
         .about("Measures time against error: target/bench/SUITE.csv and a plot")
         .arg(
             Arg::new("suite")
-                .help("Built so far: strokes, dynamics, coherence")
+                .help("Built so far: strokes, dynamics, coherence, frame, scale")
                 .value_name("SUITE")
                 .value_parser(SUITES.iter().map(|suite| suite.0).collect::<Vec<_>>())
                 .required(true),
@@ -86,8 +86,8 @@ mod tests {
             run(&matches).unwrap_err().to_string()
         };
         assert_eq!(
-            error(&["bench", "scale", "--quick"]),
-            "bench scale isn't built yet"
+            error(&["bench", "skip", "--quick"]),
+            "bench skip isn't built yet"
         );
         assert_eq!(
             error(&["bench", "strokes", "--peers"]),

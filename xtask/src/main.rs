@@ -10,6 +10,7 @@
 
 mod bench;
 mod figures;
+mod flip;
 mod gallery;
 mod html;
 mod layers;
@@ -26,6 +27,7 @@ mod work;
 use std::process::ExitCode;
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
+use regress::Backend;
 
 /// What a task returns; the text of the error is all that the maintainer gets to see.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -72,9 +74,9 @@ fn command() -> Command {
                 )
                 .arg(
                     Arg::new("backend")
-                        .help("The backend that draws; its pictures must be bit-exact")
+                        .help("The backend that draws: cpu, bit for bit; gpu, but for rounding")
                         .long("backend")
-                        .value_parser(["cpu"])
+                        .value_parser(["cpu", "gpu"])
                         .default_value("cpu"),
                 )
                 .arg(
@@ -115,7 +117,10 @@ fn run(matches: &ArgMatches) -> Outcome {
         }
         Some(("regress", args)) => {
             let filter = args.get_one::<String>("filter").map_or("", String::as_str);
-            let backend = args.get_one::<String>("backend").map_or("", String::as_str);
+            let backend = match args.get_one::<String>("backend").map(String::as_str) {
+                Some("gpu") => Backend::Gpu,
+                _ => Backend::Cpu,
+            };
             regress::run(filter, backend, args.get_flag("bless"))
         }
         Some(("bench", args)) => bench::run(args),

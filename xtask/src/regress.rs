@@ -3,7 +3,11 @@
 //! `tests/golden/cases.toml` lists the cases, `tests/golden/NAME.png` are the pictures. They must
 //! be the same bit by bit; how they differ is shown in `target/regress/index.html`. Beside the cases
 //! of the list there is a contact sheet for each effect, with a cell for each end of each parameter.
+//!
+//! A graphics card draws the same cases, and its pictures must agree with the golden ones but for rounding
+//! (`agree`), on a sheet in each cell.
 
+mod agree;
 mod case;
 mod extremes;
 mod report;
@@ -15,14 +19,25 @@ use std::path::{Path, PathBuf};
 
 use crate::picture::Picture;
 use crate::program::{self, Inkstrand, sum_up};
-use crate::{Outcome, work};
+use crate::{Outcome, setup, work};
+use agree::Agreement;
 use case::Case;
 use verdict::Verdict;
+
+/// What draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Backend {
+    /// The CPU: golden pictures are its own, bit by bit.
+    Cpu,
+    /// A graphics card, or a driver in software.
+    Gpu,
+}
 
 /// The folders that a run reads and writes.
 struct Folders {
     golden: PathBuf,
     report: PathBuf,
+    backend: Backend,
 }
 
 /// Compares the cases whose name contains `filter`, or makes their pictures golden.
@@ -30,13 +45,31 @@ struct Folders {
 /// # Errors
 /// A picture differs, is missing or can't be drawn; the list of cases is wrong; `bless` where
 /// `CI=true`.
-pub fn run(filter: &str, backend: &str, bless: bool) -> Outcome {
+pub fn run(filter: &str, backend: Backend, bless: bool) -> Outcome {
     if bless && program::on_ci() {
         return Err("--bless is for a person who has looked; not where CI=true".into());
     }
+    let report = match backend {
+        Backend::Cpu => "target/regress",
+        Backend::Gpu => "target/regress-gpu",
+    };
+    if backend == Backend::Gpu {
+        if bless {
+            return Err("golden pictures are the CPU's: --bless goes without --backend gpu".into());
+        }
+        if !setup::has_vulkan_driver() && cfg!(target_os = "linux") {
+            let message = "no Vulkan driver: `cargo xtask setup` installs one";
+            if program::on_ci() {
+                return Err(message.into());
+            }
+            println!("SKIPPED: {message}");
+            return Ok(());
+        }
+    }
     let folders = Folders {
         golden: program::root().join("tests/golden"),
-        report: program::root().join("target/regress"),
+        report: program::root().join(report),
+        backend,
     };
     let program = Inkstrand::build()?;
     let mut cases = folders.cases()?;
@@ -50,7 +83,12 @@ pub fn run(filter: &str, backend: &str, bless: bool) -> Outcome {
     }
 
     // All cores draw, a picture each.
-    let common = [format!("--backend={backend}"), "--threads=1".to_owned()];
+    let name = if backend == Backend::Cpu {
+        "cpu"
+    } else {
+        "gpu"
+    };
+    let common = [format!("--backend={name}"), "--threads=1".to_owned()];
     let draw = |case: &Case, picture: &Path| {
         let args = [&case.args[..], &common].concat();
         if case.cells.is_empty() {
@@ -73,7 +111,7 @@ pub fn run(filter: &str, backend: &str, bless: bool) -> Outcome {
     let failures: Vec<String> = cases
         .iter()
         .zip(&verdicts)
-        .filter(|(_, verdict)| **verdict != Verdict::Same)
+        .filter(|(_, verdict)| !verdict.is_good())
         .map(|(case, _)| case.name.clone())
         .collect();
     sum_up(cases.len(), &failures)
@@ -132,6 +170,11 @@ impl Folders {
         let Some(difference) = expected.compare(&actual)? else {
             return Ok(Verdict::Same);
         };
+        if self.backend == Backend::Gpu {
+            let shown = expected.amplified_difference(&actual, difference.largest);
+            shown.save(&self.picture(case, "difference"))?;
+            return Ok(agreement(case, &expected, &actual));
+        }
         let cells = sheet::cells_that_differ(&case.cells, &expected, &actual);
         let shown = expected.amplified_difference(&actual, difference.largest);
         shown.save(&self.picture(case, "difference"))?;
@@ -169,6 +212,39 @@ impl Folders {
     }
 }
 
+/// How far a picture agrees with the golden one; a sheet as far as its worst cell.
+fn agreement(case: &Case, expected: &Picture, actual: &Picture) -> Verdict {
+    let mut whole = Agreement {
+        within: 1.0,
+        flip: 0.0,
+    };
+    if case.cells.is_empty() {
+        whole = Agreement::of(expected, actual).unwrap_or(whole);
+        return if whole.holds() {
+            Verdict::Agrees(whole)
+        } else {
+            Verdict::Disagrees(whole, Vec::new())
+        };
+    }
+    let mut wrong = Vec::new();
+    for (index, cell) in case.cells.iter().enumerate() {
+        let part =
+            |picture: &Picture| picture.cut(sheet::corner(index), (sheet::CELL, sheet::CELL));
+        let Some(found) = Agreement::of(&part(expected), &part(actual)) else {
+            continue;
+        };
+        if !found.holds() {
+            wrong.push(cell.name.clone());
+        }
+        whole = whole.worse(found);
+    }
+    if wrong.is_empty() {
+        Verdict::Agrees(whole)
+    } else {
+        Verdict::Disagrees(whole, wrong)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use tempfile::TempDir;
@@ -182,6 +258,7 @@ mod tests {
         let folders = Folders {
             golden: root.path().join("golden"),
             report: root.path().join("report"),
+            backend: Backend::Cpu,
         };
         fs::create_dir(&folders.golden).unwrap();
         (root, folders)

@@ -40,7 +40,7 @@ pub fn run() -> Outcome {
         succeed(rustup)?;
     }
 
-    if vulkan_driver_in(&driver_folders(|name| env::var_os(name))) {
+    if has_vulkan_driver() {
         println!("Vulkan driver: found");
         return Ok(());
     }
@@ -59,6 +59,11 @@ pub fn run() -> Outcome {
         ),
     }
     Ok(())
+}
+
+/// Whether the Vulkan loader would find a driver, of a graphics card or in software.
+pub fn has_vulkan_driver() -> bool {
+    vulkan_driver_in(&driver_folders(|name| env::var_os(name)))
 }
 
 /// How to run apt-get here.

@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use crate::program::{cargo, succeed};
+use crate::regress::Backend;
 use crate::{Outcome, figures, layers, presets, regress, wasm};
 
 /// A step's name, and what it does; its output goes to the terminal.
@@ -33,7 +34,8 @@ const STEPS: &[Step] = &[
     ("wasm", wasm::build),
     ("presets", presets::render_all),
     ("figures", figures::run),
-    ("regressions", || regress::run("", "cpu", false)),
+    ("regressions", || regress::run("", Backend::Cpu, false)),
+    ("backends", || regress::run("", Backend::Gpu, false)),
 ];
 
 /// The names of all steps, in the order in which they run.

@@ -1,12 +1,15 @@
 //! The reference picture, how far other pictures are from it, and the suites that measure time
 //! against that error.
 
+pub mod backends;
 pub mod coherence;
 pub mod compare;
 pub mod dynamics;
+pub mod frame;
 pub mod oracle;
 pub mod plot;
 pub mod results;
+pub mod scale;
 pub mod stress;
 pub mod strokes;
 pub mod targets;

@@ -5,9 +5,10 @@
     reason = "a program for the terminal"
 )]
 
+use bench::backends::Card;
 use bench::dynamics::{self, peers::Peers, stored};
 use bench::targets::{Target, report};
-use bench::{coherence, results, stress, strokes};
+use bench::{coherence, frame, results, scale, stress, strokes};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
@@ -31,8 +32,31 @@ enum Suite {
     Dynamics(DynamicsOptions),
     /// Coherence: how continuous pictures are in time, in every order of strokes
     Coherence(CoherenceOptions),
+    /// Frame: what a whole frame of each look takes, by stages, on both backends
+    Frame(CardOptions),
+    /// Scale: 72 to 100,000 strands, by stages, on both backends
+    Scale(CardOptions),
     /// No measure: random scenes with hostile numbers, in which strands must hold
     Stress(StressOptions),
+}
+
+#[derive(clap::Args)]
+struct CardOptions {
+    #[command(flatten)]
+    common: Options,
+    /// Without a graphics card a driver that draws in software: slow, and no measure of anything but itself
+    #[arg(long)]
+    software: bool,
+}
+
+impl CardOptions {
+    fn card(&self) -> Card {
+        if self.software {
+            Card::Any
+        } else {
+            Card::Hardware
+        }
+    }
 }
 
 #[derive(clap::Args)]
@@ -111,6 +135,8 @@ fn main() -> ExitCode {
         Suite::Strokes(options) => strokes(&options),
         Suite::Dynamics(options) => dynamics(&options),
         Suite::Coherence(options) => coherence(&options),
+        Suite::Frame(options) => frame(&options),
+        Suite::Scale(options) => scale(&options),
         Suite::Stress(options) => stress(&options),
     };
     measured.unwrap_or_else(|error| {
@@ -206,6 +232,53 @@ fn coherence(options: &CoherenceOptions) -> Result<ExitCode, String> {
     for picture in &measured.pictures {
         println!("wrote {}", picture.display());
     }
+    Ok(exit_code(&measured.targets, common.check))
+}
+
+fn frame(options: &CardOptions) -> Result<ExitCode, String> {
+    let common = &options.common;
+    let suite = frame::Options {
+        root: root(),
+        out: common.out.clone(),
+        quick: common.quick,
+        threads: common.threads(),
+        card: options.card(),
+    };
+    let measured = with_progress(|progress| frame::run(&suite, progress))?;
+    println!("{}", results::summary(&measured.rows));
+    println!("{}", report(&measured.targets));
+    println!(
+        "graphics card: {}",
+        measured.card.as_deref().unwrap_or("none")
+    );
+    println!("wrote {}", common.out.join("frame.csv").display());
+    Ok(exit_code(&measured.targets, common.check))
+}
+
+fn scale(options: &CardOptions) -> Result<ExitCode, String> {
+    let common = &options.common;
+    let suite = scale::Options {
+        out: common.out.clone(),
+        quick: common.quick,
+        threads: common.threads(),
+        card: options.card(),
+    };
+    let measured = with_progress(|progress| scale::run(&suite, progress))?;
+    println!("{}", results::summary(&measured.rows));
+    for (count, [cpu, gpu]) in &measured.bytes {
+        let mib = |bytes: &u64| *bytes as f64 / f64::from(1 << 20);
+        println!(
+            "{count} strands: {:.1} MiB of strokes on the CPU, {:.1} MiB on the card",
+            mib(cpu),
+            mib(gpu)
+        );
+    }
+    println!("{}", report(&measured.targets));
+    println!(
+        "graphics card: {}",
+        measured.card.as_deref().unwrap_or("none")
+    );
+    println!("wrote {}", common.out.join("scale.csv").display());
     Ok(exit_code(&measured.targets, common.check))
 }
 

@@ -32,10 +32,6 @@ const NOT_BUILT: &[(&str, &[&str])] = &[
         "convert OUTPUT",
         &["convert", "small.strands.ron", "out.tfx"],
     ),
-    (
-        "render --backend gpu",
-        &["render", "small.ron", "--backend", "gpu"],
-    ),
 ];
 
 /// Everything else, with a command line that uses it.
@@ -157,6 +153,10 @@ const BUILT: &[(&str, &[&str])] = &[
     (
         "render --backend auto",
         &["render", "small.ron", "--backend", "auto"],
+    ),
+    (
+        "render --backend gpu",
+        &["render", "small.ron", "--backend", "gpu"],
     ),
     (
         "render --backend cpu",
@@ -296,6 +296,11 @@ fn everything_else_works() {
     for (name, line) in BUILT {
         let output = inkstrand(&folder, line).output().unwrap();
         let told = String::from_utf8_lossy(&output.stderr);
+        let has_driver = !told.contains("there is no graphics card to draw on");
+        if name.ends_with("gpu") && !has_driver && std::env::var_os("CI").is_none() {
+            eprintln!("SKIPPED: {name}: no driver for a graphics card");
+            continue;
+        }
         assert_eq!(output.status.code(), Some(0), "{name}: {told}");
         assert!(!told.contains("not built"), "{name}: {told}");
     }

@@ -16,8 +16,7 @@ h2.same { color: #272; } h2.wrong { color: #a22; }";
 
 /// The page of a run. Cases that are wrong come first, then those that are right.
 pub fn page<'a>(results: impl Iterator<Item = (&'a Case, &'a Verdict)>) -> String {
-    let (same, wrong): (Vec<_>, Vec<_>) =
-        results.partition(|(_, verdict)| **verdict == Verdict::Same);
+    let (same, wrong): (Vec<_>, Vec<_>) = results.partition(|(_, verdict)| verdict.is_good());
     let mut page = head("Golden pictures", STYLE);
     let count = format!("{} passed, {} failed", same.len(), wrong.len());
     push(
@@ -33,6 +32,8 @@ pub fn page<'a>(results: impl Iterator<Item = (&'a Case, &'a Verdict)>) -> Strin
 fn section(page: &mut String, case: &Case, verdict: &Verdict) {
     let (class, pictures): (_, &[&str]) = match verdict {
         Verdict::Same => ("same", &["actual"]),
+        Verdict::Agrees(_) => ("same", &["expected", "actual"]),
+        Verdict::Disagrees(..) => ("wrong", &["expected", "actual", "difference"]),
         Verdict::New => ("wrong", &["actual"]),
         Verdict::Differs { .. } => ("wrong", &["expected", "actual", "difference"]),
         Verdict::Failed(_) => ("wrong", &["expected", "actual"]),
@@ -57,7 +58,7 @@ fn section(page: &mut String, case: &Case, verdict: &Verdict) {
         );
     }
     let differing: &[String] = match verdict {
-        Verdict::Differs { cells, .. } => cells,
+        Verdict::Differs { cells, .. } | Verdict::Disagrees(_, cells) => cells,
         _ => &[],
     };
     if !case.cells.is_empty() {

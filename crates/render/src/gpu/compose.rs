@@ -107,7 +107,11 @@ impl Composer {
             },
             fragment: Some(wgpu::FragmentState {
                 module: &module,
-                entry_point: Some("show"),
+                entry_point: Some(if format.depth.is_some() {
+                    "show"
+                } else {
+                    "show_color"
+                }),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &[Some(wgpu::ColorTargetState {
                     format: format.color,

@@ -38,7 +38,7 @@ pub(super) const CLUMP_BYTES: u64 = 32;
 /// Words of a strand's record: id, mean, size.
 pub(super) const STRAND_WORDS: usize = 5;
 /// Width and height of a tile, pixels.
-pub(super) const TILE: u32 = 16;
+pub(super) const TILE: u32 = 8;
 /// Most segments of a chunk.
 pub(super) const CHUNK: usize = 8;
 /// Invocations of a workgroup, but for the tiles'.

@@ -25,6 +25,9 @@ pub struct GpuStats {
     pub bytes: u64,
     /// Buffers and pipelines that the last frame had to make: none once warm.
     pub made: usize,
+    /// Whether the tiles' lists had too little room in the last frame that was read back: it took longer, and was drawn as
+    /// it should be. The next one has room.
+    pub lists_were_short: bool,
     /// Milliseconds on the card of the last frame that was read back: strokes, sorting into tiles, tiles. Of devices with
     /// timestamps alone.
     pub milliseconds: Option<[f64; 3]>,
@@ -55,6 +58,8 @@ pub struct Renderer {
     composer: Option<Composer>,
     /// Entries that the tiles' lists needed in the last frame that is known of: chunks, triangles.
     entries_needed: [u32; 2],
+    /// Entries that there was room for in the frame that the report is of.
+    room: [u32; 2],
     report: Report,
     stats: GpuStats,
 }
@@ -212,7 +217,7 @@ fn check_limits(device: &Device) -> Result<(), GpuError> {
         (
             "bytes that a workgroup shares",
             limits.max_compute_workgroup_storage_size,
-            15_360,
+            7_680,
         ),
         (
             "workgroups in a row",
@@ -277,6 +282,7 @@ impl Renderer {
             groups: None,
             composer: None,
             entries_needed: [0; 2],
+            room: [0; 2],
             report: Report::new(device, queue),
             stats: GpuStats::default(),
         })
@@ -406,6 +412,9 @@ impl Renderer {
             Some(groups) => groups,
             None => self.make_groups()?,
         };
+        if self.report.state() == FREE {
+            self.room = [chunk_capacity, triangle_capacity];
+        }
         self.record(encoder, &groups, &settings);
         self.groups = Some(groups);
         Ok(is_new)
@@ -766,6 +775,7 @@ impl Renderer {
     fn read_report(&mut self) {
         if let Some((entries, milliseconds)) = self.report.read(&self.device) {
             self.entries_needed = entries;
+            self.stats.lists_were_short = (0..2).any(|i| entries[i] > self.room[i]);
             self.stats.milliseconds = milliseconds;
         }
     }

@@ -1,0 +1,228 @@
+//! Suite `frame`: what a whole frame of each look takes, by stages, on both backends. Camera and hair move, so that
+//! nothing can be reused.
+
+use crate::backends::{Backends, Card, Times, share_that_differs};
+use crate::results::{self, Row};
+use crate::targets::{Found, Limit, Target};
+use effects::Registry;
+use indicatif::ProgressBar;
+use stage::{Files, Preset, Stage};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Samples a pixel: what a live picture has.
+const SAMPLES: u32 = 4;
+/// Frames a second of the animation and of the target.
+const FPS: f64 = 60.0;
+/// Frames that are drawn before any is counted.
+const WARM_UP: u32 = 3;
+
+/// What the user asks for.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The project's folder, for its presets.
+    pub root: PathBuf,
+    /// Where the files go.
+    pub out: PathBuf,
+    /// Fewer frames.
+    pub quick: bool,
+    /// Threads of the CPU's backend.
+    pub threads: usize,
+    /// Which graphics card.
+    pub card: Card,
+}
+
+/// All that was measured.
+pub struct Measured {
+    /// A row a look and stage.
+    pub rows: Vec<Row>,
+    /// Whole frames against 60 frames a second.
+    pub targets: Vec<Target>,
+    /// The graphics card that was measured, if any.
+    pub card: Option<String>,
+}
+
+/// Measures all looks and writes `frame.csv`.
+///
+/// # Errors
+///
+/// When a preset cannot be read, nothing can be drawn, or a file cannot be written.
+pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
+    let mut presets = presets(&options.root)?;
+    if options.quick {
+        presets.truncate(3);
+    }
+    let frames: u32 = if options.quick { 12 } else { 60 };
+    progress.set_length(presets.len() as u64);
+    let mut measured = Measured {
+        rows: Vec::new(),
+        targets: Vec::new(),
+        card: None,
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build();
+    let pool = pool.map_err(|error| error.to_string())?;
+    for preset in &presets {
+        let name = preset
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        progress.set_message(name.clone());
+        let mut stage = open(preset, &options.root)?;
+        let mut backends = Backends::new(SAMPLES, options.threads, options.card)?;
+        let rows = pool.install(|| look(&name, &mut stage, &mut backends, frames))?;
+        for method in ["cpu", "gpu"] {
+            let whole = rows.iter().find(|row| row.method == method);
+            measured.targets.extend(whole.map(|row| Target {
+                text: format!("{name}, {method}: milliseconds a frame"),
+                found: Some(Found::Is(1e3 * row.seconds)),
+                limit: Limit::AtMost(1e3 / FPS),
+            }));
+        }
+        measured.rows.extend(rows);
+        measured.card = backends.card_name();
+        progress.inc(1);
+    }
+    let mut comments = vec![
+        format!(
+            "whole frames and their stages, {SAMPLES} samples a pixel, medians of {frames} frames 1/{FPS} s apart"
+        ),
+        "method: a backend and its stage; simulate and paths are of both; knob: samples".to_owned(),
+        "error of gpu: share of pixels that differ from the CPU's by more than 2/255".to_owned(),
+        format!(
+            "graphics card: {}",
+            measured.card.as_deref().unwrap_or("none")
+        ),
+    ];
+    comments.extend(results::machine(options.threads, &["wgpu"]));
+    results::save(
+        &options.out,
+        "frame.csv",
+        &results::csv("frame", &comments, &measured.rows),
+    )?;
+    Ok(measured)
+}
+
+/// The project's looks, by name.
+fn presets(root: &Path) -> Result<Vec<PathBuf>, String> {
+    let folder = root.join("presets");
+    let entries = std::fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "ron"));
+    paths.sort();
+    Ok(paths)
+}
+
+/// A look whose head nods and shakes.
+fn open(path: &Path, root: &Path) -> Result<Stage, String> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{name}: {error}"))?;
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
+    let mut preset = Preset::parse(&name, &text, &registry).map_err(|errors| errors.to_string())?;
+    preset.set("scene.fps", &FPS.to_string())?;
+    let files = Files {
+        motion: Some(root.join("presets/motions/nod-and-shake.motion.ron")),
+        preset_folder: root.join("presets"),
+        ..Files::default()
+    };
+    Stage::new(&preset, &files).map_err(|error| error.to_string())
+}
+
+/// The stages of a frame, in the order of the rows.
+const STAGES: [&str; 10] = [
+    "simulate",
+    "paths",
+    "cpu",
+    "cpu:effects",
+    "cpu:raster",
+    "gpu",
+    "gpu:strokes",
+    "gpu:bins",
+    "gpu:tiles",
+    "gpu:upload",
+];
+
+fn look(
+    name: &str,
+    stage: &mut Stage,
+    backends: &mut Backends,
+    frames: u32,
+) -> Result<Vec<Row>, String> {
+    let mut times = STAGES.map(|_| Times::default());
+    let mut error = None;
+    for number in 0..WARM_UP + frames {
+        let time = f64::from(number) / FPS;
+        let start = Instant::now();
+        // The camera orbits by 30 degrees a second.
+        stage.set_camera_yaw((30.0 * time) as f32);
+        stage.advance_to(time as f32).map_err(|e| e.to_string())?;
+        let simulate = start.elapsed().as_secs_f64();
+        let frame = stage.frame().map_err(|e| e.to_string())?;
+        let paths = start.elapsed().as_secs_f64() - simulate;
+        let (picture, cpu) = backends.on_cpu(&frame)?;
+        let card = backends.on_card(&frame)?;
+        if number < WARM_UP {
+            continue;
+        }
+        let before = simulate + paths;
+        let mut found = vec![
+            simulate,
+            paths,
+            before + cpu.effects + cpu.raster,
+            cpu.effects,
+            cpu.raster,
+        ];
+        if let Some((by_card, card)) = card {
+            found.push(before + card.whole);
+            if let Some(stages) = card.stages {
+                found.extend(stages);
+                found.push(card.whole - stages.iter().sum::<f64>());
+            }
+            error = Some(share_that_differs(&picture, &by_card));
+        }
+        for (times, seconds) in times.iter_mut().zip(found) {
+            times.push(seconds);
+        }
+    }
+    let medians = STAGES.iter().zip(&times).filter_map(|(stage, times)| {
+        let is_card = *stage == "gpu";
+        Some(Row {
+            scene: name.to_owned(),
+            method: (*stage).to_owned(),
+            knob: SAMPLES as usize,
+            seconds: times.median()?,
+            error: error.filter(|_| is_card),
+        })
+    });
+    Ok(medians.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn root() -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+    }
+
+    #[test]
+    fn a_look_has_all_its_stages() {
+        let path = root().join("presets/short-ash.ron");
+        let mut stage = open(&path, &root()).unwrap();
+        let mut backends = Backends::new(1, 1, Card::Hardware).unwrap();
+        let rows = look("short-ash", &mut stage, &mut backends, 2).unwrap();
+        let of = |method: &str| {
+            rows.iter()
+                .find(|row| row.method == method)
+                .unwrap()
+                .seconds
+        };
+        let parts = of("simulate") + of("paths") + of("cpu:effects") + of("cpu:raster");
+        // Medians of parts are not the parts of a median, but they are near.
+        assert!(of("cpu") > 0.5 * parts && of("cpu") < 2.0 * parts);
+        assert!(of("cpu:raster") > 0.0 && of("simulate") > 0.0);
+    }
+}

@@ -1,0 +1,7 @@
+//! The GPU backend: on wgpu's `noop` device, which validates all and draws nothing, and on whatever Vulkan, Metal or
+//! DirectX driver there is.
+
+mod agree;
+mod faults;
+mod scene;
+mod warm;

@@ -1,0 +1,216 @@
+//! Frames to draw, and devices to draw them on.
+
+use effects::preset::Reader;
+use effects::{Layer, Parameters, Registry, Values, Varied, clump};
+use glam::{Vec2, Vec3};
+use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
+use render::{Brush, Frame, Head, Light, Order, StrandInfo, Surface, SurfaceVertex};
+use std::ops::Range;
+use stroke_path::{Camera, OrbitView, PathKind, Paths};
+
+/// All that a frame refers to.
+pub struct Scene {
+    pub camera: Camera,
+    pub paths: Paths,
+    pub strands: Vec<StrandInfo>,
+    pub clump: Varied<clump::Program>,
+    pub layers: Vec<Layer>,
+    pub layer_joints: Vec<Range<usize>>,
+    pub material_normals: Vec<Vec3>,
+    pub surfaces: Vec<Surface>,
+    pub light: Light,
+    pub background: Option<[f32; 3]>,
+    pub order: Order,
+    pub brush: Brush,
+    pub seed: u32,
+}
+
+/// Every effect of inkstrand's own, some of their numbers varying.
+pub const ALL_EFFECTS: &str = "[
+    (effect: \"hair.silhouette\", units: pixels),
+    (effect: \"hair.base\", params: (brightness: (curve: [(0, 0.6), (1, 1.2)], vary: 0.2))),
+    (effect: \"hair.cel\", params: (feathers: 3)),
+    (effect: \"hair.highlight\", params: (kind: ring, exponent: 2, threshold: 0.2, full: 0.5)),
+    (effect: \"hair.fine\", params: (per_strand: 1)),
+]";
+
+pub fn registry() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    registry
+}
+
+/// The layers of a preset's list.
+pub fn layers(text: &str, registry: &Registry) -> Vec<Layer> {
+    let mut reader = Reader::new("test", text);
+    let specs = reader.layers(text, registry, &[]);
+    reader.report().unwrap();
+    specs.iter().map(|spec| spec.build()).collect()
+}
+
+/// Numbers from 0 to 1 that are the same in every run.
+pub struct Numbers(u32);
+
+impl Numbers {
+    pub fn new(seed: u32) -> Self {
+        Self(seed)
+    }
+
+    pub fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(1);
+        effects::wgsl::random(self.0, 7)
+    }
+
+    fn around(&mut self, middle: f32, reach: f32) -> f32 {
+        middle + reach * (2.0 * self.next() - 1.0)
+    }
+}
+
+impl Scene {
+    /// Curved strands around a head, some through the eye, with a wall behind some of them.
+    pub fn random(seed: u32) -> Self {
+        let mut numbers = Numbers::new(seed.wrapping_mul(0x9e37_79b9));
+        let view = OrbitView {
+            target: Vec3::ZERO,
+            yaw_degrees: numbers.around(0.0, 180.0),
+            pitch_degrees: numbers.around(0.0, 60.0),
+            distance_m: numbers.around(0.7, 0.35),
+            vertical_fov_degrees: 40.0,
+        };
+        let camera = Camera::orbit(view, [97, 75], 0.05).unwrap();
+        let mut paths = Paths::new();
+        let mut strands = Vec::new();
+        let kind = PathKind::CatmullRom { subdivision: 3 };
+        for i in 0..14 {
+            let mut point = Vec3::from_array([(); 3].map(|()| numbers.around(0.0, 0.12)));
+            let mut along = Vec3::from_array([(); 3].map(|()| numbers.around(0.0, 0.06)));
+            let points: Vec<Vec3> = (0..1 + i % 7)
+                .map(|_| {
+                    point += along;
+                    along += Vec3::from_array([(); 3].map(|()| numbers.around(0.0, 0.03)));
+                    point
+                })
+                .collect();
+            let mean = points.iter().sum::<Vec3>() / points.len() as f32;
+            paths.push_strand(i, &points, kind, &camera).unwrap();
+            strands.push(StrandInfo {
+                id: 3 * i as u32 + 5,
+                mean,
+                size: numbers.around(9.0, 8.0),
+            });
+        }
+        // The last strands are an effect's own.
+        let own = paths.runs.iter().find(|run| run.strand >= 11);
+        let own = own.map_or(paths.len(), |run| run.joints.start);
+        let layers = layers(ALL_EFFECTS, &registry());
+        let layer_joints = layers
+            .iter()
+            .map(|layer| match layer.program.has_own_paths() {
+                true => own..paths.len(),
+                false => 0..own,
+            });
+        let mut values = Values::defaults(clump::Program::PARAMS);
+        for (name, text) in [
+            ("shading", "diffuse"),
+            ("normal", "material"),
+            (
+                "size",
+                "(curve: [(0, 0.5), (0.5, 1.5), (1, 0.2)], vary: 0.3)",
+            ),
+        ] {
+            values.set_text("clump", name, text).unwrap();
+        }
+        let far = 1.0 / view.distance_m;
+        let corner = |x, y, nearer: f32, tone| SurfaceVertex {
+            position: Vec2::new(x, y),
+            inv_depth: far * nearer,
+            tone,
+        };
+        let surface = |margin_m, triangles| Surface {
+            vertices: vec![
+                corner(-20.0, 10.0, 0.8, 1.0),
+                corner(80.0, 5.0, 1.1, -1.0),
+                corner(60.0, 90.0, 1.0, 0.5),
+                corner(10.0, 60.0, 0.9, -0.2),
+            ],
+            triangles,
+            margin_m,
+            light: [0.9, 0.7, 0.6],
+            shadow: [0.4, 0.3, 0.3],
+        };
+        Self {
+            material_normals: paths
+                .forward
+                .iter()
+                .map(|f| f.any_orthonormal_vector())
+                .collect(),
+            camera,
+            strands,
+            clump: Varied::new(&values),
+            layer_joints: layer_joints.collect(),
+            layers,
+            paths,
+            surfaces: vec![
+                surface(0.0, vec![[0, 1, 2]]),
+                surface(0.05, vec![[0, 2, 3]]),
+            ],
+            light: if seed.is_multiple_of(2) {
+                Light::Direction(Vec3::new(0.48, 0.6, 0.64))
+            } else {
+                Light::Point(Vec3::new(0.3, 0.5, 0.4))
+            },
+            background: (seed % 3 > 0).then_some([0.2, 0.3, 0.9]),
+            order: Order::ALL[seed as usize % Order::ALL.len()],
+            brush: if seed / 4 % 2 == 0 {
+                Brush::Circle
+            } else {
+                Brush::Semicircle
+            },
+            seed,
+        }
+    }
+
+    pub fn frame(&self) -> Frame<'_> {
+        Frame {
+            camera: &self.camera,
+            paths: &self.paths,
+            strands: &self.strands,
+            head: Head {
+                center: Vec3::new(0.0, 0.02, 0.0),
+                height_m: 0.24,
+            },
+            light: self.light,
+            clump: &self.clump,
+            seed: self.seed,
+            layers: &self.layers,
+            layer_joints: &self.layer_joints,
+            material_normals: &self.material_normals,
+            surfaces: self.surfaces.clone(),
+            background: self.background,
+            order: self.order,
+            edge_depth_m: 0.005,
+            brush: self.brush,
+        }
+    }
+}
+
+/// A device that validates all and draws nothing.
+pub fn noop(limits: wgpu::Limits) -> Gpu {
+    let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor {
+        required_limits: limits,
+        ..Default::default()
+    });
+    Gpu::with(device, queue)
+}
+
+/// A device that draws. Nothing where there is no driver, which is said, and on CI a failure.
+pub fn driver() -> Option<Offscreen> {
+    match Offscreen::open(AdapterKind::Any) {
+        Ok(card) => Some(card),
+        Err(GpuError::NoAdapter { .. }) if std::env::var_os("CI").is_none() => {
+            eprintln!("SKIPPED: no driver for a graphics card; `cargo xtask setup` installs one");
+            None
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
