@@ -30,7 +30,7 @@ pub struct PassSettings {
     pub depth: DepthRange,
 }
 
-/// What is drawn.
+/// What is drawn: for tests, which look at the parts by themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shown {
     /// The program's own meshes.

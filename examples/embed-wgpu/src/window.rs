@@ -53,7 +53,7 @@ impl ApplicationHandler for App {
             return;
         };
         match event {
-            WindowEvent::CloseRequested => events.exit(),
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => events.exit(),
             WindowEvent::Resized(size) => viewer.resize(size),
             WindowEvent::Occluded(is_hidden) => viewer.is_hidden = is_hidden,
             WindowEvent::CursorMoved { position, .. } => viewer.point(position),
@@ -96,6 +96,8 @@ impl App {
 /// The window, with what is shown in it.
 struct Viewer {
     window: Arc<Window>,
+    /// As winit last said, pixels.
+    size: PhysicalSize<u32>,
     instance: wgpu::Instance,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
@@ -124,7 +126,9 @@ impl Viewer {
         let display = Box::new(events.owned_display_handle());
         let instance =
             wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(display));
-        let surface = instance.create_surface(Arc::clone(&window))?;
+        let surface = instance
+            .create_surface(Arc::clone(&window))
+            .map_err(|error| format!("no graphics driver draws into windows here: {error}"))?;
         let (adapter, gpu) = device::open(&instance, Some(&surface))?;
 
         let size = window.inner_size();
@@ -140,6 +144,7 @@ impl Viewer {
         let demo = options.demo(gpu, config.format)?;
         let mut viewer = Self {
             window,
+            size,
             instance,
             surface,
             config,
@@ -152,22 +157,27 @@ impl Viewer {
             is_dragged: false,
             is_hidden: false,
         };
-        viewer.resize(size);
+        viewer.configure();
         Ok(viewer)
     }
 
     /// A window that is minimised has no size on some systems, and is hidden on others.
     fn is_seen(&self) -> bool {
-        let size = self.window.inner_size();
-        !self.is_hidden && size.width > 0 && size.height > 0
+        !self.is_hidden && self.size.width > 0 && self.size.height > 0
     }
 
     fn resize(&mut self, size: PhysicalSize<u32>) {
-        if size.width > 0 && size.height > 0 {
+        self.size = size;
+        self.configure();
+    }
+
+    /// Gives the surface the window's size.
+    fn configure(&mut self) {
+        if self.size.width > 0 && self.size.height > 0 {
             let gpu = self.demo.gpu();
             let most = gpu.device.limits().max_texture_dimension_2d;
-            self.config.width = size.width.min(most);
-            self.config.height = size.height.min(most);
+            self.config.width = self.size.width.min(most);
+            self.config.height = self.size.height.min(most);
             self.surface.configure(&gpu.device, &self.config);
         }
     }
@@ -202,12 +212,12 @@ impl Viewer {
             wgpu::CurrentSurfaceTexture::Success(target) => (target, false),
             wgpu::CurrentSurfaceTexture::Suboptimal(target) => (target, true),
             wgpu::CurrentSurfaceTexture::Outdated => {
-                self.resize(self.window.inner_size());
+                self.configure();
                 return Ok(());
             }
             wgpu::CurrentSurfaceTexture::Lost => {
                 self.surface = self.instance.create_surface(Arc::clone(&self.window))?;
-                self.resize(self.window.inner_size());
+                self.configure();
                 return Ok(());
             }
             wgpu::CurrentSurfaceTexture::Timeout | wgpu::CurrentSurfaceTexture::Occluded => {
@@ -223,7 +233,7 @@ impl Viewer {
         self.window.pre_present_notify();
         self.demo.gpu().queue.present(target);
         if is_outdated {
-            self.resize(self.window.inner_size());
+            self.configure();
         }
         Ok(())
     }
