@@ -52,10 +52,8 @@ struct Samples {
     triangle: vec4<u32>,
     /// Nearest strand that no surface hides, 1/m.
     strand: vec4<f32>,
-    /// In `SHIFTED` the number of its stroke, its own number, and how near its axis is.
+    /// In `SHIFTED` the number of its stroke: the higher lies on top of what is as near.
     number: vec4<u32>,
-    owner: vec4<u32>,
-    ratio: vec4<f32>,
     red: vec4<f32>,
     green: vec4<f32>,
     blue: vec4<f32>,
@@ -69,7 +67,7 @@ struct Paint {
     way: vec4<f32>,
 }
 
-/// One strand at the samples.
+/// One strand at the samples; in `SHIFTED`, where strokes are on their own, one of its strokes, as `outer`.
 struct Strand {
     /// Its clump.
     depth: vec4<f32>,
@@ -191,16 +189,15 @@ struct Found {
     segment: Segment,
 }
 
-/// Looks at segment `item` of `chunk`: its segments count on through its strokes.
-fn look_at(chunk: Chunk, item: u32, tile: vec2<f32>) -> Found {
+/// Looks at one of a chunk's segments, of the stroke at that place in its list.
+fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>) -> Found {
     var found: Found;
-    let places = max(chunk.segments, 1u);
-    let stroke = tables[tables[2u * chunk.strokes] + item / places];
+    let stroke = tables[tables[2u * chunk.strokes] + in_list];
     let number = tables[stroke + STROKE_NUMBER];
     if (ORDER == SHIFTED && number == 0u) {
         return found;
     }
-    let first = tables[stroke + STROKE_FIRST_DISC] + chunk.first_joint + item % places;
+    let first = tables[stroke + STROKE_FIRST_DISC] + chunk.first_joint + place;
     // One joint alone is a segment from itself to itself.
     let next = first + min(chunk.segments, 1u);
     let a = discs[first];
@@ -243,7 +240,7 @@ fn look_at(chunk: Chunk, item: u32, tile: vec2<f32>) -> Found {
         vec2<f32>(way.x, way.y - way.x),
         first,
         number,
-        tables[stroke + STROKE_IS_CLIPPED] != 0u,
+        ORDER != SHIFTED && tables[stroke + STROKE_IS_CLIPPED] != 0u,
         chunk.strand,
     );
     return found;
@@ -419,10 +416,11 @@ fn add(strand: ptr<function, Strand>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
 }
 
 /// Where a strand of that depth shows: before surfaces, and nearer than what is there.
-fn shows(samples: Samples, depth: vec4<f32>, biased: vec4<f32>) -> vec4<bool> {
+fn shows(samples: Samples, depth: vec4<f32>, biased: vec4<f32>, number: vec4<u32>) -> vec4<bool> {
     let before_wall = depth / (1.0 + samples.surface_margin * depth);
     let against = select(biased, before_wall, samples.surface_margin != vec4<f32>(0.0));
-    return (samples.surface <= against) & (depth > samples.strand);
+    let is_on_top = (depth == samples.strand) & (number > samples.number);
+    return (samples.surface <= against) & ((depth > samples.strand) | is_on_top);
 }
 
 fn color_of(disc: u32, way: f32) -> vec3<f32> {
@@ -472,10 +470,13 @@ fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32, first_s
         depth = deeper(depth, gpu_frame.edge_depth_m * parts);
         biased = deeper(biased, gpu_frame.edge_depth_m * parts);
     }
-    let wins = is_drawn & shows(*samples, depth, biased);
+    // Strands that are as near stay in the order in which they come; strokes in `SHIFTED` have their own.
+    let on_top = select(vec4<u32>(0u), strand.outer.number, ORDER == SHIFTED);
+    let wins = is_drawn & shows(*samples, depth, biased, on_top);
     if (!any(wins)) {
         return;
     }
+    (*samples).number = select((*samples).number, on_top, wins);
     (*samples).strand = select((*samples).strand, depth, wins);
     set_colors(
         samples,
@@ -483,36 +484,6 @@ fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32, first_s
         select(strand.outer.way, strand.inner.way, is_inner),
         wins,
     );
-}
-
-/// `SHIFTED`: a segment by itself against all that is there.
-fn offer(samples: ptr<function, Samples>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
-    let p = local_of(s.sweep, x, y);
-    let covered = covers(s.sweep, p);
-    if (!any(covered)) {
-        return;
-    }
-    let part = interval(s.sweep, p);
-    let depth = max(s.inv_depth.x + part.low * s.inv_depth.y, s.inv_depth.x + part.high * s.inv_depth.y);
-    let biased = max(s.biased.x + part.low * s.biased.y, s.biased.x + part.high * s.biased.y);
-    let number = vec4<u32>(s.number);
-    let owner = vec4<u32>(s.strand + 1u);
-    let at = nearest(s.sweep, p);
-    let before = *samples;
-    let is_own = (before.owner == owner) & (before.number == number);
-    let is_higher = (depth == before.strand) & (number > before.number);
-    let before_wall = depth / (1.0 + before.surface_margin * depth);
-    let against = select(biased, before_wall, before.surface_margin != vec4<f32>(0.0));
-    let is_open = covered & (before.surface <= against);
-    let wins = is_open & ((depth > before.strand) | is_higher);
-    let is_new = wins & !is_own;
-    // Within one stroke the colour is that of the nearest axis, the depth that of the nearest disc.
-    let recolors = is_new | (is_own & is_open & (at.ratio < before.ratio));
-    (*samples).strand = select(before.strand, depth, wins);
-    (*samples).number = select(before.number, number, wins);
-    (*samples).owner = select(before.owner, owner, wins);
-    (*samples).ratio = select(before.ratio, at.ratio, recolors);
-    set_colors(samples, vec4<u32>(s.disc), s.way.x + at.u * s.way.y, recolors);
 }
 
 // ---- The tile
@@ -629,13 +600,43 @@ fn draw_surfaces(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4
     }
 }
 
+/// The entries of one strand.
+struct EntriesOfStrand {
+    /// Of a list, excluded.
+    end: u32,
+    /// The most strokes that one of its chunks has.
+    strokes: u32,
+}
+
+/// The strand whose entries begin there, for `SHIFTED`.
+fn strand_at(found: vec3<u32>, first: u32) -> EntriesOfStrand {
+    var whole = EntriesOfStrand(first, 0u);
+    if (ORDER != SHIFTED) {
+        return whole;
+    }
+    while (whole.end < found.y) {
+        let chunk = chunks[entry(found, whole.end)];
+        if (chunk.strand != chunks[entry(found, first)].strand) {
+            break;
+        }
+        whole.strokes = max(whole.strokes, tables[2u * chunk.strokes + 1u]);
+        whole.end++;
+    }
+    return whole;
+}
+
 fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<f32>, y: vec4<f32>, first_sample: u32, samples: ptr<function, Samples>) {
     let found = find_list(at, 0u, gpu_frame.chunk_capacity, gpu_frame.chunks, local);
     var strand = no_strand();
-    var number = 0u;
-    // The first entry that is not yet done, and its first segment that isn't.
+    // What `strand` is: the strand's number, and in `SHIFTED` the stroke's.
+    var key = vec2<u32>(0u);
+    // The next thing to look at: an entry, and a segment of it, counted on through its strokes. In `SHIFTED` the entries of a
+    // strand come once for each stroke.
     var next = 0u;
     var item = 0u;
+    var first_entry = 0u;
+    var in_list = 0u;
+    var entries_of_strand = strand_at(found, 0u);
     while (next < found.y) {
         if (local < BATCH / 32u) {
             atomicStore(&reaching[local], 0u);
@@ -658,21 +659,38 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<
         }
         var seen: Found;
         var nearest_seen = 0.0;
-        // All walk along the entries of the batch; each looks at the segment that is its own.
+        // All walk along the segments of the batch; each looks at the one that is its own.
         var offset = 0u;
         while (next < found.y && offset < BATCH) {
             let chunk = chunks[entry(found, next)];
-            let items = tables[2u * chunk.strokes + 1u] * max(chunk.segments, 1u);
+            let places = max(chunk.segments, 1u);
+            let strokes = tables[2u * chunk.strokes + 1u];
+            var items = places * strokes;
+            if (ORDER == SHIFTED) {
+                items = select(0u, places, in_list < strokes);
+            }
             let taken = min(items - item, BATCH - offset);
             if (local >= offset && local < offset + taken) {
-                seen = look_at(chunk, item + local - offset, tile);
+                let own = item + local - offset;
+                seen = look_at(chunk, in_list + own / places, own % places, tile);
                 nearest_seen = nearest_in(found, next);
             }
             offset += taken;
             item += taken;
-            if (item == items) {
-                item = 0u;
-                next++;
+            if (item < items) {
+                continue;
+            }
+            item = 0u;
+            next++;
+            if (ORDER == SHIFTED && next == entries_of_strand.end) {
+                in_list++;
+                if (in_list < entries_of_strand.strokes) {
+                    next = first_entry;
+                } else {
+                    in_list = 0u;
+                    first_entry = next;
+                    entries_of_strand = strand_at(found, next);
+                }
             }
         }
         if (seen.is_there) {
@@ -691,20 +709,15 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<
                 continue;
             }
             let segment = segment_in(slot);
-            if (ORDER == SHIFTED) {
-                offer(samples, segment, x, y);
-            } else {
-                if (segment.strand != number) {
-                    compose(samples, strand, number, first_sample);
-                    strand = no_strand();
-                    number = segment.strand;
-                }
-                add(&strand, segment, x, y);
+            let next_key = vec2<u32>(segment.strand, select(0u, segment.number, ORDER == SHIFTED));
+            if (any(next_key != key)) {
+                compose(samples, strand, key.x, first_sample);
+                strand = no_strand();
+                key = next_key;
             }
+            add(&strand, segment, x, y);
         }
         workgroupBarrier();
     }
-    if (ORDER != SHIFTED) {
-        compose(samples, strand, number, first_sample);
-    }
+    compose(samples, strand, key.x, first_sample);
 }

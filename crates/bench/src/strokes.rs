@@ -13,7 +13,9 @@ use crate::results::{self, Row};
 use crate::targets::Target;
 use crate::timing::{Effort, medians};
 use crate::{oracle, plot};
-use contenders::{Contender, Library, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order};
+use contenders::{
+    Card, Contender, Library, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order,
+};
 use indicatif::ProgressBar;
 use render::Order;
 use scenes::Scene;
@@ -21,6 +23,10 @@ use stamping::Stamping;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use targets::{PATHS_ALONE, STAMPING, SWEEP, SWEEP_SHIFTED, VELLO};
+
+/// The sweep on a graphics card, and the part of its time that the card itself took.
+const CARD: &str = "gpu-sweep";
+const WITHIN: &str = "-on-card";
 
 /// Most stamps an interval, times the source's.
 const MOST_STAMPS: usize = 13;
@@ -102,6 +108,15 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
                 seconds,
                 error: difference.map(|difference| difference.mean),
             });
+            if let Some(seconds) = entry.contender.seconds_within() {
+                measured.rows.push(Row {
+                    scene: scene.name.to_owned(),
+                    method: format!("{}{WITHIN}", entry.method),
+                    knob: entry.knob,
+                    seconds,
+                    error: None,
+                });
+            }
             measured.differences.extend(difference.map(|difference| {
                 let method = entry.method.clone();
                 (scene.name.to_owned(), method, entry.knob, difference)
@@ -130,6 +145,12 @@ fn entries(scene: &Scene, options: &Options) -> Result<Vec<Entry>, String> {
         for (method, order) in [(SWEEP, Order::Rounded), (SWEEP_SHIFTED, Order::Shifted)] {
             let sweep = Box::new(Sweep::new(samples, threads)?);
             add(method.to_owned(), samples as usize, order, sweep);
+        }
+    }
+    for samples in [1, 4, 16] {
+        if let Some(card) = Card::new(samples)? {
+            let (knob, order) = (samples as usize, Order::Rounded);
+            add(CARD.to_owned(), knob, order, Box::new(card));
         }
     }
     for &(samples, stamps) in stamps(options.quick) {

@@ -1,14 +1,19 @@
 //! The rasteriser held against the reference: sample for sample at its own sample positions, and
 //! at many samples against the regular grid.
 
+#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+
 mod scenes;
 
 use bench::{compare, oracle};
 use glam::{DVec2, Vec2};
 use proptest::collection::vec;
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 use render::cpu::Rasterizer;
+use render::gpu::{AdapterKind, GpuError, Offscreen};
 use render::{Brush, Disc, Drawing, LayerStrokes, Order, Picture, Run, Surface, SurfaceVertex};
+use std::cell::RefCell;
 
 /// The rasteriser works in f32: a colour may differ by this much. Positions of some hundred pixels
 /// have 3e-5 px, which is some thousandths of the radius of a thin stroke.
@@ -236,6 +241,35 @@ proptest! {
         let reference = oracle::picture_at(&drawing, &positions(samples));
         let (number, first) = different(&picture, &reference);
         prop_assert!(number <= 3, "{number} pixels differ, {first:?} first");
+    }
+}
+
+/// The same on a graphics card, whose single precision sees a segment from its tile, and far discs from farther away.
+#[test]
+fn small_drawings_agree_on_a_graphics_card() {
+    let card = match Offscreen::open(AdapterKind::Any) {
+        Ok(card) => RefCell::new(card),
+        Err(GpuError::NoAdapter { .. }) if std::env::var_os("CI").is_none_or(|ci| ci != "true") => {
+            eprintln!("SKIPPED: no driver for a graphics card; `cargo xtask setup` installs one");
+            return;
+        }
+        Err(error) => panic!("{error}"),
+    };
+    let config = ProptestConfig {
+        cases: 150,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    let samples = prop_oneof![Just(1u32), Just(4)];
+    let found = TestRunner::new(config).run(&(drawing(), samples), |(drawing, samples)| {
+        let picture = card.borrow_mut().draw_strokes(&drawing, samples).unwrap();
+        let reference = oracle::picture_at(&drawing, &positions(samples));
+        let (number, first) = different(&picture, &reference);
+        prop_assert!(number <= 3, "{number} pixels differ, {first:?} first");
+        Ok(())
+    });
+    if let Err(error) = found {
+        panic!("{error}");
     }
 }
 

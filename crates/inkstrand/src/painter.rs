@@ -193,7 +193,9 @@ mod tests {
     fn on_card(may_fall_back: bool) -> Option<(Painter, impl FnOnce())> {
         let gpu = match Gpu::open(AdapterKind::Any) {
             Ok(gpu) => gpu,
-            Err(GpuError::NoAdapter { .. }) if std::env::var_os("CI").is_none() => {
+            Err(GpuError::NoAdapter { .. })
+                if std::env::var_os("CI").is_none_or(|ci| ci != "true") =>
+            {
                 eprintln!("SKIPPED: no driver for a graphics card");
                 return None;
             }

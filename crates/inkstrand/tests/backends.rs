@@ -80,7 +80,9 @@ fn a_driver_draws_what_the_cpu_draws() {
     let folder = folder();
     let output = render(&folder, "gpu").output().unwrap();
     let told = String::from_utf8_lossy(&output.stderr);
-    if told.contains("there is no graphics card") && std::env::var_os("CI").is_none() {
+    if told.contains("there is no graphics card")
+        && std::env::var_os("CI").is_none_or(|ci| ci != "true")
+    {
         eprintln!("SKIPPED: no driver for a graphics card");
         return;
     }

@@ -1,6 +1,8 @@
 //! Every command and option that the program's own definition has: it works, or it is in the list of
 //! what is not built yet, exits 1 and says so.
 
+#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+
 use assert_cmd::Command;
 use predicates::str::contains;
 use std::collections::BTreeSet;
@@ -297,7 +299,10 @@ fn everything_else_works() {
         let output = inkstrand(&folder, line).output().unwrap();
         let told = String::from_utf8_lossy(&output.stderr);
         let has_driver = !told.contains("there is no graphics card to draw on");
-        if name.ends_with("gpu") && !has_driver && std::env::var_os("CI").is_none() {
+        if name.ends_with("gpu")
+            && !has_driver
+            && std::env::var_os("CI").is_none_or(|ci| ci != "true")
+        {
             eprintln!("SKIPPED: {name}: no driver for a graphics card");
             continue;
         }

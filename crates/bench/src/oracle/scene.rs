@@ -47,9 +47,8 @@ impl Scene {
     pub fn new(drawing: &Drawing) -> Self {
         let strands = drawing.runs.chunk_by(|a, b| a.strand == b.strand);
         Self {
-            strands: (0..)
-                .zip(strands)
-                .map(|(number, runs)| Strand::new(drawing, number, runs))
+            strands: strands
+                .map(|runs| Strand::new(drawing, runs[0].strand, runs))
                 .collect(),
             triangles: drawing.surfaces.iter().flat_map(Triangle::of).collect(),
             background: drawing.background.map(|color| color.map(f64::from)),

@@ -7,6 +7,7 @@ use super::order::painters_order;
 use super::outline::{self, Pen};
 use glam::DVec2;
 use render::cpu::Rasterizer;
+use render::gpu::{AdapterKind, GpuError, Offscreen};
 use render::{Drawing, Order, Picture};
 use tiny_skia::PathBuilder;
 use vello_cpu::color::{AlphaColor, Srgb};
@@ -24,6 +25,11 @@ pub trait Contender {
 
     /// What it drew last: linear, premultiplied. Not timed.
     fn picture(&self) -> Option<Picture>;
+
+    /// What of the time it spent drawing, by a clock of its own, where it has one: without what went to and fro.
+    fn seconds_within(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// What is filled at once.
@@ -63,6 +69,49 @@ impl Contender for Sweep {
 
     fn picture(&self) -> Option<Picture> {
         self.picture.clone()
+    }
+}
+
+/// The exact sweep on a graphics card, from a drawing in the CPU's memory to a picture there.
+pub struct Card {
+    card: Offscreen,
+    samples: u32,
+    picture: Option<Picture>,
+}
+
+impl Card {
+    /// On a real graphics card, with that many samples a pixel; nothing where there is none.
+    ///
+    /// # Errors
+    ///
+    /// When there is one that can't be used.
+    pub fn new(samples: u32) -> Result<Option<Self>, String> {
+        match Offscreen::open(AdapterKind::Hardware) {
+            Ok(card) => Ok(Some(Self {
+                card,
+                samples,
+                picture: None,
+            })),
+            Err(GpuError::NoAdapter { .. }) => Ok(None),
+            Err(error) => Err(error.to_string()),
+        }
+    }
+}
+
+impl Contender for Card {
+    fn draw(&mut self, drawing: &Drawing) -> Result<(), String> {
+        let drawn = self.card.draw_strokes(drawing, self.samples);
+        self.picture = Some(drawn.map_err(|error| error.to_string())?);
+        Ok(())
+    }
+
+    fn picture(&self) -> Option<Picture> {
+        self.picture.clone()
+    }
+
+    fn seconds_within(&self) -> Option<f64> {
+        let [strokes, bins, tiles] = self.card.stats().milliseconds?;
+        Some(1e-3 * (strokes + bins + tiles))
     }
 }
 

@@ -48,7 +48,7 @@ impl Ramp {
 /// A piece of a stroke between two joints; u as in [`Sweep`], from the larger disc to the smaller.
 #[derive(Clone, Debug)]
 pub(super) struct Segment {
-    /// The strand's place among the drawing's strands, which are in the order of their ids.
+    /// The strand's number.
     pub(super) strand: u32,
     /// 0 for the clump, or 1 more than the place in [`strokes_in_order`].
     pub(super) stroke: u32,
@@ -91,12 +91,12 @@ pub(super) fn collect(drawing: &Drawing, strokes: &[Stroke], segments: &mut Vec<
     segments.par_extend(
         strands
             .par_iter()
-            .enumerate()
-            .flat_map_iter(|(strand, runs)| of_strand(drawing, strokes, strand as u32, runs)),
+            .flat_map_iter(|runs| of_strand(drawing, strokes, runs)),
     );
 }
 
-fn of_strand(drawing: &Drawing, strokes: &[Stroke], strand: u32, runs: &[Run]) -> Vec<Segment> {
+fn of_strand(drawing: &Drawing, strokes: &[Stroke], runs: &[Run]) -> Vec<Segment> {
+    let strand = runs[0].strand;
     let mut segments = Vec::new();
     let mut push = |discs, colors, segment_of: (u32, u32)| {
         let (stroke, drawn_as) = segment_of;

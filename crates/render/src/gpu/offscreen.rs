@@ -2,7 +2,8 @@
 
 use super::adapter::{AdapterKind, Gpu};
 use super::error::GpuError;
-use super::renderer::{GpuStats, Renderer};
+use super::renderer::{GpuStats, Renderer, Source};
+use crate::drawing::Drawing;
 use crate::frame::Frame;
 use crate::picture::Picture;
 
@@ -56,19 +57,41 @@ impl Offscreen {
     ///
     /// When the frame can't be drawn on this graphics card. What comes after [`GpuError::Lost`] fails too.
     pub fn draw(&mut self, frame: &Frame, samples: u32) -> Result<Picture, GpuError> {
-        let drawn = self.try_draw(frame, samples);
+        self.draw_source(Source::Frame(frame), frame.camera.size_px(), samples)
+    }
+
+    /// Draws strokes that are made already, as [`cpu::Rasterizer`](crate::cpu::Rasterizer) does.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::draw`].
+    pub fn draw_strokes(&mut self, drawing: &Drawing, samples: u32) -> Result<Picture, GpuError> {
+        self.draw_source(Source::Drawing(drawing), drawing.size, samples)
+    }
+
+    fn draw_source(
+        &mut self,
+        source: Source,
+        size: [u32; 2],
+        samples: u32,
+    ) -> Result<Picture, GpuError> {
+        let drawn = self.try_draw(source, size, samples);
         // A fault that was reported beside the calls tells more than what came of it.
         self.gpu.check()?;
         drawn
     }
 
-    fn try_draw(&mut self, frame: &Frame, samples: u32) -> Result<Picture, GpuError> {
+    fn try_draw(
+        &mut self,
+        source: Source,
+        [width, height]: [u32; 2],
+        samples: u32,
+    ) -> Result<Picture, GpuError> {
         let device = &self.gpu.device;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
             label: Some("picture"),
         });
-        self.renderer.draw_picture(&mut encoder, frame, samples)?;
-        let [width, height] = frame.camera.size_px();
+        self.renderer.draw_picture(&mut encoder, source, samples)?;
         let bytes = u64::from(width) * u64::from(height) * size_of::<[f32; 4]>() as u64;
         let is_enough = |buffer: &wgpu::Buffer| buffer.size() >= bytes;
         if !self.read_back.as_ref().is_some_and(is_enough) {

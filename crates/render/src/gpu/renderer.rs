@@ -7,8 +7,8 @@ use super::layout::{CLUMP_BYTES, GpuFrame, STRAND_WORDS, TILE, WORKGROUP};
 use super::pipelines::{self, Binding, layout, pipelines};
 use super::program;
 use super::scene::SceneWords;
-use crate::check::{check_picture, check_surfaces};
-use crate::drawing::{Brush, Order};
+use crate::check::{self, check_picture, check_surfaces};
+use crate::drawing::{Brush, Drawing, Order};
 use crate::frame::{Frame, Light};
 use crate::samples::sample_positions;
 use effects::ProgramSource;
@@ -31,6 +31,15 @@ pub struct GpuStats {
     /// Milliseconds on the card of the last frame that was read back: strokes, sorting into tiles, tiles. Of devices with
     /// timestamps alone.
     pub milliseconds: Option<[f64; 3]>,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy)]
+pub(super) enum Source<'a> {
+    /// Joints, of which strokes are made.
+    Frame(&'a Frame<'a>),
+    /// Strokes.
+    Drawing(&'a Drawing),
 }
 
 /// What is kept of a drawn frame.
@@ -139,7 +148,7 @@ impl Buffers {
             strands: filled("strands"),
             clump_words: filled("clump's parameters"),
             clumps: made("clumps"),
-            discs: read("strokes' discs"),
+            discs: filled("strokes' discs"),
             windows: made("smoothing windows"),
             chunks: filled("pieces of strands"),
             tables: filled("tables"),
@@ -330,7 +339,7 @@ impl Renderer {
                 prepared: samples,
             });
         }
-        let is_new = self.draw(encoder, frame, samples, Keeps::Samples)?;
+        let is_new = self.draw(encoder, Source::Frame(frame), samples, Keeps::Samples)?;
         let mut composer = match before {
             Some(composer) if composer.fits(&pass) => composer,
             _ => Composer::new(&self.device, pass)?,
@@ -357,10 +366,11 @@ impl Renderer {
     pub(super) fn draw_picture(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        frame: &Frame,
+        source: Source,
         samples: u32,
     ) -> Result<(), GpuError> {
-        self.draw(encoder, frame, samples, Keeps::Means).map(|_| ())
+        self.draw(encoder, source, samples, Keeps::Means)
+            .map(|_| ())
     }
 
     /// The drawn pixels: red, green, blue and alpha.
@@ -372,18 +382,31 @@ impl Renderer {
     fn draw(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        frame: &Frame,
+        source: Source,
         samples: u32,
         keeps: Keeps,
     ) -> Result<bool, GpuError> {
-        let size = frame.camera.size_px();
-        check_picture(size, frame.background, frame.edge_depth_m)?;
-        check_surfaces(&frame.surfaces)?;
         let places = sample_positions(samples)?;
         self.stats.made = 0;
         self.read_report();
-        self.scene.fill(frame);
-        self.make_programs(frame)?;
+        let (size, order, settings) = match source {
+            Source::Frame(frame) => {
+                let size = frame.camera.size_px();
+                check_picture(size, frame.background, frame.edge_depth_m)?;
+                check_surfaces(&frame.surfaces)?;
+                self.scene.fill(frame);
+                self.make_programs(frame)?;
+                (size, frame.order, settings(frame))
+            }
+            Source::Drawing(drawing) => {
+                check::check(drawing)?;
+                self.scene.fill_drawing(drawing);
+                self.layers.clear();
+                self.groups = None;
+                (drawing.size, drawing.order, settings_of_drawing(drawing))
+            }
+        };
+        self.make_tiles(order)?;
 
         let tiles = size.map(|side| side.div_ceil(TILE));
         let tile_count = u64::from(tiles[0]) * u64::from(tiles[1]);
@@ -396,7 +419,6 @@ impl Renderer {
         let settings = GpuFrame {
             size,
             tiles,
-            joints: frame.paths.len() as u32,
             chunks: self.scene.chunks.len() as u32 / 4,
             triangles: self.scene.triangles.len() as u32 / 4,
             samples,
@@ -404,7 +426,7 @@ impl Renderer {
             triangle_capacity,
             surfaces_at: self.scene.surfaces_at,
             writes_samples: u32::from(keeps == Keeps::Samples),
-            ..settings(frame)
+            ..settings
         };
         self.write_buffers(&settings, &places, tile_count, values * 16)?;
         let is_new = self.groups.is_none();
@@ -530,12 +552,13 @@ impl Renderer {
                 pipelines: made,
             });
         }
-        if self
-            .tiles
-            .as_ref()
-            .is_none_or(|(order, _)| *order != frame.order)
-        {
-            let number = match frame.order {
+        Ok(())
+    }
+
+    /// Makes the pipeline that draws tiles in that order.
+    fn make_tiles(&mut self, order: Order) -> Result<(), GpuError> {
+        if self.tiles.as_ref().is_none_or(|(made, _)| *made != order) {
+            let number = match order {
                 Order::Rounded => 0,
                 Order::Scattered => 1,
                 Order::StrandFirst => 2,
@@ -550,10 +573,7 @@ impl Renderer {
                 &["draw_tile"],
             )?;
             self.stats.made += made.len();
-            self.tiles = made
-                .into_iter()
-                .next()
-                .map(|pipeline| (frame.order, pipeline));
+            self.tiles = made.into_iter().next().map(|pipeline| (order, pipeline));
         }
         Ok(())
     }
@@ -612,7 +632,11 @@ impl Renderer {
         }
         let joints = scene.discs.min(scene.joints.len()) as u64;
         note(buffers.clumps.reserve(device, joints * CLUMP_BYTES)?);
-        note(buffers.discs.reserve(device, scene.disc_bytes())?);
+        if scene.disc_words.is_empty() {
+            note(buffers.discs.reserve(device, scene.disc_bytes())?);
+        } else {
+            note(buffers.discs.write(device, queue, &scene.disc_words)?);
+        }
         let chunks = scene.chunks.len() as u64 / 4;
         note(
             buffers
@@ -698,7 +722,7 @@ impl Renderer {
         if let Some(counters) = self.buffers.counters.get() {
             encoder.clear_buffer(counters, 0, None);
         }
-        let (Some(clump), Some((_, tiles))) = (&self.clump, &self.tiles) else {
+        let Some((_, tiles)) = &self.tiles else {
             return;
         };
         let begin = |encoder: &mut wgpu::CommandEncoder, label, stage| {
@@ -717,8 +741,15 @@ impl Renderer {
         };
 
         let mut pass = begin(encoder, "strokes", 0);
-        pass.set_bind_group(0, &groups.clump, &[]);
-        run(&mut pass, &clump.pipeline, frame.joints, 1);
+        // A drawing brings its strokes along.
+        if let Some(clump) = self
+            .clump
+            .as_ref()
+            .filter(|_| self.scene.disc_words.is_empty())
+        {
+            pass.set_bind_group(0, &groups.clump, &[]);
+            run(&mut pass, &clump.pipeline, frame.joints, 1);
+        }
         let layers = self
             .scene
             .layers
@@ -791,6 +822,21 @@ impl Renderer {
     }
 }
 
+fn settings_of_drawing(drawing: &Drawing) -> GpuFrame {
+    let [red, green, blue] = drawing.background.unwrap_or_default();
+    let opaque = if drawing.background.is_some() {
+        1.0
+    } else {
+        0.0
+    };
+    GpuFrame {
+        background: [red, green, blue, opaque],
+        edge_depth_m: drawing.edge_depth_m,
+        is_semicircle: u32::from(drawing.brush == Brush::Semicircle),
+        ..GpuFrame::default()
+    }
+}
+
 fn settings(frame: &Frame) -> GpuFrame {
     let (light, is_point) = match frame.light {
         Light::Direction(direction) => (direction, 0),
@@ -798,6 +844,7 @@ fn settings(frame: &Frame) -> GpuFrame {
     };
     let [red, green, blue] = frame.background.unwrap_or_default();
     GpuFrame {
+        joints: frame.paths.len() as u32,
         eye: frame.camera.eye().to_array(),
         near_m: frame.camera.near_m(),
         head_center: frame.head.center.to_array(),

@@ -1,7 +1,8 @@
-//! A frame as the words that a graphics card reads.
+//! A frame, or a drawing whose strokes are made already, as the words that a graphics card reads.
 
 use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
 use super::program::LAYER_WORDS;
+use crate::drawing::{Disc, Drawing, Surface};
 use crate::frame::Frame;
 use effects::{InputSet, Layer, Units, layer_seed};
 use std::ops::Range;
@@ -24,6 +25,8 @@ pub(super) struct SceneWords {
     pub(super) layers: Vec<LayerScene>,
     /// Discs of all strokes, the clump's first.
     pub(super) discs: usize,
+    /// The discs themselves, of a drawing; empty for a frame, whose discs the card makes.
+    pub(super) disc_words: Vec<u32>,
     seen_length: Vec<f32>,
 }
 
@@ -67,8 +70,40 @@ impl SceneWords {
         self.layout.fill(frame, &self.seen_length, &mut self.joints);
         self.fill_strands(frame);
         let placed = self.fill_layers(frame);
-        self.fill_chunks_and_tables(frame, &placed);
-        self.fill_surfaces(frame);
+        self.disc_words.clear();
+        let runs = frame.paths.runs.iter();
+        let runs = runs.map(|run| (run.strand as u32, run.joints.clone()));
+        self.fill_chunks_and_tables(runs, &placed);
+        self.fill_surfaces(&frame.surfaces);
+    }
+
+    /// Takes a checked drawing apart, in place of the frame before.
+    pub(super) fn fill_drawing(&mut self, drawing: &Drawing) {
+        self.layers.clear();
+        self.disc_words.clear();
+        let joints = drawing.clump.len();
+        let black = [0.0; 3];
+        (drawing.clump.iter()).for_each(|disc| push_disc(&mut self.disc_words, disc, black));
+        self.discs = joints;
+        let mut placed = Vec::new();
+        for (layer, strokes) in drawing.layers.iter().enumerate() {
+            placed.push(Placed {
+                rank: strokes.rank,
+                layer,
+                instances: strokes.instances as u32,
+                joints: 0..joints,
+                first_disc: self.discs,
+            });
+            self.discs += strokes.discs.len();
+            for (disc, color) in strokes.discs.iter().zip(&strokes.colors) {
+                push_disc(&mut self.disc_words, disc, *color);
+            }
+        }
+        placed.sort_by_key(|p| (p.rank, p.layer));
+        let runs = drawing.runs.iter();
+        let runs = runs.map(|run| (run.strand, run.joints.clone()));
+        self.fill_chunks_and_tables(runs, &placed);
+        self.fill_surfaces(&drawing.surfaces);
     }
 
     fn fill_strands(&mut self, frame: &Frame) {
@@ -133,14 +168,17 @@ impl SceneWords {
     }
 
     /// Pieces of runs, and which strokes each has.
-    fn fill_chunks_and_tables(&mut self, frame: &Frame, placed: &[Placed]) {
+    fn fill_chunks_and_tables(
+        &mut self,
+        runs: impl Iterator<Item = (u32, Range<usize>)>,
+        placed: &[Placed],
+    ) {
         // Runs that the same layers draw on share a list.
         let mut lists: Vec<Vec<bool>> = Vec::new();
         let mut last = None;
         self.chunks.clear();
-        for run in &frame.paths.runs {
-            let draws =
-                |p: &Placed| p.joints.start <= run.joints.start && run.joints.end <= p.joints.end;
+        for (strand, joints) in runs {
+            let draws = |p: &Placed| p.joints.start <= joints.start && joints.end <= p.joints.end;
             let is_as = |list: &Vec<bool>| placed.iter().map(draws).eq(list.iter().copied());
             let list = match last {
                 Some(list) if is_as(&lists[list]) => list,
@@ -150,11 +188,11 @@ impl SceneWords {
                 }),
             };
             last = Some(list);
-            let segments = run.joints.len() - 1;
+            let segments = joints.len() - 1;
             for first in (0..segments.max(1)).step_by(CHUNK) {
                 self.chunks.extend([
-                    run.strand as u32,
-                    (run.joints.start + first) as u32,
+                    strand,
+                    (joints.start + first) as u32,
                     (segments - first).min(CHUNK) as u32,
                     list as u32,
                 ]);
@@ -198,11 +236,11 @@ impl SceneWords {
         }
     }
 
-    fn fill_surfaces(&mut self, frame: &Frame) {
+    fn fill_surfaces(&mut self, surfaces: &[Surface]) {
         self.surfaces_at = self.tables.len() as u32;
         self.corners.clear();
         self.triangles.clear();
-        for (surface, number) in frame.surfaces.iter().zip(0..) {
+        for (surface, number) in surfaces.iter().zip(0..) {
             let [lr, lg, lb] = surface.light;
             let [sr, sg, sb] = surface.shadow;
             let numbers = [lr, lg, lb, sr, sg, sb, surface.margin_m];
@@ -219,4 +257,25 @@ impl SceneWords {
             }
         }
     }
+}
+
+/// A `GpuDisc`.
+fn push_disc(words: &mut Vec<u32>, disc: &Disc, [red, green, blue]: [f32; 3]) {
+    let Disc {
+        center,
+        radius,
+        inv_depth,
+        inv_depth_biased,
+    } = *disc;
+    let numbers = [
+        center.x,
+        center.y,
+        radius,
+        inv_depth,
+        red,
+        green,
+        blue,
+        inv_depth_biased,
+    ];
+    words.extend(numbers.map(f32::to_bits));
 }

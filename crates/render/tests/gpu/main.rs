@@ -1,6 +1,8 @@
 //! The GPU backend: on wgpu's `noop` device, which validates all and draws nothing, and on whatever Vulkan, Metal or
 //! DirectX driver there is.
 
+#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+
 mod agree;
 mod faults;
 mod scene;

@@ -54,7 +54,8 @@ fn sample(drawing: &Drawing, position: DVec2, number: u32) -> Option<[f32; 3]> {
         }
     };
     let strands = drawing.runs.chunk_by(|a, b| a.strand == b.strand);
-    for (strand, runs) in (0..).zip(strands) {
+    for runs in strands {
+        let strand = runs[0].strand;
         let no_colors = vec![[0.0; 3]; joints];
         let clump = touch(runs, &drawing.clump, &no_colors, drawing.brush, position);
         let touches: Vec<(usize, i32, Touch)> = strokes
