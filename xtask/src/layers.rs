@@ -23,6 +23,8 @@ const TABLE: &[Row] = &[
     // A third party's effects, under `examples/`: its code has the boundary for effects alone, the
     // program that shows it is an example with all of inkstrand.
     Row(5, "effect-*", Only(&["effects"]), &[BUILD_TOOL]),
+    // Somebody's program with hair in it: all that a library is for, but not the program.
+    Row(4, "embed-*", AllBelow, &[]),
     // It runs the programs in place of using the crates, so that it builds in seconds.
     Row(5, "xtask", Nothing, &[]),
 ];
@@ -35,7 +37,8 @@ const FOR_TESTS: &[&str] = &["bench", "effects-testkit"];
 
 /// Families of libraries, and the only crates that may depend on one of them, tests included.
 const GUARDED: &[Guard] = &[
-    Guard(&["wgpu"], &["render", "viewer"]),
+    Guard(&["wgpu"], &["render", "viewer", "embed-wgpu"]),
+    Guard(&["winit"], &["viewer", "embed-wgpu"]),
     // The kit works an effect's WGSL out by itself, to hold the translation against it.
     Guard(&["naga"], &[BUILD_TOOL, "effects", "effects-testkit"]),
     Guard(&["egui", "eframe"], &["viewer"]),
@@ -249,6 +252,7 @@ mod tests {
             ("stage", "hair-sim", ""),
             ("stage", "render", ""),
             ("inkstrand", "stage", ""),
+            ("embed-wgpu", "stage", ""),
             ("bench", "stroke-path", ""),
         ] {
             assert_eq!(between(from, to, kind), [""; 0], "{from} -> {to} ({kind})");
@@ -272,6 +276,7 @@ mod tests {
             ("effect-vendor", "stroke-path", ""),
             ("effect-vendor", "inkstrand", ""),
             ("inkstrand", "effect-vendor", ""),
+            ("embed-wgpu", "inkstrand", ""),
             ("stage", "inkstrand", "dev"),
             ("stage", "effects-build", ""),
             ("bench", "inkstrand", ""),
@@ -311,6 +316,7 @@ mod tests {
             ("effects-builtin", "naga", "build"),
             ("effects-builtin", "naga-rust-rt", ""),
             ("inkstrand", "eframe", ""),
+            ("render", "winit", ""),
             ("render", "egui_kittest", "dev"),
         ] {
             let found = edge(&[from], from, library, kind);
@@ -318,6 +324,8 @@ mod tests {
         }
         for (from, library) in [
             ("render", "wgpu"),
+            ("embed-wgpu", "wgpu"),
+            ("embed-wgpu", "winit"),
             ("effects", "naga-rust-rt"),
             ("effects-build", "naga"),
             ("viewer", "eframe"),
