@@ -6,7 +6,7 @@ use effects::{Layer, Registry, Varied, clump};
 use glam::{DVec3, Vec3};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use stage::Preset;
-use stroke_path::{Camera, OrbitView, PathKind, Paths, sin_cos_degrees};
+use stroke_path::{Camera, Cut, OrbitView, PathKind, Paths, sin_cos_degrees};
 
 /// Particles of a strand.
 const PARTICLES: u32 = 16;
@@ -14,6 +14,7 @@ const PARTICLES: u32 = 16;
 const SIZE: f32 = 14.0;
 /// How much deeper than its middle a round clump's edge lies, in head heights: as in presets.
 const EDGE_DEPTH: f32 = 0.02;
+const PATH: PathKind = PathKind::CatmullRom { subdivision: 5 };
 const HEAD: Head = Head {
     center: Vec3::new(0.0, 0.0, -0.3),
     height_m: 0.24,
@@ -57,6 +58,8 @@ pub struct Strands {
     /// A style that they change to, and when.
     change: Option<(Tick, Style)>,
     camera: Camera,
+    /// Where each strand is cut.
+    cuts: Vec<Vec<Cut>>,
     infos: Vec<StrandInfo>,
     paths: Paths,
     layer_joints: Vec<std::ops::Range<usize>>,
@@ -69,6 +72,12 @@ struct Style {
 
 /// Opens a scene of strands.
 type Open = fn() -> Result<Strands, String>;
+
+/// A strand at a time.
+fn particles(motion: Motion, strand: usize, time: f64) -> Vec<Vec3> {
+    let u = (0..PARTICLES).map(|p| f64::from(p) / f64::from(PARTICLES - 1));
+    u.map(|u| motion(strand, u, time).as_vec3()).collect()
+}
 
 impl Strands {
     /// Name, purpose and maker of every scene.
@@ -91,8 +100,14 @@ impl Strands {
             mean: Vec3::ZERO,
             size: SIZE,
         };
+        let cuts = (0..count as usize).map(|i| {
+            let overlap_m = 3.0 * SIZE * HEAD.unit_m();
+            stroke_path::cuts(&particles(motion, i, 0.0), PATH, overlap_m)
+        });
+        let cuts = cuts.collect::<Result<_, _>>();
         Ok(Self {
             motion,
+            cuts: cuts.map_err(|error| error.to_string())?,
             style: Style::parse(STYLE)?,
             change: change.transpose()?,
             camera,
@@ -121,11 +136,11 @@ impl Animation for Strands {
         let time = seconds(tick);
         self.paths.clear();
         for (i, info) in self.infos.iter_mut().enumerate() {
-            let u = (0..PARTICLES).map(|p| f64::from(p) / f64::from(PARTICLES - 1));
-            let particles: Vec<Vec3> = u.map(|u| (self.motion)(i, u, time).as_vec3()).collect();
+            let particles = particles(self.motion, i, time);
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
-            let kind = PathKind::CatmullRom { subdivision: 5 };
-            let pushed = self.paths.push_strand(i, &particles, kind, &self.camera);
+            let pushed = self
+                .paths
+                .push_pieces(i, &particles, &self.cuts[i], PATH, &self.camera);
             pushed.map_err(|error| error.to_string())?;
         }
         let style = match &self.change {
