@@ -56,7 +56,8 @@ pub struct Paths {
     /// View depth in metres, at least the camera's near distance. Where a piece goes on beyond its [`Cut`],
     /// deeper by the way along the strand from there.
     pub depth: Vec<f32>,
-    /// Pixels that a metre takes there ([`Camera::px_per_metre`]).
+    /// Pixels that a metre takes there ([`Camera::px_per_metre`]). From twice the near distance to once it falls to
+    /// next to nothing: strokes are thin when they are cut, or hair along the near plane would vanish at once.
     pub px_per_metre: Vec<f32>,
     /// The screen's unit vector across the path (thesis 5.3, Fig 5.9): the projection of F turned by
     /// +90 degrees, from x to y; as y points down, that is the right-hand side of who walks from root
@@ -323,7 +324,9 @@ impl Paths {
         self.backward.push(joint.backward);
         self.center.push(camera.project(joint.view));
         self.depth.push(joint.view.z + joint.sink);
-        self.px_per_metre.push(camera.px_per_metre(joint.view.z));
+        let thinned = thinned(joint.view.z / camera.near_m());
+        self.px_per_metre
+            .push(camera.px_per_metre(joint.view.z) * thinned);
     }
 
     /// Keeps the first `len` joints.
@@ -338,6 +341,12 @@ impl Paths {
         self.px_per_metre.truncate(len);
         self.across.truncate(len);
     }
+}
+
+/// What is left of sizes at so many near distances from the eye, never 0.
+fn thinned(near_distances: f32) -> f32 {
+    let t = (near_distances - 1.0).clamp(0.0, 1.0);
+    (t * t * (3.0 - 2.0 * t)).max(1e-3)
 }
 
 impl Joint {
