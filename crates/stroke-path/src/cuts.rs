@@ -9,12 +9,16 @@ use crate::resample::{PathError, PathKind};
 use glam::Vec3;
 use std::ops::RangeInclusive;
 
-/// Cosine of the greatest angle between two directions of a piece, 120 degrees.
+/// Cosine of 3 degrees: of directions nearer to each other one is kept, so that strands of any length take few.
+const COS_SAME: f32 = 0.998_629_5;
+
+/// Cosine of the greatest angle between a direction of a piece and those kept of it, 117 degrees: no two directions
+/// are farther apart than 120.
 ///
 /// Directions no farther apart than that lie in one half of all directions (Dekster, *The Jung theorem for spherical
 /// and hyperbolic spaces*, 1995): the piece always advances in some direction, and seen across it
 /// never crosses itself.
-const COS_MOST: f32 = -0.5;
+const COS_MOST: f32 = -0.453_990_5;
 
 /// A strand that is cut but once is an arch, as a ponytail's where it turns down, and stays whole.
 const LEAST_CUTS: usize = 2;
@@ -67,11 +71,14 @@ fn turns(joints: &[Vec3]) -> Vec<usize> {
         let Some(direction) = (link[1] - link[0]).try_normalize() else {
             continue;
         };
-        if piece.iter().any(|other| other.dot(direction) < COS_MOST) {
+        let cosines = || piece.iter().map(|other: &Vec3| other.dot(direction));
+        if cosines().any(|cosine| cosine < COS_MOST) {
             at.push(i);
             piece.clear();
+            piece.push(direction);
+        } else if cosines().all(|cosine| cosine < COS_SAME) {
+            piece.push(direction);
         }
-        piece.push(direction);
     }
     at
 }
