@@ -18,7 +18,7 @@ pub fn targets(scenes: &[SceneFigures]) -> Vec<Target> {
         let own = of_order(scene, Order::default());
         match scene.kind {
             Kind::Hair => targets.extend(of_hair(scene, own)),
-            Kind::Continuous => targets.push(refinement(scene, own, Limit::AtLeast(1.9))),
+            Kind::Continuous => targets.push(refinement(scene, own, Limit::AtLeast(1.85))),
             Kind::Jumping => targets.push(refinement(scene, own, Limit::AtMost(1.1))),
         }
     }
