@@ -6,7 +6,8 @@
 /// For each disc the least size in the window that begins there, and in the one that ends there.
 @group(0) @binding(6) var<storage, read_write> windows: array<vec2<f32>>;
 
-/// The joints of a run, and its stroke's first disc as if joint 0 had one.
+/// The joints of a strand's pieces that follow each other, and its stroke's first disc as if joint 0 had one. Joints that two
+/// pieces share count once, as those of the piece before.
 struct Run {
     first: u32,
     last: u32,
@@ -27,6 +28,19 @@ fn window(run: Run, joint: u32) -> u32 {
     return run.disc + joint - gpu_first_disc(0u) - gpu_words[GPU_FIRST_JOINT];
 }
 
+fn before(joint: u32) -> u32 {
+    return joint - gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_RUN + 2u];
+}
+
+fn after(joint: u32) -> u32 {
+    return joint + gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_RUN + 3u];
+}
+
+/// The joint itself, or the same one of the piece before.
+fn counted(joint: u32) -> u32 {
+    return joint - gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_RUN + 4u];
+}
+
 fn seen(joint: u32) -> f32 {
     return gpu_scalar(joint, GPU_AT_SEEN_LENGTH);
 }
@@ -37,10 +51,10 @@ fn size(run: Run, joint: u32, sign: f32) -> f32 {
 }
 
 fn between(run: Run, joint: u32, place: f32, sign: f32) -> f32 {
-    let before = seen(joint);
-    let way = (place - before) / (seen(joint + 1u) - before);
+    let next = after(joint);
+    let way = (place - seen(joint)) / (seen(next) - seen(joint));
     let start = size(run, joint, sign);
-    return start + way * (size(run, joint + 1u, sign) - start);
+    return start + way * (size(run, next, sign) - start);
 }
 
 /// The least value from `joint` to the window's length after it. In a closed strand the windows at its end are its last
@@ -48,9 +62,9 @@ fn between(run: Run, joint: u32, place: f32, sign: f32) -> f32 {
 fn least_after(run: Run, joint: u32, sign: f32, is_closed: bool) -> f32 {
     let end = seen(joint) + run.length;
     var least = size(run, joint, sign);
-    for (var j = joint + 1u; j <= run.last; j++) {
+    for (var j = after(joint); j <= run.last; j = after(j)) {
         if (seen(j) > end) {
-            return min(least, between(run, j - 1u, end, sign));
+            return min(least, between(run, before(j), end, sign));
         }
         least = min(least, size(run, j, sign));
     }
@@ -63,11 +77,12 @@ fn least_after(run: Run, joint: u32, sign: f32, is_closed: bool) -> f32 {
 fn least_before(run: Run, joint: u32, sign: f32) -> f32 {
     let start = seen(joint) - run.length;
     var least = size(run, joint, sign);
-    for (var j = joint; j > run.first; j--) {
-        if (seen(j - 1u) < start) {
-            return min(least, between(run, j - 1u, start, sign));
+    for (var j = joint; j > run.first; j = before(j)) {
+        let earlier = before(j);
+        if (seen(earlier) < start) {
+            return min(least, between(run, earlier, start, sign));
         }
-        least = min(least, size(run, j - 1u, sign));
+        least = min(least, size(run, earlier, sign));
     }
     return least;
 }
@@ -85,17 +100,18 @@ fn opened(run: Run, joint: u32) -> f32 {
     let place = seen(joint);
     var greatest = windows[window(run, joint)].x;
     greatest = max(greatest, windows[window(run, joint)].y);
-    for (var j = joint + 1u; j <= run.last; j++) {
+    for (var j = after(joint); j <= run.last; j = after(j)) {
         if (seen(j) > place + run.length) {
             break;
         }
         greatest = max(greatest, windows[window(run, j)].y);
     }
-    for (var j = joint; j > run.first; j--) {
-        if (seen(j - 1u) < place - run.length) {
+    for (var j = joint; j > run.first; j = before(j)) {
+        let earlier = before(j);
+        if (seen(earlier) < place - run.length) {
             break;
         }
-        greatest = max(greatest, windows[window(run, j - 1u)].x);
+        greatest = max(greatest, windows[window(run, earlier)].x);
     }
     return greatest;
 }
@@ -116,7 +132,7 @@ fn close_gaps(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) 
     let joint = gpu_words[GPU_FIRST_JOINT] + index;
     let run = run_of(joint, group.z);
     if (run.length > 0.0) {
-        gpu_discs[run.disc + joint].radius = -opened(run, joint);
+        gpu_discs[run.disc + joint].radius = -opened(run, counted(joint));
     }
 }
 
@@ -139,7 +155,7 @@ fn open_specks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
     let at = run.disc + joint;
     var radius = gpu_discs[at].radius;
     if (run.length > 0.0) {
-        radius = opened(run, joint);
+        radius = opened(run, counted(joint));
     }
     if (gpu_frame.is_semicircle != 0u && joint == run.last && gpu_scalar(joint, GPU_AT_U) == 1.0) {
         gpu_discs[at].center += gpu_ahead(joint, radius, gpu_clumps[joint].radius);

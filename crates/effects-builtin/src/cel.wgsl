@@ -60,6 +60,12 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let share = without_hairlines(whole, basic, 0.5 * params.thinnest * joint.unit);
 
     let color = color_or(params.color, params.factor * joint.clump_color);
-    let offset = place * joint.clump_radius * joint.across;
+    // Where hair turns away over the head its clump shows a round end, which strokes in a row would leave open:
+    // there the row bends to the end's shape. Not where it points straight away, and has no way on the screen.
+    let away = -dot(joint.forward, joint.view_direction);
+    let bend = smoothstep(0.6, 0.85, away) * (1.0 - smoothstep(0.94, 0.985, away));
+    let ahead = bend * (1.0 - 1.0 / f32(params.feathers)) * sqrt(max(1.0 - place * place, 0.0));
+    let row = vec2<f32>(joint.across.y, -joint.across.x) * ahead + joint.across * place;
+    let offset = joint.clump_radius * row;
     return Stroke(offset, share * basic * params.fullness, 0.0, color);
 }

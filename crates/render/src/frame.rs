@@ -101,10 +101,16 @@ pub struct Frame<'a> {
     pub brush: Brush,
 }
 
-/// For each joint the length of its run up to there as it is seen, metres at its depth, appended.
+/// For each joint the length of its run up to there as it is seen, metres at its depth, in place of what was there. Pieces of a
+/// strand count on.
 pub(crate) fn seen_lengths(paths: &Paths, lengths: &mut Vec<f32>) {
+    lengths.clear();
     for run in &paths.runs {
-        let mut length = 0.0;
+        // What the piece before has too is as far.
+        let mut length = match run.overlap {
+            0 => 0.0,
+            overlap => lengths[run.joints.start - overlap],
+        };
         for i in run.joints.clone() {
             if i > run.joints.start {
                 let scale = 0.5 * (paths.px_per_metre[i] + paths.px_per_metre[i - 1]);

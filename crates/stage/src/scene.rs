@@ -14,7 +14,7 @@ use effects::{HairStrand, Layer, MadePaths, Values, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use std::ops::Range;
-use stroke_path::{Camera, OrbitView, PathKind, Paths, direction_from_angles};
+use stroke_path::{Camera, Cut, OrbitView, PathKind, Paths, direction_from_angles};
 
 /// How near the eye strokes are cut, in head heights.
 const NEAR: f32 = 0.05;
@@ -27,6 +27,9 @@ const INSIDE_MARGIN: f32 = 0.6;
 /// on the skin.
 const OUTLINE_MARGIN: f32 = 0.04;
 
+/// How far the pieces of a strand that curls go on beyond where they meet, in parts of its full radius.
+const OVERLAP: f32 = 3.0;
+
 /// The clump's choice of normal that reads material frames.
 const MATERIAL: u32 = 1;
 
@@ -37,6 +40,8 @@ pub struct Stage {
     strands: Vec<StrandInfo>,
     /// How many of them are the hair's.
     strand_count: usize,
+    /// Where each of these is cut.
+    cuts: Vec<Vec<Cut>>,
     made: MadePaths,
     /// The strand that each made path belongs to.
     made_of: Vec<usize>,
@@ -116,7 +121,13 @@ impl Stage {
         {
             return Err(StageError::NoPointLight(layer.name.clone()));
         }
+        let cut = |(i, info): (usize, &StrandInfo)| {
+            let overlap_m = OVERLAP * info.size * head.unit_m();
+            stroke_path::cuts(hair.file.strands.strand(i), settings.path, overlap_m)
+        };
+        let cuts = strands.iter().enumerate().map(cut);
         Ok(Self {
+            cuts: cuts.collect::<Result<_, _>>()?,
             points: hair.file.strands.points().to_vec(),
             hair,
             strand_count: strands.len(),
@@ -386,7 +397,7 @@ impl Stage {
             let particles = &self.points[self.hair.file.strands.point_range(i)];
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
             self.paths
-                .push_strand(i, particles, self.settings.path, &camera)?;
+                .push_pieces(i, particles, &self.cuts[i], self.settings.path, &camera)?;
         }
         self.push_made_paths(&camera)?;
         self.find_material_normals();

@@ -118,7 +118,7 @@ impl Camera {
     }
 
     /// A camera as programs with matrices of their own have it: `view_from_world` is a rotation and a translation
-    /// into a right-handed view space whose x runs right, y up and z towards the viewer, as glam's `look_at_rh` makes it. The
+    /// into a right-handed view space whose x runs right, y up and z towards the viewer, as glam's `camera::rh::view::look_at_mat4` makes it. The
     /// picture's middle lies on the view axis, and its pixels are square.
     ///
     /// # Errors

@@ -9,12 +9,14 @@
 
 mod angle;
 mod camera;
+mod cuts;
 mod path;
 mod resample;
 pub mod sweep;
 
 pub use angle::sin_cos_degrees;
 pub use camera::{Camera, CameraError, OrbitView, direction_from_angles};
+pub use cuts::{Cut, cuts};
 pub use path::{PathRun, Paths};
 pub use resample::{MAX_SUBDIVISION, PathError, PathKind};
 pub use sweep::Brush;

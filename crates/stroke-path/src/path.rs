@@ -1,6 +1,7 @@
 //! Stroke paths: the joints of strands as a camera sees them (thesis 4.2).
 
 use crate::camera::Camera;
+use crate::cuts::Cut;
 use crate::resample::{PathError, PathKind};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
@@ -13,14 +14,20 @@ const FARTHEST_PX: f32 = 1e8;
 /// on the screen. Rounding turns that direction by less than 1e-2 rad there.
 const MIN_ANGLE: f32 = 1e-4;
 
-/// A connected piece of one strand's path. A strand that passes through the near plane has several.
+/// A connected part of one strand's path. A strand that passes through the near plane has several, and so has
+/// one that is cut.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathRun {
     /// The strand's index, as it was given.
     pub strand: usize,
+    /// The number of the piece: what is ordered as one strand. The strand's index, but for the pieces that strands
+    /// before it, and it itself up to there, were cut into besides.
+    pub piece: usize,
     /// Its joints in the lists of [`Paths`], from the root's side to the tip's. At least two, but for
     /// a strand of a single particle, which has one.
     pub joints: Range<usize>,
+    /// How many of the first joints are also the last ones of the run before: of the piece before, which it overlaps.
+    pub overlap: usize,
 }
 
 /// The visible joints of many strands' paths, as parallel lists.
@@ -46,9 +53,11 @@ pub struct Paths {
     pub backward: Vec<Vec3>,
     /// On the screen, in pixels.
     pub center: Vec<Vec2>,
-    /// View depth in metres, at least the camera's near distance.
+    /// View depth in metres, at least the camera's near distance. Where a piece goes on beyond its [`Cut`],
+    /// deeper by the way along the strand from there.
     pub depth: Vec<f32>,
-    /// Pixels that a metre takes there ([`Camera::px_per_metre`]).
+    /// Pixels that a metre takes there ([`Camera::px_per_metre`]). From twice the near distance to once it falls to
+    /// next to nothing: strokes are thin when they are cut, or hair along the near plane would vanish at once.
     pub px_per_metre: Vec<f32>,
     /// The screen's unit vector across the path (thesis 5.3, Fig 5.9): the projection of F turned by
     /// +90 degrees, from x to y; as y points down, that is the right-hand side of who walks from root
@@ -57,6 +66,8 @@ pub struct Paths {
     /// Where the strand runs along the line of sight it is that of the run's joint before, or +x.
     pub across: Vec<Vec2>,
     dropped: usize,
+    /// Pieces so far, less one for each strand.
+    cut: usize,
     /// The strand in work, before clipping.
     whole: Vec<Joint>,
 }
@@ -70,6 +81,8 @@ struct Joint {
     arc_length: f32,
     forward: Vec3,
     backward: Vec3,
+    /// How much deeper than there it is ordered, metres.
+    sink: f32,
 }
 
 impl Paths {
@@ -83,6 +96,7 @@ impl Paths {
     pub fn clear(&mut self) {
         self.runs.clear();
         self.dropped = 0;
+        self.cut = 0;
         self.truncate(0);
     }
 
@@ -122,12 +136,37 @@ impl Paths {
         kind: PathKind,
         camera: &Camera,
     ) -> Result<(), PathError> {
+        self.push_pieces(strand, particles, &[], kind, camera)
+    }
+
+    /// As [`Self::push_strand`], for a strand that is cut into pieces; [`cuts`](crate::cuts()) says where, from the strand
+    /// at rest. Joints of an overlap are in both pieces.
+    ///
+    /// # Errors
+    ///
+    /// When the subdivision is not within 1 to 64, or a cut is beyond the strand's end. Nothing is appended
+    /// then.
+    pub fn push_pieces(
+        &mut self,
+        strand: usize,
+        particles: &[Vec3],
+        cuts: &[Cut],
+        kind: PathKind,
+        camera: &Camera,
+    ) -> Result<(), PathError> {
         self.place_joints(particles, kind, camera)?;
+        if (cuts.iter()).any(|cut| *cut.overlap.end() >= self.whole.len()) {
+            return Err(PathError::Cut);
+        }
         self.find_directions();
         let (runs, joints) = (self.runs.len(), self.len());
         let mut finite = self.whole.iter().all(Joint::is_finite);
         if finite {
-            self.clip(strand, camera);
+            for number in 0..=cuts.len() {
+                let before = number.checked_sub(1).map(|i| &cuts[i]);
+                let part = self.piece([before, cuts.get(number)]);
+                self.clip(strand, strand + self.cut + number, part, camera);
+            }
             finite = self.center[joints..]
                 .iter()
                 .all(|c| c.abs().max_element() <= FARTHEST_PX);
@@ -137,6 +176,7 @@ impl Paths {
             self.truncate(joints);
             self.dropped += 1;
         }
+        self.cut += cuts.len();
         Ok(())
     }
 
@@ -147,18 +187,10 @@ impl Paths {
         kind: PathKind,
         camera: &Camera,
     ) -> Result<(), PathError> {
-        let subdivision = kind.subdivision()? as usize;
-        let last = particles.len().saturating_sub(1) * subdivision;
+        let positions = kind.joints(particles)?;
+        let last = positions.len().saturating_sub(1);
         self.whole.clear();
-        if particles.is_empty() {
-            return Ok(());
-        }
-        for j in 0..=last {
-            let (interval, step) = (j / subdivision, j % subdivision);
-            let position = match step {
-                0 => particles[interval],
-                _ => kind.point(particles, interval, step as f32 / subdivision as f32),
-            };
+        for (j, position) in positions.enumerate() {
             let before = self.whole.last();
             let arc_length = before.map_or(0.0, |b| b.arc_length + b.position.distance(position));
             self.whole.push(Joint {
@@ -168,6 +200,7 @@ impl Paths {
                 arc_length,
                 forward: Vec3::NEG_Y,
                 backward: Vec3::Y,
+                sink: 0.0,
             });
         }
         Ok(())
@@ -209,9 +242,26 @@ impl Paths {
         }
     }
 
-    /// Appends the runs of `whole` that are in front of the near plane.
-    fn clip(&mut self, strand: usize, camera: &Camera) {
-        let joints = std::mem::take(&mut self.whole);
+    /// Lets the joints of `whole` between two cuts sink where they go on beyond them, and returns which they are.
+    fn piece(&mut self, [before, after]: [Option<&Cut>; 2]) -> Range<usize> {
+        let joints = &mut self.whole;
+        let start = before.map_or(0, |cut| *cut.overlap.start());
+        let end = after.map_or(joints.len(), |cut| *cut.overlap.end() + 1);
+        if before.or(after).is_some() {
+            let from = before.map_or(0.0, |cut| joints[cut.at].arc_length);
+            let to = after.map_or(f32::INFINITY, |cut| joints[cut.at].arc_length);
+            for joint in &mut joints[start..end] {
+                let beyond = (from - joint.arc_length).max(joint.arc_length - to);
+                joint.sink = beyond.max(0.0);
+            }
+        }
+        start..end
+    }
+
+    /// Appends the runs of a part of `whole` that are in front of the near plane.
+    fn clip(&mut self, strand: usize, piece: usize, part: Range<usize>, camera: &Camera) {
+        let whole = std::mem::take(&mut self.whole);
+        let joints = &whole[part];
         let near = camera.near_m();
         let mut start = self.len();
         let mut seen_before = false;
@@ -232,14 +282,34 @@ impl Paths {
                 seen_before
             };
             if ends {
+                let joints = start..self.len();
                 self.runs.push(PathRun {
                     strand,
-                    joints: start..self.len(),
+                    piece,
+                    overlap: self.overlap(strand, piece, &joints),
+                    joints,
                 });
             }
             seen_before = seen;
         }
-        self.whole = joints;
+        self.whole = whole;
+    }
+
+    /// How many of the first joints of a run are also in the last run, if that is of the piece before.
+    fn overlap(&self, strand: usize, piece: usize, joints: &Range<usize>) -> usize {
+        let is_before = |run: &&PathRun| run.strand == strand && run.piece + 1 == piece;
+        let Some(before) = self.runs.last().filter(is_before) else {
+            return 0;
+        };
+        let end = before.joints.end;
+        let is_shared = |i: &usize| self.u[*i] <= self.u[end - 1];
+        let shared = joints.clone().take_while(is_shared).count();
+        // Where the near plane cuts too, the last run may be another.
+        let begins = end - shared.min(end);
+        match self.u[begins..end] == self.u[joints.start..joints.start + shared] {
+            true => shared,
+            false => 0,
+        }
     }
 
     /// Projects a joint of the run from joint `start` on, and appends it.
@@ -253,8 +323,10 @@ impl Paths {
         self.forward.push(joint.forward);
         self.backward.push(joint.backward);
         self.center.push(camera.project(joint.view));
-        self.depth.push(joint.view.z);
-        self.px_per_metre.push(camera.px_per_metre(joint.view.z));
+        self.depth.push(joint.view.z + joint.sink);
+        let thinned = thinned(joint.view.z / camera.near_m());
+        self.px_per_metre
+            .push(camera.px_per_metre(joint.view.z) * thinned);
     }
 
     /// Keeps the first `len` joints.
@@ -269,6 +341,12 @@ impl Paths {
         self.px_per_metre.truncate(len);
         self.across.truncate(len);
     }
+}
+
+/// What is left of sizes at so many near distances from the eye, never 0.
+fn thinned(near_distances: f32) -> f32 {
+    let t = (near_distances - 1.0).clamp(0.0, 1.0);
+    (t * t * (3.0 - 2.0 * t)).max(1e-3)
 }
 
 impl Joint {
@@ -288,6 +366,7 @@ impl Joint {
             view: self.view.lerp(next.view, t).with_z(near),
             u: between(self.u, next.u),
             arc_length: between(self.arc_length, next.arc_length),
+            sink: self.sink + (next.sink - self.sink) * t,
             forward: direction(self.forward, next.forward),
             backward: direction(self.backward, next.backward),
         }

@@ -33,6 +33,9 @@ pub enum PathError {
     /// The subdivision is 1 to 64.
     #[error("the subdivision {0} is not within 1 to {MAX_SUBDIVISION}")]
     Subdivision(u32),
+    /// A strand's cuts are within its joints.
+    #[error("a strand is to be cut beyond its end")]
+    Cut,
 }
 
 impl PathKind {
@@ -53,8 +56,31 @@ impl PathKind {
         }
     }
 
+    /// All joints of a path from its first particle to its last.
+    ///
+    /// # Errors
+    ///
+    /// When the subdivision is not within 1 to 64.
+    pub(crate) fn joints(
+        self,
+        particles: &[Vec3],
+    ) -> Result<impl ExactSizeIterator<Item = Vec3>, PathError> {
+        let subdivision = self.subdivision()? as usize;
+        let count = match particles.len() {
+            0 => 0,
+            len => (len - 1) * subdivision + 1,
+        };
+        Ok((0..count).map(move |j| {
+            let (interval, step) = (j / subdivision, j % subdivision);
+            match step {
+                0 => particles[interval],
+                _ => self.point(particles, interval, step as f32 / subdivision as f32),
+            }
+        }))
+    }
+
     /// The point of interval `interval` (from particle `interval` to the next) at `s` in 0..1.
-    pub(crate) fn point(self, particles: &[Vec3], interval: usize, s: f32) -> Vec3 {
+    fn point(self, particles: &[Vec3], interval: usize, s: f32) -> Vec3 {
         match self {
             Self::Linear { .. } => particles[interval].lerp(particles[interval + 1], s),
             Self::CatmullRom { .. } => catmull_rom(particles, interval, s),

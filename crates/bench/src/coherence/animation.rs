@@ -249,8 +249,8 @@ pub enum Kind {
     Jumping,
 }
 
-/// The scenes whose names hold `only`. Where it must be quick: less time and, of all scenes, a few looks in the
-/// order of presets and the source's.
+/// The scenes whose names hold `only`. Where it must be quick: less time, in the order of presets and the source's
+/// alone, and, of all scenes, a few looks.
 ///
 /// # Errors
 ///
@@ -263,7 +263,7 @@ pub fn scenes(
 ) -> Result<Vec<Scene>, String> {
     let mut scenes = Vec::new();
     let mut orders = ORDERS.to_vec();
-    if quick && only.is_empty() {
+    if quick {
         orders.retain(|(_, order)| [Order::default(), Order::Shifted].contains(order));
     }
     let wanted = |name: &str| name.contains(only);

@@ -484,6 +484,16 @@ mod tests {
         }
     }
 
+    /// A pixel in 1/384 s is too much for that time and for popped pixels, but not for half of it.
+    #[test]
+    fn what_moves_fast_scores_two_in_a_shorter_time() {
+        let found = measured("control-fast", 100..108, Order::default());
+        let [long, fine] = [found.ratio(), found.fine_ratio()].map(Option::unwrap);
+        assert!(long < 1.9, "{long}");
+        assert!(fine > 1.9, "{fine}");
+        assert!(found.popped[0] > 1e-3, "{:?}", found.popped);
+    }
+
     #[test]
     fn what_jumps_scores_one_and_is_found() {
         for (_, order) in ORDERS {

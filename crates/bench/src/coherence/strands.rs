@@ -6,7 +6,7 @@ use effects::{Layer, Registry, Varied, clump};
 use glam::{DVec3, Vec3};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use stage::Preset;
-use stroke_path::{Camera, OrbitView, PathKind, Paths, sin_cos_degrees};
+use stroke_path::{Camera, Cut, OrbitView, PathKind, Paths, sin_cos_degrees};
 
 /// Particles of a strand.
 const PARTICLES: u32 = 16;
@@ -14,6 +14,7 @@ const PARTICLES: u32 = 16;
 const SIZE: f32 = 14.0;
 /// How much deeper than its middle a round clump's edge lies, in head heights: as in presets.
 const EDGE_DEPTH: f32 = 0.02;
+const PATH: PathKind = PathKind::CatmullRom { subdivision: 5 };
 const HEAD: Head = Head {
     center: Vec3::new(0.0, 0.0, -0.3),
     height_m: 0.24,
@@ -57,6 +58,8 @@ pub struct Strands {
     /// A style that they change to, and when.
     change: Option<(Tick, Style)>,
     camera: Camera,
+    /// Where each strand is cut.
+    cuts: Vec<Vec<Cut>>,
     infos: Vec<StrandInfo>,
     paths: Paths,
     layer_joints: Vec<std::ops::Range<usize>>,
@@ -70,11 +73,20 @@ struct Style {
 /// Opens a scene of strands.
 type Open = fn() -> Result<Strands, String>;
 
+/// A strand at a time.
+fn particles(motion: Motion, strand: usize, time: f64) -> Vec<Vec3> {
+    let u = (0..PARTICLES).map(|p| f64::from(p) / f64::from(PARTICLES - 1));
+    u.map(|u| motion(strand, u, time).as_vec3()).collect()
+}
+
 impl Strands {
     /// Name, purpose and maker of every scene.
-    pub const ALL: [(&str, Kind, Open); 4] = [
+    pub const ALL: [(&str, Kind, Open); 5] = [
         ("control-continuous", Kind::Continuous, || {
             Self::new(1, lone, None)
+        }),
+        ("control-fast", Kind::Continuous, || {
+            Self::new(1, fast, None)
         }),
         ("control-jumping", Kind::Jumping, || {
             Self::new(1, lone, Some(TICKS / 11))
@@ -91,8 +103,14 @@ impl Strands {
             mean: Vec3::ZERO,
             size: SIZE,
         };
+        let cuts = (0..count as usize).map(|i| {
+            let overlap_m = 3.0 * SIZE * HEAD.unit_m();
+            stroke_path::cuts(&particles(motion, i, 0.0), PATH, overlap_m)
+        });
+        let cuts = cuts.collect::<Result<_, _>>();
         Ok(Self {
             motion,
+            cuts: cuts.map_err(|error| error.to_string())?,
             style: Style::parse(STYLE)?,
             change: change.transpose()?,
             camera,
@@ -121,11 +139,11 @@ impl Animation for Strands {
         let time = seconds(tick);
         self.paths.clear();
         for (i, info) in self.infos.iter_mut().enumerate() {
-            let u = (0..PARTICLES).map(|p| f64::from(p) / f64::from(PARTICLES - 1));
-            let particles: Vec<Vec3> = u.map(|u| (self.motion)(i, u, time).as_vec3()).collect();
+            let particles = particles(self.motion, i, time);
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
-            let kind = PathKind::CatmullRom { subdivision: 5 };
-            let pushed = self.paths.push_strand(i, &particles, kind, &self.camera);
+            let pushed = self
+                .paths
+                .push_pieces(i, &particles, &self.cuts[i], PATH, &self.camera);
             pushed.map_err(|error| error.to_string())?;
         }
         let style = match &self.change {
@@ -171,6 +189,12 @@ fn lone(_: usize, u: f64, time: f64) -> DVec3 {
     DVec3::new(x, height(u), 0.0)
 }
 
+/// The same as fast as the fastest hair of a look: a line's width in 1/384 s.
+fn fast(_: usize, u: f64, time: f64) -> DVec3 {
+    let x = -0.2 + 0.48 * time + (0.1 * time - 0.1) * u;
+    DVec3::new(x, height(u), 0.0)
+}
+
 /// Strands that pass each other: a tenth of a second from the start, and again twice a second.
 fn passing(strand: usize, u: f64, time: f64) -> DVec3 {
     let swing = sine(time - 0.1);
@@ -213,7 +237,10 @@ mod tests {
                     joints.any(|at| (0.0..width).contains(&at.x) && (0.0..height).contains(&at.y));
                 assert!(is_seen, "{name}: strand {}", run.strand);
             }
-            assert_eq!(frame.paths.runs.len(), frame.strands.len(), "{name}");
+            let runs = frame.paths.runs.chunk_by(|a, b| a.strand == b.strand);
+            assert_eq!(runs.count(), frame.strands.len(), "{name}");
+            let is_cut = frame.paths.runs.len() > frame.strands.len();
+            assert_eq!(is_cut, name == "curl", "{name}");
         }
     }
 

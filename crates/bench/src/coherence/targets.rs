@@ -5,6 +5,11 @@ use super::{Figures, SceneFigures};
 use crate::targets::{Found, Limit, Target};
 use render::Order;
 
+/// The farthest that strands may move in 1/384 s, in pixels, for that time and popped pixels to tell something: a line
+/// that moves on by its own width changes no more if it moves farther, and an edge that moves by more than a quarter of
+/// a pixel from picture to picture counts as popped.
+const SLOW_PX: f64 = 0.6;
+
 /// All targets of the scenes: of the order that presets have unless they say otherwise.
 #[must_use]
 pub fn targets(scenes: &[SceneFigures]) -> Vec<Target> {
@@ -13,7 +18,7 @@ pub fn targets(scenes: &[SceneFigures]) -> Vec<Target> {
         let own = of_order(scene, Order::default());
         match scene.kind {
             Kind::Hair => targets.extend(of_hair(scene, own)),
-            Kind::Continuous => targets.push(refinement(scene, own, Limit::AtLeast(1.9))),
+            Kind::Continuous => targets.push(refinement(scene, own, Limit::AtLeast(1.85))),
             Kind::Jumping => targets.push(refinement(scene, own, Limit::AtMost(1.1))),
         }
     }
@@ -27,13 +32,20 @@ fn of_order(scene: &SceneFigures, order: Order) -> Option<&Figures> {
         .map(|(_, figures)| figures)
 }
 
+fn is_slow(scene: &SceneFigures) -> bool {
+    scene.motion.0[0] <= SLOW_PX
+}
+
+/// Of the longest time in which nothing moves too far.
 fn refinement(scene: &SceneFigures, own: Option<&Figures>, limit: Limit) -> Target {
+    let found = own.map(|own| &own.continuity);
+    let (time, found) = match is_slow(scene) {
+        true => ("1/384 s", found.and_then(|found| found.ratio())),
+        false => ("1/768 s", found.and_then(|found| found.fine_ratio())),
+    };
     Target {
-        text: format!(
-            "{}: largest change in 1/384 s over that in half",
-            scene.name
-        ),
-        found: own.and_then(|own| own.continuity.ratio()).map(Found::Is),
+        text: format!("{}: largest change in {time} over that in half", scene.name),
+        found: found.map(Found::Is),
         limit,
     }
 }
@@ -52,18 +64,20 @@ fn of_hair(scene: &SceneFigures, own: Option<&Figures>) -> Vec<Target> {
     };
     let mut targets = vec![
         refinement(scene, own, Limit::AtLeast(1.8)),
-        target(
+        target("time over shifted's", over_shifted(|of| of.seconds), 1.3),
+    ];
+    if is_slow(scene) {
+        targets.push(target(
             "popped pixels, worst, over shifted's",
             over_shifted(|of| of.continuity.popped[0]),
             1.0,
-        ),
-        target(
+        ));
+        targets.push(target(
             "popped pixels, mean, over shifted's",
             over_shifted(|of| of.continuity.popped[1]),
             1.0,
-        ),
-        target("time over shifted's", over_shifted(|of| of.seconds), 1.3),
-    ];
+        ));
+    }
     if let Some(still) = own.and_then(|own| own.still) {
         targets.push(target(
             "pixels that change though nothing moves",
@@ -137,6 +151,21 @@ mod tests {
             let missed = missed(scene);
             assert!(missed.len() == 1 && missed[0].contains(text), "{missed:?}");
         }
+    }
+
+    #[test]
+    fn fast_motion_is_held_to_a_shorter_time() {
+        let fast = || SceneFigures {
+            motion: Motion([1.0, 0.5]),
+            ..good()
+        };
+        assert_eq!(targets(&[fast()]).len(), 3, "popped pixels tell nothing");
+        let mut scene = fast();
+        own(&mut scene).continuity.largest = [0.05, 0.05, 0.025];
+        assert!(missed(scene).is_empty());
+        let mut scene = fast();
+        own(&mut scene).continuity.largest = [0.1, 0.05, 0.04];
+        assert!(missed(scene)[0].contains("1/768 s over"));
     }
 
     #[test]

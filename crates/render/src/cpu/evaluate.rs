@@ -8,6 +8,7 @@ use effects::{InputSet, Joints, Layer, Units, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
+use stroke_path::PathRun;
 
 /// Turns frames into drawings, on the threads of the rayon pool that it is called in. Keeps its lists
 /// from frame to frame.
@@ -40,7 +41,7 @@ impl Evaluator {
         drawing.surfaces.clone_from(&frame.surfaces);
         drawing.runs.clear();
         drawing.runs.extend(frame.paths.runs.iter().map(|run| Run {
-            strand: run.strand as u32,
+            strand: run.piece as u32,
             joints: run.joints.clone(),
         }));
         drawing.clump.clear();
@@ -249,6 +250,7 @@ impl Evaluator {
 struct Scratch {
     strokes: Vec<Stroke>,
     radii: Vec<f32>,
+    places: Vec<f32>,
     smoother: Smoother,
 }
 
@@ -297,7 +299,7 @@ impl Instance<'_> {
     /// would end where its clump does.
     fn go_around_flat_ends(&self, strokes: &[Stroke], discs: &mut [Disc]) {
         let paths = self.frame.paths;
-        let tips = self.runs().map(|joints| joints.end - 1);
+        let tips = self.runs().iter().map(|run| run.joints.end - 1);
         for tip in tips.filter(|&tip| paths.u[tip] == 1.0) {
             let wider =
                 (strokes[tip - self.drawn.start].radius - self.joints.clump_radius[tip]).max(0.0);
@@ -309,9 +311,11 @@ impl Instance<'_> {
     }
 
     /// The runs that the layer draws on.
-    fn runs(&self) -> impl Iterator<Item = Range<usize>> {
-        let runs = self.frame.paths.runs.iter().map(|run| run.joints.clone());
-        runs.filter(|joints| self.drawn.start <= joints.start && joints.end <= self.drawn.end)
+    fn runs(&self) -> &[PathRun] {
+        let runs = &self.frame.paths.runs;
+        let first = runs.partition_point(|run| run.joints.start < self.drawn.start);
+        let end = runs.partition_point(|run| run.joints.end <= self.drawn.end);
+        &runs[first..end.max(first)]
     }
 
     /// Takes stretches and gaps of the strokes that are too short away, as they are seen: hair that
@@ -324,17 +328,29 @@ impl Instance<'_> {
         let Scratch {
             strokes,
             radii,
+            places,
             smoother,
         } = scratch;
-        for joints in self.runs() {
-            let start = self.drawn.start;
-            let strokes = &mut strokes[joints.start - start..joints.end - start];
+        let start = self.drawn.start;
+        // Pieces of one strand together, and what they share once.
+        for pieces in self.runs().chunk_by(|_, next| next.overlap > 0) {
+            let joints = || {
+                let own = |run: &PathRun| run.joints.start + run.overlap..run.joints.end;
+                pieces.iter().flat_map(own)
+            };
             radii.clear();
-            radii.extend(strokes.iter().map(|stroke| stroke.radius.max(0.0)));
-            let places = &self.seen_length[joints];
+            radii.extend(joints().map(|i| strokes[i - start].radius.max(0.0)));
+            places.clear();
+            places.extend(joints().map(|i| self.seen_length[i]));
             smoother.smooth(places, radii, length_m);
-            for (stroke, radius) in strokes.iter_mut().zip(radii.iter()) {
-                stroke.radius = *radius;
+            for (i, radius) in joints().zip(radii.iter()) {
+                strokes[i - start].radius = *radius;
+            }
+            for piece in pieces {
+                let shared = piece.joints.start..piece.joints.start + piece.overlap;
+                for i in shared {
+                    strokes[i - start].radius = strokes[i - piece.overlap - start].radius;
+                }
             }
         }
     }

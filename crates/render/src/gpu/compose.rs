@@ -9,8 +9,8 @@ use wgpu::{BindGroup, BufferUsages, Device, Queue, RenderPipeline};
 /// A render pass that hair is put into.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassFormat {
-    /// Format of its colour attachment. Where that isn't an sRGB format, hair is written as sRGB values, as the pass's own
-    /// colours must be to look right on a screen.
+    /// Format of its colour attachment. sRGB and floating point formats get linear light; others get sRGB values, as the
+    /// pass's own colours must be there to look right on a screen.
     pub color: wgpu::TextureFormat,
     /// Its depth attachment, if it has one.
     pub depth: Option<PassDepth>,
@@ -32,7 +32,7 @@ pub struct PassDepth {
 
 impl PassDepth {
     /// Depths as a perspective projection makes them (any: left- or right-handed, reversed, without a far
-    /// plane), such as glam's `Mat4::perspective_rh`.
+    /// plane), such as glam's `camera::rh::proj::directx::perspective`.
     #[must_use]
     pub fn of_projection(
         projection: Mat4,
@@ -145,7 +145,7 @@ impl Composer {
         self.format = format;
         let settings = Settings {
             depth: format.depth.map_or([0.0; 2], |depth| depth.mapping),
-            encodes: u32::from(!format.color.is_srgb()),
+            encodes: u32::from(!holds_linear_light(format.color)),
             spare: 0,
         };
         let words = bytemuck::cast_slice(std::slice::from_ref(&settings));
@@ -168,9 +168,19 @@ impl Composer {
         Ok(())
     }
 
+    /// Puts the prepared frame into a pass.
     pub(super) fn render(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, self.group.as_ref(), &[]);
         pass.draw(0..3, 0..1);
     }
+}
+
+fn holds_linear_light(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat::{Rg11b10Ufloat, Rgb9e5Ufloat, Rgba16Float, Rgba32Float};
+    let is_float = matches!(
+        format,
+        Rg11b10Ufloat | Rgb9e5Ufloat | Rgba16Float | Rgba32Float
+    );
+    format.is_srgb() || is_float
 }

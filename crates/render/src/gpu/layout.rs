@@ -4,6 +4,7 @@ use crate::frame::Frame;
 use effects::InputSet;
 use rayon::prelude::*;
 use std::fmt::Write as _;
+use stroke_path::PathRun;
 
 /// `GpuFrame`.
 #[repr(C)]
@@ -52,7 +53,7 @@ enum Field {
     PxPerMetre,
     Strand,
     Position,
-    /// First and last joint of its run.
+    /// First and last joint of its strand's pieces together, and how they follow each other: `Neighbours`.
     Run,
     Forward,
     Backward,
@@ -75,7 +76,7 @@ const FIELDS: [(Field, &str, u32); 13] = [
     (PxPerMetre, "GPU_AT_PX_PER_METRE", 1),
     (Strand, "GPU_AT_STRAND", 1),
     (Position, "GPU_AT_POSITION", 3),
-    (Run, "GPU_AT_RUN", 2),
+    (Run, "GPU_AT_RUN", 5),
     (Forward, "GPU_AT_FORWARD", 3),
     (Backward, "GPU_AT_BACKWARD", 3),
     (U, "GPU_AT_U", 1),
@@ -170,12 +171,12 @@ impl JointLayout {
     fn write(
         &self,
         frame: &Frame,
-        run: usize,
+        number: usize,
         joint: usize,
         seen_length: &[f32],
         record: &mut [u32],
     ) {
-        let (paths, run) = (frame.paths, &frame.paths.runs[run]);
+        let (paths, run) = (frame.paths, &frame.paths.runs[number]);
         let mut places = record.iter_mut();
         let mut push = |words: &[u32]| {
             for (place, word) in places.by_ref().take(words.len()).zip(words) {
@@ -191,7 +192,7 @@ impl JointLayout {
                 PxPerMetre => push(&[paths.px_per_metre[joint].to_bits()]),
                 Strand => push(&[run.strand as u32]),
                 Position => push(&bits3(paths.position[joint])),
-                Run => push(&[run.joints.start as u32, run.joints.end as u32 - 1]),
+                Run => push(&neighbours(&paths.runs, number, joint)),
                 Forward => push(&bits3(paths.forward[joint])),
                 Backward => push(&bits3(paths.backward[joint])),
                 U => push(&[paths.u[joint].to_bits()]),
@@ -202,4 +203,28 @@ impl JointLayout {
             }
         }
     }
+}
+
+/// A joint's place among the pieces of its strand that follow each other, each joint once: the first and the last of all,
+/// the steps to the one before and the one after, and how far back the same joint of the piece before is, or 0.
+fn neighbours(runs: &[PathRun], number: usize, joint: usize) -> [u32; 5] {
+    let run = &runs[number];
+    let first = runs[..=number].iter().rposition(|run| run.overlap == 0);
+    let after = runs[number + 1..].iter().take_while(|run| run.overlap > 0);
+    let (first, last) = (&runs[first.unwrap_or(number)], after.last().unwrap_or(run));
+    let is_first = joint == run.joints.start + run.overlap;
+    let is_last = joint + 1 == run.joints.end;
+    let back = if is_first { run.overlap } else { 0 };
+    let ahead = runs.get(number + 1).map_or(0, |run| run.overlap);
+    let ahead = if is_last { ahead } else { 0 };
+    let is_shared = joint < run.joints.start + run.overlap;
+    let twin = if is_shared { run.overlap } else { 0 };
+    [
+        first.joints.start,
+        last.joints.end - 1,
+        1 + back,
+        1 + ahead,
+        twin,
+    ]
+    .map(|word| word as u32)
 }

@@ -72,7 +72,7 @@ impl SceneWords {
         let placed = self.fill_layers(frame);
         self.disc_words.clear();
         let runs = frame.paths.runs.iter();
-        let runs = runs.map(|run| (run.strand as u32, run.joints.clone()));
+        let runs = runs.map(|run| (run.piece as u32, run.joints.clone()));
         self.fill_chunks_and_tables(runs, &placed);
         self.fill_surfaces(&frame.surfaces);
     }

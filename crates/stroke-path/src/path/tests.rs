@@ -3,6 +3,8 @@ use crate::camera::OrbitView;
 use glam::DVec3;
 use proptest::prelude::*;
 
+mod cut;
+
 const PARTICLES: PathKind = PathKind::Linear { subdivision: 1 };
 const SPLINE: PathKind = PathKind::CatmullRom { subdivision: 5 };
 const KINDS: [PathKind; 4] = [
@@ -91,7 +93,9 @@ fn a_hanging_strand_has_known_attributes() {
         paths.runs,
         [PathRun {
             strand: 7,
-            joints: 0..3
+            piece: 7,
+            joints: 0..3,
+            overlap: 0,
         }]
     );
     assert_eq!(paths.position, particles);
