@@ -66,6 +66,15 @@ impl Numbers {
     }
 }
 
+/// Three windings that fall from there.
+fn ringlet(root: Vec3) -> Vec<Vec3> {
+    let at = |k: usize| {
+        let turn = 0.75 * k as f32;
+        root + Vec3::new(0.04 * turn.cos(), -0.006 * k as f32, 0.04 * turn.sin())
+    };
+    (0..26).map(at).collect()
+}
+
 impl Scene {
     /// Curved strands around a head, some through the eye, with a wall behind some of them.
     pub fn random(seed: u32) -> Self {
@@ -91,8 +100,12 @@ impl Scene {
                     point
                 })
                 .collect();
+            // One curls, and is drawn in pieces.
+            let points = if i == 7 { ringlet(points[0]) } else { points };
+            let cuts = stroke_path::cuts(&points, kind, 0.02).unwrap();
+            assert_eq!(cuts.is_empty(), i != 7, "strand {i}: {} cuts", cuts.len());
             let mean = points.iter().sum::<Vec3>() / points.len() as f32;
-            paths.push_strand(i, &points, kind, &camera).unwrap();
+            paths.push_pieces(i, &points, &cuts, kind, &camera).unwrap();
             strands.push(StrandInfo {
                 id: 3 * i as u32 + 5,
                 mean,
