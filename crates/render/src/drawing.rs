@@ -26,10 +26,11 @@ pub struct Disc {
     pub inv_depth_biased: f32,
 }
 
-/// A connected piece of one strand's path. A strand that passes through the near plane has several.
+/// A connected part of one strand's path. A strand that passes through the near plane has several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// The strand's number. All runs of a strand are neighbours, and numbers never decrease.
+    /// The strand's number, or of a strand that curls its piece's: what is ordered as one. All runs of a number are
+    /// neighbours, and numbers never decrease.
     pub strand: u32,
     /// The joints, as a range of every per-joint list of the [`Drawing`]. One joint alone is a disc.
     pub joints: Range<usize>,
