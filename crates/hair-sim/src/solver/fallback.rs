@@ -140,10 +140,12 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
     for k in 0..batch.count() {
         let v = (trial.y[k] - state.y[k]) * rate;
         let a = (v - state.v[k]) * rate;
-        if !scratch.touched.is_empty() {
-            let press = scratch.contacts[k].pressure(trial.y[k]);
-            state.press[k] = good.pick(press, state.press[k]);
-        }
+        let press = if scratch.touched.is_empty() {
+            Lane::ZERO
+        } else {
+            scratch.contacts[k].pressure(trial.y[k])
+        };
+        state.press[k] = good.pick(press, state.press[k]);
         state.a[k] = Vec3::pick(good, a, state.a[k]);
         state.v[k] = Vec3::pick(good, v, state.v[k]);
         state.y[k] = Vec3::pick(good, trial.y[k], state.y[k]);
