@@ -31,11 +31,14 @@ pub(super) fn step(
     which: Mask,
 ) {
     let h = Lane::splat(drive.dt);
+    let damps = batch.damping != Lane::ZERO;
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
         scratch.free_y[k] = state.y[k];
         scratch.free_v[k] = state.v[k];
-        scratch.past[k] = scratch.turn_start[k];
+        if damps {
+            scratch.past[k] = scratch.turn_start[k];
+        }
         let frame = root.turn_end.times(state.frames[k]).normalize();
         let tangent = frame.tangent();
         y += tangent * batch.links[k].length;

@@ -63,7 +63,9 @@ pub(super) fn turned_too_far<T: Number>(
         // Turned with the skin, or left where it was: either is an ordinary motion.
         let (carried, still) = (turn.rotate(before).dot(now), before.dot(now));
         let cosine = T::choose(carried.less(still), still, carried);
-        // What is no number is the least.
+        // Links that only fill the batch have no say; what is no number is the least.
+        let counts = batch.links[k].counts.load();
+        let cosine = cosine * counts + (T::splat(1.0) - counts);
         least = T::choose(least.less(cosine), least, cosine);
     }
     least.store().gt(Lane::splat(LEAST_COSINE)).not()

@@ -175,6 +175,9 @@ fn begin<T: Number>(
         if damps {
             turns::<T>(&state.base, &state.frames, turn_start);
             past.copy_from_slice(turn_start);
+        } else {
+            // The room was another batch's before: what is left there may be no number, even times 0.
+            past.fill(Vec3::ZERO);
         }
         // The trapezoidal stage; backward Euler over the same time where accelerations are unknown.
         let known = restart.pick(Lane::ZERO, Lane::splat(d));
@@ -281,7 +284,9 @@ fn pointing<T: Number>(tangent: Vec3<T>, chord: Vec3<T>, length: T, before: Quat
     };
     let is_ahead = (size * T::splat(0.05)).less(turn.w);
     let turn = Quat::choose(is_ahead, turn, Quat::identity());
-    let is_clear = (length * length * T::splat(0.01)).less(squared);
+    // Times the length squared on both sides: a link without any never has a direction, whatever its ends do.
+    let own = length * length;
+    let is_clear = (own * own * T::splat(0.01)).less(squared * own);
     Quat::choose(is_clear, turn, before)
 }
 
