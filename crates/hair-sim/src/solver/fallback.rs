@@ -99,7 +99,7 @@ fn minimise<T: Number>(
             return;
         }
         let pose = trial.pose(base);
-        joints::<T>(links, pose, past, elastic, ready);
+        let sharpest = joints::<T>(links, pose, past, elastic, ready);
         ascend::<T>(links, pose, nodes, ready, eliminations);
         let largest = descend::<T>(links, &trial.tangents, eliminations, turns);
         let mut scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
@@ -126,7 +126,7 @@ fn minimise<T: Number>(
             untried = untried.and(better.not());
             scale = scale * 0.5;
         }
-        let small = largest.lt(Lane::splat(SMALL_TURN));
+        let small = (largest * sharpest.sqrt()).lt(Lane::splat(SMALL_TURN));
         open = open.and(moved).and(small.not());
     }
 }

@@ -472,7 +472,8 @@ fn solve(
     iterations
 }
 
-/// One step of Newton's method for the lanes in `open`. Returns the largest turn of a link that it asks for.
+/// One step of Newton's method for the lanes in `open`. Returns the largest turn of a link that it asks for, in proportion to
+/// what the sharpest joint lets pass for small.
 #[inline(always)]
 fn newton<T: Number>(
     batch: &Batch,
@@ -495,7 +496,7 @@ fn newton<T: Number>(
     } = scratch;
     let shape = if which == Which::Mid { mid } else { end };
     let pose = shape.pose(&setup.base);
-    joints::<T>(&batch.links, pose, past, elastic, ready);
+    let sharpest = joints::<T>(&batch.links, pose, past, elastic, ready);
     ascend::<T>(&batch.links, pose, nodes, ready, eliminations);
     let largest = descend::<T>(&batch.links, &shape.tangents, eliminations, turns);
     let scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
@@ -506,7 +507,7 @@ fn newton<T: Number>(
     for k in 0..count {
         v[k] = (y[k] - free_y[k]) * rate;
     }
-    largest
+    largest * sharpest.sqrt()
 }
 
 /// Turns the links of the lanes in `which` by `scale` times `turns`, and moves the particles along.
