@@ -2,6 +2,7 @@
 
 pub(crate) mod batch;
 mod drive;
+mod energy;
 mod fallback;
 mod finish;
 pub(crate) mod instructions;

@@ -20,8 +20,8 @@ use crate::{
 use super::{
     batch::{Batch, BatchState, Scratch, Stage},
     drive::{Drive, RootMotion, prepare},
-    fallback,
-    finish::{asleep, count_quiet, finish, take_gain, turned_too_far},
+    energy, fallback,
+    finish::{asleep, count_quiet, finish, turned_too_far},
     instructions::{Instructions, run},
     sweep::{Elastic, Node, ascend, descend, half_turn, joints},
 };
@@ -96,8 +96,11 @@ pub(crate) fn step(
     }
     let too_far = run!(instructions, turned_too_far(batch, state, scratch, &root));
     failed = failed.or(too_far).and(active);
+    let watched = energy::watch(batch, state, scratch, drive, &root, active);
+    if watched.any() {
+        failed = failed.or(energy::out_of_reach(batch, state, scratch, &root, watched));
+    }
     stats.fallbacks = failed.count();
-    let before = (batch.conserves.any()).then(|| state.energy(batch, root.pull));
     run!(
         instructions,
         finish(batch, state, scratch, active.and(failed.not()), d)
@@ -105,8 +108,8 @@ pub(crate) fn step(
     if failed.any() {
         fallback::step(instructions, batch, state, scratch, drive, &root, failed);
     }
-    if let Some(before) = before {
-        take_gain(batch, state, &root, before, active.and(batch.conserves));
+    if watched.any() {
+        energy::take_gain(batch, state, &root, watched);
     }
     let aside = state.aside().and(batch.used);
     if aside.any() {
@@ -311,7 +314,7 @@ pub(super) fn assemble(
 #[inline(always)]
 fn load<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, which: Which) {
     weigh::<T>(batch, scratch, stage);
-    if batch.has_drag {
+    if batch.has_drag.any() {
         drag::<T>(batch, scratch, stage.length, which);
     }
     if scratch.has_springs {

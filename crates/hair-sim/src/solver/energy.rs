@@ -1,0 +1,134 @@
+//! No energy from nowhere.
+//!
+//! Where nothing drives a strand, it may not have more energy than when it was driven last; where damping or the air takes
+//! energy from it, not more than a step before. (Without these, the step's own error goes to and fro, and a strand that is
+//! held to the least that it had would lose by it.) What errors of a step add to its motion is taken out of its velocities. A step whose shape alone has more fails: the safe integrator's has not, since
+//! its potential starts at the strand's energy and only goes down.
+
+use crate::lanes::{Lane, Mask, Quat, Vec3};
+
+use super::{
+    batch::{Batch, BatchState, NO_PULL, Scratch},
+    drive::{Drive, RootMotion},
+    sweep::half_turn,
+};
+
+/// A shape may have this much more energy, over what bends and twists it and what it takes to lift it by its length:
+/// what rounding and unfinished iterations leave.
+const SLACK: f64 = 1e-4;
+
+/// The energy of every strand's shape over its mass per length, in m^3/s^2: of bending and twisting, and of weight from the root.
+pub(super) struct ShapeEnergy {
+    pub elastic: Lane,
+    pub weight: Lane,
+}
+
+impl ShapeEnergy {
+    pub(super) fn new(batch: &Batch, base: Quat, frames: &[Quat], y: &[Vec3], pull: Vec3) -> Self {
+        let (mut elastic, mut weight) = (Lane::ZERO, Lane::ZERO);
+        let mut before = base;
+        for (k, link) in batch.links.iter().enumerate() {
+            weight -= batch.particles[k].mass * y[k].dot(pull);
+            let c = half_turn(before, frames[k]);
+            let e = c + c - link.natural;
+            elastic += ((e.x * e.x + e.y * e.y) * link.bend + e.z * e.z * link.twist) * 0.5;
+            before = frames[k];
+        }
+        Self { elastic, weight }
+    }
+
+    pub(super) fn sum(&self) -> Lane {
+        self.elastic + self.weight
+    }
+}
+
+impl BatchState {
+    /// Of motion against the root, in m^3/s^2.
+    fn kinetic(&self, batch: &Batch) -> Lane {
+        let each = batch.particles.iter().zip(&self.v);
+        each.fold(Lane::ZERO, |sum, (particle, v)| {
+            sum + particle.mass * v.length_squared() * 0.5
+        })
+    }
+
+    /// Energy of every strand over its mass per length, in m^3/s^2.
+    pub(super) fn energy(&self, batch: &Batch, pull: Vec3) -> Lane {
+        let shape = ShapeEnergy::new(batch, self.base, &self.frames, &self.y, pull);
+        self.kinetic(batch) + shape.sum()
+    }
+}
+
+/// Finds the strands of `active` that nothing drives in this step, and the most energy that they may have. Called before the
+/// state moves on.
+pub(super) fn watch(
+    batch: &Batch,
+    state: &mut BatchState,
+    scratch: &Scratch,
+    drive: &Drive,
+    root: &RootMotion,
+    active: Mask,
+) -> Mask {
+    let watched = active.and(undriven(batch, state, scratch, drive, root));
+    // Another pull is another weight, and what drove the strand gave it what it has now.
+    let is_new = (root.pull - state.pull).length_squared().gt(Lane::ZERO);
+    let is_new = watched.and(is_new);
+    if is_new.any() {
+        state.ceiling = is_new.pick(state.energy(batch, root.pull), state.ceiling);
+    }
+    state.pull = Vec3::pick(watched, root.pull, NO_PULL);
+    watched
+}
+
+/// Strands whose roots rest, in still air, without goals, contacts and other hair.
+fn undriven(
+    batch: &Batch,
+    state: &BatchState,
+    scratch: &Scratch,
+    drive: &Drive,
+    root: &RootMotion,
+) -> Mask {
+    if drive.hair.is_some() {
+        return Mask::NONE;
+    }
+    let moves = root.turn_end.v.length_squared()
+        + root.velocity.length_squared()
+        + state.root_velocity.length_squared();
+    let mut free = moves.gt(Lane::splat(1e-24)).not().and(batch.has_goal.not());
+    if drive.gusts.blows {
+        free = free.and(batch.has_drag.not());
+    }
+    for &k in &scratch.touched {
+        free = free.and(scratch.contacts[k].on.lt(Lane::splat(0.5)));
+    }
+    free
+}
+
+/// The strands of `watched` whose shape at the end of the step has more energy than they may have.
+pub(super) fn out_of_reach(
+    batch: &Batch,
+    state: &BatchState,
+    scratch: &Scratch,
+    root: &RootMotion,
+    watched: Mask,
+) -> Mask {
+    let end = &scratch.end;
+    let shape = ShapeEnergy::new(batch, root.end, &end.frames, &end.y, root.pull);
+    let lift = batch.lever * root.pull.length_squared().sqrt();
+    let slack = (shape.elastic + lift) * SLACK;
+    watched.and(shape.sum().gt(state.ceiling + slack))
+}
+
+/// Takes the energy that a strand may not have out of its velocities.
+pub(super) fn take_gain(batch: &Batch, state: &mut BatchState, root: &RootMotion, watched: Mask) {
+    let shape = ShapeEnergy::new(batch, root.end, &state.frames, &state.y, root.pull);
+    let motion = state.kinetic(batch);
+    let gain = (motion + shape.sum() - state.ceiling).max(Lane::ZERO);
+    let left = (motion - gain).max(Lane::ZERO) / motion.max(Lane::splat(1e-300));
+    let scale = (watched.and(gain.gt(Lane::ZERO))).pick(left.sqrt(), Lane::ONE);
+    let now = motion * scale * scale + shape.sum();
+    let loses = batch.has_drag.or(batch.damping.gt(Lane::ZERO));
+    state.ceiling = (watched.and(loses)).pick(state.ceiling.min(now), state.ceiling);
+    for v in &mut state.v {
+        *v = *v * scale;
+    }
+}
