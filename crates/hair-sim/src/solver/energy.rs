@@ -1,8 +1,7 @@
 //! No energy from nowhere.
 //!
-//! Where nothing drives a strand, it may not have more energy than when it was driven last; where damping or the air takes
-//! energy from it, not more than a step before. (Without these, the step's own error goes to and fro, and a strand that is
-//! held to the least that it had would lose by it.) What errors of a step add to its motion is taken out of its velocities. A step whose shape alone has more fails: the safe integrator's has not, since
+//! Where nothing drives a strand, its energy may not rise above the least that it has had. What errors of a step add to its
+//! motion is taken out of its velocities. A step whose shape alone has more fails: the safe integrator's has not, since
 //! its potential starts at the strand's energy and only goes down.
 
 use crate::lanes::{Lane, Mask, Quat, Vec3};
@@ -13,18 +12,22 @@ use super::{
     sweep::half_turn,
 };
 
-/// A shape may have this much more energy, over what bends and twists it and what it takes to lift it by its length:
+/// A shape may have this much more energy, over that of bending and twisting and what lifts it by its length:
 /// what rounding and unfinished iterations leave.
 const SLACK: f64 = 1e-4;
 
+/// A strand that nothing takes energy from may have this much more than its least, over the same and its motion's: the
+/// error of a good step goes to and fro, and a strand that is held to the least would lose by it.
+const PLAY: f64 = 5e-4;
+
 /// The energy of every strand's shape over its mass per length, in m^3/s^2: of bending and twisting, and of weight from the root.
-pub(super) struct ShapeEnergy {
-    pub elastic: Lane,
-    pub weight: Lane,
+struct ShapeEnergy {
+    elastic: Lane,
+    weight: Lane,
 }
 
 impl ShapeEnergy {
-    pub(super) fn new(batch: &Batch, base: Quat, frames: &[Quat], y: &[Vec3], pull: Vec3) -> Self {
+    fn new(batch: &Batch, base: Quat, frames: &[Quat], y: &[Vec3], pull: Vec3) -> Self {
         let (mut elastic, mut weight) = (Lane::ZERO, Lane::ZERO);
         let mut before = base;
         for (k, link) in batch.links.iter().enumerate() {
@@ -37,8 +40,13 @@ impl ShapeEnergy {
         Self { elastic, weight }
     }
 
-    pub(super) fn sum(&self) -> Lane {
+    fn sum(&self) -> Lane {
         self.elastic + self.weight
+    }
+
+    /// What bends and twists the strand, and what lifts it by its length.
+    fn scale(&self, batch: &Batch, pull: Vec3) -> Lane {
+        self.elastic + batch.lever * pull.length_squared().sqrt()
     }
 }
 
@@ -113,8 +121,7 @@ pub(super) fn out_of_reach(
 ) -> Mask {
     let end = &scratch.end;
     let shape = ShapeEnergy::new(batch, root.end, &end.frames, &end.y, root.pull);
-    let lift = batch.lever * root.pull.length_squared().sqrt();
-    let slack = (shape.elastic + lift) * SLACK;
+    let slack = shape.scale(batch, root.pull) * SLACK;
     watched.and(shape.sum().gt(state.ceiling + slack))
 }
 
@@ -125,9 +132,11 @@ pub(super) fn take_gain(batch: &Batch, state: &mut BatchState, root: &RootMotion
     let gain = (motion + shape.sum() - state.ceiling).max(Lane::ZERO);
     let left = (motion - gain).max(Lane::ZERO) / motion.max(Lane::splat(1e-300));
     let scale = (watched.and(gain.gt(Lane::ZERO))).pick(left.sqrt(), Lane::ONE);
-    let now = motion * scale * scale + shape.sum();
+    let motion = motion * scale * scale;
     let loses = batch.has_drag.or(batch.damping.gt(Lane::ZERO));
-    state.ceiling = (watched.and(loses)).pick(state.ceiling.min(now), state.ceiling);
+    let play = (motion + shape.scale(batch, root.pull)) * PLAY;
+    let most = motion + shape.sum() + loses.pick(Lane::ZERO, play);
+    state.ceiling = watched.pick(state.ceiling.min(most), state.ceiling);
     for v in &mut state.v {
         *v = *v * scale;
     }
