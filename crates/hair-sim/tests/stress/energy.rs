@@ -1,9 +1,7 @@
 //! Row 8: no energy from nowhere, however hard a strand was driven before.
 
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{
-    Collider, GRAVITY, Material, Natural, Params, Pose, Roots, Scene, Shape, Solver, Strands,
-};
+use hair_sim::{Collider, GRAVITY, Material, Params, Pose, Roots, Scene, Shape, Solver, Strands};
 
 use crate::{check, step, strand};
 
@@ -99,40 +97,45 @@ fn strands_that_are_driven_no_more_gain_no_energy() {
     }
 }
 
-/// A twist has no inertia, and a joint's turn has no bound at half a turn: there an angle that is all but right is no turn that
-/// is.
+/// A joint's turn, 2 tan(angle / 2), has no bound at half a turn: there a small error of the angle is a large one of the
+/// turn. Links that stand on a soft root are pulled over by a hundred times the weight, and must come to rest so.
 #[test]
-fn a_joint_near_half_a_turn_comes_back() {
+fn a_joint_near_half_a_turn_comes_to_rest() {
     let mut rest = Strands::new();
-    for (s, links) in [1, 2, 5].into_iter().enumerate() {
+    for (s, links) in [1, 2, 3].into_iter().enumerate() {
         let points: Vec<Vec3> = (0..=links)
-            .map(|i| Vec3::NEG_Y * (0.1 * i as f32 / links as f32))
+            .map(|i| Vec3::new(0.1, 1.0, 0.05 * i as f32) * (0.012 * i as f32 / links as f32))
             .collect();
         rest.push(s as u32, &points, None).unwrap();
     }
-    for angle in [2.0, 3.0, 3.1, 3.14, 3.1415] {
-        for damping in [0.0, 0.005, 0.1] {
-            let params = Params {
-                material: Material::from_gamma(10.0, 0.1),
-                natural: Natural::Styled,
-                damping,
-                drag: 2.0,
-                ..Params::default()
-            };
-            let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
-            let head = Pose {
-                rotation: DQuat::from_rotation_y(angle),
-                translation: DVec3::ZERO,
-            };
-            let scene = Scene {
-                roots: Roots::Head(head),
-                ..Scene::default()
-            };
-            step(&mut solver, &mut state, &scene, 1e-4);
-            let what = format!("angle {angle}, damping {damping}");
-            let left = rests(&mut solver, state, &rest, head, &what);
-            println!("{what}: {left:.1e} m^3/s^2 are left");
-            assert!(left < 1e-9, "{what}: {left}");
+    for gamma in [1e3, 1e4, 1e5] {
+        let params = Params {
+            material: Material::from_gamma(gamma, 0.012),
+            drag: 0.0,
+            ..Params::default()
+        };
+        let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
+        let scene = Scene {
+            gravity: DVec3::NEG_Y * (100.0 * GRAVITY),
+            ..Scene::default()
+        };
+        let energies = |solver: &Solver, state: &_| -> Vec<f64> {
+            (0..3)
+                .map(|s| solver.energy(state, s, scene.gravity))
+                .collect()
+        };
+        for _ in 0..480 {
+            step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+        }
+        let before = energies(&solver, &state);
+        for dt in [0.01, 0.99, 0.005, 0.2, 0.99, 0.01] {
+            step(&mut solver, &mut state, &scene, dt);
+            let after = energies(&solver, &state);
+            for (s, (before, after)) in before.iter().zip(&after).enumerate() {
+                let change = (before - after).abs();
+                // What lifts a strand by its length is 0.14.
+                assert!(change < 1e-6, "gamma {gamma}, strand {s}: {change}");
+            }
         }
     }
 }
