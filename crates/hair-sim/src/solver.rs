@@ -47,6 +47,8 @@ pub struct Solver {
     first_points: Vec<usize>,
     ids: Vec<u32>,
     hair: Option<HairHair>,
+    /// Of the bodies in the step at hand.
+    guards: Vec<Guard>,
     instructions: Instructions,
 }
 
@@ -60,31 +62,40 @@ struct HairHair {
     courses: Vec<Course>,
 }
 
-impl HairHair {
-    /// Where every particle is, and where its own motion takes it.
-    fn follow(&mut self, batches: &[Batch], states: &[BatchState], scene: &Scene, dt: f64) {
-        let mut left = &mut self.courses[..];
-        let mut courses = Vec::with_capacity(batches.len());
-        for batch in batches {
-            courses.push(
-                left.split_off_mut(..batch.count() * LANES)
-                    .unwrap_or_default(),
-            );
-        }
-        let each = batches.par_iter().zip(states).zip(courses);
-        // A task for fewer of them costs more than they do.
-        each.with_min_len(64).for_each(|((batch, state), courses)| {
-            let (root, _) = roots(batch, scene);
-            for (k, courses) in courses.chunks_exact_mut(LANES).enumerate() {
-                let (before, now) = (state.root + state.y[k], root + state.y[k] + state.v[k] * dt);
-                for (lane, course) in courses.iter_mut().enumerate() {
-                    let (before, now) = (before.get(lane), now.get(lane));
-                    // A root without a pose is the strand's own fault, not its neighbours'.
-                    let now = if now.is_finite() { now } else { before };
-                    *course = Course { before, now };
-                }
+/// Where every particle is, and where its own motion takes it.
+fn follow(
+    batches: &[Batch],
+    states: &[BatchState],
+    courses: &mut [Course],
+    scene: &Scene,
+    dt: f64,
+) {
+    // A task for fewer of them costs more than they do.
+    if batches.len() > 64 {
+        let half = batches.len() / 2;
+        let (first, second) = batches.split_at(half);
+        let particles: usize = first.iter().map(Batch::count).sum();
+        let (these, those) = courses.split_at_mut(particles * LANES);
+        rayon::join(
+            || follow(first, &states[..half], these, scene, dt),
+            || follow(second, &states[half..], those, scene, dt),
+        );
+        return;
+    }
+    let mut left = courses;
+    for (batch, state) in batches.iter().zip(states) {
+        let (own, others) = left.split_at_mut(batch.count() * LANES);
+        left = others;
+        let (root, _) = roots(batch, scene);
+        for (k, courses) in own.chunks_exact_mut(LANES).enumerate() {
+            let (before, now) = (state.root + state.y[k], root + state.y[k] + state.v[k] * dt);
+            for (lane, course) in courses.iter_mut().enumerate() {
+                let (before, now) = (before.get(lane), now.get(lane));
+                // A root without a pose is the strand's own fault, not its neighbours'.
+                let now = if now.is_finite() { now } else { before };
+                *course = Course { before, now };
             }
-        });
+        }
     }
 }
 
@@ -159,6 +170,7 @@ impl Solver {
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
             ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
             hair: None,
+            guards: Vec::new(),
             instructions: Instructions::best(),
         };
         let mut states = Vec::new();
@@ -263,18 +275,19 @@ impl Solver {
         let acting = scene.fingerprint();
         let calm = acting == state.last && self.hair.is_none() && scene.is_calm();
         state.last = acting;
-        let guards: Vec<Guard> = scene.colliders.iter().map(Guard::new).collect();
+        self.guards.clear();
+        self.guards.extend(scene.colliders.iter().map(Guard::new));
         if let Some(hair) = &mut self.hair {
-            hair.follow(&self.batches, &state.batches, scene, dt);
+            follow(&self.batches, &state.batches, &mut hair.courses, scene, dt);
         }
         let hair = self.hair.as_ref();
-        let first_points = &self.first_points;
+        let (first_points, guards) = (&self.first_points, &self.guards);
         let step = |index: usize, batch: &Batch, state: &mut BatchState, scratch: &mut Scratch| {
             let (root, base) = roots(batch, scene);
             let drive = Drive {
                 dt,
                 scene,
-                guards: &guards,
+                guards,
                 gusts: &gusts,
                 first_points,
                 root,

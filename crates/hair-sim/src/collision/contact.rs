@@ -96,6 +96,7 @@ impl Contact {
 }
 
 /// A ball around a body, and how the body moves in a step: what lies far off is known by this alone.
+#[derive(Clone, Debug)]
 pub(crate) struct Guard {
     center: DVec3,
     radius: f64,
