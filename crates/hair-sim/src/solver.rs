@@ -18,7 +18,7 @@ use crate::{
     Strands,
     collision::contact::Guard,
     forces::mutual::{Course, Mutual, Pair},
-    lanes::{LANES, Quat, Vec3 as LaneVec3},
+    lanes::{LANES, Lane, Quat, Vec3 as LaneVec3},
     params::Params,
     rest::RestStrand,
 };
@@ -366,7 +366,8 @@ impl Solver {
     #[must_use]
     pub fn energy(&self, state: &State, strand: usize, gravity: DVec3) -> f64 {
         let (batch, lane) = self.places[strand];
-        state.batches[batch].energy(&self.batches[batch], LaneVec3::splat(gravity))[lane]
+        let pull = LaneVec3::splat(gravity);
+        state.batches[batch].energy::<Lane>(&self.batches[batch], pull)[lane]
     }
 
     /// The points of a strand in the world, root first, in m.

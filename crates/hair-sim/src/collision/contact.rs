@@ -286,6 +286,10 @@ impl Path {
         // Along the path by steps that cannot pass the surface (Hart 1996, sphere tracing).
         let (mut t, mut distance) = (0.0, start);
         for _ in 0..64 {
+            // Too short a way to the end for both ends to reach the surface on it.
+            if distance + end > (1.0 - t) * way + 2.0 * TOUCH {
+                break;
+            }
             t += distance.max(TOUCH) / way;
             if t >= 1.0 {
                 break;

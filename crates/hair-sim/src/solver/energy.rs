@@ -4,7 +4,7 @@
 //! motion is taken out of its velocities. A step whose shape alone has more fails: the safe integrator's has not, since
 //! its potential starts at the strand's energy and only goes down.
 
-use crate::lanes::{Lane, Mask, Quat, Vec3};
+use crate::lanes::{Lane, Mask, Number, Quat, Vec3};
 
 use super::{
     batch::{Batch, BatchState, NO_PULL, Scratch},
@@ -27,17 +27,24 @@ struct ShapeEnergy {
 }
 
 impl ShapeEnergy {
-    fn new(batch: &Batch, base: Quat, frames: &[Quat], y: &[Vec3], pull: Vec3) -> Self {
-        let (mut elastic, mut weight) = (Lane::ZERO, Lane::ZERO);
-        let mut before = base;
+    #[inline(always)]
+    fn new<T: Number>(batch: &Batch, base: Quat, frames: &[Quat], y: &[Vec3], pull: Vec3) -> Self {
+        let (mut elastic, mut weight) = (T::splat(0.0), T::splat(0.0));
+        let (mut before, pull) = (base.load::<T>(), pull.load::<T>());
         for (k, link) in batch.links.iter().enumerate() {
-            weight -= batch.particles[k].mass * y[k].dot(pull);
-            let c = half_turn(before, frames[k]);
+            let (link, frame) = (link.load::<T>(), frames[k].load());
+            let mass: T = batch.particles[k].mass.load();
+            weight = weight - mass * y[k].load().dot(pull);
+            let c = half_turn(before, frame);
             let e = c + c - link.natural;
-            elastic += ((e.x * e.x + e.y * e.y) * link.bend + e.z * e.z * link.twist) * 0.5;
-            before = frames[k];
+            let bends = (e.x * e.x + e.y * e.y) * link.bend;
+            elastic = elastic + (bends + e.z * e.z * link.twist) * T::splat(0.5);
+            before = frame;
         }
-        Self { elastic, weight }
+        Self {
+            elastic: elastic.store(),
+            weight: weight.store(),
+        }
     }
 
     fn sum(&self) -> Lane {
@@ -52,23 +59,28 @@ impl ShapeEnergy {
 
 impl BatchState {
     /// Of motion against the root, in m^3/s^2.
-    fn kinetic(&self, batch: &Batch) -> Lane {
-        let each = batch.particles.iter().zip(&self.v);
-        each.fold(Lane::ZERO, |sum, (particle, v)| {
-            sum + particle.mass * v.length_squared() * 0.5
-        })
+    #[inline(always)]
+    fn kinetic<T: Number>(&self, batch: &Batch) -> Lane {
+        let mut sum = T::splat(0.0);
+        for (particle, v) in batch.particles.iter().zip(&self.v) {
+            let v: Vec3<T> = v.load();
+            sum = sum + particle.mass.load::<T>() * v.length_squared() * T::splat(0.5);
+        }
+        sum.store()
     }
 
     /// Energy of every strand over its mass per length, in m^3/s^2.
-    pub(super) fn energy(&self, batch: &Batch, pull: Vec3) -> Lane {
-        let shape = ShapeEnergy::new(batch, self.base, &self.frames, &self.y, pull);
-        self.kinetic(batch) + shape.sum()
+    #[inline(always)]
+    pub(super) fn energy<T: Number>(&self, batch: &Batch, pull: Vec3) -> Lane {
+        let shape = ShapeEnergy::new::<T>(batch, self.base, &self.frames, &self.y, pull);
+        self.kinetic::<T>(batch) + shape.sum()
     }
 }
 
 /// Finds the strands of `active` that nothing drives in this step, and the most energy that they may have. Called before the
 /// state moves on.
-pub(super) fn watch(
+#[inline(always)]
+pub(super) fn watch<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
     scratch: &Scratch,
@@ -81,13 +93,14 @@ pub(super) fn watch(
     let is_new = (root.pull - state.pull).length_squared().gt(Lane::ZERO);
     let is_new = watched.and(is_new);
     if is_new.any() {
-        state.ceiling = is_new.pick(state.energy(batch, root.pull), state.ceiling);
+        state.ceiling = is_new.pick(state.energy::<T>(batch, root.pull), state.ceiling);
     }
     state.pull = Vec3::pick(watched, root.pull, NO_PULL);
     watched
 }
 
 /// Strands whose roots rest, in still air, without goals, contacts and other hair.
+#[inline(always)]
 fn undriven(
     batch: &Batch,
     state: &BatchState,
@@ -112,7 +125,8 @@ fn undriven(
 }
 
 /// The strands of `watched` whose shape at the end of the step has more energy than they may have.
-pub(super) fn out_of_reach(
+#[inline(always)]
+pub(super) fn out_of_reach<T: Number>(
     batch: &Batch,
     state: &BatchState,
     scratch: &Scratch,
@@ -120,15 +134,21 @@ pub(super) fn out_of_reach(
     watched: Mask,
 ) -> Mask {
     let end = &scratch.end;
-    let shape = ShapeEnergy::new(batch, root.end, &end.frames, &end.y, root.pull);
+    let shape = ShapeEnergy::new::<T>(batch, root.end, &end.frames, &end.y, root.pull);
     let slack = shape.scale(batch, root.pull) * SLACK;
     watched.and(shape.sum().gt(state.ceiling + slack))
 }
 
 /// Takes the energy that a strand may not have out of its velocities.
-pub(super) fn take_gain(batch: &Batch, state: &mut BatchState, root: &RootMotion, watched: Mask) {
-    let shape = ShapeEnergy::new(batch, root.end, &state.frames, &state.y, root.pull);
-    let motion = state.kinetic(batch);
+#[inline(always)]
+pub(super) fn take_gain<T: Number>(
+    batch: &Batch,
+    state: &mut BatchState,
+    root: &RootMotion,
+    watched: Mask,
+) {
+    let shape = ShapeEnergy::new::<T>(batch, root.end, &state.frames, &state.y, root.pull);
+    let motion = state.kinetic::<T>(batch);
     let gain = (motion + shape.sum() - state.ceiling).max(Lane::ZERO);
     let left = (motion - gain).max(Lane::ZERO) / motion.max(Lane::splat(1e-300));
     let scale = (watched.and(gain.gt(Lane::ZERO))).pick(left.sqrt(), Lane::ONE);

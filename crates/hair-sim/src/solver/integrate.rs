@@ -20,7 +20,8 @@ use crate::{
 use super::{
     batch::{Batch, BatchState, Scratch, Stage},
     drive::{Drive, RootMotion, prepare},
-    energy, fallback,
+    energy::{out_of_reach, take_gain, watch},
+    fallback,
     finish::{asleep, count_quiet, finish, turned_too_far},
     instructions::{Instructions, run},
     sweep::{Elastic, Node, ascend, descend, half_turn, joints},
@@ -30,7 +31,7 @@ use super::{
 pub(super) const GAMMA: f64 = 0.585_786_437_626_904_9;
 
 /// A Newton step that turns no link by more than this (radians) is the last.
-const SMALL_TURN: f64 = 0.05;
+const SMALL_TURN: f64 = 0.1;
 
 /// A Newton step turns no link by more than this (radians).
 const LARGEST_TURN: f64 = 1.0;
@@ -96,9 +97,16 @@ pub(crate) fn step(
     }
     let too_far = run!(instructions, turned_too_far(batch, state, scratch, &root));
     failed = failed.or(too_far).and(active);
-    let watched = energy::watch(batch, state, scratch, drive, &root, active);
+    let watched = run!(
+        instructions,
+        watch(batch, state, scratch, drive, &root, active)
+    );
     if watched.any() {
-        failed = failed.or(energy::out_of_reach(batch, state, scratch, &root, watched));
+        let too_high = run!(
+            instructions,
+            out_of_reach(batch, state, scratch, &root, watched)
+        );
+        failed = failed.or(too_high);
     }
     stats.fallbacks = failed.count();
     run!(
@@ -109,7 +117,7 @@ pub(crate) fn step(
         fallback::step(instructions, batch, state, scratch, drive, &root, failed);
     }
     if watched.any() {
-        energy::take_gain(batch, state, &root, watched);
+        run!(instructions, take_gain(batch, state, &root, watched));
     }
     let aside = state.aside().and(batch.used);
     if aside.any() {
