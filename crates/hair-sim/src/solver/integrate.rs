@@ -18,7 +18,7 @@ use crate::{
 };
 
 use super::{
-    batch::{Batch, BatchState, Scratch, Stage},
+    batch::{Batch, BatchState, Scratch, Stage, Which},
     drive::{Drive, RootMotion, prepare},
     energy::{out_of_reach, take_gain, watch},
     fallback,
@@ -129,26 +129,6 @@ pub(crate) fn step(
     state.root_velocity = root.velocity;
     state.base = root.end;
     stats
-}
-
-/// Whose shape a stage works on.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Which {
-    Mid,
-    End,
-    /// The fallback's, at the end of the step.
-    Trial,
-}
-
-impl Scratch {
-    #[inline(always)]
-    fn shape(&self, which: Which) -> &Stage {
-        match which {
-            Which::Mid => &self.mid,
-            Which::End => &self.end,
-            Which::Trial => &self.trial,
-        }
-    }
 }
 
 /// What a stage is made of.
@@ -311,9 +291,7 @@ pub(super) fn assemble(
 ) {
     run!(instructions, load(batch, scratch, stage, which));
     if !scratch.touched.is_empty() {
-        for &k in &scratch.touched {
-            scratch.contacts[k].holds = Lane::ZERO;
-        }
+        lean(batch, scratch, stage.length, which);
         hold(batch, scratch, stage.length, which, Mask::ALL);
     }
 }
@@ -417,6 +395,24 @@ fn spring<T: Number>(batch: &Batch, scratch: &mut Scratch, length: Lane, which: 
     }
 }
 
+/// Lets the planes hold none but the particles that lay on them.
+fn lean(batch: &Batch, scratch: &mut Scratch, d: Lane, which: Which) {
+    for &k in &scratch.touched {
+        let contact = &mut scratch.contacts[k];
+        if which == Which::End {
+            contact.press = contact.pressure(scratch.mid.y[k], contact.mid);
+        }
+        contact.holds = Lane::ZERO;
+        let pressed = contact.pressed();
+        // The safe integrator starts anew.
+        if which != Which::Trial && pressed.any() {
+            let level = contact.level(which);
+            let (mass, free) = (batch.particles[k].mass, scratch.free_y[k]);
+            contact.hold(&mut scratch.nodes[k], pressed, mass, level, d, free);
+        }
+    }
+}
+
 /// Lets the planes hold particles that are behind them, in the strands of `among`. Returns the strands where any is new.
 pub(super) fn hold(
     batch: &Batch,
@@ -429,11 +425,7 @@ pub(super) fn hold(
     for i in 0..scratch.touched.len() {
         let k = scratch.touched[i];
         let contact = &scratch.contacts[k];
-        let level = if which == Which::Mid {
-            contact.mid
-        } else {
-            contact.end
-        };
+        let level = contact.level(which);
         let below = contact.newly_below(scratch.shape(which).y[k], level, among);
         if below.any() {
             let mass = batch.particles[k].mass;
