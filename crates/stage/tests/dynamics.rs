@@ -1,6 +1,9 @@
 //! Simulated hair in scenes.
 
-#![allow(clippy::print_stdout, reason = "a test shows the figures that it holds")]
+#![allow(
+    clippy::print_stdout,
+    reason = "a test shows the figures that it holds"
+)]
 
 use effects::Registry;
 use glam::Vec3;
