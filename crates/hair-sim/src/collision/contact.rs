@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 
 use crate::{
     lanes::{LANES, Lane, Mask, Number, Sym3, Vec3},
-    solver::batch::{Batch, BatchState, Which},
+    solver::batch::{Batch, BatchState},
     solver::sweep::Node,
 };
 
@@ -33,8 +33,6 @@ pub(crate) struct Contact {
     pub on: Lane,
     /// 1 where it holds, in the stage at hand.
     pub holds: Lane,
-    /// What presses the particle on it at the start of the stage at hand, in m/s^2.
-    pub press: Lane,
     /// The particle y is kept at normal . y >= mid, end, from the root.
     pub normal: Vec3,
     pub mid: Lane,
@@ -49,7 +47,6 @@ impl Contact {
     pub(crate) const NONE: Self = Self {
         on: Lane::ZERO,
         holds: Lane::ZERO,
-        press: Lane::ZERO,
         normal: Vec3::ZERO,
         mid: Lane::ZERO,
         end: Lane::ZERO,
@@ -57,16 +54,7 @@ impl Contact {
         slip: Lane::ZERO,
     };
 
-    /// Where the plane is in a stage.
-    #[inline(always)]
-    pub(crate) fn level(&self, which: Which) -> Lane {
-        match which {
-            Which::Mid => self.mid,
-            Which::End | Which::Trial => self.end,
-        }
-    }
-
-    /// Where the plane holds a particle at `y` that is behind it, in the lanes of `among` where it did not hold.
+    /// Where the plane holds a particle at `y`, in the lanes of `among` where it did not hold.
     #[inline(always)]
     pub(crate) fn newly_below(&self, y: Vec3, level: Lane, among: Mask) -> Mask {
         let half = Lane::splat(0.5);
@@ -74,13 +62,6 @@ impl Contact {
             .and(self.holds.lt(half))
             .and(among)
             .and(self.normal.dot(y).lt(level))
-    }
-
-    /// Where the plane holds a particle from the start of a stage, since that lay on it: it will most likely stay,
-    /// and is found behind the plane only after an iteration in vain. If not, it leaves a stage later.
-    #[inline(always)]
-    pub(crate) fn pressed(&self) -> Mask {
-        (self.on.gt(Lane::splat(0.5))).and(self.press.gt(Lane::ZERO))
     }
 
     /// Adds the plane's force in the lanes of `mask` to a particle of `mass` in a stage of length `d`.
@@ -106,10 +87,10 @@ impl Contact {
         self.holds = mask.pick(Lane::ONE, self.holds);
     }
 
-    /// The pressure on a particle at `y` of a plane at `level`, in m/s^2.
+    /// The pressure on a particle at `y` at the end of a step, in m/s^2.
     #[inline(always)]
-    pub(crate) fn pressure(&self, y: Vec3, level: Lane) -> Lane {
-        let depth = (level - self.normal.dot(y)).max(Lane::ZERO);
+    pub(crate) fn pressure(&self, y: Vec3) -> Lane {
+        let depth = (self.end - self.normal.dot(y)).max(Lane::ZERO);
         depth * self.holds * (1.0 / (SETTLE * SETTLE))
     }
 }
@@ -195,7 +176,6 @@ pub(crate) fn detect<T: Number>(
         let contact = &mut contacts[k];
         contact.on = Lane::ZERO;
         contact.holds = Lane::ZERO;
-        contact.press = state.press[k];
         let y0 = state.y[k].load::<T>();
         let y1 = y0 + state.v[k].load() * dt + state.a[k].load() * (0.5 * dt * dt);
         let (p0, p1) = (state.root.load() + y0, course.root.load() + y1);

@@ -309,15 +309,6 @@ pub(crate) struct Scratch {
     pub has_springs: bool,
 }
 
-/// Whose shape a stage works on.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Which {
-    Mid,
-    End,
-    /// The fallback's, at the end of the step.
-    Trial,
-}
-
 /// A strand's shape in the course of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage {
@@ -370,15 +361,6 @@ impl Scratch {
             contacts: vec![Contact::NONE; count],
             touched: Vec::with_capacity(count),
             has_springs: false,
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn shape(&self, which: Which) -> &Stage {
-        match which {
-            Which::Mid => &self.mid,
-            Which::End => &self.end,
-            Which::Trial => &self.trial,
         }
     }
 }

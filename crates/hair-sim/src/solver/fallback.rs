@@ -8,10 +8,10 @@
 use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
 
 use super::{
-    batch::{Batch, BatchState, Reason, Scratch, Which},
+    batch::{Batch, BatchState, Reason, Scratch},
     drive::{Drive, RootMotion},
     instructions::{Instructions, run},
-    integrate::{StageSetup, assemble, hold, turn_links},
+    integrate::{StageSetup, Which, assemble, hold, turn_links},
     sweep::{Elastic, ascend, descend, joints, potential},
 };
 
@@ -146,7 +146,7 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
         let press = if scratch.touched.is_empty() {
             Lane::ZERO
         } else {
-            scratch.contacts[k].pressure(trial.y[k], scratch.contacts[k].end)
+            scratch.contacts[k].pressure(trial.y[k])
         };
         state.press[k] = good.pick(press, state.press[k]);
         state.a[k] = Vec3::pick(good, a, state.a[k]);

@@ -118,7 +118,7 @@ fn settle_contact(
     struck: &mut Mask,
 ) -> Vec3 {
     let contact = &scratch.contacts[k];
-    let press = contact.pressure(scratch.end.y[k], contact.end);
+    let press = contact.pressure(scratch.end.y[k]);
     let before = state.press[k];
     let new = (before.gt(Lane::ZERO).not()).and(press.gt(Lane::ZERO));
     *struck = struck.or(new.and(which));

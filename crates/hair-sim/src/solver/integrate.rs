@@ -18,7 +18,7 @@ use crate::{
 };
 
 use super::{
-    batch::{Batch, BatchState, Scratch, Stage, Which},
+    batch::{Batch, BatchState, Scratch, Stage},
     drive::{Drive, RootMotion, prepare},
     energy::{out_of_reach, take_gain, watch},
     fallback,
@@ -129,6 +129,26 @@ pub(crate) fn step(
     state.root_velocity = root.velocity;
     state.base = root.end;
     stats
+}
+
+/// Whose shape a stage works on.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Which {
+    Mid,
+    End,
+    /// The fallback's, at the end of the step.
+    Trial,
+}
+
+impl Scratch {
+    #[inline(always)]
+    fn shape(&self, which: Which) -> &Stage {
+        match which {
+            Which::Mid => &self.mid,
+            Which::End => &self.end,
+            Which::Trial => &self.trial,
+        }
+    }
 }
 
 /// What a stage is made of.
@@ -291,7 +311,9 @@ pub(super) fn assemble(
 ) {
     run!(instructions, load(batch, scratch, stage, which));
     if !scratch.touched.is_empty() {
-        lean(batch, scratch, stage.length, which);
+        for &k in &scratch.touched {
+            scratch.contacts[k].holds = Lane::ZERO;
+        }
         hold(batch, scratch, stage.length, which, Mask::ALL);
     }
 }
@@ -395,24 +417,6 @@ fn spring<T: Number>(batch: &Batch, scratch: &mut Scratch, length: Lane, which: 
     }
 }
 
-/// Lets the planes hold none but the particles that lay on them.
-fn lean(batch: &Batch, scratch: &mut Scratch, d: Lane, which: Which) {
-    for &k in &scratch.touched {
-        let contact = &mut scratch.contacts[k];
-        if which == Which::End {
-            contact.press = contact.pressure(scratch.mid.y[k], contact.mid);
-        }
-        contact.holds = Lane::ZERO;
-        let pressed = contact.pressed();
-        // The safe integrator starts anew.
-        if which != Which::Trial && pressed.any() {
-            let level = contact.level(which);
-            let (mass, free) = (batch.particles[k].mass, scratch.free_y[k]);
-            contact.hold(&mut scratch.nodes[k], pressed, mass, level, d, free);
-        }
-    }
-}
-
 /// Lets the planes hold particles that are behind them, in the strands of `among`. Returns the strands where any is new.
 pub(super) fn hold(
     batch: &Batch,
@@ -425,7 +429,11 @@ pub(super) fn hold(
     for i in 0..scratch.touched.len() {
         let k = scratch.touched[i];
         let contact = &scratch.contacts[k];
-        let level = contact.level(which);
+        let level = if which == Which::Mid {
+            contact.mid
+        } else {
+            contact.end
+        };
         let below = contact.newly_below(scratch.shape(which).y[k], level, among);
         if below.any() {
             let mass = batch.particles[k].mass;
