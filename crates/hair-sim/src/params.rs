@@ -152,10 +152,6 @@ impl Params {
         self.goal.root > 0.0 || self.goal.middle > 0.0 || self.goal.tip > 0.0
     }
 
-    pub(crate) fn conserves(&self) -> bool {
-        self.damping == 0.0 && self.drag == 0.0 && !self.has_goal()
-    }
-
     /// The first number that is out of its range, as (name, value, least, most).
     pub(crate) fn out_of_range(&self) -> Option<(&'static str, f64, f64, f64)> {
         let m = &self.material;

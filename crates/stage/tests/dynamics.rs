@@ -1,5 +1,10 @@
 //! Simulated hair in scenes.
 
+#![allow(
+    clippy::print_stdout,
+    reason = "a test shows the figures that it holds"
+)]
+
 use effects::Registry;
 use glam::Vec3;
 use stage::{Files, Preset, Stage};
@@ -218,6 +223,50 @@ fn extremes_stay_finite() {
                 means.iter().all(|p| p.is_finite()),
                 "{settings:?}, frame {frame}"
             );
+        }
+    }
+}
+
+/// The safe integrator is for what breaks strands: in what scenes are made of it takes hardly a step, and none is set aside.
+#[test]
+fn ordinary_motions_need_no_rescue() {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let looks = [
+        ("short-ash", "soft"),
+        ("manga-ink", "soft"),
+        ("long-pink", "soft"),
+        ("twin-tails", "soft"),
+        ("flat-tails-black", "soft"),
+        ("flat-tails-red", "soft"),
+        ("short-ash", "limp"),
+        ("long-pink", "limp"),
+        ("twin-tails", "gel"),
+    ];
+    for (look, feel) in looks {
+        let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
+        let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+        preset.set("dynamics.feel", feel).unwrap();
+        for motion in ["head-turn", "nod-and-shake", "walk-in-wind"] {
+            let files = Files {
+                preset_folder: presets(),
+                motion: Some(presets().join(format!("motions/{motion}.motion.ron"))),
+                ..Files::default()
+            };
+            let mut stage = Stage::new(&preset, &files).unwrap();
+            let (mut steps, mut fallbacks, mut set_aside) = (0, 0, 0);
+            for frame in 1..=96 {
+                stage.advance_to(frame as f32 / 24.0).unwrap();
+                let stats = stage.simulated();
+                steps += stats.strands;
+                fallbacks += stats.fallbacks;
+                set_aside += stats.set_aside;
+            }
+            let what = format!("{look}, {feel}, {motion}: {fallbacks} of {steps} steps");
+            println!("{what}");
+            assert!(steps > 1000, "{what}");
+            assert!(fallbacks * 100 <= steps, "{what}");
+            assert_eq!(set_aside, 0, "{what}");
         }
     }
 }

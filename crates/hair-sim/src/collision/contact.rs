@@ -96,6 +96,7 @@ impl Contact {
 }
 
 /// A ball around a body, and how the body moves in a step: what lies far off is known by this alone.
+#[derive(Clone, Debug)]
 pub(crate) struct Guard {
     center: DVec3,
     radius: f64,
@@ -285,6 +286,10 @@ impl Path {
         // Along the path by steps that cannot pass the surface (Hart 1996, sphere tracing).
         let (mut t, mut distance) = (0.0, start);
         for _ in 0..64 {
+            // Too short a way to the end for both ends to reach the surface on it.
+            if distance + end > (1.0 - t) * way + 2.0 * TOUCH {
+                break;
+            }
             t += distance.max(TOUCH) / way;
             if t >= 1.0 {
                 break;

@@ -12,8 +12,7 @@ use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
 
 /// The inertia of a link's quaternion against turning, over mass x length^2 of the link. That of the particles is right
-/// without it, so it is an error of second order in the length; less of it needs many more sweeps. This one
-/// has the least error in equal time on the falling strand, of 1/120 to 1/3.
+/// without it, so it is an error of second order in the length; less of it needs more sweeps.
 const INERTIA: f64 = 1.0 / 3.0;
 
 /// Strands as rods of particles and quaternions.

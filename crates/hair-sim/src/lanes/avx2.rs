@@ -1,10 +1,9 @@
 //! Four numbers in a register of AVX2.
 //!
 //! The `unsafe` here calls single instructions. A test of the processor is behind each: values of this type are used only in what
-//! [`Instructions::run`](crate::solver::instructions::Instructions) calls with AVX2, which is where these functions are inlined. That the
-//! compiler finds the vectors in plain arrays was tried: the larger loops came out as single numbers or halves of registers,
-//! and took twice the time to compile. Without AVX2 (half a register at once) a step takes about twice as long.
-#![allow(unsafe_code, reason = "half of the time, see the module")]
+//! [`Instructions::run`](crate::solver::instructions::Instructions) calls with AVX2, which is where these functions are inlined. What it is
+//! worth is measured there.
+#![allow(unsafe_code, reason = "it saves time, see `solver::instructions`")]
 
 use std::arch::x86_64::{
     __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_blendv_pd, _mm256_cmp_pd, _mm256_div_pd,

@@ -10,7 +10,7 @@ use crate::{
     rest::RestStrand,
 };
 
-use super::sweep::{Elimination, Joint, Node, Pose, half_turn};
+use super::sweep::{Elimination, Joint, Node, Pose};
 
 /// [`LANES`] strands and their constants. A shorter strand is continued by links without length, mass and force,
 /// which add exactly nothing.
@@ -25,11 +25,11 @@ pub(crate) struct Batch {
     /// Damping inside the strand, in s.
     pub damping: Lane,
     pub drag_along: Lane,
-    /// Whether any strand has drag; a goal.
-    pub has_drag: bool,
-    pub has_goal: bool,
-    /// Strands from which nothing in them or in the air takes energy.
-    pub conserves: Mask,
+    /// Strands that have drag; a goal.
+    pub has_drag: Mask,
+    pub has_goal: Mask,
+    /// Mass times length from the root, in m^2: energy at most for a pull.
+    pub lever: Lane,
     /// Distance kept from colliders, in m.
     pub thickness: Lane,
     pub friction: Lane,
@@ -88,6 +88,11 @@ impl Batch {
             drag: Lane::ZERO,
             goal: Lane::ZERO,
         };
+        let mask = |has: &dyn Fn(&Params) -> bool| {
+            Mask::new(std::array::from_fn(|lane| {
+                members.get(lane).is_some_and(|m| has(m.2))
+            }))
+        };
         let mut batch = Self {
             strands: [None; LANES],
             counts: [0; LANES],
@@ -95,9 +100,9 @@ impl Batch {
             particles: vec![particle; count],
             damping: Lane::ZERO,
             drag_along: Lane::ZERO,
-            has_drag: members.iter().any(|m| m.2.drag > 0.0),
-            has_goal: members.iter().any(|m| m.2.has_goal()),
-            conserves: Mask::NONE,
+            has_drag: mask(&|params| params.drag > 0.0),
+            has_goal: mask(&|params| params.has_goal()),
+            lever: Lane::ZERO,
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
             styled: vec![Vec3::ZERO; count],
@@ -108,8 +113,6 @@ impl Batch {
         for (lane, (index, rest, params)) in members.iter().enumerate() {
             batch.fill(lane, *index, rest, params);
         }
-        let conserves = |lane: usize| members.get(lane).is_some_and(|m| m.2.conserves());
-        batch.conserves = Mask::new(std::array::from_fn(conserves));
         batch.used = Mask::new(batch.counts.map(|count| count > 0));
         batch
     }
@@ -123,9 +126,11 @@ impl Batch {
         self.friction[lane] = params.friction;
         self.root.set(lane, rest.root);
         self.base.set(lane, rest.base);
-        let mut y = DVec3::ZERO;
+        let (mut y, mut along) = (DVec3::ZERO, 0.0);
         for (k, link) in rest.links.iter().enumerate() {
             y += link.frame * DVec3::Z * link.length;
+            along += link.length;
+            self.lever[lane] += link.mass * along;
             self.styled[k].set(lane, y);
             self.links[k].length[lane] = link.length;
             self.links[k].bend[lane] = link.bend;
@@ -144,7 +149,7 @@ impl Batch {
 }
 
 /// A pull that there cannot be.
-const NO_PULL: Vec3 = Vec3::new(
+pub(super) const NO_PULL: Vec3 = Vec3::new(
     Lane::splat(f64::MAX),
     Lane::splat(f64::MAX),
     Lane::splat(f64::MAX),
@@ -172,7 +177,8 @@ pub(crate) struct BatchState {
     pub goal: Vec<Vec3>,
     /// Links to other strands that hold no more: one for every pair of the batch.
     pub broken: Vec<[bool; LANES]>,
-    /// What pulled on the strands in the last step, in m/s^2, and the energy that they had when that was another.
+    /// What pulled on the strands in the last step if nothing drove them in it (in m/s^2), and the most energy that they may
+    /// have until something does: see [`super::energy`].
     pub pull: Vec3,
     pub ceiling: Lane,
     /// For how many steps strands have been at rest.
@@ -253,22 +259,6 @@ impl BatchState {
     #[inline(always)]
     pub(crate) fn aside(&self) -> Mask {
         Mask::new(self.set_aside.map(|r| r.is_some()))
-    }
-
-    /// Energy of every strand over its mass per length, in m^3/s^2: of motion against the root, of weight from the root, of
-    /// bending and twisting.
-    pub(crate) fn energy(&self, batch: &Batch, gravity: Vec3) -> Lane {
-        let mut sum = Lane::ZERO;
-        let mut before = self.base;
-        for (k, link) in batch.links.iter().enumerate() {
-            let mass = batch.particles[k].mass;
-            sum += mass * (self.v[k].length_squared() * 0.5 - self.y[k].dot(gravity));
-            let c = half_turn(before, self.frames[k]);
-            let e = c + c - link.natural;
-            sum += ((e.x * e.x + e.y * e.y) * link.bend + e.z * e.z * link.twist) * 0.5;
-            before = self.frames[k];
-        }
-        sum
     }
 
     /// Carries shape and motion to another root and skin frame.

@@ -112,11 +112,11 @@ pub(crate) fn prepare<T: Number>(
     awake: Mask,
     stats: &mut BatchStats,
 ) -> Mask {
-    scratch.has_springs = batch.has_goal || drive.hair.is_some();
+    scratch.has_springs = batch.has_goal.any() || drive.hair.is_some();
     if scratch.has_springs {
         scratch.springs.fill(Spring::NONE);
     }
-    if batch.has_goal {
+    if batch.has_goal.any() {
         pull_to_goals(batch, state, scratch, drive);
     }
     if let Some(hair) = &drive.hair {
@@ -139,7 +139,7 @@ pub(crate) fn prepare<T: Number>(
         );
     }
     let active = batch.used.and(state.aside().not()).and(awake);
-    if batch.has_drag {
+    if batch.has_drag.any() {
         for k in 0..batch.count() {
             let air = drive
                 .gusts

@@ -31,11 +31,14 @@ pub(super) fn step(
     which: Mask,
 ) {
     let h = Lane::splat(drive.dt);
+    let damps = batch.damping != Lane::ZERO;
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
         scratch.free_y[k] = state.y[k];
         scratch.free_v[k] = state.v[k];
-        scratch.past[k] = scratch.turn_start[k];
+        if damps {
+            scratch.past[k] = scratch.turn_start[k];
+        }
         let frame = root.turn_end.times(state.frames[k]).normalize();
         let tangent = frame.tangent();
         y += tangent * batch.links[k].length;
@@ -96,7 +99,7 @@ fn minimise<T: Number>(
             return;
         }
         let pose = trial.pose(base);
-        joints::<T>(links, pose, past, elastic, ready);
+        let sharpest = joints::<T>(links, pose, past, elastic, ready);
         ascend::<T>(links, pose, nodes, ready, eliminations);
         let largest = descend::<T>(links, &trial.tangents, eliminations, turns);
         let mut scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
@@ -123,7 +126,7 @@ fn minimise<T: Number>(
             untried = untried.and(better.not());
             scale = scale * 0.5;
         }
-        let small = largest.lt(Lane::splat(SMALL_TURN));
+        let small = (largest * sharpest.sqrt()).lt(Lane::splat(SMALL_TURN));
         open = open.and(moved).and(small.not());
     }
 }
@@ -140,10 +143,12 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
     for k in 0..batch.count() {
         let v = (trial.y[k] - state.y[k]) * rate;
         let a = (v - state.v[k]) * rate;
-        if !scratch.touched.is_empty() {
-            let press = scratch.contacts[k].pressure(trial.y[k]);
-            state.press[k] = good.pick(press, state.press[k]);
-        }
+        let press = if scratch.touched.is_empty() {
+            Lane::ZERO
+        } else {
+            scratch.contacts[k].pressure(trial.y[k])
+        };
+        state.press[k] = good.pick(press, state.press[k]);
         state.a[k] = Vec3::pick(good, a, state.a[k]);
         state.v[k] = Vec3::pick(good, v, state.v[k]);
         state.y[k] = Vec3::pick(good, trial.y[k], state.y[k]);

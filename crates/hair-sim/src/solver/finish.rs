@@ -63,39 +63,12 @@ pub(super) fn turned_too_far<T: Number>(
         // Turned with the skin, or left where it was: either is an ordinary motion.
         let (carried, still) = (turn.rotate(before).dot(now), before.dot(now));
         let cosine = T::choose(carried.less(still), still, carried);
-        // What is no number is the least.
+        // Links that only fill the batch have no say; what is no number is the least.
+        let counts = batch.links[k].counts.load();
+        let cosine = cosine * counts + (T::splat(1.0) - counts);
         least = T::choose(least.less(cosine), least, cosine);
     }
     least.store().gt(Lane::splat(LEAST_COSINE)).not()
-}
-
-/// Where nothing takes energy from the strands, nothing may bring any: what errors of the steps add to the energy that a
-/// strand had when it was driven last is taken out of its velocities.
-#[inline(always)]
-pub(super) fn take_gain(
-    batch: &Batch,
-    state: &mut BatchState,
-    root: &RootMotion,
-    before: Lane,
-    which: Mask,
-) {
-    let turned = root.turn_end.v.length_squared() + (root.pull - state.pull).length_squared();
-    let driven = turned.gt(Lane::splat(1e-24));
-    state.pull = root.pull;
-    // A strand that is set aside may be folded, and its energy no number.
-    let known = which.and(driven).and(before.is_finite());
-    state.ceiling = known.pick(before, state.ceiling);
-    let gain = (state.energy(batch, root.pull) - state.ceiling).max(Lane::ZERO);
-    let mut motion = Lane::ZERO;
-    for k in 0..batch.count() {
-        motion += batch.particles[k].mass * state.v[k].length_squared() * 0.5;
-    }
-    let left = (motion - gain).max(Lane::ZERO) / motion.max(Lane::splat(1e-300));
-    let taken = which.and(gain.gt(Lane::ZERO)).and(driven.not());
-    let scale = taken.pick(left.sqrt(), Lane::ONE);
-    for v in &mut state.v {
-        *v = *v * scale;
-    }
 }
 
 /// Takes the end stage of the lanes in `which` as the new state.

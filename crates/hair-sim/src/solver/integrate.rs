@@ -20,8 +20,9 @@ use crate::{
 use super::{
     batch::{Batch, BatchState, Scratch, Stage},
     drive::{Drive, RootMotion, prepare},
+    energy::{out_of_reach, take_gain, watch},
     fallback,
-    finish::{asleep, count_quiet, finish, take_gain, turned_too_far},
+    finish::{asleep, count_quiet, finish, turned_too_far},
     instructions::{Instructions, run},
     sweep::{Elastic, Node, ascend, descend, half_turn, joints},
 };
@@ -30,7 +31,7 @@ use super::{
 pub(super) const GAMMA: f64 = 0.585_786_437_626_904_9;
 
 /// A Newton step that turns no link by more than this (radians) is the last.
-const SMALL_TURN: f64 = 0.05;
+const SMALL_TURN: f64 = 0.1;
 
 /// A Newton step turns no link by more than this (radians).
 const LARGEST_TURN: f64 = 1.0;
@@ -96,8 +97,18 @@ pub(crate) fn step(
     }
     let too_far = run!(instructions, turned_too_far(batch, state, scratch, &root));
     failed = failed.or(too_far).and(active);
+    let watched = run!(
+        instructions,
+        watch(batch, state, scratch, drive, &root, active)
+    );
+    if watched.any() {
+        let too_high = run!(
+            instructions,
+            out_of_reach(batch, state, scratch, &root, watched)
+        );
+        failed = failed.or(too_high);
+    }
     stats.fallbacks = failed.count();
-    let before = (batch.conserves.any()).then(|| state.energy(batch, root.pull));
     run!(
         instructions,
         finish(batch, state, scratch, active.and(failed.not()), d)
@@ -105,8 +116,8 @@ pub(crate) fn step(
     if failed.any() {
         fallback::step(instructions, batch, state, scratch, drive, &root, failed);
     }
-    if let Some(before) = before {
-        take_gain(batch, state, &root, before, active.and(batch.conserves));
+    if watched.any() {
+        run!(instructions, take_gain(batch, state, &root, watched));
     }
     let aside = state.aside().and(batch.used);
     if aside.any() {
@@ -175,6 +186,9 @@ fn begin<T: Number>(
         if damps {
             turns::<T>(&state.base, &state.frames, turn_start);
             past.copy_from_slice(turn_start);
+        } else {
+            // The room was another batch's before: what is left there may be no number, even times 0.
+            past.fill(Vec3::ZERO);
         }
         // The trapezoidal stage; backward Euler over the same time where accelerations are unknown.
         let known = restart.pick(Lane::ZERO, Lane::splat(d));
@@ -281,7 +295,9 @@ fn pointing<T: Number>(tangent: Vec3<T>, chord: Vec3<T>, length: T, before: Quat
     };
     let is_ahead = (size * T::splat(0.05)).less(turn.w);
     let turn = Quat::choose(is_ahead, turn, Quat::identity());
-    let is_clear = (length * length * T::splat(0.01)).less(squared);
+    // Times the length squared on both sides: a link without any never has a direction, whatever its ends do.
+    let own = length * length;
+    let is_clear = (own * own * T::splat(0.01)).less(squared * own);
     Quat::choose(is_clear, turn, before)
 }
 
@@ -306,7 +322,7 @@ pub(super) fn assemble(
 #[inline(always)]
 fn load<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, which: Which) {
     weigh::<T>(batch, scratch, stage);
-    if batch.has_drag {
+    if batch.has_drag.any() {
         drag::<T>(batch, scratch, stage.length, which);
     }
     if scratch.has_springs {
@@ -467,7 +483,8 @@ fn solve(
     iterations
 }
 
-/// One step of Newton's method for the lanes in `open`. Returns the largest turn of a link that it asks for.
+/// One step of Newton's method for the lanes in `open`. Returns the largest turn of a link that it asks for, in proportion to
+/// what the sharpest joint lets pass for small.
 #[inline(always)]
 fn newton<T: Number>(
     batch: &Batch,
@@ -490,7 +507,7 @@ fn newton<T: Number>(
     } = scratch;
     let shape = if which == Which::Mid { mid } else { end };
     let pose = shape.pose(&setup.base);
-    joints::<T>(&batch.links, pose, past, elastic, ready);
+    let sharpest = joints::<T>(&batch.links, pose, past, elastic, ready);
     ascend::<T>(&batch.links, pose, nodes, ready, eliminations);
     let largest = descend::<T>(&batch.links, &shape.tangents, eliminations, turns);
     let scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
@@ -501,7 +518,7 @@ fn newton<T: Number>(
     for k in 0..count {
         v[k] = (y[k] - free_y[k]) * rate;
     }
-    largest
+    largest * sharpest.sqrt()
 }
 
 /// Turns the links of the lanes in `which` by `scale` times `turns`, and moves the particles along.

@@ -6,6 +6,9 @@ use crate::{collision::Collider, forces::wind::Wind, params::GRAVITY};
 
 use super::{batch::Reason, integrate::BatchStats};
 
+/// In s. Velocities are differences of places over the step: below it they would be those of rounding.
+const SHORTEST_STEP: f64 = 1e-6;
+
 /// A rigid motion from style space to the world: where a head is.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Pose {
@@ -103,7 +106,7 @@ impl Scene<'_> {
         strands: usize,
         points: usize,
     ) -> Result<(), DynamicsError> {
-        if !(dt > 0.0 && dt <= 10.0) {
+        if !(SHORTEST_STEP..=10.0).contains(&dt) {
             return Err(DynamicsError::Step(dt));
         }
         if !self.gravity.is_finite() {
@@ -236,7 +239,7 @@ pub enum DynamicsError {
         most: f64,
     },
     /// A step takes time.
-    #[error("a step of {0} s: it must be more than 0 and at most 10 s")]
+    #[error("a step of {0} s: it must be from 1e-6 to 10 s")]
     Step(f64),
     /// Numbers of the scene are finite.
     #[error("the scene's {0} is not finite")]

@@ -108,7 +108,9 @@ pub(crate) fn half_turn<T: Number>(before: Quat<T>, after: Quat<T>) -> Vec3<T> {
     q.v.scale(T::splat(1.0) / q.w)
 }
 
-/// Makes the joints ready. `past[k]` is the turn that damping holds to.
+/// Makes the joints ready. `past[k]` is the turn that damping holds to. Returns the square of 1 / cos(angle / 2) of the sharpest
+/// joint: how much faster than its angle a joint's turn grows, which is 1 where it is straight and has no bound at half a
+/// turn.
 #[inline(always)]
 pub(crate) fn joints<T: Number>(
     links: &[Link],
@@ -116,13 +118,14 @@ pub(crate) fn joints<T: Number>(
     past: &[Vec3],
     elastic: &Elastic,
     out: &mut [Joint],
-) {
+) -> Lane {
     let count = links.len();
     let (frames, tangents) = (&pose.frames[..count], &pose.tangents[..count]);
     let (past, out) = (&past[..count], &mut out[..count]);
+    let mut sharpest = T::splat(1.0);
     for k in 0..count {
         let before = if k == 0 { pose.base } else { &frames[k - 1] };
-        let joint: Joint<T> = joint(
+        let (joint, sharp): (Joint<T>, T) = joint(
             &links[k].load(),
             past[k].load(),
             before.load(),
@@ -130,11 +133,13 @@ pub(crate) fn joints<T: Number>(
             tangents[k].load(),
             &elastic.load(),
         );
+        sharpest = T::choose(sharpest.less(sharp), sharp, sharpest);
         out[k] = joint.store();
     }
+    sharpest.store()
 }
 
-/// Of the turn from `before` to `after`, whose third axis is `t`.
+/// Of the turn from `before` to `after`, whose third axis is `t`; and how sharp it is.
 #[inline(always)]
 fn joint<T: Number>(
     link: &Link<T>,
@@ -143,7 +148,7 @@ fn joint<T: Number>(
     after: Quat<T>,
     t: Vec3<T>,
     elastic: &Elastic<T>,
-) -> Joint<T> {
+) -> (Joint<T>, T) {
     let one = T::splat(1.0);
     let stretch = elastic.damping + one;
     let turn = after.times(before.conjugate());
@@ -158,9 +163,10 @@ fn joint<T: Number>(
     let moment = e - c.cross(e) + c.scale(c.dot(e));
     // G^T B G = bend (1 + c c) (1 + c c^T) + (twist - bend) g g^T with g = G^T t.
     let g = c.scale(c.dot(t)) + t + t.cross(c);
-    let round = bend * (c.length_squared() + one) * stretch;
+    let sharp = c.length_squared() + one;
+    let round = bend * sharp * stretch;
     let stiffness = Sym3::outer(round, c, round) + Sym3::outer(T::splat(0.0), g, more * stretch);
-    Joint { moment, stiffness }
+    (Joint { moment, stiffness }, sharp)
 }
 
 /// The quadratic of what lies beyond a joint (see the module), and the sum of forces there.

@@ -6,6 +6,7 @@
 mod bits;
 mod bodies;
 mod broken;
+mod energy;
 mod extremes;
 mod rest;
 mod roots;

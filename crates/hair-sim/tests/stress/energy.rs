@@ -1,0 +1,141 @@
+//! Row 8: no energy from nowhere, however hard a strand was driven before.
+
+use glam::{DQuat, DVec3, Vec3};
+use hair_sim::{Collider, GRAVITY, Material, Params, Pose, Roots, Scene, Shape, Solver, Strands};
+
+use crate::{check, step, strand};
+
+/// Strands of one to twelve links.
+fn short(count: u32) -> Strands {
+    let mut strands = Strands::new();
+    for s in 0..count {
+        strands
+            .push(s, &strand(s, 1 + s as usize % 12, 0.2), None)
+            .unwrap();
+    }
+    strands
+}
+
+/// Lets strands come to rest from `state` on, in steps of very different lengths. Panics where the energy of one rises above the
+/// least that it had, by more than a thousandth of what it then has and what lifts it by its length. Returns what is left at
+/// the end of the energy of bending, twisting and motion, of the worst.
+fn rests(
+    solver: &mut Solver,
+    mut state: hair_sim::State,
+    rest: &Strands,
+    head: Pose,
+    what: &str,
+) -> f64 {
+    let scene = Scene {
+        roots: Roots::Head(head),
+        ..Scene::default()
+    };
+    // A root that stops is braked in the step after.
+    for dt in [0.005, 0.005] {
+        step(solver, &mut state, &scene, dt);
+    }
+    let energy = |state: &_, solver: &Solver, s: usize| solver.energy(state, s, scene.gravity);
+    let mut least: Vec<(f64, f64)> = vec![(f64::INFINITY, 0.0); rest.len()];
+    for i in 0..48 {
+        for (s, least) in least.iter_mut().enumerate() {
+            let length: f32 = rest.strand(s).windows(2).map(|w| w[0].distance(w[1])).sum();
+            let now = energy(&state, solver, s);
+            let own = solver.energy(&state, s, DVec3::ZERO);
+            let limit = least.0 + 1e-3 * least.1;
+            assert!(
+                now <= limit,
+                "{what}, strand {s}, step {i}: {now} above {limit}"
+            );
+            if now < least.0 {
+                *least = (now, own + GRAVITY * f64::from(length * length));
+            }
+        }
+        step(
+            solver,
+            &mut state,
+            &scene,
+            [0.005, 0.09, 0.04, 0.85, 0.02][i % 5],
+        );
+        check(solver, &state, rest, what);
+    }
+    (0..rest.len())
+        .map(|s| solver.energy(&state, s, DVec3::ZERO))
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn strands_that_are_driven_no_more_gain_no_energy() {
+    let rest = short(24);
+    let spun = |i: usize| Pose {
+        rotation: DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 2.1 * i as f64),
+        translation: DVec3::ZERO,
+    };
+    for gamma in [1.0, 100.0, 1e4] {
+        for (damping, drag) in [(0.0, 0.0), (0.1, 0.0), (2.0, 1e3), (0.005, 1e4)] {
+            let params = Params {
+                material: Material::from_gamma(gamma, 0.2),
+                damping,
+                drag,
+                ..Params::default()
+            };
+            let what = format!("gamma {gamma}, damping {damping}, drag {drag}");
+            let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
+            for i in 0..12 {
+                let ball = Shape::Sphere {
+                    center: DVec3::new(0.1 * i as f64 - 0.6, 0.0, 0.1),
+                    radius: 0.1,
+                };
+                let scene = Scene {
+                    roots: Roots::Head(spun(i)),
+                    colliders: &[Collider::fixed(ball, Pose::IDENTITY)],
+                    ..Scene::default()
+                };
+                step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+            }
+            rests(&mut solver, state, &rest, spun(11), &what);
+        }
+    }
+}
+
+/// A joint's turn, 2 tan(angle / 2), has no bound at half a turn: there a small error of the angle is a large one of the
+/// turn. Links that stand on a soft root are pulled over by a hundred times the weight, and must come to rest so.
+#[test]
+fn a_joint_near_half_a_turn_comes_to_rest() {
+    let mut rest = Strands::new();
+    for (s, links) in [1, 2, 3].into_iter().enumerate() {
+        let points: Vec<Vec3> = (0..=links)
+            .map(|i| Vec3::new(0.1, 1.0, 0.05 * i as f32) * (0.012 * i as f32 / links as f32))
+            .collect();
+        rest.push(s as u32, &points, None).unwrap();
+    }
+    for gamma in [1e3, 1e4, 1e5] {
+        let params = Params {
+            material: Material::from_gamma(gamma, 0.012),
+            drag: 0.0,
+            ..Params::default()
+        };
+        let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
+        let scene = Scene {
+            gravity: DVec3::NEG_Y * (100.0 * GRAVITY),
+            ..Scene::default()
+        };
+        let energies = |solver: &Solver, state: &_| -> Vec<f64> {
+            (0..3)
+                .map(|s| solver.energy(state, s, scene.gravity))
+                .collect()
+        };
+        for _ in 0..480 {
+            step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+        }
+        let before = energies(&solver, &state);
+        for dt in [0.01, 0.99, 0.005, 0.2, 0.99, 0.01] {
+            step(&mut solver, &mut state, &scene, dt);
+            let after = energies(&solver, &state);
+            for (s, (before, after)) in before.iter().zip(&after).enumerate() {
+                let change = (before - after).abs();
+                // What lifts a strand by its length is 0.14.
+                assert!(change < 1e-6, "gamma {gamma}, strand {s}: {change}");
+            }
+        }
+    }
+}
