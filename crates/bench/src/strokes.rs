@@ -332,5 +332,5 @@ fn write(measured: &Measured, out: &Path) -> Result<(), String> {
 }
 
 /// What was set as a target and is not measured here.
-pub const NOT_MEASURED: &str = "Not measured: stamping and sweeping on a graphics device (that backend isn't built yet)\n\
-    and whole frames of the looks of table 6.1 (suite `frame`, not built yet).";
+pub const NOT_MEASURED: &str = "Not measured: stamping on a graphics card (not built); without a card, sweeping there.\n\
+    Whole frames of the looks of table 6.1 are suite `frame`'s.";

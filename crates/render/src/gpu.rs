@@ -27,7 +27,9 @@ mod layout;
 mod offscreen;
 mod pipelines;
 mod program;
+mod programs;
 mod renderer;
+mod report;
 mod scene;
 
 pub use adapter::{AdapterKind, Gpu};

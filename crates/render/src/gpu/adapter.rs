@@ -132,3 +132,40 @@ fn preference(kind: wgpu::DeviceType) -> u32 {
         wgpu::DeviceType::Cpu => 4,
     }
 }
+
+/// What every device must allow, as wgpu names it.
+pub(super) fn check_limits(device: &wgpu::Device) -> Result<(), GpuError> {
+    let limits = device.limits();
+    let needed = [
+        (
+            "storage buffers in a shader",
+            limits.max_storage_buffers_per_shader_stage,
+            8,
+        ),
+        (
+            "invocations in a workgroup",
+            limits.max_compute_invocations_per_workgroup,
+            256,
+        ),
+        (
+            "bytes that a workgroup shares",
+            limits.max_compute_workgroup_storage_size,
+            7_680,
+        ),
+        (
+            "workgroups in a row",
+            limits.max_compute_workgroups_per_dimension,
+            65_535,
+        ),
+    ];
+    for (what, has, needs) in needed {
+        if has < needs {
+            return Err(GpuError::Limit {
+                what,
+                has: has.into(),
+                needs: needs.into(),
+            });
+        }
+    }
+    Ok(())
+}

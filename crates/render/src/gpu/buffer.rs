@@ -85,3 +85,72 @@ impl Growing {
         self.buffer = None;
     }
 }
+
+/// All buffers of a renderer but for its layers' own.
+pub(super) struct Buffers {
+    pub(super) frame: Growing,
+    pub(super) sample_places: Growing,
+    pub(super) joints: Growing,
+    pub(super) strands: Growing,
+    pub(super) clump_words: Growing,
+    pub(super) clumps: Growing,
+    pub(super) discs: Growing,
+    pub(super) windows: Growing,
+    pub(super) chunks: Growing,
+    pub(super) tables: Growing,
+    pub(super) corners: Growing,
+    pub(super) triangles: Growing,
+    pub(super) counters: Growing,
+    pub(super) starts: Growing,
+    pub(super) entries: Growing,
+    pub(super) picture: Growing,
+}
+
+impl Buffers {
+    pub(super) fn new() -> Self {
+        let storage = BufferUsages::STORAGE;
+        let filled = |what| Growing::new(what, storage | BufferUsages::COPY_DST);
+        let uniform = |what| Growing::new(what, BufferUsages::UNIFORM | BufferUsages::COPY_DST);
+        let made = |what| Growing::new(what, storage);
+        let read = |what| Growing::new(what, storage | BufferUsages::COPY_SRC);
+        Self {
+            frame: uniform("settings"),
+            sample_places: uniform("sample places"),
+            joints: filled("joints"),
+            strands: filled("strands"),
+            clump_words: filled("clump's parameters"),
+            clumps: made("clumps"),
+            discs: filled("strokes' discs"),
+            windows: made("smoothing windows"),
+            chunks: filled("pieces of strands"),
+            tables: filled("tables"),
+            corners: filled("surfaces' corners"),
+            triangles: filled("triangles"),
+            counters: filled("tiles' counters"),
+            starts: read("tiles' places"),
+            entries: made("tiles' lists"),
+            picture: read("samples"),
+        }
+    }
+
+    pub(super) fn all(&self) -> [&Growing; 16] {
+        [
+            &self.frame,
+            &self.sample_places,
+            &self.joints,
+            &self.strands,
+            &self.clump_words,
+            &self.clumps,
+            &self.discs,
+            &self.windows,
+            &self.chunks,
+            &self.tables,
+            &self.corners,
+            &self.triangles,
+            &self.counters,
+            &self.starts,
+            &self.entries,
+            &self.picture,
+        ]
+    }
+}

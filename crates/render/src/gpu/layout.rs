@@ -1,6 +1,7 @@
 //! What the shaders' structs look like from Rust: `shaders/gpu/frame.wgsl`, `drawn.wgsl`, `joint.wgsl`.
 
-use crate::frame::Frame;
+use crate::drawing::{Brush, Drawing};
+use crate::frame::{Frame, Light};
 use effects::InputSet;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -33,11 +34,56 @@ pub(super) struct GpuFrame {
     pub(super) writes_samples: u32,
 }
 
+impl GpuFrame {
+    /// What a drawing says; the rest is the renderer's.
+    pub(super) fn of_drawing(drawing: &Drawing) -> Self {
+        let [red, green, blue] = drawing.background.unwrap_or_default();
+        let opaque = if drawing.background.is_some() {
+            1.0
+        } else {
+            0.0
+        };
+        GpuFrame {
+            background: [red, green, blue, opaque],
+            edge_depth_m: drawing.edge_depth_m,
+            is_semicircle: u32::from(drawing.brush == Brush::Semicircle),
+            ..GpuFrame::default()
+        }
+    }
+
+    /// What a frame says; the rest is the renderer's.
+    pub(super) fn of_frame(frame: &Frame) -> Self {
+        let (light, is_point) = match frame.light {
+            Light::Direction(direction) => (direction, 0),
+            Light::Point(place) => (place, 1),
+        };
+        let [red, green, blue] = frame.background.unwrap_or_default();
+        GpuFrame {
+            joints: frame.paths.len() as u32,
+            eye: frame.camera.eye().to_array(),
+            near_m: frame.camera.near_m(),
+            head_center: frame.head.center.to_array(),
+            head_height_m: frame.head.height_m,
+            light: light.to_array(),
+            light_is_point: is_point,
+            background: [
+                red,
+                green,
+                blue,
+                if frame.background.is_some() { 1.0 } else { 0.0 },
+            ],
+            unit_m: frame.head.unit_m(),
+            pixel_px: frame.camera.size_px()[1] as f32 / 720.0,
+            edge_depth_m: frame.edge_depth_m,
+            is_semicircle: u32::from(frame.brush == Brush::Semicircle),
+            ..GpuFrame::default()
+        }
+    }
+}
+
 /// Bytes of a `GpuDisc`, and of a `GpuClump`.
 pub(super) const DISC_BYTES: u64 = 32;
 pub(super) const CLUMP_BYTES: u64 = 32;
-/// Words of a strand's record: id, mean, size.
-pub(super) const STRAND_WORDS: usize = 5;
 /// Width and height of a tile, pixels.
 pub(super) const TILE: u32 = 8;
 /// Most segments of a chunk.

@@ -16,6 +16,9 @@ const SWEEP: &str = include_str!("../../../../shaders/gpu/sweep.wgsl");
 const COMPOSE: &str = include_str!("../../../../shaders/gpu/compose.wgsl");
 const COMPOSE_SAMPLES: &str = include_str!("../../../../shaders/gpu/compose_samples.wgsl");
 const COMPOSE_MEAN: &str = include_str!("../../../../shaders/gpu/compose_mean.wgsl");
+const SEGMENTS: &str = include_str!("../../../../shaders/gpu/segments.wgsl");
+const SURFACES: &str = include_str!("../../../../shaders/gpu/surfaces.wgsl");
+const STRANDS: &str = include_str!("../../../../shaders/gpu/strands.wgsl");
 const TILES: &str = include_str!("../../../../shaders/gpu/tiles.wgsl");
 
 /// Words before a layer's parameters: `shaders/gpu/joint.wgsl` names them.
@@ -60,7 +63,10 @@ pub(super) fn bins() -> String {
 /// What draws tiles in an order, given by its number in `tiles.wgsl`.
 pub(super) fn tiles(order: u32) -> String {
     let order = format!("const ORDER: u32 = {order}u;\n");
-    [&order, FRAME, DRAWN, SWEEP, TILES].join("\n")
+    [
+        &order, FRAME, DRAWN, SWEEP, SEGMENTS, SURFACES, STRANDS, TILES,
+    ]
+    .join("\n")
 }
 
 /// What puts a frame into a render pass with so many samples.

@@ -1,18 +1,18 @@
 //! Draws frames on a device, in somebody's command encoder.
 
-use super::buffer::Growing;
+use super::adapter::check_limits;
+use super::buffer::{Buffers, Growing};
 use super::compose::{Composer, PassFormat};
 use super::error::GpuError;
-use super::layout::{CLUMP_BYTES, GpuFrame, STRAND_WORDS, TILE, WORKGROUP};
-use super::pipelines::{self, Binding, layout, pipelines};
-use super::program;
+use super::layout::{CLUMP_BYTES, GpuFrame, TILE, WORKGROUP};
+use super::programs::Programs;
+use super::report::Report;
 use super::scene::SceneWords;
 use crate::check::{self, check_picture, check_surfaces};
-use crate::drawing::{Brush, Drawing, Order};
-use crate::frame::{Frame, Light};
+use crate::drawing::Drawing;
+use crate::frame::Frame;
 use crate::samples::sample_positions;
-use effects::ProgramSource;
-use wgpu::{BindGroup, BindGroupLayout, BufferUsages, ComputePipeline, Device, Queue};
+use wgpu::{BindGroup, BindGroupLayout, ComputePipeline, Device, Queue};
 
 /// What a renderer has, and what its last frame took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,12 +57,7 @@ pub struct Renderer {
     queue: Queue,
     scene: SceneWords,
     buffers: Buffers,
-    layouts: Layouts,
-    bins: Vec<ComputePipeline>,
-    tiles: Option<(Order, ComputePipeline)>,
-    clump: Option<Program>,
-    layers: Vec<LayerPrograms>,
-    smooth: Option<Smooth>,
+    programs: Programs,
     groups: Option<Groups>,
     composer: Option<Composer>,
     /// Entries that the tiles' lists needed in the last frame that is known of: chunks, triangles.
@@ -73,177 +68,12 @@ pub struct Renderer {
     stats: GpuStats,
 }
 
-/// A pipeline with what it was made from.
-struct Program {
-    made_from: ProgramKey,
-    pipeline: ComputePipeline,
-}
-
-/// What a program's text hangs on.
-#[derive(Clone, PartialEq)]
-struct ProgramKey {
-    wgsl: &'static str,
-    varying: Vec<usize>,
-    joint_constants: String,
-}
-
-/// A layer's shader, and the words that it reads.
-struct LayerPrograms {
-    program: Program,
-    words: Growing,
-}
-
-/// The smoothing of all layers.
-struct Smooth {
-    joint_constants: String,
-    pipelines: Vec<ComputePipeline>,
-}
-
-struct Layouts {
-    clump: BindGroupLayout,
-    strokes: BindGroupLayout,
-    smooth: BindGroupLayout,
-    bins: BindGroupLayout,
-    tiles: BindGroupLayout,
-}
-
 /// What the passes bind. Made anew where a buffer is.
 struct Groups {
     clump: BindGroup,
     layers: Vec<(BindGroup, Option<BindGroup>)>,
     bins: BindGroup,
     tiles: BindGroup,
-}
-
-struct Buffers {
-    frame: Growing,
-    sample_places: Growing,
-    joints: Growing,
-    strands: Growing,
-    clump_words: Growing,
-    clumps: Growing,
-    discs: Growing,
-    windows: Growing,
-    chunks: Growing,
-    tables: Growing,
-    corners: Growing,
-    triangles: Growing,
-    counters: Growing,
-    starts: Growing,
-    entries: Growing,
-    picture: Growing,
-}
-
-impl Buffers {
-    fn new() -> Self {
-        let storage = BufferUsages::STORAGE;
-        let filled = |what| Growing::new(what, storage | BufferUsages::COPY_DST);
-        let uniform = |what| Growing::new(what, BufferUsages::UNIFORM | BufferUsages::COPY_DST);
-        let made = |what| Growing::new(what, storage);
-        let read = |what| Growing::new(what, storage | BufferUsages::COPY_SRC);
-        Self {
-            frame: uniform("settings"),
-            sample_places: uniform("sample places"),
-            joints: filled("joints"),
-            strands: filled("strands"),
-            clump_words: filled("clump's parameters"),
-            clumps: made("clumps"),
-            discs: filled("strokes' discs"),
-            windows: made("smoothing windows"),
-            chunks: filled("pieces of strands"),
-            tables: filled("tables"),
-            corners: filled("surfaces' corners"),
-            triangles: filled("triangles"),
-            counters: filled("tiles' counters"),
-            starts: read("tiles' places"),
-            entries: made("tiles' lists"),
-            picture: read("samples"),
-        }
-    }
-
-    fn all(&self) -> [&Growing; 16] {
-        [
-            &self.frame,
-            &self.sample_places,
-            &self.joints,
-            &self.strands,
-            &self.clump_words,
-            &self.clumps,
-            &self.discs,
-            &self.windows,
-            &self.chunks,
-            &self.tables,
-            &self.corners,
-            &self.triangles,
-            &self.counters,
-            &self.starts,
-            &self.entries,
-            &self.picture,
-        ]
-    }
-}
-
-/// Passes whose time is taken.
-const STAGES: usize = 3;
-/// Bytes of the report: two totals, then as many timestamps as stages have beginnings and ends.
-const TOTALS_BYTES: u64 = 8;
-const TIMES_BYTES: u64 = 2 * STAGES as u64 * 8;
-
-/// What the card tells of a frame, read back without waiting where nobody waits.
-struct Report {
-    read_back: wgpu::Buffer,
-    times: Option<Times>,
-    state: std::sync::Arc<std::sync::atomic::AtomicU8>,
-}
-
-struct Times {
-    queries: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-    nanoseconds: f32,
-}
-
-/// States of the report's buffer: free for a frame; written by one; being mapped; mapped; not to be mapped.
-const FREE: u8 = 0;
-const WRITTEN: u8 = 1;
-const MAPPING: u8 = 2;
-const MAPPED: u8 = 3;
-const FAILED: u8 = 4;
-
-/// What every device must allow, as wgpu names it.
-fn check_limits(device: &Device) -> Result<(), GpuError> {
-    let limits = device.limits();
-    let needed = [
-        (
-            "storage buffers in a shader",
-            limits.max_storage_buffers_per_shader_stage,
-            8,
-        ),
-        (
-            "invocations in a workgroup",
-            limits.max_compute_invocations_per_workgroup,
-            256,
-        ),
-        (
-            "bytes that a workgroup shares",
-            limits.max_compute_workgroup_storage_size,
-            7_680,
-        ),
-        (
-            "workgroups in a row",
-            limits.max_compute_workgroups_per_dimension,
-            65_535,
-        ),
-    ];
-    for (what, has, needs) in needed {
-        if has < needs {
-            return Err(GpuError::Limit {
-                what,
-                has: has.into(),
-                needs: needs.into(),
-            });
-        }
-    }
-    Ok(())
 }
 
 impl Renderer {
@@ -254,40 +84,12 @@ impl Renderer {
     /// When the device's limits are too small, or its driver refuses a shader.
     pub fn new(device: &Device, queue: &Queue) -> Result<Self, GpuError> {
         check_limits(device)?;
-        let of = |name, bindings: &[Binding]| layout(device, name, bindings);
-        let layouts = Layouts {
-            clump: of("clump", pipelines::CLUMP),
-            strokes: of("strokes", pipelines::STROKES),
-            smooth: of("smooth", pipelines::SMOOTH),
-            bins: of("bins", pipelines::BINS),
-            tiles: of("tiles", pipelines::TILES),
-        };
-        let entry_points = [
-            "count_chunks",
-            "count_triangles",
-            "place_lists",
-            "fill_chunks",
-            "fill_triangles",
-            "sort_chunks",
-        ];
-        let bins = pipelines(
-            device,
-            "bins",
-            &program::bins(),
-            &layouts.bins,
-            &entry_points,
-        )?;
         Ok(Self {
             device: device.clone(),
             queue: queue.clone(),
             scene: SceneWords::default(),
             buffers: Buffers::new(),
-            layouts,
-            bins,
-            tiles: None,
-            clump: None,
-            layers: Vec::new(),
-            smooth: None,
+            programs: Programs::new(device)?,
             groups: None,
             composer: None,
             entries_needed: [0; 2],
@@ -301,16 +103,10 @@ impl Renderer {
     #[must_use]
     pub fn stats(&self) -> GpuStats {
         let buffers = self.buffers.all().into_iter();
-        let buffers = buffers.chain(self.layers.iter().map(|layer| &layer.words));
+        let buffers = buffers.chain(self.programs.layers.iter().map(|layer| &layer.words));
         let alive = buffers.filter(|buffer| buffer.size() > 0);
-        let smooth = self.smooth.as_ref().map_or(0, |s| s.pipelines.len());
         GpuStats {
-            pipelines: self.bins.len()
-                + usize::from(self.tiles.is_some())
-                + usize::from(self.clump.is_some())
-                + usize::from(self.composer.is_some())
-                + self.layers.len()
-                + smooth,
+            pipelines: self.programs.count() + usize::from(self.composer.is_some()),
             buffers: alive.clone().count(),
             bytes: alive.map(Growing::size).sum(),
             ..self.stats
@@ -395,18 +191,19 @@ impl Renderer {
                 check_picture(size, frame.background, frame.edge_depth_m)?;
                 check_surfaces(&frame.surfaces)?;
                 self.scene.fill(frame);
-                self.make_programs(frame)?;
-                (size, frame.order, settings(frame))
+                self.follow(frame)?;
+                (size, frame.order, GpuFrame::of_frame(frame))
             }
             Source::Drawing(drawing) => {
                 check::check(drawing)?;
                 self.scene.fill_drawing(drawing);
-                self.layers.clear();
+                self.programs.layers.clear();
                 self.groups = None;
-                (drawing.size, drawing.order, settings_of_drawing(drawing))
+                let settings = GpuFrame::of_drawing(drawing);
+                (drawing.size, drawing.order, settings)
             }
         };
-        self.make_tiles(order)?;
+        self.stats.made += self.programs.draw_in(&self.device, order)?;
 
         let tiles = size.map(|side| side.div_ceil(TILE));
         let tile_count = u64::from(tiles[0]) * u64::from(tiles[1]);
@@ -434,7 +231,7 @@ impl Renderer {
             Some(groups) => groups,
             None => self.make_groups()?,
         };
-        if self.report.state() == FREE {
+        if self.report.is_free() {
             self.room = [chunk_capacity, triangle_capacity];
         }
         self.record(encoder, &groups, &settings);
@@ -465,127 +262,17 @@ impl Renderer {
         })
     }
 
-    /// Makes the pipelines of layers that changed, and drops those of layers that are gone.
-    fn make_programs(&mut self, frame: &Frame) -> Result<(), GpuError> {
-        let joint_constants = self.scene.layout.constants();
-        let key = |source: &ProgramSource| ProgramKey {
-            wgsl: source.wgsl,
-            varying: source.varying.to_vec(),
-            joint_constants: joint_constants.clone(),
-        };
-        let clump = frame.clump.source();
-        let made_from = key(&clump);
-        if self
-            .clump
-            .as_ref()
-            .is_none_or(|program| program.made_from != made_from)
-        {
-            let text = program::clump(&clump, &self.scene.layout);
-            let pipeline = self.one_pipeline("the clump", &text, &self.layouts.clump)?;
-            self.clump = Some(Program {
-                made_from,
-                pipeline,
-            });
-        }
-        let mut before = std::mem::take(&mut self.layers);
-        for layer in frame.layers {
-            let source = layer.program.source();
-            let made_from = key(&source);
-            let is_it = |l: &LayerPrograms| l.program.made_from == made_from;
-            let layer = match before.iter().position(is_it) {
-                Some(place) => before.remove(place),
-                None => {
-                    let text = program::strokes(&source, &self.scene.layout);
-                    let pipeline = self.one_pipeline(layer.effect, &text, &self.layouts.strokes)?;
-                    self.groups = None;
-                    LayerPrograms {
-                        program: Program {
-                            made_from,
-                            pipeline,
-                        },
-                        words: Growing::new(
-                            "a layer's parameters",
-                            BufferUsages::STORAGE | BufferUsages::COPY_DST,
-                        ),
-                    }
-                }
-            };
-            self.layers.push(layer);
-        }
-        let is_smoothed = self.scene.layers.iter().any(|layer| layer.is_smoothed);
-        let groups_smooth = self.groups.as_ref().map_or(0, |groups| {
-            groups
-                .layers
-                .iter()
-                .filter(|(_, smooth)| smooth.is_some())
-                .count()
-        });
-        let layers_smooth = self
-            .scene
-            .layers
-            .iter()
-            .filter(|layer| layer.is_smoothed)
-            .count();
-        if !before.is_empty() || groups_smooth != layers_smooth {
-            self.groups = None;
-        }
-        if !is_smoothed {
-            self.smooth = None;
+    /// Makes and drops what other layers than before need.
+    fn follow(&mut self, frame: &Frame) -> Result<(), GpuError> {
+        // Should a shader be refused, what was bound is of layers that are gone.
+        let groups = self.groups.take();
+        let change = self.programs.follow(&self.device, frame, &self.scene)?;
+        self.stats.made += change.made;
+        self.groups = groups.filter(|_| !change.rebinds);
+        if self.programs.smooth.is_none() {
             self.buffers.windows.drop_buffer();
-        } else if self
-            .smooth
-            .as_ref()
-            .is_none_or(|s| s.joint_constants != joint_constants)
-        {
-            let entry_points = ["find_gaps", "close_gaps", "find_specks", "open_specks"];
-            let text = program::smooth(&self.scene.layout);
-            let made = pipelines(
-                &self.device,
-                "smooth",
-                &text,
-                &self.layouts.smooth,
-                &entry_points,
-            )?;
-            self.stats.made += made.len();
-            self.smooth = Some(Smooth {
-                joint_constants,
-                pipelines: made,
-            });
         }
         Ok(())
-    }
-
-    /// Makes the pipeline that draws tiles in that order.
-    fn make_tiles(&mut self, order: Order) -> Result<(), GpuError> {
-        if self.tiles.as_ref().is_none_or(|(made, _)| *made != order) {
-            let number = match order {
-                Order::Rounded => 0,
-                Order::Scattered => 1,
-                Order::StrandFirst => 2,
-                Order::Shifted => 3,
-            };
-            let text = program::tiles(number);
-            let made = pipelines(
-                &self.device,
-                "tiles",
-                &text,
-                &self.layouts.tiles,
-                &["draw_tile"],
-            )?;
-            self.stats.made += made.len();
-            self.tiles = made.into_iter().next().map(|pipeline| (order, pipeline));
-        }
-        Ok(())
-    }
-
-    fn one_pipeline(
-        &self,
-        name: &str,
-        text: &str,
-        layout: &BindGroupLayout,
-    ) -> Result<ComputePipeline, GpuError> {
-        let made = pipelines(&self.device, name, text, layout, &["gpu_main"])?;
-        made.into_iter().next().ok_or(GpuError::Memory)
     }
 
     fn write_buffers(
@@ -600,7 +287,7 @@ impl Renderer {
             queue,
             scene,
             buffers,
-            layers,
+            programs,
             ..
         } = self;
         let mut made = 0;
@@ -621,7 +308,7 @@ impl Renderer {
         note(buffers.corners.write(device, queue, &scene.corners)?);
         note(buffers.triangles.write(device, queue, &scene.triangles)?);
         let mut windows = 0;
-        for (layer, programs) in scene.layers.iter().zip(layers) {
+        for (layer, programs) in scene.layers.iter().zip(&mut programs.layers) {
             note(programs.words.write(device, queue, &layer.words)?);
             if layer.is_smoothed {
                 windows = windows.max(layer.joints as u64 * u64::from(layer.instances));
@@ -672,7 +359,7 @@ impl Renderer {
                 entries: &entries,
             }))
         };
-        let layers = self.scene.layers.iter().zip(&self.layers);
+        let layers = self.scene.layers.iter().zip(&self.programs.layers);
         let layers = layers.map(|(layer, programs)| {
             let mut bound = vec![
                 &b.frame,
@@ -682,11 +369,11 @@ impl Renderer {
                 &b.clumps,
                 &b.discs,
             ];
-            let strokes = group(&self.layouts.strokes, &bound)?;
+            let strokes = group(&self.programs.layouts.strokes, &bound)?;
             bound.push(&b.windows);
             let smooth = layer
                 .is_smoothed
-                .then(|| group(&self.layouts.smooth, &bound));
+                .then(|| group(&self.programs.layouts.smooth, &bound));
             Ok((strokes, smooth.transpose()?))
         });
         let mut bins = vec![
@@ -702,7 +389,7 @@ impl Renderer {
         tiles.extend([&b.starts, &b.entries, &b.picture, &b.sample_places]);
         Ok(Groups {
             clump: group(
-                &self.layouts.clump,
+                &self.programs.layouts.clump,
                 &[
                     &b.frame,
                     &b.joints,
@@ -713,8 +400,8 @@ impl Renderer {
                 ],
             )?,
             layers: layers.collect::<Result<_, GpuError>>()?,
-            bins: group(&self.layouts.bins, &bins)?,
-            tiles: group(&self.layouts.tiles, &tiles)?,
+            bins: group(&self.programs.layouts.bins, &bins)?,
+            tiles: group(&self.programs.layouts.tiles, &tiles)?,
         })
     }
 
@@ -722,7 +409,7 @@ impl Renderer {
         if let Some(counters) = self.buffers.counters.get() {
             encoder.clear_buffer(counters, 0, None);
         }
-        let Some((_, tiles)) = &self.tiles else {
+        let Some((_, tiles)) = &self.programs.tiles else {
             return;
         };
         let begin = |encoder: &mut wgpu::CommandEncoder, label, stage| {
@@ -743,6 +430,7 @@ impl Renderer {
         let mut pass = begin(encoder, "strokes", 0);
         // A drawing brings its strokes along.
         if let Some(clump) = self
+            .programs
             .clump
             .as_ref()
             .filter(|_| self.scene.disc_words.is_empty())
@@ -754,13 +442,13 @@ impl Renderer {
             .scene
             .layers
             .iter()
-            .zip(&self.layers)
+            .zip(&self.programs.layers)
             .zip(&groups.layers);
         for ((layer, programs), (strokes, smooth)) in layers {
             let (joints, instances) = (layer.joints as u32, layer.instances);
             pass.set_bind_group(0, strokes, &[]);
             run(&mut pass, &programs.program.pipeline, joints, instances);
-            if let (Some(group), Some(smooth)) = (smooth, &self.smooth) {
+            if let (Some(group), Some(smooth)) = (smooth, &self.programs.smooth) {
                 pass.set_bind_group(0, group, &[]);
                 for pipeline in &smooth.pipelines {
                     run(&mut pass, pipeline, joints, instances);
@@ -778,7 +466,7 @@ impl Renderer {
             fill_chunks,
             fill_triangles,
             sort,
-        ] = &self.bins[..]
+        ] = &self.programs.bins[..]
         {
             run(&mut pass, count_chunks, frame.chunks, 1);
             run(&mut pass, count_triangles, frame.triangles, 1);
@@ -821,165 +509,3 @@ impl Renderer {
         Ok(())
     }
 }
-
-fn settings_of_drawing(drawing: &Drawing) -> GpuFrame {
-    let [red, green, blue] = drawing.background.unwrap_or_default();
-    let opaque = if drawing.background.is_some() {
-        1.0
-    } else {
-        0.0
-    };
-    GpuFrame {
-        background: [red, green, blue, opaque],
-        edge_depth_m: drawing.edge_depth_m,
-        is_semicircle: u32::from(drawing.brush == Brush::Semicircle),
-        ..GpuFrame::default()
-    }
-}
-
-fn settings(frame: &Frame) -> GpuFrame {
-    let (light, is_point) = match frame.light {
-        Light::Direction(direction) => (direction, 0),
-        Light::Point(place) => (place, 1),
-    };
-    let [red, green, blue] = frame.background.unwrap_or_default();
-    GpuFrame {
-        joints: frame.paths.len() as u32,
-        eye: frame.camera.eye().to_array(),
-        near_m: frame.camera.near_m(),
-        head_center: frame.head.center.to_array(),
-        head_height_m: frame.head.height_m,
-        light: light.to_array(),
-        light_is_point: is_point,
-        background: [
-            red,
-            green,
-            blue,
-            if frame.background.is_some() { 1.0 } else { 0.0 },
-        ],
-        unit_m: frame.head.unit_m(),
-        pixel_px: frame.camera.size_px()[1] as f32 / 720.0,
-        edge_depth_m: frame.edge_depth_m,
-        is_semicircle: u32::from(frame.brush == Brush::Semicircle),
-        ..GpuFrame::default()
-    }
-}
-
-impl Report {
-    fn new(device: &Device, queue: &Queue) -> Self {
-        let buffer = |label, size, usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        let has_times = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
-        Self {
-            read_back: buffer(
-                "report",
-                TOTALS_BYTES + TIMES_BYTES,
-                BufferUsages::COPY_DST | BufferUsages::MAP_READ,
-            ),
-            times: has_times.then(|| Times {
-                queries: device.create_query_set(&wgpu::QuerySetDescriptor {
-                    label: Some("stages"),
-                    ty: wgpu::QueryType::Timestamp,
-                    count: 2 * STAGES as u32,
-                }),
-                resolved: buffer(
-                    "timestamps",
-                    256,
-                    BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC,
-                ),
-                nanoseconds: queue.get_timestamp_period(),
-            }),
-            state: std::sync::Arc::default(),
-        }
-    }
-
-    fn state(&self) -> u8 {
-        self.state.load(std::sync::atomic::Ordering::Acquire)
-    }
-
-    fn set_state(&self, state: u8) {
-        self.state
-            .store(state, std::sync::atomic::Ordering::Release);
-    }
-
-    fn timestamps(&self, stage: u32) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
-        let times = self.times.as_ref()?;
-        Some(wgpu::ComputePassTimestampWrites {
-            query_set: &times.queries,
-            beginning_of_pass_write_index: Some(2 * stage),
-            end_of_pass_write_index: Some(2 * stage + 1),
-        })
-    }
-
-    /// Records the report of a frame, unless one is still to be read.
-    fn record(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        starts: &wgpu::Buffer,
-        [columns, rows]: [u32; 2],
-    ) {
-        if self.state() != FREE {
-            return;
-        }
-        let tiles = u64::from(columns) * u64::from(rows);
-        encoder.copy_buffer_to_buffer(starts, tiles * 4, &self.read_back, 0, 4);
-        encoder.copy_buffer_to_buffer(starts, (2 * tiles + 1) * 4, &self.read_back, 4, 4);
-        if let Some(times) = &self.times {
-            encoder.resolve_query_set(&times.queries, 0..2 * STAGES as u32, &times.resolved, 0);
-            let to = &self.read_back;
-            encoder.copy_buffer_to_buffer(&times.resolved, 0, to, TOTALS_BYTES, TIMES_BYTES);
-        }
-        self.set_state(WRITTEN);
-    }
-
-    /// Asks for a report that was written.
-    fn map(&self) {
-        if self.state() != WRITTEN {
-            return;
-        }
-        self.set_state(MAPPING);
-        let state = std::sync::Arc::clone(&self.state);
-        self.read_back
-            .map_async(wgpu::MapMode::Read, .., move |result| {
-                let next = if result.is_ok() { MAPPED } else { FAILED };
-                state.store(next, std::sync::atomic::Ordering::Release);
-            });
-    }
-
-    /// The entries that the tiles' lists needed, and the stages' milliseconds, where they are there.
-    fn read(&self, device: &Device) -> Option<([u32; 2], Option<[f64; 3]>)> {
-        self.map();
-        // Never waits. A device that is lost says so elsewhere.
-        let _ = device.poll(wgpu::PollType::Poll);
-        if self.state() == FAILED {
-            self.set_state(FREE);
-        }
-        if self.state() != MAPPED {
-            return None;
-        }
-        let report = {
-            let view = self.read_back.get_mapped_range(..).ok()?;
-            let totals: [u32; 2] = bytemuck::pod_read_unaligned(&view[..TOTALS_BYTES as usize]);
-            let times: [u64; 2 * STAGES] =
-                bytemuck::pod_read_unaligned(&view[TOTALS_BYTES as usize..]);
-            let milliseconds = self.times.as_ref().map(|clock| {
-                [0, 1, 2].map(|stage| {
-                    let ticks = times[2 * stage + 1].saturating_sub(times[2 * stage]);
-                    ticks as f64 * f64::from(clock.nanoseconds) * 1e-6
-                })
-            });
-            (totals, milliseconds)
-        };
-        self.read_back.unmap();
-        self.set_state(FREE);
-        Some(report)
-    }
-}
-
-const _: () = assert!(STRAND_WORDS == 5);

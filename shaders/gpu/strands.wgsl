@@ -1,0 +1,162 @@
+// A strand at the samples of a pixel: its segments one after the other, then all of it against what is there. Composed with
+// tiles.wgsl; the CPU's is crates/render/src/cpu/strand.rs.
+
+/// A stroke's colour at the samples: the joint's disc that it begins at, and the way to the next.
+struct Paint {
+    number: vec4<u32>,
+    ratio: vec4<f32>,
+    disc: vec4<u32>,
+    way: vec4<f32>,
+}
+
+/// One strand at the samples; in `SHIFTED`, where strokes are on their own, one of its strokes, as `outer`.
+struct Strand {
+    /// Its clump.
+    depth: vec4<f32>,
+    biased: vec4<f32>,
+    ratio: vec4<f32>,
+    /// The highest stroke that shows outside the clump too, with its own depth.
+    outer_depth: vec4<f32>,
+    outer_biased: vec4<f32>,
+    outer: Paint,
+    /// The highest stroke that is clipped to the clump.
+    inner: Paint,
+}
+
+fn no_paint() -> Paint {
+    return Paint(vec4<u32>(0u), vec4<f32>(FAR_RATIO), vec4<u32>(0u), vec4<f32>(0.0));
+}
+
+fn no_strand() -> Strand {
+    let nothing = vec4<f32>(NOTHING);
+    return Strand(nothing, nothing, vec4<f32>(1.0), nothing, nothing, no_paint(), no_paint());
+}
+
+/// The inverse depth of what lies so many metres deeper. There is nothing deeper than 0 or below.
+fn deeper(inv_depth: vec4<f32>, metres: vec4<f32>) -> vec4<f32> {
+    return inv_depth / (1.0 + metres * max(inv_depth, vec4<f32>(0.0)));
+}
+
+/// render::scatter
+fn scatter(strand: u32, sample: u32) -> f32 {
+    var mixed = (strand ^ (strand >> 16u)) * 0x45d9f3b5u;
+    mixed = (mixed ^ (mixed >> 15u)) * 0x2c1b3c6du;
+    return f32((mixed + sample * 0x9e3779b9u) >> 8u) / 16777216.0;
+}
+
+fn paint(p: ptr<function, Paint>, s: Segment, at: Nearest, covered: vec4<bool>) -> vec4<bool> {
+    let number = vec4<u32>(s.number);
+    let is_higher = covered & (number > (*p).number);
+    let is_nearer = is_higher | (covered & (number == (*p).number) & (at.ratio < (*p).ratio));
+    (*p).number = select((*p).number, number, is_higher);
+    (*p).ratio = select((*p).ratio, at.ratio, is_nearer);
+    (*p).disc = select((*p).disc, vec4<u32>(s.disc), is_nearer);
+    (*p).way = select((*p).way, s.way.x + at.u * s.way.y, is_nearer);
+    return is_higher;
+}
+
+/// Adds one of its segments to a strand.
+fn add(strand: ptr<function, Strand>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
+    let p = local_of(s.sweep, x, y);
+    let covered = covers(s.sweep, p);
+    if (!any(covered)) {
+        return;
+    }
+    let at = nearest(s.sweep, p);
+    if (s.number == 0u) {
+        let part = interval(s.sweep, p);
+        let depth = max(s.inv_depth.x + part.low * s.inv_depth.y, s.inv_depth.x + part.high * s.inv_depth.y);
+        let biased = max(s.biased.x + part.low * s.biased.y, s.biased.x + part.high * s.biased.y);
+        (*strand).depth = select((*strand).depth, max((*strand).depth, depth), covered);
+        (*strand).biased = select((*strand).biased, max((*strand).biased, biased), covered);
+        (*strand).ratio = select((*strand).ratio, min((*strand).ratio, at.ratio), covered);
+    } else if (s.is_clipped) {
+        // A copy, because a pointer to a part of what a pointer points to is not for every compiler.
+        var inner = (*strand).inner;
+        paint(&inner, s, at, covered);
+        (*strand).inner = inner;
+    } else {
+        let part = interval(s.sweep, p);
+        let depth = max(s.inv_depth.x + part.low * s.inv_depth.y, s.inv_depth.x + part.high * s.inv_depth.y);
+        let biased = max(s.biased.x + part.low * s.biased.y, s.biased.x + part.high * s.biased.y);
+        let is_same = covered & (vec4<u32>(s.number) == (*strand).outer.number);
+        var outer_paint = (*strand).outer;
+        let is_higher = paint(&outer_paint, s, at, covered);
+        (*strand).outer = outer_paint;
+        let outer = (*strand).outer_depth;
+        (*strand).outer_depth = select(select(outer, max(outer, depth), is_same), depth, is_higher);
+        let outer_biased = (*strand).outer_biased;
+        (*strand).outer_biased = select(select(outer_biased, max(outer_biased, biased), is_same), biased, is_higher);
+    }
+}
+
+/// Where a strand of that depth shows: before surfaces, and nearer than what is there.
+fn shows(samples: Samples, depth: vec4<f32>, biased: vec4<f32>, number: vec4<u32>) -> vec4<bool> {
+    let before_wall = depth / (1.0 + samples.surface_margin * depth);
+    let against = select(biased, before_wall, samples.surface_margin != vec4<f32>(0.0));
+    let is_on_top = (depth == samples.strand) & (number > samples.number);
+    return (samples.surface <= against) & ((depth > samples.strand) | is_on_top);
+}
+
+fn color_of(disc: u32, way: f32) -> vec3<f32> {
+    let start = discs[disc].color;
+    if (way == 0.0) {
+        return start;
+    }
+    return start + way * (discs[disc + 1u].color - start);
+}
+
+fn set_colors(samples: ptr<function, Samples>, disc: vec4<u32>, way: vec4<f32>, wins: vec4<bool>) {
+    for (var k = 0u; k < 4u; k++) {
+        if (wins[k]) {
+            let color = color_of(disc[k], way[k]);
+            (*samples).red[k] = color.x;
+            (*samples).green[k] = color.y;
+            (*samples).blue[k] = color.z;
+        }
+    }
+}
+
+/// Puts a finished strand into the picture.
+fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32, first_sample: u32) {
+    let nothing = vec4<f32>(NOTHING);
+    let in_clump = strand.depth > nothing;
+    let is_outer = strand.outer.number > vec4<u32>(0u);
+    let is_inner = in_clump & (strand.inner.number > vec4<u32>(0u));
+    let is_drawn = is_inner | is_outer;
+    if (!any(is_drawn)) {
+        return;
+    }
+    var depth = select(strand.outer_depth, strand.depth, in_clump);
+    var biased = select(strand.outer_biased, strand.biased, in_clump);
+    if (ORDER == ROUNDED) {
+        let ratio = min(select(strand.outer.ratio, strand.ratio, in_clump), vec4<f32>(1.0));
+        let squared = ratio * ratio;
+        let part = select(squared * squared, ratio, in_clump);
+        depth = deeper(depth, gpu_frame.edge_depth_m * part);
+        biased = deeper(biased, gpu_frame.edge_depth_m * part);
+    } else if (ORDER == SCATTERED) {
+        let parts = vec4<f32>(
+            scatter(number, first_sample),
+            scatter(number, first_sample + 1u),
+            scatter(number, first_sample + 2u),
+            scatter(number, first_sample + 3u),
+        );
+        depth = deeper(depth, gpu_frame.edge_depth_m * parts);
+        biased = deeper(biased, gpu_frame.edge_depth_m * parts);
+    }
+    // Strands that are as near stay in the order in which they come; strokes in `SHIFTED` have their own.
+    let on_top = select(vec4<u32>(0u), strand.outer.number, ORDER == SHIFTED);
+    let wins = is_drawn & shows(*samples, depth, biased, on_top);
+    if (!any(wins)) {
+        return;
+    }
+    (*samples).number = select((*samples).number, on_top, wins);
+    (*samples).strand = select((*samples).strand, depth, wins);
+    set_colors(
+        samples,
+        select(strand.outer.disc, strand.inner.disc, is_inner),
+        select(strand.outer.way, strand.inner.way, is_inner),
+        wins,
+    );
+}
