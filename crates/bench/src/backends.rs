@@ -1,5 +1,6 @@
 //! Both backends under one clock, for the suites `frame` and `scale`.
 
+use crate::results::Row;
 use render::cpu::{Evaluator, Rasterizer};
 use render::gpu::{AdapterKind, GpuError, Offscreen};
 use render::{Drawing, Frame, Picture};
@@ -138,6 +139,52 @@ pub fn share_that_differs(a: &Picture, b: &Picture) -> f64 {
         .filter(|pair| differs(*pair))
         .count();
     count as f64 / a.pixels.len().max(1) as f64
+}
+
+/// The stages of a frame on both backends, in the order in which a frame's times are given; a card's own only where there
+/// is one that keeps time.
+pub const STAGES: [&str; 8] = [
+    "cpu",
+    "cpu:effects",
+    "cpu:raster",
+    "gpu",
+    "gpu:strokes",
+    "gpu:bins",
+    "gpu:tiles",
+    "gpu:upload",
+];
+
+/// A frame's times in the order of [`STAGES`]. `before` is what comes before drawing, on both backends.
+#[must_use]
+pub fn of_stages(before: f64, cpu: CpuTimes, card: Option<CardTimes>) -> Vec<f64> {
+    let mut times = vec![before + cpu.effects + cpu.raster, cpu.effects, cpu.raster];
+    let Some(card) = card else { return times };
+    times.push(before + card.whole);
+    if let Some(stages) = card.stages {
+        times.extend(stages);
+        times.push(card.whole - stages.iter().sum::<f64>());
+    }
+    times
+}
+
+/// A row for the median of each stage that has times; `error` is that of the card's picture.
+#[must_use]
+pub fn rows<'a>(
+    scene: &str,
+    knob: usize,
+    stages: impl IntoIterator<Item = (&'a str, &'a Times)>,
+    error: Option<f64>,
+) -> Vec<Row> {
+    let row = |(stage, times): (&str, &Times)| {
+        Some(Row {
+            scene: scene.to_owned(),
+            method: stage.to_owned(),
+            knob,
+            seconds: times.median()?,
+            error: error.filter(|_| stage == "gpu"),
+        })
+    };
+    stages.into_iter().filter_map(row).collect()
 }
 
 /// Times of one thing in several frames.

@@ -1,7 +1,7 @@
 //! Suite `frame`: what a whole frame of each look takes, by stages, on both backends. Camera and hair move, so that
 //! nothing can be reused.
 
-use crate::backends::{Backends, Card, Times, share_that_differs};
+use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
 use effects::Registry;
@@ -131,19 +131,8 @@ fn open(path: &Path, root: &Path) -> Result<Stage, String> {
     Stage::new(&preset, &files).map_err(|error| error.to_string())
 }
 
-/// The stages of a frame, in the order of the rows.
-const STAGES: [&str; 10] = [
-    "simulate",
-    "paths",
-    "cpu",
-    "cpu:effects",
-    "cpu:raster",
-    "gpu",
-    "gpu:strokes",
-    "gpu:bins",
-    "gpu:tiles",
-    "gpu:upload",
-];
+/// What comes before drawing, on both backends.
+const BEFORE: [&str; 2] = ["simulate", "paths"];
 
 fn look(
     name: &str,
@@ -151,7 +140,7 @@ fn look(
     backends: &mut Backends,
     frames: u32,
 ) -> Result<Vec<Row>, String> {
-    let mut times = STAGES.map(|_| Times::default());
+    let mut times = vec![Times::default(); BEFORE.len() + STAGES.len()];
     let mut error = None;
     for number in 0..WARM_UP + frames {
         let time = f64::from(number) / FPS;
@@ -168,36 +157,17 @@ fn look(
             continue;
         }
         let before = simulate + paths;
-        let mut found = vec![
-            simulate,
-            paths,
-            before + cpu.effects + cpu.raster,
-            cpu.effects,
-            cpu.raster,
-        ];
-        if let Some((by_card, card)) = card {
-            found.push(before + card.whole);
-            if let Some(stages) = card.stages {
-                found.extend(stages);
-                found.push(card.whole - stages.iter().sum::<f64>());
-            }
-            error = Some(share_that_differs(&picture, &by_card));
+        if let Some((by_card, _)) = &card {
+            error = Some(share_that_differs(&picture, by_card));
         }
+        let mut found = vec![simulate, paths];
+        found.extend(of_stages(before, cpu, card.map(|(_, times)| times)));
         for (times, seconds) in times.iter_mut().zip(found) {
             times.push(seconds);
         }
     }
-    let medians = STAGES.iter().zip(&times).filter_map(|(stage, times)| {
-        let is_card = *stage == "gpu";
-        Some(Row {
-            scene: name.to_owned(),
-            method: (*stage).to_owned(),
-            knob: SAMPLES as usize,
-            seconds: times.median()?,
-            error: error.filter(|_| is_card),
-        })
-    });
-    Ok(medians.collect())
+    let stages = BEFORE.into_iter().chain(STAGES).zip(&times);
+    Ok(rows(name, SAMPLES as usize, stages, error))
 }
 
 #[cfg(test)]

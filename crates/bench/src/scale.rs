@@ -1,6 +1,6 @@
 //! Suite `scale`: frame time by stages, and memory, for 72 to 100,000 strands of 16 points on both backends.
 
-use crate::backends::{Backends, Card, Times, share_that_differs};
+use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
 use effects::preset::Reader;
@@ -165,18 +165,8 @@ fn layers() -> Result<Vec<Layer>, String> {
     Ok(specs.iter().map(|spec| spec.build()).collect())
 }
 
-/// The stages of a frame, in the order of the rows.
-const STAGES: [&str; 9] = [
-    "paths",
-    "cpu",
-    "cpu:effects",
-    "cpu:raster",
-    "gpu",
-    "gpu:strokes",
-    "gpu:bins",
-    "gpu:tiles",
-    "gpu:upload",
-];
+/// What comes before drawing, on both backends.
+const BEFORE: [&str; 1] = ["paths"];
 
 fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row>, String> {
     let view = OrbitView {
@@ -193,7 +183,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
     );
     let mut hair = Hair::new(count);
     let mut paths = Paths::new();
-    let mut times = STAGES.map(|_| Times::default());
+    let mut times = vec![Times::default(); BEFORE.len() + STAGES.len()];
     let mut error = None;
     for number in 0..frames + 1 {
         hair.move_to(number as f32 / 60.0);
@@ -231,35 +221,17 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
         if number == 0 {
             continue;
         }
-        let mut found = vec![
-            of_paths,
-            of_paths + cpu.effects + cpu.raster,
-            cpu.effects,
-            cpu.raster,
-        ];
-        if let Some((by_card, card)) = card {
-            found.push(of_paths + card.whole);
-            if let Some(stages) = card.stages {
-                found.extend(stages);
-                found.push(card.whole - stages.iter().sum::<f64>());
-            }
-            error = Some(share_that_differs(&picture, &by_card));
+        if let Some((by_card, _)) = &card {
+            error = Some(share_that_differs(&picture, by_card));
         }
+        let mut found = vec![of_paths];
+        found.extend(of_stages(of_paths, cpu, card.map(|(_, times)| times)));
         for (times, seconds) in times.iter_mut().zip(found) {
             times.push(seconds);
         }
     }
-    let medians = STAGES.iter().zip(&times).filter_map(|(stage, times)| {
-        let is_card = *stage == "gpu";
-        Some(Row {
-            scene: format!("{count}x{POINTS}"),
-            method: (*stage).to_owned(),
-            knob: count,
-            seconds: times.median()?,
-            error: error.filter(|_| is_card),
-        })
-    });
-    Ok(medians.collect())
+    let stages = BEFORE.into_iter().chain(STAGES).zip(&times);
+    Ok(rows(&format!("{count}x{POINTS}"), count, stages, error))
 }
 
 /// Cost grows linearly or better; 10,000 strands at 30 frames a second on the CPU, 100,000 at 60 on a card.
