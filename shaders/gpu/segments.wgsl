@@ -125,7 +125,7 @@ fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>) -> Found {
     let biased = a.biased + way * (b.biased - a.biased);
     found.is_there = true;
     found.segment = Segment(
-        sweep(start, vec3<f32>(end.xy, max(end.z, 0.0)), flat_end),
+        sweep(start, max(end.z, 0.0), (way.y - way.x) * (b.center - a.center), flat_end),
         vec2<f32>(depths.x, depths.y - depths.x),
         vec2<f32>(biased.x, biased.y - biased.x),
         vec2<f32>(way.x, way.y - way.x),

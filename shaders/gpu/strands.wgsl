@@ -91,10 +91,11 @@ fn add(strand: ptr<function, Strand>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
 }
 
 /// Where a strand of that depth shows: before surfaces, and nearer than what is there.
-fn shows(samples: Samples, depth: vec4<f32>, biased: vec4<f32>, number: vec4<u32>) -> vec4<bool> {
+fn shows(samples: Samples, depth: vec4<f32>, biased: vec4<f32>, stroke: vec4<u32>, owner: u32) -> vec4<bool> {
     let before_wall = depth / (1.0 + samples.surface_margin * depth);
     let against = select(biased, before_wall, samples.surface_margin != vec4<f32>(0.0));
-    let is_on_top = (depth == samples.strand) & (number > samples.number);
+    let is_before = (stroke == samples.stroke) & (vec4<u32>(owner) < samples.owner);
+    let is_on_top = (depth == samples.strand) & ((stroke > samples.stroke) | is_before);
     return (samples.surface <= against) & ((depth > samples.strand) | is_on_top);
 }
 
@@ -145,13 +146,13 @@ fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32, first_s
         depth = deeper(depth, gpu_frame.edge_depth_m * parts);
         biased = deeper(biased, gpu_frame.edge_depth_m * parts);
     }
-    // Strands that are as near stay in the order in which they come; strokes in `SHIFTED` have their own.
-    let on_top = select(vec4<u32>(0u), strand.outer.number, ORDER == SHIFTED);
-    let wins = is_drawn & shows(*samples, depth, biased, on_top);
+    let stroke = select(vec4<u32>(0u), strand.outer.number, ORDER == SHIFTED);
+    let wins = is_drawn & shows(*samples, depth, biased, stroke, number);
     if (!any(wins)) {
         return;
     }
-    (*samples).number = select((*samples).number, on_top, wins);
+    (*samples).stroke = select((*samples).stroke, stroke, wins);
+    (*samples).owner = select((*samples).owner, vec4<u32>(number), wins);
     (*samples).strand = select((*samples).strand, depth, wins);
     set_colors(
         samples,

@@ -25,11 +25,11 @@ const TINY: f32 = 1e-30;
 /// Stands for 1 / 0, and is far from the largest number when multiplied.
 const HUGE: f32 = 1e25;
 
-/// The sweep from the larger circle, of a radius above 0, to the smaller one.
-fn sweep(larger: vec3<f32>, smaller: vec3<f32>, flat_end: f32) -> Sweep {
-    let along = smaller.xy - larger.xy;
+/// The sweep from the larger circle, of a radius above 0, to a smaller radius. `along` is the way between their centres: not
+/// worked out from places in the tile, which rounding has moved, as of discs that nearly coincide it tells the direction.
+fn sweep(larger: vec3<f32>, smaller_radius: f32, along: vec2<f32>, flat_end: f32) -> Sweep {
     var span = length(along);
-    var shrink = larger.z - smaller.z;
+    var shrink = larger.z - smaller_radius;
     var axis = vec2<f32>(1.0, 0.0);
     var inverse = 0.0;
     if (span < SAME) {
@@ -47,7 +47,7 @@ fn sweep(larger: vec3<f32>, smaller: vec3<f32>, flat_end: f32) -> Sweep {
         span,
         inverse,
         larger.z,
-        smaller.z,
+        smaller_radius,
         shrink,
         a,
         select(1.0 / max(a, TINY), HUGE, is_nested),

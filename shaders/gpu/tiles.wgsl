@@ -44,8 +44,10 @@ struct Samples {
     triangle: vec4<u32>,
     /// Nearest strand that no surface hides, 1/m.
     strand: vec4<f32>,
-    /// In `SHIFTED` the number of its stroke: the higher lies on top of what is as near.
-    number: vec4<u32>,
+    /// In `SHIFTED` the number of its stroke, else 0; and its own. Of what is as near the higher stroke lies on top, then the
+    /// lower strand.
+    stroke: vec4<u32>,
+    owner: vec4<u32>,
     red: vec4<f32>,
     green: vec4<f32>,
     blue: vec4<f32>,
