@@ -104,7 +104,7 @@ fn log_to_two(x: f32) -> f32 {
     return e + z * (2.8853901 + w * (0.9617967 + w * (0.5770780 + w * (0.4121986 + w * 0.3205989))));
 }
 
-/// `x` to the power `y` within 1e-5 of its size, for x and y of 0 or more; 0 to any power is 0.
+/// `x` to the power `y` within 2e-5 of its size, for x and y of 0 or more; 0 to any power is 0.
 fn power(x: f32, y: f32) -> f32 {
     if (x <= 0.0) {
         return 0.0;

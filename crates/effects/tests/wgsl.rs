@@ -235,7 +235,8 @@ proptest! {
         prop_assert!((got - exact).abs() < 2e-6 + 3e-7 * exact.abs(), "log {number} = {got}, not {exact}");
         let exact = f64::from(part).powf(y.into());
         let got = f64::from(wgsl::power(part, y));
-        prop_assert!((got - exact).abs() <= 1e-5 * exact + 2e-38, "{part}^{y} = {got}, not {exact}");
+        // The exponent, up to 126, carries the roundings of the logarithm and of the product.
+        prop_assert!((got - exact).abs() <= 2e-5 * exact + 2e-38, "{part}^{y} = {got}, not {exact}");
     }
 
     #[test]
