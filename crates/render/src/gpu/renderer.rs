@@ -135,11 +135,11 @@ impl Renderer {
                 prepared: samples,
             });
         }
-        let is_new = self.draw(encoder, Source::Frame(frame), samples, Keeps::Samples)?;
         let mut composer = match before {
             Some(composer) if composer.fits(&pass) => composer,
             _ => Composer::new(&self.device, pass)?,
         };
+        let is_new = self.draw(encoder, Source::Frame(frame), samples, Keeps::Samples)?;
         let buffers = &self.buffers;
         let (Some(frame), Some(drawn)) = (buffers.frame.get(), buffers.picture.get()) else {
             return Err(GpuError::Memory);

@@ -183,6 +183,24 @@ impl Scene {
         }
     }
 
+    /// Turns all strands by so many degrees around the head, each on straight paths through the joints it has now.
+    pub fn turn_by(&mut self, degrees: f32) {
+        let turned = glam::Quat::from_rotation_y(degrees.to_radians());
+        let mut paths = Paths::new();
+        let kind = PathKind::Linear { subdivision: 1 };
+        for run in &self.paths.runs {
+            let points = self.paths.position[run.joints.clone()].iter();
+            let points: Vec<Vec3> = points.map(|point| turned * *point).collect();
+            paths
+                .push_strand(run.strand, &points, kind, &self.camera)
+                .unwrap();
+        }
+        let whole = 0..paths.len();
+        self.layer_joints.fill(whole);
+        self.material_normals.resize(paths.len(), Vec3::Y);
+        self.paths = paths;
+    }
+
     pub fn frame(&self) -> Frame<'_> {
         Frame {
             camera: &self.camera,

@@ -34,6 +34,19 @@ fn once_warm_nothing_is_made() {
     }
 }
 
+/// Hair that moves by a little takes no more room than buffers keep in reserve.
+#[test]
+fn once_warm_nothing_is_made_for_hair_that_moves() {
+    let mut card = on_noop();
+    let mut scene = Scene::random(3);
+    card.draw(&scene.frame(), 4).unwrap();
+    for step in 1..6 {
+        scene.turn_by(4.0);
+        card.draw(&scene.frame(), 4).unwrap();
+        assert_eq!(card.stats().made, 0, "step {step}");
+    }
+}
+
 #[test]
 fn a_layer_that_is_off_has_no_pipeline_and_no_buffer() {
     let mut card = on_noop();
