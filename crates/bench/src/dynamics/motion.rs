@@ -12,9 +12,12 @@ use hair_sim::{
     Collider, Mutual, Params, Pose, Roots, Scene, Shape, Solver, State, Stats, Strands, Wind,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::rc::Rc;
 
 /// In s.
 const DT: f64 = 1.0 / 60.0;
+/// Steps in a timed run, one right after the other: a quarter second of motion.
+const STEPS: usize = 16;
 /// The radius in m of the head, a ball at the origin.
 const HEAD: f64 = 0.1;
 
@@ -55,15 +58,21 @@ trait Moving {
 struct Bare<S> {
     simulation: S,
     steps: usize,
-    pool: ThreadPool,
+}
+
+impl<S: Simulation + Send + 'static> Bare<S> {
+    fn boxed(simulation: S) -> Box<dyn Moving + Send> {
+        Box::new(Self {
+            simulation,
+            steps: 0,
+        })
+    }
 }
 
 impl<S: Simulation> Moving for Bare<S> {
     fn step(&mut self) -> Result<(), String> {
         self.steps += 1;
-        let simulation = &mut self.simulation;
-        let head = head(self.steps);
-        self.pool.install(|| simulation.step(DT, head))
+        self.simulation.step(DT, head(self.steps))
     }
 }
 
@@ -72,14 +81,13 @@ struct Full {
     solver: Solver,
     state: State,
     steps: usize,
-    pool: ThreadPool,
     strands: usize,
     links: usize,
     fallbacks: usize,
 }
 
 impl Full {
-    fn new(strands: usize, links: usize, pool: ThreadPool) -> Result<Self, String> {
+    fn new(strands: usize, links: usize) -> Result<Self, String> {
         let mut rest = Strands::new();
         for (id, out) in directions(strands).enumerate() {
             let points: Vec<Vec3> = (0..=links)
@@ -109,7 +117,6 @@ impl Full {
             solver,
             state,
             steps: 0,
-            pool,
             strands,
             links,
             fallbacks: 0,
@@ -156,8 +163,7 @@ impl Moving for Full {
             colliders: &colliders,
             ..Scene::default()
         };
-        let (solver, state) = (&mut self.solver, &mut self.state);
-        let stats = self.pool.install(|| solver.step(state, &scene, DT));
+        let stats = self.solver.step(&mut self.state, &scene, DT);
         let stats = stats.map_err(|error| error.to_string())?;
         self.fallbacks += stats.fallbacks;
         self.check(&stats)
@@ -176,20 +182,43 @@ pub struct Measured {
     pub fallbacks: Vec<(String, f64)>,
 }
 
-/// Times steps. Our strands' scenes with head, wind and other hair fail unless the counters of each timed step say that
+/// Strands that move, and the threads that they move on.
+struct Entry {
+    scene: String,
+    method: &'static str,
+    pool: Rc<ThreadPool>,
+    moving: Box<dyn Moving + Send>,
+}
+
+impl Entry {
+    fn steps(&mut self, count: usize) -> Result<(), String> {
+        let moving = &mut self.moving;
+        self.pool
+            .install(|| (0..count).try_for_each(|_| moving.step()))
+    }
+}
+
+/// Times steps: [`STEPS`] of them in a row, as in a program that simulates, so that neither caches nor threads start cold in
+/// each. Our strands' scenes with head, wind and other hair fail unless the counters of each timed step say that
 /// there were contacts, wind and links.
 ///
 /// # Errors
 ///
 /// When a step is refused or a counter is not what it must be.
 pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, String> {
-    let mut entries: Vec<(String, &str, usize, Box<dyn Moving>)> = Vec::new();
+    let mut entries: Vec<Entry> = Vec::new();
     let mut counts = vec![1, threads];
     counts.dedup();
     for threads in counts {
-        let pool = || {
-            let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.map_err(|error| error.to_string())
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = Rc::new(pool.map_err(|error| error.to_string())?);
+        let mut add = |scene: &str, method, moving| {
+            entries.push(Entry {
+                scene: scene.to_owned(),
+                method,
+                pool: pool.clone(),
+                moving,
+            });
         };
         let own = targets::OWN.trim_end_matches('-');
         for (strands, links) in [(72, 20), (10_000, 16)] {
@@ -198,38 +227,26 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
                 drag: 2.0,
                 ..Rods::level(strands, links, 10.0)
             };
-            let bare = |simulation: Box<dyn Simulation>| {
-                Ok::<_, String>(Box::new(Bare {
-                    simulation,
-                    steps: 0,
-                    pool: pool()?,
-                }))
-            };
             let scene = format!("motion-{strands}x{links}");
-            let simulation = Box::new(Own::new(&rods)?);
-            entries.push((scene.clone(), own, threads, bare(simulation)?));
+            add(&scene, own, Bare::boxed(Own::new(&rods)?));
             if strands == 72 {
                 let truss = |index| Truss::new(&rods, index);
-                let trusses = Box::new(Apart((0..strands).map(truss).collect::<Vec<_>>()));
-                entries.push((scene.clone(), targets::MASS_SPRING, threads, bare(trusses)?));
+                let trusses = Apart((0..strands).map(truss).collect::<Vec<_>>());
+                add(&scene, targets::MASS_SPRING, Bare::boxed(trusses));
                 let rod = |index| Rod::new(&rods, index, 20);
-                let rods = Box::new(Apart((0..strands).map(rod).collect::<Vec<_>>()));
-                entries.push((scene, targets::XPBD_SWEEPS, threads, bare(rods)?));
+                let rods = Apart((0..strands).map(rod).collect::<Vec<_>>());
+                add(&scene, targets::XPBD_SWEEPS, Bare::boxed(rods));
             }
             let scene = format!("{}{strands}x{links}", targets::FULL);
-            let full = Box::new(Full::new(strands, links, pool()?)?);
-            entries.push((scene, own, threads, full));
+            add(&scene, own, Box::new(Full::new(strands, links)?));
         }
     }
     // On their way before they are timed.
-    for (_, _, _, moving) in &mut entries {
-        for _ in 0..if quick { 10 } else { 60 } {
-            moving.step()?;
-        }
+    for entry in &mut entries {
+        entry.steps(if quick { 10 } else { 60 })?;
     }
-    let mut runs: Vec<_> = entries
-        .iter_mut()
-        .map(|(_, _, _, moving)| || moving.step())
+    let mut runs: Vec<_> = (entries.iter_mut())
+        .map(|entry| || entry.steps(STEPS))
         .collect();
     let seconds = shortest(&mut runs, effort, || ())?;
     drop(runs);
@@ -237,8 +254,9 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
         rows: Vec::new(),
         fallbacks: Vec::new(),
     };
-    for ((scene, method, knob, moving), seconds) in entries.into_iter().zip(seconds) {
-        if let Some(share) = moving.fallback_share() {
+    for (entry, seconds) in entries.into_iter().zip(seconds) {
+        let scene = entry.scene;
+        if let Some(share) = entry.moving.fallback_share() {
             match measured.fallbacks.iter_mut().find(|of| of.0 == scene) {
                 Some(of) => of.1 = of.1.max(share),
                 None => measured.fallbacks.push((scene.clone(), share)),
@@ -246,9 +264,9 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
         }
         measured.rows.push(Row {
             scene,
-            method: method.to_owned(),
-            knob,
-            seconds,
+            method: entry.method.to_owned(),
+            knob: entry.pool.current_num_threads(),
+            seconds: seconds / STEPS as f64,
             error: None,
         });
     }
@@ -261,8 +279,7 @@ mod tests {
 
     #[test]
     fn a_scene_without_contacts_is_refused() {
-        let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-        let full = Full::new(8, 10, pool).unwrap();
+        let full = Full::new(8, 10).unwrap();
         let good = Stats {
             strands: 8,
             wind: 80,
