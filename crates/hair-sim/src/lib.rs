@@ -32,6 +32,8 @@ pub use collision::{Collider, GridError, Shape, SignedDistance};
 pub use forces::{mutual::Mutual, wind::Wind};
 pub use motion::{Motion, MotionError, key_weights};
 pub use params::{GRAVITY, Material, Natural, Params, Profile};
-pub use solver::{DynamicsError, Fault, Pose, Reason, Roots, Scene, Solver, State, Stats};
+pub use solver::{
+    Acceleration, DynamicsError, Fault, Pose, Reason, Roots, Scene, Solver, State, Stats,
+};
 pub use strand_solver::StrandSolver;
 pub use strands::{StrandError, Strands};

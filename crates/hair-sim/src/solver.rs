@@ -27,7 +27,7 @@ pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
 use drive::{Drive, Hair, whole_poses};
 use instructions::Instructions;
-pub use scene::{DynamicsError, Fault, Pose, Roots, Scene, Stats};
+pub use scene::{Acceleration, DynamicsError, Fault, Pose, Roots, Scene, Stats};
 
 /// The most groups of batches, so of tasks in a step.
 const MOST_GROUPS: usize = 64;
@@ -292,6 +292,7 @@ impl Solver {
                 first_points,
                 root,
                 base,
+                accelerations: accelerations(batch, scene),
                 calm,
                 hair: hair.map(|h| Hair {
                     mutual: &h.mutual,
@@ -442,6 +443,21 @@ fn roots(batch: &Batch, scene: &Scene) -> (LaneVec3, Quat) {
         base.set(lane, pose.rotation * batch.base.get(lane));
     }
     (root, base)
+}
+
+/// The accelerations of every lane's root at both ends of the step, where they are known.
+fn accelerations(batch: &Batch, scene: &Scene) -> Option<[LaneVec3; 2]> {
+    let (Roots::Head(_), Some(ends)) = (scene.roots, scene.acceleration) else {
+        return None;
+    };
+    let of_roots = |end: Acceleration| {
+        let mut roots = batch.root;
+        for lane in 0..LANES {
+            roots.set(lane, end.of(batch.root.get(lane)));
+        }
+        roots
+    };
+    Some(ends.map(of_roots))
 }
 
 #[cfg(test)]

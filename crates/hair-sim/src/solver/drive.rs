@@ -30,6 +30,8 @@ pub(crate) struct Drive<'a> {
     /// Root and frame of the skin in the world at the end of the step.
     pub root: Vec3,
     pub base: Quat,
+    /// The root's acceleration at the start and at the end, where it is known.
+    pub accelerations: Option<[Vec3; 2]>,
     /// Whether what acts is the same as in the last step, and does not move.
     pub calm: bool,
     /// The other hair.
@@ -53,7 +55,8 @@ pub(crate) struct RootMotion {
     /// From its start.
     pub turn_mid: Quat,
     pub turn_end: Quat,
-    /// Gravity less the acceleration of the root.
+    /// Gravity less the acceleration of the root, at the middle stage and at the end.
+    pub pull_mid: Vec3,
     pub pull: Vec3,
     pub velocity: Vec3,
 }
@@ -63,7 +66,10 @@ impl RootMotion {
     pub(crate) fn new(state: &mut BatchState, drive: &Drive) -> Self {
         let (root, base) = whole_poses(state, drive.root, drive.base);
         let velocity = (root - state.root) * (1.0 / drive.dt);
-        let acceleration = (velocity - state.root_velocity) * (1.0 / drive.dt);
+        let [start, end] = drive
+            .accelerations
+            .unwrap_or([(velocity - state.root_velocity) * (1.0 / drive.dt); 2]);
+        let gravity = Vec3::splat(drive.scene.gravity);
         let turn_end = base.times(state.base.conjugate());
         let sign = (turn_end.w.lt(Lane::ZERO)).pick(Lane::splat(-1.0), Lane::ONE);
         // Along the chord: second order in the angle, and no sine.
@@ -78,7 +84,8 @@ impl RootMotion {
             end: base,
             turn_mid,
             turn_end,
-            pull: Vec3::splat(drive.scene.gravity) - acceleration,
+            pull_mid: gravity - (start + (end - start) * GAMMA),
+            pull: gravity - end,
             velocity,
         }
     }

@@ -206,7 +206,7 @@ fn begin<T: Number>(
             length,
             damping: batch.damping * (1.0 / (2.0 * d)),
             base: root.mid,
-            pull: root.pull,
+            pull: root.pull_mid,
         };
     }
     // The backward difference stage: X = alpha x1 - beta x0.

@@ -1,6 +1,6 @@
 //! What a step is given and what it tells.
 
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 
 use crate::{collision::Collider, forces::wind::Wind, params::GRAVITY};
 
@@ -70,11 +70,42 @@ impl Roots<'_> {
     }
 }
 
+/// How the motion of a head changes: what is at `p` in style space is accelerated by `turn * p + shift`, the second
+/// derivatives of its pose's rotation, as a matrix, and translation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Acceleration {
+    /// In 1/s^2.
+    pub turn: DMat3,
+    /// In m/s^2.
+    pub shift: DVec3,
+}
+
+impl Acceleration {
+    /// Of a head that is at the middle one of three poses, `dt` seconds apart: their second difference.
+    #[must_use]
+    pub fn between(poses: [Pose; 3], dt: f64) -> Self {
+        let [before, now, after] = poses;
+        let rate = 1.0 / (dt * dt);
+        let turn = |pose: Pose| DMat3::from_quat(pose.rotation);
+        Self {
+            turn: (turn(before) - turn(now) * 2.0 + turn(after)) * rate,
+            shift: (before.translation - now.translation * 2.0 + after.translation) * rate,
+        }
+    }
+
+    pub(super) fn of(&self, root: DVec3) -> DVec3 {
+        self.turn * root + self.shift
+    }
+}
+
 /// What acts on the strands in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
     /// Where the roots are at the end of the step.
     pub roots: Roots<'a>,
+    /// The head's acceleration when the step starts and when it ends. Where it is not given, it is the change of the
+    /// roots' mean velocity from the step before to this one: what acts then lags by half a step.
+    pub acceleration: Option<[Acceleration; 2]>,
     /// In m/s^2.
     pub gravity: DVec3,
     /// The motion of the air.
@@ -90,6 +121,7 @@ impl Default for Scene<'_> {
     fn default() -> Self {
         Self {
             roots: Roots::Head(Pose::IDENTITY),
+            acceleration: None,
             gravity: DVec3::new(0.0, -GRAVITY, 0.0),
             wind: Wind::default(),
             colliders: &[],
@@ -111,6 +143,10 @@ impl Scene<'_> {
         }
         if !self.gravity.is_finite() {
             return Err(DynamicsError::Scene("gravity"));
+        }
+        let finite = |a: &Acceleration| a.turn.is_finite() && a.shift.is_finite();
+        if !self.acceleration.iter().flatten().all(finite) {
+            return Err(DynamicsError::Scene("acceleration"));
         }
         if !self.wind.is_finite() {
             return Err(DynamicsError::Scene("wind"));

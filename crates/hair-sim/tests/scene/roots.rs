@@ -1,7 +1,7 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{GRAVITY, Pose, Roots, Scene, Solver};
+use hair_sim::{Acceleration, GRAVITY, Pose, Roots, Scene, Solver};
 
-use crate::{farthest, params, run, shape, straight};
+use crate::{LENGTH, farthest, params, run, shape, straight};
 
 fn at(rotation: DQuat, translation: DVec3) -> Pose {
     Pose {
@@ -114,6 +114,61 @@ fn a_turned_world_is_the_same_world() {
         .collect();
     let error = farthest(&moved, &shape(&solver, &there));
     assert!(error < 1e-9, "{error}");
+}
+
+/// The tip of a strand on a head that turns to and fro, in steps of 1 / `rate` seconds.
+fn spun(rate: u32, known: bool) -> Vec<DVec3> {
+    let rest = straight(Vec3::new(0.1, 0.0, 0.0), Vec3::new(0.6, -0.8, 0.0));
+    let (mut solver, mut state) = Solver::new(&rest, &params(20.0)).unwrap();
+    let dt = 1.0 / f64::from(rate);
+    // It starts at rest: angle and velocity grow with the square of time at first.
+    let pose = |step: i32| {
+        let t = (dt * f64::from(step)).max(0.0);
+        let angle = 1.5 * (1.0 - (6.0 * t).cos()) * (t * t / (0.1 + t * t));
+        at(
+            DQuat::from_rotation_y(angle),
+            DVec3::new(0.0, 0.03 * angle, 0.0),
+        )
+    };
+    let mut shapes = Vec::new();
+    for step in 0..rate as i32 {
+        let ends = [step, step + 1];
+        let accelerations = ends.map(|s| Acceleration::between([s - 1, s, s + 1].map(pose), dt));
+        let scene = Scene {
+            roots: Roots::Head(pose(step + 1)),
+            acceleration: known.then_some(accelerations),
+            ..Scene::default()
+        };
+        solver.step(&mut state, &scene, dt).unwrap();
+        if (step + 1) % (rate as i32 / 24) == 0 {
+            shapes.extend(shape(&solver, &state));
+        }
+    }
+    shapes
+}
+
+#[test]
+fn a_known_acceleration_is_of_second_order() {
+    let truth = spun(24 * 64, true);
+    // Both come to the same.
+    assert!(farthest(&spun(24 * 64, false), &truth) < 0.02 * LENGTH);
+    let error = |rate, known| {
+        let shapes = spun(rate, known);
+        let apart = shapes
+            .iter()
+            .zip(&truth)
+            .map(|(a, b)| (*a - *b).length_squared());
+        (apart.sum::<f64>() / shapes.len() as f64).sqrt() / LENGTH
+    };
+    let mut ratios = Vec::new();
+    for rate in [24, 48, 96, 192] {
+        let (measured, known) = (error(rate, false), error(rate, true));
+        println!("spun, steps of 1/{rate} s: measured {measured:.5}, known {known:.5}");
+        ratios.push(measured / known);
+    }
+    assert!(ratios.iter().all(|ratio| *ratio > 1.2), "{ratios:?}");
+    let slope = (error(48, true) / error(192, true)).log2() / 2.0;
+    assert!(slope > 1.5, "{slope}");
 }
 
 #[test]
