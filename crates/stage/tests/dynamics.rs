@@ -95,6 +95,42 @@ fn a_moment_is_the_same_however_it_is_reached() {
 }
 
 #[test]
+fn between_two_steps_hair_is_where_a_shorter_step_has_it() {
+    let in_steps = |step| {
+        scene(
+            "twin-tails.style.ron",
+            Some(TURN),
+            &[("dynamics.step", step)],
+        )
+    };
+    let (mut coarse, mut fine) = (in_steps("0.02"), in_steps("0.001"));
+    // Off the finer steps too, which a script's times need not be on.
+    let error = |coarse: &mut Stage, fine: &mut Stage, time| {
+        farthest(&means(coarse, time), &means(fine, time))
+    };
+    let on_a_step = error(&mut coarse, &mut fine, 0.32);
+    let between = error(&mut coarse, &mut fine, 0.3301);
+    // How far hair goes in half a step, by which the nearest step would be wrong.
+    let half_a_step = farthest(&means(&mut fine, 0.32), &means(&mut fine, 0.33));
+    println!("m: error on a step {on_a_step}, between {between}; half a step {half_a_step}");
+    assert!(
+        between < 2.0 * on_a_step && between < 0.2 * half_a_step,
+        "{on_a_step} {between} {half_a_step}"
+    );
+
+    // It arrives at the next step without a jump, and looking changes nothing.
+    let ahead = means(&mut coarse, 0.3999);
+    let there = means(&mut coarse, 0.4);
+    assert!(farthest(&ahead, &there) < 0.02 * half_a_step);
+    assert!(means(&mut in_steps("0.02"), 0.4) == there);
+    // From the start on.
+    let rigid = &[("dynamics.solver", "none")];
+    let with_head = means(&mut scene("twin-tails.style.ron", Some(TURN), rigid), 0.015);
+    let first = means(&mut in_steps("0.02"), 0.015);
+    assert!(first != with_head && farthest(&first, &with_head) < 0.01);
+}
+
+#[test]
 fn guides_carry_the_other_strands() {
     let mut all = scene("long-straight.style.ron", Some(TURN), &[]);
     let mut few = scene(

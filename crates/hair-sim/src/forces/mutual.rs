@@ -97,6 +97,10 @@ pub(crate) struct Counts {
 pub(crate) struct Own<'a> {
     /// Particles from the root, and frames, at the start.
     pub y: &'a [Vec3],
+    /// Their accelerations, where they are known: the partner is taken to be accelerated alike, so that strands that move
+    /// together don't hold each other back.
+    pub a: &'a [Vec3],
+    pub known: Mask,
     pub frames: &'a [crate::lanes::Quat],
     pub root_before: Vec3,
     pub root_now: Vec3,
@@ -120,6 +124,8 @@ pub(crate) fn act<T: Number>(
         let others = pair.other.map(|other| &courses[other as usize]);
         let y = own.y[pair.at].load::<T>();
         let before = gather(others.map(|o| o.before)) - own.root_before.load();
+        let a = own.a[pair.at].load::<T>();
+        let a = Vec3::choose(T::condition(&own.known), a, Vec3::zero());
         let now = gather(others.map(|o| o.now)) - own.root_now.load();
         let apart = before - y;
         let size = apart.length_squared().sqrt();
@@ -138,7 +144,14 @@ pub(crate) fn act<T: Number>(
             let offset = own.frames[pair.at].load().rotate(pair.offset.load());
             let stiffness = T::choose(T::condition(&holds), T::splat(mutual.link), T::splat(0.0));
             let mut spring = springs[pair.at].load();
-            spring.pull(stiffness, before - offset, now - offset, own.gamma, own.dt);
+            spring.pull(
+                stiffness,
+                before - offset,
+                now - offset,
+                a,
+                own.gamma,
+                own.dt,
+            );
             springs[pair.at] = spring.store();
         }
 
@@ -153,7 +166,7 @@ pub(crate) fn act<T: Number>(
             let push = T::splat(mutual.repulsion);
             let stiffness = T::choose(T::condition(&pushes), push, T::splat(0.0));
             let mut spring = springs[pair.at].load();
-            spring.pull(stiffness, before - away, now - away, own.gamma, own.dt);
+            spring.pull(stiffness, before - away, now - away, a, own.gamma, own.dt);
             springs[pair.at] = spring.store();
         }
     }

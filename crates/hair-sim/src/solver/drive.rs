@@ -58,7 +58,11 @@ pub(crate) struct RootMotion {
     /// Gravity less the acceleration of the root, at the middle stage and at the end.
     pub pull_mid: Vec3,
     pub pull: Vec3,
+    /// The root's mean velocity, and by how much it is faster at the middle stage and at the end, as far as its acceleration is
+    /// known.
     pub velocity: Vec3,
+    pub faster_mid: Vec3,
+    pub faster_end: Vec3,
 }
 
 impl RootMotion {
@@ -69,6 +73,16 @@ impl RootMotion {
         let [start, end] = drive
             .accelerations
             .unwrap_or([(velocity - state.root_velocity) * (1.0 / drive.dt); 2]);
+        // Of an acceleration that changes evenly within the step. Where it is only measured, it may be a blow that is over.
+        let (faster_mid, faster_end) = match drive.accelerations {
+            Some([start, end]) => {
+                let mid = start * (GAMMA - 1.0 / 3.0) - end * (1.0 / 6.0)
+                    + (end - start) * (0.5 * GAMMA * GAMMA);
+                let last = start * (1.0 / 6.0) + end * (1.0 / 3.0);
+                (mid * drive.dt, last * drive.dt)
+            }
+            None => (Vec3::ZERO, Vec3::ZERO),
+        };
         let gravity = Vec3::splat(drive.scene.gravity);
         let turn_end = base.times(state.base.conjugate());
         let sign = (turn_end.w.lt(Lane::ZERO)).pick(Lane::splat(-1.0), Lane::ONE);
@@ -87,6 +101,8 @@ impl RootMotion {
             pull_mid: gravity - (start + (end - start) * GAMMA),
             pull: gravity - end,
             velocity,
+            faster_mid,
+            faster_end,
         }
     }
 }
@@ -129,6 +145,8 @@ pub(crate) fn prepare<T: Number>(
     if let Some(hair) = &drive.hair {
         let own = Own {
             y: &state.y,
+            a: &state.a,
+            known: Mask::new(state.restart).not(),
             frames: &state.frames,
             root_before: state.root,
             root_now: root.root,
@@ -180,11 +198,15 @@ pub(crate) fn prepare<T: Number>(
 
 fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, drive: &Drive) {
     let known = !state.goal.is_empty();
+    let turn = drive
+        .scene
+        .acceleration
+        .map(|ends| (ends[0].turn + ends[1].turn) * 0.5);
     if !known {
         state.goal.resize(batch.count(), Vec3::ZERO);
     }
     for k in 0..batch.count() {
-        let mut now = batch.styled[k];
+        let (mut now, mut acceleration) = (batch.styled[k], Vec3::ZERO);
         for lane in 0..LANES {
             let Some(strand) = batch.strands[lane] else {
                 continue;
@@ -200,6 +222,9 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, d
                 }
                 _ => now.get(lane),
             };
+            if let (Some(turn), true) = (turn, known) {
+                acceleration.set(lane, turn * goal);
+            }
             let goal: DVec3 = pose.rotation * goal;
             if goal.is_finite() {
                 now.set(lane, goal);
@@ -210,7 +235,8 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, d
         }
         let before = if known { state.goal[k] } else { now };
         let spring = &mut scratch.springs[k];
-        spring.pull(batch.particles[k].goal, before, now, GAMMA, drive.dt);
+        let stiffness = batch.particles[k].goal;
+        spring.pull(stiffness, before, now, acceleration, GAMMA, drive.dt);
         state.goal[k] = now;
     }
 }

@@ -51,6 +51,7 @@ pub(super) fn step(
         damping: batch.damping * (1.0 / drive.dt),
         base: root.end,
         pull: root.pull,
+        faster: root.faster_end,
     };
     assemble(instructions, batch, scratch, &setup, Which::Trial);
     let elastic = Elastic {

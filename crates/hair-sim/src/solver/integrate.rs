@@ -30,8 +30,11 @@ use super::{
 /// 2 - sqrt 2.
 pub(super) const GAMMA: f64 = 0.585_786_437_626_904_9;
 
-/// A Newton step that turns no link by more than this (radians) is the last.
+/// A Newton step that turns no link by more than this (radians) is the last. What it leaves is of the order of its square. In
+/// steps shorter than [`FRAME`] (s) the limit falls with the square of the step, as turns do, so that what is left stays below
+/// the integrator's own error.
 const SMALL_TURN: f64 = 0.1;
+const FRAME: f64 = 1.0 / 60.0;
 
 /// A Newton step turns no link by more than this (radians).
 const LARGEST_TURN: f64 = 1.0;
@@ -80,6 +83,7 @@ pub(crate) fn step(
     );
 
     let d = 0.5 * GAMMA * drive.dt;
+    let small_turn = SMALL_TURN * (drive.dt / FRAME).min(1.0).powi(2);
     let mut failed = Mask::NONE;
     stats.strands = active.count();
     for which in [Which::Mid, Which::End] {
@@ -90,9 +94,9 @@ pub(crate) fn step(
             batch,
             scratch,
             &setup,
-            active,
+            small_turn,
             &mut failed,
-            which,
+            (which, active),
         );
     }
     let too_far = run!(instructions, turned_too_far(batch, state, scratch, &root));
@@ -159,6 +163,8 @@ pub(super) struct StageSetup {
     pub damping: Lane,
     pub base: Quat,
     pub pull: Vec3,
+    /// By how much the root is faster than in the step's mean.
+    pub faster: Vec3,
 }
 
 /// The base of a stage, `free_y` and `free_v`, what damping holds to, and the shape to begin with.
@@ -207,6 +213,7 @@ fn begin<T: Number>(
             damping: batch.damping * (1.0 / (2.0 * d)),
             base: root.mid,
             pull: root.pull_mid,
+            faster: root.faster_mid,
         };
     }
     // The backward difference stage: X = alpha x1 - beta x0.
@@ -229,6 +236,7 @@ fn begin<T: Number>(
         damping: batch.damping * (1.0 / d),
         base: root.end,
         pull: root.pull,
+        faster: root.faster_end,
     }
 }
 
@@ -323,7 +331,7 @@ pub(super) fn assemble(
 fn load<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, which: Which) {
     weigh::<T>(batch, scratch, stage);
     if batch.has_drag.any() {
-        drag::<T>(batch, scratch, stage.length, which);
+        drag::<T>(batch, scratch, stage, which);
     }
     if scratch.has_springs {
         spring::<T>(batch, scratch, stage.length, which);
@@ -354,7 +362,7 @@ fn weigh<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup) {
 }
 
 #[inline(always)]
-fn drag<T: Number>(batch: &Batch, scratch: &mut Scratch, length: Lane, which: Which) {
+fn drag<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, which: Which) {
     let count = batch.count();
     let Scratch {
         nodes,
@@ -373,11 +381,12 @@ fn drag<T: Number>(batch: &Batch, scratch: &mut Scratch, length: Lane, which: Wh
     let (nodes, particles) = (&mut nodes[..count], &batch.particles[..count]);
     let (free_y, wind, tangents) = (&free_y[..count], &wind[..count], &tangents[..count]);
     for k in 0..count {
-        let (particle, d) = (particles[k].load::<T>(), length.load::<T>());
+        let (particle, d) = (particles[k].load::<T>(), stage.length.load::<T>());
         let rate = particle.mass * particle.drag * d;
         let less = batch.drag_along.load::<T>() - T::splat(1.0);
         let n = Sym3::outer(rate, tangents[k].load(), rate * less);
-        let carried = free_y[k].load() + wind[k].load().scale(d);
+        let air = wind[k].load() - stage.faster.load();
+        let carried = free_y[k].load() + air.scale(d);
         let node = nodes[k].load();
         let node = Node {
             n: node.n + n,
@@ -399,19 +408,18 @@ fn spring<T: Number>(batch: &Batch, scratch: &mut Scratch, length: Lane, which: 
     let (nodes, particles) = (&mut nodes[..count], &batch.particles[..count]);
     let (free_y, springs) = (&free_y[..count], &springs[..count]);
     for k in 0..count {
-        let to = if which == Which::Mid {
-            &springs[k].mid
-        } else {
-            &springs[k].end
-        };
         let (mass, d) = (particles[k].mass.load::<T>(), length.load::<T>());
         let spring = springs[k].load();
-        let carried = free_y[k].load().scale(spring.rate) + spring.flow.scale(d);
+        let (to, flow) = match which {
+            Which::Mid => (spring.mid, spring.flow_mid),
+            Which::End | Which::Trial => (spring.end, spring.flow_end),
+        };
+        let carried = free_y[k].load().scale(spring.rate) + flow.scale(d);
         let stiffness = (spring.stiffness * (d * d) + spring.rate * d) * mass;
         let node = nodes[k].load();
         let node = Node {
             n: node.n + Sym3::diagonal(stiffness),
-            b: node.b + (to.load().scale(d * d) + carried.scale(d)).scale(mass),
+            b: node.b + (to.scale(d * d) + carried.scale(d)).scale(mass),
         };
         nodes[k] = node.store();
     }
@@ -445,16 +453,16 @@ pub(super) fn hold(
     new
 }
 
-/// Newton's method for a stage, starting from its shape. Returns the number
+/// Newton's method for a stage, starting from its shape, to a last step of `small_turn` (radians). Returns the number
 /// of iterations, summed over strands; lanes that did not converge are added to `failed`.
 fn solve(
     instructions: Instructions,
     batch: &Batch,
     scratch: &mut Scratch,
     setup: &StageSetup,
-    active: Mask,
+    small_turn: f64,
     failed: &mut Mask,
-    which: Which,
+    (which, active): (Which, Mask),
 ) -> usize {
     let elastic = Elastic {
         h2: setup.length * setup.length,
@@ -472,7 +480,7 @@ fn solve(
             newton(batch, scratch, setup, &elastic, open, which)
         );
         // Lanes whose numbers are broken stop as well, and fail.
-        let small = largest.lt(Lane::splat(SMALL_TURN));
+        let small = largest.lt(Lane::splat(small_turn));
         let broken = largest.is_finite().not();
         *failed = failed.or(broken.and(open));
         let done = small.or(broken);

@@ -22,10 +22,15 @@ use feel::SolverKind;
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::compare::Xpbd;
-use hair_sim::{Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind};
+use hair_sim::{
+    Acceleration, DynamicsError, Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind,
+};
 use render::Head;
 use running::{Run, Running};
 use std::ops::Range;
+
+/// The shortest step in s that is worth one of its own.
+const SHORTEST_STEP: f64 = 2e-6;
 
 /// Where a simulated strand's points go.
 struct Part {
@@ -54,6 +59,8 @@ pub(crate) struct Dynamics {
     warm_up: i64,
     /// Steps done since the start.
     done: i64,
+    /// Whether what is shown is the start.
+    is_at_start: bool,
     stats: Stats,
 }
 
@@ -131,6 +138,7 @@ impl Dynamics {
             warm_up: (f64::from(values.number("warm_up")) / step).round() as i64,
             step,
             done: 0,
+            is_at_start: true,
             stats: Stats::default(),
         })
     }
@@ -146,7 +154,8 @@ impl Dynamics {
         SolverKind::of(values) != SolverKind::None && !(script.is_still() && is_at_rest)
     }
 
-    /// Steps to `time` (seconds) of a script, and writes the points of what moves.
+    /// Steps to `time` (seconds) of a script, and writes the points of what moves. A time between two steps is shown by a shorter
+    /// step of its own, from which nothing goes on: the motion is the same whatever times are looked at.
     ///
     /// # Errors
     ///
@@ -157,38 +166,34 @@ impl Dynamics {
         script: &MotionScript,
         points: &mut [Vec3],
     ) -> Result<(), StageError> {
-        let wanted = ((time / self.step).round() as i64 + self.warm_up).max(0);
+        // What the time's own precision, single, can tell from a whole step.
+        let slack = time.abs() * f64::from(f32::EPSILON) + SHORTEST_STEP;
+        let wanted = ((time + slack) / self.step).floor() as i64 + self.warm_up;
+        let wanted = wanted.max(0);
         if wanted < self.done || self.done == 0 {
             self.done = 0;
-            let first = Roots::Head(self.pose_at(0, script));
+            let first = Roots::Head(self.pose_at(self.time_of(0), script));
             self.strands.restart(first)?;
         }
         while self.done < wanted {
-            let ends = [self.done, self.done + 1];
-            let [before, now] = ends.map(|steps| self.pose_at(steps, script));
-            let shoulders = ends.map(|steps| self.shoulders_at(steps, script));
-            let (steady, gust) = script.wind_at(self.time_of(self.done + 1));
-            self.aim(script.within(self.time_of(self.done + 1)));
-            let scene = Scene {
-                roots: Roots::Head(now),
-                gravity: self.gravity,
-                wind: Wind {
-                    steady,
-                    gust,
-                    size: 2.0 * f64::from(self.head.height_m),
-                    seed: self.seed,
-                },
-                colliders: &self.bodies.colliders([before, now], shoulders),
-                goal: self.shapes.as_ref().map(|_| &self.goal[..]),
-            };
-            self.stats = self.strands.step(&scene, self.step)?;
+            let next = self.time_of(self.done + 1);
+            self.stats = self.drive(next, script, |strands, scene, dt| strands.step(scene, dt))?;
             self.done += 1;
         }
-        if self.done == 0 {
-            // At the start all hair is where the head's pose has put it.
+        self.strands.look_back();
+        let mut shown = self.time_of(self.done);
+        if time > shown + slack {
+            shown = time;
+            self.stats = self.drive(time, script, |strands, scene, dt| {
+                strands.look_ahead(scene, dt)
+            })?;
+        }
+        self.is_at_start = shown <= self.time_of(0);
+        if self.is_at_start {
+            // All hair is where the head's pose has put it.
             return Ok(());
         }
-        let pose = self.pose_at(self.done, script);
+        let pose = self.pose_at(shown, script);
         for part in &self.guides {
             let moved = self.strands.points(part.strand);
             for (point, moved) in points[part.points.clone()].iter_mut().zip(moved) {
@@ -203,7 +208,7 @@ impl Dynamics {
 
     /// Turns the normals of the links that move from those at rest, both in the list of the scene's points.
     pub fn turn_normals(&self, rest: &[Vec3], normals: &mut [Vec3]) {
-        if self.done == 0 {
+        if self.is_at_start {
             return;
         }
         for part in &self.guides {
@@ -216,6 +221,40 @@ impl Dynamics {
         }
         let turns = |strand| self.strands.turns(strand);
         self.carried.turn(rest, normals, turns);
+    }
+
+    /// Takes a step from the last one to `end` (seconds), by `step` of the solver.
+    fn drive(
+        &mut self,
+        end: f64,
+        script: &MotionScript,
+        step: impl Fn(&mut (dyn Running + 'static), &Scene, f64) -> Result<Stats, DynamicsError>,
+    ) -> Result<Stats, StageError> {
+        let begin = self.time_of(self.done);
+        let [before, now] = [begin, end].map(|time| self.pose_at(time, script));
+        let shoulders = [begin, end].map(|time| self.shoulders_at(time, script));
+        let (steady, gust) = script.wind_at(end);
+        self.aim(script.within(end));
+        // Over whole steps, so that what jumps in a script is felt whole, however it lies between the steps.
+        let accelerations = [(begin, before), (end, now)].map(|(time, pose)| {
+            let [earlier, later] =
+                [-self.step, self.step].map(|by| self.pose_at(time + by, script));
+            Acceleration::between([earlier, pose, later], self.step)
+        });
+        let scene = Scene {
+            roots: Roots::Head(now),
+            acceleration: Some(accelerations),
+            gravity: self.gravity,
+            wind: Wind {
+                steady,
+                gust,
+                size: 2.0 * f64::from(self.head.height_m),
+                seed: self.seed,
+            },
+            colliders: &self.bodies.colliders([before, now], shoulders),
+            goal: self.shapes.as_ref().map(|_| &self.goal[..]),
+        };
+        Ok(step(&mut *self.strands, &scene, end - begin)?)
     }
 
     /// Takes the goals of the script's own `time` from the key shapes.
@@ -233,8 +272,8 @@ impl Dynamics {
         (steps - self.warm_up) as f64 * self.step
     }
 
-    fn pose_at(&self, steps: i64, script: &MotionScript) -> Pose {
-        let (rotation, translation) = rigid(script.head_at(self.time_of(steps)), self.head);
+    fn pose_at(&self, time: f64, script: &MotionScript) -> Pose {
+        let (rotation, translation) = rigid(script.head_at(time), self.head);
         Pose {
             rotation,
             translation,
@@ -242,8 +281,8 @@ impl Dynamics {
     }
 
     /// Where the shoulders are: they follow the head's shift, not its turns.
-    fn shoulders_at(&self, steps: i64, script: &MotionScript) -> Pose {
-        let shift = script.head_at(self.time_of(steps)).shift;
+    fn shoulders_at(&self, time: f64, script: &MotionScript) -> Pose {
+        let shift = script.head_at(time).shift;
         Pose {
             rotation: DQuat::IDENTITY,
             translation: shift * f64::from(self.head.height_m),

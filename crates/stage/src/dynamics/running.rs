@@ -9,6 +9,10 @@ pub(super) trait Running: Send {
     fn restart(&mut self, roots: Roots) -> Result<(), DynamicsError>;
     /// Advances by `dt` seconds.
     fn step(&mut self, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError>;
+    /// Shows where a step of `dt` seconds would bring the strands, until the next step goes on from where they are.
+    fn look_ahead(&mut self, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError>;
+    /// Shows the strands where they are.
+    fn look_back(&mut self);
     /// The points of a strand, m.
     fn points(&self, strand: usize) -> Vec<DVec3>;
     /// How the links of a strand have turned since the start.
@@ -20,6 +24,9 @@ pub(super) struct Run<S: StrandSolver> {
     solver: S,
     state: S::State,
     start: S::State,
+    /// A state ahead of `state`, and whether it is what is shown.
+    ahead: S::State,
+    is_ahead: bool,
 }
 
 impl<S: StrandSolver> Run<S> {
@@ -27,7 +34,17 @@ impl<S: StrandSolver> Run<S> {
         Self {
             solver,
             start: state.clone(),
+            ahead: state.clone(),
+            is_ahead: false,
             state,
+        }
+    }
+
+    fn shown(&self) -> &S::State {
+        if self.is_ahead {
+            &self.ahead
+        } else {
+            &self.state
         }
     }
 }
@@ -37,21 +54,33 @@ where
     S::State: Send,
 {
     fn restart(&mut self, roots: Roots) -> Result<(), DynamicsError> {
+        self.is_ahead = false;
         self.state.clone_from(&self.start);
         self.solver.teleport(&mut self.state, roots)
     }
 
     fn step(&mut self, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError> {
+        self.is_ahead = false;
         self.solver.step(&mut self.state, scene, dt)
     }
 
+    fn look_ahead(&mut self, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError> {
+        self.is_ahead = true;
+        self.ahead.clone_from(&self.state);
+        self.solver.step(&mut self.ahead, scene, dt)
+    }
+
+    fn look_back(&mut self) {
+        self.is_ahead = false;
+    }
+
     fn points(&self, strand: usize) -> Vec<DVec3> {
-        self.solver.points(&self.state, strand)
+        self.solver.points(self.shown(), strand)
     }
 
     fn turns(&self, strand: usize) -> Vec<DQuat> {
         let rest = self.solver.frames(&self.start, strand).into_iter();
-        let now = self.solver.frames(&self.state, strand).into_iter();
+        let now = self.solver.frames(self.shown(), strand).into_iter();
         now.zip(rest)
             .map(|(now, rest)| now * rest.inverse())
             .collect()
