@@ -63,6 +63,16 @@ impl Mutual {
     }
 }
 
+impl Mutual {
+    /// The share of a particle's own acceleration that its partners are expected to have in a step of `dt` seconds. All of it
+    /// where springs of this stiffness (1/s^2) are slow beside the step, so that strands that move together don't hold each other
+    /// back, with an error of second order; nothing where they are fast: two strands that swing against each other would go on to do
+    /// so more and more.
+    fn alike(&self, stiffness: f64, dt: f64) -> f64 {
+        1.0 / (1.0 + self.neighbours as f64 * stiffness * dt * dt)
+    }
+}
+
 /// A particle of every strand of a batch, and its partner.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair {
@@ -97,8 +107,7 @@ pub(crate) struct Counts {
 pub(crate) struct Own<'a> {
     /// Particles from the root, and frames, at the start.
     pub y: &'a [Vec3],
-    /// Their accelerations, where they are known: the partner is taken to be accelerated alike, so that strands that move
-    /// together don't hold each other back.
+    /// Their accelerations, where they are known.
     pub a: &'a [Vec3],
     pub known: Mask,
     pub frames: &'a [crate::lanes::Quat],
@@ -119,6 +128,9 @@ pub(crate) fn act<T: Number>(
     springs: &mut [Spring],
 ) -> Counts {
     let mut counts = Counts::default();
+    let half_square = 0.5 * own.dt * own.dt;
+    let [link, repulsion] =
+        [mutual.link, mutual.repulsion].map(|stiffness| mutual.alike(stiffness, own.dt));
     let half = Lane::splat(0.5);
     for (pair, broken) in pairs.iter().zip(broken) {
         let others = pair.other.map(|other| &courses[other as usize]);
@@ -144,6 +156,8 @@ pub(crate) fn act<T: Number>(
             let offset = own.frames[pair.at].load().rotate(pair.offset.load());
             let stiffness = T::choose(T::condition(&holds), T::splat(mutual.link), T::splat(0.0));
             let mut spring = springs[pair.at].load();
+            let a = a * link;
+            let now = now + a * half_square;
             spring.pull(
                 stiffness,
                 before - offset,
@@ -166,6 +180,8 @@ pub(crate) fn act<T: Number>(
             let push = T::splat(mutual.repulsion);
             let stiffness = T::choose(T::condition(&pushes), push, T::splat(0.0));
             let mut spring = springs[pair.at].load();
+            let a = a * repulsion;
+            let now = now + a * half_square;
             spring.pull(stiffness, before - away, now - away, a, own.gamma, own.dt);
             springs[pair.at] = spring.store();
         }

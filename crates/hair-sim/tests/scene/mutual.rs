@@ -1,5 +1,5 @@
 use glam::{DVec3, Vec3};
-use hair_sim::{Mutual, Params, Scene, Solver, State, Strands, Wind};
+use hair_sim::{Acceleration, Mutual, Params, Pose, Roots, Scene, Solver, State, Strands, Wind};
 
 use crate::params;
 
@@ -46,6 +46,51 @@ fn hair_at_rest_stays_at_rest() {
         .map(|(a, b)| (*a - b).length())
         .fold(0.0, f64::max);
     assert!(drift < 1e-8, "{drift}");
+}
+
+#[test]
+fn links_do_not_hold_back_what_moves_together() {
+    // A row that is shaken: links between strands that all move alike have nothing to do.
+    let swing = |rate: i32, mutual: Option<Mutual>| {
+        let (mut solver, mut state) = Solver::new(&row(8), &params(200.0)).unwrap();
+        if let Some(mutual) = mutual {
+            solver.interact(&mut state, &mutual).unwrap();
+        }
+        let dt = 1.0 / f64::from(rate);
+        let pose = |step: i32| Pose {
+            translation: DVec3::Z * (0.05 * (1.0 - (8.0 * dt * f64::from(step.max(0))).cos())),
+            ..Pose::IDENTITY
+        };
+        let mut shapes = Vec::new();
+        for step in 0..3 * rate / 2 {
+            let ends = [step, step + 1];
+            let around = |s: i32| [s - 1, s, s + 1].map(pose);
+            let scene = Scene {
+                roots: Roots::Head(pose(step + 1)),
+                acceleration: Some(ends.map(|s| Acceleration::between(around(s), dt))),
+                ..Scene::default()
+            };
+            solver.step(&mut state, &scene, dt).unwrap();
+            shapes.extend(solver.points(&state, 3));
+        }
+        shapes
+    };
+    let mutual = Mutual {
+        break_at: 1.0,
+        repulsion: 0.0,
+        ..Mutual::default()
+    };
+    let apart = [24, 48, 96, 192].map(|rate| {
+        let (free, linked) = (swing(rate, None), swing(rate, Some(mutual)));
+        let apart = (free.iter().zip(&linked)).map(|(a, b)| (*a - *b).length_squared());
+        let apart = 1e3 * (apart.sum::<f64>() / free.len() as f64).sqrt();
+        println!(
+            "linked strands that move together, steps of 1/{rate} s: {apart:.2} mm from free ones"
+        );
+        apart
+    });
+    let slope = (apart[1] / apart[3]).log2() / 2.0;
+    assert!(slope > 1.8 && apart[3] < 0.5, "{slope}: {apart:?}");
 }
 
 #[test]

@@ -1,5 +1,5 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Acceleration, GRAVITY, Pose, Roots, Scene, Solver};
+use hair_sim::{Acceleration, GRAVITY, Params, Pose, Profile, Roots, Scene, Solver};
 
 use crate::{LENGTH, farthest, params, run, shape, straight};
 
@@ -116,10 +116,10 @@ fn a_turned_world_is_the_same_world() {
     assert!(error < 1e-9, "{error}");
 }
 
-/// The tip of a strand on a head that turns to and fro, in steps of 1 / `rate` seconds.
-fn spun(rate: u32, known: bool) -> Vec<DVec3> {
+/// The shapes of a strand on a head that turns to and fro, in steps of 1 / `rate` seconds.
+fn spun(params: &Params, rate: u32, known: bool) -> Vec<DVec3> {
     let rest = straight(Vec3::new(0.1, 0.0, 0.0), Vec3::new(0.6, -0.8, 0.0));
-    let (mut solver, mut state) = Solver::new(&rest, &params(20.0)).unwrap();
+    let (mut solver, mut state) = Solver::new(&rest, params).unwrap();
     let dt = 1.0 / f64::from(rate);
     // It starts at rest: angle and velocity grow with the square of time at first.
     let pose = |step: i32| {
@@ -147,13 +147,13 @@ fn spun(rate: u32, known: bool) -> Vec<DVec3> {
     shapes
 }
 
-#[test]
-fn a_known_acceleration_is_of_second_order() {
-    let truth = spun(24 * 64, true);
+/// Asserts that errors fall with the square of the step where the root's acceleration is known, and are less than where it isn't.
+fn is_of_second_order(name: &str, params: &Params) {
+    let truth = spun(params, 24 * 64, true);
     // Both come to the same.
-    assert!(farthest(&spun(24 * 64, false), &truth) < 0.02 * LENGTH);
+    assert!(farthest(&spun(params, 24 * 64, false), &truth) < 0.02 * LENGTH);
     let error = |rate, known| {
-        let shapes = spun(rate, known);
+        let shapes = spun(params, rate, known);
         let apart = shapes
             .iter()
             .zip(&truth)
@@ -163,12 +163,34 @@ fn a_known_acceleration_is_of_second_order() {
     let mut ratios = Vec::new();
     for rate in [24, 48, 96, 192] {
         let (measured, known) = (error(rate, false), error(rate, true));
-        println!("spun, steps of 1/{rate} s: measured {measured:.5}, known {known:.5}");
+        println!("{name}, steps of 1/{rate} s: measured {measured:.5}, known {known:.5}");
         ratios.push(measured / known);
     }
-    assert!(ratios.iter().all(|ratio| *ratio > 1.2), "{ratios:?}");
+    assert!(
+        ratios.iter().all(|ratio| *ratio > 1.2),
+        "{name}: {ratios:?}"
+    );
     let slope = (error(48, true) / error(192, true)).log2() / 2.0;
-    assert!(slope > 1.5, "{slope}");
+    assert!(slope > 1.5, "{name}: {slope}");
+}
+
+#[test]
+fn a_known_acceleration_is_of_second_order() {
+    is_of_second_order("spun", &params(20.0));
+}
+
+#[test]
+fn drag_and_goals_are_of_second_order_on_a_head_that_turns() {
+    let drag = Params {
+        drag: 30.0,
+        ..params(20.0)
+    };
+    is_of_second_order("in thick air", &drag);
+    let goal = Params {
+        goal: Profile::constant(200.0),
+        ..params(20.0)
+    };
+    is_of_second_order("held", &goal);
 }
 
 #[test]
