@@ -8,6 +8,8 @@ mod finish;
 pub(crate) mod instructions;
 mod integrate;
 mod neighbours;
+#[cfg(test)]
+mod ring;
 mod scene;
 pub(crate) mod sweep;
 
