@@ -5,9 +5,13 @@ mod drive;
 mod energy;
 mod fallback;
 mod finish;
+#[cfg(test)]
+mod free_flight;
 pub(crate) mod instructions;
 mod integrate;
 mod neighbours;
+#[cfg(test)]
+mod ring;
 mod scene;
 pub(crate) mod sweep;
 
@@ -381,13 +385,7 @@ impl Solver {
         state: &'a State,
         strand: usize,
     ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
-        let (batch, lane) = self.places[strand];
-        let state = &state.batches[batch];
-        let root = state.root.get(lane);
-        (0..self.points[strand]).map(move |i| match i {
-            0 => root,
-            _ => root + state.y[i - 1].get(lane),
-        })
+        self.from_root(state, strand, |batch| (batch.root, &batch.y))
     }
 
     /// The velocities of a strand's points in the world, root first, in m/s. The root's is that of its last step.
@@ -400,12 +398,22 @@ impl Solver {
         state: &'a State,
         strand: usize,
     ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
+        self.from_root(state, strand, |batch| (batch.root_velocity, &batch.v))
+    }
+
+    /// A vector of a strand's root, then its sums with those of the particles, which are against the root.
+    fn from_root<'a>(
+        &self,
+        state: &'a State,
+        strand: usize,
+        of: fn(&BatchState) -> (LaneVec3, &[LaneVec3]),
+    ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
         let (batch, lane) = self.places[strand];
-        let state = &state.batches[batch];
-        let root = state.root_velocity.get(lane);
+        let (root, particles) = of(&state.batches[batch]);
+        let root = root.get(lane);
         (0..self.points[strand]).map(move |i| match i {
             0 => root,
-            _ => root + state.v[i - 1].get(lane),
+            _ => root + particles[i - 1].get(lane),
         })
     }
 
