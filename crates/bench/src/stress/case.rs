@@ -2,7 +2,9 @@
 
 use fastrand::Rng;
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{GRAVITY, Material, Mutual, Natural, Params, Pose, Profile, Shape, Strands, Wind};
+use hair_sim::{
+    Acceleration, GRAVITY, Material, Mutual, Natural, Params, Pose, Profile, Shape, Strands, Wind,
+};
 use std::f64::consts::{PI, TAU};
 
 /// Strands, what they are made of, and what happens to them frame by frame.
@@ -79,6 +81,19 @@ pub enum Broken {
 }
 
 impl Case {
+    /// The acceleration of the head at both ends of a frame, in every other case and where it isn't put elsewhere.
+    #[must_use]
+    pub fn acceleration(&self, index: usize) -> Option<[Acceleration; 2]> {
+        let around = self.frames.get(index.checked_sub(2)?..index + 2)?;
+        let is_known = self.saved.is_multiple_of(2)
+            && around
+                .iter()
+                .all(|frame| !frame.teleports && frame.each.is_none());
+        let dt = self.frames[index].dt;
+        let at = |i: usize| Acceleration::between([i, i + 1, i + 2].map(|i| around[i].head), dt);
+        is_known.then(|| [at(0), at(1)])
+    }
+
     /// The case of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {

@@ -159,6 +159,7 @@ impl<'a> Run<'a> {
             .collect();
         let scene = Scene {
             roots: each.as_deref().map_or(Roots::Head(frame.head), Roots::Each),
+            acceleration: self.case.acceleration(index),
             gravity: frame.gravity,
             wind: frame.wind,
             colliders: &colliders,
@@ -313,11 +314,18 @@ impl<'a> Run<'a> {
         let energy = self.solver.energy(&self.state, place, frame.gravity);
         // Two frames back: a root that stops is braked in the step after.
         let before = index.checked_sub(2).map(|i| &self.case.frames[i..index]);
-        let driven = before.is_none_or(|before| {
-            before
-                .iter()
-                .any(|b| drives(self.case, params, b, frame, strand))
-        });
+        // Where the head's acceleration is known, one that starts in the next frame acts at the end of this one.
+        let next = self
+            .case
+            .frames
+            .get(index + 1)
+            .filter(|n| n.head != frame.head);
+        let driven = next.is_some()
+            || before.is_none_or(|before| {
+                before
+                    .iter()
+                    .any(|b| drives(self.case, params, b, frame, strand))
+            });
         if driven {
             let length: f64 = (self.rest.strand(place).windows(2))
                 .map(|w| f64::from(w[0].distance(w[1])))

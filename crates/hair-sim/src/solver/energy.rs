@@ -111,9 +111,13 @@ fn undriven(
     if drive.hair.is_some() {
         return Mask::NONE;
     }
+    // A root at rest may be about to move.
+    let gravity = Vec3::splat(drive.scene.gravity);
     let moves = root.turn_end.v.length_squared()
         + root.velocity.length_squared()
-        + state.root_velocity.length_squared();
+        + state.root_velocity.length_squared()
+        + (root.pull_mid - gravity).length_squared()
+        + (root.pull - gravity).length_squared();
     let mut free = moves.gt(Lane::splat(1e-24)).not().and(batch.has_goal.not());
     if drive.gusts.blows {
         free = free.and(batch.has_drag.not());
