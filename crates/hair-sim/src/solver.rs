@@ -31,6 +31,7 @@ pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
 use drive::{Drive, Hair, whole_poses};
 use instructions::Instructions;
+use integrate::GAMMA;
 pub use scene::{Acceleration, DynamicsError, Fault, Pose, Roots, Scene, Stats};
 
 /// The most groups of batches, so of tasks in a step.
@@ -274,8 +275,7 @@ impl Solver {
     ) -> Result<Stats, DynamicsError> {
         self.check(state, scene, dt)?;
         let instructions = self.instructions;
-        // In the middle of the step.
-        let gusts = scene.wind.at(state.time + 0.5 * dt);
+        let gusts = [GAMMA, 1.0].map(|share| scene.wind.at(state.time + share * dt));
         let acting = scene.fingerprint();
         let calm = acting == state.last && self.hair.is_none() && scene.is_calm();
         state.last = acting;
@@ -385,7 +385,7 @@ impl Solver {
         state: &'a State,
         strand: usize,
     ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
-        self.from_root(state, strand, |batch| (batch.root, &batch.y))
+        self.with_root(state, strand, |batch| (batch.root, &batch.y))
     }
 
     /// The velocities of a strand's points in the world, root first, in m/s. The root's is that of its last step.
@@ -398,11 +398,11 @@ impl Solver {
         state: &'a State,
         strand: usize,
     ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
-        self.from_root(state, strand, |batch| (batch.root_velocity, &batch.v))
+        self.with_root(state, strand, |batch| (batch.root_velocity, &batch.v))
     }
 
     /// A vector of a strand's root, then its sums with those of the particles, which are against the root.
-    fn from_root<'a>(
+    fn with_root<'a>(
         &self,
         state: &'a State,
         strand: usize,

@@ -299,8 +299,6 @@ pub(crate) struct Scratch {
     pub free_v: Vec<Vec3>,
     /// A shape that is tried.
     pub trial: Stage,
-    /// The air's velocity at the particles, from the root.
-    pub wind: Vec<Vec3>,
     pub springs: Vec<Spring>,
     pub contacts: Vec<Contact>,
     /// The places on the strands where particles have contacts in this step.
@@ -356,7 +354,6 @@ impl Scratch {
             free_y: vec![Vec3::ZERO; count],
             free_v: vec![Vec3::ZERO; count],
             trial: Stage::new(count),
-            wind: vec![Vec3::ZERO; count],
             springs: vec![Spring::NONE; count],
             contacts: vec![Contact::NONE; count],
             touched: Vec::with_capacity(count),

@@ -24,7 +24,8 @@ pub(crate) struct Drive<'a> {
     pub scene: &'a Scene<'a>,
     /// Of its colliders.
     pub guards: &'a [Guard],
-    pub gusts: &'a Gusts,
+    /// The air at the middle stage and at the end.
+    pub gusts: &'a [Gusts; 2],
     /// The index of every strand's first point in the list of all.
     pub first_points: &'a [usize],
     /// Root and frame of the skin in the world at the end of the step.
@@ -58,11 +59,12 @@ pub(crate) struct RootMotion {
     /// Gravity less the acceleration of the root, at the middle stage and at the end.
     pub pull_mid: Vec3,
     pub pull: Vec3,
-    /// The root's mean velocity, and by how much it is faster at the middle stage and at the end, as far as its acceleration is
-    /// known.
+    /// The root at the middle stage.
+    pub root_mid: Vec3,
+    /// The root's mean velocity, and that at the middle stage and at the end, as far as its acceleration is known.
     pub velocity: Vec3,
-    pub faster_mid: Vec3,
-    pub faster_end: Vec3,
+    pub velocity_mid: Vec3,
+    pub velocity_end: Vec3,
 }
 
 impl RootMotion {
@@ -74,14 +76,14 @@ impl RootMotion {
             .accelerations
             .unwrap_or([(velocity - state.root_velocity) * (1.0 / drive.dt); 2]);
         // Of an acceleration that changes evenly within the step. Where it is only measured, it may be a blow that is over.
-        let (faster_mid, faster_end) = match drive.accelerations {
+        let (velocity_mid, velocity_end) = match drive.accelerations {
             Some([start, end]) => {
                 let mid = start * (GAMMA - 1.0 / 3.0) - end * (1.0 / 6.0)
                     + (end - start) * (0.5 * GAMMA * GAMMA);
                 let last = start * (1.0 / 6.0) + end * (1.0 / 3.0);
-                (mid * drive.dt, last * drive.dt)
+                (velocity + mid * drive.dt, velocity + last * drive.dt)
             }
-            None => (Vec3::ZERO, Vec3::ZERO),
+            None => (velocity, velocity),
         };
         let gravity = Vec3::splat(drive.scene.gravity);
         let turn_end = base.times(state.base.conjugate());
@@ -100,9 +102,10 @@ impl RootMotion {
             turn_end,
             pull_mid: gravity - (start + (end - start) * GAMMA),
             pull: gravity - end,
+            root_mid: state.root + (root - state.root) * GAMMA,
             velocity,
-            faster_mid,
-            faster_end,
+            velocity_mid,
+            velocity_end,
         }
     }
 }
@@ -164,16 +167,8 @@ pub(crate) fn prepare<T: Number>(
         );
     }
     let active = batch.used.and(state.aside().not()).and(awake);
-    if batch.has_drag.any() {
-        for k in 0..batch.count() {
-            let air = drive
-                .gusts
-                .velocity(state.root.load::<T>() + state.y[k].load());
-            scratch.wind[k] = (air - root.velocity.load()).store();
-        }
-        if drive.gusts.blows {
-            stats.wind = active.count() * batch.count();
-        }
+    if batch.has_drag.any() && drive.gusts[1].blows {
+        stats.wind = active.count() * batch.count();
     }
     scratch.touched.clear();
     if !drive.scene.colliders.is_empty() {

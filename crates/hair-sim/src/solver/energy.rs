@@ -119,7 +119,7 @@ fn undriven(
         + (root.pull_mid - gravity).length_squared()
         + (root.pull - gravity).length_squared();
     let mut free = moves.gt(Lane::splat(1e-24)).not().and(batch.has_goal.not());
-    if drive.gusts.blows {
+    if drive.gusts.iter().any(|gusts| gusts.blows) {
         free = free.and(batch.has_drag.not());
     }
     for &k in &scratch.touched {

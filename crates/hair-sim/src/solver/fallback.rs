@@ -51,7 +51,9 @@ pub(super) fn step(
         damping: batch.damping * (1.0 / drive.dt),
         base: root.end,
         pull: root.pull,
-        faster: root.faster_end,
+        root: root.root,
+        velocity: root.velocity_end,
+        gusts: &drive.gusts[1],
     };
     assemble(instructions, batch, scratch, &setup, Which::Trial);
     let elastic = Elastic {

@@ -13,7 +13,7 @@
 //! one iteration is almost always enough.
 
 use crate::{
-    forces::mutual::Counts,
+    forces::{mutual::Counts, wind::Gusts},
     lanes::{Lane, Mask, Number, Quat, Sym3, Vec3},
 };
 
@@ -87,7 +87,10 @@ pub(crate) fn step(
     let mut failed = Mask::NONE;
     stats.strands = active.count();
     for which in [Which::Mid, Which::End] {
-        let setup = run!(instructions, begin(batch, state, scratch, &root, d, which));
+        let setup = run!(
+            instructions,
+            begin(batch, state, scratch, drive, &root, which)
+        );
         assemble(instructions, batch, scratch, &setup, which);
         stats.iterations += solve(
             instructions,
@@ -156,27 +159,30 @@ impl Scratch {
 }
 
 /// What a stage is made of.
-pub(super) struct StageSetup {
+pub(super) struct StageSetup<'a> {
     /// d, in s.
     pub length: Lane,
     /// Time of damping over the stage's own.
     pub damping: Lane,
     pub base: Quat,
     pub pull: Vec3,
-    /// By how much the root is faster than in the step's mean.
-    pub faster: Vec3,
+    /// The root, its velocity, and the air.
+    pub root: Vec3,
+    pub velocity: Vec3,
+    pub gusts: &'a Gusts,
 }
 
 /// The base of a stage, `free_y` and `free_v`, what damping holds to, and the shape to begin with.
 #[inline(always)]
-fn begin<T: Number>(
+fn begin<'a, T: Number>(
     batch: &Batch,
     state: &BatchState,
     scratch: &mut Scratch,
+    drive: &Drive<'a>,
     root: &RootMotion,
-    d: f64,
     which: Which,
-) -> StageSetup {
+) -> StageSetup<'a> {
+    let d = 0.5 * GAMMA * drive.dt;
     let restart = Mask::new(state.restart);
     let Scratch {
         mid,
@@ -213,7 +219,9 @@ fn begin<T: Number>(
             damping: batch.damping * (1.0 / (2.0 * d)),
             base: root.mid,
             pull: root.pull_mid,
-            faster: root.faster_mid,
+            root: root.root_mid,
+            velocity: root.velocity_mid,
+            gusts: &drive.gusts[0],
         };
     }
     // The backward difference stage: X = alpha x1 - beta x0.
@@ -236,7 +244,9 @@ fn begin<T: Number>(
         damping: batch.damping * (1.0 / d),
         base: root.end,
         pull: root.pull,
-        faster: root.faster_end,
+        root: root.root,
+        velocity: root.velocity_end,
+        gusts: &drive.gusts[1],
     }
 }
 
@@ -367,25 +377,26 @@ fn drag<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, whi
     let Scratch {
         nodes,
         free_y,
-        wind,
         mid,
         end,
         trial,
         ..
     } = scratch;
-    let tangents = match which {
-        Which::Mid => &mid.tangents,
-        Which::End => &end.tangents,
-        Which::Trial => &trial.tangents,
+    let shape = match which {
+        Which::Mid => mid,
+        Which::End => end,
+        Which::Trial => trial,
     };
     let (nodes, particles) = (&mut nodes[..count], &batch.particles[..count]);
-    let (free_y, wind, tangents) = (&free_y[..count], &wind[..count], &tangents[..count]);
+    let (y, tangents) = (&shape.y[..count], &shape.tangents[..count]);
+    let free_y = &free_y[..count];
     for k in 0..count {
         let (particle, d) = (particles[k].load::<T>(), stage.length.load::<T>());
         let rate = particle.mass * particle.drag * d;
         let less = batch.drag_along.load::<T>() - T::splat(1.0);
         let n = Sym3::outer(rate, tangents[k].load(), rate * less);
-        let air = wind[k].load() - stage.faster.load();
+        let air = stage.gusts.velocity(stage.root.load::<T>() + y[k].load());
+        let air = air - stage.velocity.load();
         let carried = free_y[k].load() + air.scale(d);
         let node = nodes[k].load();
         let node = Node {

@@ -1,7 +1,7 @@
 use glam::{DVec3, Vec3};
 use hair_sim::{GRAVITY, Params, Scene, Solver, Wind};
 
-use crate::{after, farthest, in_wind, params, shape, straight};
+use crate::{LENGTH, after, farthest, in_wind, params, shape, straight};
 
 #[test]
 fn steady_wind_on_round_particles_is_as_another_gravity() {
@@ -72,4 +72,41 @@ fn gusts_move_hair_and_other_seeds_move_it_otherwise() {
     assert!(farthest(&calm, &one) > 1e-3);
     assert!(farthest(&one, &other) > 1e-3);
     assert_eq!(one, blow(&mut solver, 1, 5.0));
+}
+
+#[test]
+fn gusts_are_of_second_order() {
+    let shapes = |rate: u32| {
+        let rest = straight(Vec3::ZERO, Vec3::NEG_Y);
+        let (mut solver, mut state) = Solver::new(&rest, &params(50.0)).unwrap();
+        let mut shapes = Vec::new();
+        for step in 0..2 * rate {
+            let scene = Scene {
+                wind: Wind {
+                    steady: DVec3::new(3.0, 0.0, 1.0),
+                    gust: 4.0,
+                    size: 0.3,
+                    ..Wind::default()
+                },
+                ..Scene::default()
+            };
+            solver
+                .step(&mut state, &scene, 1.0 / f64::from(rate))
+                .unwrap();
+            if (step + 1) % (rate / 24) == 0 {
+                shapes.extend(shape(&solver, &state));
+            }
+        }
+        shapes
+    };
+    let truth = shapes(24 * 64);
+    let errors = [24, 48, 96, 192].map(|rate| {
+        let shapes = shapes(rate);
+        let apart = (shapes.iter().zip(&truth)).map(|(a, b)| (*a - *b).length_squared());
+        let error = (apart.sum::<f64>() / shapes.len() as f64).sqrt() / LENGTH;
+        println!("in gusts, steps of 1/{rate} s: {error:.5}");
+        error
+    });
+    let slope = (errors[1] / errors[3]).log2() / 2.0;
+    assert!(slope > 1.5, "{slope}");
 }
