@@ -1,7 +1,5 @@
 //! Suite `dynamics`: time against error of our strands, of two other ways to simulate them, and of other programs.
 
-pub mod altitudes;
-pub mod banded;
 pub mod falls;
 pub mod mass_spring;
 pub mod motion;

@@ -214,7 +214,7 @@ fn links(lengths: &[f64], total: f64, frames: &[DQuat], params: &Params) -> Vec<
 }
 
 /// A frame whose third axis is `tangent`, its first as near to level as it can be.
-fn from_axis(tangent: DVec3) -> DQuat {
+pub(crate) fn from_axis(tangent: DVec3) -> DQuat {
     let across = if tangent.y.abs() < 0.9 {
         DVec3::Y
     } else {

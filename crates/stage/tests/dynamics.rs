@@ -162,30 +162,34 @@ fn warm_up_is_before_the_first_frame() {
 }
 
 #[test]
-fn the_solver_for_comparison_does_nearly_the_same() {
+fn the_solvers_for_comparison_do_nearly_the_same() {
     let plain = [("dynamics.links", "0"), ("dynamics.volume", "0")];
-    let mut rigid = scene(
-        "twin-tails.style.ron",
-        Some(TURN),
-        &[("dynamics.solver", "none")],
-    );
-    let mut rods = scene("twin-tails.style.ron", Some(TURN), &plain);
-    let xpbd = [("dynamics.solver", "xpbd"), ("dynamics.substeps", "200")];
-    let mut xpbd = scene("twin-tails.style.ron", Some(TURN), &xpbd);
-    let (held, wanted, other) = (
-        means(&mut rigid, 0.5),
-        means(&mut rods, 0.5),
-        means(&mut xpbd, 0.5),
-    );
-    assert!(xpbd.simulated().strands > 50);
+    let style = "twin-tails.style.ron";
+    let solver = |name, substeps| {
+        let settings = [("dynamics.solver", name), ("dynamics.substeps", substeps)];
+        scene(style, Some(TURN), &settings)
+    };
+    let held = means(&mut solver("none", "0"), 0.5);
+    let wanted = means(&mut scene(style, Some(TURN), &plain), 0.5);
     let mean = |a: &[Vec3], b: &[Vec3]| {
         a.iter().zip(b).map(|(a, b)| a.distance(*b)).sum::<f32>() / a.len() as f32
     };
-    let (swung, apart) = (mean(&held, &wanted), mean(&wanted, &other));
-    assert!(apart < 0.5 * swung, "{apart} of {swung}");
-    // The same again from the start.
-    means(&mut xpbd, 0.0);
-    assert!(means(&mut xpbd, 0.5) == other);
+    let swung = mean(&held, &wanted);
+    // Trusses are not rods: hair swings as far, but not to the same places.
+    for (name, substeps, most) in [("xpbd", "200", 0.5), ("mass_spring", "4", 0.7)] {
+        let mut stage = solver(name, substeps);
+        let found = means(&mut stage, 0.5);
+        assert!(stage.simulated().strands > 50);
+        let (far, apart) = (mean(&held, &found) / swung, mean(&wanted, &found) / swung);
+        println!("{name}: swings {far:.2} of what rods do, {apart:.2} of it apart from them");
+        assert!(
+            apart < most && (0.7..1.4).contains(&far),
+            "{name}: {far}, {apart}"
+        );
+        // The same again from the start.
+        means(&mut stage, 0.0);
+        assert!(means(&mut stage, 0.5) == found);
+    }
 }
 
 #[test]
@@ -206,10 +210,17 @@ fn what_a_solver_cannot_do_is_refused_at_its_place() {
         "{links}"
     );
     assert!(error("solver: xpbd, damping: 0.5").contains("damping: solver: xpbd"));
+    let volume = error("solver: mass_spring, volume: 1");
+    assert!(
+        volume.contains("volume: solver: mass_spring has none"),
+        "{volume}"
+    );
+    assert!(error("solver: mass_sprong").contains("mass_spring"));
     assert!(error("solver: rods, substeps: 4").contains("substeps: solver: rods"));
     for good in [
         "solver: xpbd, links: 0, volume: 0",
         "solver: xpbd, substeps: 9",
+        "solver: mass_spring, substeps: 9",
         "links: 3",
     ] {
         assert!(!error(good).contains("solver:"), "{good}");
@@ -240,6 +251,16 @@ fn extremes_stay_finite() {
             ("dynamics.solver", "xpbd"),
             ("dynamics.stiffness", "1000"),
             ("dynamics.step", "0.1"),
+        ],
+        [
+            ("dynamics.solver", "mass_spring"),
+            ("dynamics.stiffness", "0.001"),
+            ("dynamics.step", "0.1"),
+        ],
+        [
+            ("dynamics.solver", "mass_spring"),
+            ("dynamics.feel", "gel"),
+            ("dynamics.stiffness", "1000"),
         ],
         [
             ("dynamics.shape", "curl"),

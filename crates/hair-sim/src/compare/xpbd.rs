@@ -4,12 +4,11 @@
 //! shear and of bending and twist), solved as Macklin et al. 2016, *XPBD*, say (algorithm 1): their compliance makes the
 //! stiffness physical, and Gauss-Seidel sweeps leave an error that more sweeps or more steps lessen.
 
+use super::apart::{self, Acting, Pull, Strand};
 use crate::{
-    Collider, DynamicsError, Params, Pose, Roots, Scene, Stats, StrandSolver, Strands,
-    forces::wind::Gusts, lanes, rest::RestStrand,
+    DynamicsError, Params, Pose, Roots, Scene, Stats, StrandSolver, Strands, rest::RestStrand,
 };
 use glam::{DQuat, DVec3, Vec3};
-use rayon::prelude::*;
 
 /// The inertia of a link's quaternion against turning, over mass x length^2 of the link. That of the particles is right
 /// without it, so it is an error of second order in the length; less of it needs more sweeps.
@@ -43,28 +42,12 @@ impl Xpbd {
         substeps: u32,
         sweeps: u32,
     ) -> Result<(Self, Vec<Rod>), DynamicsError> {
-        let mut rods = Vec::with_capacity(rest.len());
-        for (index, points) in rest.iter().enumerate() {
-            let params = params(index);
-            if let Some((name, value, least, most)) = params.out_of_range() {
-                return Err(DynamicsError::Parameter {
-                    id: rest.id(index),
-                    name,
-                    value,
-                    least,
-                    most,
-                });
-            }
-            let mut rod = Rod::new(points, &params);
-            rod.first_point = rest.point_range(index).start;
-            rods.push(rod);
-        }
         let solver = Self {
             substeps: substeps.max(1),
             sweeps: sweeps.max(1),
             points: rest.points().len(),
         };
-        Ok((solver, rods))
+        Ok((solver, apart::strands(rest, params)?))
     }
 }
 
@@ -77,25 +60,14 @@ impl StrandSolver for Xpbd {
         scene: &Scene,
         dt: f64,
     ) -> Result<Stats, DynamicsError> {
-        scene.check(dt, state.len(), self.points)?;
         let (substeps, sweeps) = (self.substeps, self.sweeps);
-        let step = |(index, rod): (usize, &mut Rod)| {
-            rod.step(scene, scene.roots.of(index), dt, substeps, sweeps)
-        };
-        let stats = state.par_iter_mut().enumerate().with_min_len(4).map(step);
-        Ok(stats.reduce(Stats::default, Stats::plus))
+        apart::step(state, scene, self.points, dt, |rod, head| {
+            rod.step(scene, head, dt, substeps, sweeps)
+        })
     }
 
     fn teleport(&self, state: &mut Vec<Rod>, to: Roots) -> Result<(), DynamicsError> {
-        let scene = Scene {
-            roots: to,
-            ..Scene::default()
-        };
-        scene.check(1.0, state.len(), self.points)?;
-        for (index, rod) in state.iter_mut().enumerate() {
-            rod.teleport(to.of(index));
-        }
-        Ok(())
+        apart::teleport(state, to, self.points)
     }
 
     fn points(&self, state: &Vec<Rod>, strand: usize) -> Vec<DVec3> {
@@ -160,82 +132,11 @@ struct Scratch {
     bend: Vec<DVec3>,
 }
 
-/// What acts on all particles in a substep.
-struct Acting<'a> {
-    gravity: DVec3,
-    gusts: Option<&'a Gusts>,
-    colliders: &'a [Collider<'a>],
-    /// The share of the step that is done at the end of the substep.
-    share: f64,
-}
-
 impl Rod {
     /// The strand through these points (style space, m) at rest.
     #[must_use]
     pub fn new(points: &[Vec3], params: &Params) -> Self {
-        let (rest, is_rigid) = match RestStrand::new(points, params) {
-            Ok(rest) => (rest, false),
-            Err(_) => (RestStrand::rigid(points), true),
-        };
-        let count = rest.links.len() + 1;
-        let mut at = rest.root;
-        let (mut styled, mut frames) = (vec![at], vec![rest.base]);
-        for link in &rest.links {
-            at += link.frame * DVec3::Z * link.length;
-            styled.push(at);
-            frames.push(link.frame);
-        }
-        let total: f64 = rest.links.iter().map(|link| link.length).sum();
-        let links = rest.links.iter().map(|link| {
-            // A link without length has no inertia of its own; it is as hard to turn as a thousandth of the strand.
-            let length = link.length.max(1e-3 * total).max(1e-9);
-            Link {
-                length,
-                // Energy 1/2 J |omega|^2 is 1/2 (4 J) |dq/dt|^2.
-                lightness: 1.0 / (4.0 * INERTIA * length.powi(3)),
-                // Half a joint's turn is the vector part, so 4 times what resists the turn.
-                stiffness: DVec3::new(link.bend, link.bend, link.twist) * 4.0,
-                natural: DQuat::from_xyzw(
-                    0.5 * link.natural.x,
-                    0.5 * link.natural.y,
-                    0.5 * link.natural.z,
-                    1.0,
-                )
-                .normalize(),
-            }
-        });
-        let links: Vec<Link> = links.collect();
-        let least_mass = 1e-3 * total / count as f64;
-        let mut lightness = vec![0.0];
-        let mut pulls = vec![0.0];
-        for link in &rest.links {
-            lightness.push(1.0 / link.mass.max(least_mass).max(1e-12));
-            pulls.push(params.goal.at(link.end_at));
-        }
-        Self {
-            scratch: Scratch {
-                points: styled.clone(),
-                frames: frames.clone(),
-                bend: vec![DVec3::ZERO; links.len()],
-            },
-            links,
-            lightness,
-            pulls,
-            drag: params.drag,
-            thickness: params.thickness,
-            friction: params.friction,
-            first_point: 0,
-            is_rigid,
-            root: (rest.root, rest.base),
-            head: Pose::IDENTITY,
-            time: 0.0,
-            velocities: vec![DVec3::ZERO; count],
-            spins: vec![DVec3::ZERO; count],
-            goals: Vec::new(),
-            points: styled.clone(),
-            styled,
-            frames,
-        }
+        <Self as Strand>::new(points, params, 0)
     }
 
     /// Its points in the world, root first, in m.
@@ -334,17 +235,17 @@ impl Rod {
         let whole = dt * f64::from(substeps);
         for i in 1..self.points.len() {
             let (point, velocity) = (&mut self.points[i], &mut self.velocities[i]);
-            let air = acting.gusts.map_or(DVec3::ZERO, |gusts| {
-                gusts.velocity(lanes::Vec3::splat(*point)).get(0)
-            });
-            // A spring to the goal, damped critically, implicit by itself.
-            let stiffness = self.pulls[i];
-            let rate = 2.0 * stiffness.sqrt();
-            let goal = goals_before[i].lerp(goals[i], acting.share);
-            let drift = (goals[i] - goals_before[i]) / whole;
-            let push =
-                acting.gravity + air * self.drag + (goal - *point) * stiffness + drift * rate;
-            let slower = 1.0 + dt * (self.drag + rate + dt * stiffness);
+            let pull = Pull::new(
+                self.pulls[i],
+                goals_before[i],
+                goals[i],
+                acting.share,
+                whole,
+            );
+            let air = acting.air(*point) * self.drag;
+            let push = acting.gravity + air + pull.push(*point);
+            // Implicit by itself.
+            let slower = 1.0 + dt * self.drag + pull.slowing(dt);
             *velocity = (*velocity + push * dt) / slower;
             *point += *velocity * dt;
         }
@@ -406,25 +307,12 @@ impl Rod {
 
     /// Puts particles that are in a body on its skin, and holds them there by friction. Returns how many.
     fn keep_out(&mut self, acting: &Acting) -> usize {
-        let mut found = 0;
-        for i in 1..self.points.len() {
-            for collider in acting.colliders {
-                let pose = collider.before.towards(collider.now, acting.share);
-                let place = pose.to_local(self.points[i]);
-                let depth = self.thickness - collider.shape.distance(place);
-                if depth <= 0.0 || !depth.is_finite() {
-                    continue;
-                }
-                found += 1;
-                let normal = pose.rotation * collider.shape.normal(place);
-                let pushed = self.points[i] + normal * depth;
-                let slid = pushed - self.scratch.points[i];
-                let slid = slid - normal * slid.dot(normal);
-                let held = (self.friction * depth / slid.length().max(1e-12)).min(1.0);
-                self.points[i] = pushed - slid * held;
-            }
-        }
-        found
+        (1..self.points.len())
+            .map(|i| {
+                let before = self.scratch.points[i];
+                acting.keep_out(&mut self.points[i], before, self.thickness, self.friction)
+            })
+            .sum()
     }
 
     fn find_velocities(&mut self, dt: f64) {
@@ -433,26 +321,6 @@ impl Rod {
             let turn = self.frames[i] * self.scratch.frames[i].conjugate();
             self.spins[i] = pure_part(turn) * (2.0 * turn.w.signum() / dt);
         }
-    }
-
-    /// Carries shape and motion along to another pose of the head.
-    fn teleport(&mut self, to: Pose) {
-        let from = self.head;
-        let turn = to.rotation * from.rotation.conjugate();
-        let carried = |point: DVec3| to.to_world(from.to_local(point));
-        self.points
-            .iter_mut()
-            .for_each(|point| *point = carried(*point));
-        self.goals
-            .iter_mut()
-            .for_each(|goal| *goal = carried(*goal));
-        for v in self.velocities.iter_mut().chain(&mut self.spins) {
-            *v = turn * *v;
-        }
-        for frame in &mut self.frames {
-            *frame = (turn * *frame).normalize();
-        }
-        self.head = to;
     }
 
     /// Puts it into its style, at rest.
@@ -481,6 +349,93 @@ impl Rod {
             energy += 0.5 * (link.stiffness * turn * turn).element_sum();
         }
         energy
+    }
+}
+
+impl Strand for Rod {
+    fn new(points: &[Vec3], params: &Params, first_point: usize) -> Self {
+        let (rest, is_rigid) = match RestStrand::new(points, params) {
+            Ok(rest) => (rest, false),
+            Err(_) => (RestStrand::rigid(points), true),
+        };
+        let count = rest.links.len() + 1;
+        let mut at = rest.root;
+        let (mut styled, mut frames) = (vec![at], vec![rest.base]);
+        for link in &rest.links {
+            at += link.frame * DVec3::Z * link.length;
+            styled.push(at);
+            frames.push(link.frame);
+        }
+        let total: f64 = rest.links.iter().map(|link| link.length).sum();
+        let links = rest.links.iter().map(|link| {
+            // A link without length has no inertia of its own; it is as hard to turn as a thousandth of the strand.
+            let length = link.length.max(1e-3 * total).max(1e-9);
+            Link {
+                length,
+                // Energy 1/2 J |omega|^2 is 1/2 (4 J) |dq/dt|^2.
+                lightness: 1.0 / (4.0 * INERTIA * length.powi(3)),
+                // Half a joint's turn is the vector part, so 4 times what resists the turn.
+                stiffness: DVec3::new(link.bend, link.bend, link.twist) * 4.0,
+                natural: DQuat::from_xyzw(
+                    0.5 * link.natural.x,
+                    0.5 * link.natural.y,
+                    0.5 * link.natural.z,
+                    1.0,
+                )
+                .normalize(),
+            }
+        });
+        let links: Vec<Link> = links.collect();
+        let least_mass = 1e-3 * total / count as f64;
+        let mut lightness = vec![0.0];
+        let mut pulls = vec![0.0];
+        for link in &rest.links {
+            lightness.push(1.0 / link.mass.max(least_mass).max(1e-12));
+            pulls.push(params.goal.at(link.end_at));
+        }
+        Self {
+            scratch: Scratch {
+                points: styled.clone(),
+                frames: frames.clone(),
+                bend: vec![DVec3::ZERO; links.len()],
+            },
+            links,
+            lightness,
+            pulls,
+            drag: params.drag,
+            thickness: params.thickness,
+            friction: params.friction,
+            first_point,
+            is_rigid,
+            root: (rest.root, rest.base),
+            head: Pose::IDENTITY,
+            time: 0.0,
+            velocities: vec![DVec3::ZERO; count],
+            spins: vec![DVec3::ZERO; count],
+            goals: Vec::new(),
+            points: styled.clone(),
+            styled,
+            frames,
+        }
+    }
+
+    fn teleport(&mut self, to: Pose) {
+        let from = self.head;
+        let turn = to.rotation * from.rotation.conjugate();
+        let carried = |point: DVec3| to.to_world(from.to_local(point));
+        self.points
+            .iter_mut()
+            .for_each(|point| *point = carried(*point));
+        self.goals
+            .iter_mut()
+            .for_each(|goal| *goal = carried(*goal));
+        for v in self.velocities.iter_mut().chain(&mut self.spins) {
+            *v = turn * *v;
+        }
+        for frame in &mut self.frames {
+            *frame = (turn * *frame).normalize();
+        }
+        self.head = to;
     }
 }
 

@@ -6,16 +6,18 @@ use hair_sim::{Material, Mutual, Natural, Params, Profile};
 use render::Head;
 use std::f64::consts::TAU;
 
-/// Steps within a step of the solvers that take some.
-const SUBSTEPS: i32 = 64;
+/// Steps within a step of the solvers that take some, where the preset says nothing.
+const XPBD_SUBSTEPS: u32 = 64;
+const MASS_SPRING_SUBSTEPS: u32 = 4;
 
 /// The section `dynamics`.
 pub const DYNAMICS: &[Param] = &[
     choice(
         "solver",
-        "rods: strands bend and twist as elastic rods; xpbd: for comparison, rods by position based \
-         dynamics, slower and softer, without damping, links and volume; none: hair turns with the head.",
-        &["rods", "xpbd", "none"],
+        "rods: strands bend and twist as elastic rods; for comparison, slower, and without damping, links \
+         and volume, xpbd: softer rods by position based dynamics, and mass_spring: trusses of springs; \
+         none: hair turns with the head.",
+        &["rods", "xpbd", "mass_spring", "none"],
         0,
     ),
     choice(
@@ -111,11 +113,12 @@ pub const DYNAMICS: &[Param] = &[
     ),
     param(
         "substeps",
-        "Steps within a step, of solver: xpbd: fewer make hair softer.",
+        "Steps within a step, of solver: xpbd, where fewer make hair softer, and of mass_spring, where fewer \
+         make it swing less; 0 is 64 of xpbd's and 4 of mass_spring's.",
         ParamKind::Integer {
-            min: 1,
+            min: 0,
             max: 1000,
-            default: SUBSTEPS,
+            default: 0,
         },
     ),
     number(
@@ -140,14 +143,25 @@ pub const DYNAMICS: &[Param] = &[
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SolverKind {
     Rods,
-    Xpbd,
+    /// With so many steps within a step.
+    Xpbd(u32),
+    MassSpring(u32),
     None,
 }
 
 impl SolverKind {
     /// The preset's choice.
     pub fn of(values: &Values) -> Self {
-        [Self::Rods, Self::Xpbd, Self::None][values.choice("solver") as usize]
+        let substeps = |own: u32| match values.integer("substeps").unsigned_abs() {
+            0 => own,
+            given => given,
+        };
+        match values.choice("solver") {
+            0 => Self::Rods,
+            1 => Self::Xpbd(substeps(XPBD_SUBSTEPS)),
+            2 => Self::MassSpring(substeps(MASS_SPRING_SUBSTEPS)),
+            _ => Self::None,
+        }
     }
 }
 
@@ -155,14 +169,18 @@ impl SolverKind {
 pub(crate) fn unsupported(values: &Values) -> Option<(&'static str, String)> {
     let asks = |name: &&str| values.is_given(name) && values.number(name) > 0.0;
     match SolverKind::of(values) {
-        SolverKind::Xpbd => {
+        solver @ (SolverKind::Xpbd(_) | SolverKind::MassSpring(_)) => {
             let name = ["damping", "links", "volume"].into_iter().find(asks)?;
+            let solver = match solver {
+                SolverKind::Xpbd(_) => "xpbd",
+                _ => "mass_spring",
+            };
             Some((
                 name,
-                format!("{name}: solver: xpbd has none; leave it out, or take solver: rods"),
+                format!("{name}: solver: {solver} has none; leave it out, or take solver: rods"),
             ))
         }
-        SolverKind::Rods if values.integer("substeps") != SUBSTEPS => Some((
+        SolverKind::Rods if values.integer("substeps") != 0 => Some((
             "substeps",
             "substeps: solver: rods takes a step as one; leave it out, or set `step`".to_owned(),
         )),

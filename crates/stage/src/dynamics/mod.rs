@@ -21,7 +21,7 @@ use effects::Values;
 use feel::SolverKind;
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
-use hair_sim::compare::Xpbd;
+use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
     Acceleration, DynamicsError, Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind,
 };
@@ -103,9 +103,11 @@ impl Dynamics {
             feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
         };
         let strands: Box<dyn Running> = match SolverKind::of(values) {
-            SolverKind::Xpbd => {
-                let substeps = values.integer("substeps").unsigned_abs();
+            SolverKind::Xpbd(substeps) => {
                 Box::new(Run::new(Xpbd::with(&chosen, params, substeps, 1)?))
+            }
+            SolverKind::MassSpring(substeps) => {
+                Box::new(Run::new(MassSpring::with(&chosen, params, substeps)?))
             }
             SolverKind::Rods | SolverKind::None => {
                 let (mut solver, mut state) = Solver::with(&chosen, params)?;

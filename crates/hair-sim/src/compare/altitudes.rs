@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// A line between weighted sums of a tetrahedron's corners.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Altitude {
+pub(super) struct Altitude {
     /// Of the corners; their sum is 0.
     pub weights: [f64; 4],
     /// In m.
@@ -15,8 +15,7 @@ pub struct Altitude {
 
 /// The altitudes of a tetrahedron: from each corner to the face of the others, and between each pair of opposite edges; where corners are
 /// in a line, what has no direction is infinitely long.
-#[must_use]
-pub fn altitudes(corners: &[DVec3]) -> [Altitude; 7] {
+pub(super) fn altitudes(corners: &[DVec3]) -> [Altitude; 7] {
     let never = Altitude {
         length: f64::INFINITY,
         ..Altitude::default()

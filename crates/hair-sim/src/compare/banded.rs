@@ -2,13 +2,12 @@
 
 /// A band matrix, lower half: `WIDTH` entries a row, of which the last is the diagonal.
 #[derive(Clone, Debug)]
-pub struct Banded<const WIDTH: usize> {
+pub(super) struct Banded<const WIDTH: usize> {
     rows: Vec<[f64; WIDTH]>,
 }
 
 impl<const WIDTH: usize> Banded<WIDTH> {
     /// All zero, `size` unknowns.
-    #[must_use]
     pub fn new(size: usize) -> Self {
         Self {
             rows: vec![[0.0; WIDTH]; size],

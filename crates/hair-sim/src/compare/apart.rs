@@ -1,0 +1,148 @@
+//! What solvers of strands that don't meet have in common: each strand is solved by itself.
+
+use crate::{
+    Collider, DynamicsError, Params, Pose, Roots, Scene, Stats, Strands, forces::wind::Gusts, lanes,
+};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// A strand of a solver for comparison, constants and motion.
+pub(super) trait Strand: Send {
+    /// The strand through these points (style space, m) at rest, of which the first has this index in the list of all strands'.
+    fn new(points: &[Vec3], params: &Params, first_point: usize) -> Self;
+
+    /// Carries shape and motion along to another pose of the head.
+    fn teleport(&mut self, to: Pose);
+}
+
+/// The strands at rest, each with its own parameters.
+pub(super) fn strands<S: Strand>(
+    rest: &Strands,
+    params: impl Fn(usize) -> Params,
+) -> Result<Vec<S>, DynamicsError> {
+    let strand = |(index, points)| {
+        let params: Params = params(index);
+        match params.out_of_range() {
+            Some((name, value, least, most)) => Err(DynamicsError::Parameter {
+                id: rest.id(index),
+                name,
+                value,
+                least,
+                most,
+            }),
+            None => Ok(S::new(points, &params, rest.point_range(index).start)),
+        }
+    };
+    rest.iter().enumerate().map(strand).collect()
+}
+
+/// Steps every strand, each with the pose of its head at the end. `points` are those of all strands.
+pub(super) fn step<S: Strand>(
+    state: &mut [S],
+    scene: &Scene,
+    points: usize,
+    dt: f64,
+    step: impl Fn(&mut S, Pose) -> Stats + Sync,
+) -> Result<Stats, DynamicsError> {
+    scene.check(dt, state.len(), points)?;
+    let one = |(index, strand): (usize, &mut S)| step(strand, scene.roots.of(index));
+    let stats = state.par_iter_mut().enumerate().with_min_len(4).map(one);
+    Ok(stats.reduce(Stats::default, Stats::plus))
+}
+
+/// Puts the roots elsewhere at once.
+pub(super) fn teleport<S: Strand>(
+    state: &mut [S],
+    to: Roots,
+    points: usize,
+) -> Result<(), DynamicsError> {
+    let scene = Scene {
+        roots: to,
+        ..Scene::default()
+    };
+    scene.check(1.0, state.len(), points)?;
+    for (index, strand) in state.iter_mut().enumerate() {
+        strand.teleport(to.of(index));
+    }
+    Ok(())
+}
+
+/// What acts on all particles in a substep.
+pub(super) struct Acting<'a> {
+    pub gravity: DVec3,
+    pub gusts: Option<&'a Gusts>,
+    pub colliders: &'a [Collider<'a>],
+    /// The share of the step that is done at the end of the substep.
+    pub share: f64,
+}
+
+impl Acting<'_> {
+    /// The air's velocity at a place.
+    pub fn air(&self, at: DVec3) -> DVec3 {
+        self.gusts.map_or(DVec3::ZERO, |gusts| {
+            gusts.velocity(lanes::Vec3::splat(at)).get(0)
+        })
+    }
+
+    /// Puts a particle that was at `before` and is in a body on its skin, and holds it there by friction. Returns of how many
+    /// bodies.
+    pub fn keep_out(
+        &self,
+        point: &mut DVec3,
+        before: DVec3,
+        thickness: f64,
+        friction: f64,
+    ) -> usize {
+        let mut found = 0;
+        for collider in self.colliders {
+            let pose = collider.before.towards(collider.now, self.share);
+            let place = pose.to_local(*point);
+            let depth = thickness - collider.shape.distance(place);
+            if depth <= 0.0 || !depth.is_finite() {
+                continue;
+            }
+            found += 1;
+            let normal = pose.rotation * collider.shape.normal(place);
+            let pushed = *point + normal * depth;
+            let slid = pushed - before;
+            let slid = slid - normal * slid.dot(normal);
+            let held = (friction * depth / slid.length().max(1e-12)).min(1.0);
+            *point = pushed - slid * held;
+        }
+        found
+    }
+}
+
+/// A pull to a place, damped critically, per mass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pull {
+    /// In 1/s^2, and of the damping in 1/s.
+    pub stiffness: f64,
+    pub rate: f64,
+    /// Where to, at the end of a substep, and how fast that moves.
+    pub goal: DVec3,
+    pub drift: DVec3,
+}
+
+impl Pull {
+    /// To a goal that moves evenly from `before` to `now` within a step of `dt` seconds, of which `share` is done at the end
+    /// of the substep.
+    pub fn new(stiffness: f64, before: DVec3, now: DVec3, share: f64, dt: f64) -> Self {
+        Self {
+            stiffness,
+            rate: 2.0 * stiffness.sqrt(),
+            goal: before.lerp(now, share),
+            drift: (now - before) / dt,
+        }
+    }
+
+    /// The acceleration of a particle that rests at `point`.
+    pub fn push(&self, point: DVec3) -> DVec3 {
+        (self.goal - point) * self.stiffness + self.drift * self.rate
+    }
+
+    /// What divides the velocity at the end of a substep of `dt` seconds, beyond 1.
+    pub fn slowing(&self, dt: f64) -> f64 {
+        dt * (self.rate + dt * self.stiffness)
+    }
+}
