@@ -194,8 +194,9 @@ pub(super) struct Target {
     pub(super) color: [Plane; 3],
     /// For each cell the farthest of `strand`.
     farthest_strand: Vec<f32>,
-    /// For each cell the farthest of `surface`; [`NOTHING`] beside surfaces of their own margin, which don't count here.
-    farthest_surface: Vec<f32>,
+    /// For each cell the farthest of `surface`; once these are finished [`NOTHING`] beside surfaces of their own margin,
+    /// which don't count then.
+    pub(super) farthest_surface: Vec<f32>,
 }
 
 impl Target {
@@ -289,8 +290,19 @@ impl Target {
     }
 }
 
+/// Whether a lane is not 0.
 #[inline(always)]
-fn least(lanes: &Lanes) -> f32 {
+pub(super) fn any(lanes: &[u32; LANES]) -> bool {
+    let mut any = 0;
+    for k in 0..LANES {
+        any |= lanes[k];
+    }
+    any != 0
+}
+
+/// The least of a chunk's numbers.
+#[inline(always)]
+pub(super) fn least(lanes: &Lanes) -> f32 {
     let mut least = *lanes;
     let mut half = LANES / 2;
     while half > 0 {
@@ -373,7 +385,33 @@ pub(super) struct Slope {
     pub(super) per_y: f32,
 }
 
+/// A [`Slope`] at the columns of a chunk, whatever the row.
+#[derive(Clone, Copy)]
+pub(super) struct Columns {
+    at_top: Lanes,
+    per_y: f32,
+}
+
+impl Columns {
+    #[inline(always)]
+    pub(super) fn at(&self, lane: usize, y: f32) -> f32 {
+        self.at_top[lane] + y * self.per_y
+    }
+}
+
 impl Slope {
+    #[inline(always)]
+    pub(super) fn along(&self, x: &Lanes) -> Columns {
+        let mut at_top = [self.corner; LANES];
+        for k in 0..LANES {
+            at_top[k] += x[k] * self.per_x;
+        }
+        Columns {
+            at_top,
+            per_y: self.per_y,
+        }
+    }
+
     /// At the first lane of a chunk that begins at `position`; the others follow in steps of `per_x`.
     #[inline(always)]
     pub(super) fn at(&self, position: Vec2) -> f32 {
