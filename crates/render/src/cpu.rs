@@ -34,7 +34,7 @@ use bin::{Bins, cells};
 use glam::Vec2;
 use instructions::Instructions;
 use rayon::prelude::*;
-use segment::{Segment, Stroke};
+use segment::{Segments, Stroke};
 use std::sync::{Mutex, PoisonError};
 use strand::{Part, Scene, StrandPlanes};
 use surface::Triangle;
@@ -71,9 +71,8 @@ pub struct Rasterizer {
 /// What the drawing is taken apart into.
 #[derive(Default)]
 struct Parts {
-    segments: Vec<Segment>,
+    segments: Segments,
     triangles: Vec<Triangle>,
-    segments_of_bands: Bins,
     triangles_of_bands: Bins,
 }
 
@@ -169,13 +168,10 @@ fn empty_picture([width, height]: [u32; 2]) -> Result<Picture, DrawError> {
 
 impl Parts {
     fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke]) {
-        segment::collect(drawing, strokes, &mut self.segments);
-        surface::collect(drawing, &mut self.triangles);
         let bands = (drawing.size[1] as usize).div_ceil(tile::HEIGHT);
-        let rows = self.segments.iter().map(|s| &s.bounds.y).zip(0..);
-        self.segments_of_bands
-            .fill(bands, rows.map(|(y, i)| (i, cells(y, tile::HEIGHT))));
-        let rows = self.triangles.iter().map(|t| &t.bounds.y).zip(0..);
+        self.segments.collect(drawing, strokes, bands);
+        surface::collect(drawing, &mut self.triangles);
+        let rows = self.triangles.iter().map(|t| t.bounds.y).zip(0..);
         self.triangles_of_bands
             .fill(bands, rows.map(|(y, i)| (i, cells(y, tile::HEIGHT))));
     }
@@ -219,16 +215,15 @@ impl Worker {
         let Parts {
             segments,
             triangles,
-            segments_of_bands,
             triangles_of_bands,
         } = frame.parts;
-        let columns = segments_of_bands.bin(band).iter().map(|&i| {
-            let columns = &segments[i as usize].bounds.x;
+        let columns = segments.of_band(band).map(|i| {
+            let columns = segments.list()[i as usize].bounds.x;
             (i, cells(columns, tile::WIDTH))
         });
         self.segments_of_tiles.fill(tiles, columns);
         let columns = triangles_of_bands.bin(band).iter().map(|&i| {
-            let columns = &triangles[i as usize].bounds.x;
+            let columns = triangles[i as usize].bounds.x;
             (i, cells(columns, tile::WIDTH))
         });
         self.triangles_of_tiles.fill(tiles, columns);
@@ -263,7 +258,7 @@ impl Worker {
             order: frame.drawing.order,
             edge_depth_m: frame.drawing.edge_depth_m,
             strokes: frame.strokes,
-            segments: &frame.parts.segments,
+            segments: frame.parts.segments.list(),
             origin,
             samples: frame.samples,
             first_sample: 0,

@@ -1,6 +1,6 @@
 //! One triangle in one tile: both sides, edges included, the nearest first.
 
-use super::bin::Bounds;
+use super::bin::{Bounds, clip};
 use super::tile::{
     HEIGHT, LANE, LANES, Slope, Target, WIDTH, any, greater, least, lesser, row_start, select,
 };
@@ -51,8 +51,8 @@ impl Triangle {
         samples: &[Vec2],
         target: &mut Target,
     ) {
-        let rows = clip(&self.bounds.y, origin[1], HEIGHT);
-        let columns = clip(&self.bounds.x, origin[0], WIDTH);
+        let rows = clip(self.bounds.y, origin[1], HEIGHT);
+        let columns = clip(self.bounds.x, origin[0], WIDTH);
         let chunks = columns.start / LANES..columns.end.div_ceil(LANES);
         if self.is_hidden(&rows, &chunks, samples.len(), target) {
             return;
@@ -143,10 +143,6 @@ impl Triangle {
         }
         true
     }
-}
-
-fn clip(range: &Range<usize>, origin: usize, size: usize) -> Range<usize> {
-    range.start.max(origin) - origin..range.end.min(origin + size) - origin
 }
 
 /// The signed, doubled area between an edge and a point: above 0 on the edge's one side. Worked out
