@@ -35,6 +35,7 @@ use glam::Vec2;
 use instructions::Instructions;
 use rayon::prelude::*;
 use segment::{Segments, Stroke};
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use strand::{Part, Scene, StrandPlanes};
 use surface::Triangle;
@@ -187,6 +188,8 @@ struct Frame<'a> {
 
 /// A thread's own memory.
 struct Worker {
+    /// A band's segments and the tiles that each reaches.
+    columns: Vec<(u32, Range<usize>)>,
     segments_of_tiles: Bins,
     triangles_of_tiles: Bins,
     target: Target,
@@ -198,6 +201,7 @@ struct Worker {
 impl Worker {
     fn new() -> Self {
         Self {
+            columns: Vec::new(),
             segments_of_tiles: Bins::default(),
             triangles_of_tiles: Bins::default(),
             target: Target::new(),
@@ -217,11 +221,13 @@ impl Worker {
             triangles,
             triangles_of_bands,
         } = frame.parts;
-        let columns = segments.of_band(band).map(|i| {
+        self.columns.clear();
+        self.columns.extend(segments.of_band(band).map(|i| {
             let columns = segments.list()[i as usize].bounds.x;
             (i, cells(columns, tile::WIDTH))
-        });
-        self.segments_of_tiles.fill(tiles, columns);
+        }));
+        self.segments_of_tiles
+            .fill(tiles, self.columns.iter().cloned());
         let columns = triangles_of_bands.bin(band).iter().map(|&i| {
             let columns = triangles[i as usize].bounds.x;
             (i, cells(columns, tile::WIDTH))

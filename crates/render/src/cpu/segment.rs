@@ -225,12 +225,16 @@ impl<'a> Strand<'a> {
 
     /// How many segments it has at most: those between discs that aren't both without size.
     fn most_segments(&self) -> usize {
-        let has_size = |discs: &[Disc]| discs.iter().any(|disc| disc.radius > 0.0) as usize;
-        let of_part = |discs: &[Disc]| match discs {
-            [disc] => has_size(&[*disc]),
-            discs => discs.windows(2).map(has_size).sum(),
-        };
-        self.parts().map(|(discs, ..)| of_part(discs)).sum()
+        let mut count = 0;
+        for (discs, ..) in self.parts() {
+            let mut has_size = discs[0].radius > 0.0;
+            count += usize::from(has_size && discs.len() == 1);
+            for disc in &discs[1..] {
+                let before = std::mem::replace(&mut has_size, disc.radius > 0.0);
+                count += usize::from(before | has_size);
+            }
+        }
+        count
     }
 
     /// Gives each segment that may be seen, in order.
@@ -307,6 +311,13 @@ impl Segment {
     #[inline(always)]
     pub(super) fn rows_in(&self, top: usize) -> Range<usize> {
         clip(self.bounds.y, top, tile::HEIGHT)
+    }
+
+    /// The columns, of the tile whose first one is `left`, that the segment may reach, a bit for each.
+    #[inline(always)]
+    pub(super) fn columns_in(&self, left: usize) -> u32 {
+        let columns = clip(self.bounds.x, left, tile::WIDTH);
+        u32::MAX << columns.start & u32::MAX >> (tile::WIDTH - columns.end)
     }
 
     pub(super) fn is_one_color(&self) -> bool {

@@ -107,7 +107,7 @@ impl StrandPlanes {
             let mut samples = NO_SAMPLES;
             for &index in stroke {
                 let segment = &scene.segments[index as usize];
-                let placed = Placed::new(index, segment, scene.origin, scene.samples);
+                let placed = Placed::new(index, segment, scene.origin, scene.samples, open);
                 for row in 0..ROWS {
                     samples[row] |= placed.covered[row] & open[row];
                 }
@@ -154,21 +154,18 @@ impl StrandPlanes {
             }
         }
         self.depths.clear(&shown);
+        let is_round = scene.order == Order::Rounded;
         for stroke in strokes.iter().filter(|stroke| rank(stroke) < 0) {
+            let placed = &self.placed[stroke.segments.clone()];
             let outside = without(&stroke.samples, &clump_samples);
-            measure(
-                scene,
-                &self.placed[stroke.segments.clone()],
-                outside,
-                &mut self.by_depth,
-                &mut self.depths,
-            );
-            if scene.order == Order::Rounded {
-                let placed = &self.placed[stroke.segments.clone()];
+            measure(scene, placed, outside, &mut self.by_depth, &mut self.depths);
+            if is_round {
+                let near = self.depths.before(&outside, target);
+                shown = without(&shown, &without(&outside, &near));
                 round(
                     scene,
                     placed,
-                    &outside,
+                    &near,
                     true,
                     &mut self.ratio,
                     &mut self.depths,
@@ -176,20 +173,16 @@ impl StrandPlanes {
             }
         }
         if let Some(clump) = clump {
+            let placed = &self.placed[clump.segments.clone()];
             let inside = both(&shown, &clump_samples);
-            measure(
-                scene,
-                &self.placed[clump.segments.clone()],
-                inside,
-                &mut self.by_depth,
-                &mut self.depths,
-            );
-            if scene.order == Order::Rounded {
-                let placed = &self.placed[clump.segments.clone()];
+            measure(scene, placed, inside, &mut self.by_depth, &mut self.depths);
+            if is_round {
+                let near = self.depths.before(&inside, target);
+                shown = without(&shown, &without(&inside, &near));
                 round(
                     scene,
                     placed,
-                    &inside,
+                    &near,
                     false,
                     &mut self.ratio,
                     &mut self.depths,

@@ -37,6 +37,7 @@ pub(super) fn collect(drawing: &Drawing, triangles: &mut Vec<Triangle>) {
     }
 }
 
+#[inline(always)]
 fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
@@ -59,22 +60,35 @@ impl Triangle {
         }
         let surface = &drawing.surfaces[self.surface as usize];
         let corner = DVec2::new(origin[0] as f64, origin[1] as f64);
-        let points = self.corners.map(|c| c.position.as_dvec2() - corner);
+        // Without closures, which are not sure to be compiled for their caller's instruction set.
+        let [a, b, c] = &self.corners;
+        let seen = |vertex: &SurfaceVertex| vertex.position.as_dvec2() - corner;
+        let points = [seen(a), seen(b), seen(c)];
         let area = twice_area(points);
-        let [a, b, c] = points;
-        let edges = [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::new(from, to));
-        let inside = edges.map(|edge| edge.slope(area.signum()));
-        let interpolate = |values: [f32; 3]| Interpolated::new(values, edges, area);
-        let depths = interpolate(self.corners.map(|c| c.inv_depth));
-        let tones = interpolate(self.corners.map(|c| c.tone));
-
+        let edges = [
+            Edge::new(points[1], points[2]),
+            Edge::new(points[2], points[0]),
+            Edge::new(points[0], points[1]),
+        ];
+        let side = area.signum();
+        let inside = [
+            edges[0].slope(side),
+            edges[1].slope(side),
+            edges[2].slope(side),
+        ];
+        let depths = Interpolated::new([a.inv_depth, b.inv_depth, c.inv_depth], &edges, area);
+        let tones = Interpolated::new([a.tone, b.tone, c.tone], &edges, area);
         for (sample, offset) in samples.iter().enumerate() {
             for chunk in chunks.clone() {
                 let mut x = LANE;
                 for k in 0..LANES {
                     x[k] += offset.x + (chunk * LANES) as f32;
                 }
-                let inside = inside.map(|slope| slope.along(&x));
+                let inside = [
+                    inside[0].along(&x),
+                    inside[1].along(&x),
+                    inside[2].along(&x),
+                ];
                 let (depths_x, tones_x) = (depths.slope.along(&x), tones.slope.along(&x));
                 for row in rows.clone() {
                     let cell = row_start(sample * HEIGHT + row) + chunk;
@@ -157,6 +171,7 @@ struct Edge {
 
 impl Edge {
     /// Positions are seen from the tile's corner.
+    #[inline(always)]
     fn new(from: DVec2, to: DVec2) -> Self {
         let is_turned = (to.x, to.y) < (from.x, from.y);
         let (low, high) = if is_turned { (to, from) } else { (from, to) };
@@ -169,6 +184,7 @@ impl Edge {
         }
     }
 
+    #[inline(always)]
     fn slope(&self, factor: f64) -> Slope {
         Slope {
             corner: (self.corner * factor) as f32,
@@ -187,20 +203,19 @@ struct Interpolated {
 }
 
 impl Interpolated {
-    fn new(values: [f32; 3], edges: [Edge; 3], area: f64) -> Self {
-        let sum = |part: fn(&Edge) -> f64| {
-            let parts = edges.iter().zip(values);
-            (parts
-                .map(|(edge, value)| part(edge) * f64::from(value))
-                .sum::<f64>()
-                / area) as f32
+    #[inline(always)]
+    fn new(values: [f32; 3], edges: &[Edge; 3], area: f64) -> Self {
+        let [e, f, g] = edges;
+        let mean = |a: f64, b: f64, c: f64| {
+            let [v, w, x] = values;
+            ((a * f64::from(v) + b * f64::from(w) + c * f64::from(x)) / area) as f32
         };
         let [a, b, c] = values;
         Self {
             slope: Slope {
-                corner: sum(|edge| edge.corner),
-                per_x: sum(|edge| edge.per_x),
-                per_y: sum(|edge| edge.per_y),
+                corner: mean(e.corner, f.corner, g.corner),
+                per_x: mean(e.per_x, f.per_x, g.per_x),
+                per_y: mean(e.per_y, f.per_y, g.per_y),
             },
             least: a.min(b).min(c),
             greatest: a.max(b).max(c),

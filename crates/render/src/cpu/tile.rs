@@ -163,8 +163,19 @@ impl Iterator for Cells<'_> {
     fn next(&mut self) -> Option<Cell> {
         while self.left == 0 {
             self.row += 1;
-            if self.row >= ROWS {
-                return None;
+            // Eight rows without samples are left behind at once.
+            while self.row.is_multiple_of(LANES) {
+                let Some(rows) = self.mask.get(self.row..self.row + LANES) else {
+                    return None;
+                };
+                let mut any = 0;
+                for k in 0..LANES {
+                    any |= rows[k];
+                }
+                if any != 0 {
+                    break;
+                }
+                self.row += LANES;
             }
             self.left = self.mask[self.row];
         }
@@ -252,6 +263,25 @@ impl Target {
             open |= select(is_hidden, 0, CHUNK << (chunk * LANES));
         }
         open
+    }
+
+    /// The bits of those samples of a cell where a strand may show that is no nearer than this.
+    #[inline(always)]
+    pub(super) fn may_show(&self, cell: Cell, depth: &Lanes, biased: &Lanes) -> u32 {
+        let (surface, margin) = (&self.surface[cell.index], &self.margin[cell.index]);
+        let nearest = &self.strand[cell.index];
+        let mut may = [0_u32; LANES];
+        for k in 0..LANES {
+            // A margin counts from the depth, which may yet change either way.
+            let is_before = (margin[k] != 0.0) | (surface[k] <= biased[k]);
+            let is_near = has(cell.bits, k) & is_before & (depth[k] >= nearest[k]);
+            may[k] = select(is_near, 1 << k, 0);
+        }
+        let mut bits = 0;
+        for bit in may {
+            bits |= bit;
+        }
+        bits
     }
 
     /// Offers a strand to some samples of a cell: it shows where it lies behind no surface, and is
