@@ -175,12 +175,9 @@ impl Depths {
     /// Those of the samples that may show if they lie no nearer than this.
     #[inline(always)]
     pub(super) fn before(&self, samples: &Mask, target: &Target) -> Mask {
-        let mut before = NO_SAMPLES;
-        for cell in cells(samples) {
-            let (depth, biased) = (&self.inv_depth[cell.index], &self.biased[cell.index]);
-            before[cell.row] |= target.may_show(cell, depth, biased) << cell.column;
-        }
-        before
+        target.before(samples, |cell| {
+            (self.inv_depth[cell.index], self.biased[cell.index])
+        })
     }
 
     /// Forgets the cells that hold one of the samples.

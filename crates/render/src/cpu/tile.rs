@@ -265,6 +265,17 @@ impl Target {
         open
     }
 
+    /// Those of the samples where a strand may show that is no nearer than what is given for their cell.
+    #[inline(always)]
+    pub(super) fn before(&self, samples: &Mask, nearest: impl Fn(Cell) -> (Lanes, Lanes)) -> Mask {
+        let mut before = NO_SAMPLES;
+        for cell in cells(samples) {
+            let (depth, biased) = nearest(cell);
+            before[cell.row] |= self.may_show(cell, &depth, &biased) << cell.column;
+        }
+        before
+    }
+
     /// The bits of those samples of a cell where a strand may show that is no nearer than this.
     #[inline(always)]
     pub(super) fn may_show(&self, cell: Cell, depth: &Lanes, biased: &Lanes) -> u32 {
