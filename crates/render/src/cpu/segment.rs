@@ -26,6 +26,7 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
+    #[inline]
     fn new(start: f32, end: f32) -> Self {
         Self {
             start,
@@ -303,7 +304,11 @@ impl Segment {
             sweep,
             inv_depth: Ramp::new(large.0.inv_depth, small.0.inv_depth),
             inv_depth_biased: Ramp::new(large.0.inv_depth_biased, small.0.inv_depth_biased),
-            color: [0, 1, 2].map(|i| Ramp::new(large.1[i], small.1[i])),
+            color: [
+                Ramp::new(large.1[0], small.1[0]),
+                Ramp::new(large.1[1], small.1[1]),
+                Ramp::new(large.1[2], small.1[2]),
+            ],
         })
     }
 
@@ -325,6 +330,7 @@ impl Segment {
     }
 }
 
+#[inline]
 fn circle(disc: &Disc) -> Circle {
     Circle {
         center: disc.center.as_dvec2(),

@@ -204,10 +204,10 @@ pub(super) struct Target {
     pub(super) priority: Vec<[u32; LANES]>,
     pub(super) color: [Plane; 3],
     /// For each cell the farthest of `strand`.
-    farthest_strand: Vec<f32>,
+    farthest_strand: Box<[f32; CELLS]>,
     /// For each cell the farthest of `surface`; once these are finished [`NOTHING`] beside surfaces of their own margin,
     /// which don't count then.
-    pub(super) farthest_surface: Vec<f32>,
+    pub(super) farthest_surface: Box<[f32; CELLS]>,
 }
 
 impl Target {
@@ -218,8 +218,8 @@ impl Target {
             strand: plane(),
             priority: vec![[0; LANES]; CELLS],
             color: [plane(), plane(), plane()],
-            farthest_strand: vec![NOTHING; CELLS],
-            farthest_surface: vec![NOTHING; CELLS],
+            farthest_strand: Box::new([NOTHING; CELLS]),
+            farthest_surface: Box::new([NOTHING; CELLS]),
         }
     }
 
@@ -255,11 +255,12 @@ impl Target {
     /// with all their bits.
     #[inline(always)]
     pub(super) fn open(&self, row: usize, inv_depth: f32, biased: f32) -> u32 {
-        let start = row_start(row);
+        let chunks = row_start(row)..row_start(row + 1);
+        let strand = &self.farthest_strand[chunks.clone()];
+        let surface = &self.farthest_surface[chunks];
         let mut open = 0;
-        for chunk in 0..CHUNKS {
-            let is_hidden = (self.farthest_strand[start + chunk] > inv_depth)
-                | (self.farthest_surface[start + chunk] > biased);
+        for (chunk, (strand, surface)) in strand.iter().zip(surface).enumerate() {
+            let is_hidden = (*strand > inv_depth) | (*surface > biased);
             open |= select(is_hidden, 0, CHUNK << (chunk * LANES));
         }
         open
