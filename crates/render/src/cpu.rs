@@ -1,7 +1,7 @@
 //! The exact rasteriser: no driver, any number of samples, the same bits on any machine.
 //!
-//! A drawing is checked ([`DrawError`]) and taken apart into segments, which are sorted into bands of
-//! tile rows and these into tiles. Bands are drawn in parallel; every band sees its segments in the
+//! A drawing is checked ([`DrawError`]) and taken apart into segments, some strands at a time in parallel, which are
+//! sorted into bands of tile rows and these into tiles. Bands are drawn in parallel; every band sees its segments in the
 //! same order, so threads can't change a bit. In a tile (see `tile`) come first the surfaces, then
 //! strand after strand from the nearest on: what each segment covers (`rows`), the strand's own order
 //! and the strand against what is there (`strand`), then depth and colour (`stroke`) of what shows.

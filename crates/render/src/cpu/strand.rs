@@ -1,8 +1,9 @@
 //! One strand in one tile: its strokes in their order, then the strand against what is there.
 //!
 //! What can't be seen is not worked out. First come the masks of what each stroke covers; from the
-//! highest stroke down each takes the samples that are left. Only these get a depth, and only those
-//! that then show in the picture get a colour.
+//! highest stroke down each takes the samples that are left. Of these only those get a depth where the
+//! stroke's nearest disc in the tile would show; only those are rounded that still would, as rounding takes
+//! them deeper; and only those that then show in the picture get a colour.
 
 use super::segment::{Segment, Stroke};
 use super::stroke::{Depths, Placed};
