@@ -155,7 +155,7 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     check_picture(drawing.size, drawing.background, drawing.edge_depth_m)?;
     check_runs(drawing)?;
     let joints = drawing.clump.len();
-    if let Some(joint) = drawing.clump.par_iter().position_first(|d| !is_disc(d)) {
+    if let Some(joint) = first_that_is_not(&drawing.clump, is_disc) {
         let disc = drawing.clump[joint];
         return Err(DrawError::ClumpDisc { joint, disc });
     }
@@ -240,7 +240,7 @@ fn check_layer(layer: &LayerStrokes, joints: usize) -> Result<(), DrawError> {
             joints,
         });
     }
-    if let Some(index) = layer.discs.par_iter().position_first(|d| !is_disc(d)) {
+    if let Some(index) = first_that_is_not(&layer.discs, is_disc) {
         return Err(DrawError::LayerDisc {
             layer: layer.name.clone(),
             instance: index / joints,
@@ -248,7 +248,7 @@ fn check_layer(layer: &LayerStrokes, joints: usize) -> Result<(), DrawError> {
             disc: layer.discs[index],
         });
     }
-    if let Some(index) = layer.colors.par_iter().position_first(|c| !is_finite(c)) {
+    if let Some(index) = first_that_is_not(&layer.colors, is_finite) {
         return Err(DrawError::LayerColor {
             layer: layer.name.clone(),
             instance: index / joints,
@@ -256,6 +256,16 @@ fn check_layer(layer: &LayerStrokes, joints: usize) -> Result<(), DrawError> {
         });
     }
     Ok(())
+}
+
+/// The index of the first item for which the rule doesn't hold. All of a chunk are looked at, as branches take more time.
+fn first_that_is_not<T: Sync>(items: &[T], rule: impl Fn(&T) -> bool + Sync) -> Option<usize> {
+    const CHUNK: usize = 4096;
+    let is_wrong = |chunk: &[T]| !chunk.iter().fold(true, |right, item| right & rule(item));
+    let chunk = items.par_chunks(CHUNK).position_first(is_wrong)?;
+    let first = chunk * CHUNK;
+    let place = items[first..].iter().position(|item| !rule(item))?;
+    Some(first + place)
 }
 
 fn check_surface(index: usize, surface: &Surface) -> Result<(), DrawError> {

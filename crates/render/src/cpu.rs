@@ -1,7 +1,7 @@
 //! The exact rasteriser: no driver, any number of samples, the same bits on any machine.
 //!
-//! A drawing is checked ([`DrawError`]) and taken apart into segments, which are sorted into bands of
-//! tile rows and these into tiles. Bands are drawn in parallel; every band sees its segments in the
+//! A drawing is checked ([`DrawError`]) and taken apart into segments, some strands at a time in parallel, which are
+//! sorted into bands of tile rows and these into tiles. Bands are drawn in parallel; every band sees its segments in the
 //! same order, so threads can't change a bit. In a tile (see `tile`) come first the surfaces, then
 //! strand after strand from the nearest on: what each segment covers (`rows`), the strand's own order
 //! and the strand against what is there (`strand`), then depth and colour (`stroke`) of what shows.
@@ -34,7 +34,8 @@ use bin::{Bins, cells};
 use glam::Vec2;
 use instructions::Instructions;
 use rayon::prelude::*;
-use segment::{Segment, Stroke};
+use segment::{Segments, Stroke};
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use strand::{Part, Scene, StrandPlanes};
 use surface::Triangle;
@@ -71,9 +72,8 @@ pub struct Rasterizer {
 /// What the drawing is taken apart into.
 #[derive(Default)]
 struct Parts {
-    segments: Vec<Segment>,
+    segments: Segments,
     triangles: Vec<Triangle>,
-    segments_of_bands: Bins,
     triangles_of_bands: Bins,
 }
 
@@ -169,13 +169,10 @@ fn empty_picture([width, height]: [u32; 2]) -> Result<Picture, DrawError> {
 
 impl Parts {
     fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke]) {
-        segment::collect(drawing, strokes, &mut self.segments);
-        surface::collect(drawing, &mut self.triangles);
         let bands = (drawing.size[1] as usize).div_ceil(tile::HEIGHT);
-        let rows = self.segments.iter().map(|s| &s.bounds.y).zip(0..);
-        self.segments_of_bands
-            .fill(bands, rows.map(|(y, i)| (i, cells(y, tile::HEIGHT))));
-        let rows = self.triangles.iter().map(|t| &t.bounds.y).zip(0..);
+        self.segments.collect(drawing, strokes, bands);
+        surface::collect(drawing, &mut self.triangles);
+        let rows = self.triangles.iter().map(|t| t.bounds.y).zip(0..);
         self.triangles_of_bands
             .fill(bands, rows.map(|(y, i)| (i, cells(y, tile::HEIGHT))));
     }
@@ -191,6 +188,8 @@ struct Frame<'a> {
 
 /// A thread's own memory.
 struct Worker {
+    /// A band's segments and the tiles that each reaches.
+    columns: Vec<(u32, Range<usize>)>,
     segments_of_tiles: Bins,
     triangles_of_tiles: Bins,
     target: Target,
@@ -202,6 +201,7 @@ struct Worker {
 impl Worker {
     fn new() -> Self {
         Self {
+            columns: Vec::new(),
             segments_of_tiles: Bins::default(),
             triangles_of_tiles: Bins::default(),
             target: Target::new(),
@@ -219,16 +219,17 @@ impl Worker {
         let Parts {
             segments,
             triangles,
-            segments_of_bands,
             triangles_of_bands,
         } = frame.parts;
-        let columns = segments_of_bands.bin(band).iter().map(|&i| {
-            let columns = &segments[i as usize].bounds.x;
+        self.columns.clear();
+        self.columns.extend(segments.of_band(band).map(|i| {
+            let columns = segments.list()[i as usize].bounds.x;
             (i, cells(columns, tile::WIDTH))
-        });
-        self.segments_of_tiles.fill(tiles, columns);
+        }));
+        self.segments_of_tiles
+            .fill(tiles, self.columns.iter().cloned());
         let columns = triangles_of_bands.bin(band).iter().map(|&i| {
-            let columns = &triangles[i as usize].bounds.x;
+            let columns = triangles[i as usize].bounds.x;
             (i, cells(columns, tile::WIDTH))
         });
         self.triangles_of_tiles.fill(tiles, columns);
@@ -263,7 +264,7 @@ impl Worker {
             order: frame.drawing.order,
             edge_depth_m: frame.drawing.edge_depth_m,
             strokes: frame.strokes,
-            segments: &frame.parts.segments,
+            segments: frame.parts.segments.list(),
             origin,
             samples: frame.samples,
             first_sample: 0,

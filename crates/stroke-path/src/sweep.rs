@@ -65,8 +65,8 @@ pub enum FlatEnd {
 }
 
 /// The union of the discs between two circles. Positions `u` run from 0 at the larger to 1 at the
-/// smaller.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// smaller. The default is a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sweep {
     origin: DVec2,
     axis: DVec2,

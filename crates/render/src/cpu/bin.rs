@@ -6,11 +6,13 @@ use std::ops::Range;
 /// Room for rounding around everything that is drawn, in pixels.
 const MARGIN: f64 = 0.01;
 
-/// The pixels that something may reach: a range of columns and one of rows, neither empty.
-#[derive(Clone, Debug, PartialEq)]
+/// The pixels that something may reach: a range of columns and one of rows. By default none.
+///
+/// In 16 bits, as pictures have at most [`MAX_SIZE`](super::MAX_SIZE) of them: what is drawn is long lists of these.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Bounds {
-    pub(super) x: Range<usize>,
-    pub(super) y: Range<usize>,
+    pub(super) x: [u16; 2],
+    pub(super) y: [u16; 2],
 }
 
 impl Bounds {
@@ -19,7 +21,7 @@ impl Bounds {
         let range = |min: f64, max: f64, size: u32| {
             let start = (min - MARGIN).max(0.0) as usize; // a cast rounds towards 0
             let end = ((max + MARGIN).floor() + 1.0).clamp(0.0, f64::from(size)) as usize;
-            (start < end).then_some(start..end)
+            (start < end).then_some([start as u16, end as u16])
         };
         Some(Self {
             x: range(min.x, max.x, size[0])?,
@@ -29,8 +31,15 @@ impl Bounds {
 }
 
 /// Which cells of `size` pixels a range of pixels reaches.
-pub(super) fn cells(pixels: &Range<usize>, size: usize) -> Range<usize> {
-    pixels.start / size..pixels.end.div_ceil(size)
+#[inline]
+pub(super) fn cells([start, end]: [u16; 2], size: usize) -> Range<usize> {
+    usize::from(start) / size..usize::from(end).div_ceil(size)
+}
+
+/// The part of a range of pixels that lies in the `size` pixels from `origin` on, seen from there.
+#[inline(always)] // into kernels that are compiled for several instruction sets
+pub(super) fn clip([start, end]: [u16; 2], origin: usize, size: usize) -> Range<usize> {
+    usize::from(start).max(origin) - origin..usize::from(end).min(origin + size) - origin
 }
 
 /// Items sorted into bins by counting. An item lies in each bin of a range; a bin keeps the order in
@@ -102,11 +111,11 @@ mod tests {
         let of = |x0, y0, x1, y1| {
             Bounds::of_box(DVec2::new(x0, y0), DVec2::new(x1, y1), [100, 50]).map(|b| (b.x, b.y))
         };
-        assert_eq!(of(1.5, 2.5, 3.5, 3.5), Some((1..4, 2..4)));
-        assert_eq!(of(-9.0, -9.0, 999.0, 999.0), Some((0..100, 0..50)));
+        assert_eq!(of(1.5, 2.5, 3.5, 3.5), Some(([1, 4], [2, 4])));
+        assert_eq!(of(-9.0, -9.0, 999.0, 999.0), Some(([0, 100], [0, 50])));
         assert_eq!(of(-9.0, 0.0, -1.0, 5.0), None);
         assert_eq!(of(0.0, 50.5, 5.0, 60.0), None);
         // A box that ends at a pixel's edge reaches the next pixel: edges belong to strokes.
-        assert_eq!(of(1.0, 1.0, 2.0, 2.0), Some((0..3, 0..3)));
+        assert_eq!(of(1.0, 1.0, 2.0, 2.0), Some(([0, 3], [0, 3])));
     }
 }

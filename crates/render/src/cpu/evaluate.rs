@@ -8,7 +8,7 @@ use effects::{InputSet, Joints, Layer, Units, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
-use stroke_path::PathRun;
+use stroke_path::{PathRun, Paths};
 
 /// Turns frames into drawings, on the threads of the rayon pool that it is called in. Keeps its lists
 /// from frame to frame.
@@ -45,10 +45,11 @@ impl Evaluator {
             joints: run.joints.clone(),
         }));
         drawing.clump.clear();
-        let radii = &self.joints.clump_radius;
-        drawing
-            .clump
-            .extend((0..radii.len()).map(|i| disc(frame, i, Vec2::ZERO, radii[i], radii[i], 0.0)));
+        let radii = self.joints.clump_radius.par_iter().with_min_len(CHUNK);
+        let discs = radii
+            .enumerate()
+            .map(|(i, &radius)| disc(frame, i, Vec2::ZERO, radius, radius, 0.0));
+        drawing.clump.par_extend(discs);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for (layer, joints) in frame.layers.iter().zip(frame.layer_joints) {
@@ -79,22 +80,33 @@ impl Evaluator {
         let length = joints * instances as usize;
         discs.resize(length, NO_DISC);
         colors.resize(length, [0.0; 3]);
-        let strokes = discs
-            .par_chunks_mut(joints.max(1))
-            .zip(colors.par_chunks_mut(joints.max(1)));
-        let instance = Instance {
-            frame,
-            layer,
-            joints: &self.joints,
-            drawn: drawn.clone(),
-            seen_length: &self.seen_length,
-            seed: layer_seed(frame.seed, &layer.name),
-        };
-        strokes.zip(0..instances).for_each_init(
+        let seed = layer_seed(frame.seed, &layer.name);
+        let mut parts = Vec::new();
+        let lists = discs
+            .chunks_mut(joints.max(1))
+            .zip(colors.chunks_mut(joints.max(1)));
+        for ((mut discs, mut colors), number) in lists.zip(0..instances) {
+            for joints in pieces(frame.paths) {
+                let (these, others) = discs.split_at_mut(joints.len());
+                let (their_colors, other_colors) = colors.split_at_mut(joints.len());
+                (discs, colors) = (others, other_colors);
+                // Whole runs, as both ranges are.
+                let start = drawn.start.clamp(joints.start, joints.end);
+                let part = Part {
+                    frame,
+                    layer,
+                    joints: &self.joints,
+                    first: joints.start,
+                    drawn: start..drawn.end.clamp(start, joints.end),
+                    seen_length: &self.seen_length,
+                    seed,
+                };
+                parts.push((part, number, these, their_colors));
+            }
+        }
+        parts.into_par_iter().for_each_init(
             Scratch::default,
-            |scratch, ((discs, colors), number)| {
-                instance.evaluate(number, scratch, discs, colors);
-            },
+            |scratch, (part, number, discs, colors)| part.evaluate(number, scratch, discs, colors),
         );
         LayerStrokes {
             name: layer.name.clone(),
@@ -254,19 +266,21 @@ struct Scratch {
     smoother: Smoother,
 }
 
-/// What the instances of a layer share.
-struct Instance<'a> {
+/// Some neighbouring joints of a layer.
+struct Part<'a> {
     frame: &'a Frame<'a>,
     layer: &'a Layer,
     joints: &'a Joints,
-    /// The joints that the layer draws on.
+    /// The first of them.
+    first: usize,
+    /// Those that the layer draws on.
     drawn: Range<usize>,
     seen_length: &'a [f32],
     seed: u32,
 }
 
-impl Instance<'_> {
-    /// Makes stroke `number` of each run, a disc and a colour for every joint.
+impl Part<'_> {
+    /// Makes stroke `number` of each run, a disc and a colour for every one of the joints.
     fn evaluate(
         &self,
         number: u32,
@@ -281,14 +295,15 @@ impl Instance<'_> {
         program.evaluate(joints, start..end, number, seed, &mut scratch.strokes);
         scratch.strokes.iter_mut().for_each(drop_if_not_finite);
         self.smooth(scratch);
-        discs[..start].fill(NO_DISC);
-        discs[end..].fill(NO_DISC);
+        discs[..start - self.first].fill(NO_DISC);
+        discs[end - self.first..].fill(NO_DISC);
         for (i, stroke) in (start..end).zip(&scratch.strokes) {
             let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
             let depth_offset = layer.depth_offset + stroke.depth_offset;
             let clump_radius = joints.clump_radius[i];
-            discs[i] = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
-            colors[i] = stroke.color.to_array();
+            let place = i - self.first;
+            discs[place] = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
+            colors[place] = stroke.color.to_array();
         }
         if frame.brush == Brush::Semicircle {
             self.go_around_flat_ends(&scratch.strokes, discs);
@@ -306,11 +321,11 @@ impl Instance<'_> {
             let unit_px = self.frame.head.unit_m() * paths.px_per_metre[tip];
             // The path on the screen, of which `across` is a right angle to the right.
             let ahead = -paths.across[tip].perp();
-            discs[tip].center += ahead * (wider * unit_px).min(LARGEST_PX);
+            discs[tip - self.first].center += ahead * (wider * unit_px).min(LARGEST_PX);
         }
     }
 
-    /// The runs that the layer draws on.
+    /// Those of their runs that the layer draws on.
     fn runs(&self) -> &[PathRun] {
         let runs = &self.frame.paths.runs;
         let first = runs.partition_point(|run| run.joints.start < self.drawn.start);
@@ -356,6 +371,22 @@ impl Instance<'_> {
     }
 }
 
+/// The joints in pieces that a thread works on at a time: whole strands, as smoothing looks along them.
+fn pieces(paths: &Paths) -> impl Iterator<Item = Range<usize>> {
+    let mut runs = paths.runs.iter();
+    let mut start = 0;
+    std::iter::from_fn(move || {
+        if start == paths.len() {
+            return None;
+        }
+        let is_end = |run: &&PathRun| run.overlap == 0 && run.joints.start >= start + CHUNK;
+        let end = runs
+            .find(is_end)
+            .map_or(paths.len(), |run| run.joints.start);
+        Some(std::mem::replace(&mut start, end)..end)
+    })
+}
+
 const NO_DISC: Disc = Disc {
     center: Vec2::ZERO,
     radius: 0.0,
@@ -398,7 +429,7 @@ fn disc(
     }
 }
 
-/// Joints whose clumps a thread works out at a time.
+/// Joints that a thread works on at a time, at least.
 const CHUNK: usize = 1024;
 
 /// No disc is larger, in pixels: it already covers any picture.

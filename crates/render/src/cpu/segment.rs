@@ -1,6 +1,6 @@
 //! A drawing's strokes taken apart into segments, in the order in which they are drawn.
 
-use super::bin::Bounds;
+use super::bin::{Bins, Bounds, cells, clip};
 use super::tile;
 use crate::drawing::{Disc, Drawing, Order, Run};
 use glam::DVec2;
@@ -17,7 +17,7 @@ pub(super) struct Stroke {
 }
 
 /// A value that runs linearly along a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Ramp {
     /// At u = 0.
     pub(super) start: f32,
@@ -26,6 +26,7 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
+    #[inline]
     fn new(start: f32, end: f32) -> Self {
         Self {
             start,
@@ -46,7 +47,7 @@ impl Ramp {
 }
 
 /// A piece of a stroke between two joints; u as in [`Sweep`], from the larger disc to the smaller.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Segment {
     /// The strand's number.
     pub(super) strand: u32,
@@ -83,53 +84,183 @@ pub(super) fn strokes_in_order(drawing: &Drawing) -> Vec<Stroke> {
     strokes
 }
 
-/// Replaces `segments` by those of a checked drawing that may be seen: by strand, then the clump and
-/// the strokes from the lowest to the highest.
-pub(super) fn collect(drawing: &Drawing, strokes: &[Stroke], segments: &mut Vec<Segment>) {
-    let strands: Vec<&[Run]> = drawing.runs.chunk_by(|a, b| a.strand == b.strand).collect();
-    segments.clear();
-    segments.par_extend(
-        strands
-            .par_iter()
-            .flat_map_iter(|runs| of_strand(drawing, strokes, runs)),
-    );
+/// How many strands' segments a thread works out at a time.
+const GROUP: usize = 16;
+
+/// The segments of a drawing by strand, then the clump and the strokes from the lowest to the highest. Kept from picture to
+/// picture.
+#[derive(Default)]
+pub(super) struct Segments {
+    list: Vec<Segment>,
+    groups: Vec<Group>,
 }
 
-fn of_strand(drawing: &Drawing, strokes: &[Stroke], runs: &[Run]) -> Vec<Segment> {
-    let strand = runs[0].strand;
-    let mut segments = Vec::new();
-    let mut push = |discs, colors, segment_of: (u32, u32)| {
-        let (stroke, drawn_as) = segment_of;
-        segments.extend(of_run(discs, colors, drawing).map(|segment| Segment {
-            strand,
-            stroke,
-            drawn_as,
-            ..segment
-        }));
-    };
-    let mut drawn_as = 0;
-    if drawing.order != Order::Shifted {
-        let base = strokes.iter().zip(1..).find(|(stroke, _)| {
-            stroke.rank >= 0 && runs.iter().all(|run| is_clump(drawing, stroke, run))
+/// Neighbouring strands.
+#[derive(Default)]
+struct Group {
+    /// Its places in the list: enough for all that it may have. Behind the segments that may be seen come some that
+    /// lie in no bounds.
+    places: Range<usize>,
+    /// The places of its segments, from the group's first, by the bands of the picture that they reach.
+    bands: Bins,
+}
+
+impl Segments {
+    /// Takes those of a checked drawing that may be seen in place of what was there, sorted into that many bands of tiles.
+    pub(super) fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], bands: usize) {
+        let strands: Vec<&[Run]> = drawing.runs.chunk_by(|a, b| a.strand == b.strand).collect();
+        let groups = &mut self.groups;
+        groups.resize_with(strands.len().div_ceil(GROUP), Group::default);
+        let of_groups = strands.par_chunks(GROUP);
+        let counts = of_groups.clone().map(|strands| {
+            let of_strand = |runs: &&[Run]| Strand::new(drawing, strokes, runs).most_segments();
+            strands.iter().map(of_strand).sum::<usize>()
         });
-        drawn_as = base.map_or(0, |(_, number)| number);
-        for run in runs {
-            let discs = &drawing.clump[run.joints.clone()];
+        groups
+            .par_iter_mut()
+            .zip(counts)
+            .for_each(|(group, count)| group.places.end = count);
+        let mut end = 0;
+        for group in groups.iter_mut() {
+            group.places = end..end + group.places.end;
+            end = group.places.end;
+        }
+        self.list.resize(end, Segment::default());
+        let mut rest = &mut self.list[..];
+        let mut lists = Vec::with_capacity(groups.len());
+        for group in groups.iter() {
+            let (list, behind) = rest.split_at_mut(group.places.len());
+            lists.push(list);
+            rest = behind;
+        }
+        let groups = groups.par_iter_mut().zip(lists).zip(of_groups);
+        groups.for_each(|((group, list), strands)| {
+            let mut number = 0;
+            for runs in strands {
+                Strand::new(drawing, strokes, runs).for_each(|segment| {
+                    list[number] = segment;
+                    number += 1;
+                });
+            }
+            for segment in &mut list[number..] {
+                segment.bounds = Bounds::default();
+            }
+            let rows = list[..number]
+                .iter()
+                .map(|segment| segment.bounds.y)
+                .zip(0..);
+            group
+                .bands
+                .fill(bands, rows.map(|(rows, i)| (i, cells(rows, tile::HEIGHT))));
+        });
+    }
+
+    /// All of them, by number.
+    pub(super) fn list(&self) -> &[Segment] {
+        &self.list
+    }
+
+    /// The numbers of those that reach a band, in order.
+    pub(super) fn of_band(&self, band: usize) -> impl Iterator<Item = u32> + Clone {
+        let groups = self.groups.iter();
+        groups.flat_map(move |group| {
+            let first = group.places.start as u32;
+            group.bands.bin(band).iter().map(move |i| first + i)
+        })
+    }
+}
+
+/// A strand of a drawing.
+struct Strand<'a> {
+    drawing: &'a Drawing,
+    strokes: &'a [Stroke],
+    runs: &'a [Run],
+    /// The stroke that is the clump, disc for disc, and drawn with it.
+    base: Option<(&'a Stroke, u32)>,
+}
+
+impl<'a> Strand<'a> {
+    fn new(drawing: &'a Drawing, strokes: &'a [Stroke], runs: &'a [Run]) -> Self {
+        let is_base = |&(stroke, _): &(&Stroke, u32)| {
+            stroke.rank >= 0 && runs.iter().all(|run| is_clump(drawing, stroke, run))
+        };
+        let base = match drawing.order {
+            Order::Shifted => None,
+            _ => strokes.iter().zip(1..).find(is_base),
+        };
+        Self {
+            drawing,
+            strokes,
+            runs,
+            base,
+        }
+    }
+
+    /// The discs and colours of what is drawn, in order, each with its [`Segment::stroke`] and [`Segment::drawn_as`].
+    fn parts(&self) -> impl Iterator<Item = (&'a [Disc], Option<&'a [[f32; 3]]>, (u32, u32))> {
+        let Self {
+            drawing,
+            strokes,
+            runs,
+            base,
+        } = *self;
+        let has_clump = drawing.order != Order::Shifted;
+        let drawn_as = base.map_or(0, |(_, number)| number);
+        let clump = runs.iter().filter(move |_| has_clump).map(move |run| {
             let colors = base.map(|(stroke, _)| {
                 &drawing.layers[stroke.layer].colors[joints_of(drawing, stroke, run)]
             });
-            push(discs, colors, (0, drawn_as));
+            (&drawing.clump[run.joints.clone()], colors, (0, drawn_as))
+        });
+        let others = strokes.iter().zip(1..).filter(move |&(_, n)| n != drawn_as);
+        let others = others.flat_map(move |(stroke, number)| {
+            let layer = &drawing.layers[stroke.layer];
+            runs.iter().map(move |run| {
+                let joints = joints_of(drawing, stroke, run);
+                let colors = &layer.colors[joints.clone()];
+                (&layer.discs[joints], Some(colors), (number, 0))
+            })
+        });
+        clump.chain(others)
+    }
+
+    /// How many segments it has at most: those between discs that aren't both without size.
+    fn most_segments(&self) -> usize {
+        let mut count = 0;
+        for (discs, ..) in self.parts() {
+            let mut has_size = discs[0].radius > 0.0;
+            count += usize::from(has_size && discs.len() == 1);
+            for disc in &discs[1..] {
+                let before = std::mem::replace(&mut has_size, disc.radius > 0.0);
+                count += usize::from(before | has_size);
+            }
+        }
+        count
+    }
+
+    /// Gives each segment that may be seen, in order.
+    fn for_each(&self, mut give: impl FnMut(Segment)) {
+        let (size, brush) = (self.drawing.size, self.drawing.brush);
+        let strand = self.runs[0].strand;
+        for (discs, colors, (stroke, drawn_as)) in self.parts() {
+            let joint = |i: usize| (discs[i], colors.map_or([0.0; 3], |colors| colors[i]));
+            // One joint alone is a segment from itself to itself.
+            for i in 0..(discs.len() - 1).max(1) {
+                let next = (i + 1).min(discs.len() - 1);
+                if discs[i].radius <= 0.0 && discs[next].radius <= 0.0 {
+                    continue;
+                }
+                if let Some(segment) = Segment::new(joint(i), joint(next), size, brush) {
+                    give(Segment {
+                        strand,
+                        stroke,
+                        drawn_as,
+                        ..segment
+                    });
+                }
+            }
         }
     }
-    for (stroke, number) in strokes.iter().zip(1..).filter(|&(_, n)| n != drawn_as) {
-        let layer = &drawing.layers[stroke.layer];
-        for run in runs {
-            let joints = joints_of(drawing, stroke, run);
-            let colors = Some(&layer.colors[joints.clone()]);
-            push(&layer.discs[joints], colors, (number, 0));
-        }
-    }
-    segments
 }
 
 /// A run's joints in the lists of a stroke's layer.
@@ -146,31 +277,12 @@ fn is_clump(drawing: &Drawing, stroke: &Stroke, run: &Run) -> bool {
     discs.iter().zip(clump).all(is_same)
 }
 
-/// Strand and stroke of the segments are left open.
-fn of_run<'a>(
-    discs: &'a [Disc],
-    colors: Option<&'a [[f32; 3]]>,
-    drawing: &Drawing,
-) -> impl Iterator<Item = Segment> + use<'a> {
-    let (size, brush) = (drawing.size, drawing.brush);
-    let joint = move |i: usize| (discs[i], colors.map_or([0.0; 3], |colors| colors[i]));
-    // One joint alone is a segment from itself to itself.
-    let pairs = 0..(discs.len() - 1).max(1);
-    pairs.filter_map(move |i| {
-        let next = (i + 1).min(discs.len() - 1);
-        Segment::new(joint(i), joint(next), size, brush)
-    })
-}
-
 type Joint = (Disc, [f32; 3]);
 
 impl Segment {
     /// The part of the segment between two joints that may be seen in a picture of that size, if
     /// any. Its strand and stroke are left at 0.
     fn new(a: Joint, b: Joint, size: [u32; 2], brush: Brush) -> Option<Self> {
-        if a.0.radius <= 0.0 && b.0.radius <= 0.0 {
-            return None;
-        }
         // A pixel more than the picture makes up for rounding.
         let min = DVec2::splat(-1.0);
         let max = DVec2::new(f64::from(size[0]), f64::from(size[1])) + 1.0;
@@ -192,15 +304,25 @@ impl Segment {
             sweep,
             inv_depth: Ramp::new(large.0.inv_depth, small.0.inv_depth),
             inv_depth_biased: Ramp::new(large.0.inv_depth_biased, small.0.inv_depth_biased),
-            color: [0, 1, 2].map(|i| Ramp::new(large.1[i], small.1[i])),
+            color: [
+                Ramp::new(large.1[0], small.1[0]),
+                Ramp::new(large.1[1], small.1[1]),
+                Ramp::new(large.1[2], small.1[2]),
+            ],
         })
     }
 
     /// The rows, of the tile whose first one is `top`, that the segment may reach.
     #[inline(always)]
     pub(super) fn rows_in(&self, top: usize) -> Range<usize> {
-        let rows = &self.bounds.y;
-        rows.start.max(top) - top..rows.end.min(top + tile::HEIGHT) - top
+        clip(self.bounds.y, top, tile::HEIGHT)
+    }
+
+    /// The columns, of the tile whose first one is `left`, that the segment may reach, a bit for each.
+    #[inline(always)]
+    pub(super) fn columns_in(&self, left: usize) -> u32 {
+        let columns = clip(self.bounds.x, left, tile::WIDTH);
+        u32::MAX << columns.start & u32::MAX >> (tile::WIDTH - columns.end)
     }
 
     pub(super) fn is_one_color(&self) -> bool {
@@ -208,6 +330,7 @@ impl Segment {
     }
 }
 
+#[inline]
 fn circle(disc: &Disc) -> Circle {
     Circle {
         center: disc.center.as_dvec2(),

@@ -110,7 +110,7 @@ impl Stamper {
             collect(drawing, per_interval.max(1), stamps);
             let rows = stamps.iter().map(|stamp| stamp.rows).zip(0..);
             let count = (drawing.size[1] as usize).div_ceil(tile::HEIGHT);
-            bands.fill(count, rows.map(|(rows, i)| (i, range(rows, tile::HEIGHT))));
+            bands.fill(count, rows.map(|(rows, i)| (i, cells(rows, tile::HEIGHT))));
             let band_length = drawing.size[0] as usize * tile::HEIGHT;
             let chunks = picture.pixels.par_chunks_mut(band_length);
             chunks.enumerate().for_each(|(index, pixels)| {
@@ -130,11 +130,6 @@ impl Stamper {
             Ok(picture)
         })
     }
-}
-
-/// The bins of `size` pixels that a stamp reaches.
-fn range([start, end]: [u16; 2], size: usize) -> std::ops::Range<usize> {
-    cells(&(start.into()..end.into()), size)
 }
 
 /// Replaces `stamps` by those of a checked drawing that may be seen: the highest stroke of all strands
@@ -188,7 +183,6 @@ fn of_run<'a>(
                 (i, j)
             };
             let way = layer.discs[next].center - layer.discs[before].center;
-            let ends = |range: std::ops::Range<usize>| [range.start as u16, range.end as u16];
             Some(Stamp {
                 center,
                 radius_squared: radius * radius,
@@ -198,8 +192,8 @@ fn of_run<'a>(
                     Brush::Circle => Vec2::ZERO,
                     Brush::Semicircle => way,
                 },
-                columns: ends(bounds.x),
-                rows: ends(bounds.y),
+                columns: bounds.x,
+                rows: bounds.y,
             })
         })
 }
@@ -231,7 +225,7 @@ impl Worker {
         let tiles = width.div_ceil(tile::WIDTH);
         let columns = in_band
             .iter()
-            .map(|&i| (i, range(stamps[i as usize].columns, tile::WIDTH)));
+            .map(|&i| (i, cells(stamps[i as usize].columns, tile::WIDTH)));
         self.tiles.fill(tiles, columns);
         for tile in 0..tiles {
             let origin = [tile * tile::WIDTH, index * tile::HEIGHT];

@@ -1,8 +1,9 @@
 //! One strand in one tile: its strokes in their order, then the strand against what is there.
 //!
 //! What can't be seen is not worked out. First come the masks of what each stroke covers; from the
-//! highest stroke down each takes the samples that are left. Only these get a depth, and only those
-//! that then show in the picture get a colour.
+//! highest stroke down each takes the samples that are left. Of these only those get a depth where the
+//! stroke's nearest disc in the tile would show; only those are rounded that still would, as rounding takes
+//! them deeper; and only those that then show in the picture get a colour.
 
 use super::segment::{Segment, Stroke};
 use super::stroke::{Depths, Placed};
@@ -96,7 +97,7 @@ impl StrandPlanes {
         }
     }
 
-    /// Finds which of the open samples each stroke covers.
+    /// Finds which of the open samples each stroke covers, and leaves out those that cover none.
     #[inline(always)]
     fn place(&mut self, scene: &Scene, strand: &[u32], open: &Mask) {
         self.placed.clear();
@@ -107,11 +108,15 @@ impl StrandPlanes {
             let mut samples = NO_SAMPLES;
             for &index in stroke {
                 let segment = &scene.segments[index as usize];
-                let placed = Placed::new(index, segment, scene.origin, scene.samples);
+                let placed = Placed::new(index, segment, scene.origin, scene.samples, open);
                 for row in 0..ROWS {
                     samples[row] |= placed.covered[row] & open[row];
                 }
                 self.placed.push(placed);
+            }
+            if is_empty(&samples) {
+                self.placed.truncate(first);
+                continue;
             }
             self.strokes.push(Covered {
                 number: number(stroke[0]),
@@ -154,21 +159,21 @@ impl StrandPlanes {
             }
         }
         self.depths.clear(&shown);
+        let is_round = scene.order == Order::Rounded;
         for stroke in strokes.iter().filter(|stroke| rank(stroke) < 0) {
+            let placed = &self.placed[stroke.segments.clone()];
             let outside = without(&stroke.samples, &clump_samples);
-            measure(
-                scene,
-                &self.placed[stroke.segments.clone()],
-                outside,
-                &mut self.by_depth,
-                &mut self.depths,
-            );
-            if scene.order == Order::Rounded {
-                let placed = &self.placed[stroke.segments.clone()];
+            let near = scene.before(placed, &outside, target);
+            shown = without(&shown, &without(&outside, &near));
+            let outside = near;
+            measure(scene, placed, outside, &mut self.by_depth, &mut self.depths);
+            if is_round {
+                let near = self.depths.before(&outside, target);
+                shown = without(&shown, &without(&outside, &near));
                 round(
                     scene,
                     placed,
-                    &outside,
+                    &near,
                     true,
                     &mut self.ratio,
                     &mut self.depths,
@@ -176,20 +181,19 @@ impl StrandPlanes {
             }
         }
         if let Some(clump) = clump {
+            let placed = &self.placed[clump.segments.clone()];
             let inside = both(&shown, &clump_samples);
-            measure(
-                scene,
-                &self.placed[clump.segments.clone()],
-                inside,
-                &mut self.by_depth,
-                &mut self.depths,
-            );
-            if scene.order == Order::Rounded {
-                let placed = &self.placed[clump.segments.clone()];
+            let near = scene.before(placed, &inside, target);
+            shown = without(&shown, &without(&inside, &near));
+            let inside = near;
+            measure(scene, placed, inside, &mut self.by_depth, &mut self.depths);
+            if is_round {
+                let near = self.depths.before(&inside, target);
+                shown = without(&shown, &without(&inside, &near));
                 round(
                     scene,
                     placed,
-                    &inside,
+                    &near,
                     false,
                     &mut self.ratio,
                     &mut self.depths,
@@ -401,6 +405,8 @@ pub(super) struct Part {
     biased: f32,
     /// Rows that it may reach.
     rows: Range<usize>,
+    /// Columns that it may reach, a bit for each.
+    columns: u32,
 }
 
 impl Scene<'_> {
@@ -416,6 +422,7 @@ impl Scene<'_> {
                 inv_depth: f32::NEG_INFINITY,
                 biased: f32::NEG_INFINITY,
                 rows: segment(strand[0]).rows_in(self.origin[1]),
+                columns: 0,
             };
             start = part.segments.end;
             for &index in strand {
@@ -424,6 +431,7 @@ impl Scene<'_> {
                 part.biased = part.biased.max(segment.inv_depth_biased.range()[1]);
                 let rows = segment.rows_in(self.origin[1]);
                 part.rows = part.rows.start.min(rows.start)..part.rows.end.max(rows.end);
+                part.columns |= segment.columns_in(self.origin[0]);
             }
             parts.push(part);
         }
@@ -434,13 +442,25 @@ impl Scene<'_> {
         }
     }
 
-    /// The samples, in whole chunks, where the strand is not sure to be hidden.
+    /// Those of the samples where segments that cover them may show.
+    #[inline(always)]
+    fn before(&self, placed: &[Placed], samples: &Mask, target: &Target) -> Mask {
+        let (mut depth, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
+        for placed in placed {
+            let segment = &self.segments[placed.segment as usize];
+            depth = depth.max(segment.inv_depth.range()[1]);
+            biased = biased.max(segment.inv_depth_biased.range()[1]);
+        }
+        target.before(samples, |_| ([depth; LANES], [biased; LANES]))
+    }
+
+    /// The samples that the strand may reach where it is not sure, for a whole chunk, to be hidden.
     #[inline(always)]
     fn open(&self, part: &Part, target: &Target) -> Mask {
         let mut open = NO_SAMPLES;
         for sample in 0..self.samples.len() {
             for row in sample * HEIGHT + part.rows.start..sample * HEIGHT + part.rows.end {
-                open[row] = target.open(row, part.inv_depth, part.biased);
+                open[row] = part.columns & target.open(row, part.inv_depth, part.biased);
             }
         }
         open

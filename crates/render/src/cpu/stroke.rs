@@ -3,7 +3,7 @@
 use super::rows;
 use super::segment::Segment;
 use super::tile::{
-    Cell, HEIGHT, LANE, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, Plane, Slope, both, cells,
+    Cell, HEIGHT, LANE, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, Plane, Slope, Target, both, cells,
     greater, has, overwrite, select,
 };
 use glam::{DVec2, Vec2};
@@ -20,11 +20,25 @@ pub(super) struct Placed {
 }
 
 impl Placed {
-    /// `origin` is the tile's upper left pixel.
+    /// `origin` is the tile's upper left pixel. A segment that reaches none of the open samples covers nothing.
     #[inline(always)]
-    pub(super) fn new(index: u32, segment: &Segment, origin: [usize; 2], samples: &[Vec2]) -> Self {
+    pub(super) fn new(
+        index: u32,
+        segment: &Segment,
+        origin: [usize; 2],
+        samples: &[Vec2],
+        open: &Mask,
+    ) -> Self {
         let rows = segment.rows_in(origin[1]);
         let rows = rows.start / LANES * LANES..rows.end.next_multiple_of(LANES);
+        let columns = segment.columns_in(origin[0]);
+        let mut reached = 0;
+        for sample in 0..samples.len() {
+            for row in rows.clone() {
+                reached |= open[sample * HEIGHT + row];
+            }
+        }
+        let rows = select(reached & columns == 0, 0..0, rows);
         let origin = DVec2::new(origin[0] as f64, origin[1] as f64);
         let mut covered = NO_SAMPLES;
         rows::cover(segment, origin, &rows, samples, &mut covered);
@@ -158,6 +172,14 @@ pub(super) struct Depths {
 }
 
 impl Depths {
+    /// Those of the samples that may show if they lie no nearer than this.
+    #[inline(always)]
+    pub(super) fn before(&self, samples: &Mask, target: &Target) -> Mask {
+        target.before(samples, |cell| {
+            (self.inv_depth[cell.index], self.biased[cell.index])
+        })
+    }
+
     /// Forgets the cells that hold one of the samples.
     #[inline(always)]
     pub(super) fn clear(&mut self, mask: &Mask) {

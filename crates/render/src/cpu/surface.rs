@@ -1,11 +1,12 @@
 //! One triangle in one tile: both sides, edges included, the nearest first.
 
-use super::bin::Bounds;
+use super::bin::{Bounds, clip};
 use super::tile::{
-    HEIGHT, LANE, LANES, Slope, Target, WIDTH, greater, lesser, overwrite, row_start, select,
+    HEIGHT, LANE, LANES, Slope, Target, WIDTH, any, greater, least, lesser, row_start, select,
 };
 use crate::drawing::{Drawing, SurfaceVertex};
 use glam::{DVec2, Vec2};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// A triangle of a drawing that may be seen.
@@ -20,20 +21,23 @@ pub(super) struct Triangle {
 pub(super) fn collect(drawing: &Drawing, triangles: &mut Vec<Triangle>) {
     triangles.clear();
     for (surface, number) in drawing.surfaces.iter().zip(0..) {
-        triangles.extend(surface.triangles.iter().filter_map(|indices| {
-            let corners = indices.map(|i| surface.vertices[i as usize]);
-            let [a, b, c] = corners.map(|corner| corner.position.as_dvec2());
-            let bounds = Bounds::of_box(a.min(b).min(c), a.max(b).max(c), drawing.size)?;
-            // Without area it would have no inside.
-            (twice_area([a, b, c]) != 0.0).then_some(Triangle {
-                corners,
-                surface: number,
-                bounds,
-            })
-        }));
+        triangles.par_extend(surface.triangles.par_iter().with_min_len(1024).filter_map(
+            |indices| {
+                let corners = indices.map(|i| surface.vertices[i as usize]);
+                let [a, b, c] = corners.map(|corner| corner.position.as_dvec2());
+                let bounds = Bounds::of_box(a.min(b).min(c), a.max(b).max(c), drawing.size)?;
+                // Without area it would have no inside.
+                (twice_area([a, b, c]) != 0.0).then_some(Triangle {
+                    corners,
+                    surface: number,
+                    bounds,
+                })
+            },
+        ));
     }
 }
 
+#[inline(always)]
 fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
@@ -48,55 +52,111 @@ impl Triangle {
         samples: &[Vec2],
         target: &mut Target,
     ) {
-        let surface = &drawing.surfaces[self.surface as usize];
-        let (light, shadow) = (surface.light, surface.shadow);
-        let margin = [surface.margin_m; LANES];
-        let corner = DVec2::new(origin[0] as f64, origin[1] as f64);
-        let points = self.corners.map(|c| c.position.as_dvec2() - corner);
-        let area = twice_area(points);
-        let [a, b, c] = points;
-        let edges = [(b, c), (c, a), (a, b)].map(|(from, to)| Edge::new(from, to));
-        let inside = edges.map(|edge| edge.slope(area.signum()));
-        let interpolate = |values: [f32; 3]| Interpolated::new(values, edges, area);
-        let depths = interpolate(self.corners.map(|c| c.inv_depth));
-        let tones = interpolate(self.corners.map(|c| c.tone));
-
-        let rows = clip(&self.bounds.y, origin[1], HEIGHT);
-        let columns = clip(&self.bounds.x, origin[0], WIDTH);
+        let rows = clip(self.bounds.y, origin[1], HEIGHT);
+        let columns = clip(self.bounds.x, origin[0], WIDTH);
         let chunks = columns.start / LANES..columns.end.div_ceil(LANES);
+        if self.is_hidden(&rows, &chunks, samples.len(), target) {
+            return;
+        }
+        let surface = &drawing.surfaces[self.surface as usize];
+        let corner = DVec2::new(origin[0] as f64, origin[1] as f64);
+        // Without closures, which are not sure to be compiled for their caller's instruction set.
+        let [a, b, c] = &self.corners;
+        let seen = |vertex: &SurfaceVertex| vertex.position.as_dvec2() - corner;
+        let points = [seen(a), seen(b), seen(c)];
+        let area = twice_area(points);
+        let edges = [
+            Edge::new(points[1], points[2]),
+            Edge::new(points[2], points[0]),
+            Edge::new(points[0], points[1]),
+        ];
+        let side = area.signum();
+        let inside = [
+            edges[0].slope(side),
+            edges[1].slope(side),
+            edges[2].slope(side),
+        ];
+        let depths = Interpolated::new([a.inv_depth, b.inv_depth, c.inv_depth], &edges, area);
+        let tones = Interpolated::new([a.tone, b.tone, c.tone], &edges, area);
         for (sample, offset) in samples.iter().enumerate() {
-            for row in rows.clone() {
-                for chunk in chunks.clone() {
+            for chunk in chunks.clone() {
+                let mut x = LANE;
+                for k in 0..LANES {
+                    x[k] += offset.x + (chunk * LANES) as f32;
+                }
+                let inside = [
+                    inside[0].along(&x),
+                    inside[1].along(&x),
+                    inside[2].along(&x),
+                ];
+                let (depths_x, tones_x) = (depths.slope.along(&x), tones.slope.along(&x));
+                for row in rows.clone() {
                     let cell = row_start(sample * HEIGHT + row) + chunk;
-                    let first = *offset + Vec2::new((chunk * LANES) as f32, row as f32);
+                    if depths.greatest <= target.farthest_surface[cell] {
+                        continue; // all of the cell shows what is nearer
+                    }
+                    let y = offset.y + row as f32;
                     let mut nearest = target.surface[cell];
-                    let (mut wins, mut is_lit) = ([0.0; LANES], [0.0; LANES]);
+                    let mut wins = [0_u32; LANES];
                     for k in 0..LANES {
-                        let position = first + Vec2::new(LANE[k], 0.0);
-                        let is_inside = (inside[0].at(position) >= 0.0)
-                            & (inside[1].at(position) >= 0.0)
-                            & (inside[2].at(position) >= 0.0);
-                        let depth = depths.at(position);
+                        let is_inside = (inside[0].at(k, y) >= 0.0)
+                            & (inside[1].at(k, y) >= 0.0)
+                            & (inside[2].at(k, y) >= 0.0);
+                        let depth = depths.clamp(depths_x.at(k, y));
                         let is_first = is_inside & (depth > nearest[k]);
                         nearest[k] = select(is_first, depth, nearest[k]);
-                        wins[k] = select(is_first, 1.0, 0.0);
-                        is_lit[k] = select(tones.at(position) >= 0.0, 1.0, 0.0);
+                        wins[k] = select(is_first, u32::MAX, 0);
+                    }
+                    if !any(&wins) {
+                        continue;
                     }
                     target.surface[cell] = nearest;
-                    overwrite(&mut target.margin[cell], &margin, &wins);
+                    target.farthest_surface[cell] = least(&nearest);
+                    let mut is_lit = [0_u32; LANES];
+                    for k in 0..LANES {
+                        let tone = tones.clamp(tones_x.at(k, y));
+                        is_lit[k] = select(tone >= 0.0, u32::MAX, 0);
+                    }
+                    let margins = &mut target.margin[cell];
+                    for k in 0..LANES {
+                        margins[k] = select(wins[k] != 0, surface.margin_m, margins[k]);
+                    }
                     for (channel, plane) in target.color.iter_mut().enumerate() {
-                        let color =
-                            is_lit.map(|lit| select(lit != 0.0, light[channel], shadow[channel]));
-                        overwrite(&mut plane[cell], &color, &wins);
+                        let (light, shadow) = (surface.light[channel], surface.shadow[channel]);
+                        let colors = &mut plane[cell];
+                        for k in 0..LANES {
+                            let color = select(is_lit[k] != 0, light, shadow);
+                            colors[k] = select(wins[k] != 0, color, colors[k]);
+                        }
                     }
                 }
             }
         }
     }
-}
 
-fn clip(range: &Range<usize>, origin: usize, size: usize) -> Range<usize> {
-    range.start.max(origin) - origin..range.end.min(origin + size) - origin
+    /// Whether all that the triangle may reach in the tile shows a surface that is nearer, or as near and earlier.
+    #[inline(always)]
+    fn is_hidden(
+        &self,
+        rows: &Range<usize>,
+        chunks: &Range<usize>,
+        samples: usize,
+        target: &Target,
+    ) -> bool {
+        let [a, b, c] = self.corners.map(|corner| corner.inv_depth);
+        let greatest = a.max(b).max(c);
+        for sample in 0..samples {
+            for row in rows.clone() {
+                for chunk in chunks.clone() {
+                    let cell = row_start(sample * HEIGHT + row) + chunk;
+                    if greatest > target.farthest_surface[cell] {
+                        return false;
+                    }
+                }
+            }
+        }
+        true
+    }
 }
 
 /// The signed, doubled area between an edge and a point: above 0 on the edge's one side. Worked out
@@ -111,6 +171,7 @@ struct Edge {
 
 impl Edge {
     /// Positions are seen from the tile's corner.
+    #[inline(always)]
     fn new(from: DVec2, to: DVec2) -> Self {
         let is_turned = (to.x, to.y) < (from.x, from.y);
         let (low, high) = if is_turned { (to, from) } else { (from, to) };
@@ -123,6 +184,7 @@ impl Edge {
         }
     }
 
+    #[inline(always)]
     fn slope(&self, factor: f64) -> Slope {
         Slope {
             corner: (self.corner * factor) as f32,
@@ -141,20 +203,19 @@ struct Interpolated {
 }
 
 impl Interpolated {
-    fn new(values: [f32; 3], edges: [Edge; 3], area: f64) -> Self {
-        let sum = |part: fn(&Edge) -> f64| {
-            let parts = edges.iter().zip(values);
-            (parts
-                .map(|(edge, value)| part(edge) * f64::from(value))
-                .sum::<f64>()
-                / area) as f32
+    #[inline(always)]
+    fn new(values: [f32; 3], edges: &[Edge; 3], area: f64) -> Self {
+        let [e, f, g] = edges;
+        let mean = |a: f64, b: f64, c: f64| {
+            let [v, w, x] = values;
+            ((a * f64::from(v) + b * f64::from(w) + c * f64::from(x)) / area) as f32
         };
         let [a, b, c] = values;
         Self {
             slope: Slope {
-                corner: sum(|edge| edge.corner),
-                per_x: sum(|edge| edge.per_x),
-                per_y: sum(|edge| edge.per_y),
+                corner: mean(e.corner, f.corner, g.corner),
+                per_x: mean(e.per_x, f.per_x, g.per_x),
+                per_y: mean(e.per_y, f.per_y, g.per_y),
             },
             least: a.min(b).min(c),
             greatest: a.max(b).max(c),
@@ -162,8 +223,7 @@ impl Interpolated {
     }
 
     #[inline(always)]
-    fn at(&self, position: Vec2) -> f32 {
-        let value = self.slope.at(position);
+    fn clamp(&self, value: f32) -> f32 {
         lesser(greater(value, self.least), self.greatest)
     }
 }

@@ -163,8 +163,19 @@ impl Iterator for Cells<'_> {
     fn next(&mut self) -> Option<Cell> {
         while self.left == 0 {
             self.row += 1;
-            if self.row >= ROWS {
-                return None;
+            // Eight rows without samples are left behind at once.
+            while self.row.is_multiple_of(LANES) {
+                let Some(rows) = self.mask.get(self.row..self.row + LANES) else {
+                    return None;
+                };
+                let mut any = 0;
+                for k in 0..LANES {
+                    any |= rows[k];
+                }
+                if any != 0 {
+                    break;
+                }
+                self.row += LANES;
             }
             self.left = self.mask[self.row];
         }
@@ -193,9 +204,10 @@ pub(super) struct Target {
     pub(super) priority: Vec<[u32; LANES]>,
     pub(super) color: [Plane; 3],
     /// For each cell the farthest of `strand`.
-    farthest_strand: Vec<f32>,
-    /// For each cell the farthest of `surface`; [`NOTHING`] beside surfaces of their own margin, which don't count here.
-    farthest_surface: Vec<f32>,
+    farthest_strand: Box<[f32; CELLS]>,
+    /// For each cell the farthest of `surface`; once these are finished [`NOTHING`] beside surfaces of their own margin,
+    /// which don't count then.
+    pub(super) farthest_surface: Box<[f32; CELLS]>,
 }
 
 impl Target {
@@ -206,8 +218,8 @@ impl Target {
             strand: plane(),
             priority: vec![[0; LANES]; CELLS],
             color: [plane(), plane(), plane()],
-            farthest_strand: vec![NOTHING; CELLS],
-            farthest_surface: vec![NOTHING; CELLS],
+            farthest_strand: Box::new([NOTHING; CELLS]),
+            farthest_surface: Box::new([NOTHING; CELLS]),
         }
     }
 
@@ -243,14 +255,45 @@ impl Target {
     /// with all their bits.
     #[inline(always)]
     pub(super) fn open(&self, row: usize, inv_depth: f32, biased: f32) -> u32 {
-        let start = row_start(row);
+        let chunks = row_start(row)..row_start(row + 1);
+        let strand = &self.farthest_strand[chunks.clone()];
+        let surface = &self.farthest_surface[chunks];
         let mut open = 0;
-        for chunk in 0..CHUNKS {
-            let is_hidden = (self.farthest_strand[start + chunk] > inv_depth)
-                | (self.farthest_surface[start + chunk] > biased);
+        for (chunk, (strand, surface)) in strand.iter().zip(surface).enumerate() {
+            let is_hidden = (*strand > inv_depth) | (*surface > biased);
             open |= select(is_hidden, 0, CHUNK << (chunk * LANES));
         }
         open
+    }
+
+    /// Those of the samples where a strand may show that is no nearer than what is given for their cell.
+    #[inline(always)]
+    pub(super) fn before(&self, samples: &Mask, nearest: impl Fn(Cell) -> (Lanes, Lanes)) -> Mask {
+        let mut before = NO_SAMPLES;
+        for cell in cells(samples) {
+            let (depth, biased) = nearest(cell);
+            before[cell.row] |= self.may_show(cell, &depth, &biased) << cell.column;
+        }
+        before
+    }
+
+    /// The bits of those samples of a cell where a strand may show that is no nearer than this.
+    #[inline(always)]
+    pub(super) fn may_show(&self, cell: Cell, depth: &Lanes, biased: &Lanes) -> u32 {
+        let (surface, margin) = (&self.surface[cell.index], &self.margin[cell.index]);
+        let nearest = &self.strand[cell.index];
+        let mut may = [0_u32; LANES];
+        for k in 0..LANES {
+            // A margin counts from the depth, which may yet change either way.
+            let is_before = (margin[k] != 0.0) | (surface[k] <= biased[k]);
+            let is_near = has(cell.bits, k) & is_before & (depth[k] >= nearest[k]);
+            may[k] = select(is_near, 1 << k, 0);
+        }
+        let mut bits = 0;
+        for bit in may {
+            bits |= bit;
+        }
+        bits
     }
 
     /// Offers a strand to some samples of a cell: it shows where it lies behind no surface, and is
@@ -289,8 +332,19 @@ impl Target {
     }
 }
 
+/// Whether a lane is not 0.
 #[inline(always)]
-fn least(lanes: &Lanes) -> f32 {
+pub(super) fn any(lanes: &[u32; LANES]) -> bool {
+    let mut any = 0;
+    for k in 0..LANES {
+        any |= lanes[k];
+    }
+    any != 0
+}
+
+/// The least of a chunk's numbers.
+#[inline(always)]
+pub(super) fn least(lanes: &Lanes) -> f32 {
     let mut least = *lanes;
     let mut half = LANES / 2;
     while half > 0 {
@@ -373,7 +427,33 @@ pub(super) struct Slope {
     pub(super) per_y: f32,
 }
 
+/// A [`Slope`] at the columns of a chunk, whatever the row.
+#[derive(Clone, Copy)]
+pub(super) struct Columns {
+    at_top: Lanes,
+    per_y: f32,
+}
+
+impl Columns {
+    #[inline(always)]
+    pub(super) fn at(&self, lane: usize, y: f32) -> f32 {
+        self.at_top[lane] + y * self.per_y
+    }
+}
+
 impl Slope {
+    #[inline(always)]
+    pub(super) fn along(&self, x: &Lanes) -> Columns {
+        let mut at_top = [self.corner; LANES];
+        for k in 0..LANES {
+            at_top[k] += x[k] * self.per_x;
+        }
+        Columns {
+            at_top,
+            per_y: self.per_y,
+        }
+    }
+
     /// At the first lane of a chunk that begins at `position`; the others follow in steps of `per_x`.
     #[inline(always)]
     pub(super) fn at(&self, position: Vec2) -> f32 {
