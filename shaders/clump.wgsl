@@ -1,4 +1,4 @@
-//! inputs: position, backward, u, strand_mean, head_center, strand_size, light_direction, seed, material_normal
+//! inputs: position, forward, backward, u, strand_mean, head_center, strand_size, light_direction, view_direction, seed, material_normal
 // The clump: what all layers share of a strand. Size 5.1 to 5.3, normal 5.4, basic colour.
 
 struct Params {
@@ -31,9 +31,14 @@ struct Params {
     /// (Fig 5.4a).
     /// @range 0..1 @default 0.4
     center_shift: f32,
-    /// How far the normal is turned to be across the strand (K in 5.4); 1 is exactly across.
+    /// How far the normal is turned to be across the strand (K in 5.4); 1 is exactly across. At the root, and
+    /// less and less up to `root_length`, it points away from the head.
     /// @range 0..1 @default 1
     normal_correction: f32,
+    /// How flat a clump lies on the head: 0 is as thick as wide, as the source's, 1 a ribbon. It shows where
+    /// hair runs along the line of sight: round clumps make a row of bumps of the head's outline.
+    /// @range 0..1 @default 0.8
+    flatness: f32,
     /// What lights a strand: outward points away from the head, across the strand (5.4); material turns as
     /// the strand twists.
     /// @choices outward material @default outward
@@ -50,13 +55,32 @@ struct Params {
 }
 
 /// Normal from 5.4, of unit length (the source leaves it as it falls).
-fn corrected_normal(joint: Inputs, params: Params) -> vec3<f32> {
+fn corrected_normal(joint: Inputs, params: Params, correction: f32) -> vec3<f32> {
     let center = joint.head_center + params.center_shift * (joint.strand_mean - joint.head_center);
     let outward = unit_or(joint.position - center, vec3<f32>(0.0, 1.0, 0.0));
-    let across = outward - params.normal_correction * dot(outward, joint.backward) * joint.backward;
+    let across = outward - correction * dot(outward, joint.backward) * joint.backward;
     // Where the strand runs straight outwards nothing is left of it: fade to a perpendicular.
     let lost = max(0.01 - length(across), 0.0);
     return unit_or(across + lost * perpendicular(joint.backward), perpendicular(joint.backward));
+}
+
+/// Seen along the strand a flat clump is an ellipse: as wide as the clump, and along the normal `flatness` less thick.
+/// What stands for it is the disc that lies to its outer end as the ellipse does, wider than the clump and moved
+/// towards the head. Seen from beside nothing is changed, so that hair loses no volume.
+struct Section {
+    radius: f32,
+    shift: vec3<f32>,
+}
+
+/// How much wider than the clump that disc may be; the ellipse itself is rounder at its sides.
+const WIDER: f32 = 0.5;
+
+fn flat_section(joint: Inputs, radius: f32, normal: vec3<f32>, flatness: f32) -> Section {
+    let along = dot(joint.forward, joint.view_direction);
+    let end_on = along * along;
+    let wide = radius * (1.0 + WIDER * flatness * end_on * end_on);
+    let thick = radius * (1.0 - flatness);
+    return Section(wide, (thick - wide) * end_on * normal);
 }
 
 fn clump(joint: Inputs, params: Params) -> Clump {
@@ -69,7 +93,8 @@ fn clump(joint: Inputs, params: Params) -> Clump {
     let variation = 1.0 + params.size_variation * random_signed(joint.seed, 1u);
     let radius = joint.strand_size * params.size * variation * profile * root;
 
-    var normal = corrected_normal(joint, params);
+    // Where hair leaves the scalp it is lit as the scalp is: it turns up there every which way.
+    var normal = corrected_normal(joint, params, params.normal_correction * from_root);
     // Zero where nobody has worked it out.
     if (params.normal == 1u && dot(joint.material_normal, joint.material_normal) > 0.0) {
         normal = joint.material_normal;
@@ -79,5 +104,6 @@ fn clump(joint: Inputs, params: Params) -> Clump {
         let gray = max(dot(joint.light_direction, normal), 0.0);
         color = params.color * (params.ambient + (1.0 - params.ambient) * gray);
     }
-    return Clump(normal, max(radius, 0.0), color);
+    let section = flat_section(joint, max(radius, 0.0), normal, params.flatness);
+    return Clump(normal, section.radius, color, section.shift);
 }

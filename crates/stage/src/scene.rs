@@ -183,8 +183,8 @@ impl Stage {
             let joints = runs.iter().flat_map(|run| run.joints.clone());
             let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
             for joint in joints {
-                // Room for a clump twice its size, outline and all.
-                let reach = Vec2::splat(2.0 * size_m * self.paths.px_per_metre[joint]);
+                // Room for a clump three times its size: shifted, with its outline and all.
+                let reach = Vec2::splat(3.0 * size_m * self.paths.px_per_metre[joint]);
                 low = low.min(self.paths.center[joint] - reach);
                 high = high.max(self.paths.center[joint] + reach);
             }

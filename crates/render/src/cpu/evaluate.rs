@@ -45,10 +45,11 @@ impl Evaluator {
             joints: run.joints.clone(),
         }));
         drawing.clump.clear();
-        let radii = &self.joints.clump_radius;
-        drawing
-            .clump
-            .extend((0..radii.len()).map(|i| disc(frame, i, Vec2::ZERO, radii[i], radii[i], 0.0)));
+        let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
+        drawing.clump.extend((0..radii.len()).map(|i| {
+            let shift = Vec2::new(shifts[i].x, shifts[i].y);
+            disc(frame, i, shift, radii[i], radii[i], 0.0)
+        }));
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for (layer, joints) in frame.layers.iter().zip(frame.layer_joints) {
@@ -212,6 +213,7 @@ impl Evaluator {
             normal,
             clump_radius,
             clump_color,
+            clump_shift,
             ..
         } = &mut self.joints;
         let lit = clumps.iter().zip(light_direction);
@@ -220,6 +222,12 @@ impl Evaluator {
         fill(normal, true, clumps.iter().map(|clump| clump.normal));
         fill(clump_radius, true, clumps.iter().map(|clump| clump.radius));
         fill(clump_color, true, clumps.iter().map(|clump| clump.color));
+        let on_screen = |clump: &Clump| {
+            let shift = Vec3::from(clump.shift.to_array());
+            let view = frame.camera.view_from_world_direction(shift);
+            vec2([view.x, -view.y])
+        };
+        fill(clump_shift, true, clumps.iter().map(on_screen));
         self.clumps = clumps;
     }
 
@@ -284,7 +292,8 @@ impl Instance<'_> {
         discs[..start].fill(NO_DISC);
         discs[end..].fill(NO_DISC);
         for (i, stroke) in (start..end).zip(&scratch.strokes) {
-            let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
+            let offset = joints.clump_shift[i] + stroke.offset;
+            let offset = Vec2::new(offset.x, offset.y);
             let depth_offset = layer.depth_offset + stroke.depth_offset;
             let clump_radius = joints.clump_radius[i];
             discs[i] = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
