@@ -285,12 +285,19 @@ impl Stage {
     /// Appends the paths that layers make, and notes which joints each layer draws on.
     fn push_made_paths(&mut self, camera: &Camera) -> Result<(), StageError> {
         let of_hair = 0..self.paths.len();
+        let runs = self.paths.runs.iter();
+        let of_undercoat = runs.take_while(|run| run.strand < self.hair.undercoat);
+        let above_undercoat = of_undercoat.last().map_or(0, |run| run.joints.end);
         let head = self.posed_head();
         self.layer_joints.clear();
         self.made_of.clear();
         for layer in &self.layers {
             if !layer.program.has_own_paths() {
-                self.layer_joints.push(of_hair.clone());
+                let start = match layer.program.is_on_undercoat() {
+                    true => of_hair.start,
+                    false => above_undercoat,
+                };
+                self.layer_joints.push(start..of_hair.end);
                 continue;
             }
             let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
