@@ -31,12 +31,12 @@ struct Params {
     /// (Fig 5.4a).
     /// @range 0..1 @default 0.4
     center_shift: f32,
-    /// How far the normal is turned to be across the strand (K in 5.4); 1 is exactly across. At the root, and
-    /// less and less up to `root_length`, it points away from the head.
+    /// How far the normal is turned to be across the strand (K in 5.4); 1 is exactly across.
     /// @range 0..1 @default 1
     normal_correction: f32,
     /// How flat a clump lies on the head: 0 is as thick as wide, as the source's, 1 a ribbon. It shows where
-    /// hair runs along the line of sight: round clumps make a row of bumps of the head's outline.
+    /// hair runs along the line of sight: round clumps make a row of bumps of the head's outline. Curls are best
+    /// round.
     /// @range 0..1 @default 0.8
     flatness: f32,
     /// What lights a strand: outward points away from the head, across the strand (5.4); material turns as
@@ -55,10 +55,10 @@ struct Params {
 }
 
 /// Normal from 5.4, of unit length (the source leaves it as it falls).
-fn corrected_normal(joint: Inputs, params: Params, correction: f32) -> vec3<f32> {
+fn corrected_normal(joint: Inputs, params: Params) -> vec3<f32> {
     let center = joint.head_center + params.center_shift * (joint.strand_mean - joint.head_center);
     let outward = unit_or(joint.position - center, vec3<f32>(0.0, 1.0, 0.0));
-    let across = outward - correction * dot(outward, joint.backward) * joint.backward;
+    let across = outward - params.normal_correction * dot(outward, joint.backward) * joint.backward;
     // Where the strand runs straight outwards nothing is left of it: fade to a perpendicular.
     let lost = max(0.01 - length(across), 0.0);
     return unit_or(across + lost * perpendicular(joint.backward), perpendicular(joint.backward));
@@ -93,8 +93,7 @@ fn clump(joint: Inputs, params: Params) -> Clump {
     let variation = 1.0 + params.size_variation * random_signed(joint.seed, 1u);
     let radius = joint.strand_size * params.size * variation * profile * root;
 
-    // Where hair leaves the scalp it is lit as the scalp is: it turns up there every which way.
-    var normal = corrected_normal(joint, params, params.normal_correction * from_root);
+    var normal = corrected_normal(joint, params);
     // Zero where nobody has worked it out.
     if (params.normal == 1u && dot(joint.material_normal, joint.material_normal) > 0.0) {
         normal = joint.material_normal;

@@ -10,7 +10,6 @@ impl effects::StrokeEffect for Cel {
     const ID: &'static str = "hair.cel";
     const DOC: &'static str = "feathered shadow or light, by the gray of the clump";
     const RANK: i32 = 100;
-    const ON_UNDERCOAT: bool = false;
 
     fn instances(params: &Params) -> u32 {
         params.feathers

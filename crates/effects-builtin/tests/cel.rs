@@ -85,7 +85,11 @@ fn where_a_flat_clump_points_away_the_row_bends_to_its_outer_end() {
     joints.clump_shift = vec![vec2([0.0, 15.0])];
     let offset = |instance: u32| cel(&joints, instance, &[]).offset;
     let [edge, middle] = [0, 2].map(offset);
-    assert_eq!((middle.x, middle.y), (0.0, -12.0), "a stroke's width inside of the end");
+    assert_eq!(
+        (middle.x, middle.y),
+        (0.0, -12.0),
+        "a stroke's width inside of the end"
+    );
     assert_eq!(edge.x, 16.0);
     assert!(edge.y < 0.0 && edge.y > middle.y);
 }
