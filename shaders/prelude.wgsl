@@ -21,6 +21,9 @@ struct Clump {
     radius: f32,
     /// Linear basic colour.
     color: vec3<f32>,
+    /// How far from the strand its strokes are drawn on the screen, in the world, 1/300 of the head's height. Their depth
+    /// stays the strand's.
+    shift: vec3<f32>,
 }
 
 const PI: f32 = 3.1415927;

@@ -9,6 +9,7 @@ fn gpu_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     if (joint >= gpu_frame.joints) { return; }
     let made = clump(gpu_inputs(joint), gpu_params(joint));
     let gray = max(dot(made.normal, gpu_light_direction(joint)), 0.0);
-    gpu_clumps[joint] = GpuClump(made.normal, made.radius, made.color, gray);
-    gpu_discs[joint] = gpu_disc(joint, vec2<f32>(0.0), made.radius, gpu_unit_px(joint), made.radius, 0.0);
+    let shift = vec2<f32>(dot(gpu_frame.right, made.shift), -dot(gpu_frame.up, made.shift));
+    gpu_clumps[joint] = GpuClump(made.normal, made.radius, made.color, gray, shift);
+    gpu_discs[joint] = gpu_disc(joint, shift, made.radius, gpu_unit_px(joint), made.radius, 0.0);
 }

@@ -21,8 +21,12 @@ struct GpuFrame {
     light_is_point: u32,
     /// Linear colour; the last is 0 for a transparent picture.
     background: vec4<f32>,
+    /// The camera's axis to the picture's right, a unit vector.
+    right: vec3<f32>,
     /// Metres in 1/300 of the head's height.
     unit_m: f32,
+    /// The camera's axis to the picture's upper edge, a unit vector.
+    up: vec3<f32>,
     /// A pixel at 720 lines, in pixels.
     pixel_px: f32,
     edge_depth_m: f32,
@@ -56,6 +60,8 @@ struct GpuClump {
     radius: f32,
     color: vec3<f32>,
     gray: f32,
+    /// On the screen (x right, y down), in units of size.
+    shift: vec2<f32>,
 }
 
 /// Which invocation of a grid this is: workgroups are counted row after row, as one row is too short for many.

@@ -19,7 +19,8 @@ fn gpu_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     // What is to be smoothed stays in units of size.
     let is_smoothed = gpu_word(GPU_SHORTEST) > 0.0;
     let scale = select(gpu_unit_px(joint), 1.0, is_smoothed);
-    var disc = gpu_disc(joint, made.offset, made.radius, scale, clump_radius, depth_offset);
+    let offset = gpu_clumps[joint].shift + made.offset;
+    var disc = gpu_disc(joint, offset, made.radius, scale, clump_radius, depth_offset);
     disc.color = made.color;
     if (!is_smoothed) {
         let is_tip = joint == gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_RUN + 1u];

@@ -279,7 +279,7 @@ fn comments(options: &Options) -> Vec<String> {
         "ORDER-largest, -percentile: the largest change of a tile of 16 x 16 pixels with hair between pictures 1/knob s \
          apart (256 samples a pixel), and the 99.9th percentile (4 samples): mean absolute difference of red, green \
          and blue, 0 to 1",
-        "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s (16 samples), as a \
+        "ORDER-popped-worst, -mean: pixels of which a channel changes by more than 0.25 in 1/knob s (64 samples), as a \
          share of the hair's",
         "ORDER-warp: mean difference of a frame's hair from the frame 1/24 s before, moved as the strands have; knob: \
          samples a pixel",

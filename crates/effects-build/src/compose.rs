@@ -56,6 +56,7 @@ pub const INPUTS: &[Input] = &[
     input("normal", "vec3<f32>", false, true, "the clump's unit normal (5.4)"),
     input("clump_radius", "f32", false, true, "the clump's radius, 1/300 of the head's height (5.3)"),
     input("clump_color", "vec3<f32>", false, true, "the clump's basic colour, linear"),
+    input("clump_shift", "vec2<f32>", false, true, "how far the clump's strokes are moved on the screen (x right, y down), away from its outer end, 1/300 of the head's height; 0 but where a flat clump points to or from the eye"),
     input("gray", "f32", false, true, "max(light . normal, 0)"),
 ];
 

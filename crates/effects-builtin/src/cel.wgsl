@@ -1,4 +1,4 @@
-//! inputs: normal, light_direction, view_direction, forward, across, clump_radius, clump_color, unit, seed
+//! inputs: u, normal, light_direction, view_direction, forward, across, clump_radius, clump_color, clump_shift, unit, seed
 
 struct Params {
     /// Strokes side by side across each clump (N_feather in 5.5).
@@ -27,6 +27,10 @@ struct Params {
     /// Factor on the size of each stroke: 1 is the source's, at which neighbours just touch.
     /// @range 0..4 @default 1.2
     fullness: f32,
+    /// Over how much of the strand the strokes grow from nothing at the root: roots leave the scalp every which
+    /// way, and would shade the crown in patches. 0 is full strokes from the root on.
+    /// @unit 0 root to 1 tip @range 0..1 @default 0.1
+    root_fade: f32,
     /// Width below which a tapering stroke ends: no hairlines.
     /// @unit the layer's unit: 1/300 head height, or pixels @range 0..100 @default 1.2
     thinnest: f32,
@@ -56,16 +60,14 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let full = saturate(params.full + shift);
     let edge = saturate(params.threshold + shift);
     let sign = select(1.0, -1.0, params.region == 1u);
-    let whole = feather_share(sign * gray, sign * full, sign * edge);
+    let from_root = select(1.0, smoothstep(0.0, params.root_fade, joint.u), joint.u < params.root_fade);
+    let whole = feather_share(sign * gray, sign * full, sign * edge) * from_root;
     let share = without_hairlines(whole, basic, 0.5 * params.thinnest * joint.unit);
 
     let color = color_or(params.color, params.factor * joint.clump_color);
     // Where hair turns away over the head its clump shows a round end, which strokes in a row would leave open:
-    // there the row bends to the end's shape. Not where it points straight away, and has no way on the screen.
-    let away = -dot(joint.forward, joint.view_direction);
-    let bend = smoothstep(0.6, 0.85, away) * (1.0 - smoothstep(0.94, 0.985, away));
-    let ahead = bend * (1.0 - 1.0 / f32(params.feathers)) * sqrt(max(1.0 - place * place, 0.0));
-    let row = vec2<f32>(joint.across.y, -joint.across.x) * ahead + joint.across * place;
-    let offset = joint.clump_radius * row;
+    // there the row bends to the end's shape.
+    let bend = (1.0 - 1.0 / f32(params.feathers)) * sqrt(max(1.0 - place * place, 0.0));
+    let offset = joint.clump_radius * place * joint.across - bend * joint.clump_shift;
     return Stroke(offset, share * basic * params.fullness, 0.0, color);
 }

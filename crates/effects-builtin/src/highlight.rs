@@ -13,6 +13,7 @@ impl effects::StrokeEffect for Highlight {
     const ID: &'static str = "hair.highlight";
     const DOC: &'static str = "feathered highlights: specular, by the light's distance, or a ring";
     const RANK: i32 = 200;
+    const ON_UNDERCOAT: bool = false;
 
     fn instances(params: &Params) -> u32 {
         params.feathers

@@ -2,7 +2,7 @@
 
 mod joint;
 
-use effects::wgsl::{Stroke, vec3};
+use effects::wgsl::{Stroke, vec2, vec3};
 use effects::{Joints, StrokeEffect};
 use effects_builtin::Cel;
 use joint::{One, lit_joint, stroke};
@@ -65,6 +65,33 @@ fn a_hard_step_is_legal() {
         let mirrored = cel(&lit_joint(gray, 20.0), 2, &lighter).radius;
         assert_eq!(mirrored, 4.0 - radius, "{gray}");
     }
+}
+
+#[test]
+fn strokes_grow_from_the_root() {
+    let radius = |u: f32| {
+        let mut joints = lit_joint(0.0, 20.0);
+        joints.u = vec![u];
+        cel(&joints, 1, &[("root_fade", "0.2")]).radius
+    };
+    assert_eq!(radius(0.0), 0.0);
+    assert!((radius(0.1) - 2.0).abs() < 1e-6);
+    assert_eq!(radius(0.2), 4.0);
+}
+
+#[test]
+fn where_a_flat_clump_points_away_the_row_bends_to_its_outer_end() {
+    let mut joints = lit_joint(0.0, 20.0);
+    joints.clump_shift = vec![vec2([0.0, 15.0])];
+    let offset = |instance: u32| cel(&joints, instance, &[]).offset;
+    let [edge, middle] = [0, 2].map(offset);
+    assert_eq!(
+        (middle.x, middle.y),
+        (0.0, -12.0),
+        "a stroke's width inside of the end"
+    );
+    assert_eq!(edge.x, 16.0);
+    assert!(edge.y < 0.0 && edge.y > middle.y);
 }
 
 #[test]

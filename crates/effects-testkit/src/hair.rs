@@ -76,6 +76,7 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         material_normal: vec3(material_normal.to_array()),
         clump_radius: 18.0 * (1.0 - u) * (0.3 + u),
         clump_color: vec3([0.2, 0.4, 0.8]),
+        clump_shift: vec2([3.0 * u, -2.0]),
         gray: light.dot(normal).max(0.0),
     }
 }

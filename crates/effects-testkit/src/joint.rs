@@ -108,6 +108,7 @@ inputs! {
     material_normal: Vec3<f32>,
     clump_radius: f32,
     clump_color: Vec3<f32>,
+    clump_shift: Vec2<f32>,
     gray: f32,
 }
 

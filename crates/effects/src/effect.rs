@@ -65,6 +65,9 @@ pub trait StrokeEffect: Send + Sync + 'static {
     /// Whether the strokes follow paths that the effect makes ([`Self::make_paths`]), in place of the
     /// strands. These are strands of their own in the order, whose clump is their first stroke.
     const OWN_PATHS: bool = false;
+    /// Whether there are strokes on the coat of clumps below a hair style's own, too. It shows in gaps alone,
+    /// where highlights would be specks.
+    const ON_UNDERCOAT: bool = true;
 
     /// How many strokes there are for each strand (feathers). At least 1.
     fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
@@ -128,6 +131,8 @@ pub trait LayerProgram: Send + Sync {
     fn needs_point_light(&self) -> bool;
     /// [`StrokeEffect::OWN_PATHS`].
     fn has_own_paths(&self) -> bool;
+    /// [`StrokeEffect::ON_UNDERCOAT`].
+    fn is_on_undercoat(&self) -> bool;
     /// [`StrokeEffect::make_paths`].
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths);
     /// What is read of a joint.
@@ -192,6 +197,10 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn has_own_paths(&self) -> bool {
         E::OWN_PATHS
+    }
+
+    fn is_on_undercoat(&self) -> bool {
+        E::ON_UNDERCOAT
     }
 
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths) {

@@ -30,6 +30,7 @@ pub struct Joints {
     pub normal: Vec<Vec3<f32>>,
     pub clump_radius: Vec<f32>,
     pub clump_color: Vec<Vec3<f32>>,
+    pub clump_shift: Vec<Vec2<f32>>,
     pub gray: Vec<f32>,
 }
 
@@ -111,6 +112,7 @@ const NAMES: &[&str] = &[
     "normal",
     "clump_radius",
     "clump_color",
+    "clump_shift",
     "gray",
 ];
 

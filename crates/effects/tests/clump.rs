@@ -7,7 +7,10 @@ use proptest::prelude::*;
 fn joint(position: [f32; 3], backward: [f32; 3], u: f32) -> Joints {
     Joints {
         position: vec![vec3(position)],
+        forward: vec![vec3(backward.map(|x| -x))],
         backward: vec![vec3(backward)],
+        // Across the strand.
+        view_direction: vec![vec3([backward[1], -backward[0], 0.0])],
         u: vec![u],
         strand: vec![3],
         strand_mean: vec![vec3([0.0; 3])],
@@ -106,6 +109,37 @@ fn where_the_strand_runs_outwards_the_normal_turns_steadily() {
     let pole = normal(0.0);
     assert!((pole.length().0 - 1.0).abs() < 1e-6);
     assert!(pole.y.abs() < 1e-6, "any perpendicular: {pole:?}");
+}
+
+#[test]
+fn a_flat_clump_seen_along_the_strand_lies_inside_of_its_outer_end() {
+    // Its normal is +y; the strand runs towards -x.
+    let seen_from = |view: [f32; 3], flatness: &str| {
+        let mut joints = joint([0.0, 1.0, 0.0], [1.0, 0.0, 0.0], 0.5);
+        joints.view_direction = vec![vec3(view)];
+        clump_with(
+            &joints,
+            &[("flatness", flatness), ("mix", "1"), ("shrink_start", "1")],
+        )
+    };
+    for (view, flatness) in [
+        ([0.0, 0.0, 1.0], "1"),
+        ([0.0, 1.0, 0.0], "1"),
+        ([1.0, 0.0, 0.0], "0"),
+    ] {
+        let round = seen_from(view, flatness);
+        assert_eq!(round.radius, 20.0, "{view:?}");
+        assert_eq!(round.shift.length().0, 0.0, "{view:?}");
+    }
+    for side in [1.0, -1.0] {
+        let flat = seen_from([side, 0.0, 0.0], "0.8");
+        assert!(flat.radius > 20.0 && flat.shift.y < 0.0);
+        let outer_end = flat.shift.y + flat.radius;
+        assert!(
+            (outer_end - 0.2 * 20.0).abs() < 1e-4,
+            "a fifth as thick: {outer_end}"
+        );
+    }
 }
 
 proptest! {

@@ -183,8 +183,8 @@ impl Stage {
             let joints = runs.iter().flat_map(|run| run.joints.clone());
             let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
             for joint in joints {
-                // Room for a clump twice its size, outline and all.
-                let reach = Vec2::splat(2.0 * size_m * self.paths.px_per_metre[joint]);
+                // Room for a clump three times its size: shifted, with its outline and all.
+                let reach = Vec2::splat(3.0 * size_m * self.paths.px_per_metre[joint]);
                 low = low.min(self.paths.center[joint] - reach);
                 high = high.max(self.paths.center[joint] + reach);
             }
@@ -285,12 +285,19 @@ impl Stage {
     /// Appends the paths that layers make, and notes which joints each layer draws on.
     fn push_made_paths(&mut self, camera: &Camera) -> Result<(), StageError> {
         let of_hair = 0..self.paths.len();
+        let runs = self.paths.runs.iter();
+        let of_undercoat = runs.take_while(|run| run.strand < self.hair.undercoat);
+        let above_undercoat = of_undercoat.last().map_or(0, |run| run.joints.end);
         let head = self.posed_head();
         self.layer_joints.clear();
         self.made_of.clear();
         for layer in &self.layers {
             if !layer.program.has_own_paths() {
-                self.layer_joints.push(of_hair.clone());
+                let start = match layer.program.is_on_undercoat() {
+                    true => of_hair.start,
+                    false => above_undercoat,
+                };
+                self.layer_joints.push(start..of_hair.end);
                 continue;
             }
             let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {

@@ -2,7 +2,7 @@
 //!
 //! All pictures 1/768 s apart are drawn with few samples a pixel. Then the tiles that change most in 1/384 s and
 //! those that do in 1/768 s are drawn with many samples. Pixels that pop are counted with [`POP_SAMPLES`]: an edge that
-//! moves by a quarter of a pixel in a tick changes four of them, and does not count.
+//! moves by a quarter of a pixel in a tick changes sixteen of them, and does not count.
 
 use super::animation::{Scene, Tick};
 use super::painter::Painter;
@@ -18,7 +18,7 @@ const SHORT: Tick = LONG / 2;
 /// Samples a pixel while looking for what changes.
 pub const FEW: u32 = 4;
 /// Samples a pixel while counting pixels that pop.
-pub const POP_SAMPLES: u32 = 16;
+pub const POP_SAMPLES: u32 = 64;
 /// Samples a pixel of what is measured.
 pub const MANY: u32 = 256;
 /// Pixels around a tile that are drawn with it, to be looked at.

@@ -20,6 +20,7 @@ pub fn lit_joint(gray: f32, clump: f32) -> Joints {
         normal: vec![vec3([0.0, 0.0, 1.0])],
         clump_radius: vec![clump],
         clump_color: vec![vec3([0.2, 0.4, 0.8])],
+        clump_shift: vec![vec2([0.0; 2])],
         gray: vec![gray.max(0.0)],
         ..Joints::default()
     }

@@ -45,11 +45,12 @@ impl Evaluator {
             joints: run.joints.clone(),
         }));
         drawing.clump.clear();
-        let radii = self.joints.clump_radius.par_iter().with_min_len(CHUNK);
-        let discs = radii
-            .enumerate()
-            .map(|(i, &radius)| disc(frame, i, Vec2::ZERO, radius, radius, 0.0));
-        drawing.clump.par_extend(discs);
+        let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
+        let discs = radii.par_iter().zip(shifts).with_min_len(CHUNK).enumerate();
+        drawing.clump.par_extend(discs.map(|(i, (&radius, shift))| {
+            let shift = Vec2::new(shift.x, shift.y);
+            disc(frame, i, shift, radius, radius, 0.0)
+        }));
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for (layer, joints) in frame.layers.iter().zip(frame.layer_joints) {
@@ -224,6 +225,7 @@ impl Evaluator {
             normal,
             clump_radius,
             clump_color,
+            clump_shift,
             ..
         } = &mut self.joints;
         let lit = clumps.iter().zip(light_direction);
@@ -232,6 +234,12 @@ impl Evaluator {
         fill(normal, true, clumps.iter().map(|clump| clump.normal));
         fill(clump_radius, true, clumps.iter().map(|clump| clump.radius));
         fill(clump_color, true, clumps.iter().map(|clump| clump.color));
+        let on_screen = |clump: &Clump| {
+            let shift = Vec3::from(clump.shift.to_array());
+            let view = frame.camera.view_from_world_direction(shift);
+            vec2([view.x, -view.y])
+        };
+        fill(clump_shift, true, clumps.iter().map(on_screen));
         self.clumps = clumps;
     }
 
@@ -298,7 +306,8 @@ impl Part<'_> {
         discs[..start - self.first].fill(NO_DISC);
         discs[end - self.first..].fill(NO_DISC);
         for (i, stroke) in (start..end).zip(&scratch.strokes) {
-            let offset = Vec2::new(stroke.offset.x, stroke.offset.y);
+            let offset = joints.clump_shift[i] + stroke.offset;
+            let offset = Vec2::new(offset.x, offset.y);
             let depth_offset = layer.depth_offset + stroke.depth_offset;
             let clump_radius = joints.clump_radius[i];
             let place = i - self.first;

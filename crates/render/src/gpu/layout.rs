@@ -3,6 +3,7 @@
 use crate::drawing::{Brush, Drawing};
 use crate::frame::{Frame, Light};
 use effects::InputSet;
+use glam::Vec3;
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use stroke_path::PathRun;
@@ -24,7 +25,9 @@ pub(super) struct GpuFrame {
     pub(super) light: [f32; 3],
     pub(super) light_is_point: u32,
     pub(super) background: [f32; 4],
+    pub(super) right: [f32; 3],
     pub(super) unit_m: f32,
+    pub(super) up: [f32; 3],
     pub(super) pixel_px: f32,
     pub(super) edge_depth_m: f32,
     pub(super) chunk_capacity: u32,
@@ -32,6 +35,8 @@ pub(super) struct GpuFrame {
     pub(super) is_semicircle: u32,
     pub(super) surfaces_at: u32,
     pub(super) writes_samples: u32,
+    /// The shader's struct ends at a multiple of 16 bytes.
+    pub(super) padding: [u32; 2],
 }
 
 impl GpuFrame {
@@ -72,7 +77,9 @@ impl GpuFrame {
                 blue,
                 if frame.background.is_some() { 1.0 } else { 0.0 },
             ],
+            right: frame.camera.world_from_view_direction(Vec3::X).to_array(),
             unit_m: frame.head.unit_m(),
+            up: frame.camera.world_from_view_direction(Vec3::Y).to_array(),
             pixel_px: frame.camera.size_px()[1] as f32 / 720.0,
             edge_depth_m: frame.edge_depth_m,
             is_semicircle: u32::from(frame.brush == Brush::Semicircle),
@@ -83,7 +90,7 @@ impl GpuFrame {
 
 /// Bytes of a `GpuDisc`, and of a `GpuClump`.
 pub(super) const DISC_BYTES: u64 = 32;
-pub(super) const CLUMP_BYTES: u64 = 32;
+pub(super) const CLUMP_BYTES: u64 = 48;
 /// Width and height of a tile, pixels.
 pub(super) const TILE: u32 = 8;
 /// Most segments of a chunk.
@@ -230,7 +237,7 @@ impl JointLayout {
             }
         };
         let bits2 = |v: glam::Vec2| v.to_array().map(f32::to_bits);
-        let bits3 = |v: glam::Vec3| v.to_array().map(f32::to_bits);
+        let bits3 = |v: Vec3| v.to_array().map(f32::to_bits);
         for field in &self.fields {
             match field {
                 Center => push(&bits2(paths.center[joint])),

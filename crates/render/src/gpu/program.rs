@@ -160,6 +160,7 @@ fn input(name: &str, layout: &JointLayout) -> String {
         "normal" => "gpu_clumps[joint].normal",
         "clump_radius" => "gpu_clumps[joint].radius",
         "clump_color" => "gpu_clumps[joint].color",
+        "clump_shift" => "gpu_clumps[joint].shift",
         "gray" => "gpu_clumps[joint].gray",
         other => return format!("gpu_has_no_input_{other}()"),
     };
