@@ -1,14 +1,16 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
 use crate::bake::Bake;
-use crate::dynamics::{self, Dynamics};
+use crate::dynamics::{Dynamics, feel};
 use crate::files::{Files, StageError};
+use crate::hair::Hair;
 use crate::head::{self, HeadPaint};
-use crate::load::{self, Hair};
+use crate::load;
 use crate::material::Material;
 use crate::motion::{HeadPose, MotionScript};
 use crate::neck::{Neck, rigid};
 use crate::preset::Preset;
+use crate::script;
 use effects::wgsl::hash;
 use effects::{HairStrand, Layer, MadePaths, Values, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
@@ -99,13 +101,13 @@ impl Stage {
         let mesh = model.as_ref().map(|model| &model.mesh);
         let mut hair = load::hair(preset, files, mesh, &mut notes)?;
         let head = hair.head;
-        let script = load::motion(preset, files, &mut hair, mesh)?;
+        let script = script::load(preset, files, &mut hair, mesh)?;
         if let Some(model) = &mut model {
             model.add_ties(&hair.ties);
         }
         let strands = load::keep_guides(preset, &mut hair);
         load::bake(preset, files, &mut hair)?;
-        if let Some((_, message)) = dynamics::unsupported(&preset.dynamics) {
+        if let Some((_, message)) = feel::unsupported(&preset.dynamics) {
             return Err(StageError::Unsupported(message));
         }
         let settings = Settings::new(preset, head)?;

@@ -8,17 +8,14 @@ mod carried;
 pub(crate) mod feel;
 mod running;
 
-pub use feel::DYNAMICS;
-pub(crate) use feel::{Feel, unsupported};
-
 use crate::files::StageError;
-use crate::load::{self, Hair};
+use crate::hair::Hair;
 use crate::motion::MotionScript;
 use crate::neck::rigid;
 use bodies::Bodies;
 use carried::Carried;
 use effects::Values;
-use feel::SolverKind;
+use feel::{Feel, SolverKind};
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::compare::{MassSpring, Xpbd};
@@ -80,7 +77,7 @@ impl Dynamics {
         let mut parts = Vec::new();
         for strand in 0..all.len() {
             let range = all.point_range(strand);
-            let points = range.start + load::held(hair, strand) - 1..range.end;
+            let points = range.start + hair.held(strand) - 1..range.end;
             // A strand that the head holds to its tip has nothing to simulate.
             if points.len() > 1 {
                 free.push(strand as u32, &all.points()[points.clone()], None)?;
