@@ -13,6 +13,7 @@ mod motion;
 mod neck;
 mod part;
 mod preset;
+mod reach;
 mod scene;
 mod script;
 mod shapes;

@@ -24,6 +24,11 @@ use render::Head;
 use running::{Run, Running};
 use std::ops::Range;
 
+/// So many steps of hair that is not seen are taken as one,
+const UNSEEN_STEPS: i64 = 4;
+/// while the head's acceleration is below this, in m/s^2: a long step through a turn of the head would throw hair about.
+const CALM: f64 = 2.0;
+
 /// Where a simulated strand's points go.
 struct Part {
     /// The points of the scene that it moves: all behind those that the head holds.
@@ -51,6 +56,10 @@ pub(crate) struct Dynamics {
     warm_up: i64,
     /// Steps done since the start.
     done: i64,
+    /// How many more were wanted at the last time, when the hair was not seen.
+    owed: i64,
+    /// Steps taken, long ones as one.
+    taken: u64,
     stats: Stats,
 }
 
@@ -130,6 +139,8 @@ impl Dynamics {
             warm_up: (f64::from(values.number("warm_up")) / step).round() as i64,
             step,
             done: 0,
+            owed: 0,
+            taken: 0,
             stats: Stats::default(),
         })
     }
@@ -145,7 +156,13 @@ impl Dynamics {
         SolverKind::of(values) != SolverKind::None && !(script.is_still() && is_at_rest)
     }
 
-    /// Steps to `time` (seconds) of a script, and writes the points of what moves.
+    /// How many steps have been taken, long ones counted as one.
+    pub fn taken(&self) -> u64 {
+        self.taken
+    }
+
+    /// Steps to `time` (seconds) of a script, and writes the points of what moves. Hair that is not seen comes after in
+    /// long steps; as soon as it is seen, one step takes it to where it should be.
     ///
     /// # Errors
     ///
@@ -154,34 +171,34 @@ impl Dynamics {
         &mut self,
         time: f64,
         script: &MotionScript,
+        is_seen: bool,
         points: &mut [Vec3],
     ) -> Result<(), StageError> {
         let wanted = ((time / self.step).round() as i64 + self.warm_up).max(0);
         if wanted < self.done || self.done == 0 {
             self.done = 0;
+            self.owed = 0;
             let first = Roots::Head(self.pose_at(0, script));
             self.strands.restart(first)?;
         }
-        while self.done < wanted {
-            let ends = [self.done, self.done + 1];
-            let [before, now] = ends.map(|steps| self.pose_at(steps, script));
-            let shoulders = ends.map(|steps| self.shoulders_at(steps, script));
-            let (steady, gust) = script.wind_at(self.time_of(self.done + 1));
-            self.aim(script.within(self.time_of(self.done + 1)));
-            let scene = Scene {
-                roots: Roots::Head(now),
-                gravity: self.gravity,
-                wind: Wind {
-                    steady,
-                    gust,
-                    size: 2.0 * f64::from(self.head.height_m),
-                    seed: self.seed,
-                },
-                colliders: &self.bodies.colliders([before, now], shoulders),
-                goal: self.shapes.as_ref().map(|_| &self.goal[..]),
-            };
-            self.stats = self.strands.step(&scene, self.step)?;
-            self.done += 1;
+        if is_seen {
+            let owed = self.owed.min(wanted - self.done);
+            if owed > 0 {
+                self.step(owed, script)?;
+            }
+            self.owed = 0;
+            while self.done < wanted {
+                self.step(1, script)?;
+            }
+        } else {
+            while self.done < wanted {
+                let is_calm = self.is_calm(script);
+                if is_calm && wanted - self.done < UNSEEN_STEPS {
+                    break;
+                }
+                self.step(if is_calm { UNSEEN_STEPS } else { 1 }, script)?;
+            }
+            self.owed = wanted - self.done;
         }
         if self.done == 0 {
             // At the start all hair is where the head's pose has put it.
@@ -197,6 +214,50 @@ impl Dynamics {
         self.carried
             .carry(points, |strand| self.strands.turns(strand));
         self.bodies.keep_out(self.carried.ranges(), pose, points);
+        Ok(())
+    }
+
+    /// Whether the head's motion is even from the last step to the end of a long one.
+    fn is_calm(&self, script: &MotionScript) -> bool {
+        let height_m = f64::from(self.head.height_m);
+        let places = |steps: i64| {
+            let pose = self.pose_at(steps, script);
+            let center = self.head.center.as_dvec3();
+            [DVec3::X, DVec3::Z]
+                .map(|side| pose.rotation * (center + side * height_m) + pose.translation)
+        };
+        (self.done..self.done + UNSEEN_STEPS).all(|at| {
+            let [before, now, after] = [at - 1, at, at + 1].map(places);
+            (0..2).all(|i| {
+                let bend = before[i] + after[i] - 2.0 * now[i];
+                bend.length() <= CALM * self.step * self.step
+            })
+        })
+    }
+
+    /// Takes so many steps as one.
+    fn step(&mut self, steps: i64, script: &MotionScript) -> Result<(), StageError> {
+        let ends = [self.done, self.done + steps];
+        let [before, now] = ends.map(|steps| self.pose_at(steps, script));
+        let shoulders = ends.map(|steps| self.shoulders_at(steps, script));
+        let time = self.time_of(self.done + steps);
+        let (steady, gust) = script.wind_at(time);
+        self.aim(script.within(time));
+        let scene = Scene {
+            roots: Roots::Head(now),
+            gravity: self.gravity,
+            wind: Wind {
+                steady,
+                gust,
+                size: 2.0 * f64::from(self.head.height_m),
+                seed: self.seed,
+            },
+            colliders: &self.bodies.colliders([before, now], shoulders),
+            goal: self.shapes.as_ref().map(|_| &self.goal[..]),
+        };
+        self.stats = self.strands.step(&scene, self.step * steps as f64)?;
+        self.done += steps;
+        self.taken += 1;
         Ok(())
     }
 
