@@ -80,7 +80,7 @@ pub(crate) enum Command {
     Render(Box<RenderOptions>),
     /// Name every mistake in presets
     Check {
-        /// Presets to check
+        /// Presets to check, with the motion scripts, styles and bakes that they name; scripts and styles by themselves too
         #[arg(required = true)]
         presets: Vec<PathBuf>,
     },

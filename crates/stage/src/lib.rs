@@ -2,8 +2,10 @@
 //! strokes.
 
 mod bake;
+mod check;
 mod dynamics;
 mod files;
+mod hair;
 mod head;
 mod load;
 mod material;
@@ -11,13 +13,16 @@ mod motion;
 mod neck;
 mod part;
 mod preset;
+mod reach;
 mod scene;
+mod script;
 mod shapes;
 mod style;
 mod table;
 
 pub use bake::Bake;
-pub use dynamics::DYNAMICS;
+pub use check::{check_motion, check_style};
+pub use dynamics::feel::DYNAMICS;
 pub use files::{Files, StageError};
 pub use motion::MOTION_PARTS;
 pub use part::FilePart;

@@ -2,16 +2,14 @@
 
 use crate::bake;
 use crate::files::{Files, StageError};
+use crate::hair::Hair;
 use crate::head::HeadModel;
-use crate::motion::{self, Bone, MotionScript};
 use crate::preset::Preset;
-use crate::shapes;
 use crate::style;
 use glam::Vec3;
-use groom::{Guides, Tie};
+use groom::Guides;
 use hair_io::orient::Axes;
-use hair_io::{BoneMotion, HairFile, HairOptions, HeadFrame, Mesh};
-use hair_sim::Motion;
+use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
 use render::{Head, StrandInfo};
 use std::path::{Path, PathBuf};
 
@@ -23,8 +21,13 @@ fn scale(number: f32) -> Option<f32> {
     (number > 0.0).then_some(number)
 }
 
+/// Whether a file is hair that grows.
+pub(crate) fn is_style(path: &Path) -> bool {
+    path.to_string_lossy().ends_with(".style.ron")
+}
+
 /// The caller's file, or the preset's beside the preset.
-fn chosen(given: Option<&PathBuf>, own: Option<&str>, folder: &Path) -> Option<PathBuf> {
+pub(crate) fn chosen(given: Option<&PathBuf>, own: Option<&str>, folder: &Path) -> Option<PathBuf> {
     given.cloned().or_else(|| own.map(|name| folder.join(name)))
 }
 
@@ -76,36 +79,6 @@ fn is_inside_out(mesh: &Mesh) -> bool {
     volume < 0.0
 }
 
-/// Hair that was read or grown.
-pub(crate) struct Hair {
-    pub file: HairFile,
-    /// How many strands, the first ones, are an undercoat: no hair comes loose from it.
-    pub undercoat: usize,
-    /// How many points from its root each strand keeps on the head.
-    pub held: Vec<u32>,
-    /// The shapes that a script wants of it at times.
-    pub shapes: Option<Motion>,
-    /// The ties that gather it.
-    pub ties: Vec<Tie>,
-    /// The head that it stands on.
-    pub head: Head,
-}
-
-impl Hair {
-    /// Keeps these strands, in this order.
-    pub fn keep(&mut self, indices: &[usize]) {
-        if let Some(shapes) = &self.shapes {
-            let strands = &self.file.strands;
-            let points = indices.iter().flat_map(|&i| strands.point_range(i));
-            self.shapes = Some(shapes.select(&points.collect::<Vec<_>>()));
-        }
-        self.file.keep(indices);
-        let is_undercoat = |i: &&usize| **i < self.undercoat;
-        self.undercoat = indices.iter().filter(is_undercoat).count();
-        self.held = indices.iter().map(|&i| self.held[i]).collect();
-    }
-}
-
 /// All strands of the hair, sorted by id.
 pub(crate) fn hair(
     preset: &Preset,
@@ -126,7 +99,7 @@ pub(crate) fn strands(
     notes: &mut Vec<String>,
 ) -> Result<Hair, StageError> {
     let values = &preset.hair;
-    if path.to_string_lossy().ends_with(".style.ron") {
+    if is_style(path) {
         let mut hair = grow(path, head)?;
         notes.append(&mut hair.file.notes);
         return Ok(hair);
@@ -167,45 +140,6 @@ pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<()
         hair.file.motion = Some(bake::read(&path, &hair.file.strands)?);
     }
     Ok(())
-}
-
-/// How many points from its root a strand keeps on the head, at least its root.
-pub(crate) fn held(hair: &Hair, strand: usize) -> usize {
-    let points = hair.file.strands.strand(strand).len();
-    (hair.held[strand].max(1) as usize).min(points)
-}
-
-/// What moves head, wind and hair; the hair is given its key shapes.
-pub(crate) fn motion(
-    preset: &Preset,
-    files: &Files,
-    hair: &mut Hair,
-    mesh: Option<&Mesh>,
-) -> Result<MotionScript, StageError> {
-    let own = preset.motion.text("file");
-    let mut script = MotionScript::default();
-    if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
-        let text = std::fs::read_to_string(&path).map_err(|source| StageError::Read {
-            path: path.clone(),
-            source,
-        })?;
-        script = motion::parse(&path.display().to_string(), &text)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        hair.shapes = shapes::load(preset, &script, folder, hair, mesh)?;
-    }
-    let values = &preset.motion;
-    if let Some(name) = values.text("gltf") {
-        script.bone = Some(Bone {
-            motion: BoneMotion::read(
-                &files.preset_folder.join(name),
-                values.text("bone").unwrap_or("head"),
-                values.text("animation"),
-            )?,
-            repeats: values.choice("repeat") == 1,
-            head_height_m: f64::from(hair.head.height_m),
-        });
-    }
-    Ok(script)
 }
 
 /// Keeps as many strands as the preset asks for, and says what size each is: its own, the preset's, or

@@ -4,7 +4,7 @@ mod sections;
 
 pub use sections::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, SCENE, SECTIONS};
 
-use crate::dynamics;
+use crate::dynamics::feel;
 use crate::files::Files;
 use effects::preset::{
     Field, LayerSpec, Place, PresetError, PresetErrors, Reader, nearest, suggestion,
@@ -53,8 +53,9 @@ struct Named {
 }
 
 /// What names a file: sections and their parameters.
-const FILES: [(&str, &str); 4] = [
+const FILES: [(&str, &str); 5] = [
     ("hair", "file"),
+    ("hair", "bake"),
     ("head", "file"),
     ("motion", "file"),
     ("motion", "gltf"),
@@ -76,33 +77,8 @@ impl<'r> Preset<'r> {
         Ok(preset)
     }
 
-    /// Looks for all that is wrong with the preset `text`, also for the files that it names.
-    ///
-    /// # Errors
-    ///
-    /// As [`Preset::parse`] and [`Preset::check_files`] together.
-    pub fn check(
-        file: &str,
-        text: &str,
-        registry: &'r Registry,
-        files: &Files,
-    ) -> Result<(), PresetErrors> {
-        let mut reader = Reader::new(file, text);
-        let preset = Self::read(&mut reader, registry)?;
-        let mut errors = Vec::new();
-        for found in [reader.report(), preset.check_files(files)] {
-            errors.extend(found.err().into_iter().flat_map(|errors| errors.0));
-        }
-        errors.sort_by_key(|e: &PresetError| (e.place.line, e.place.column));
-        if errors.is_empty() {
-            Ok(())
-        } else {
-            Err(PresetErrors(errors))
-        }
-    }
-
     /// Reads what can be read, and notes mistakes; those after which nothing can be read are returned.
-    fn read(reader: &mut Reader, registry: &'r Registry) -> Result<Self, PresetErrors> {
+    pub(crate) fn read(reader: &mut Reader, registry: &'r Registry) -> Result<Self, PresetErrors> {
         let fields = reader.fields(reader.text(), "the preset");
         if fields.is_empty() {
             reader.report()?;
@@ -190,7 +166,8 @@ impl<'r> Preset<'r> {
     pub fn check_files(&self, files: &Files) -> Result<(), PresetErrors> {
         let missing_file = |named: &Named| {
             let (values, given) = match (named.section, named.param) {
-                ("hair", _) => (&self.hair, &files.hair),
+                ("hair", "file") => (&self.hair, &files.hair),
+                ("hair", _) => (&self.hair, &files.bake),
                 ("head", _) => (&self.head, &files.head),
                 (_, "file") => (&self.motion, &files.motion),
                 _ => (&self.motion, &None),
@@ -210,6 +187,12 @@ impl<'r> Preset<'r> {
         } else {
             Err(PresetErrors(errors))
         }
+    }
+
+    /// Where the file names the file of this section and parameter.
+    pub(crate) fn place_of(&self, section: &str, param: &str) -> Option<&Place> {
+        let is_it = |named: &&Named| (named.section, named.param) == (section, param);
+        self.named.iter().find(is_it).map(|named| &named.place)
     }
 
     /// Sets a layer's parameter, or one of a section, from its text: `hair.silhouette.width`, `3`.
@@ -273,7 +256,7 @@ impl<'r> Preset<'r> {
 
 /// What a section asks for that cannot be: a parameter, and why.
 fn unsupported(section: &str, values: &Values) -> Option<(&'static str, String)> {
-    (section == "dynamics").then(|| dynamics::unsupported(values))?
+    (section == "dynamics").then(|| feel::unsupported(values))?
 }
 
 /// The error of a file of a version that this build doesn't read: nothing else in it means what it

@@ -1,14 +1,17 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
 use crate::bake::Bake;
-use crate::dynamics::{self, Dynamics};
+use crate::dynamics::{Dynamics, feel};
 use crate::files::{Files, StageError};
+use crate::hair::Hair;
 use crate::head::{self, HeadPaint};
-use crate::load::{self, Hair};
+use crate::load;
 use crate::material::Material;
 use crate::motion::{HeadPose, MotionScript};
 use crate::neck::{Neck, rigid};
 use crate::preset::Preset;
+use crate::reach::{may_see, reach_m};
+use crate::script;
 use effects::wgsl::hash;
 use effects::{HairStrand, Layer, MadePaths, Values, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
@@ -51,6 +54,8 @@ pub struct Stage {
     neck: Option<Neck>,
     /// Where the head is while nothing moves.
     head: Head,
+    /// The radius of the ball around the head's middle that hair stays in.
+    reach_m: f32,
     script: MotionScript,
     pose: HeadPose,
     /// What the preset says of dynamics, frames a second, and the simulation once something moves.
@@ -99,13 +104,13 @@ impl Stage {
         let mesh = model.as_ref().map(|model| &model.mesh);
         let mut hair = load::hair(preset, files, mesh, &mut notes)?;
         let head = hair.head;
-        let script = load::motion(preset, files, &mut hair, mesh)?;
+        let script = script::load(preset, files, &mut hair, mesh)?;
         if let Some(model) = &mut model {
             model.add_ties(&hair.ties);
         }
         let strands = load::keep_guides(preset, &mut hair);
         load::bake(preset, files, &mut hair)?;
-        if let Some((_, message)) = dynamics::unsupported(&preset.dynamics) {
+        if let Some((_, message)) = feel::unsupported(&preset.dynamics) {
             return Err(StageError::Unsupported(message));
         }
         let settings = Settings::new(preset, head)?;
@@ -128,6 +133,7 @@ impl Stage {
         let cuts = strands.iter().enumerate().map(cut);
         Ok(Self {
             cuts: cuts.collect::<Result<_, _>>()?,
+            reach_m: reach_m(&hair.file.strands, &strands, head),
             points: hair.file.strands.points().to_vec(),
             hair,
             strand_count: strands.len(),
@@ -206,7 +212,23 @@ impl Stage {
     ///
     /// When the simulation refuses the preset's numbers.
     pub fn advance_to(&mut self, time: f32) -> Result<(), StageError> {
-        let time = f64::from(time);
+        self.advance(f64::from(time), None)
+    }
+
+    /// As [`Self::advance_to`], for live programs: while this camera cannot see the hair, wherever it may be, and the head is calm, hair
+    /// is simulated in one step of four frames' length every fourth frame, and what is missing is made up for before it is seen
+    /// again. Motion is not quite that of [`Self::advance_to`] then, so pictures that must be the same every time are made
+    /// with that.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::advance_to`].
+    pub fn advance_to_seen_by(&mut self, time: f32, camera: &Camera) -> Result<(), StageError> {
+        self.advance(f64::from(time), Some(camera))
+    }
+
+    /// To `time` (seconds); without a camera hair is seen.
+    fn advance(&mut self, time: f64, camera: Option<&Camera>) -> Result<(), StageError> {
         self.pose = self.script.head_at(time);
         if let Some(motion) = &self.hair.file.motion {
             motion.sample(time as f32, &mut self.points);
@@ -227,6 +249,8 @@ impl Stage {
         if !is_simulated {
             return Ok(());
         }
+        let center = self.posed_head().center;
+        let is_seen = camera.is_none_or(|camera| may_see(camera, center, self.reach_m));
         let dynamics = match &mut self.dynamics {
             Some(dynamics) => dynamics,
             None => {
@@ -242,7 +266,7 @@ impl Stage {
                 )?)
             }
         };
-        dynamics.advance_to(time, &self.script, &mut self.points)
+        dynamics.advance_to(time, &self.script, is_seen, &mut self.points)
     }
 
     /// Looks from this yaw (degrees) from now on; [`Self::frame`] refuses one that isn't finite.
@@ -271,6 +295,12 @@ impl Stage {
             .as_ref()
             .map(Dynamics::stats)
             .unwrap_or_default()
+    }
+
+    /// How many steps the simulation has taken, long ones of hair off screen counted as one.
+    #[must_use]
+    pub fn steps_taken(&self) -> u64 {
+        self.dynamics.as_ref().map_or(0, Dynamics::taken)
     }
 
     /// The head where it is now.

@@ -2,7 +2,8 @@
 
 use crate::bake::difference;
 use crate::files::StageError;
-use crate::load::{self, Hair};
+use crate::hair::Hair;
+use crate::load;
 use crate::motion::{KeyShape, MotionScript};
 use crate::preset::{Preset, missing};
 use effects::preset::{PresetError, PresetErrors};
@@ -85,7 +86,7 @@ fn hung(hair: &Hair, mut points: Vec<Vec3>) -> Vec<Vec3> {
     let own: &Strands = &hair.file.strands;
     for strand in 0..own.len() {
         let range = own.point_range(strand);
-        let last_held = range.start + load::held(hair, strand) - 1;
+        let last_held = range.start + hair.held(strand) - 1;
         let shift = own.points()[last_held] - points[last_held];
         points[range.start..=last_held].copy_from_slice(&own.points()[range.start..=last_held]);
         for point in &mut points[last_held + 1..range.end] {

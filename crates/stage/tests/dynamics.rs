@@ -10,6 +10,7 @@ use glam::Vec3;
 use stage::{Files, Preset, Stage};
 use std::fs;
 use std::path::{Path, PathBuf};
+use stroke_path::{Camera, OrbitView};
 
 const TURN: &str = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.3, angle: 60)])";
 const GALE: &str = "(version: 1, winds: [(speed: 25, gusts: 10, yaw: 90)])";
@@ -163,7 +164,7 @@ fn warm_up_is_before_the_first_frame() {
 
 #[test]
 fn the_solvers_for_comparison_do_nearly_the_same() {
-    let plain = [("dynamics.links", "0"), ("dynamics.volume", "0")];
+    let plain = [];
     let style = "twin-tails.style.ron";
     let solver = |name, substeps| {
         let settings = [("dynamics.solver", name), ("dynamics.substeps", substeps)];
@@ -282,6 +283,76 @@ fn extremes_stay_finite() {
             );
         }
     }
+}
+
+/// Hair off screen is simulated a quarter as often, and comes back where it should be and as fast as it should.
+#[test]
+fn hair_off_screen_runs_at_a_lower_rate_and_does_not_pop() {
+    let script = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.3, angle: 60), \
+                  (move: turn, start: 2.0, length: 0.3, angle: -60)], winds: [(speed: 3, gusts: 2, yaw: 90)])";
+    let step = [("dynamics.step", "0.041666668")];
+    let [mut full, mut live] = [0; 2].map(|_| scene("twin-tails.style.ron", Some(script), &step));
+    let head = full.head();
+    let view = |target| OrbitView {
+        target,
+        yaw_degrees: 0.0,
+        pitch_degrees: 0.0,
+        distance_m: 2.0,
+        vertical_fov_degrees: 40.0,
+    };
+    let camera = |target| Camera::orbit(view(target), [64, 64], full.near_m()).unwrap();
+    let (at_it, elsewhere) = (camera(head.center), camera(head.center + 50.0 * Vec3::X));
+    let away = 14..37;
+    let mut before: Option<[Vec<Vec3>; 2]> = None;
+    let (mut fastest, mut fastest_live): (f32, f32) = (0.0, 0.0);
+    let (mut most, mut farthest_off): (f32, f32) = (0.0, 0.0);
+    for frame in 0..60 {
+        let is_away = away.contains(&frame);
+        let time = frame as f32 / 24.0;
+        let taken = live.steps_taken();
+        let seen_by = if is_away { &elsewhere } else { &at_it };
+        live.advance_to_seen_by(time, seen_by).unwrap();
+        full.advance_to(time).unwrap();
+        let taken = live.steps_taken() - taken;
+        let expected = if is_away {
+            u64::from((frame - away.start) % 4 == 3)
+        } else {
+            u64::from(frame > 0)
+        };
+        // The first frame back has what is missing and its own.
+        let expected = if frame == away.end { 2 } else { expected };
+        assert_eq!(taken, expected, "frame {frame}");
+        let now = [&mut full, &mut live].map(|stage| {
+            let frame = stage.frame().unwrap();
+            frame
+                .strands
+                .iter()
+                .map(|strand| strand.mean)
+                .collect::<Vec<Vec3>>()
+        });
+        if frame < away.start {
+            assert!(now[0] == now[1], "frame {frame}");
+        }
+        if let Some([full, live]) = before.filter(|_| frame > away.end) {
+            fastest = fastest.max(farthest(&full, &now[0]));
+            fastest_live = fastest_live.max(farthest(&live, &now[1]));
+        }
+        if frame >= away.end {
+            let apart = now[0].iter().zip(&now[1]).map(|(a, b)| a.distance(*b));
+            let mut apart: Vec<f32> = apart.map(|apart| apart / head.height_m).collect();
+            apart.sort_by(f32::total_cmp);
+            most = most.max(apart[apart.len() * 9 / 10]);
+            farthest_off = farthest_off.max(apart[apart.len() - 1]);
+        }
+        before = Some(now);
+    }
+    let speed = fastest_live / fastest;
+    println!(
+        "back: of ten strands nine within {most:.3} head heights of a full rate, all within {farthest_off:.3}; \
+         {speed:.2} times as fast"
+    );
+    assert!(most < 0.1 && farthest_off < 0.6, "{most} {farthest_off}");
+    assert!(speed < 1.3, "{speed}");
 }
 
 /// The safe integrator is for what breaks strands: in what scenes are made of it takes hardly a step, and none is set aside.

@@ -71,8 +71,8 @@ impl Hair {
     ) -> Outcome<render::Light> {
         // Hair stands where its nearest step has it, and so must the head.
         let time = (time * STEPS_PER_SECOND).round() / STEPS_PER_SECOND;
-        self.stage.advance_to(time)?;
         let camera = view.as_inkstrand_sees_it()?;
+        self.stage.advance_to_seen_by(time, &camera)?;
         let frame = self.stage.frame_seen_by(camera)?;
         self.renderer.prepare(encoder, &frame, SAMPLES, pass)?;
         Ok(frame.light)

@@ -8,17 +8,14 @@ mod carried;
 pub(crate) mod feel;
 mod running;
 
-pub use feel::DYNAMICS;
-pub(crate) use feel::{Feel, unsupported};
-
 use crate::files::StageError;
-use crate::load::{self, Hair};
+use crate::hair::Hair;
 use crate::motion::MotionScript;
 use crate::neck::rigid;
 use bodies::Bodies;
 use carried::Carried;
 use effects::Values;
-use feel::SolverKind;
+use feel::{Feel, SolverKind};
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::compare::{MassSpring, Xpbd};
@@ -31,6 +28,10 @@ use std::ops::Range;
 
 /// The shortest step in s that is worth one of its own.
 const SHORTEST_STEP: f64 = 2e-6;
+/// So many steps of hair that is not seen are taken as one,
+const UNSEEN_STEPS: i64 = 4;
+/// while the head's acceleration is below this, in m/s^2: a long step through a turn of the head would throw hair about.
+const CALM: f64 = 2.0;
 
 /// Where a simulated strand's points go.
 struct Part {
@@ -61,6 +62,10 @@ pub(crate) struct Dynamics {
     done: i64,
     /// Whether what is shown is the start.
     is_at_start: bool,
+    /// How many more were wanted at the last time, when the hair was not seen.
+    owed: i64,
+    /// Steps taken, long ones as one.
+    taken: u64,
     stats: Stats,
 }
 
@@ -87,7 +92,7 @@ impl Dynamics {
         let mut parts = Vec::new();
         for strand in 0..all.len() {
             let range = all.point_range(strand);
-            let points = range.start + load::held(hair, strand) - 1..range.end;
+            let points = range.start + hair.held(strand) - 1..range.end;
             // A strand that the head holds to its tip has nothing to simulate.
             if points.len() > 1 {
                 free.push(strand as u32, &all.points()[points.clone()], None)?;
@@ -141,6 +146,8 @@ impl Dynamics {
             step,
             done: 0,
             is_at_start: true,
+            owed: 0,
+            taken: 0,
             stats: Stats::default(),
         })
     }
@@ -156,8 +163,14 @@ impl Dynamics {
         SolverKind::of(values) != SolverKind::None && !(script.is_still() && is_at_rest)
     }
 
+    /// How many steps have been taken, long ones counted as one.
+    pub fn taken(&self) -> u64 {
+        self.taken
+    }
+
     /// Steps to `time` (seconds) of a script, and writes the points of what moves. A time between two steps is shown by a shorter
-    /// step of its own, from which nothing goes on: the motion is the same whatever times are looked at.
+    /// step of its own, from which nothing goes on: the motion is the same whatever times are looked at. Hair that is not seen comes
+    /// after in long steps; as soon as it is seen, one step takes it to where it should be.
     ///
     /// # Errors
     ///
@@ -166,6 +179,7 @@ impl Dynamics {
         &mut self,
         time: f64,
         script: &MotionScript,
+        is_seen: bool,
         points: &mut [Vec3],
     ) -> Result<(), StageError> {
         // What the time's own precision, single, can tell from a whole step.
@@ -174,17 +188,32 @@ impl Dynamics {
         let wanted = wanted.max(0);
         if wanted < self.done || self.done == 0 {
             self.done = 0;
+            self.owed = 0;
             let first = Roots::Head(self.pose_at(self.time_of(0), script));
             self.strands.restart(first)?;
         }
-        while self.done < wanted {
-            let next = self.time_of(self.done + 1);
-            self.stats = self.drive(next, script, |strands, scene, dt| strands.step(scene, dt))?;
-            self.done += 1;
+        if is_seen {
+            let owed = self.owed.min(wanted - self.done);
+            if owed > 0 {
+                self.step(owed, script)?;
+            }
+            self.owed = 0;
+            while self.done < wanted {
+                self.step(1, script)?;
+            }
+        } else {
+            while self.done < wanted {
+                let is_calm = self.is_calm(script);
+                if is_calm && wanted - self.done < UNSEEN_STEPS {
+                    break;
+                }
+                self.step(if is_calm { UNSEEN_STEPS } else { 1 }, script)?;
+            }
+            self.owed = wanted - self.done;
         }
         self.strands.look_back();
         let mut shown = self.time_of(self.done);
-        if time > shown + slack {
+        if is_seen && time > shown + slack {
             shown = time;
             self.stats = self.drive(time, script, |strands, scene, dt| {
                 strands.look_ahead(scene, dt)
@@ -205,6 +234,33 @@ impl Dynamics {
         self.carried
             .carry(points, |strand| self.strands.turns(strand));
         self.bodies.keep_out(self.carried.ranges(), pose, points);
+        Ok(())
+    }
+
+    /// Whether the head's motion is even from the last step to the end of a long one.
+    fn is_calm(&self, script: &MotionScript) -> bool {
+        let height_m = f64::from(self.head.height_m);
+        let places = |steps: i64| {
+            let pose = self.pose_at(self.time_of(steps), script);
+            let center = self.head.center.as_dvec3();
+            [DVec3::X, DVec3::Z]
+                .map(|side| pose.rotation * (center + side * height_m) + pose.translation)
+        };
+        (self.done..self.done + UNSEEN_STEPS).all(|at| {
+            let [before, now, after] = [at - 1, at, at + 1].map(places);
+            (0..2).all(|i| {
+                let bend = before[i] + after[i] - 2.0 * now[i];
+                bend.length() <= CALM * self.step * self.step
+            })
+        })
+    }
+
+    /// Takes so many steps as one.
+    fn step(&mut self, steps: i64, script: &MotionScript) -> Result<(), StageError> {
+        let end = self.time_of(self.done + steps);
+        self.stats = self.drive(end, script, |strands, scene, dt| strands.step(scene, dt))?;
+        self.done += steps;
+        self.taken += 1;
         Ok(())
     }
 

@@ -1,0 +1,43 @@
+//! The preset's motion script, with what it names.
+
+use crate::files::{Files, StageError};
+use crate::hair::Hair;
+use crate::load::chosen;
+use crate::motion::{self, Bone, MotionScript};
+use crate::preset::Preset;
+use crate::shapes;
+use hair_io::{BoneMotion, Mesh};
+use std::path::Path;
+
+/// What moves head, wind and hair; the hair is given its key shapes.
+pub(crate) fn load(
+    preset: &Preset,
+    files: &Files,
+    hair: &mut Hair,
+    mesh: Option<&Mesh>,
+) -> Result<MotionScript, StageError> {
+    let own = preset.motion.text("file");
+    let mut script = MotionScript::default();
+    if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
+        let text = std::fs::read_to_string(&path).map_err(|source| StageError::Read {
+            path: path.clone(),
+            source,
+        })?;
+        script = motion::parse(&path.display().to_string(), &text)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        hair.shapes = shapes::load(preset, &script, folder, hair, mesh)?;
+    }
+    let values = &preset.motion;
+    if let Some(name) = values.text("gltf") {
+        script.bone = Some(Bone {
+            motion: BoneMotion::read(
+                &files.preset_folder.join(name),
+                values.text("bone").unwrap_or("head"),
+                values.text("animation"),
+            )?,
+            repeats: values.choice("repeat") == 1,
+            head_height_m: f64::from(hair.head.height_m),
+        });
+    }
+    Ok(script)
+}
