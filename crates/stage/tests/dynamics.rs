@@ -54,6 +54,13 @@ fn farthest(a: &[Vec3], b: &[Vec3]) -> f32 {
     apart.fold(0.0, f32::max)
 }
 
+/// How far nine of ten strands are at most from where others have them, and how far all are, in m.
+fn nine_of_ten(a: &[Vec3], b: &[Vec3]) -> [f32; 2] {
+    let mut apart: Vec<f32> = a.iter().zip(b).map(|(a, b)| a.distance(*b)).collect();
+    apart.sort_by(f32::total_cmp);
+    [apart[apart.len() * 9 / 10], apart[apart.len() - 1]]
+}
+
 #[test]
 fn hair_at_rest_is_not_simulated() {
     let mut stage = scene("twin-tails.style.ron", None, &[]);
@@ -164,22 +171,23 @@ fn warm_up_is_before_the_first_frame() {
 
 #[test]
 fn the_solvers_for_comparison_do_nearly_the_same() {
-    let plain = [];
+    // They know no other hair.
+    let apart = [("dynamics.links", "0"), ("dynamics.volume", "0")];
     let style = "twin-tails.style.ron";
     let solver = |name, substeps| {
         let settings = [("dynamics.solver", name), ("dynamics.substeps", substeps)];
         scene(style, Some(TURN), &settings)
     };
-    let held = means(&mut solver("none", "0"), 0.5);
-    let wanted = means(&mut scene(style, Some(TURN), &plain), 0.5);
+    let held = means(&mut solver("none", "0"), 0.4);
+    let wanted = means(&mut scene(style, Some(TURN), &apart), 0.4);
     let mean = |a: &[Vec3], b: &[Vec3]| {
         a.iter().zip(b).map(|(a, b)| a.distance(*b)).sum::<f32>() / a.len() as f32
     };
     let swung = mean(&held, &wanted);
     // Trusses are not rods: hair swings as far, but not to the same places.
-    for (name, substeps, most) in [("xpbd", "200", 0.5), ("mass_spring", "4", 0.7)] {
+    for (name, substeps, most) in [("xpbd", "200", 0.25), ("mass_spring", "4", 0.4)] {
         let mut stage = solver(name, substeps);
-        let found = means(&mut stage, 0.5);
+        let found = means(&mut stage, 0.4);
         assert!(stage.simulated().strands > 50);
         let (far, apart) = (mean(&held, &found) / swung, mean(&wanted, &found) / swung);
         println!("{name}: swings {far:.2} of what rods do, {apart:.2} of it apart from them");
@@ -189,7 +197,7 @@ fn the_solvers_for_comparison_do_nearly_the_same() {
         );
         // The same again from the start.
         means(&mut stage, 0.0);
-        assert!(means(&mut stage, 0.5) == found);
+        assert!(means(&mut stage, 0.4) == found);
     }
 }
 
@@ -334,22 +342,20 @@ fn hair_off_screen_runs_at_a_lower_rate_and_does_not_pop() {
             assert!(now[0] == now[1], "frame {frame}");
         }
         if let Some([full, live]) = before.filter(|_| frame > away.end) {
-            fastest = fastest.max(farthest(&full, &now[0]));
-            fastest_live = fastest_live.max(farthest(&live, &now[1]));
+            fastest = fastest.max(nine_of_ten(&full, &now[0])[0]);
+            fastest_live = fastest_live.max(nine_of_ten(&live, &now[1])[0]);
         }
         if frame >= away.end {
-            let apart = now[0].iter().zip(&now[1]).map(|(a, b)| a.distance(*b));
-            let mut apart: Vec<f32> = apart.map(|apart| apart / head.height_m).collect();
-            apart.sort_by(f32::total_cmp);
-            most = most.max(apart[apart.len() * 9 / 10]);
-            farthest_off = farthest_off.max(apart[apart.len() - 1]);
+            let [nine, all] = nine_of_ten(&now[0], &now[1]);
+            most = most.max(nine / head.height_m);
+            farthest_off = farthest_off.max(all / head.height_m);
         }
         before = Some(now);
     }
     let speed = fastest_live / fastest;
     println!(
         "back: of ten strands nine within {most:.3} head heights of a full rate, all within {farthest_off:.3}; \
-         {speed:.2} times as fast"
+         nine move {speed:.2} times as fast"
     );
     assert!(most < 0.1 && farthest_off < 0.6, "{most} {farthest_off}");
     assert!(speed < 1.3, "{speed}");
