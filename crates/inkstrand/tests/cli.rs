@@ -326,6 +326,24 @@ fn files_that_a_preset_names_are_looked_for() {
 }
 
 #[test]
+fn scripts_that_a_preset_names_are_checked_too() {
+    let folder = folder();
+    let broken = "(\n    version: 1,\n    moves: [(move: nodd)],\n)";
+    fs::write(folder.path().join("nod.motion.ron"), broken).unwrap();
+    let hair = "hair: (file: \"small.strands.ron\"),";
+    let moving = PRESET.replace(hair, &format!("{hair} motion: (file: \"nod.motion.ron\"),"));
+    fs::write(folder.path().join("moving.ron"), moving).unwrap();
+    for file in ["moving.ron", "nod.motion.ron"] {
+        inkstrand(folder.path(), &["check", file])
+            .assert()
+            .code(1)
+            .stderr(contains(
+                "nod.motion.ron:3:20: move: there is no `nodd`, did you mean `nod`?",
+            ));
+    }
+}
+
+#[test]
 fn presets_from_any_editor_are_read() {
     let folder = folder();
     let marked = format!(
