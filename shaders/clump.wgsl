@@ -103,6 +103,7 @@ fn clump(joint: Inputs, params: Params) -> Clump {
         let gray = max(dot(joint.light_direction, normal), 0.0);
         color = params.color * (params.ambient + (1.0 - params.ambient) * gray);
     }
-    let section = flat_section(joint, max(radius, 0.0), normal, params.flatness);
+    // A root stands up from the scalp: moved, it would leave a gap.
+    let section = flat_section(joint, max(radius, 0.0), normal, params.flatness * from_root);
     return Clump(normal, section.radius, color, section.shift);
 }
