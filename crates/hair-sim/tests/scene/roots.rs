@@ -12,7 +12,7 @@ fn at(rotation: DQuat, translation: DVec3) -> Pose {
 
 #[test]
 fn an_even_acceleration_is_as_another_gravity() {
-    let p = hair_sim::Params {
+    let p = Params {
         drag: 0.0,
         damping: 0.3,
         ..params(30.0)

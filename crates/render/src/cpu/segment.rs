@@ -179,6 +179,9 @@ struct Strand<'a> {
     base: Option<(&'a Stroke, u32)>,
 }
 
+/// Discs and colours of a run, with their [`Segment::stroke`] and [`Segment::drawn_as`].
+type Drawn<'a> = (&'a [Disc], Option<&'a [[f32; 3]]>, (u32, u32));
+
 impl<'a> Strand<'a> {
     fn new(drawing: &'a Drawing, strokes: &'a [Stroke], runs: &'a [Run]) -> Self {
         let is_base = |&(stroke, _): &(&Stroke, u32)| {
@@ -196,8 +199,8 @@ impl<'a> Strand<'a> {
         }
     }
 
-    /// The discs and colours of what is drawn, in order, each with its [`Segment::stroke`] and [`Segment::drawn_as`].
-    fn parts(&self) -> impl Iterator<Item = (&'a [Disc], Option<&'a [[f32; 3]]>, (u32, u32))> {
+    /// What is drawn, in order.
+    fn parts(&self) -> impl Iterator<Item = Drawn<'a>> {
         let Self {
             drawing,
             strokes,

@@ -165,9 +165,7 @@ impl Iterator for Cells<'_> {
             self.row += 1;
             // Eight rows without samples are left behind at once.
             while self.row.is_multiple_of(LANES) {
-                let Some(rows) = self.mask.get(self.row..self.row + LANES) else {
-                    return None;
-                };
+                let rows = self.mask.get(self.row..self.row + LANES)?;
                 let mut any = 0;
                 for k in 0..LANES {
                     any |= rows[k];
