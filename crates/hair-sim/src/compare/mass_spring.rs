@@ -216,7 +216,7 @@ impl Zigzag {
         // A goal pulls at a particle of the strand with its own mass and that of those aside.
         let pull = |i: usize| {
             let k = i / 2 - 1;
-            let is_pulled = i % 2 == 0 && pulls[k - 1] > 0.0;
+            let is_pulled = i.is_multiple_of(2) && pulls[k - 1] > 0.0;
             is_pulled
                 .then(|| Pull::new(pulls[k - 1], goals_before[k], goals[k], acting.share, whole))
         };
@@ -248,7 +248,7 @@ impl Zigzag {
             } else {
                 before + velocities[i] * dt
             };
-            let is_strand = i >= HELD && i % 2 == 0;
+            let is_strand = i >= HELD && i.is_multiple_of(2);
             if is_strand {
                 let met = acting.keep_out(&mut points[i], before, self.thickness, self.friction);
                 if met > 0 {
