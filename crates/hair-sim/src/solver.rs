@@ -385,7 +385,7 @@ impl Solver {
         state: &'a State,
         strand: usize,
     ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
-        self.with_root(state, strand, |batch| (batch.root, &batch.y))
+        self.root_and_particles(state, strand, |batch| (batch.root, &batch.y))
     }
 
     /// The velocities of a strand's points in the world, root first, in m/s. The root's is that of its last step.
@@ -398,11 +398,11 @@ impl Solver {
         state: &'a State,
         strand: usize,
     ) -> impl ExactSizeIterator<Item = DVec3> + use<'a> {
-        self.with_root(state, strand, |batch| (batch.root_velocity, &batch.v))
+        self.root_and_particles(state, strand, |batch| (batch.root_velocity, &batch.v))
     }
 
     /// A vector of a strand's root, then its sums with those of the particles, which are against the root.
-    fn with_root<'a>(
+    fn root_and_particles<'a>(
         &self,
         state: &'a State,
         strand: usize,

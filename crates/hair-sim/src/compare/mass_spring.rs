@@ -248,7 +248,7 @@ impl Zigzag {
             } else {
                 before + velocities[i] * dt
             };
-            let is_strand = i >= HELD && i % 2 == 0;
+            let is_strand = i >= HELD && i.is_multiple_of(2);
             if is_strand {
                 let met = acting.keep_out(&mut points[i], before, self.thickness, self.friction);
                 if met > 0 {
