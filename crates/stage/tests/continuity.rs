@@ -166,7 +166,7 @@ fn clumps_come_from_nothing() {
 fn the_near_plane_cuts_without_a_jump() {
     // The nearest strand, all along at once.
     let range = [
-        ("camera.distance", [0.49, 0.475]),
+        ("camera.distance", [0.49, 0.4825]),
         ("clump.size", [0.5, 0.5]),
     ];
     let mut stages = stages(&range);

@@ -198,7 +198,7 @@ impl Entry {
     }
 }
 
-/// Times steps: [`STEPS`] of them in a row, as in a program that simulates, so that neither caches nor threads start cold in
+/// Times steps: 16 of them in a row, as in a program that simulates, so that neither caches nor threads start cold in
 /// each. Our strands' scenes with head, wind and other hair fail unless the counters of each timed step say that
 /// there were contacts, wind and links.
 ///
