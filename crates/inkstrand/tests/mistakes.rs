@@ -157,7 +157,7 @@ fn names() {
         ),
         ("clump: (", "Clump: ("),
         ("clump: (", "brush: ("),
-        ("clump: (size", "clump: (thickness"),
+        ("clump: (size", "clump: (bulk"),
         ("width: 2.4", "widht: 2.4"),
         ("width: 2.4", "width: 2.4, width: 3"),
         (

@@ -64,6 +64,7 @@ fn drawing_on(
         ("mix", "1"),
         ("mix_variation", "0"),
         ("shrink_start", "1"),
+        ("flatness", "0"),
     ];
     for (name, text) in plain.iter().chain(clump) {
         values.set_text("clump", name, text).unwrap();
