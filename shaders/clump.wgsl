@@ -1,4 +1,4 @@
-//! inputs: position, forward, backward, u, strand_mean, head_center, strand_size, light_direction, view_direction, seed, material_normal
+//! inputs: position, forward, backward, u, strand_mean, head_center, head_height, strand_size, light_direction, view_direction, seed, material_normal
 // The clump: what all layers share of a strand. Size 5.1 to 5.3, normal 5.4, basic colour.
 
 struct Params {
@@ -64,23 +64,22 @@ fn corrected_normal(joint: Inputs, params: Params) -> vec3<f32> {
     return unit_or(across + lost * perpendicular(joint.backward), perpendicular(joint.backward));
 }
 
-/// Seen along the strand a flat clump is an ellipse: as wide as the clump, and along the normal `flatness` less thick.
-/// What stands for it is the disc that lies to its outer end as the ellipse does, wider than the clump and moved
-/// towards the head. Seen from beside nothing is changed, so that hair loses no volume.
-struct Section {
-    radius: f32,
-    shift: vec3<f32>,
+/// Seen along the strand a flat clump is an ellipse: as wide as the clump, and along the normal `flatness` less thick. Its disc
+/// is moved towards the head, to lie to its outer end as the ellipse does; `clump_disc` adds the ellipse's sides. Seen
+/// from beside nothing is changed, so that hair loses no volume.
+fn flat_shift(joint: Inputs, radius: f32, normal: vec3<f32>, flatness: f32) -> vec3<f32> {
+    let along = dot(joint.forward, joint.view_direction);
+    return -radius * flatness * along * along * normal;
 }
 
-/// How much wider than the clump that disc may be; the ellipse itself is rounder at its sides.
-const WIDER: f32 = 0.5;
+/// Between these distances from the head's centre, in head heights, clumps become round: hair lies flat on the head, and hangs
+/// free farther out.
+const FLAT_TO: f32 = 0.65;
+const ROUND_FROM: f32 = 0.95;
 
-fn flat_section(joint: Inputs, radius: f32, normal: vec3<f32>, flatness: f32) -> Section {
-    let along = dot(joint.forward, joint.view_direction);
-    let end_on = along * along;
-    let wide = radius * (1.0 + WIDER * flatness * end_on * end_on);
-    let thick = radius * (1.0 - flatness);
-    return Section(wide, (thick - wide) * end_on * normal);
+fn lies_flat(joint: Inputs) -> f32 {
+    let away = length(joint.position - joint.head_center) / joint.head_height;
+    return 1.0 - smoothstep(FLAT_TO, ROUND_FROM, away);
 }
 
 fn clump(joint: Inputs, params: Params) -> Clump {
@@ -104,6 +103,7 @@ fn clump(joint: Inputs, params: Params) -> Clump {
         color = params.color * (params.ambient + (1.0 - params.ambient) * gray);
     }
     // A root stands up from the scalp: moved, it would leave a gap.
-    let section = flat_section(joint, max(radius, 0.0), normal, params.flatness * from_root);
-    return Clump(normal, section.radius, color, section.shift);
+    let flatness = params.flatness * from_root * lies_flat(joint);
+    let shift = flat_shift(joint, max(radius, 0.0), normal, flatness);
+    return Clump(normal, max(radius, 0.0), color, shift);
 }

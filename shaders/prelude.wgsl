@@ -178,6 +178,36 @@ fn feather_share(gray: f32, full: f32, edge: f32) -> f32 {
     return saturate((edge - gray) / (edge - full));
 }
 
+/// How flat a clump of `radius` looks that is moved by `shift` (`clump_shift`): 0 where it is seen from beside, up to 1 where a flat one
+/// is seen along the strand.
+fn flat_end(radius: f32, shift: vec2<f32>) -> f32 {
+    return saturate(length(shift) / max(radius, 1e-6));
+}
+
+/// Where a disc of radius `size` lies on the screen, against the clump's own, to touch the outer side of the ellipse that a flat
+/// clump is at its end. `place` is that across the clump, from -1 to 1, along the unit vector `across`.
+fn at_flat_end(place: f32, size: f32, across: vec2<f32>, radius: f32, shift: vec2<f32>) -> vec2<f32> {
+    let flat = flat_end(radius, shift);
+    let out = sqrt(max(1.0 - place * place, 0.0)) * (1.0 - flat) + flat;
+    return place * radius * across - (out * radius - size) / max(length(shift), 1e-6) * shift;
+}
+
+/// Disc `instance` of the three that a clump is made of, as place on the screen and radius. Seen from beside it is the clump's own
+/// alone. A flat clump that is seen along the strand is an ellipse, of which a wider one lies to the middle of the outer side, and
+/// one to each side of it: so clumps in a row have an even outline.
+fn clump_disc(instance: u32, radius: f32, shift: vec2<f32>) -> vec3<f32> {
+    let end = smoothstep(0.2, 0.7, flat_end(radius, shift));
+    var side = 0.0;
+    var size = (1.0 + 0.5 * end) * radius;
+    if (instance > 0u) {
+        side = select(1.0, -1.0, instance == 1u);
+        size = 0.5 * end * radius;
+    }
+    let across = vec2<f32>(-shift.y, shift.x) / max(length(shift), 1e-6);
+    let place = at_flat_end(0.62 * side, size, across, radius, shift);
+    return vec3<f32>(place.x, place.y, size);
+}
+
 /// The colour of a parameter that may be none, or `otherwise`.
 fn color_or(color: vec4<f32>, otherwise: vec3<f32>) -> vec3<f32> {
     if (color.w > 0.0) {

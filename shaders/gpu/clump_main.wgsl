@@ -11,5 +11,9 @@ fn gpu_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     let gray = max(dot(made.normal, gpu_light_direction(joint)), 0.0);
     let shift = vec2<f32>(dot(gpu_frame.right, made.shift), -dot(gpu_frame.up, made.shift));
     gpu_clumps[joint] = GpuClump(made.normal, made.radius, made.color, gray, shift);
-    gpu_discs[joint] = gpu_disc(joint, shift, made.radius, gpu_unit_px(joint), made.radius, 0.0);
+    for (var k = 0u; k < GPU_CLUMP_DISCS; k++) {
+        let part = clump_disc(k, made.radius, shift);
+        gpu_discs[k * gpu_frame.joints + joint] =
+            gpu_disc(joint, shift + vec2<f32>(part.x, part.y), part.z, gpu_unit_px(joint), made.radius, 0.0);
+    }
 }

@@ -163,5 +163,8 @@ fn open_specks(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups)
     gpu_discs[at].radius = min(radius * gpu_unit_px(joint), GPU_LARGEST_PX);
     if (gpu_words[GPU_HAS_OWN_PATHS] != 0u && group.z == 0u) {
         gpu_discs[joint] = gpu_discs[at];
+        for (var k = 1u; k < GPU_CLUMP_DISCS; k++) {
+            gpu_discs[k * gpu_frame.joints + joint].radius = 0.0;
+        }
     }
 }

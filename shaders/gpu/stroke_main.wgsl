@@ -30,6 +30,9 @@ fn gpu_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
         if (gpu_words[GPU_HAS_OWN_PATHS] != 0u && group.z == 0u) {
             // No strand's clump holds them: they are their own.
             gpu_discs[joint] = disc;
+            for (var k = 1u; k < GPU_CLUMP_DISCS; k++) {
+                gpu_discs[k * gpu_frame.joints + joint].radius = 0.0;
+            }
         }
     }
     gpu_discs[at] = disc;

@@ -46,6 +46,7 @@ pub const INPUTS: &[Input] = &[
     input("seed", "u32", true, true, "for `random`: a hash of style seed, layer name and strand"),
     input("strand_mean", "vec3<f32>", true, false, "mean of the strand's particles, metres (c_mean in 5.4)"),
     input("head_center", "vec3<f32>", true, false, "centre of the head, metres (c_head in 5.4)"),
+    input("head_height", "f32", true, false, "height of the head, metres"),
     input("strand_size", "f32", true, false, "the strand's full size, 1/300 of the head's height"),
     input("light_direction", "vec3<f32>", true, true, "unit vector to the light"),
     input("light_distance", "f32", true, true, "distance to the light, head heights; 1e6 for a direction"),

@@ -1,4 +1,4 @@
-//! inputs: clump_radius, clump_color
+//! inputs: clump_radius, clump_color, clump_shift
 
 struct Params {
     /// Factor on the clump's brightness; 1 leaves the basic colour as it is.
@@ -7,5 +7,6 @@ struct Params {
 }
 
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
-    return Stroke(vec2<f32>(0.0), joint.clump_radius, 0.0, joint.clump_color * params.brightness);
+    let disc = clump_disc(instance, joint.clump_radius, joint.clump_shift);
+    return Stroke(vec2<f32>(disc.x, disc.y), disc.z, 0.0, joint.clump_color * params.brightness);
 }

@@ -65,9 +65,16 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let share = without_hairlines(whole, basic, 0.5 * params.thinnest * joint.unit);
 
     let color = color_or(params.color, params.factor * joint.clump_color);
-    // Where hair turns away over the head its clump shows a round end, which strokes in a row would leave open:
-    // there the row bends to the end's shape.
+    let radius = share * basic * params.fullness;
+    let row = joint.clump_radius * place * joint.across;
+    // Where hair turns away over the head its clump is flat, and the row lies along the clump's outer side. There the path on the
+    // screen turns back, so that what is across it turns too: across the clump is across its shift.
+    let moved = joint.clump_shift;
+    let end = smoothstep(0.2, 0.7, flat_end(joint.clump_radius, moved));
+    let side = select(1.0, -1.0, dot(joint.forward, joint.view_direction) > 0.0);
+    let along_side = side * vec2<f32>(moved.y, -moved.x) / max(length(moved), 1e-6);
+    let at_end = at_flat_end(place, radius, along_side, joint.clump_radius, moved);
     let bend = (1.0 - 1.0 / f32(params.feathers)) * sqrt(max(1.0 - place * place, 0.0));
-    let offset = joint.clump_radius * place * joint.across - bend * joint.clump_shift;
-    return Stroke(offset, share * basic * params.fullness, 0.0, color);
+    let offset = mix(row - bend * moved, at_end, vec2<f32>(end));
+    return Stroke(offset, radius, 0.0, color);
 }

@@ -12,4 +12,8 @@ impl effects::StrokeEffect for Silhouette {
     const DOC: &'static str = "outlines; a larger depth_offset leaves only the outer boundary";
     const RANK: i32 = -100;
     const DEPTH_OFFSET: f32 = 0.05;
+
+    fn instances(_: &Params) -> u32 {
+        effects::CLUMP_DISCS
+    }
 }

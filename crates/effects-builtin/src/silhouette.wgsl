@@ -1,4 +1,4 @@
-//! inputs: clump_radius, unit, u
+//! inputs: clump_radius, clump_shift, unit, u
 
 struct Params {
     /// How far the line reaches past the clump.
@@ -19,6 +19,8 @@ struct Params {
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let whole = min(params.width * joint.unit, params.ratio * joint.clump_radius);
     let fade = select(1.0, smoothstep(0.0, params.root_fade, joint.u), joint.u < params.root_fade);
-    let width = whole * fade;
-    return Stroke(vec2<f32>(0.0), joint.clump_radius + width, 0.0, params.color);
+    let disc = clump_disc(instance, joint.clump_radius, joint.clump_shift);
+    // A side that is not there has no line.
+    let width = whole * fade * saturate(4.0 * disc.z / max(joint.clump_radius, 1e-6));
+    return Stroke(vec2<f32>(disc.x, disc.y), disc.z + width, 0.0, params.color);
 }

@@ -83,6 +83,7 @@ macro_rules! inputs {
                 // The clump's own.
                 strand_mean: Vec::new(),
                 head_center: Vec::new(),
+                head_height: Vec::new(),
                 strand_size: Vec::new(),
             }
         }

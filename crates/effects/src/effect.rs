@@ -121,6 +121,9 @@ pub trait AnyEffect: Send + Sync {
     fn program(&self, values: &Values) -> Box<dyn LayerProgram>;
 }
 
+/// How many discs a clump is made of: `clump_disc` in `shaders/prelude.wgsl`.
+pub const CLUMP_DISCS: u32 = 3;
+
 /// An effect with its parameters, ready to be evaluated.
 pub trait LayerProgram: Send + Sync {
     /// Strokes per strand, 1 or more.

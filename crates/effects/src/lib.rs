@@ -23,7 +23,7 @@ mod varied;
 pub mod wgsl;
 
 pub use color::{linear_from_srgb, parse_hex};
-pub use effect::{AnyEffect, LayerProgram, Parameters, Program, StrokeEffect};
+pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Parameters, Program, StrokeEffect};
 pub use joints::{InputSet, Joints, strand_seed};
 pub use layer::{Layer, Units, layer_seed};
 pub use param::{Param, ParamKind, Value, Values};

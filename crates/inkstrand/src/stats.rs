@@ -94,5 +94,6 @@ pub(crate) fn buffer_bytes(drawing: &Drawing) -> usize {
         .iter()
         .map(|l| size_of_val(l.discs.as_slice()) + size_of_val(l.colors.as_slice()))
         .sum();
-    surfaces + layers + size_of_val(drawing.runs.as_slice()) + size_of_val(drawing.clump.as_slice())
+    let clumps = size_of_val(drawing.clump.as_slice()) + size_of_val(drawing.sides.as_slice());
+    surfaces + layers + size_of_val(drawing.runs.as_slice()) + clumps
 }

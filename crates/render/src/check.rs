@@ -72,6 +72,16 @@ pub enum DrawError {
         /// The drawing's joints.
         joints: usize,
     },
+    /// There are sides of the clump for other joints than the drawing's.
+    #[error(
+        "there are {discs} discs at the clump's sides: there must be none, or two a joint ({joints} joints)"
+    )]
+    Sides {
+        /// How many there are.
+        discs: usize,
+        /// The drawing's joints.
+        joints: usize,
+    },
     /// A disc of the clump is no disc.
     #[error("clump, joint {joint}: {disc:?} is not a disc: {DISC_RULE}")]
     ClumpDisc {
@@ -157,6 +167,14 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     let joints = drawing.clump.len();
     if let Some(joint) = first_that_is_not(&drawing.clump, is_disc) {
         let disc = drawing.clump[joint];
+        return Err(DrawError::ClumpDisc { joint, disc });
+    }
+    let discs = drawing.sides.len();
+    if discs != 0 && discs != 2 * joints {
+        return Err(DrawError::Sides { discs, joints });
+    }
+    if let Some(index) = first_that_is_not(&drawing.sides, is_disc) {
+        let (joint, disc) = (index % joints, drawing.sides[index]);
         return Err(DrawError::ClumpDisc { joint, disc });
     }
     for layer in &drawing.layers {

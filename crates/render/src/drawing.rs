@@ -138,6 +138,9 @@ pub struct Drawing {
     pub runs: Vec<Run>,
     /// The clump of each strand: one disc a joint.
     pub clump: Vec<Disc>,
+    /// What the clump has to both sides where it is flat (`effects::wgsl::clump_disc`): one disc a joint for the one, then for the
+    /// other; empty where no clump has any.
+    pub sides: Vec<Disc>,
     /// The strokes, in the preset's order of layers.
     pub layers: Vec<LayerStrokes>,
     /// The head and its outline.

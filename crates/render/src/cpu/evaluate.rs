@@ -3,8 +3,8 @@
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
 use crate::frame::{FAR_LIGHT, Frame, seen_lengths};
 use effects::smooth::Smoother;
-use effects::wgsl::{Clump, Stroke, vec2, vec3};
-use effects::{InputSet, Joints, Layer, Units, clump, layer_seed};
+use effects::wgsl::{Clump, Stroke, clump_disc, vec2, vec3};
+use effects::{CLUMP_DISCS, InputSet, Joints, Layer, Units, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -45,12 +45,7 @@ impl Evaluator {
             joints: run.joints.clone(),
         }));
         drawing.clump.clear();
-        let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
-        let discs = radii.par_iter().zip(shifts).with_min_len(CHUNK).enumerate();
-        drawing.clump.par_extend(discs.map(|(i, (&radius, shift))| {
-            let shift = Vec2::new(shift.x, shift.y);
-            disc(frame, i, shift, radius, radius, 0.0)
-        }));
+        self.fill_clump_discs(frame, &mut drawing.clump, &mut drawing.sides);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for (layer, joints) in frame.layers.iter().zip(frame.layer_joints) {
@@ -62,8 +57,30 @@ impl Evaluator {
             if layer.program.has_own_paths() {
                 // No strand's clump holds them: they are their own.
                 drawing.clump[joints.clone()].copy_from_slice(&strokes.discs[joints.clone()]);
+                for side in drawing.sides.chunks_mut(frame.paths.len()) {
+                    side[joints.clone()].fill(NO_DISC);
+                }
             }
             drawing.layers.push(strokes);
+        }
+    }
+
+    /// The discs of all clumps, and those at their sides if any is flat.
+    fn fill_clump_discs(&self, frame: &Frame, clumps: &mut Vec<Disc>, sides: &mut Vec<Disc>) {
+        let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
+        let fill = |discs: &mut Vec<Disc>, instance| {
+            let joints = radii.par_iter().zip(shifts).with_min_len(CHUNK).enumerate();
+            discs.par_extend(joints.map(|(i, (&radius, &shift))| {
+                let [x, y, size] = clump_disc(instance, radius, shift).to_array();
+                let place = shift + vec2([x, y]);
+                disc(frame, i, Vec2::new(place.x, place.y), size, radius, 0.0)
+            }));
+        };
+        clumps.clear();
+        fill(clumps, 0);
+        sides.clear();
+        if shifts.iter().any(|&shift| shift != vec2([0.0; 2])) {
+            (1..CLUMP_DISCS).for_each(|instance| fill(sides, instance));
         }
     }
 
@@ -169,6 +186,8 @@ impl Evaluator {
         let center = vec3(frame.head.center.to_array());
         let centers = paths.position.iter().map(|_| center);
         fill(&mut joints.head_center, read.has("head_center"), centers);
+        let heights = paths.position.iter().map(|_| frame.head.height_m);
+        fill(&mut joints.head_height, read.has("head_height"), heights);
 
         let to_light = |point: &Vec3| frame.light.seen_from(*point);
         let directions = paths

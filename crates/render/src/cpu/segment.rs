@@ -5,6 +5,7 @@ use super::tile;
 use crate::drawing::{Disc, Drawing, Order, Run};
 use glam::DVec2;
 use rayon::prelude::*;
+use std::iter;
 use std::ops::Range;
 use stroke_path::sweep::{Brush, Circle, Sweep, visible_part};
 
@@ -175,8 +176,8 @@ struct Strand<'a> {
     drawing: &'a Drawing,
     strokes: &'a [Stroke],
     runs: &'a [Run],
-    /// The stroke that is the clump, disc for disc, and drawn with it.
-    base: Option<(&'a Stroke, u32)>,
+    /// The strokes that are the clump and its sides, disc for disc, and drawn with it; the number of the first.
+    base: Option<(&'a [Stroke], u32)>,
 }
 
 /// Discs and colours of a run, with their [`Segment::stroke`] and [`Segment::drawn_as`].
@@ -184,12 +185,15 @@ type Drawn<'a> = (&'a [Disc], Option<&'a [[f32; 3]]>, (u32, u32));
 
 impl<'a> Strand<'a> {
     fn new(drawing: &'a Drawing, strokes: &'a [Stroke], runs: &'a [Run]) -> Self {
-        let is_base = |&(stroke, _): &(&Stroke, u32)| {
-            stroke.rank >= 0 && runs.iter().all(|run| is_clump(drawing, stroke, run))
+        let is_base = |(strokes, _): &(&[Stroke], u32)| {
+            strokes[0].rank >= 0 && runs.iter().all(|run| is_clump(drawing, strokes, run))
         };
         let base = match drawing.order {
             Order::Shifted => None,
-            _ => strokes.iter().zip(1..).find(is_base),
+            _ => strokes
+                .windows(clumps(drawing).count())
+                .zip(1..)
+                .find(is_base),
         };
         Self {
             drawing,
@@ -208,14 +212,18 @@ impl<'a> Strand<'a> {
             base,
         } = *self;
         let has_clump = drawing.order != Order::Shifted;
-        let drawn_as = base.map_or(0, |(_, number)| number);
-        let clump = runs.iter().filter(move |_| has_clump).map(move |run| {
-            let colors = base.map(|(stroke, _)| {
-                &drawing.layers[stroke.layer].colors[joints_of(drawing, stroke, run)]
-            });
-            (&drawing.clump[run.joints.clone()], colors, (0, drawn_as))
+        let (base, drawn_as) = base.map_or((&[][..], 0), |(base, number)| (base, number));
+        let clumps = clumps(drawing).enumerate().filter(move |_| has_clump);
+        let clump = clumps.flat_map(move |(part, discs)| {
+            runs.iter().map(move |run| {
+                let colors = base.get(part).map(|stroke| {
+                    &drawing.layers[stroke.layer].colors[joints_of(drawing, stroke, run)]
+                });
+                (&discs[run.joints.clone()], colors, (0, drawn_as))
+            })
         });
-        let others = strokes.iter().zip(1..).filter(move |&(_, n)| n != drawn_as);
+        let as_clump = drawn_as..drawn_as + base.len() as u32;
+        let others = (strokes.iter().zip(1..)).filter(move |(_, n)| !as_clump.contains(n));
         let others = others.flat_map(move |(stroke, number)| {
             let layer = &drawing.layers[stroke.layer];
             runs.iter().map(move |run| {
@@ -272,12 +280,20 @@ fn joints_of(drawing: &Drawing, stroke: &Stroke, run: &Run) -> Range<usize> {
     first + run.joints.start..first + run.joints.end
 }
 
-/// Whether a stroke covers what the clump covers, disc for disc.
-fn is_clump(drawing: &Drawing, stroke: &Stroke, run: &Run) -> bool {
-    let discs = &drawing.layers[stroke.layer].discs[joints_of(drawing, stroke, run)];
-    let clump = &drawing.clump[run.joints.clone()];
+/// The discs of all clumps, then those of their sides.
+fn clumps(drawing: &Drawing) -> impl Iterator<Item = &[Disc]> {
+    let sides = drawing.sides.chunks(drawing.clump.len().max(1));
+    iter::once(&drawing.clump[..]).chain(sides)
+}
+
+/// Whether strokes of one layer cover what the clump and its sides cover, disc for disc.
+fn is_clump(drawing: &Drawing, strokes: &[Stroke], run: &Run) -> bool {
     let is_same = |(a, b): (&Disc, &Disc)| a.center == b.center && a.radius == b.radius;
-    discs.iter().zip(clump).all(is_same)
+    strokes.iter().zip(clumps(drawing)).all(|(stroke, clump)| {
+        let discs = &drawing.layers[stroke.layer].discs[joints_of(drawing, stroke, run)];
+        let is_here = stroke.layer == strokes[0].layer;
+        is_here && discs.iter().zip(&clump[run.joints.clone()]).all(is_same)
+    })
 }
 
 type Joint = (Disc, [f32; 3]);

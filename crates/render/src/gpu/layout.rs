@@ -2,7 +2,7 @@
 
 use crate::drawing::{Brush, Drawing};
 use crate::frame::{Frame, Light};
-use effects::InputSet;
+use effects::{CLUMP_DISCS, InputSet};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -188,7 +188,10 @@ impl JointLayout {
 
     /// The places in the record as WGSL constants. Of what isn't there the place is 0, which nobody reads.
     pub(super) fn constants(&self) -> String {
-        let mut text = format!("const GPU_JOINT_WORDS: u32 = {}u;\n", self.words);
+        let mut text = format!(
+            "const GPU_CLUMP_DISCS: u32 = {CLUMP_DISCS}u;\nconst GPU_JOINT_WORDS: u32 = {}u;\n",
+            self.words
+        );
         let mut next = 0;
         for (field, name, words) in FIELDS {
             let is_there = self.fields.contains(&field);

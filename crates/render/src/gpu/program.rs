@@ -146,6 +146,7 @@ fn input(name: &str, layout: &JointLayout) -> String {
         "seed" => "gpu_seed(joint)",
         "strand_mean" => "gpu_strand_mean(joint)",
         "head_center" => "gpu_frame.head_center",
+        "head_height" => "gpu_frame.head_height_m",
         "strand_size" => "bitcast<f32>(gpu_of_strand(joint, 4u))",
         "light_direction" => "gpu_light_direction(joint)",
         "light_distance" => "gpu_light_distance(joint)",

@@ -4,7 +4,7 @@ use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
 use super::program::LAYER_WORDS;
 use crate::drawing::{Disc, Drawing, Surface};
 use crate::frame::Frame;
-use effects::{InputSet, Layer, Units, layer_seed};
+use effects::{CLUMP_DISCS, InputSet, Layer, Units, layer_seed};
 use std::ops::Range;
 
 /// Words of a stroke's record in the tables.
@@ -73,7 +73,7 @@ impl SceneWords {
         self.disc_words.clear();
         let runs = frame.paths.runs.iter();
         let runs = runs.map(|run| (run.piece as u32, run.joints.clone()));
-        self.fill_chunks_and_tables(runs, &placed);
+        self.fill_chunks_and_tables(runs, &placed, frame.paths.len());
         self.fill_surfaces(&frame.surfaces);
     }
 
@@ -83,8 +83,12 @@ impl SceneWords {
         self.disc_words.clear();
         let joints = drawing.clump.len();
         let black = [0.0; 3];
-        (drawing.clump.iter()).for_each(|disc| push_disc(&mut self.disc_words, disc, black));
-        self.discs = joints;
+        let clumps = drawing.clump.iter().chain(&drawing.sides);
+        clumps.for_each(|disc| push_disc(&mut self.disc_words, disc, black));
+        self.discs = joints * CLUMP_DISCS as usize;
+        // Sides that there are none of have no size.
+        let words = self.discs * DISC_BYTES as usize / 4;
+        self.disc_words.resize(words, 0);
         let mut placed = Vec::new();
         for (layer, strokes) in drawing.layers.iter().enumerate() {
             placed.push(Placed {
@@ -102,7 +106,7 @@ impl SceneWords {
         placed.sort_by_key(|p| (p.rank, p.layer));
         let runs = drawing.runs.iter();
         let runs = runs.map(|run| (run.strand, run.joints.clone()));
-        self.fill_chunks_and_tables(runs, &placed);
+        self.fill_chunks_and_tables(runs, &placed, joints);
         self.fill_surfaces(&drawing.surfaces);
     }
 
@@ -123,7 +127,7 @@ impl SceneWords {
         self.clump.resize(LAYER_WORDS as usize, 0);
         self.clump.extend(frame.clump.source().words);
 
-        self.discs = frame.paths.len();
+        self.discs = frame.paths.len() * CLUMP_DISCS as usize;
         self.layers
             .resize_with(frame.layers.len(), Default::default);
         let mut placed = Vec::new();
@@ -172,7 +176,9 @@ impl SceneWords {
         &mut self,
         runs: impl Iterator<Item = (u32, Range<usize>)>,
         placed: &[Placed],
+        joints: usize,
     ) {
+        let clump_discs = CLUMP_DISCS as usize;
         // Runs that the same layers draw on share a list.
         let mut lists: Vec<Vec<bool>> = Vec::new();
         let mut last = None;
@@ -201,7 +207,7 @@ impl SceneWords {
 
         let strokes_in = |list: &[bool]| -> usize {
             let drawn = placed.iter().zip(list).filter(|(_, is_drawn)| **is_drawn);
-            1 + drawn.map(|(p, _)| p.instances as usize).sum::<usize>()
+            clump_discs + drawn.map(|(p, _)| p.instances as usize).sum::<usize>()
         };
         let counts: Vec<usize> = lists.iter().map(|list| strokes_in(list)).collect();
         let records_at = 2 * lists.len() + counts.iter().sum::<usize>();
@@ -213,8 +219,8 @@ impl SceneWords {
             list_at += count;
         }
         for list in &lists {
-            self.tables.push(record(0));
-            let mut number = 1;
+            self.tables.extend((0..clump_discs).map(record));
+            let mut number = clump_discs;
             for (p, is_drawn) in placed.iter().zip(list) {
                 let numbers = number..number + p.instances as usize;
                 number = numbers.end;
@@ -223,8 +229,10 @@ impl SceneWords {
                 }
             }
         }
-        // The clump's discs begin at the buffer's start.
-        self.tables.extend([0, 0, 0]);
+        // The clump's discs begin at the buffer's start, those of one side after those of the other.
+        for disc in 0..clump_discs {
+            self.tables.extend([(disc * joints) as u32, 0, 0]);
+        }
         let mut number = 0;
         for p in placed {
             for instance in 0..p.instances as usize {
