@@ -74,8 +74,8 @@ fn flat_shift(joint: Inputs, radius: f32, normal: vec3<f32>, flatness: f32) -> v
 
 /// Between these distances from the head's centre, in head heights, clumps become round: hair lies flat on the head, and hangs
 /// free farther out.
-const FLAT_TO: f32 = 0.65;
-const ROUND_FROM: f32 = 0.95;
+const FLAT_TO: f32 = 0.6;
+const ROUND_FROM: f32 = 0.8;
 
 fn lies_flat(joint: Inputs) -> f32 {
     let away = length(joint.position - joint.head_center) / joint.head_height;

@@ -48,7 +48,12 @@ struct Params {
 
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let place = feather_place(instance, params.feathers);
-    let basic = joint.clump_radius / f32(params.feathers);
+    // Where hair turns away over the head its clump is flat: there the row lies along the clump's outer side, and its strokes are
+    // wider, to cover the clump.
+    let moved = joint.clump_shift;
+    let end = smoothstep(0.2, 0.7, flat_end(joint.clump_radius, moved));
+    let narrow = 1.0 / f32(params.feathers);
+    let basic = joint.clump_radius * mix(narrow, max(narrow, 0.3), end);
 
     let across = params.roundness * place * cross(joint.forward, joint.view_direction);
     let normal = unit_or(joint.normal + across, joint.normal);
@@ -67,14 +72,11 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let color = color_or(params.color, params.factor * joint.clump_color);
     let radius = share * basic * params.fullness;
     let row = joint.clump_radius * place * joint.across;
-    // Where hair turns away over the head its clump is flat, and the row lies along the clump's outer side. There the path on the
-    // screen turns back, so that what is across it turns too: across the clump is across its shift.
-    let moved = joint.clump_shift;
-    let end = smoothstep(0.2, 0.7, flat_end(joint.clump_radius, moved));
+    // The path on the screen turns back there, and what is across it turns too: across the clump is across its shift.
     let side = select(1.0, -1.0, dot(joint.forward, joint.view_direction) > 0.0);
     let along_side = side * vec2<f32>(moved.y, -moved.x) / max(length(moved), 1e-6);
     let at_end = at_flat_end(place, radius, along_side, joint.clump_radius, moved);
-    let bend = (1.0 - 1.0 / f32(params.feathers)) * sqrt(max(1.0 - place * place, 0.0));
+    let bend = (1.0 - narrow) * sqrt(max(1.0 - place * place, 0.0));
     let offset = mix(row - bend * moved, at_end, vec2<f32>(end));
     return Stroke(offset, radius, 0.0, color);
 }
