@@ -80,18 +80,20 @@ fn strokes_grow_from_the_root() {
 }
 
 #[test]
-fn where_a_flat_clump_points_away_the_row_bends_to_its_outer_end() {
+fn where_a_flat_clump_points_away_the_row_lies_along_its_outer_side() {
     let mut joints = lit_joint(0.0, 20.0);
+    joints.forward = vec![vec3([0.0, 0.0, -1.0])];
+    joints.view_direction = vec![vec3([0.0, 0.0, 1.0])];
     joints.clump_shift = vec![vec2([0.0, 15.0])];
-    let offset = |instance: u32| cel(&joints, instance, &[]).offset;
-    let [edge, middle] = [0, 2].map(offset);
-    assert_eq!(
-        (middle.x, middle.y),
-        (0.0, -12.0),
-        "a stroke's width inside of the end"
-    );
-    assert_eq!(edge.x, 16.0);
-    assert!(edge.y < 0.0 && edge.y > middle.y);
+    for instance in 0..5 {
+        let stroke = cel(&joints, instance, &[]);
+        let place = 0.4 * (instance as f32 - 2.0);
+        assert!((stroke.offset.x.abs() - 20.0 * place.abs()).abs() < 1e-4);
+        // The ellipse is 5 thick, about an axis 15 above the disc's middle.
+        let outer = 15.0 + 5.0 * (1.0 - place * place).sqrt();
+        let reach = stroke.radius - stroke.offset.y;
+        assert!((reach - outer).abs() < 1e-4, "{instance}: {reach}, {outer}");
+    }
 }
 
 #[test]

@@ -15,6 +15,7 @@ fn joint(position: [f32; 3], backward: [f32; 3], u: f32) -> Joints {
         strand: vec![3],
         strand_mean: vec![vec3([0.0; 3])],
         head_center: vec![vec3([0.0; 3])],
+        head_height: vec![2.0],
         strand_size: vec![20.0],
         light_direction: vec![vec3([0.0, 1.0, 0.0])],
         ..Joints::default()
@@ -133,13 +134,26 @@ fn a_flat_clump_seen_along_the_strand_lies_inside_of_its_outer_end() {
     }
     for side in [1.0, -1.0] {
         let flat = seen_from([side, 0.0, 0.0], "0.8");
-        assert!(flat.radius > 20.0 && flat.shift.y < 0.0);
+        assert_eq!(flat.radius, 20.0);
         let outer_end = flat.shift.y + flat.radius;
         assert!(
             (outer_end - 0.2 * 20.0).abs() < 1e-4,
             "a fifth as thick: {outer_end}"
         );
     }
+}
+
+#[test]
+fn clumps_far_from_the_head_are_round() {
+    let shift = |away: f32| {
+        let mut joints = joint([0.0, away, 0.0], [1.0, 0.0, 0.0], 0.5);
+        joints.view_direction = vec![vec3([1.0, 0.0, 0.0])];
+        clump_with(&joints, &[]).shift.length().0
+    };
+    // The head is 2 high.
+    assert!(shift(1.0) > 5.0 && shift(1.0) == shift(1.2));
+    assert!(shift(1.4) > 0.0 && shift(1.4) < shift(1.2));
+    assert_eq!(shift(1.6), 0.0);
 }
 
 proptest! {

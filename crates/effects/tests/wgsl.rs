@@ -248,6 +248,37 @@ proptest! {
         }
     }
 
+    /// How far a clump's discs reach outwards, over its width, is as far as the ellipse does that they stand for.
+    #[test]
+    fn a_flat_clump_is_an_ellipse_outwards(flat in 0.0f32..=0.9, turn in 0.0f32..6.28, radius in 0.1f32..30.0) {
+        let out = vec2([turn.cos(), turn.sin()]);
+        let across = vec2([-out.y, out.x]);
+        let shift = vec2([-flat * radius * out.x, -flat * radius * out.y]);
+        let discs: Vec<_> = (0..effects::CLUMP_DISCS)
+            .map(|i| wgsl::clump_disc(i, radius, shift).to_array())
+            .map(|[x, y, size]| {
+                let place = vec2([x, y]) + shift;
+                [place.dot(across).0, place.dot(out).0, size].map(|v| v / radius)
+            })
+            .collect();
+        let reach = |x: f32| {
+            discs
+                .iter()
+                .filter(|[at, _, size]| (x - at).abs() <= *size)
+                .map(|[at, up, size]| up + (size * size - (x - at) * (x - at)).sqrt())
+                .fold(f32::NEG_INFINITY, f32::max)
+        };
+        // Where neighbours that overlap by a third hide the rest.
+        for x in [-0.75f32, -0.5, -0.3, -0.1, 0.0, 0.2, 0.4, 0.6, 0.75] {
+            let ellipse = (1.0 - flat) * (1.0 - x * x).sqrt();
+            let error = reach(x) - ellipse;
+            prop_assert!(error.abs() < 0.16, "{flat}, {x}: {error}");
+            if flat >= 0.7 {
+                prop_assert!(error.abs() < 0.05, "{flat}, {x}: {error}");
+            }
+        }
+    }
+
     #[test]
     fn perpendicular_is_across_and_unit(v in prop::array::uniform3(-1.0f32..1.0)) {
         let along = wgsl::unit_or(vec3(v), vec3([0.0, 0.0, 1.0]));

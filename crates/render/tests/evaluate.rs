@@ -184,7 +184,11 @@ fn what_faces_the_light_is_bright() {
     let [red, green, blue] = drawing.layers[0].colors[1];
     assert_near(red, 0.5 * sine);
     assert_eq!([green, blue], [red; 2]);
-    assert_eq!(drawing.layers[0].colors.len(), 4);
+    assert_eq!(
+        drawing.layers[0].colors.len(),
+        4 * 3,
+        "of the clump and its sides"
+    );
 }
 
 #[test]
@@ -212,7 +216,12 @@ fn a_layer_draws_on_its_own_paths_alone() {
     // As if the second strand were a path that the second layer made.
     let (drawing, _) = drawing_on(list, &[], 1, Brush::Circle, &[0..2, 2..4]);
     let radii = |layer: usize| drawing.layers[layer].discs.iter().map(|d| d.radius > 0.0);
-    assert_eq!(radii(0).collect::<Vec<_>>(), [true, true, false, false]);
+    let of_clump = radii(0).take(4).collect::<Vec<_>>();
+    assert_eq!(of_clump, [true, true, false, false]);
+    assert!(
+        !radii(0).skip(4).any(|is_drawn| is_drawn),
+        "no sides of round clumps"
+    );
     assert_eq!(radii(1).collect::<Vec<_>>(), [false, false, true, true]);
     assert_eq!(drawing.clump[..2], drawing.layers[0].discs[..2]);
     assert_eq!(drawing.clump[2..], drawing.layers[1].discs[2..]);

@@ -219,6 +219,7 @@ impl<'a> Strand<'a> {
                 let colors = base.get(part).map(|stroke| {
                     &drawing.layers[stroke.layer].colors[joints_of(drawing, stroke, run)]
                 });
+                let drawn_as = colors.map_or(0, |_| drawn_as + part as u32);
                 (&discs[run.joints.clone()], colors, (0, drawn_as))
             })
         });

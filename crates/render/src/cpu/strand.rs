@@ -125,16 +125,34 @@ impl StrandPlanes {
             });
         }
         if let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) {
-            let index = self.placed[clump.segments.start].segment;
-            let number = scene.segments[index as usize].drawn_as;
-            if number > 0 {
-                let base = Covered {
-                    number,
-                    segments: clump.segments.clone(),
-                    samples: clump.samples,
-                };
+            self.place_base(scene, clump.segments.clone(), open);
+        }
+    }
+
+    /// Adds the strokes that are the clump and its sides, whose segments these are.
+    #[inline(always)]
+    fn place_base(&mut self, scene: &Scene, segments: Range<usize>, open: &Mask) {
+        let drawn_as = |placed: &Placed| scene.segments[placed.segment as usize].drawn_as;
+        let mut first = segments.start;
+        while first < segments.end {
+            let number = drawn_as(&self.placed[first]);
+            let ahead = &self.placed[first..segments.end];
+            let part = ahead.partition_point(|placed| drawn_as(placed) <= number);
+            let mut samples = NO_SAMPLES;
+            for placed in &ahead[..part] {
+                for row in 0..ROWS {
+                    samples[row] |= placed.covered[row] & open[row];
+                }
+            }
+            let stroke = Covered {
+                number,
+                segments: first..first + part,
+                samples,
+            };
+            first += part;
+            if number > 0 && !is_empty(&stroke.samples) {
                 let place = self.strokes.partition_point(|s| s.number < number);
-                self.strokes.insert(place, base);
+                self.strokes.insert(place, stroke);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Every function of the shared prelude gives the same on a graphics card as in Rust.
 
 use crate::scene::{Numbers, driver_gpu};
-use effects::wgsl::{self, Vec3, vec3};
+use effects::wgsl::{self, Vec3, vec2, vec3};
 use render::gpu::Gpu;
 
 const PRELUDE: &str = include_str!("../../../../shaders/prelude.wgsl");
@@ -139,6 +139,32 @@ const CASES: &[Case] = &[
         rust: |v| {
             let hard = wgsl::feather_share(v[0], v[1], v[1]);
             [wgsl::feather_share(v[0], v[1], v[2]), hard, 0.0, 0.0]
+        },
+        tolerance: 1e-4,
+    },
+    Case {
+        name: "flat_end",
+        wgsl: "vec4<f32>(flat_end(abs(v.x), v.yz), 0.0, 0.0, 0.0)",
+        rust: |v| one(wgsl::flat_end(v[0].abs(), vec2([v[1], v[2]]))),
+        tolerance: 1e-5,
+    },
+    Case {
+        name: "at_flat_end",
+        wgsl: "vec4<f32>(at_flat_end(v.x, v.y, v.yx, 1.0 + v.w, vec2<f32>(v.z, 1.0)), 0.0, 0.0)",
+        rust: |v| {
+            let shift = vec2([v[2], 1.0]);
+            let across = vec2([v[1], v[0]]);
+            let place = wgsl::at_flat_end(v[0], v[1], across, 1.0 + v[3], shift);
+            [place.x, place.y, 0.0, 0.0]
+        },
+        tolerance: 1e-4,
+    },
+    Case {
+        name: "clump_disc",
+        wgsl: "vec4<f32>(clump_disc(u32(abs(v.x) * 3.0), 1.0 + v.y, vec2<f32>(v.z, 0.5)), 0.0)",
+        rust: |v| {
+            let instance = (v[0].abs() * 3.0) as u32;
+            three(wgsl::clump_disc(instance, 1.0 + v[1], vec2([v[2], 0.5])))
         },
         tolerance: 1e-4,
     },

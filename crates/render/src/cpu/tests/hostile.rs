@@ -71,6 +71,15 @@ fn layers_must_fit_their_joints() {
 }
 
 #[test]
+fn sides_are_two_a_joint() {
+    let text = after(|d| d.sides = d.clump.clone()).to_string();
+    assert_eq!(
+        text,
+        "there are 4 discs at the clump's sides: there must be none, or two a joint (4 joints)"
+    );
+}
+
+#[test]
 fn numbers_must_be_numbers() {
     for bad in [f32::NAN, f32::INFINITY, -f32::INFINITY] {
         let clump = |error| matches!(error, DrawError::ClumpDisc { joint: 2, .. });
@@ -79,6 +88,10 @@ fn numbers_must_be_numbers() {
         assert!(clump(after(|d| d.clump[2].radius = bad)));
         assert!(clump(after(|d| d.clump[2].inv_depth = bad)));
         assert!(clump(after(|d| d.clump[2].inv_depth_biased = bad)));
+        assert!(clump(after(|d| {
+            d.sides = [&d.clump[..], &d.clump[..]].concat();
+            d.sides[4 + 2].radius = bad;
+        })));
         let disc = |error| {
             matches!(
                 error,
@@ -210,6 +223,7 @@ proptest! {
             size,
             runs: vec![Run { strand: 0, joints: 0..1 }, Run { strand: 7, joints: 1..6 }],
             clump,
+            sides: discs.clone(),
             layers: vec![LayerStrokes { name: String::new(), rank, instances: 2, discs, colors }],
             surfaces: vec![surface],
             background: None,

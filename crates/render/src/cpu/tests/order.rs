@@ -226,27 +226,52 @@ fn any_layer(joints: usize) -> impl Strategy<Value = LayerStrokes> {
     })
 }
 
-/// Three strands, the second of two runs, with up to four layers.
+/// Three strands, the second of two runs, with up to five layers. Half of the drawings have clumps with sides; in half a layer draws
+/// just what the clumps cover.
 fn any_drawing() -> impl Strategy<Value = Drawing> {
     const JOINTS: usize = 12;
     let clump = proptest::collection::vec(any_disc(), JOINTS);
     let layers = proptest::collection::vec(any_layer(JOINTS), 1..4);
-    (clump, layers, 0..4_usize, any::<bool>()).prop_map(|(clump, layers, order, is_half)| Drawing {
-        size: [35, 27],
-        runs: [(2, 0..4), (3, 4..7), (3, 7..8), (9, 8..12)]
-            .map(|(strand, joints)| Run { strand, joints })
-            .to_vec(),
-        clump,
-        layers,
-        order: Order::ALL[order],
-        edge_depth_m: 0.3,
-        brush: if is_half {
-            Brush::Semicircle
-        } else {
-            Brush::Circle
+    let sides = proptest::collection::vec(any_disc(), 2 * JOINTS);
+    let colors = proptest::collection::vec([0.0..1.0_f32, 0.0..1.0, 0.0..1.0], 3 * JOINTS);
+    let options = (0..4_usize, any::<[bool; 3]>());
+    let parts = (clump, sides, colors, layers, options);
+    parts.prop_map(
+        |(clump, mut sides, mut colors, mut layers, (order, options))| {
+            let [is_half, has_sides, has_base] = options;
+            if !has_sides {
+                sides.clear();
+            }
+            if has_base {
+                let discs = [&clump[..], &sides].concat();
+                colors.truncate(discs.len());
+                layers.push(LayerStrokes {
+                    name: String::new(),
+                    rank: 0,
+                    instances: discs.len() / JOINTS,
+                    discs,
+                    colors,
+                });
+            }
+            Drawing {
+                size: [35, 27],
+                runs: [(2, 0..4), (3, 4..7), (3, 7..8), (9, 8..12)]
+                    .map(|(strand, joints)| Run { strand, joints })
+                    .to_vec(),
+                clump,
+                sides,
+                layers,
+                order: Order::ALL[order],
+                edge_depth_m: 0.3,
+                brush: if is_half {
+                    Brush::Semicircle
+                } else {
+                    Brush::Circle
+                },
+                ..Drawing::default()
+            }
         },
-        ..Drawing::default()
-    })
+    )
 }
 
 proptest! {
@@ -296,6 +321,9 @@ proptest! {
         let mut moved = drawing.clone();
         let joints = moved.clump.len();
         moved.clump.rotate_right(4);
+        for side in moved.sides.chunks_mut(joints) {
+            side.rotate_right(4);
+        }
         for layer in &mut moved.layers {
             for instance in layer.discs.chunks_mut(joints) {
                 instance.rotate_right(4);

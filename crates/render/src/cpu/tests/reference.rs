@@ -17,6 +17,16 @@ struct Touch {
     biased: f32,
 }
 
+impl Touch {
+    fn nearest(self, new: Self) -> Self {
+        Self {
+            inv_depth: self.inv_depth.max(new.inv_depth),
+            biased: self.biased.max(new.biased),
+            ..if new.ratio < self.ratio { new } else { self }
+        }
+    }
+}
+
 /// Draws the strands of a drawing; surfaces are left out.
 pub(super) fn draw(drawing: &Drawing, samples: u32) -> Picture {
     let [width, height] = drawing.size;
@@ -57,7 +67,12 @@ fn sample(drawing: &Drawing, position: DVec2, number: u32) -> Option<[f32; 3]> {
     for runs in strands {
         let strand = runs[0].strand;
         let no_colors = vec![[0.0; 3]; joints];
-        let clump = touch(runs, &drawing.clump, &no_colors, drawing.brush, position);
+        let sides = drawing.sides.chunks(joints);
+        let clump = [&drawing.clump[..]]
+            .into_iter()
+            .chain(sides)
+            .filter_map(|discs| touch(runs, discs, &no_colors, drawing.brush, position))
+            .reduce(Touch::nearest);
         let touches: Vec<(usize, i32, Touch)> = strokes
             .iter()
             .enumerate()
@@ -115,14 +130,7 @@ fn touch(
             let Some(new) = touch_segment(discs, colors, (a, b), brush, position) else {
                 continue;
             };
-            best = Some(match best {
-                None => new,
-                Some(old) => Touch {
-                    inv_depth: old.inv_depth.max(new.inv_depth),
-                    biased: old.biased.max(new.biased),
-                    ..if new.ratio < old.ratio { new } else { old }
-                },
-            });
+            best = Some(best.map_or(new, |old| old.nearest(new)));
         }
     }
     best
