@@ -174,7 +174,7 @@ fn drawing() -> impl Strategy<Value = Drawing> {
     (
         strokes,
         vec(surface(extent), 0..3),
-        (order, brush),
+        (order, brush, any::<bool>()),
         background,
         30..40u32,
         30..40u32,
@@ -183,7 +183,7 @@ fn drawing() -> impl Strategy<Value = Drawing> {
             |(
                 (strands, mut clump, mut layers),
                 surfaces,
-                ((order, edge_depth_m), brush),
+                ((order, edge_depth_m), brush, has_sides),
                 background,
                 width,
                 height,
@@ -215,10 +215,23 @@ fn drawing() -> impl Strategy<Value = Drawing> {
                         disc.inv_depth += 1e-3 * strand_of(index % joints) as f32;
                     }
                 }
+                let beside = |side: f32| {
+                    clump.iter().map(move |disc| Disc {
+                        center: disc.center + side * Vec2::new(4.0, 3.0),
+                        radius: 0.6 * disc.radius,
+                        ..*disc
+                    })
+                };
+                let sides = if has_sides {
+                    beside(-1.0).chain(beside(1.0)).collect()
+                } else {
+                    Vec::new()
+                };
                 Drawing {
                     size: [width, height],
                     runs,
                     clump,
+                    sides,
                     layers,
                     surfaces,
                     background,

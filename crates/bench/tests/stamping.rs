@@ -69,6 +69,7 @@ fn stamped(drawing: &Drawing, per_interval: usize) -> Drawing {
         surfaces: drawing.surfaces.clone(),
         background: drawing.background,
         order: Order::Shifted,
+        sides: Vec::new(),
         edge_depth_m: 0.0,
         brush: Brush::Circle,
     }

@@ -58,7 +58,8 @@ impl Painter {
         part.clone_from(&self.drawing);
         part.size = [size; 2];
         let layers = part.layers.iter_mut().flat_map(|layer| &mut layer.discs);
-        for disc in part.clump.iter_mut().chain(layers) {
+        let clumps = part.clump.iter_mut().chain(&mut part.sides);
+        for disc in clumps.chain(layers) {
             disc.center -= corner;
         }
         let surfaces = part.surfaces.iter_mut();

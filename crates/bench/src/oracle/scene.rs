@@ -160,9 +160,12 @@ impl Strand {
             }
         }
         strokes.sort_by_key(|stroke| Reverse(stroke.precedence));
+        let sides = drawing.sides.chunks(joints);
+        let clump = [&drawing.clump[..]].into_iter().chain(sides);
+        let clump = clump.flat_map(|discs| segments(runs, discs, &no_colors, drawing.brush));
         Self {
             number,
-            clump: segments(runs, &drawing.clump, &no_colors, drawing.brush),
+            clump: clump.collect(),
             strokes,
         }
     }

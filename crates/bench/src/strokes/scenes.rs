@@ -348,6 +348,7 @@ fn drawing(strands: impl Iterator<Item = (u32, Vec<Joint>)>, layers: &[LayerOf])
             .iter()
             .map(|joint| joint.disc(joint.radius, 0.0, 0.0))
             .collect(),
+        sides: Vec::new(),
         runs,
         surfaces: Vec::new(),
         background: None,

@@ -150,6 +150,7 @@ pub fn portrait(size: [u32; 2], order: Order) -> Drawing {
         surfaces: vec![head(&projection)],
         background: Some([0.8, 0.8, 0.75]),
         order,
+        sides: Vec::new(),
         edge_depth_m: 0.02,
         brush: Brush::Circle,
     }
