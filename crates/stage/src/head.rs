@@ -1,5 +1,6 @@
 //! The head on the screen: two flat tones and an outline.
 
+use crate::scalp;
 use glam::{Vec2, Vec3};
 use groom::{Ink, Patch, Tie};
 use hair_io::Mesh;
@@ -14,11 +15,18 @@ pub(crate) struct HeadModel {
     /// Shadow whatever the light, one a position, 0 to 1; empty is none.
     pub shade: Vec<f32>,
     pub patches: Vec<Patch>,
+    /// Triangles that have hair, and those that have none; both empty where that is not told apart.
+    pub scalp: [Vec<[u32; 3]>; 2],
     /// The bands that gather the hair on it.
     pub ties: Mesh,
 }
 
 impl HeadModel {
+    /// Tells what of it has hair from what has none.
+    pub(crate) fn find_scalp(&mut self, roots: &[Vec3], reach_m: f32) {
+        self.scalp = scalp::split(&self.mesh, roots, reach_m);
+    }
+
     /// Puts bands into the hair on it.
     pub(crate) fn add_ties(&mut self, ties: &[Tie]) {
         for ring in ties.iter().map(Tie::ring) {
@@ -42,6 +50,7 @@ impl HeadModel {
             mesh,
             shade: bust.shade,
             patches: bust.patches,
+            scalp: Default::default(),
             ties: no_mesh(),
         }
     }
@@ -53,6 +62,7 @@ impl From<Mesh> for HeadModel {
             mesh,
             shade: Vec::new(),
             patches: Vec::new(),
+            scalp: Default::default(),
             ties: no_mesh(),
         }
     }
@@ -76,6 +86,8 @@ pub(crate) struct HeadPaint {
     pub iris_shadow: [f32; 3],
     pub tie: [f32; 3],
     pub tie_shadow: [f32; 3],
+    /// Between clumps of hair.
+    pub scalp: [f32; 3],
     /// Width of the outline in metres; 0 is none.
     pub width_m: f32,
     /// How much nearer than the head's inside hair must be to be seen through an opening, metres.
@@ -127,6 +139,7 @@ pub(crate) fn surfaces(
         mesh,
         shade,
         patches,
+        scalp: [scalp, skin],
         ties,
     } = model;
     let shade = shade.iter().copied().chain(repeat(0.0));
@@ -140,10 +153,14 @@ pub(crate) fn surfaces(
             tone: normal.dot(light.seen_from(*position).0) - paint.threshold - shade,
         })
         .collect();
+    let skin = match scalp.is_empty() {
+        true => &mesh.triangles,
+        false => skin,
+    };
     let mut surfaces = vec![
         surface(
             camera,
-            &mesh.triangles,
+            skin,
             &corners,
             Facing::Front,
             paint.light,
@@ -161,6 +178,10 @@ pub(crate) fn surfaces(
             )
         },
     ];
+    if !scalp.is_empty() {
+        let (front, color) = (Facing::Front, paint.scalp);
+        surfaces.push(surface(camera, scalp, &corners, front, color, color));
+    }
     if paint.width_m > 0.0 {
         surfaces.push(Surface {
             margin_m: -paint.outline_margin_m,
@@ -366,6 +387,7 @@ mod tests {
         iris_shadow: [0.1; 3],
         tie: [0.2, 0.4, 0.6],
         tie_shadow: [0.1, 0.2, 0.3],
+        scalp: [0.4, 0.2, 0.1],
         width_m: 0.01,
         inside_margin_m: 0.05,
         outline_margin_m: 0.01,

@@ -14,6 +14,7 @@ mod neck;
 mod part;
 mod preset;
 mod reach;
+mod scalp;
 mod scene;
 mod script;
 mod shapes;

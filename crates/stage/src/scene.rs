@@ -13,7 +13,7 @@ use crate::preset::Preset;
 use crate::reach::{may_see, reach_m};
 use crate::script;
 use effects::wgsl::hash;
-use effects::{HairStrand, Layer, MadePaths, Values, Varied, clump, layer_seed};
+use effects::{HairStrand, Layer, MadePaths, Parameters, Values, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use std::ops::Range;
@@ -107,6 +107,12 @@ impl Stage {
         let script = script::load(preset, files, &mut hair, mesh)?;
         if let Some(model) = &mut model {
             model.add_ties(&hair.ties);
+            let reach = preset.head.number("scalp");
+            // A style's own coat lies there.
+            if reach > 0.0 && hair.undercoat == 0 {
+                let roots: Vec<Vec3> = hair.file.strands.roots().collect();
+                model.find_scalp(&roots, reach * head.height_m);
+            }
         }
         let strands = load::keep_guides(preset, &mut hair);
         load::bake(preset, files, &mut hair)?;
@@ -510,6 +516,7 @@ impl Settings {
                 iris_shadow: paint.color("iris_shadow"),
                 tie: paint.color("tie"),
                 tie_shadow: paint.color("tie_shadow"),
+                scalp: clump::Program::params(&preset.clump).color.to_array(),
                 width_m: paint.number("width") * head.unit_m(),
                 inside_margin_m: INSIDE_MARGIN * head.height_m,
                 outline_margin_m: OUTLINE_MARGIN * head.height_m,

@@ -84,6 +84,13 @@ pub const HEAD: &[Param] = &[
         "B8B8CC",
     ),
     number(
+        "scalp",
+        "How far around roots the head has the hair's basic colour, so that gaps between clumps are no bald spots; 0 is nowhere. Hair styles that have an undercoat don't need it.",
+        "head heights",
+        0.0..=1.0,
+        0.05,
+    ),
+    number(
         "width",
         "Width of the outline; 0 is none.",
         "1/300 head height",
