@@ -192,7 +192,6 @@ impl Lane {
 
 impl Mask {
     pub(crate) const NONE: Self = Self([0; LANES]);
-    pub(crate) const ALL: Self = Self([u64::MAX; LANES]);
 
     #[inline(always)]
     pub(crate) fn new(set: [bool; LANES]) -> Self {

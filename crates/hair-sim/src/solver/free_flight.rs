@@ -53,7 +53,7 @@ impl Flight {
         batch.links[0].twist[0] = stiffness;
         batch.links[1].twist[0] = stiffness;
         // With a goal that doesn't pull: what drives a strand may give it energy, and a goal might.
-        batch.has_goal = Mask::ALL;
+        batch.has_goal = Mask::NONE.not();
 
         let batch = &mut state.batches[0];
         let (mut before, mut velocity) = (DVec3::ZERO, DVec3::ZERO);
