@@ -23,12 +23,9 @@ const CREEP: f64 = 5e-4;
 /// Bodies nearer than this, in m, are prepared for, whether or not the free motion meets them.
 const NEAR: f64 = 2e-3;
 
-/// A particle closer to the surface than this, in m, touches it.
-const TOUCH: f64 = 1e-6;
-
-/// A particle that a stage's answer leaves behind a plane by less than this, in m, waits for the next step, which starts with the
-/// plane: half the radius of a hair.
-const PASSED: f64 = 2e-5;
+/// A particle closer to the surface than this, in m, touches it, and one that a stage's answer leaves behind a plane by less waits
+/// for the next step, which starts with the plane: half the radius of a hair.
+const TOUCH: f64 = 2e-5;
 
 /// A plane that holds a particle.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +69,7 @@ impl Contact {
     /// Where a stage's answer `y` is behind the plane.
     #[inline(always)]
     pub(crate) fn passed(&self, y: Vec3, level: Lane) -> Mask {
-        self.newly_below(y, level - Lane::splat(PASSED))
+        self.newly_below(y, level - Lane::splat(TOUCH))
     }
 
     /// In the lanes where it did not hold.
