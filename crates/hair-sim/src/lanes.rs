@@ -192,11 +192,14 @@ impl Lane {
 
 impl Mask {
     pub(crate) const NONE: Self = Self([0; LANES]);
-    pub(crate) const ALL: Self = Self([u64::MAX; LANES]);
 
     #[inline(always)]
     pub(crate) fn new(set: [bool; LANES]) -> Self {
-        Self(set.map(|b| if b { u64::MAX } else { 0 }))
+        let mut out = [0; LANES];
+        for i in 0..LANES {
+            out[i] = if set[i] { u64::MAX } else { 0 };
+        }
+        Self(out)
     }
 
     #[inline(always)]
@@ -206,7 +209,11 @@ impl Mask {
 
     #[inline(always)]
     pub(crate) fn bools(self) -> [bool; LANES] {
-        self.0.map(|b| b != 0)
+        let mut out = [false; LANES];
+        for i in 0..LANES {
+            out[i] = self.0[i] != 0;
+        }
+        out
     }
 
     #[inline(always)]
@@ -216,7 +223,7 @@ impl Mask {
 
     #[inline(always)]
     pub(crate) fn count(self) -> usize {
-        self.0.iter().filter(|&&b| b != 0).count()
+        self.0.iter().map(|b| b & 1).sum::<u64>() as usize
     }
 
     /// `yes` where set, else `no`.

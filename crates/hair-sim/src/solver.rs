@@ -109,6 +109,8 @@ fn follow(
 pub struct State {
     /// Seconds since the start.
     time: f64,
+    /// The length of the last step in s; 0 before the first.
+    last_dt: f64,
     /// What acted in the last step: where it stays the same, strands can come to rest.
     last: u64,
     batches: Vec<BatchState>,
@@ -203,6 +205,7 @@ impl Solver {
             .collect();
         let state = State {
             time: 0.0,
+            last_dt: 0.0,
             last: 0,
             batches: states,
         };
@@ -275,7 +278,7 @@ impl Solver {
     ) -> Result<Stats, DynamicsError> {
         self.check(state, scene, dt)?;
         let instructions = self.instructions;
-        let gusts = [GAMMA, 1.0].map(|share| scene.wind.at(state.time + share * dt));
+        let gusts = [GAMMA, 1.0].map(|share| scene.wind_at(share).at(state.time + share * dt));
         let acting = scene.fingerprint();
         let calm = acting == state.last && self.hair.is_none() && scene.is_calm();
         state.last = acting;
@@ -286,10 +289,18 @@ impl Solver {
         }
         let hair = self.hair.as_ref();
         let (first_points, guards) = (&self.first_points, &self.guards);
+        let since_last = 0.5
+            * (dt
+                + if state.last_dt > 0.0 {
+                    state.last_dt
+                } else {
+                    dt
+                });
         let step = |index: usize, batch: &Batch, state: &mut BatchState, scratch: &mut Scratch| {
             let (root, base) = roots(batch, scene);
             let drive = Drive {
                 dt,
+                since_last,
                 scene,
                 guards,
                 gusts: &gusts,
@@ -326,6 +337,7 @@ impl Solver {
                 .reduce(Stats::default, Stats::plus)
         };
         state.time += dt;
+        state.last_dt = dt;
         Ok(sum)
     }
 

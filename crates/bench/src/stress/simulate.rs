@@ -162,6 +162,7 @@ impl<'a> Run<'a> {
             acceleration: self.case.acceleration(index),
             gravity: frame.gravity,
             wind: frame.wind,
+            wind_before: None,
             colliders: &colliders,
             goal: goal.as_deref(),
         };

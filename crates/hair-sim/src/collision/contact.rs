@@ -23,8 +23,9 @@ const CREEP: f64 = 5e-4;
 /// Bodies nearer than this, in m, are prepared for, whether or not the free motion meets them.
 const NEAR: f64 = 2e-3;
 
-/// A particle closer to the surface than this, in m, touches it.
-const TOUCH: f64 = 1e-6;
+/// A particle closer to the surface than this, in m, touches it, and one that a stage's answer leaves behind a plane by less waits
+/// for the next step, which starts with the plane: half the radius of a hair.
+const TOUCH: f64 = 2e-5;
 
 /// A plane that holds a particle.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +42,8 @@ pub(crate) struct Contact {
     pub flow: Vec3,
     /// Rate of friction in 1/s.
     pub slip: Lane,
+    /// The pressure of the last step in m/s^2.
+    pub press: Lane,
 }
 
 impl Contact {
@@ -52,15 +55,29 @@ impl Contact {
         end: Lane::ZERO,
         flow: Vec3::ZERO,
         slip: Lane::ZERO,
+        press: Lane::ZERO,
     };
 
-    /// Where the plane holds a particle at `y`, in the lanes of `among` where it did not hold.
+    /// Where a stage of length `d` had better start with the plane: without the pressure of the last step, the predicted `y`
+    /// would be behind it (the primal-dual active set of Hintermüller et al. 2003).
     #[inline(always)]
-    pub(crate) fn newly_below(&self, y: Vec3, level: Lane, among: Mask) -> Mask {
+    pub(crate) fn expected(&self, y: Vec3, level: Lane, d: Lane) -> Mask {
+        let fall = self.press * d * d;
+        self.newly_below(y, level + fall)
+    }
+
+    /// Where a stage's answer `y` is behind the plane.
+    #[inline(always)]
+    pub(crate) fn passed(&self, y: Vec3, level: Lane) -> Mask {
+        self.newly_below(y, level - Lane::splat(TOUCH))
+    }
+
+    /// In the lanes where it did not hold.
+    #[inline(always)]
+    fn newly_below(&self, y: Vec3, level: Lane) -> Mask {
         let half = Lane::splat(0.5);
         (self.on.gt(half))
             .and(self.holds.lt(half))
-            .and(among)
             .and(self.normal.dot(y).lt(level))
     }
 
@@ -213,6 +230,7 @@ pub(crate) fn detect<T: Number>(
             let mid = s0 + (s1 - s0) * course.gamma;
             let flow = (s1 - s0) / dt;
             contact.on[lane] = 1.0;
+            contact.press[lane] = state.press[k][lane];
             contact.normal.set(lane, normal);
             contact.mid[lane] = normal.dot(mid);
             contact.end[lane] = normal.dot(s1);

@@ -169,7 +169,7 @@ impl Rod {
             };
         }
         // In the middle of the step.
-        let gusts = scene.wind.at(self.time + 0.5 * dt);
+        let gusts = scene.wind_at(0.5).at(self.time + 0.5 * dt);
         self.time += dt;
         let goals = self.goals_at(scene, head);
         let mut stats = Stats {

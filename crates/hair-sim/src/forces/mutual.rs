@@ -135,10 +135,10 @@ pub(crate) fn act<T: Number>(
     for (pair, broken) in pairs.iter().zip(broken) {
         let others = pair.other.map(|other| &courses[other as usize]);
         let y = own.y[pair.at].load::<T>();
-        let before = gather(others.map(|o| o.before)) - own.root_before.load();
+        let before = gather(|lane| &others[lane].before) - own.root_before.load();
         let a = own.a[pair.at].load::<T>();
         let a = Vec3::choose(T::condition(&own.known), a, Vec3::zero());
-        let now = gather(others.map(|o| o.now)) - own.root_now.load();
+        let now = gather(|lane| &others[lane].now) - own.root_now.load();
         let apart = before - y;
         let size = apart.length_squared().sqrt();
         let length = size.store();
@@ -155,18 +155,9 @@ pub(crate) fn act<T: Number>(
         if holds.any() {
             let offset = own.frames[pair.at].load().rotate(pair.offset.load());
             let stiffness = T::choose(T::condition(&holds), T::splat(mutual.link), T::splat(0.0));
-            let mut spring = springs[pair.at].load();
             let a = a * link;
-            let now = now + a * half_square;
-            spring.pull(
-                stiffness,
-                before - offset,
-                now - offset,
-                a,
-                own.gamma,
-                own.dt,
-            );
-            springs[pair.at] = spring.store();
+            let (before, now) = (before - offset, now + a * half_square - offset);
+            springs[pair.at].pull(stiffness, before, now, a, own.gamma, own.dt);
         }
 
         let keep = pair.length.min(Lane::splat(mutual.distance));
@@ -179,22 +170,19 @@ pub(crate) fn act<T: Number>(
             let pushes = close.and(length.gt(Lane::splat(1e-9)));
             let push = T::splat(mutual.repulsion);
             let stiffness = T::choose(T::condition(&pushes), push, T::splat(0.0));
-            let mut spring = springs[pair.at].load();
             let a = a * repulsion;
-            let now = now + a * half_square;
-            spring.pull(stiffness, before - away, now - away, a, own.gamma, own.dt);
-            springs[pair.at] = spring.store();
+            let (before, now) = (before - away, now + a * half_square - away);
+            springs[pair.at].pull(stiffness, before, now, a, own.gamma, own.dt);
         }
     }
     counts
 }
 
-/// The vectors of four strands side by side.
+/// The vectors of the batch's strands side by side.
 #[inline(always)]
-fn gather<T: Number>(each: [DVec3; LANES]) -> Vec3<T> {
-    Vec3::new(
-        Lane(each.map(|v| v.x)).load(),
-        Lane(each.map(|v| v.y)).load(),
-        Lane(each.map(|v| v.z)).load(),
-    )
+fn gather<'a, T: Number>(of: impl Fn(usize) -> &'a DVec3) -> Vec3<T> {
+    let lanes = |coordinate: fn(&DVec3) -> f64| {
+        Lane(std::array::from_fn(|lane| coordinate(of(lane)))).load()
+    };
+    Vec3::new(lanes(|v| v.x), lanes(|v| v.y), lanes(|v| v.z))
 }

@@ -35,10 +35,10 @@ impl Spring {
     };
 }
 
-impl<T: Number> Spring<T> {
+impl Spring {
     /// Adds a spring to a place that moves from `before` to `now` within `dt` under an even `acceleration`, damped critically.
     #[inline(always)]
-    pub(crate) fn pull(
+    pub(crate) fn pull<T: Number>(
         &mut self,
         stiffness: T,
         before: Vec3<T>,
@@ -50,14 +50,18 @@ impl<T: Number> Spring<T> {
         let way = now - before;
         let gain = acceleration * dt;
         let mid = before + way * gamma - gain * (0.5 * gamma * (1.0 - gamma) * dt);
-        self.stiffness = self.stiffness + stiffness;
-        self.mid += mid.scale(stiffness);
-        self.end += now.scale(stiffness);
         let root = stiffness.sqrt();
         let rate = root + root;
-        self.rate = self.rate + rate;
         let velocity = way * (1.0 / dt);
-        self.flow_mid += (velocity + gain * (gamma - 0.5)).scale(rate);
-        self.flow_end += (velocity + gain * 0.5).scale(rate);
+        let flow_mid = velocity + gain * (gamma - 0.5);
+        let flow_end = velocity + gain * 0.5;
+        // Number by number: the whole spring has no room in registers.
+        self.stiffness = (self.stiffness.load::<T>() + stiffness).store();
+        self.rate = (self.rate.load::<T>() + rate).store();
+        let add = |sum: &mut Vec3, more: Vec3<T>| *sum = (sum.load::<T>() + more).store();
+        add(&mut self.mid, mid.scale(stiffness));
+        add(&mut self.end, now.scale(stiffness));
+        add(&mut self.flow_mid, flow_mid.scale(rate));
+        add(&mut self.flow_end, flow_end.scale(rate));
     }
 }

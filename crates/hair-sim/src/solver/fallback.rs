@@ -5,7 +5,10 @@
 //! (Kane et al. 2000; Martin et al. 2011). Every accepted step lowers it, so the shape is always finite and
 //! the motion loses energy.
 
-use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
+use crate::{
+    collision::contact::Contact,
+    lanes::{LANES, Lane, Mask, Number, Quat, Vec3},
+};
 
 use super::{
     batch::{Batch, BatchState, Reason, Scratch},
@@ -69,7 +72,8 @@ pub(super) fn step(
     minimise(scratch, which);
     if !scratch.touched.is_empty() {
         // Planes that the strand met on the way.
-        let met = hold(batch, scratch, h, Which::Trial, which);
+        let passed = |contact: &Contact, y, level| contact.passed(y, level).and(which);
+        let met = hold(batch, scratch, h, Which::Trial, passed);
         minimise(scratch, met);
     }
     take(batch, state, scratch, which, drive.dt);

@@ -53,7 +53,7 @@ impl Flight {
         batch.links[0].twist[0] = stiffness;
         batch.links[1].twist[0] = stiffness;
         // With a goal that doesn't pull: what drives a strand may give it energy, and a goal might.
-        batch.has_goal = Mask::ALL;
+        batch.has_goal = Mask::NONE.not();
 
         let batch = &mut state.batches[0];
         let (mut before, mut velocity) = (DVec3::ZERO, DVec3::ZERO);
@@ -121,5 +121,5 @@ fn a_strand_that_flies_freely_keeps_its_momentum_as_steps_get_finer() {
         assert!(pair[1][0] < 0.5 * pair[0][0], "{errors:?}");
         assert!(pair[1][1] < 0.1 * pair[0][1], "{errors:?}");
     }
-    assert!(errors[2][0] < 1e-4 && errors[2][1] < 1e-5, "{errors:?}");
+    assert!(errors[2][0] < 4e-5 && errors[2][1] < 5e-6, "{errors:?}");
 }

@@ -13,6 +13,7 @@
 //! one iteration is almost always enough.
 
 use crate::{
+    collision::contact::Contact,
     forces::{mutual::Counts, wind::Gusts},
     lanes::{Lane, Mask, Number, Quat, Sym3, Vec3},
 };
@@ -332,7 +333,8 @@ pub(super) fn assemble(
         for &k in &scratch.touched {
             scratch.contacts[k].holds = Lane::ZERO;
         }
-        hold(batch, scratch, stage.length, which, Mask::ALL);
+        let expected = |contact: &Contact, y, level| contact.expected(y, level, stage.length);
+        hold(batch, scratch, stage.length, which, expected);
     }
 }
 
@@ -436,13 +438,15 @@ fn spring<T: Number>(batch: &Batch, scratch: &mut Scratch, length: Lane, which: 
     }
 }
 
-/// Lets the planes hold particles that are behind them, in the strands of `among`. Returns the strands where any is new.
+/// Lets planes hold particles from now on, in the strands where `holds` says so of a plane, a particle and the plane's
+/// level in the stage. Returns the strands where any is new.
+#[inline(always)]
 pub(super) fn hold(
     batch: &Batch,
     scratch: &mut Scratch,
     d: Lane,
     which: Which,
-    among: Mask,
+    holds: impl Fn(&Contact, Vec3, Lane) -> Mask,
 ) -> Mask {
     let mut new = Mask::NONE;
     for i in 0..scratch.touched.len() {
@@ -453,12 +457,12 @@ pub(super) fn hold(
         } else {
             contact.end
         };
-        let below = contact.newly_below(scratch.shape(which).y[k], level, among);
-        if below.any() {
+        let here = holds(contact, scratch.shape(which).y[k], level);
+        if here.any() {
             let mass = batch.particles[k].mass;
             let free = scratch.free_y[k];
-            scratch.contacts[k].hold(&mut scratch.nodes[k], below, mass, level, d, free);
-            new = new.or(below);
+            scratch.contacts[k].hold(&mut scratch.nodes[k], here, mass, level, d, free);
+            new = new.or(here);
         }
     }
     new
@@ -495,7 +499,9 @@ fn solve(
         let broken = largest.is_finite().not();
         *failed = failed.or(broken.and(open));
         let done = small.or(broken);
-        let met = hold(batch, scratch, setup.length, which, open.and(broken.not()));
+        let among = open.and(broken.not());
+        let passed = |contact: &Contact, y, level| contact.passed(y, level).and(among);
+        let met = hold(batch, scratch, setup.length, which, passed);
         open = open.and(done.not()).or(met);
     }
     *failed = failed.or(open);

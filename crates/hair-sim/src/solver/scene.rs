@@ -104,12 +104,14 @@ pub struct Scene<'a> {
     /// Where the roots are at the end of the step.
     pub roots: Roots<'a>,
     /// The head's acceleration when the step starts and when it ends. Where it is not given, it is the change of the
-    /// roots' mean velocity from the step before to this one: what acts then lags by half a step.
+    /// roots' mean velocity from the middle of the step before to that of this one: what acts then lags by half a step.
     pub acceleration: Option<[Acceleration; 2]>,
     /// In m/s^2.
     pub gravity: DVec3,
-    /// The motion of the air.
+    /// The motion of the air when the step ends.
     pub wind: Wind,
+    /// And when it starts, where it is another: steady wind and gusts change evenly in between.
+    pub wind_before: Option<Wind>,
     /// What hair cannot enter.
     pub colliders: &'a [Collider<'a>],
     /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; none
@@ -124,6 +126,7 @@ impl Default for Scene<'_> {
             acceleration: None,
             gravity: DVec3::new(0.0, -GRAVITY, 0.0),
             wind: Wind::default(),
+            wind_before: None,
             colliders: &[],
             goal: None,
         }
@@ -148,7 +151,7 @@ impl Scene<'_> {
         if !self.acceleration.iter().flatten().all(finite) {
             return Err(DynamicsError::Scene("acceleration"));
         }
-        if !self.wind.is_finite() {
+        if !(self.wind.is_finite() && self.wind_before.is_none_or(|wind| wind.is_finite())) {
             return Err(DynamicsError::Scene("wind"));
         }
         if !self.colliders.iter().all(Collider::is_finite) {
@@ -177,7 +180,21 @@ impl Scene<'_> {
     /// Whether nothing in it moves but, perhaps, the roots.
     pub(super) fn is_calm(&self) -> bool {
         let still = |c: &Collider| c.before == c.now;
-        self.wind.gust == 0.0 && self.goal.is_none() && self.colliders.iter().all(still)
+        let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
+        self.wind.gust == 0.0 && is_even && self.goal.is_none() && self.colliders.iter().all(still)
+    }
+
+    /// The motion of the air at `share` of the step, 0 to 1.
+    pub(crate) fn wind_at(&self, share: f64) -> Wind {
+        let now = self.wind;
+        let Some(before) = self.wind_before else {
+            return now;
+        };
+        Wind {
+            steady: before.steady * (1.0 - share) + now.steady * share,
+            gust: before.gust * (1.0 - share) + now.gust * share,
+            ..now
+        }
     }
 
     /// A hash of what acts on strands at rest.

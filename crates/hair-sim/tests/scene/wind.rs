@@ -76,19 +76,33 @@ fn gusts_move_hair_and_other_seeds_move_it_otherwise() {
 
 #[test]
 fn gusts_are_of_second_order() {
+    is_of_second_order("in gusts", |_| Wind {
+        steady: DVec3::new(3.0, 0.0, 1.0),
+        gust: 4.0,
+        size: 0.3,
+        ..Wind::default()
+    });
+}
+
+#[test]
+fn a_wind_that_rises_and_falls_is_of_second_order() {
+    is_of_second_order("in a changing wind", |time| Wind {
+        steady: DVec3::new(3.0, 0.0, 1.0) * (1.0 - (5.0 * time).cos()),
+        ..Wind::default()
+    });
+}
+
+fn is_of_second_order(name: &str, wind: impl Fn(f64) -> Wind) {
     let shapes = |rate: u32| {
         let rest = straight(Vec3::ZERO, Vec3::NEG_Y);
         let (mut solver, mut state) = Solver::new(&rest, &params(50.0)).unwrap();
         let mut shapes = Vec::new();
         for step in 0..2 * rate {
+            let [before, now] =
+                [step, step + 1].map(|step| wind(f64::from(step) / f64::from(rate)));
             let scene = Scene {
-                wind: Wind {
-                    steady: DVec3::new(3.0, 0.0, 1.0),
-                    gust: 4.0,
-                    size: 0.3,
-                    ..Wind::default()
-                },
-                ..Scene::default()
+                wind_before: Some(before),
+                ..in_wind(now)
             };
             solver
                 .step(&mut state, &scene, 1.0 / f64::from(rate))
@@ -104,9 +118,9 @@ fn gusts_are_of_second_order() {
         let shapes = shapes(rate);
         let apart = (shapes.iter().zip(&truth)).map(|(a, b)| (*a - *b).length_squared());
         let error = (apart.sum::<f64>() / shapes.len() as f64).sqrt() / LENGTH;
-        println!("in gusts, steps of 1/{rate} s: {error:.5}");
+        println!("{name}, steps of 1/{rate} s: {error:.5}");
         error
     });
     let slope = (errors[1] / errors[3]).log2() / 2.0;
-    assert!(slope > 1.5, "{slope}");
+    assert!(slope > 1.5, "{name}: {slope}");
 }

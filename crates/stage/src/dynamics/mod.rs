@@ -291,7 +291,15 @@ impl Dynamics {
         let begin = self.time_of(self.done);
         let [before, now] = [begin, end].map(|time| self.pose_at(time, script));
         let shoulders = [begin, end].map(|time| self.shoulders_at(time, script));
-        let (steady, gust) = script.wind_at(end);
+        let [wind_before, wind] = [begin, end].map(|time| {
+            let (steady, gust) = script.wind_at(time);
+            Wind {
+                steady,
+                gust,
+                size: 2.0 * f64::from(self.head.height_m),
+                seed: self.seed,
+            }
+        });
         self.aim(script.within(end));
         // Over whole steps, so that what jumps in a script is felt whole, however it lies between the steps.
         let accelerations = [(begin, before), (end, now)].map(|(time, pose)| {
@@ -303,12 +311,8 @@ impl Dynamics {
             roots: Roots::Head(now),
             acceleration: Some(accelerations),
             gravity: self.gravity,
-            wind: Wind {
-                steady,
-                gust,
-                size: 2.0 * f64::from(self.head.height_m),
-                seed: self.seed,
-            },
+            wind,
+            wind_before: Some(wind_before),
             colliders: &self.bodies.colliders([before, now], shoulders),
             goal: self.shapes.as_ref().map(|_| &self.goal[..]),
         };
