@@ -57,28 +57,6 @@ fn strands_come_sorted_by_id_with_their_sizes() {
 }
 
 #[test]
-fn the_scalp_has_the_hairs_colour_around_roots() {
-    let folder = tempfile::tempdir().unwrap();
-    let painted = |scalp: &str| {
-        let sections = format!(
-            "head: (shape: bust, scalp: {scalp}), clump: (color: \"00FF00\"), camera: (pitch: 40),"
-        );
-        let mut stage = stage(folder.path(), STRANDS, &sections).unwrap();
-        let surfaces = stage.frame().unwrap().surfaces;
-        let scalp = surfaces.iter().find(|s| s.light == [0.0, 1.0, 0.0]);
-        let count = |surface: &render::Surface| surface.triangles.len();
-        (scalp.map_or(0, count), count(&surfaces[0]))
-    };
-    let (none, all) = painted("0");
-    assert_eq!(none, 0);
-    let (some, others) = painted("0.2");
-    assert!(some > 10 && others > 10, "{some}, {others}");
-    assert_eq!(some + others, all);
-    let (more, _) = painted("0.4");
-    assert!(more > some);
-}
-
-#[test]
 fn motion_is_played_back() {
     let folder = tempfile::tempdir().unwrap();
     let moving = "(version: 1, strands: [(points: [(0.0, 0.0, 0.0), (0.0, -0.1, 0.0)])], motion: [

@@ -254,3 +254,41 @@ fn ties_are_bands_of_their_own_colour() {
     assert!(bands("twin-tails.style.ron") > 100);
     assert_eq!(bands("bob.style.ron"), 0);
 }
+
+#[test]
+fn the_scalp_has_the_hairs_colour_around_roots() {
+    let registry = registry();
+    let text = fs::read_to_string(presets().join("outlined.ron")).unwrap();
+    let mut preset = Preset::parse("outlined.ron", &text, &registry).unwrap();
+    preset.set("clump.color", "00FF00").unwrap();
+    let style = fs::read_to_string(presets().join("styles/bob.style.ron")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let mut painted = |scalp: &str, undercoat: &str| {
+        preset.set("head.scalp", scalp).unwrap();
+        let path = folder.path().join("bald.style.ron");
+        let text = style.replacen(
+            "version: 1,",
+            &format!("version: 1, undercoat: {undercoat},"),
+            1,
+        );
+        fs::write(&path, text).unwrap();
+        let files = Files {
+            preset_folder: presets(),
+            hair: Some(path),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let surfaces = stage.frame().unwrap().surfaces;
+        let scalp = surfaces.iter().find(|s| s.light == [0.0, 1.0, 0.0]);
+        let count = |surface: &render::Surface| surface.triangles.len();
+        (scalp.map_or(0, count), count(&surfaces[0]))
+    };
+    let (none, all) = painted("0", "false");
+    assert_eq!(none, 0);
+    assert_eq!(painted("0.05", "true"), (0, all), "the coat is there");
+    let (some, others) = painted("0.05", "false");
+    assert!(some > 10 && others > 10, "{some}, {others}");
+    assert_eq!(some + others, all);
+    let (more, _) = painted("0.1", "false");
+    assert!(more > some, "{more}, {some}");
+}
