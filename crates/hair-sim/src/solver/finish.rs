@@ -139,9 +139,9 @@ fn unstretch<T: Number>(batch: &Batch, stage: &Stage, impulses: &mut [Impulse], 
     let (impulses, out) = (&mut impulses[..count], &mut out[..count]);
     let (zero, one) = (T::splat(0.0), T::splat(1.0));
     for k in 0..count {
-        // What has no mass, as behind a link without length, takes no impulse.
-        let mass: T = particles[k].mass.load();
-        impulses[k].ease = T::choose(zero.less(mass), one / mass, zero).store();
+        // Links that only fill the batch have neither mass nor impulse.
+        let counts: T = links[k].counts.load();
+        impulses[k].ease = (counts / (particles[k].mass.load::<T>() + one - counts)).store();
     }
     let (mut alone, mut before, mut with_next) = (zero, zero, zero);
     for k in (0..count).rev() {
@@ -155,9 +155,9 @@ fn unstretch<T: Number>(batch: &Batch, stage: &Stage, impulses: &mut [Impulse], 
             own = own + ease_before;
             with_before = -(t.dot(tangents[k - 1].load()) * ease_before * counts);
         }
-        let pivot = own * counts - with_next * before;
-        let scale = T::choose(zero.less(pivot), one / pivot, zero);
+        let own = own * counts + (one - counts);
         let stretch = along.dot(t) * counts * T::splat(UNSTRETCH);
+        let scale = one / (own - with_next * before);
         alone = (stretch - with_next * alone) * scale;
         before = with_before * scale;
         with_next = with_before;
