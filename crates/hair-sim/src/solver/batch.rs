@@ -10,7 +10,6 @@ use crate::{
     rest::RestStrand,
 };
 
-use super::finish::Impulse;
 use super::sweep::{Elimination, Joint, Node, Pose};
 
 /// [`LANES`] strands and their constants. A shorter strand is continued by links without length, mass and force,
@@ -289,7 +288,6 @@ pub(crate) struct Scratch {
     pub joints: Vec<Joint>,
     pub eliminations: Vec<Elimination>,
     pub turns: Vec<Vec3>,
-    pub impulses: Vec<Impulse>,
     /// The turn of every joint at the start of the step, and what damping holds to in a stage.
     pub turn_start: Vec<Vec3>,
     pub past: Vec<Vec3>,
@@ -349,7 +347,6 @@ impl Scratch {
             joints: vec![Joint::<Lane>::zero(); count],
             eliminations: vec![Elimination::<Lane>::zero(); count],
             turns: vec![Vec3::ZERO; count],
-            impulses: vec![Impulse::ZERO; count],
             turn_start: vec![Vec3::ZERO; count],
             past: vec![Vec3::ZERO; count],
             mid: Stage::new(count),

@@ -1,9 +1,9 @@
 //! The end of a step: which strands it holds for, what the next one starts from, and which strands sleep.
 
-use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3, stored};
+use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
 
 use super::{
-    batch::{Batch, BatchState, Scratch, Stage},
+    batch::{Batch, BatchState, Scratch},
     drive::{Drive, RootMotion},
 };
 
@@ -76,22 +76,22 @@ pub(super) fn turned_too_far<T: Number>(
 pub(super) fn finish<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
-    scratch: &mut Scratch,
+    scratch: &Scratch,
     which: Mask,
     d: f64,
 ) {
-    unstretch::<T>(
-        batch,
-        &scratch.end,
-        &mut scratch.impulses,
-        &mut scratch.mid.v,
-    );
     let mut struck = Mask::new(state.restart).and(which.not());
     let end = &scratch.end;
     let rate = 1.0 / d;
+    let mut before = Vec3::zero();
+    let mut velocity = Vec3::<T>::zero();
     for k in 0..batch.count() {
-        let a = ((end.v[k].load::<T>() - scratch.free_v[k].load()) * rate).store();
-        let velocity = scratch.mid.v[k];
+        let v = end.v[k].load::<T>();
+        let a = ((v - scratch.free_v[k].load()) * rate).store();
+        let t = end.tangents[k].load();
+        let along = v - before;
+        before = v;
+        velocity += along - t.scale(along.dot(t) * T::splat(UNSTRETCH));
         let a = if !scratch.touched.is_empty() {
             settle_contact(state, scratch, k, a, which, &mut struck)
         } else {
@@ -99,85 +99,11 @@ pub(super) fn finish<T: Number>(
             a
         };
         state.a[k] = Vec3::pick(which, a, state.a[k]);
-        state.v[k] = Vec3::pick(which, velocity, state.v[k]);
+        state.v[k] = Vec3::pick(which, velocity.store(), state.v[k]);
         state.y[k] = Vec3::pick(which, end.y[k], state.y[k]);
         state.frames[k] = Quat::pick(which, end.frames[k], state.frames[k]);
     }
     state.restart = struck.bools();
-}
-
-/// The impulse along a link, but for what the link before has: `alone` - `before` times its impulse.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Impulse<T = Lane> {
-    alone: T,
-    before: T,
-    /// One over the mass of the particle at the link's end.
-    ease: T,
-}
-stored!(Impulse {
-    alone,
-    before,
-    ease
-});
-
-impl Impulse {
-    pub(crate) const ZERO: Self = Self {
-        alone: Lane::ZERO,
-        before: Lane::ZERO,
-        ease: Lane::ZERO,
-    };
-}
-
-/// Takes [`UNSTRETCH`] of the stretch out of the velocities of a stage by impulses along the links: what acts between particles
-/// changes neither momentum nor angular momentum. What a link asks for depends on its neighbours' impulses, so that a sweep
-/// from tip to root and one back find them (Thomas's algorithm).
-#[inline(always)]
-fn unstretch<T: Number>(batch: &Batch, stage: &Stage, impulses: &mut [Impulse], out: &mut [Vec3]) {
-    let count = batch.count();
-    let (links, particles) = (&batch.links[..count], &batch.particles[..count]);
-    let (tangents, velocities) = (&stage.tangents[..count], &stage.v[..count]);
-    let (impulses, out) = (&mut impulses[..count], &mut out[..count]);
-    let (zero, one) = (T::splat(0.0), T::splat(1.0));
-    for k in 0..count {
-        // Links that only fill the batch have neither mass nor impulse.
-        let counts: T = links[k].counts.load();
-        impulses[k].ease = (counts / (particles[k].mass.load::<T>() + one - counts)).store();
-    }
-    let (mut alone, mut before, mut with_next) = (zero, zero, zero);
-    for k in (0..count).rev() {
-        let counts: T = links[k].counts.load();
-        let ease: T = impulses[k].ease.load();
-        let (t, v) = (tangents[k].load::<T>(), velocities[k].load::<T>());
-        let (mut along, mut own, mut with_before) = (v, ease, zero);
-        if k > 0 {
-            let ease_before: T = impulses[k - 1].ease.load();
-            along = v - velocities[k - 1].load();
-            own = own + ease_before;
-            with_before = -(t.dot(tangents[k - 1].load()) * ease_before * counts);
-        }
-        let own = own * counts + (one - counts);
-        let stretch = along.dot(t) * counts * T::splat(UNSTRETCH);
-        let scale = one / (own - with_next * before);
-        alone = (stretch - with_next * alone) * scale;
-        before = with_before * scale;
-        with_next = with_before;
-        impulses[k].alone = alone.store();
-        impulses[k].before = before.store();
-    }
-    let (mut impulse, mut ease, mut velocity) = (zero, zero, Vec3::<T>::zero());
-    for k in 0..count {
-        let own: Impulse<T> = impulses[k].load();
-        impulse = own.alone - own.before * impulse;
-        let push = tangents[k].load::<T>().scale(impulse);
-        if k > 0 {
-            out[k - 1] = (velocity + push.scale(ease)).store();
-        }
-        ease = own.ease;
-        velocity = velocities[k].load() - push.scale(ease);
-    }
-    if let Some(last) = out.last_mut() {
-        *last = velocity.store();
-    }
 }
 
 /// Remembers the pressure on particle `k`, and returns its acceleration without the blow of a contact: that is over, and
