@@ -289,18 +289,16 @@ impl Solver {
         }
         let hair = self.hair.as_ref();
         let (first_points, guards) = (&self.first_points, &self.guards);
-        let since_last = 0.5
-            * (dt
-                + if state.last_dt > 0.0 {
-                    state.last_dt
-                } else {
-                    dt
-                });
+        let last_dt = if state.last_dt > 0.0 {
+            state.last_dt
+        } else {
+            dt
+        };
         let step = |index: usize, batch: &Batch, state: &mut BatchState, scratch: &mut Scratch| {
             let (root, base) = roots(batch, scene);
             let drive = Drive {
                 dt,
-                since_last,
+                last_dt,
                 scene,
                 guards,
                 gusts: &gusts,

@@ -164,6 +164,9 @@ pub(crate) struct BatchState {
     pub a: Vec<Vec3>,
     /// Material frames of the links, in world axes.
     pub frames: Vec<Quat>,
+    /// The turns of joints that damping held to in the last stage of the last step: the rate at its end is the turn less this over
+    /// the stage's length.
+    pub past: Vec<Vec3>,
     /// The root in the world, its velocity, and the skin's frame there.
     pub root: Vec3,
     pub root_velocity: Vec3,
@@ -198,6 +201,7 @@ impl BatchState {
             v: vec![Vec3::ZERO; count],
             a: vec![Vec3::ZERO; count],
             frames: vec![Quat::IDENTITY; count],
+            past: vec![Vec3::ZERO; count],
             root: batch.root,
             root_velocity: Vec3::ZERO,
             base: batch.base,

@@ -21,8 +21,8 @@ use super::{
 /// What drives a batch in a step.
 pub(crate) struct Drive<'a> {
     pub dt: f64,
-    /// From the middle of the last step to that of this one, in s.
-    pub since_last: f64,
+    /// The length of the last step, or this one's before there was any, in s.
+    pub last_dt: f64,
     pub scene: &'a Scene<'a>,
     /// Of its colliders.
     pub guards: &'a [Guard],
@@ -76,7 +76,7 @@ impl RootMotion {
         let velocity = (root - state.root) * (1.0 / drive.dt);
         let [start, end] = drive
             .accelerations
-            .unwrap_or([(velocity - state.root_velocity) * (1.0 / drive.since_last); 2]);
+            .unwrap_or([(velocity - state.root_velocity) * (2.0 / (drive.dt + drive.last_dt)); 2]);
         // Of an acceleration that changes evenly within the step. Where it is only measured, it may be a blow that is over.
         let (velocity_mid, velocity_end) = match drive.accelerations {
             Some([start, end]) => {

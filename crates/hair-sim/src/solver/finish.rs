@@ -102,6 +102,7 @@ pub(super) fn finish<T: Number>(
         state.v[k] = Vec3::pick(which, velocity.store(), state.v[k]);
         state.y[k] = Vec3::pick(which, end.y[k], state.y[k]);
         state.frames[k] = Quat::pick(which, end.frames[k], state.frames[k]);
+        state.past[k] = Vec3::pick(which, scratch.past[k], state.past[k]);
     }
     state.restart = struck.bools();
 }

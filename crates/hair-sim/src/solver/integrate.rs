@@ -198,7 +198,12 @@ fn begin<'a, T: Number>(
     if which == Which::Mid {
         if damps {
             turns::<T>(&state.base, &state.frames, turn_start);
-            past.copy_from_slice(turn_start);
+            // The trapezoidal rule for rates: twice the mean of the stage less that at its start, which the last step ended with.
+            let rate = restart.pick(Lane::ZERO, Lane::splat(drive.dt / drive.last_dt));
+            for k in 0..batch.count() {
+                let known = Vec3::pick(restart, Vec3::ZERO, turn_start[k] - state.past[k]);
+                past[k] = turn_start[k] + known * rate;
+            }
         } else {
             // The room was another batch's before: what is left there may be no number, even times 0.
             past.fill(Vec3::ZERO);
@@ -217,7 +222,7 @@ fn begin<'a, T: Number>(
         );
         return StageSetup {
             length,
-            damping: batch.damping * (1.0 / (2.0 * d)),
+            damping: batch.damping * length.recip(),
             base: root.mid,
             pull: root.pull_mid,
             root: root.root_mid,

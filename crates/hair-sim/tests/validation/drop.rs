@@ -1,7 +1,7 @@
 //! A level strand that is let go: accuracy in time and space.
 
 use glam::DVec3;
-use hair_sim::{Scene, Solver};
+use hair_sim::{Params, Scene, Solver};
 
 use crate::{bare, level, tip};
 
@@ -19,7 +19,15 @@ fn reference(text: &str) -> Vec<DVec3> {
 
 /// The tip at every 1/24 s of a second, in lengths.
 fn drop(gamma: f64, n: usize, steps: usize) -> Vec<DVec3> {
-    let (mut solver, mut state) = Solver::new(&level(n), &bare(gamma)).unwrap();
+    damped_drop(gamma, 0.0, n, steps)
+}
+
+fn damped_drop(gamma: f64, damping: f64, n: usize, steps: usize) -> Vec<DVec3> {
+    let params = Params {
+        damping,
+        ..bare(gamma)
+    };
+    let (mut solver, mut state) = Solver::new(&level(n), &params).unwrap();
     let mut path = vec![tip(&solver, &state)];
     for _ in 0..24 {
         for _ in 0..steps {
@@ -58,6 +66,18 @@ fn the_order_in_time_is_two() {
     let slope = (errors[0] / errors[2]).log2() / 2.0;
     println!("slope in dt {slope:.2}");
     assert!(slope >= 1.8, "{slope} {errors:?}");
+}
+
+#[test]
+fn damping_is_of_second_order() {
+    for (gamma, damping) in [(10.0, 0.005), (10.0, 0.05), (10.0, 0.5), (1.0, 0.05)] {
+        let fine = damped_drop(gamma, damping, 20, 64);
+        let errors =
+            [1, 2, 4, 8].map(|steps| error(&damped_drop(gamma, damping, 20, steps), &fine));
+        let slope = (errors[1] / errors[3]).log2() / 2.0;
+        println!("gamma {gamma}, damping {damping} s: {errors:.6?}, slope {slope:.2}");
+        assert!(slope > 1.5, "{gamma}, {damping}: {slope}");
+    }
 }
 
 #[test]
