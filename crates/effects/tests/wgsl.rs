@@ -250,7 +250,7 @@ proptest! {
 
     /// How far a clump's discs reach outwards, over its width, is as far as the ellipse does that they stand for.
     #[test]
-    fn a_flat_clump_is_an_ellipse_outwards(flat in 0.0f32..=0.9, turn in 0.0f32..6.28, radius in 0.1f32..30.0) {
+    fn a_flat_clump_is_an_ellipse_outwards(flat in 0.0f32..=0.9, turn in 0.0f32..6.0, radius in 0.1f32..30.0) {
         let out = vec2([turn.cos(), turn.sin()]);
         let across = vec2([-out.y, out.x]);
         let shift = vec2([-flat * radius * out.x, -flat * radius * out.y]);

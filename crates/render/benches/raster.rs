@@ -69,6 +69,7 @@ impl Hair {
         });
         Drawing {
             size: SIZE,
+            sides: Vec::new(),
             runs: (0..self.strands)
                 .map(|strand| Run {
                     strand: strand as u32,
