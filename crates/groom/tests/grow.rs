@@ -433,7 +433,7 @@ fn the_undercoat_lies_below_its_cap_and_leaves_the_face_free() {
         for (index, points) in coat.iter().enumerate() {
             let radius = coat.size(index).unwrap() / 300.0;
             for p in points {
-                highest = highest.max(lift(*p) + 0.5 * radius);
+                highest = highest.max(lift(*p) + 0.35 * radius);
                 assert!(
                     lift(*p) > -radius && bare.scalp.contains(SHELL.place(*p)),
                     "{p}"

@@ -188,8 +188,8 @@ fn sequences_have_numbers_and_move() {
     assert_eq!(lines[1]["size"], serde_json::json!([80, 60]));
     assert_eq!(lines[1]["samples"], 4);
     assert_eq!(lines[1]["strands"]["total"], 3);
-    assert_eq!(lines[1]["layers"]["hair.base"]["joints"], 3 * 9);
-    assert_eq!(lines[1]["layers"]["hair.base"]["segments"], 3 * 8);
+    assert_eq!(lines[1]["layers"]["hair.base"]["joints"], 3 * 3 * 9);
+    assert_eq!(lines[1]["layers"]["hair.base"]["segments"], 3 * 3 * 8);
     assert_eq!(lines[1]["reused"], false);
     for stage in ["simulate", "paths", "effects", "raster", "total"] {
         assert!(

@@ -24,8 +24,8 @@ const CAP_SPREAD: f32 = 0.9;
 /// Points of a clump.
 const POINTS: u32 = 9;
 /// How deep the middle line lies below the skin, in radii: discs stand out of the head's outline, and a
-/// coat should not.
-const DEPTH: f32 = 0.5;
+/// coat should not. Flat ones that turn away stand out by less: any deeper and the scalp shows over them.
+const DEPTH: f32 = 0.35;
 
 /// The clumps of the undercoat: points and size (1/300 head heights). The cap stands `cap` head heights
 /// above the skin at the whorl, less and less towards the hairline.
