@@ -13,7 +13,9 @@ pub(crate) fn split(mesh: &Mesh, roots: &[Vec3], reach_m: f32) -> [Vec<[u32; 3]>
     }
     let has_root = |point: Vec3| {
         let middle = cell(point);
-        let around = (0..27).map(|i| middle + IVec3::new(i % 3, i / 3 % 3, i / 9) - 1);
+        // Saturating, as places may lie any number of cells away.
+        let around =
+            (0..27).map(|i| middle.saturating_add(IVec3::new(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
         let near = |root: &Vec3| root.distance_squared(point) <= reach_m * reach_m;
         around
             .filter_map(|cell| cells.get(&cell))
@@ -46,5 +48,6 @@ mod tests {
         assert_eq!(last(&scalp), Some(5));
         assert_eq!(scalp.len() + skin.len(), 18);
         assert_eq!(split(&mesh, &[], 1.0)[0].len(), 0);
+        assert_eq!(split(&mesh, &[Vec3::MAX, Vec3::MIN], 1e-30)[0].len(), 0);
     }
 }

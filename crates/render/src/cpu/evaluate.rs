@@ -44,7 +44,6 @@ impl Evaluator {
             strand: run.piece as u32,
             joints: run.joints.clone(),
         }));
-        drawing.clump.clear();
         self.fill_clump_discs(frame, &mut drawing.clump, &mut drawing.sides);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
@@ -57,7 +56,7 @@ impl Evaluator {
             if layer.program.has_own_paths() {
                 // No strand's clump holds them: they are their own.
                 drawing.clump[joints.clone()].copy_from_slice(&strokes.discs[joints.clone()]);
-                for side in drawing.sides.chunks_mut(frame.paths.len()) {
+                for side in drawing.sides.chunks_mut(frame.paths.len().max(1)) {
                     side[joints.clone()].fill(NO_DISC);
                 }
             }
