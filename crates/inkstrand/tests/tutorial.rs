@@ -160,7 +160,7 @@ fn the_tutorial_is_right() {
 
     // The picture has the dye in it, and without the layer it has not.
     let draw = |name: &str, more: &[&str]| {
-        let size = ["--size", "160x120", "--samples", "4", "-o", name];
+        let size = ["--size", "320x240", "--samples", "4", "-o", name];
         dip_dye.succeed(
             &[
                 &["run", "--quiet", "--", "render", "look.ron"],
@@ -172,7 +172,7 @@ fn the_tutorial_is_right() {
         count(&dip_dye.path(name), [0x3F, 0xC1, 0xC0])
     };
     let dyed = draw("dyed.png", &[]);
-    assert!(dyed > 250, "{dyed} pixels of 19200 are dyed");
+    assert!(dyed > 1200, "{dyed} pixels of 76800 are dyed");
     assert_eq!(
         draw(
             "plain.png",
