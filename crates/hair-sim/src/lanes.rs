@@ -10,6 +10,7 @@
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod avx2;
 mod linear;
+pub(crate) mod plane;
 
 pub(crate) use linear::{Mat3, Quat, Sym3, Vec3};
 
@@ -41,6 +42,8 @@ pub(crate) trait Number:
     fn sqrt(self) -> Self;
     fn less(self, than: Self) -> Self::Condition;
     fn condition(mask: &Mask) -> Self::Condition;
+    /// Whether it holds for each.
+    fn all(condition: Self::Condition) -> bool;
     /// `yes` where the condition holds, else `no`.
     fn choose(condition: Self::Condition, yes: Self, no: Self) -> Self;
 }
@@ -71,6 +74,10 @@ impl Number for Lane {
     #[inline(always)]
     fn condition(mask: &Mask) -> Mask {
         *mask
+    }
+    #[inline(always)]
+    fn all(condition: Mask) -> bool {
+        !condition.not().any()
     }
     #[inline(always)]
     fn choose(condition: Mask, yes: Self, no: Self) -> Self {

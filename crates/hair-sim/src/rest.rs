@@ -16,6 +16,9 @@ const LEAST_JOINT: f64 = 0.01;
 /// The cosine of half the largest angle between the styled directions of neighbouring links (170 degrees).
 const LEAST_HALF_COSINE: f64 = 0.087;
 
+/// A joint whose natural turn is less than this (radians) is straight.
+const NATURALLY_STRAIGHT: f64 = 1e-12;
+
 /// One strand as the solver sees it. Masses are per linear density: a metre of strand has mass 1.
 #[derive(Clone, Debug)]
 pub(crate) struct RestStrand {
@@ -138,6 +141,14 @@ impl RestStrand {
             },
             base: DQuat::IDENTITY,
         }
+    }
+
+    /// Whether nothing bends or twists it by nature: to within what rounding makes of its frames.
+    pub(crate) fn is_straight(&self) -> bool {
+        let is_straight = |link: &RestLink| {
+            link.length > 0.0 && link.natural.length_squared() < NATURALLY_STRAIGHT.powi(2)
+        };
+        self.links.iter().all(is_straight)
     }
 
     fn set_natural(&mut self, params: &Params) {

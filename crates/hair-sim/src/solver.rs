@@ -7,12 +7,14 @@ mod fallback;
 mod finish;
 #[cfg(test)]
 mod free_flight;
+mod free_motion;
 pub(crate) mod instructions;
 mod integrate;
 mod neighbours;
 #[cfg(test)]
 mod ring;
 mod scene;
+mod straight;
 pub(crate) mod sweep;
 
 use glam::{DQuat, DVec3, Vec3};
@@ -165,9 +167,10 @@ impl Solver {
             strands.push((strand, params, fault));
         }
 
-        // Strands of like length together; the order is fixed by the strands alone.
+        // Strands of one kind and like length together; the order is fixed by the strands alone.
+        let kind = |i: usize| strands[i].0.is_straight();
         let mut order: Vec<usize> = (0..strands.len()).collect();
-        order.sort_by_key(|&i| (strands[i].0.links.len(), i));
+        order.sort_by_key(|&i| (kind(i), strands[i].0.links.len(), i));
         let mut solver = Self {
             batches: Vec::new(),
             scratch: Vec::new(),
@@ -181,7 +184,8 @@ impl Solver {
             instructions: Instructions::best(),
         };
         let mut states = Vec::new();
-        for members in order.chunks(LANES) {
+        let kinds = order.chunk_by(|&a, &b| kind(a) == kind(b));
+        for members in kinds.flat_map(|of_kind| of_kind.chunks(LANES)) {
             let described: Vec<_> = members
                 .iter()
                 .map(|&i| (i, &strands[i].0, &strands[i].1))

@@ -7,12 +7,12 @@
 
 use std::arch::x86_64::{
     __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_blendv_pd, _mm256_cmp_pd, _mm256_div_pd,
-    _mm256_load_pd, _mm256_mul_pd, _mm256_set1_pd, _mm256_sqrt_pd, _mm256_store_pd, _mm256_sub_pd,
-    _mm256_xor_pd,
+    _mm256_load_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_set1_pd, _mm256_sqrt_pd,
+    _mm256_store_pd, _mm256_sub_pd, _mm256_xor_pd,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lane, Mask, Number};
+use super::{LANES, Lane, Mask, Number};
 
 /// A [`Lane`] in a register.
 #[derive(Clone, Copy)]
@@ -77,6 +77,11 @@ impl Number for Avx2 {
     #[inline(always)]
     fn condition(mask: &Mask) -> Self {
         Self::load(&Lane(mask.0.map(f64::from_bits)))
+    }
+    #[inline(always)]
+    fn all(condition: Self) -> bool {
+        // SAFETY: see the module.
+        unsafe { _mm256_movemask_pd(condition.0) == (1 << LANES) - 1 }
     }
     #[inline(always)]
     fn choose(condition: Self, yes: Self, no: Self) -> Self {

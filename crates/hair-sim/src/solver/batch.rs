@@ -10,6 +10,7 @@ use crate::{
     rest::RestStrand,
 };
 
+use super::straight::{self, Across, Bend};
 use super::sweep::{Elimination, Joint, Node, Pose};
 
 /// [`LANES`] strands and their constants. A shorter strand is continued by links without length, mass and force,
@@ -40,6 +41,8 @@ pub(crate) struct Batch {
     pub base: Quat,
     /// Lanes that hold a strand with links.
     pub used: Mask,
+    /// Whether all its strands are straight by nature: see [`super::straight`].
+    pub is_straight: bool,
 }
 
 /// A link and the joint at its root end: see [`crate::rest::RestLink`].
@@ -109,6 +112,7 @@ impl Batch {
             root: Vec3::ZERO,
             base: Quat::IDENTITY,
             used: Mask::NONE,
+            is_straight: members.iter().all(|m| m.1.is_straight()),
         };
         for (lane, (index, rest, params)) in members.iter().enumerate() {
             batch.fill(lane, *index, rest, params);
@@ -291,6 +295,8 @@ pub(crate) struct Scratch {
     pub nodes: Vec<Node>,
     pub joints: Vec<Joint>,
     pub eliminations: Vec<Elimination>,
+    /// Of straight strands.
+    pub straight: Vec<straight::Elimination>,
     pub turns: Vec<Vec3>,
     /// The turn of every joint at the start of the step, and what damping holds to in a stage.
     pub turn_start: Vec<Vec3>,
@@ -319,6 +325,9 @@ pub(crate) struct Stage {
     pub frames: Vec<Quat>,
     /// The third axes of the frames.
     pub tangents: Vec<Vec3>,
+    /// Of straight strands, in place of `frames`.
+    pub across: Vec<Across>,
+    pub bends: Vec<Bend>,
 }
 
 impl Stage {
@@ -328,6 +337,8 @@ impl Stage {
             v: vec![Vec3::ZERO; count],
             frames: vec![Quat::IDENTITY; count],
             tangents: vec![Vec3::ZERO; count],
+            across: vec![Across::ZERO; count],
+            bends: vec![Bend::STRAIGHT; count],
         }
     }
 }
@@ -350,6 +361,7 @@ impl Scratch {
             nodes: vec![Node::<Lane>::zero(); count],
             joints: vec![Joint::<Lane>::zero(); count],
             eliminations: vec![Elimination::<Lane>::zero(); count],
+            straight: vec![straight::Elimination::ZERO; count],
             turns: vec![Vec3::ZERO; count],
             turn_start: vec![Vec3::ZERO; count],
             past: vec![Vec3::ZERO; count],

@@ -21,12 +21,50 @@ const SLACK: f64 = 1e-4;
 const PLAY: f64 = 5e-4;
 
 /// The energy of every strand's shape over its mass per length, in m^3/s^2: of bending and twisting, and of weight from the root.
-struct ShapeEnergy {
+pub(super) struct ShapeEnergy {
     elastic: Lane,
     weight: Lane,
 }
 
 impl ShapeEnergy {
+    pub(super) const NONE: Self = Self {
+        elastic: Lane::ZERO,
+        weight: Lane::ZERO,
+    };
+
+    pub(super) fn pick(mask: Mask, yes: Self, no: Self) -> Self {
+        Self {
+            elastic: mask.pick(yes.elastic, no.elastic),
+            weight: mask.pick(yes.weight, no.weight),
+        }
+    }
+
+    /// Of straight strands.
+    #[inline(always)]
+    fn of_straight<T: Number>(
+        batch: &Batch,
+        base: Quat,
+        (tangents, y): (&[Vec3], &[Vec3]),
+        pull: Vec3,
+    ) -> Self {
+        let (mut elastic, mut weight) = (T::splat(0.0), T::splat(0.0));
+        let (mut before, pull) = (base.load::<T>().tangent(), pull.load::<T>());
+        for (k, link) in batch.links.iter().enumerate() {
+            let mass: T = batch.particles[k].mass.load();
+            weight = weight - mass * y[k].load().dot(pull);
+            // Of an angle between two unit vectors: the tangent of its half is their difference over their sum.
+            let t = tangents[k].load();
+            let (difference, sum) = (t - before, t + before);
+            let tangent_squared = difference.length_squared() / sum.length_squared();
+            elastic = elastic + link.bend.load::<T>() * tangent_squared * T::splat(2.0);
+            before = t;
+        }
+        Self {
+            elastic: elastic.store(),
+            weight: weight.store(),
+        }
+    }
+
     #[inline(always)]
     fn new<T: Number>(batch: &Batch, base: Quat, frames: &[Quat], y: &[Vec3], pull: Vec3) -> Self {
         let (mut elastic, mut weight) = (T::splat(0.0), T::splat(0.0));
@@ -128,19 +166,44 @@ fn undriven(
     free
 }
 
-/// The strands of `watched` whose shape at the end of the step has more energy than they may have.
+impl ShapeEnergy {
+    /// The strands of `watched` whose shape has more energy than they may have.
+    pub(super) fn is_out_of_reach(
+        &self,
+        batch: &Batch,
+        state: &BatchState,
+        root: &RootMotion,
+        watched: Mask,
+    ) -> Mask {
+        let slack = self.scale(batch, root.pull) * SLACK;
+        watched.and(self.sum().gt(state.ceiling + slack))
+    }
+}
+
+/// Of the shapes at the end of the step.
 #[inline(always)]
-pub(super) fn out_of_reach<T: Number>(
+pub(super) fn of_end<T: Number>(
     batch: &Batch,
-    state: &BatchState,
     scratch: &Scratch,
     root: &RootMotion,
-    watched: Mask,
-) -> Mask {
+) -> ShapeEnergy {
     let end = &scratch.end;
-    let shape = ShapeEnergy::new::<T>(batch, root.end, &end.frames, &end.y, root.pull);
-    let slack = shape.scale(batch, root.pull) * SLACK;
-    watched.and(shape.sum().gt(state.ceiling + slack))
+    if batch.is_straight {
+        let shape = (&end.tangents[..], &end.y[..]);
+        ShapeEnergy::of_straight::<T>(batch, root.end, shape, root.pull)
+    } else {
+        ShapeEnergy::new::<T>(batch, root.end, &end.frames, &end.y, root.pull)
+    }
+}
+
+/// Of the shapes that the strands have.
+#[inline(always)]
+pub(super) fn of_state<T: Number>(
+    batch: &Batch,
+    state: &BatchState,
+    root: &RootMotion,
+) -> ShapeEnergy {
+    ShapeEnergy::new::<T>(batch, root.end, &state.frames, &state.y, root.pull)
 }
 
 /// Takes the energy that a strand may not have out of its velocities.
@@ -149,9 +212,9 @@ pub(super) fn take_gain<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
     root: &RootMotion,
+    shape: &ShapeEnergy,
     watched: Mask,
 ) {
-    let shape = ShapeEnergy::new::<T>(batch, root.end, &state.frames, &state.y, root.pull);
     let motion = state.kinetic::<T>(batch);
     let gain = (motion + shape.sum() - state.ceiling).max(Lane::ZERO);
     let left = (motion - gain).max(Lane::ZERO) / motion.max(Lane::splat(1e-300));

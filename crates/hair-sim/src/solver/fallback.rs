@@ -13,6 +13,7 @@ use crate::{
 use super::{
     batch::{Batch, BatchState, Reason, Scratch},
     drive::{Drive, RootMotion},
+    free_motion::{FreeMotion, Sum},
     instructions::{Instructions, run},
     integrate::{StageSetup, Which, assemble, hold, turn_links},
     sweep::{Elastic, ascend, descend, joints, potential},
@@ -37,8 +38,6 @@ pub(super) fn step(
     let damps = batch.damping != Lane::ZERO;
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
-        scratch.free_y[k] = state.y[k];
-        scratch.free_v[k] = state.v[k];
         if damps {
             scratch.past[k] = scratch.turn_start[k];
         }
@@ -58,6 +57,13 @@ pub(super) fn step(
         velocity: root.velocity_end,
         gusts: &drive.gusts[1],
     };
+    let y_of: Sum = [(&state.y, Lane::ONE), (&state.v, Lane::ZERO)];
+    let v_of: Sum = [(&state.v, Lane::ONE), (&state.a, Lane::ZERO)];
+    let free = (&mut scratch.free_y[..], &mut scratch.free_v[..]);
+    let mut free = FreeMotion::new(batch, &setup, (y_of, v_of), free, &mut scratch.nodes);
+    for k in 0..batch.count() {
+        free.place::<Lane>(k);
+    }
     assemble(instructions, batch, scratch, &setup, Which::Trial);
     let elastic = Elastic {
         h2: h * h,

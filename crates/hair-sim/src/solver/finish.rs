@@ -5,6 +5,7 @@ use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
 use super::{
     batch::{Batch, BatchState, Scratch},
     drive::{Drive, RootMotion},
+    straight,
 };
 
 /// The cosine of the most that a link may turn against the skin in a step of this integrator (2.1 rad): beyond it the
@@ -76,10 +77,14 @@ pub(super) fn turned_too_far<T: Number>(
 pub(super) fn finish<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
-    scratch: &Scratch,
+    scratch: &mut Scratch,
+    root: &RootMotion,
     which: Mask,
     d: f64,
 ) {
+    if batch.is_straight {
+        straight::frame_links::<T>(batch, &root.end, &mut scratch.end);
+    }
     let mut struck = Mask::new(state.restart).and(which.not());
     let end = &scratch.end;
     let rate = 1.0 / d;

@@ -21,10 +21,12 @@ use crate::{
 use super::{
     batch::{Batch, BatchState, Scratch, Stage},
     drive::{Drive, RootMotion, prepare},
-    energy::{out_of_reach, take_gain, watch},
+    energy::{ShapeEnergy, of_end, of_state, take_gain, watch},
     fallback,
     finish::{asleep, count_quiet, finish, turned_too_far},
+    free_motion::{FreeMotion, Sum},
     instructions::{Instructions, run},
+    straight,
     sweep::{Elastic, Node, ascend, descend, half_turn, joints},
 };
 
@@ -109,23 +111,28 @@ pub(crate) fn step(
         instructions,
         watch(batch, state, scratch, drive, &root, active)
     );
+    let mut shape = ShapeEnergy::NONE;
     if watched.any() {
-        let too_high = run!(
-            instructions,
-            out_of_reach(batch, state, scratch, &root, watched)
-        );
-        failed = failed.or(too_high);
+        shape = run!(instructions, of_end(batch, scratch, &root));
+        failed = failed.or(shape.is_out_of_reach(batch, state, &root, watched));
     }
     stats.fallbacks = failed.count();
     run!(
         instructions,
-        finish(batch, state, scratch, active.and(failed.not()), d)
+        finish(batch, state, scratch, &root, active.and(failed.not()), d)
     );
     if failed.any() {
         fallback::step(instructions, batch, state, scratch, drive, &root, failed);
     }
     if watched.any() {
-        run!(instructions, take_gain(batch, state, &root, watched));
+        if failed.any() {
+            let other = run!(instructions, of_state(batch, state, &root));
+            shape = ShapeEnergy::pick(failed, other, shape);
+        }
+        run!(
+            instructions,
+            take_gain(batch, state, &root, &shape, watched)
+        );
     }
     let aside = state.aside().and(batch.used);
     if aside.any() {
@@ -173,7 +180,7 @@ pub(super) struct StageSetup<'a> {
     pub gusts: &'a Gusts,
 }
 
-/// The base of a stage, `free_y` and `free_v`, what damping holds to, and the shape to begin with.
+/// The base of a stage, `free_y` and `free_v`, what damping holds to, mass and weight, and the shape to begin with.
 #[inline(always)]
 fn begin<'a, T: Number>(
     batch: &Batch,
@@ -186,6 +193,7 @@ fn begin<'a, T: Number>(
     let d = 0.5 * GAMMA * drive.dt;
     let restart = Mask::new(state.restart);
     let Scratch {
+        nodes,
         mid,
         end,
         free_y,
@@ -197,7 +205,16 @@ fn begin<'a, T: Number>(
     let damps = batch.damping != Lane::ZERO;
     if which == Which::Mid {
         if damps {
-            turns::<T>(&state.base, &state.frames, turn_start);
+            if batch.is_straight {
+                straight::turns::<T>(
+                    &state.base,
+                    #[inline(always)]
+                    |k| state.frames[k].load().tangent(),
+                    &mut turn_start[..batch.count()],
+                );
+            } else {
+                turns::<T>(&state.base, &state.frames, turn_start);
+            }
             // The trapezoidal rule for rates: twice the mean of the stage less that at its start, which the last step ended with.
             let rate = restart.pick(Lane::ZERO, Lane::splat(drive.dt / drive.last_dt));
             for k in 0..batch.count() {
@@ -210,17 +227,8 @@ fn begin<'a, T: Number>(
         }
         // The trapezoidal stage; backward Euler over the same time where accelerations are unknown.
         let known = restart.pick(Lane::ZERO, Lane::splat(d));
-        combine::<T>(free_y, (&state.y, Lane::ONE), (&state.v, known));
-        combine::<T>(free_v, (&state.v, Lane::ONE), (&state.a, known));
         let length = restart.pick(Lane::splat(2.0 * d), Lane::splat(d));
-        predict::<T>(
-            batch,
-            (free_y, free_v, length),
-            root.turn_mid,
-            &state.frames,
-            mid,
-        );
-        return StageSetup {
+        let setup = StageSetup {
             length,
             damping: batch.damping * length.recip(),
             base: root.mid,
@@ -229,31 +237,68 @@ fn begin<'a, T: Number>(
             velocity: root.velocity_mid,
             gusts: &drive.gusts[0],
         };
+        let y_of: Sum = [(&state.y, Lane::ONE), (&state.v, known)];
+        let v_of: Sum = [(&state.v, Lane::ONE), (&state.a, known)];
+        let free = FreeMotion::new(batch, &setup, (y_of, v_of), (free_y, free_v), nodes);
+        if batch.is_straight {
+            straight::predict::<T>(
+                &batch.links,
+                free,
+                root.turn_mid,
+                #[inline(always)]
+                |k| state.frames[k].load().tangent(),
+                mid,
+            );
+        } else {
+            predict::<T>(batch, free, root.turn_mid, &state.frames, mid);
+        }
+        return setup;
     }
     // The backward difference stage: X = alpha x1 - beta x0.
     let alpha = 1.0 / (GAMMA * (2.0 - GAMMA));
     let beta = (1.0 - GAMMA) * (1.0 - GAMMA) * alpha;
     let (alpha, less) = (Lane::splat(alpha), Lane::splat(-beta));
     if damps {
-        turns::<T>(&root.mid, &mid.frames[..batch.count()], past);
+        if batch.is_straight {
+            straight::turns::<T>(
+                &root.mid,
+                #[inline(always)]
+                |k| mid.tangents[k].load(),
+                &mut past[..batch.count()],
+            );
+        } else {
+            turns::<T>(&root.mid, &mid.frames[..batch.count()], past);
+        }
         for k in 0..batch.count() {
             past[k] = past[k] * alpha + turn_start[k] * less;
         }
     }
-    combine::<T>(free_y, (&mid.y, alpha), (&state.y, less));
-    combine::<T>(free_v, (&mid.v, alpha), (&state.v, less));
-    let length = Lane::splat(d);
-    let onward = root.turn_end.times(root.turn_mid.conjugate());
-    predict::<T>(batch, (free_y, free_v, length), onward, &mid.frames, end);
-    StageSetup {
-        length,
+    let setup = StageSetup {
+        length: Lane::splat(d),
         damping: batch.damping * (1.0 / d),
         base: root.end,
         pull: root.pull,
         root: root.root,
         velocity: root.velocity_end,
         gusts: &drive.gusts[1],
+    };
+    let y_of: Sum = [(&mid.y, alpha), (&state.y, less)];
+    let v_of: Sum = [(&mid.v, alpha), (&state.v, less)];
+    let free = FreeMotion::new(batch, &setup, (y_of, v_of), (free_y, free_v), nodes);
+    let onward = root.turn_end.times(root.turn_mid.conjugate());
+    if batch.is_straight {
+        straight::predict::<T>(
+            &batch.links,
+            free,
+            onward,
+            #[inline(always)]
+            |k| mid.tangents[k].load(),
+            end,
+        );
+    } else {
+        predict::<T>(batch, free, onward, &mid.frames, end);
     }
+    setup
 }
 
 /// The turn of every joint, 2 tan(angle / 2) times its axis, in the frame of its link.
@@ -266,38 +311,28 @@ fn turns<T: Number>(base: &Quat, frames: &[Quat], out: &mut [Vec3]) {
     }
 }
 
-/// The sum of two lists, each times its own number.
-#[inline(always)]
-fn combine<T: Number>(out: &mut [Vec3], one: (&[Vec3], Lane), other: (&[Vec3], Lane)) {
-    for ((out, a), b) in out.iter_mut().zip(one.0).zip(other.0) {
-        let sum = a.load::<T>().scale(one.1.load()) + b.load().scale(other.1.load());
-        *out = sum.store();
-    }
-}
-
 /// Turns every link, carried along by `carry` from `frames`, along the free motion, and sets the particles.
 #[inline(always)]
 fn predict<T: Number>(
     batch: &Batch,
-    (free_y, free_v, time): (&[Vec3], &[Vec3], Lane),
+    mut free: FreeMotion,
     carry: Quat,
     frames: &[Quat],
     shape: &mut Stage,
 ) {
     let count = batch.count();
     let (links, frames) = (&batch.links[..count], &frames[..count]);
-    let (free_y, free_v) = (&free_y[..count], &free_v[..count]);
     let (ys, next) = (&mut shape.y[..count], &mut shape.frames[..count]);
     let tangents = &mut shape.tangents[..count];
-    let (mut free, mut y) = (Vec3::zero(), Vec3::zero());
+    let (mut before, mut y) = (Vec3::zero(), Vec3::zero());
     // Of the link before, not normalised.
     let mut turn = Quat::identity();
     for k in 0..count {
         let length: T = links[k].length.load();
-        let place = free_y[k].load::<T>() + free_v[k].load().scale(time.load());
+        let place = free.place::<T>(k);
         let frame = carry.load().times(frames[k].load());
-        turn = pointing(frame.tangent(), place - free, length, turn);
-        free = place;
+        turn = pointing(frame.tangent(), place - before, length, turn);
+        before = place;
         let frame = turn.times(frame).normalize();
         let tangent = frame.tangent();
         y += tangent.scale(length);
@@ -325,7 +360,7 @@ fn pointing<T: Number>(tangent: Vec3<T>, chord: Vec3<T>, length: T, before: Quat
     Quat::choose(is_clear, turn, before)
 }
 
-/// Mass and forces on every particle for a stage from `free_y`, `free_v`.
+/// Adds forces to mass and weight of every particle for a stage from `free_y`, `free_v`.
 pub(super) fn assemble(
     instructions: Instructions,
     batch: &Batch,
@@ -346,35 +381,11 @@ pub(super) fn assemble(
 /// All but the contacts.
 #[inline(always)]
 fn load<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup, which: Which) {
-    weigh::<T>(batch, scratch, stage);
     if batch.has_drag.any() {
         drag::<T>(batch, scratch, stage, which);
     }
     if scratch.has_springs {
         spring::<T>(batch, scratch, stage.length, which);
-    }
-}
-
-#[inline(always)]
-fn weigh<T: Number>(batch: &Batch, scratch: &mut Scratch, stage: &StageSetup) {
-    let count = batch.count();
-    let Scratch {
-        nodes,
-        free_y,
-        free_v,
-        ..
-    } = scratch;
-    let (nodes, particles) = (&mut nodes[..count], &batch.particles[..count]);
-    let (free_y, free_v) = (&free_y[..count], &free_v[..count]);
-    for k in 0..count {
-        let (mass, d) = (particles[k].mass.load::<T>(), stage.length.load::<T>());
-        let fall = stage.pull.load().scale(d * d);
-        let target = free_y[k].load() + free_v[k].load().scale(d) + fall;
-        let node = Node {
-            n: Sym3::diagonal(mass),
-            b: target.scale(mass),
-        };
-        nodes[k] = node.store();
     }
 }
 
@@ -528,6 +539,7 @@ fn newton<T: Number>(
         nodes,
         joints: ready,
         eliminations,
+        straight,
         turns,
         past,
         mid,
@@ -536,12 +548,21 @@ fn newton<T: Number>(
         ..
     } = scratch;
     let shape = if which == Which::Mid { mid } else { end };
-    let pose = shape.pose(&setup.base);
-    let sharpest = joints::<T>(&batch.links, pose, past, elastic, ready);
-    ascend::<T>(&batch.links, pose, nodes, ready, eliminations);
-    let largest = descend::<T>(&batch.links, &shape.tangents, eliminations, turns);
-    let scale = (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
-    turn_links::<T>(batch, shape, turns, scale, open);
+    let (links, base) = (&batch.links, &setup.base);
+    let scale = |largest: Lane| (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
+    let (sharpest, largest);
+    if batch.is_straight {
+        straight::bend_joints::<T>(base, shape, links.len());
+        sharpest = straight::ascend::<T>(links, shape, nodes, past, elastic, straight);
+        largest = straight::descend::<T>(links, &shape.across, straight, turns);
+        straight::turn_links::<T>(links, shape, turns, scale(largest), open);
+    } else {
+        let pose = shape.pose(base);
+        sharpest = joints::<T>(links, pose, past, elastic, ready);
+        ascend::<T>(links, pose, nodes, ready, eliminations);
+        largest = descend::<T>(links, &shape.tangents, eliminations, turns);
+        turn_links::<T>(batch, shape, turns, scale(largest), open);
+    }
     let rate = setup.length.recip();
     let count = batch.count();
     let (v, y, free_y) = (&mut shape.v[..count], &shape.y[..count], &free_y[..count]);

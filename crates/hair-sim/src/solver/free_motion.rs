@@ -1,0 +1,74 @@
+//! The motion of free particles, from which a stage starts.
+
+use crate::lanes::{Lane, Number, Sym3, Vec3};
+
+use super::{
+    batch::{Batch, Particle},
+    integrate::StageSetup,
+    sweep::Node,
+};
+
+/// Two lists that are added, each times its own number.
+pub(super) type Sum<'a> = [(&'a [Vec3], Lane); 2];
+
+/// Where particles would be at a stage's end without forces, link by link.
+pub(super) struct FreeMotion<'a> {
+    y_of: Sum<'a>,
+    v_of: Sum<'a>,
+    /// The stage's, in s.
+    length: Lane,
+    /// What gravity and the root's acceleration move a particle by.
+    fall: Vec3,
+    particles: &'a [Particle],
+    y: &'a mut [Vec3],
+    v: &'a mut [Vec3],
+    nodes: &'a mut [Node],
+}
+
+impl<'a> FreeMotion<'a> {
+    /// Of a stage that starts from the positions `y_of` and velocities `v_of`; [`Self::place`] stores them in `y` and `v`, and
+    /// mass and weight in `nodes`.
+    pub(super) fn new(
+        batch: &'a Batch,
+        stage: &StageSetup,
+        (y_of, v_of): (Sum<'a>, Sum<'a>),
+        (y, v): (&'a mut [Vec3], &'a mut [Vec3]),
+        nodes: &'a mut [Node],
+    ) -> Self {
+        let count = batch.count();
+        let cut = |sum: Sum<'a>| sum.map(|(list, factor)| (&list[..count], factor));
+        Self {
+            y_of: cut(y_of),
+            v_of: cut(v_of),
+            length: stage.length,
+            fall: stage.pull * (stage.length * stage.length),
+            particles: &batch.particles[..count],
+            y: &mut y[..count],
+            v: &mut v[..count],
+            nodes: &mut nodes[..count],
+        }
+    }
+
+    /// Prepares particle `k`, and returns where its free motion ends.
+    #[inline(always)]
+    pub(super) fn place<T: Number>(&mut self, k: usize) -> Vec3<T> {
+        let y = sum(&self.y_of, k);
+        let v = sum(&self.v_of, k);
+        let place = y + v.scale(self.length.load::<T>());
+        self.y[k] = y.store();
+        self.v[k] = v.store();
+        let mass = self.particles[k].mass.load();
+        let node = Node {
+            n: Sym3::diagonal(mass),
+            b: (place + self.fall.load()).scale(mass),
+        };
+        self.nodes[k] = node.store();
+        place
+    }
+}
+
+#[inline(always)]
+fn sum<T: Number>(of: &Sum, k: usize) -> Vec3<T> {
+    let [(one, factor), (other, times)] = of;
+    one[k].load::<T>().scale(factor.load()) + other[k].load().scale(times.load())
+}

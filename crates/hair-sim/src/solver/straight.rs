@@ -1,0 +1,450 @@
+//! Strands that are straight by nature solve no twist.
+//!
+//! Where a round section has no natural bend, nothing twists the strand: frames that go from link to link by the least turn
+//! (Bishop 1975) from the skin's are its material frames, and the directions of the links are all there is to find, two numbers each
+//! in place of three. In the axes of such frames a joint's turn is a vector b in the plane across, which points where the
+//! strand bends to and is 2 tan(angle / 2) long, and changes by
+//!
+//! ```text
+//! db = 1 / cos^2(angle / 2) (f - p)
+//! ```
+//!
+//! when the link before moves its direction by p and the link by f, in the axes of each. So a joint's spring couples the two by one
+//! number in place of a matrix, and [`super::sweep`]'s recursion, with the same energy and the same model of it, needs
+//! about a third of the arithmetic.
+
+use crate::lanes::{Lane, Mask, Number, Quat, Sym3, Vec3, plane::Sym2, plane::Vec2, stored};
+
+use super::{
+    batch::{Batch, Link, Stage},
+    free_motion::FreeMotion,
+    sweep::{Elastic, Node},
+};
+
+/// The axes across a link of a frame without twist, in the world.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Across<T = Lane> {
+    pub first: Vec3<T>,
+    pub second: Vec3<T>,
+}
+stored!(Across { first, second });
+
+/// How a joint is bent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bend<T = Lane> {
+    /// 2 tan(angle / 2), in the direction that the link has over that before it, in the axes of either.
+    pub turn: Vec2<T>,
+    /// 1 / cos^2(angle / 2).
+    pub sharp: T,
+}
+stored!(Bend { turn, sharp });
+
+impl Across {
+    pub(crate) const ZERO: Self = Self {
+        first: Vec3::ZERO,
+        second: Vec3::ZERO,
+    };
+}
+
+impl Bend {
+    pub(crate) const STRAIGHT: Self = Self {
+        turn: Vec2 {
+            x: Lane::ZERO,
+            y: Lane::ZERO,
+        },
+        sharp: Lane::ONE,
+    };
+}
+
+/// From a link along `t` to one along `next`, by the least turn.
+#[inline(always)]
+fn onward<T: Number>(t: Vec3<T>, across: Across<T>, next: Vec3<T>) -> (Across<T>, Bend<T>) {
+    let sharp = T::splat(2.0) / (t.dot(next) + T::splat(1.0));
+    let turn = Vec2::new(
+        across.first.dot(next) * sharp,
+        across.second.dot(next) * sharp,
+    );
+    let middle = (t + next) * 0.5;
+    let across = Across {
+        first: across.first - middle.scale(turn.x),
+        second: across.second - middle.scale(turn.y),
+    };
+    (across, Bend { turn, sharp })
+}
+
+/// Goes along the joints from the skin's frame `base`, by the `tangent` of every link: its axes, and the joint's bend.
+#[inline(always)]
+fn along<T: Number>(
+    base: &Quat,
+    count: usize,
+    tangent: impl Fn(usize) -> Vec3<T>,
+    mut joint: impl FnMut(usize, Across<T>, Bend<T>),
+) {
+    let [first, second, mut t] = base.load::<T>().axes();
+    let mut across = Across { first, second };
+    for k in 0..count {
+        let next = tangent(k);
+        let bend;
+        (across, bend) = onward(t, across, next);
+        t = next;
+        joint(k, across, bend);
+    }
+}
+
+/// The turn of every joint along its axis, in the frame of its link.
+#[inline(always)]
+pub(super) fn turns<T: Number>(base: &Quat, tangent: impl Fn(usize) -> Vec3<T>, out: &mut [Vec3]) {
+    along(
+        base,
+        out.len(),
+        tangent,
+        #[inline(always)]
+        |k, _, bend| {
+            let zero = T::splat(0.0);
+            out[k] = Vec3::new(-bend.turn.y, bend.turn.x, zero).store();
+        },
+    );
+}
+
+/// Makes the joints of a shape ready for [`ascend`].
+#[inline(always)]
+pub(super) fn bend_joints<T: Number>(base: &Quat, shape: &mut Stage, count: usize) {
+    let tangents = &shape.tangents[..count];
+    let (acrosses, bends) = (&mut shape.across[..count], &mut shape.bends[..count]);
+    along::<T>(
+        base,
+        count,
+        #[inline(always)]
+        |k| tangents[k].load(),
+        #[inline(always)]
+        |k, across, bend| {
+            acrosses[k] = across.store();
+            bends[k] = bend.store();
+        },
+    );
+}
+
+/// Lays a shape out by the `direction` of each link, which is told the one that it has.
+#[inline(always)]
+fn lay_out<T: Number>(
+    links: &[Link],
+    shape: &mut Stage,
+    mut direction: impl FnMut(usize, Vec3<T>) -> Vec3<T>,
+) {
+    let count = links.len();
+    let (ys, tangents) = (&mut shape.y[..count], &mut shape.tangents[..count]);
+    let mut y = Vec3::zero();
+    for k in 0..count {
+        let next = direction(k, tangents[k].load());
+        y += next.scale(links[k].length.load());
+        ys[k] = y.store();
+        tangents[k] = next.store();
+    }
+}
+
+/// Points every link along the free motion; one whose way is not clear goes on as `carry` takes it from `before`.
+#[inline(always)]
+pub(super) fn predict<T: Number>(
+    links: &[Link],
+    mut free: FreeMotion,
+    carry: Quat,
+    before: impl Fn(usize) -> Vec3<T>,
+    shape: &mut Stage,
+) {
+    let mut end = Vec3::<T>::zero();
+    lay_out(
+        links,
+        shape,
+        #[inline(always)]
+        |k, _| {
+            let place = free.place(k);
+            let chord = place - end;
+            end = place;
+            let length = links[k].length.load::<T>();
+            let squared = chord.length_squared();
+            let size = squared.sqrt();
+            let ahead = chord.scale(T::splat(1.0) / size);
+            let before = before(k);
+            let is_clear = (length * length * T::splat(0.01)).less(squared);
+            let is_ahead = T::splat(0.0).less(before.dot(chord));
+            if T::all(is_clear) && T::all(is_ahead) {
+                return ahead;
+            }
+            let carried = carry.load().rotate(before);
+            let is_on = (size * T::splat(-0.95)).less(carried.dot(chord));
+            let next = Vec3::choose(is_on, ahead, carried);
+            let next = Vec3::choose(is_ahead, ahead, next);
+            Vec3::choose(is_clear, next, carried)
+        },
+    );
+}
+
+/// What the way back needs of a joint: f = before p - alone - shift x.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Elimination<T = Lane> {
+    first: Vec3<T>,
+    second: Vec3<T>,
+    before: Sym2<T>,
+    alone: Vec2<T>,
+}
+stored!(Elimination {
+    first,
+    second,
+    before,
+    alone
+});
+
+impl Elimination {
+    pub(crate) const ZERO: Self = Self {
+        first: Vec3::ZERO,
+        second: Vec3::ZERO,
+        before: Sym2 {
+            xx: Lane::ZERO,
+            yy: Lane::ZERO,
+            xy: Lane::ZERO,
+        },
+        alone: Vec2 {
+            x: Lane::ZERO,
+            y: Lane::ZERO,
+        },
+    };
+}
+
+/// The quadratic of what lies beyond a joint, of its shift and of how the link before moves its direction; and the sum of forces there.
+struct Beyond<T> {
+    a: Sym3<T>,
+    /// Columns.
+    c: Across<T>,
+    d: Sym2<T>,
+    a_linear: Vec3<T>,
+    d_linear: Vec2<T>,
+    force: Vec3<T>,
+}
+
+/// From tip to root, as [`super::sweep::ascend`]. Returns how sharp the sharpest joint is.
+#[inline(always)]
+pub(super) fn ascend<T: Number>(
+    links: &[Link],
+    shape: &Stage,
+    nodes: &[Node],
+    past: &[Vec3],
+    elastic: &Elastic,
+    out: &mut [Elimination],
+) -> Lane {
+    let count = links.len();
+    let (y, tangents) = (&shape.y[..count], &shape.tangents[..count]);
+    let (acrosses, bends) = (&shape.across[..count], &shape.bends[..count]);
+    let (nodes, past) = (&nodes[..count], &past[..count]);
+    let out = &mut out[..count];
+    let elastic = elastic.load::<T>();
+    let zero = Vec3::<T>::zero();
+    let mut sharpest = T::splat(1.0);
+    let mut beyond = Beyond {
+        a: Sym3::diagonal(T::splat(0.0)),
+        c: Across {
+            first: zero,
+            second: zero,
+        },
+        d: Sym2::diagonal(T::splat(0.0)),
+        a_linear: zero,
+        d_linear: Vec2::zero(),
+        force: zero,
+    };
+    for k in (0..count).rev() {
+        let bend: Bend<T> = bends[k].load();
+        sharpest = T::choose(sharpest.less(bend.sharp), bend.sharp, sharpest);
+        let past = past[k].load::<T>();
+        let joint = Joint::new(
+            bend,
+            Vec2::new(past.y, -past.x),
+            links[k].bend.load(),
+            &elastic,
+        );
+        let link = Directed {
+            t: tangents[k].load(),
+            across: acrosses[k].load(),
+            length: links[k].length.load(),
+        };
+        let elimination;
+        (beyond, elimination) = eliminate(beyond, y[k].load(), link, nodes[k].load(), joint);
+        out[k] = elimination.store();
+    }
+    sharpest.store()
+}
+
+/// Moment on a joint and its stiffness, both times h^2.
+struct Joint<T> {
+    moment: Vec2<T>,
+    stiffness: T,
+}
+
+impl<T: Number> Joint<T> {
+    #[inline(always)]
+    fn new(bend: Bend<T>, past: Vec2<T>, stiffness: T, elastic: &Elastic<T>) -> Self {
+        let stretch = elastic.damping + T::splat(1.0);
+        let slope = stiffness * elastic.h2 * bend.sharp;
+        let e = bend.turn.scale(stretch) - past.scale(elastic.damping);
+        Self {
+            moment: e.scale(slope),
+            stiffness: slope * bend.sharp * stretch,
+        }
+    }
+}
+
+/// A link as the sweep sees it.
+struct Directed<T> {
+    t: Vec3<T>,
+    across: Across<T>,
+    length: T,
+}
+
+/// Adds a link with a particle at its end `y`, and eliminates its direction.
+#[inline(always)]
+fn eliminate<T: Number>(
+    beyond: Beyond<T>,
+    y: Vec3<T>,
+    link: Directed<T>,
+    node: Node<T>,
+    joint: Joint<T>,
+) -> (Beyond<T>, Elimination<T>) {
+    // The particle at the link's end.
+    let gradient = node.n.apply(y) - node.b;
+    let a = beyond.a + node.n;
+    let a_linear = beyond.a_linear + gradient;
+    let force = beyond.force + gradient;
+
+    // How the link's direction moves its end, and W = C + A U, which couples it to the joint's shift.
+    let (u, v) = (
+        link.across.first.scale(link.length),
+        link.across.second.scale(link.length),
+    );
+    let c = beyond.c;
+    let (wu, wv) = (c.first + a.apply(u), c.second + a.apply(v));
+    // Tension stiffens the link against turning; compression is left out, which keeps the step downhill.
+    let (zero, tension) = (T::splat(0.0), -(force.dot(link.t) * link.length));
+    let tension = T::choose(tension.less(zero), zero, tension);
+    let own = Sym2 {
+        xx: u.dot(wu) + (u.dot(c.first) + (beyond.d.xx + tension)),
+        yy: v.dot(wv) + (v.dot(c.second) + (beyond.d.yy + tension)),
+        xy: u.dot(wv) + (v.dot(c.first) + beyond.d.xy),
+    };
+    let own_linear = beyond.d_linear + Vec2::new(u.dot(a_linear), v.dot(a_linear));
+
+    // The joint's spring, between the link before and this one. Cofactors in place of the inverse: only the last product of each
+    // result waits for the quotient.
+    let Joint { moment, stiffness } = joint;
+    let cofactors = Sym2 {
+        xx: own.yy + stiffness,
+        yy: own.xx + stiffness,
+        xy: -own.xy,
+    };
+    let share = T::splat(1.0) / (cofactors.xx * cofactors.yy - own.xy * own.xy);
+    let first = wu.scale(cofactors.xx) + wv.scale(cofactors.xy);
+    let second = wu.scale(cofactors.xy) + wv.scale(cofactors.yy);
+    let alone = cofactors.apply(own_linear + moment);
+    let passed_on = share * stiffness;
+
+    let beyond = Beyond {
+        a: Sym3 {
+            xx: a.xx - (wu.x * first.x + wv.x * second.x) * share,
+            yy: a.yy - (wu.y * first.y + wv.y * second.y) * share,
+            zz: a.zz - (wu.z * first.z + wv.z * second.z) * share,
+            xy: a.xy - (wu.x * first.y + wv.x * second.y) * share,
+            xz: a.xz - (wu.x * first.z + wv.x * second.z) * share,
+            yz: a.yz - (wu.y * first.z + wv.y * second.z) * share,
+        },
+        c: Across {
+            first: first.scale(passed_on),
+            second: second.scale(passed_on),
+        },
+        // stiffness - stiffness inverse stiffness, without the difference of large numbers; and so is the linear part.
+        d: own.times(cofactors).scale(passed_on),
+        a_linear: a_linear - (wu.scale(alone.x) + wv.scale(alone.y)).scale(share),
+        d_linear: own_linear - own.apply(alone).scale(share),
+        force,
+    };
+    let elimination = Elimination {
+        first: first.scale(share),
+        second: second.scale(share),
+        before: cofactors.scale(passed_on),
+        alone: alone.scale(share),
+    };
+    (beyond, elimination)
+}
+
+/// From root to tip: how every link's direction moves, in the world, into `moves`. Returns the largest.
+#[inline(always)]
+pub(super) fn descend<T: Number>(
+    links: &[Link],
+    acrosses: &[Across],
+    eliminations: &[Elimination],
+    moves: &mut [Vec3],
+) -> Lane {
+    let count = links.len();
+    let (acrosses, eliminations) = (&acrosses[..count], &eliminations[..count]);
+    let moves = &mut moves[..count];
+    let mut shift = Vec3::<T>::zero();
+    let mut f = Vec2::<T>::zero();
+    let mut largest = T::splat(0.0);
+    for k in 0..count {
+        let e: Elimination<T> = eliminations[k].load();
+        let across: Across<T> = acrosses[k].load();
+        let shifted = Vec2::new(e.first.dot(shift), e.second.dot(shift));
+        f = e.before.apply(f) - (e.alone + shifted);
+        let moved = across.first.scale(f.x) + across.second.scale(f.y);
+        moves[k] = moved.store();
+        shift += moved.scale(links[k].length.load());
+        let squared = (f.x * f.x + f.y * f.y) * links[k].counts.load();
+        // What is no number stays: every link after it has none.
+        largest = T::choose(squared.less(largest), largest, squared);
+    }
+    largest.sqrt().store()
+}
+
+/// Turns the links of the lanes in `which` by `scale` times `moves`, and moves the particles along.
+#[inline(always)]
+pub(super) fn turn_links<T: Number>(
+    links: &[Link],
+    shape: &mut Stage,
+    moves: &[Vec3],
+    scale: Lane,
+    which: Mask,
+) {
+    let moves = &moves[..links.len()];
+    let (scale, which) = (scale.load::<T>(), T::condition(&which));
+    let one = T::splat(1.0);
+    lay_out(
+        links,
+        shape,
+        #[inline(always)]
+        |k, tangent| {
+            // The rotation whose Rodrigues vector is half of t x move: as `Quat::turned`.
+            let half = moves[k].load().scale(scale) * 0.5;
+            let s = half.length_squared();
+            let turned = (tangent.scale(one - s) + half + half).scale(one / (one + s));
+            Vec3::choose(which, turned, tangent)
+        },
+    );
+}
+
+/// The frames of the links, carried along without twist from the skin's.
+#[inline(always)]
+pub(super) fn frame_links<T: Number>(batch: &Batch, base: &Quat, shape: &mut Stage) {
+    let count = batch.count();
+    let (tangents, frames) = (&shape.tangents[..count], &mut shape.frames[..count]);
+    let mut frame: Quat<T> = base.load();
+    let mut t = frame.tangent();
+    for k in 0..count {
+        let next = tangents[k].load();
+        let w = t.dot(next) + T::splat(1.0);
+        // The length of this quaternion is sqrt(2 w).
+        let s = T::splat(1.0) / (w + w).sqrt();
+        let turn = Quat {
+            v: t.cross(next).scale(s),
+            w: w * s,
+        };
+        frame = turn.times(frame);
+        t = next;
+        frames[k] = frame.store();
+    }
+}
