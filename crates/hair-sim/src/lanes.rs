@@ -40,6 +40,7 @@ pub(crate) trait Number:
     fn store(self) -> Lane;
     fn splat(value: f64) -> Self;
     fn sqrt(self) -> Self;
+    fn abs(self) -> Self;
     fn less(self, than: Self) -> Self::Condition;
     fn condition(mask: &Mask) -> Self::Condition;
     /// Whether it holds for each.
@@ -66,6 +67,10 @@ impl Number for Lane {
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.map(f64::sqrt)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.map(f64::abs)
     }
     #[inline(always)]
     fn less(self, than: Self) -> Mask {
@@ -207,6 +212,10 @@ impl Mask {
             out[i] = if set[i] { u64::MAX } else { 0 };
         }
         Self(out)
+    }
+
+    pub(crate) fn set(&mut self, lane: usize, value: bool) {
+        self.0[lane] = if value { u64::MAX } else { 0 };
     }
 
     #[inline(always)]

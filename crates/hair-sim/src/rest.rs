@@ -19,6 +19,12 @@ const LEAST_HALF_COSINE: f64 = 0.087;
 /// A joint whose natural turn is less than this (radians) is straight.
 const NATURALLY_STRAIGHT: f64 = 1e-12;
 
+/// Where damping over the ratio of stiffnesses is more than this, in s, strands that are straight by nature twist too much to leave it out:
+/// damping holds a strand to where it was bent in its frames, so that one that swings round is twisted. This much changes a strand of
+/// Gamma 30 by half a percent of its length in half a second of nods in gusts, with the square of it
+/// (`solver::straight::tests`).
+const DAMPING_THAT_TWISTS: f64 = 0.008;
+
 /// One strand as the solver sees it. Masses are per linear density: a metre of strand has mass 1.
 #[derive(Clone, Debug)]
 pub(crate) struct RestStrand {
@@ -104,7 +110,7 @@ impl RestStrand {
             root: points[0],
             base,
         };
-        strand.set_natural(params);
+        strand.set_natural(&points, params);
         Ok(strand)
     }
 
@@ -143,15 +149,16 @@ impl RestStrand {
         }
     }
 
-    /// Whether nothing bends or twists it by nature: to within what rounding makes of its frames.
-    pub(crate) fn is_straight(&self) -> bool {
+    /// Whether nothing bends or twists it: by nature, to within what rounding makes of its frames, or by damping.
+    pub(crate) fn is_straight(&self, params: &Params) -> bool {
         let is_straight = |link: &RestLink| {
             link.length > 0.0 && link.natural.length_squared() < NATURALLY_STRAIGHT.powi(2)
         };
-        self.links.iter().all(is_straight)
+        let twist_by_damping = params.damping / params.material.twist_ratio;
+        twist_by_damping <= DAMPING_THAT_TWISTS && self.links.iter().all(is_straight)
     }
 
-    fn set_natural(&mut self, params: &Params) {
+    fn set_natural(&mut self, points: &[DVec3], params: &Params) {
         let mut before = self.base;
         let mut styled = Vec::with_capacity(self.links.len());
         for link in &self.links {
@@ -159,6 +166,8 @@ impl RestStrand {
             before = link.frame;
         }
         match params.natural {
+            // Its turns are but what single precision makes of a line: strands that are straight are simpler to solve.
+            Natural::Styled if is_a_line(points) => {}
             Natural::Styled => {
                 for (link, turn) in self.links.iter_mut().zip(styled) {
                     link.natural = turn;
@@ -191,6 +200,18 @@ impl RestStrand {
             link.natural = u + DVec3::new(-e.x / link.bend, -e.y / link.bend, -e.z / link.twist);
         }
     }
+}
+
+/// Whether points of single precision are as near to the line from the first to the last as rounding leaves them.
+fn is_a_line(points: &[DVec3]) -> bool {
+    let largest = points
+        .iter()
+        .fold(0.0, |most: f64, p| most.max(p.abs().max_element()));
+    let rounding = f64::from(f32::EPSILON) * largest;
+    let chord = points[points.len() - 1] - points[0];
+    let is_near =
+        |p: &DVec3| (*p - points[0]).cross(chord).length() <= 2.0 * rounding * chord.length();
+    chord.length() > 0.0 && points.iter().all(is_near)
 }
 
 fn links(lengths: &[f64], total: f64, frames: &[DQuat], params: &Params) -> Vec<RestLink> {

@@ -168,7 +168,7 @@ impl Solver {
         }
 
         // Strands of one kind and like length together; the order is fixed by the strands alone.
-        let kind = |i: usize| strands[i].0.is_straight();
+        let kind = |i: usize| strands[i].0.is_straight(&strands[i].1);
         let mut order: Vec<usize> = (0..strands.len()).collect();
         order.sort_by_key(|&i| (kind(i), strands[i].0.links.len(), i));
         let mut solver = Self {

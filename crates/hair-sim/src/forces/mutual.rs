@@ -80,10 +80,10 @@ pub(crate) struct Pair {
     pub at: usize,
     /// The partner's index in the list of all particles.
     pub other: [u32; LANES],
-    /// 1 where there is a partner.
-    pub on: Lane,
-    /// 1 where the pair is linked.
-    pub linked: Lane,
+    /// Where there is a partner.
+    pub on: Mask,
+    /// Where the pair is linked.
+    pub linked: Mask,
     /// From the particle to its partner at rest, in the frame of the particle's link, and its length.
     pub offset: Vec3,
     pub length: Lane,
@@ -117,7 +117,87 @@ pub(crate) struct Own<'a> {
     pub dt: f64,
 }
 
-/// Adds the pairs of a batch to its springs. `broken` are the links that hold no more.
+/// The springs of a particle to its partners, all of which it has the same acceleration from.
+struct Pulls<T> {
+    /// Sums of stiffness in 1/s^2 and of damping rate in 1/s, and of both times the share of acceleration that a partner has.
+    stiffness: T,
+    rate: T,
+    shared_stiffness: T,
+    shared_rate: T,
+    /// Sums of stiffness times place at the start, and times way in the step; of rate times way.
+    before: Vec3<T>,
+    way: Vec3<T>,
+    rate_way: Vec3<T>,
+}
+
+impl<T: Number> Pulls<T> {
+    #[inline(always)]
+    fn none() -> Self {
+        let (zero, nowhere) = (T::splat(0.0), Vec3::zero());
+        Self {
+            stiffness: zero,
+            rate: zero,
+            shared_stiffness: zero,
+            shared_rate: zero,
+            before: nowhere,
+            way: nowhere,
+            rate_way: nowhere,
+        }
+    }
+
+    /// Adds springs of a kind in the strands of `here` to places that go some `way` from `to` in the step.
+    #[inline(always)]
+    fn add(&mut self, kind: &Kind, here: Mask, to: Vec3<T>, way: Vec3<T>) {
+        let (here, zero) = (T::condition(&here), T::splat(0.0));
+        let stiffness = T::choose(here, T::splat(kind.stiffness), zero);
+        let rate = T::choose(here, T::splat(kind.rate), zero);
+        let alike = T::splat(kind.alike);
+        self.stiffness = self.stiffness + stiffness;
+        self.rate = self.rate + rate;
+        self.shared_stiffness = self.shared_stiffness + stiffness * alike;
+        self.shared_rate = self.shared_rate + rate * alike;
+        self.before += to.scale(stiffness);
+        self.way += way.scale(stiffness);
+        self.rate_way += way.scale(rate);
+    }
+
+    /// As [`Spring::pull`] one after the other.
+    #[inline(always)]
+    fn add_to(self, spring: &mut Spring, a: Vec3<T>, gamma: f64, dt: f64) {
+        let (square, flow) = (0.5 * dt * dt, self.rate_way * (1.0 / dt));
+        let more = Spring {
+            stiffness: self.stiffness,
+            rate: self.rate,
+            mid: self.before
+                + self.way * gamma
+                + a.scale(self.shared_stiffness) * (square * gamma * gamma),
+            end: self.before + self.way + a.scale(self.shared_stiffness) * square,
+            flow_mid: flow + a.scale(self.shared_rate) * (dt * gamma),
+            flow_end: flow + a.scale(self.shared_rate) * dt,
+        };
+        spring.add(more);
+    }
+}
+
+/// A kind of spring between strands: its stiffness in 1/s^2, its damping rate in 1/s, and the share of a particle's own
+/// acceleration that its partner is expected to have.
+struct Kind {
+    stiffness: f64,
+    rate: f64,
+    alike: f64,
+}
+
+impl Kind {
+    fn new(mutual: &Mutual, stiffness: f64, dt: f64) -> Self {
+        Self {
+            stiffness,
+            rate: 2.0 * stiffness.sqrt(),
+            alike: mutual.alike(stiffness, dt),
+        }
+    }
+}
+
+/// Adds the pairs of a batch, in the order of their particles, to its springs. `broken` are the links that hold no more.
 #[inline(always)]
 pub(crate) fn act<T: Number>(
     mutual: &Mutual,
@@ -128,54 +208,63 @@ pub(crate) fn act<T: Number>(
     springs: &mut [Spring],
 ) -> Counts {
     let mut counts = Counts::default();
-    let half_square = 0.5 * own.dt * own.dt;
     let [link, repulsion] =
-        [mutual.link, mutual.repulsion].map(|stiffness| mutual.alike(stiffness, own.dt));
-    let half = Lane::splat(0.5);
-    for (pair, broken) in pairs.iter().zip(broken) {
-        let others = pair.other.map(|other| &courses[other as usize]);
-        let y = own.y[pair.at].load::<T>();
-        let before = gather(|lane| &others[lane].before) - own.root_before.load();
-        let a = own.a[pair.at].load::<T>();
+        [mutual.link, mutual.repulsion].map(|stiffness| Kind::new(mutual, stiffness, own.dt));
+    let (root_before, root_now) = (own.root_before.load::<T>(), own.root_now.load::<T>());
+    let mut left = broken;
+    for pairs in pairs.chunk_by(|one, next| one.at == next.at) {
+        let broken;
+        (broken, left) = left.split_at_mut(pairs.len());
+        let at = pairs[0].at;
+        let y = own.y[at].load::<T>();
+        let frame = own.frames[at].load::<T>();
+        let mut pulls = Pulls::none();
+        for (pair, broken) in pairs.iter().zip(broken) {
+            let others = pair.other.map(|other| &courses[other as usize]);
+            let before = gather(|lane| &others[lane].before) - root_before;
+            let way = gather(|lane| &others[lane].now) - root_now - before;
+            let apart = before - y;
+            let size = apart.length_squared().sqrt();
+            let length = size.store();
+
+            let holds = pair.linked.and(still_holds(mutual, pair, length, broken));
+            let keep = pair.length.min(Lane::splat(mutual.distance));
+            let close = pair.on.and(length.lt(keep * 0.999));
+            counts.links += holds.count();
+            counts.repulsions += close.count();
+            if holds.any() {
+                let to = before - frame.rotate(pair.offset.load());
+                pulls.add(&link, holds, to, way);
+            }
+            if close.any() {
+                // Away along the line between them; strands in one place stay together.
+                let least = Lane::splat(1e-9);
+                let away = (keep / length.max(least)).min(Lane::splat(10.0));
+                let pushes = close.and(length.gt(least));
+                let to = before - apart.scale(away.load());
+                pulls.add(&repulsion, pushes, to, way);
+            }
+        }
+        let a = own.a[at].load::<T>();
         let a = Vec3::choose(T::condition(&own.known), a, Vec3::zero());
-        let now = gather(|lane| &others[lane].now) - own.root_now.load();
-        let apart = before - y;
-        let size = apart.length_squared().sqrt();
-        let length = size.store();
-        let stretch = (length - pair.length).max(pair.length - length);
-
-        let linked = pair.linked.gt(half);
-        let torn = stretch.gt(Lane::splat(mutual.break_at));
-        let back = stretch.lt(Lane::splat(0.1 * mutual.break_at));
-        let mended = if mutual.mends { back } else { Mask::NONE };
-        let gone = Mask::new(*broken).or(torn).and(mended.not());
-        *broken = gone.and(linked).bools();
-        let holds = linked.and(gone.not());
-        counts.links += holds.count();
-        if holds.any() {
-            let offset = own.frames[pair.at].load().rotate(pair.offset.load());
-            let stiffness = T::choose(T::condition(&holds), T::splat(mutual.link), T::splat(0.0));
-            let a = a * link;
-            let (before, now) = (before - offset, now + a * half_square - offset);
-            springs[pair.at].pull(stiffness, before, now, a, own.gamma, own.dt);
-        }
-
-        let keep = pair.length.min(Lane::splat(mutual.distance));
-        let close = pair.on.gt(half).and(length.lt(keep * 0.999));
-        counts.repulsions += close.count();
-        if close.any() {
-            // Away along the line between them; strands in one place stay together.
-            let safe = length.max(Lane::splat(1e-9));
-            let away = apart.scale((keep / safe).min(Lane::splat(10.0)).load());
-            let pushes = close.and(length.gt(Lane::splat(1e-9)));
-            let push = T::splat(mutual.repulsion);
-            let stiffness = T::choose(T::condition(&pushes), push, T::splat(0.0));
-            let a = a * repulsion;
-            let (before, now) = (before - away, now + a * half_square - away);
-            springs[pair.at].pull(stiffness, before, now, a, own.gamma, own.dt);
-        }
+        pulls.add_to(&mut springs[at], a, own.gamma, own.dt);
     }
     counts
+}
+
+/// Whether the links of a pair, which are `length` long, hold; `broken` are those that do not.
+#[inline(always)]
+fn still_holds(mutual: &Mutual, pair: &Pair, length: Lane, broken: &mut [bool; LANES]) -> Mask {
+    let stretch = (length - pair.length).max(pair.length - length);
+    let torn = stretch.gt(Lane::splat(mutual.break_at));
+    if *broken == [false; LANES] && !torn.any() {
+        return Mask::NONE.not();
+    }
+    let back = stretch.lt(Lane::splat(0.1 * mutual.break_at));
+    let mended = if mutual.mends { back } else { Mask::NONE };
+    let gone = Mask::new(*broken).or(torn).and(mended.not());
+    *broken = gone.and(pair.linked).bools();
+    gone.not()
 }
 
 /// The vectors of the batch's strands side by side.

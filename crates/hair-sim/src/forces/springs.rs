@@ -55,13 +55,25 @@ impl Spring {
         let velocity = way * (1.0 / dt);
         let flow_mid = velocity + gain * (gamma - 0.5);
         let flow_end = velocity + gain * 0.5;
+        self.add(Spring {
+            stiffness,
+            mid: mid.scale(stiffness),
+            end: now.scale(stiffness),
+            rate,
+            flow_mid: flow_mid.scale(rate),
+            flow_end: flow_end.scale(rate),
+        });
+    }
+
+    #[inline(always)]
+    pub(crate) fn add<T: Number>(&mut self, more: Spring<T>) {
         // Number by number: the whole spring has no room in registers.
-        self.stiffness = (self.stiffness.load::<T>() + stiffness).store();
-        self.rate = (self.rate.load::<T>() + rate).store();
+        self.stiffness = (self.stiffness.load::<T>() + more.stiffness).store();
+        self.rate = (self.rate.load::<T>() + more.rate).store();
         let add = |sum: &mut Vec3, more: Vec3<T>| *sum = (sum.load::<T>() + more).store();
-        add(&mut self.mid, mid.scale(stiffness));
-        add(&mut self.end, now.scale(stiffness));
-        add(&mut self.flow_mid, flow_mid.scale(rate));
-        add(&mut self.flow_end, flow_end.scale(rate));
+        add(&mut self.mid, more.mid);
+        add(&mut self.end, more.end);
+        add(&mut self.flow_mid, more.flow_mid);
+        add(&mut self.flow_end, more.flow_end);
     }
 }

@@ -123,11 +123,10 @@ impl Gusts {
 fn sine_of_turns<T: Number>(x: T) -> T {
     // Adding this leaves no fraction: rounding to the nearest whole number, on every processor.
     let round = T::splat(6_755_399_441_055_744.0);
-    let magnitude = |x: T| T::choose(x.less(-x), -x, x);
     let r = x - ((x + round) - round);
     // sin(2 pi r) = 8 r - 16 r |r|, a parabola, and a second one of it: odd, exact at the quarters.
-    let p = r * T::splat(8.0) - r * magnitude(r) * T::splat(16.0);
-    let q = p * magnitude(p);
+    let p = r * T::splat(8.0) - r * r.abs() * T::splat(16.0);
+    let q = p * p.abs();
     p * T::splat(0.775_160_7) + q * T::splat(0.224_839_3)
 }
 

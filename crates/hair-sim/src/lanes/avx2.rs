@@ -6,9 +6,9 @@
 #![allow(unsafe_code, reason = "it saves time, see `solver::instructions`")]
 
 use std::arch::x86_64::{
-    __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_blendv_pd, _mm256_cmp_pd, _mm256_div_pd,
-    _mm256_load_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_set1_pd, _mm256_sqrt_pd,
-    _mm256_store_pd, _mm256_sub_pd, _mm256_xor_pd,
+    __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_cmp_pd,
+    _mm256_div_pd, _mm256_load_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_set1_pd,
+    _mm256_sqrt_pd, _mm256_store_pd, _mm256_sub_pd, _mm256_xor_pd,
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -68,6 +68,11 @@ impl Number for Avx2 {
     fn sqrt(self) -> Self {
         // SAFETY: see the module.
         Self(unsafe { _mm256_sqrt_pd(self.0) })
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: see the module.
+        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
     }
     #[inline(always)]
     fn less(self, than: Self) -> Self {

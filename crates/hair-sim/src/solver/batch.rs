@@ -112,7 +112,7 @@ impl Batch {
             root: Vec3::ZERO,
             base: Quat::IDENTITY,
             used: Mask::NONE,
-            is_straight: members.iter().all(|m| m.1.is_straight()),
+            is_straight: members.iter().all(|m| m.1.is_straight(m.2)),
         };
         for (lane, (index, rest, params)) in members.iter().enumerate() {
             batch.fill(lane, *index, rest, params);
@@ -331,7 +331,7 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self {
             y: vec![Vec3::ZERO; count],
             v: vec![Vec3::ZERO; count],

@@ -56,16 +56,23 @@ pub(super) fn turned_too_far<T: Number>(
     scratch: &Scratch,
     root: &RootMotion,
 ) -> Mask {
-    let mut least = T::splat(1.0);
+    let count = batch.count();
+    let (links, frames) = (&batch.links[..count], &state.frames[..count]);
+    let tangents = &scratch.end.tangents[..count];
+    let (mut least, ordinary) = (T::splat(1.0), T::splat(LEAST_COSINE));
     let turn = root.turn_end.load::<T>();
-    for k in 0..batch.count() {
-        let before = state.frames[k].load().tangent();
-        let now = scratch.end.tangents[k].load();
+    for k in 0..count {
+        let before = frames[k].load().tangent();
+        let now = tangents[k].load();
         // Turned with the skin, or left where it was: either is an ordinary motion.
-        let (carried, still) = (turn.rotate(before).dot(now), before.dot(now));
+        let still = before.dot(now);
+        if T::all(ordinary.less(still)) {
+            continue;
+        }
+        let carried = turn.rotate(before).dot(now);
         let cosine = T::choose(carried.less(still), still, carried);
         // Links that only fill the batch have no say; what is no number is the least.
-        let counts = batch.links[k].counts.load();
+        let counts = links[k].counts.load();
         let cosine = cosine * counts + (T::splat(1.0) - counts);
         least = T::choose(least.less(cosine), least, cosine);
     }
@@ -85,50 +92,47 @@ pub(super) fn finish<T: Number>(
     if batch.is_straight {
         straight::frame_links::<T>(batch, &root.end, &mut scratch.end);
     }
-    let mut struck = Mask::new(state.restart).and(which.not());
-    let end = &scratch.end;
-    let rate = 1.0 / d;
+    let count = batch.count();
+    let Scratch {
+        end, free_v, past, ..
+    } = scratch;
+    let (v, y, tangents) = (&end.v[..count], &end.y[..count], &end.tangents[..count]);
+    let (frames, free_v, past) = (&end.frames[..count], &free_v[..count], &past[..count]);
+    let rate = T::splat(1.0 / d);
     let mut before = Vec3::zero();
     let mut velocity = Vec3::<T>::zero();
-    for k in 0..batch.count() {
-        let v = end.v[k].load::<T>();
-        let a = ((v - scratch.free_v[k].load()) * rate).store();
-        let t = end.tangents[k].load();
+    for k in 0..count {
+        let v = v[k].load::<T>();
+        let t = tangents[k].load();
         let along = v - before;
         before = v;
         velocity += along - t.scale(along.dot(t) * T::splat(UNSTRETCH));
-        let a = if !scratch.touched.is_empty() {
-            settle_contact(state, scratch, k, a, which, &mut struck)
-        } else {
-            state.press[k] = which.pick(Lane::ZERO, state.press[k]);
-            a
-        };
-        state.a[k] = Vec3::pick(which, a, state.a[k]);
+        let a = (v - free_v[k].load()).scale(rate);
+        // By bits: of numbers chosen in registers the compiler makes masked stores, which take far longer on some machines.
+        state.a[k] = Vec3::pick(which, a.store(), state.a[k]);
         state.v[k] = Vec3::pick(which, velocity.store(), state.v[k]);
-        state.y[k] = Vec3::pick(which, end.y[k], state.y[k]);
-        state.frames[k] = Quat::pick(which, end.frames[k], state.frames[k]);
-        state.past[k] = Vec3::pick(which, scratch.past[k], state.past[k]);
+        state.y[k] = Vec3::pick(which, y[k], state.y[k]);
+        state.past[k] = Vec3::pick(which, past[k], state.past[k]);
+        state.frames[k] = Quat::pick(which, frames[k], state.frames[k]);
+        state.press[k] = which.pick(Lane::ZERO, state.press[k]);
+    }
+    let mut struck = Mask::new(state.restart).and(which.not());
+    for &k in &scratch.touched {
+        struck = struck.or(settle_contact(state, scratch, k, which));
     }
     state.restart = struck.bools();
 }
 
-/// Remembers the pressure on particle `k`, and returns its acceleration without the blow of a contact: that is over, and
-/// the next step must not start with it. A strand that was struck starts anew.
+/// Remembers the pressure on particle `k`, and takes the blow of a contact out of its acceleration: that is over, and
+/// the next step must not start with it. Returns the strands that were struck: they start anew.
 #[inline(always)]
-fn settle_contact(
-    state: &mut BatchState,
-    scratch: &Scratch,
-    k: usize,
-    a: Vec3,
-    which: Mask,
-    struck: &mut Mask,
-) -> Vec3 {
+fn settle_contact(state: &mut BatchState, scratch: &Scratch, k: usize, which: Mask) -> Mask {
     let contact = &scratch.contacts[k];
     let press = contact.pressure(scratch.end.y[k]);
-    let before = state.press[k];
-    let new = (before.gt(Lane::ZERO).not()).and(press.gt(Lane::ZERO));
-    *struck = struck.or(new.and(which));
-    state.press[k] = which.pick(press, before);
+    state.press[k] = which.pick(press, state.press[k]);
+    let a = state.a[k];
     let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
-    a - contact.normal * out
+    state.a[k] = Vec3::pick(which, a - contact.normal * out, a);
+    let is_new = (contact.press.gt(Lane::ZERO).not()).and(press.gt(Lane::ZERO));
+    is_new.and(which)
 }

@@ -553,7 +553,8 @@ fn newton<T: Number>(
     let (sharpest, largest);
     if batch.is_straight {
         straight::bend_joints::<T>(base, shape, links.len());
-        sharpest = straight::ascend::<T>(links, shape, nodes, past, elastic, straight);
+        let damps = batch.damping != Lane::ZERO;
+        sharpest = straight::ascend::<T>(links, shape, nodes, past, elastic, damps, straight);
         largest = straight::descend::<T>(links, &shape.across, straight, turns);
         straight::turn_links::<T>(links, shape, turns, scale(largest), open);
     } else {

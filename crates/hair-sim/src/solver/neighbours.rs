@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::{
     forces::mutual::{Mutual, Pair},
-    lanes::{LANES, Lane, Vec3},
+    lanes::{LANES, Lane, Mask, Vec3},
 };
 
 use super::batch::{Batch, BatchState};
@@ -74,8 +74,8 @@ pub(super) fn pairs(
                     list.push(Pair {
                         at: k,
                         other: [0; LANES],
-                        on: Lane::ZERO,
-                        linked: Lane::ZERO,
+                        on: Mask::NONE,
+                        linked: Mask::NONE,
                         offset: Vec3::ZERO,
                         length: Lane::ZERO,
                     });
@@ -86,14 +86,27 @@ pub(super) fn pairs(
                 let frame = states[strand.batch].frames[k].get(strand.lane);
                 let lane = strand.lane;
                 pair.other[lane] = (first[other.batch] + partner * LANES + other.lane) as u32;
-                pair.on[lane] = 1.0;
+                pair.on.set(lane, true);
                 pair.offset.set(lane, frame.conjugate() * apart);
                 pair.length[lane] = apart.length();
-                pair.linked[lane] = f64::from(u8::from(apart.length() < mutual.reach));
+                pair.linked.set(lane, apart.length() < mutual.reach);
             }
         }
     }
-    pairs
+    // Of a strand's particle, nearest neighbour first, whatever strands are beside it in the batch.
+    (slots.iter().zip(batches).zip(pairs))
+        .map(|((slots, batch), pairs)| in_order(slots, batch.count(), &pairs))
+        .collect()
+}
+
+/// The pairs of a batch by their particles, and of each by its neighbours. `slots` has their places, neighbour by neighbour, for `count`
+/// particles each.
+fn in_order(slots: &[Option<usize>], count: usize, pairs: &[Pair]) -> Vec<Pair> {
+    let of = |k| slots.iter().skip(k).step_by(count).flatten();
+    (0..count)
+        .flat_map(of)
+        .map(|&slot| pairs[slot].clone())
+        .collect()
 }
 
 /// The strands by the cubes of space that their roots are in.

@@ -229,6 +229,7 @@ pub(super) fn ascend<T: Number>(
     nodes: &[Node],
     past: &[Vec3],
     elastic: &Elastic,
+    damps: bool,
     out: &mut [Elimination],
 ) -> Lane {
     let count = links.len();
@@ -239,6 +240,10 @@ pub(super) fn ascend<T: Number>(
     let elastic = elastic.load::<T>();
     let zero = Vec3::<T>::zero();
     let mut sharpest = T::splat(1.0);
+    let mut spin = Spin {
+        torque: T::splat(0.0),
+        bend: Vec2::zero(),
+    };
     let mut beyond = Beyond {
         a: Sym3::diagonal(T::splat(0.0)),
         c: Across {
@@ -254,12 +259,12 @@ pub(super) fn ascend<T: Number>(
         let bend: Bend<T> = bends[k].load();
         sharpest = T::choose(sharpest.less(bend.sharp), bend.sharp, sharpest);
         let past = past[k].load::<T>();
-        let joint = Joint::new(
-            bend,
-            Vec2::new(past.y, -past.x),
-            links[k].bend.load(),
-            &elastic,
-        );
+        let past = Vec2::new(past.y, -past.x);
+        let joint = Joint::new(bend, past, links[k].bend.load(), &elastic);
+        if damps {
+            let moment = spin.pass(bend.turn, past, joint.damping);
+            beyond.d_linear = beyond.d_linear + moment;
+        }
         let link = Directed {
             t: tangents[k].load(),
             across: acrosses[k].load(),
@@ -272,22 +277,47 @@ pub(super) fn ascend<T: Number>(
     sharpest.store()
 }
 
-/// Moment on a joint and its stiffness, both times h^2.
+/// Moment on a joint, its stiffness, and stiffness against a change from the past, all times h^2.
 struct Joint<T> {
     moment: Vec2<T>,
     stiffness: T,
+    damping: T,
 }
 
 impl<T: Number> Joint<T> {
     #[inline(always)]
     fn new(bend: Bend<T>, past: Vec2<T>, stiffness: T, elastic: &Elastic<T>) -> Self {
         let stretch = elastic.damping + T::splat(1.0);
-        let slope = stiffness * elastic.h2 * bend.sharp;
+        let stiffness = stiffness * elastic.h2;
+        let slope = stiffness * bend.sharp;
         let e = bend.turn.scale(stretch) - past.scale(elastic.damping);
         Self {
             moment: e.scale(slope),
             stiffness: slope * bend.sharp * stretch,
+            damping: stiffness * elastic.damping,
         }
+    }
+}
+
+/// What damping does to links by way of the frames. A link that moves across the plane in which its joints bend spins all frames
+/// beyond it about their tangents, by half of b_y f_x - b_x f_y at either joint; and what a frame's spin does to the turn b of
+/// a joint, damping resists, as it holds to where b was in the frame.
+struct Spin<T> {
+    /// Sum over the joints beyond.
+    torque: T,
+    /// The turn of the joint at the link's end.
+    bend: Vec2<T>,
+}
+
+impl<T: Number> Spin<T> {
+    /// The slope of the energy of damping in a link's direction by way of the frames beyond; then goes on to the link before, over the
+    /// joint of `turn`, which damping with `stiffness` holds to `past`.
+    #[inline(always)]
+    fn pass(&mut self, turn: Vec2<T>, past: Vec2<T>, stiffness: T) -> Vec2<T> {
+        let both = (turn + self.bend).scale(self.torque * T::splat(0.5));
+        self.torque = self.torque + stiffness * (past.y * turn.x - past.x * turn.y);
+        self.bend = turn;
+        Vec2::new(both.y, -both.x)
     }
 }
 
@@ -332,7 +362,9 @@ fn eliminate<T: Number>(
 
     // The joint's spring, between the link before and this one. Cofactors in place of the inverse: only the last product of each
     // result waits for the quotient.
-    let Joint { moment, stiffness } = joint;
+    let Joint {
+        moment, stiffness, ..
+    } = joint;
     let cofactors = Sym2 {
         xx: own.yy + stiffness,
         yy: own.xx + stiffness,
@@ -448,3 +480,6 @@ pub(super) fn frame_links<T: Number>(batch: &Batch, base: &Quat, shape: &mut Sta
         frames[k] = frame.store();
     }
 }
+
+#[cfg(test)]
+mod tests;
