@@ -106,9 +106,11 @@ fn follow(
     }
 }
 
-/// Everything that decides the strands' future, to the bit.
+/// Everything that decides the strands' future, to the bit. It is of a solver for the same strands and parameters.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct State {
+    /// Where each strand's numbers are: [`layout`].
+    layout: u64,
     /// Seconds since the start.
     time: f64,
     /// The length of the last step in s; 0 before the first.
@@ -208,6 +210,7 @@ impl Solver {
             .map(|group| Scratch::new(group.iter().map(Batch::count).max().unwrap_or(0)))
             .collect();
         let state = State {
+            layout: layout(&solver.places),
             time: 0.0,
             last_dt: 0.0,
             last: 0,
@@ -364,7 +367,8 @@ impl Solver {
 
     fn check(&self, state: &State, scene: &Scene, dt: f64) -> Result<(), DynamicsError> {
         scene.check(dt, self.len(), self.points.iter().sum())?;
-        let fits = state.batches.len() == self.batches.len()
+        let fits = state.layout == layout(&self.places)
+            && state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count())
             && self.hair.as_ref().is_none_or(|h| {
                 (h.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
@@ -445,6 +449,16 @@ impl Solver {
         let state = &state.batches[batch];
         (0..self.points[strand] - 1).map(move |i| state.frames[i].get(lane))
     }
+}
+
+/// A hash of the places of strands in batches (FNV-1a): straight strands stand apart, and what is straight is said by the parameters
+/// as well as by the strands.
+fn layout(places: &[(usize, usize)]) -> u64 {
+    places
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, (batch, lane)| {
+            (hash ^ (batch * LANES + lane) as u64).wrapping_mul(0x0100_0000_01b3)
+        })
 }
 
 /// Root and frame of the skin of every lane in the world.

@@ -3,7 +3,7 @@
 use super::mass_spring::Truss;
 use super::own::Own;
 use super::reference;
-use super::rods::{Apart, GRAVITY, Rods, Simulation};
+use super::rods::{Apart, GRAVITY, NEARLY_STRAIGHT, Rods, Simulation};
 use super::xpbd::Rod;
 use super::{npz, targets};
 use glam::{DVec2, DVec3};
@@ -168,6 +168,15 @@ pub fn entries(gamma: f64, count: usize, quick: bool) -> Result<Vec<Entry>, Stri
             let method = format!("{}{elements}", targets::OWN);
             entries.push(entry(method, [steps; 2], own.clone(), &rods));
         }
+    }
+    let twisting = Rods {
+        curvature: NEARLY_STRAIGHT,
+        ..Rods::level(count, 20, gamma)
+    };
+    let solved = Own::new(&twisting)?;
+    for steps in [1, 2, 4] {
+        let method = targets::WITH_TWIST.to_owned();
+        entries.push(entry(method, [steps; 2], solved.clone(), &twisting));
     }
     let rods = Rods::level(count, 20, gamma);
     let few = quick || count > 1;

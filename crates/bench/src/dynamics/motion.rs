@@ -2,14 +2,15 @@
 
 use super::mass_spring::Truss;
 use super::own::Own;
-use super::rods::{Apart, Rods, Simulation};
+use super::rods::{Apart, NEARLY_STRAIGHT, Rods, Simulation};
 use super::targets;
 use super::xpbd::Rod;
 use crate::results::Row;
 use crate::timing::{Effort, shortest};
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
-    Collider, Mutual, Params, Pose, Roots, Scene, Shape, Solver, State, Stats, Strands, Wind,
+    Collider, Mutual, Natural, Params, Pose, Roots, Scene, Shape, Solver, State, Stats, Strands,
+    Wind,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::rc::Rc;
@@ -87,7 +88,7 @@ struct Full {
 }
 
 impl Full {
-    fn new(strands: usize, links: usize) -> Result<Self, String> {
+    fn new(strands: usize, links: usize, natural: Natural) -> Result<Self, String> {
         let mut rest = Strands::new();
         for (id, out) in directions(strands).enumerate() {
             let points: Vec<Vec3> = (0..=links)
@@ -100,8 +101,12 @@ impl Full {
             rest.push(id as u32, &points, None)
                 .map_err(|error| error.to_string())?;
         }
+        let params = Params {
+            natural,
+            ..Params::default()
+        };
         let (mut solver, mut state) =
-            Solver::new(&rest, &Params::default()).map_err(|error| error.to_string())?;
+            Solver::new(&rest, &params).map_err(|error| error.to_string())?;
         // The mean distance of roots, over three fifths of a ball.
         let apart = (0.6 * 4.0 * std::f64::consts::PI * HEAD * HEAD / strands as f64).sqrt();
         let mutual = Mutual {
@@ -229,6 +234,15 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
             };
             let scene = format!("motion-{strands}x{links}");
             add(&scene, own, Bare::boxed(Own::new(&rods)?));
+            let twisting = Rods {
+                curvature: NEARLY_STRAIGHT,
+                ..rods.clone()
+            };
+            add(
+                &scene,
+                targets::WITH_TWIST,
+                Bare::boxed(Own::new(&twisting)?),
+            );
             if strands == 72 {
                 let truss = |index| Truss::new(&rods, index);
                 let trusses = Apart((0..strands).map(truss).collect::<Vec<_>>());
@@ -237,8 +251,14 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
                 let rods = Apart((0..strands).map(rod).collect::<Vec<_>>());
                 add(&scene, targets::XPBD_SWEEPS, Bare::boxed(rods));
             }
-            let scene = format!("{}{strands}x{links}", targets::FULL);
-            add(&scene, own, Box::new(Full::new(strands, links)?));
+            let straight = Natural::Curl {
+                curvature: 0.0,
+                torsion: 0.0,
+            };
+            for (kind, natural) in [("", Natural::Balanced), (targets::STRAIGHT, straight)] {
+                let scene = format!("{}{kind}{strands}x{links}", targets::FULL);
+                add(&scene, own, Box::new(Full::new(strands, links, natural)?));
+            }
         }
     }
     // On their way before they are timed.
@@ -279,7 +299,7 @@ mod tests {
 
     #[test]
     fn a_scene_without_contacts_is_refused() {
-        let full = Full::new(8, 10).unwrap();
+        let full = Full::new(8, 10, Natural::Balanced).unwrap();
         let good = Stats {
             strands: 8,
             wind: 80,
@@ -311,7 +331,7 @@ mod tests {
             each: std::time::Duration::ZERO,
         };
         let Measured { rows, fallbacks } = measure(2, true, effort).unwrap();
-        assert_eq!((rows.len(), fallbacks.len()), (12, 2));
+        assert_eq!((rows.len(), fallbacks.len()), (20, 4));
         assert!(rows.iter().all(|row| row.seconds > 0.0));
         assert!(fallbacks.iter().all(|(_, share)| *share <= 1.0));
     }

@@ -4,7 +4,7 @@ use super::rods::{Rods, Simulation};
 use glam::DVec3;
 use hair_sim::{Pose, Roots, Scene, Solver, State, Strands};
 
-/// `hair_sim` as the suite's rods ask for it: straight by nature, no damping but the drag.
+/// `hair_sim` as the suite's rods ask for it.
 #[derive(Clone)]
 pub struct Own {
     solver: Solver,

@@ -22,7 +22,12 @@ pub struct Rods {
     pub gamma: f64,
     /// Drag of the air in 1/s, the same in all directions.
     pub drag: f64,
+    /// Natural curvature in 1/m, for our own solver.
+    pub curvature: f64,
 }
+
+/// A curvature in 1/m that nothing shows but that our solver looks for the twist of all that is not straight by nature.
+pub const NEARLY_STRAIGHT: f64 = 1e-6;
 
 impl Rods {
     /// `count` strands like one along +X, 0.3 m long, undamped: the drop of Romero et al. 2021.
@@ -34,6 +39,7 @@ impl Rods {
             length: 0.3,
             gamma,
             drag: 0.0,
+            curvature: 0.0,
         }
     }
 
@@ -58,7 +64,7 @@ impl Rods {
             .collect()
     }
 
-    /// As `hair_sim` has them: straight by nature, no damping but the drag.
+    /// As `hair_sim` has them: no damping but the drag.
     #[must_use]
     pub fn params(&self) -> Params {
         Params {
@@ -66,7 +72,14 @@ impl Rods {
                 twist_ratio: TWIST_RATIO,
                 ..Material::from_gamma(self.gamma, self.length)
             },
-            natural: Natural::Styled,
+            natural: if self.curvature == 0.0 {
+                Natural::Styled
+            } else {
+                Natural::Curl {
+                    curvature: self.curvature,
+                    torsion: 0.0,
+                }
+            },
             damping: 0.0,
             drag: self.drag,
             drag_along: 1.0,

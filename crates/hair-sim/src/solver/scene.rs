@@ -326,7 +326,7 @@ pub enum DynamicsError {
         expected: usize,
     },
     /// A state belongs to the strands that it was made with.
-    #[error("the state is not of these strands")]
+    #[error("the state is not of these strands and their parameters")]
     State,
 }
 

@@ -29,6 +29,15 @@ fn along(n: usize, direction: Vec3) -> Strands {
     strands
 }
 
+/// Straight, and so little bent that nothing shows but that it is solved as all that is not straight.
+const NEARLY_STRAIGHT: [Natural; 2] = [
+    Natural::Styled,
+    Natural::Curl {
+        curvature: 1e-6,
+        torsion: 0.0,
+    },
+];
+
 /// Undamped, without air, straight by nature.
 fn bare(gamma: f64) -> Params {
     Params {
