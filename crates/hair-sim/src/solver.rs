@@ -440,14 +440,15 @@ impl Solver {
     /// # Panics
     ///
     /// As [`Self::points`].
-    pub fn frames<'a>(
+    pub fn frames(
         &self,
-        state: &'a State,
+        state: &State,
         strand: usize,
-    ) -> impl ExactSizeIterator<Item = DQuat> + use<'a> {
+    ) -> impl ExactSizeIterator<Item = DQuat> + use<> {
         let (batch, lane) = self.places[strand];
-        let state = &state.batches[batch];
-        (0..self.points[strand] - 1).map(move |i| state.frames[i].get(lane))
+        let mut frames = state.batches[batch].link_frames(&self.batches[batch]);
+        frames.truncate(self.points[strand] - 1);
+        frames.into_iter().map(move |frame| frame.get(lane))
     }
 }
 

@@ -166,7 +166,7 @@ pub(crate) struct BatchState {
     pub y: Vec<Vec3>,
     pub v: Vec<Vec3>,
     pub a: Vec<Vec3>,
-    /// Material frames of the links, in world axes.
+    /// Material frames of the links, in world axes; none of straight strands, whose particles tell them.
     pub frames: Vec<Quat>,
     /// The turns of joints that damping held to in the last stage of the last step: the rate at its end is the turn less this over
     /// the stage's length.
@@ -204,7 +204,7 @@ impl BatchState {
             y: vec![Vec3::ZERO; count],
             v: vec![Vec3::ZERO; count],
             a: vec![Vec3::ZERO; count],
-            frames: vec![Quat::IDENTITY; count],
+            frames: vec![Quat::IDENTITY; if batch.is_straight { 0 } else { count }],
             past: vec![Vec3::ZERO; count],
             root: batch.root,
             root_velocity: Vec3::ZERO,
@@ -229,7 +229,9 @@ impl BatchState {
                     frame = link.frame;
                     y += frame * DVec3::Z * link.length;
                 }
-                state.frames[k].set(lane, frame);
+                if !batch.is_straight {
+                    state.frames[k].set(lane, frame);
+                }
                 state.y[k].set(lane, y);
             }
         }
@@ -267,6 +269,16 @@ impl BatchState {
     #[inline(always)]
     pub(crate) fn aside(&self) -> Mask {
         Mask::new(self.set_aside.map(|r| r.is_some()))
+    }
+
+    /// The material frames of the links, in world axes.
+    pub(crate) fn link_frames(&self, batch: &Batch) -> Vec<Quat> {
+        if !batch.is_straight {
+            return self.frames.clone();
+        }
+        let mut frames = vec![Quat::IDENTITY; batch.count()];
+        straight::frames::<Lane>(&self.base, &batch.links, &self.y, &mut frames);
+        frames
     }
 
     /// Carries shape and motion to another root and skin frame.

@@ -16,6 +16,7 @@ use super::{
     Roots, Scene,
     batch::{Batch, BatchState, Reason, Scratch},
     integrate::{BatchStats, GAMMA},
+    straight,
 };
 
 /// What drives a batch in a step.
@@ -148,11 +149,19 @@ pub(crate) fn prepare<T: Number>(
         pull_to_goals(batch, state, scratch, drive);
     }
     if let Some(hair) = &drive.hair {
+        if batch.is_straight {
+            let frames = &mut scratch.mid.frames;
+            straight::frames::<T>(&state.base, &batch.links, &state.y, frames);
+        }
         let own = Own {
             y: &state.y,
             a: &state.a,
             known: Mask::new(state.restart).not(),
-            frames: &state.frames,
+            frames: if batch.is_straight {
+                &scratch.mid.frames
+            } else {
+                &state.frames
+            },
             root_before: state.root,
             root_now: root.root,
             gamma: GAMMA,

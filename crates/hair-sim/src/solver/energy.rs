@@ -9,6 +9,7 @@ use crate::lanes::{Lane, Mask, Number, Quat, Vec3};
 use super::{
     batch::{Batch, BatchState, NO_PULL, Scratch},
     drive::{Drive, RootMotion},
+    straight::chord,
     sweep::half_turn,
 };
 
@@ -41,19 +42,16 @@ impl ShapeEnergy {
 
     /// Of straight strands.
     #[inline(always)]
-    fn of_straight<T: Number>(
-        batch: &Batch,
-        base: Quat,
-        (tangents, y): (&[Vec3], &[Vec3]),
-        pull: Vec3,
-    ) -> Self {
+    fn of_straight<T: Number>(batch: &Batch, base: Quat, y: &[Vec3], pull: Vec3) -> Self {
         let (mut elastic, mut weight) = (T::splat(0.0), T::splat(0.0));
         let (mut before, pull) = (base.load::<T>().tangent(), pull.load::<T>());
         for (k, link) in batch.links.iter().enumerate() {
             let mass: T = batch.particles[k].mass.load();
             weight = weight - mass * y[k].load().dot(pull);
             // Of an angle between two unit vectors: the tangent of its half is their difference over their sum.
-            let t = tangents[k].load();
+            let length = link.length.load::<T>();
+            let t = chord(y, k).scale(T::splat(1.0) / length);
+            let t = Vec3::choose(T::splat(0.0).less(length), t, before);
             let (difference, sum) = (t - before, t + before);
             let tangent_squared = difference.length_squared() / sum.length_squared();
             elastic = elastic + link.bend.load::<T>() * tangent_squared * T::splat(2.0);
@@ -110,8 +108,17 @@ impl BatchState {
     /// Energy of every strand over its mass per length, in m^3/s^2.
     #[inline(always)]
     pub(super) fn energy<T: Number>(&self, batch: &Batch, pull: Vec3) -> Lane {
-        let shape = ShapeEnergy::new::<T>(batch, self.base, &self.frames, &self.y, pull);
-        self.kinetic::<T>(batch) + shape.sum()
+        self.kinetic::<T>(batch) + self.shape_energy::<T>(batch, self.base, pull).sum()
+    }
+
+    /// With the skin's frame at `base`.
+    #[inline(always)]
+    fn shape_energy<T: Number>(&self, batch: &Batch, base: Quat, pull: Vec3) -> ShapeEnergy {
+        if batch.is_straight {
+            ShapeEnergy::of_straight::<T>(batch, base, &self.y, pull)
+        } else {
+            ShapeEnergy::new::<T>(batch, base, &self.frames, &self.y, pull)
+        }
     }
 }
 
@@ -189,8 +196,7 @@ pub(super) fn of_end<T: Number>(
 ) -> ShapeEnergy {
     let end = &scratch.end;
     if batch.is_straight {
-        let shape = (&end.tangents[..], &end.y[..]);
-        ShapeEnergy::of_straight::<T>(batch, root.end, shape, root.pull)
+        ShapeEnergy::of_straight::<T>(batch, root.end, &end.y, root.pull)
     } else {
         ShapeEnergy::new::<T>(batch, root.end, &end.frames, &end.y, root.pull)
     }
@@ -203,7 +209,7 @@ pub(super) fn of_state<T: Number>(
     state: &BatchState,
     root: &RootMotion,
 ) -> ShapeEnergy {
-    ShapeEnergy::new::<T>(batch, root.end, &state.frames, &state.y, root.pull)
+    state.shape_energy::<T>(batch, root.end, root.pull)
 }
 
 /// Takes the energy that a strand may not have out of its velocities.

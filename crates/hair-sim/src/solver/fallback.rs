@@ -16,6 +16,7 @@ use super::{
     free_motion::{FreeMotion, Sum},
     instructions::{Instructions, run},
     integrate::{StageSetup, Which, assemble, hold, turn_links},
+    straight,
     sweep::{Elastic, ascend, descend, joints, potential},
 };
 
@@ -36,12 +37,18 @@ pub(super) fn step(
 ) {
     let h = Lane::splat(drive.dt);
     let damps = batch.damping != Lane::ZERO;
+    if batch.is_straight {
+        let frames = &mut scratch.trial.frames;
+        straight::frames::<Lane>(&state.base, &batch.links, &state.y, frames);
+    } else {
+        scratch.trial.frames[..batch.count()].copy_from_slice(&state.frames);
+    }
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
         if damps {
             scratch.past[k] = scratch.turn_start[k];
         }
-        let frame = root.turn_end.times(state.frames[k]).normalize();
+        let frame = root.turn_end.times(scratch.trial.frames[k]).normalize();
         let tangent = frame.tangent();
         y += tangent * batch.links[k].length;
         scratch.trial.frames[k] = frame;
@@ -165,7 +172,9 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
         state.a[k] = Vec3::pick(good, a, state.a[k]);
         state.v[k] = Vec3::pick(good, v, state.v[k]);
         state.y[k] = Vec3::pick(good, trial.y[k], state.y[k]);
-        state.frames[k] = Quat::pick(good, trial.frames[k], state.frames[k]);
+        if !batch.is_straight {
+            state.frames[k] = Quat::pick(good, trial.frames[k], state.frames[k]);
+        }
     }
     let bad = which.and(good.not());
     for lane in 0..LANES {
@@ -182,13 +191,13 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
 pub(crate) fn carry(batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
-        let frame = Quat::pick(
-            which,
-            turn.times(state.frames[k]).normalize(),
-            state.frames[k],
-        );
-        state.frames[k] = frame;
-        y += frame.tangent() * batch.links[k].length;
+        if batch.is_straight {
+            y = turn.rotate(state.y[k]);
+        } else {
+            let carried = turn.times(state.frames[k]).normalize();
+            y += carried.tangent() * batch.links[k].length;
+            state.frames[k] = Quat::pick(which, carried, state.frames[k]);
+        }
         state.y[k] = Vec3::pick(which, y, state.y[k]);
         state.v[k] = Vec3::pick(which, Vec3::ZERO, state.v[k]);
         state.a[k] = Vec3::pick(which, Vec3::ZERO, state.a[k]);

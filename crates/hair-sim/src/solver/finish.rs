@@ -5,7 +5,7 @@ use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
 use super::{
     batch::{Batch, BatchState, Scratch},
     drive::{Drive, RootMotion},
-    straight,
+    straight::chord,
 };
 
 /// The cosine of the most that a link may turn against the skin in a step of this integrator (2.1 rad): beyond it the
@@ -57,26 +57,28 @@ pub(super) fn turned_too_far<T: Number>(
     root: &RootMotion,
 ) -> Mask {
     let count = batch.count();
-    let (links, frames) = (&batch.links[..count], &state.frames[..count]);
+    let (links, y) = (&batch.links[..count], &state.y[..count]);
     let tangents = &scratch.end.tangents[..count];
-    let (mut least, ordinary) = (T::splat(1.0), T::splat(LEAST_COSINE));
+    let (zero, ordinary) = (T::splat(0.0), T::splat(LEAST_COSINE));
     let turn = root.turn_end.load::<T>();
+    let mut least = T::splat(1.0);
     for k in 0..count {
-        let before = frames[k].load().tangent();
+        let (length, counts) = (links[k].length.load::<T>(), links[k].counts.load());
+        let before = chord(y, k);
         let now = tangents[k].load();
+        // Links that only fill the batch have no say.
+        let limit = ordinary * length - (T::splat(1.0) - counts);
         // Turned with the skin, or left where it was: either is an ordinary motion.
-        let still = before.dot(now);
-        if T::all(ordinary.less(still)) {
+        let still = before.dot(now) - limit;
+        if T::all(zero.less(still)) {
             continue;
         }
-        let carried = turn.rotate(before).dot(now);
-        let cosine = T::choose(carried.less(still), still, carried);
-        // Links that only fill the batch have no say; what is no number is the least.
-        let counts = links[k].counts.load();
-        let cosine = cosine * counts + (T::splat(1.0) - counts);
-        least = T::choose(least.less(cosine), least, cosine);
+        let carried = turn.rotate(before).dot(now) - limit;
+        let more = T::choose(carried.less(still), still, carried);
+        // What is no number is the least.
+        least = T::choose(least.less(more), least, more);
     }
-    least.store().gt(Lane::splat(LEAST_COSINE)).not()
+    least.store().gt(Lane::ZERO).not()
 }
 
 /// Takes the end stage of the lanes in `which` as the new state.
@@ -84,21 +86,17 @@ pub(super) fn turned_too_far<T: Number>(
 pub(super) fn finish<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
-    scratch: &mut Scratch,
-    root: &RootMotion,
+    scratch: &Scratch,
     which: Mask,
     d: f64,
 ) {
-    if batch.is_straight {
-        straight::frame_links::<T>(batch, &root.end, &mut scratch.end);
-    }
     let count = batch.count();
     let Scratch {
         end, free_v, past, ..
     } = scratch;
     let (v, y, tangents) = (&end.v[..count], &end.y[..count], &end.tangents[..count]);
     let (frames, free_v, past) = (&end.frames[..count], &free_v[..count], &past[..count]);
-    let rate = T::splat(1.0 / d);
+    let (rate, damps) = (T::splat(1.0 / d), batch.damping != Lane::ZERO);
     let mut before = Vec3::zero();
     let mut velocity = Vec3::<T>::zero();
     for k in 0..count {
@@ -112,8 +110,12 @@ pub(super) fn finish<T: Number>(
         state.a[k] = Vec3::pick(which, a.store(), state.a[k]);
         state.v[k] = Vec3::pick(which, velocity.store(), state.v[k]);
         state.y[k] = Vec3::pick(which, y[k], state.y[k]);
-        state.past[k] = Vec3::pick(which, past[k], state.past[k]);
-        state.frames[k] = Quat::pick(which, frames[k], state.frames[k]);
+        if damps {
+            state.past[k] = Vec3::pick(which, past[k], state.past[k]);
+        }
+        if !batch.is_straight {
+            state.frames[k] = Quat::pick(which, frames[k], state.frames[k]);
+        }
         state.press[k] = which.pick(Lane::ZERO, state.press[k]);
     }
     let mut struck = Mask::new(state.restart).and(which.not());

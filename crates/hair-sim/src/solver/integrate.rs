@@ -119,7 +119,7 @@ pub(crate) fn step(
     stats.fallbacks = failed.count();
     run!(
         instructions,
-        finish(batch, state, scratch, &root, active.and(failed.not()), d)
+        finish(batch, state, scratch, active.and(failed.not()), d)
     );
     if failed.any() {
         fallback::step(instructions, batch, state, scratch, drive, &root, failed);
@@ -206,12 +206,7 @@ fn begin<'a, T: Number>(
     if which == Which::Mid {
         if damps {
             if batch.is_straight {
-                straight::turns::<T>(
-                    &state.base,
-                    #[inline(always)]
-                    |k| state.frames[k].load().tangent(),
-                    &mut turn_start[..batch.count()],
-                );
+                straight::turns_of::<T>(&state.base, &batch.links, &state.y, turn_start);
             } else {
                 turns::<T>(&state.base, &state.frames, turn_start);
             }
@@ -221,7 +216,7 @@ fn begin<'a, T: Number>(
                 let known = Vec3::pick(restart, Vec3::ZERO, turn_start[k] - state.past[k]);
                 past[k] = turn_start[k] + known * rate;
             }
-        } else {
+        } else if !batch.is_straight {
             // The room was another batch's before: what is left there may be no number, even times 0.
             past.fill(Vec3::ZERO);
         }
@@ -241,14 +236,7 @@ fn begin<'a, T: Number>(
         let v_of: Sum = [(&state.v, Lane::ONE), (&state.a, known)];
         let free = FreeMotion::new(batch, &setup, (y_of, v_of), (free_y, free_v), nodes);
         if batch.is_straight {
-            straight::predict::<T>(
-                &batch.links,
-                free,
-                root.turn_mid,
-                #[inline(always)]
-                |k| state.frames[k].load().tangent(),
-                mid,
-            );
+            straight::predict::<T>(&batch.links, free, root.turn_mid, &state.y, mid);
         } else {
             predict::<T>(batch, free, root.turn_mid, &state.frames, mid);
         }
@@ -262,9 +250,10 @@ fn begin<'a, T: Number>(
         if batch.is_straight {
             straight::turns::<T>(
                 &root.mid,
+                &batch.links,
                 #[inline(always)]
                 |k| mid.tangents[k].load(),
-                &mut past[..batch.count()],
+                past,
             );
         } else {
             turns::<T>(&root.mid, &mid.frames[..batch.count()], past);
@@ -287,14 +276,7 @@ fn begin<'a, T: Number>(
     let free = FreeMotion::new(batch, &setup, (y_of, v_of), (free_y, free_v), nodes);
     let onward = root.turn_end.times(root.turn_mid.conjugate());
     if batch.is_straight {
-        straight::predict::<T>(
-            &batch.links,
-            free,
-            onward,
-            #[inline(always)]
-            |k| mid.tangents[k].load(),
-            end,
-        );
+        straight::predict::<T>(&batch.links, free, onward, &mid.y, end);
     } else {
         predict::<T>(batch, free, onward, &mid.frames, end);
     }
@@ -552,7 +534,7 @@ fn newton<T: Number>(
     let scale = |largest: Lane| (Lane::splat(LARGEST_TURN) / largest).min(Lane::ONE);
     let (sharpest, largest);
     if batch.is_straight {
-        straight::bend_joints::<T>(base, shape, links.len());
+        straight::bend_joints::<T>(base, links, shape);
         let damps = batch.damping != Lane::ZERO;
         sharpest = straight::ascend::<T>(links, shape, nodes, past, elastic, damps, straight);
         largest = straight::descend::<T>(links, &shape.across, straight, turns);

@@ -62,6 +62,9 @@ pub(super) fn pairs(
     let nearest: Vec<Vec<usize>> = (strands.par_iter())
         .map(|strand| cells.nearest(strand, &strands, mutual.neighbours))
         .collect();
+    let frames: Vec<_> = (batches.iter().zip(states))
+        .map(|(batch, state)| state.link_frames(batch))
+        .collect();
     for (strand, nearest) in strands.iter().zip(nearest) {
         for (n, other) in nearest.into_iter().map(|i| &strands[i]).enumerate() {
             let count = batches[strand.batch].count();
@@ -83,7 +86,7 @@ pub(super) fn pairs(
                 });
                 let pair = &mut list[*slot];
                 let apart = other.particles[partner] - strand.particles[k];
-                let frame = states[strand.batch].frames[k].get(strand.lane);
+                let frame = frames[strand.batch][k].get(strand.lane);
                 let lane = strand.lane;
                 pair.other[lane] = (first[other.batch] + partner * LANES + other.lane) as u32;
                 pair.on.set(lane, true);

@@ -16,7 +16,7 @@
 use crate::lanes::{Lane, Mask, Number, Quat, Sym3, Vec3, plane::Sym2, plane::Vec2, stored};
 
 use super::{
-    batch::{Batch, Link, Stage},
+    batch::{Link, Stage},
     free_motion::FreeMotion,
     sweep::{Elastic, Node},
 };
@@ -72,18 +72,27 @@ fn onward<T: Number>(t: Vec3<T>, across: Across<T>, next: Vec3<T>) -> (Across<T>
     (across, Bend { turn, sharp })
 }
 
-/// Goes along the joints from the skin's frame `base`, by the `tangent` of every link: its axes, and the joint's bend.
+/// The way from the particle at the start of link `k` to that at its end.
+#[inline(always)]
+pub(super) fn chord<T: Number>(y: &[Vec3], k: usize) -> Vec3<T> {
+    let end = y[k].load();
+    if k == 0 { end } else { end - y[k - 1].load() }
+}
+
+/// Goes along the joints from the skin's frame `base` by the `tangent` of every link: its axes, and the joint's bend. Links that only
+/// fill the batch go on as the one before.
 #[inline(always)]
 fn along<T: Number>(
     base: &Quat,
-    count: usize,
+    links: &[Link],
     tangent: impl Fn(usize) -> Vec3<T>,
     mut joint: impl FnMut(usize, Across<T>, Bend<T>),
 ) {
     let [first, second, mut t] = base.load::<T>().axes();
     let mut across = Across { first, second };
-    for k in 0..count {
-        let next = tangent(k);
+    for (k, link) in links.iter().enumerate() {
+        let is_link = T::splat(0.0).less(link.length.load());
+        let next = Vec3::choose(is_link, tangent(k), t);
         let bend;
         (across, bend) = onward(t, across, next);
         t = next;
@@ -91,12 +100,17 @@ fn along<T: Number>(
     }
 }
 
-/// The turn of every joint along its axis, in the frame of its link.
+/// The turn of every joint along its axis, in the frame of its link, by the links' tangents.
 #[inline(always)]
-pub(super) fn turns<T: Number>(base: &Quat, tangent: impl Fn(usize) -> Vec3<T>, out: &mut [Vec3]) {
+pub(super) fn turns<T: Number>(
+    base: &Quat,
+    links: &[Link],
+    tangent: impl Fn(usize) -> Vec3<T>,
+    out: &mut [Vec3],
+) {
     along(
         base,
-        out.len(),
+        links,
         tangent,
         #[inline(always)]
         |k, _, bend| {
@@ -106,14 +120,27 @@ pub(super) fn turns<T: Number>(base: &Quat, tangent: impl Fn(usize) -> Vec3<T>, 
     );
 }
 
+/// The same by the particles.
+#[inline(always)]
+pub(super) fn turns_of<T: Number>(base: &Quat, links: &[Link], y: &[Vec3], out: &mut [Vec3]) {
+    turns::<T>(
+        base,
+        links,
+        #[inline(always)]
+        |k| chord(y, k).scale(T::splat(1.0) / links[k].length.load()),
+        out,
+    );
+}
+
 /// Makes the joints of a shape ready for [`ascend`].
 #[inline(always)]
-pub(super) fn bend_joints<T: Number>(base: &Quat, shape: &mut Stage, count: usize) {
+pub(super) fn bend_joints<T: Number>(base: &Quat, links: &[Link], shape: &mut Stage) {
+    let count = links.len();
     let tangents = &shape.tangents[..count];
     let (acrosses, bends) = (&mut shape.across[..count], &mut shape.bends[..count]);
     along::<T>(
         base,
-        count,
+        links,
         #[inline(always)]
         |k| tangents[k].load(),
         #[inline(always)]
@@ -142,39 +169,45 @@ fn lay_out<T: Number>(
     }
 }
 
-/// Points every link along the free motion; one whose way is not clear goes on as `carry` takes it from `before`.
+/// Points every link along the free motion from the shape `before`; one whose way is not clear goes on as `carry` takes it.
 #[inline(always)]
 pub(super) fn predict<T: Number>(
     links: &[Link],
     mut free: FreeMotion,
     carry: Quat,
-    before: impl Fn(usize) -> Vec3<T>,
+    before: &[Vec3],
     shape: &mut Stage,
 ) {
+    let before = &before[..links.len()];
     let mut end = Vec3::<T>::zero();
+    let mut next = Vec3::zero();
     lay_out(
         links,
         shape,
         #[inline(always)]
         |k, _| {
             let place = free.place(k);
-            let chord = place - end;
+            let way = place - end;
             end = place;
             let length = links[k].length.load::<T>();
-            let squared = chord.length_squared();
+            let squared = way.length_squared();
             let size = squared.sqrt();
-            let ahead = chord.scale(T::splat(1.0) / size);
-            let before = before(k);
+            let ahead = way.scale(T::splat(1.0) / size);
+            let chord = chord::<T>(before, k);
             let is_clear = (length * length * T::splat(0.01)).less(squared);
-            let is_ahead = T::splat(0.0).less(before.dot(chord));
+            let is_ahead = T::splat(0.0).less(chord.dot(way));
             if T::all(is_clear) && T::all(is_ahead) {
-                return ahead;
+                next = ahead;
+                return next;
             }
-            let carried = carry.load().rotate(before);
-            let is_on = (size * T::splat(-0.95)).less(carried.dot(chord));
-            let next = Vec3::choose(is_on, ahead, carried);
-            let next = Vec3::choose(is_ahead, ahead, next);
-            Vec3::choose(is_clear, next, carried)
+            let carried = carry.load().rotate(chord.scale(T::splat(1.0) / length));
+            let is_on = (size * T::splat(-0.95)).less(carried.dot(way));
+            let turned = Vec3::choose(is_on, ahead, carried);
+            let turned = Vec3::choose(is_ahead, ahead, turned);
+            let turned = Vec3::choose(is_clear, turned, carried);
+            // What only fills the batch goes on as the link before.
+            next = Vec3::choose(T::splat(0.0).less(length), turned, next);
+            next
         },
     );
 }
@@ -257,9 +290,15 @@ pub(super) fn ascend<T: Number>(
     };
     for k in (0..count).rev() {
         let bend: Bend<T> = bends[k].load();
-        sharpest = T::choose(sharpest.less(bend.sharp), bend.sharp, sharpest);
-        let past = past[k].load::<T>();
-        let past = Vec2::new(past.y, -past.x);
+        // Links that only fill the batch have no say.
+        let sharp = bend.sharp * links[k].counts.load();
+        sharpest = T::choose(sharpest.less(sharp), sharp, sharpest);
+        let past = if damps {
+            let about_axis = past[k].load::<T>();
+            Vec2::new(about_axis.y, -about_axis.x)
+        } else {
+            Vec2::zero()
+        };
         let joint = Joint::new(bend, past, links[k].bend.load(), &elastic);
         if damps {
             let moment = spin.pass(bend.turn, past, joint.damping);
@@ -459,15 +498,16 @@ pub(super) fn turn_links<T: Number>(
     );
 }
 
-/// The frames of the links, carried along without twist from the skin's.
+/// The frames of the links of a shape, carried along without twist from the skin's.
 #[inline(always)]
-pub(super) fn frame_links<T: Number>(batch: &Batch, base: &Quat, shape: &mut Stage) {
-    let count = batch.count();
-    let (tangents, frames) = (&shape.tangents[..count], &mut shape.frames[..count]);
+pub(super) fn frames<T: Number>(base: &Quat, links: &[Link], y: &[Vec3], out: &mut [Quat]) {
+    let (y, out) = (&y[..links.len()], &mut out[..links.len()]);
     let mut frame: Quat<T> = base.load();
     let mut t = frame.tangent();
-    for k in 0..count {
-        let next = tangents[k].load();
+    for (k, link) in links.iter().enumerate() {
+        let length = link.length.load();
+        let next = chord(y, k).scale(T::splat(1.0) / length);
+        let next = Vec3::choose(T::splat(0.0).less(length), next, t);
         let w = t.dot(next) + T::splat(1.0);
         // The length of this quaternion is sqrt(2 w).
         let s = T::splat(1.0) / (w + w).sqrt();
@@ -477,7 +517,7 @@ pub(super) fn frame_links<T: Number>(batch: &Batch, base: &Quat, shape: &mut Sta
         };
         frame = turn.times(frame);
         t = next;
-        frames[k] = frame.store();
+        out[k] = frame.store();
     }
 }
 

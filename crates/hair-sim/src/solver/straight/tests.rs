@@ -1,6 +1,7 @@
 //! Straight strands against the energy that a stage minimises, and against the same strands with their twist solved.
 
 use super::*;
+use crate::solver::batch::Batch;
 use crate::{
     Collider, Material, Mutual, Natural, Params, Pose, Roots, Scene, Shape, Solver, Strands, Wind,
     rest::RestStrand,
@@ -116,7 +117,7 @@ proptest! {
         let mut moves = vec![Vec3::ZERO; count];
         let mut largest = f64::MAX;
         for _ in 0..400 {
-            bend_joints::<Lane>(&batch.base, &mut shape, count);
+            bend_joints::<Lane>(&batch.base, &batch.links, &mut shape);
             ascend::<Lane>(&batch.links, &shape, &nodes, &past, &elastic, true, &mut eliminations);
             largest = descend::<Lane>(&batch.links, &shape.across, &eliminations, &mut moves)[0];
             let scale = Lane::splat((0.5 / largest).min(1.0));
