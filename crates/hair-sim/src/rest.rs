@@ -151,8 +151,11 @@ impl RestStrand {
 
     /// Whether nothing bends or twists it: by nature, to within what rounding makes of its frames, or by damping.
     pub(crate) fn is_straight(&self, params: &Params) -> bool {
+        // Strands that are set aside have no mass: they keep whatever shape they have.
         let is_straight = |link: &RestLink| {
-            link.length > 0.0 && link.natural.length_squared() < NATURALLY_STRAIGHT.powi(2)
+            link.length > 0.0
+                && link.mass > 0.0
+                && link.natural.length_squared() < NATURALLY_STRAIGHT.powi(2)
         };
         let twist_by_damping = params.damping / params.material.twist_ratio;
         twist_by_damping <= DAMPING_THAT_TWISTS && self.links.iter().all(is_straight)

@@ -32,8 +32,8 @@ use crate::{
 pub use batch::Reason;
 use batch::{Batch, BatchState, Scratch};
 use drive::{Drive, Hair, whole_poses};
-use instructions::Instructions;
-use integrate::GAMMA;
+use instructions::{Instructions, run};
+use integrate::{GAMMA, advance};
 pub use scene::{Acceleration, DynamicsError, Fault, Pose, Roots, Scene, Stats};
 
 /// The most groups of batches, so of tasks in a step.
@@ -320,7 +320,7 @@ impl Solver {
                     courses: &h.courses,
                 }),
             };
-            Stats::from(integrate::step(instructions, batch, state, scratch, &drive))
+            Stats::from(run!(instructions, advance(batch, state, scratch, &drive)))
         };
         let group = self.group;
         let one_group =

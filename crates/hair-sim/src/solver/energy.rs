@@ -42,7 +42,13 @@ impl ShapeEnergy {
 
     /// Of straight strands.
     #[inline(always)]
-    fn of_straight<T: Number>(batch: &Batch, base: Quat, y: &[Vec3], pull: Vec3) -> Self {
+    fn of_straight<T: Number>(
+        batch: &Batch,
+        base: Quat,
+        y: &[Vec3],
+        tangent: impl Fn(usize) -> Vec3<T>,
+        pull: Vec3,
+    ) -> Self {
         let (mut elastic, mut weight) = (T::splat(0.0), T::splat(0.0));
         let (mut before, pull) = (base.load::<T>().tangent(), pull.load::<T>());
         for (k, link) in batch.links.iter().enumerate() {
@@ -50,8 +56,7 @@ impl ShapeEnergy {
             weight = weight - mass * y[k].load().dot(pull);
             // Of an angle between two unit vectors: the tangent of its half is their difference over their sum.
             let length = link.length.load::<T>();
-            let t = chord(y, k).scale(T::splat(1.0) / length);
-            let t = Vec3::choose(T::splat(0.0).less(length), t, before);
+            let t = Vec3::choose(T::splat(0.0).less(length), tangent(k), before);
             let (difference, sum) = (t - before, t + before);
             let tangent_squared = difference.length_squared() / sum.length_squared();
             elastic = elastic + link.bend.load::<T>() * tangent_squared * T::splat(2.0);
@@ -115,7 +120,14 @@ impl BatchState {
     #[inline(always)]
     fn shape_energy<T: Number>(&self, batch: &Batch, base: Quat, pull: Vec3) -> ShapeEnergy {
         if batch.is_straight {
-            ShapeEnergy::of_straight::<T>(batch, base, &self.y, pull)
+            ShapeEnergy::of_straight::<T>(
+                batch,
+                base,
+                &self.y,
+                #[inline(always)]
+                |k| chord(&self.y, k).scale(T::splat(1.0) / batch.links[k].length.load()),
+                pull,
+            )
         } else {
             ShapeEnergy::new::<T>(batch, base, &self.frames, &self.y, pull)
         }
@@ -196,7 +208,14 @@ pub(super) fn of_end<T: Number>(
 ) -> ShapeEnergy {
     let end = &scratch.end;
     if batch.is_straight {
-        ShapeEnergy::of_straight::<T>(batch, root.end, &end.y, root.pull)
+        ShapeEnergy::of_straight::<T>(
+            batch,
+            root.end,
+            &end.y,
+            #[inline(always)]
+            |k| end.tangents[k].load(),
+            root.pull,
+        )
     } else {
         ShapeEnergy::new::<T>(batch, root.end, &end.frames, &end.y, root.pull)
     }
@@ -230,7 +249,9 @@ pub(super) fn take_gain<T: Number>(
     let play = (motion + shape.scale(batch, root.pull)) * PLAY;
     let most = motion + shape.sum() + loses.pick(Lane::ZERO, play);
     state.ceiling = watched.pick(state.ceiling.min(most), state.ceiling);
-    for v in &mut state.v {
-        *v = *v * scale;
+    if scale != Lane::ONE {
+        for v in &mut state.v {
+            *v = *v * scale;
+        }
     }
 }

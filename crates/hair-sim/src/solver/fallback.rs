@@ -14,7 +14,6 @@ use super::{
     batch::{Batch, BatchState, Reason, Scratch},
     drive::{Drive, RootMotion},
     free_motion::{FreeMotion, Sum},
-    instructions::{Instructions, run},
     integrate::{StageSetup, Which, assemble, hold, turn_links},
     straight,
     sweep::{Elastic, ascend, descend, joints, potential},
@@ -26,8 +25,8 @@ const SMALL_TURN: f64 = 1e-3;
 const LARGEST_TURN: f64 = 0.7;
 
 /// Steps the lanes in `which`. Those that have no finite answer here either are set aside.
-pub(super) fn step(
-    instructions: Instructions,
+#[inline(always)]
+pub(super) fn step<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
     scratch: &mut Scratch,
@@ -71,23 +70,17 @@ pub(super) fn step(
     for k in 0..batch.count() {
         free.place::<Lane>(k);
     }
-    assemble(instructions, batch, scratch, &setup, Which::Trial);
+    assemble::<T>(batch, scratch, &setup, Which::Trial);
     let elastic = Elastic {
         h2: h * h,
         damping: setup.damping,
     };
-    let minimise = |scratch: &mut Scratch, which: Mask| {
-        run!(
-            instructions,
-            minimise(batch, scratch, &setup.base, &elastic, which)
-        );
-    };
-    minimise(scratch, which);
+    minimise::<T>(batch, scratch, &setup.base, &elastic, which);
     if !scratch.touched.is_empty() {
         // Planes that the strand met on the way.
         let passed = |contact: &Contact, y, level| contact.passed(y, level).and(which);
         let met = hold(batch, scratch, h, Which::Trial, passed);
-        minimise(scratch, met);
+        minimise::<T>(batch, scratch, &setup.base, &elastic, met);
     }
     take(batch, state, scratch, which, drive.dt);
 }

@@ -25,7 +25,6 @@ use super::{
     fallback,
     finish::{asleep, count_quiet, finish, turned_too_far},
     free_motion::{FreeMotion, Sum},
-    instructions::{Instructions, run},
     straight,
     sweep::{Elastic, Node, ascend, descend, half_turn, joints},
 };
@@ -62,8 +61,8 @@ pub(crate) struct BatchStats {
 }
 
 /// Advances a batch by `drive.dt`.
-pub(crate) fn step(
-    instructions: Instructions,
+#[inline(always)]
+pub(crate) fn advance<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
     scratch: &mut Scratch,
@@ -80,23 +79,16 @@ pub(crate) fn step(
         return stats;
     }
     let awake = asleep.not();
-    let active = run!(
-        instructions,
-        prepare(batch, state, scratch, drive, &root, awake, &mut stats)
-    );
+    let active = prepare::<T>(batch, state, scratch, drive, &root, awake, &mut stats);
 
     let d = 0.5 * GAMMA * drive.dt;
     let small_turn = SMALL_TURN * (drive.dt / FRAME).min(1.0).powi(2);
     let mut failed = Mask::NONE;
     stats.strands = active.count();
     for which in [Which::Mid, Which::End] {
-        let setup = run!(
-            instructions,
-            begin(batch, state, scratch, drive, &root, which)
-        );
-        assemble(instructions, batch, scratch, &setup, which);
-        stats.iterations += solve(
-            instructions,
+        let setup = begin::<T>(batch, state, scratch, drive, &root, which);
+        assemble::<T>(batch, scratch, &setup, which);
+        stats.iterations += solve::<T>(
             batch,
             scratch,
             &setup,
@@ -105,34 +97,25 @@ pub(crate) fn step(
             (which, active),
         );
     }
-    let too_far = run!(instructions, turned_too_far(batch, state, scratch, &root));
+    let too_far = turned_too_far::<T>(batch, state, scratch, &root);
     failed = failed.or(too_far).and(active);
-    let watched = run!(
-        instructions,
-        watch(batch, state, scratch, drive, &root, active)
-    );
+    let watched = watch::<T>(batch, state, scratch, drive, &root, active);
     let mut shape = ShapeEnergy::NONE;
     if watched.any() {
-        shape = run!(instructions, of_end(batch, scratch, &root));
+        shape = of_end::<T>(batch, scratch, &root);
         failed = failed.or(shape.is_out_of_reach(batch, state, &root, watched));
     }
     stats.fallbacks = failed.count();
-    run!(
-        instructions,
-        finish(batch, state, scratch, active.and(failed.not()), d)
-    );
+    finish::<T>(batch, state, scratch, active.and(failed.not()), d);
     if failed.any() {
-        fallback::step(instructions, batch, state, scratch, drive, &root, failed);
+        fallback::step::<T>(batch, state, scratch, drive, &root, failed);
     }
     if watched.any() {
         if failed.any() {
-            let other = run!(instructions, of_state(batch, state, &root));
+            let other = of_state::<T>(batch, state, &root);
             shape = ShapeEnergy::pick(failed, other, shape);
         }
-        run!(
-            instructions,
-            take_gain(batch, state, &root, &shape, watched)
-        );
+        take_gain::<T>(batch, state, &root, &shape, watched);
     }
     let aside = state.aside().and(batch.used);
     if aside.any() {
@@ -343,14 +326,14 @@ fn pointing<T: Number>(tangent: Vec3<T>, chord: Vec3<T>, length: T, before: Quat
 }
 
 /// Adds forces to mass and weight of every particle for a stage from `free_y`, `free_v`.
-pub(super) fn assemble(
-    instructions: Instructions,
+#[inline(always)]
+pub(super) fn assemble<T: Number>(
     batch: &Batch,
     scratch: &mut Scratch,
     stage: &StageSetup,
     which: Which,
 ) {
-    run!(instructions, load(batch, scratch, stage, which));
+    load::<T>(batch, scratch, stage, which);
     if !scratch.touched.is_empty() {
         for &k in &scratch.touched {
             scratch.contacts[k].holds = Lane::ZERO;
@@ -468,8 +451,8 @@ pub(super) fn hold(
 
 /// Newton's method for a stage, starting from its shape, to a last step of `small_turn` (radians). Returns the number
 /// of iterations, summed over strands; lanes that did not converge are added to `failed`.
-fn solve(
-    instructions: Instructions,
+#[inline(always)]
+fn solve<T: Number>(
     batch: &Batch,
     scratch: &mut Scratch,
     setup: &StageSetup,
@@ -488,10 +471,7 @@ fn solve(
             break;
         }
         iterations += open.count();
-        let largest = run!(
-            instructions,
-            newton(batch, scratch, setup, &elastic, open, which)
-        );
+        let largest = newton::<T>(batch, scratch, setup, &elastic, open, which);
         // Lanes whose numbers are broken stop as well, and fail.
         let small = largest.lt(Lane::splat(small_turn));
         let broken = largest.is_finite().not();

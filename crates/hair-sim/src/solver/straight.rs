@@ -515,7 +515,9 @@ pub(super) fn frames<T: Number>(base: &Quat, links: &[Link], y: &[Vec3], out: &m
             v: t.cross(next).scale(s),
             w: w * s,
         };
-        frame = turn.times(frame);
+        // Between links that are folded on each other there is no least turn.
+        let is_turn = T::splat(1e-9).less(w);
+        frame = Quat::choose(is_turn, turn.times(frame), frame);
         t = next;
         out[k] = frame.store();
     }
