@@ -239,10 +239,15 @@ fn params(rng: &mut Rng, rest: &Strands, strand: usize, has_goals: bool) -> Para
     };
     let natural = match rng.u8(..4) {
         0 => Natural::Styled,
-        1 => Natural::Curl {
-            curvature: spread(rng, 1.0, 1e3),
-            torsion: between(rng, -100.0, 100.0),
-        },
+        1 => {
+            let (curvature, torsion) = (spread(rng, 1.0, 1e3), between(rng, -100.0, 100.0));
+            // Some of them are straight, whatever they are styled like.
+            let is_straight = curvature < 5.0;
+            Natural::Curl {
+                curvature: if is_straight { 0.0 } else { curvature },
+                torsion: if is_straight { 0.0 } else { torsion },
+            }
+        }
         _ => Natural::Balanced,
     };
     let goal = match rng.u8(..4) {
