@@ -281,6 +281,16 @@ fn extremes_stay_finite() {
             ("dynamics.distance", "2"),
             ("dynamics.friction", "10"),
         ],
+        [
+            ("dynamics.shape", "straight"),
+            ("dynamics.feel", "limp"),
+            ("dynamics.damping", "0.5"),
+        ],
+        [
+            ("dynamics.shape", "straight"),
+            ("dynamics.feel", "gel"),
+            ("dynamics.damping", "0"),
+        ],
     ] {
         let mut stage = scene("waves.style.ron", Some(script), &settings);
         for frame in 0..24 {

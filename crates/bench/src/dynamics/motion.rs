@@ -9,8 +9,8 @@ use crate::results::Row;
 use crate::timing::{Effort, shortest};
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
-    Collider, Mutual, Natural, Params, Pose, Roots, Scene, Shape, Solver, State, Stats, Strands,
-    Wind,
+    Collider, Mutual, Natural, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Stats,
+    Strands, Wind,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::rc::Rc;
@@ -40,6 +40,18 @@ fn directions(count: usize) -> impl Iterator<Item = DVec3> {
         let level = (1.0 - up * up).sqrt();
         DVec3::new(level * angle.cos(), up, level * angle.sin())
     })
+}
+
+/// Hair that is straight by nature, and soft enough to lie on the head.
+fn straight() -> Params {
+    Params {
+        natural: Natural::Curl {
+            curvature: 0.0,
+            torsion: 0.0,
+        },
+        stiffness: Profile::constant(0.3),
+        ..Params::default()
+    }
 }
 
 /// Something whose steps can be timed.
@@ -88,7 +100,7 @@ struct Full {
 }
 
 impl Full {
-    fn new(strands: usize, links: usize, natural: Natural) -> Result<Self, String> {
+    fn new(strands: usize, links: usize, params: &Params) -> Result<Self, String> {
         let mut rest = Strands::new();
         for (id, out) in directions(strands).enumerate() {
             let points: Vec<Vec3> = (0..=links)
@@ -101,12 +113,8 @@ impl Full {
             rest.push(id as u32, &points, None)
                 .map_err(|error| error.to_string())?;
         }
-        let params = Params {
-            natural,
-            ..Params::default()
-        };
         let (mut solver, mut state) =
-            Solver::new(&rest, &params).map_err(|error| error.to_string())?;
+            Solver::new(&rest, params).map_err(|error| error.to_string())?;
         // The mean distance of roots, over three fifths of a ball.
         let apart = (0.6 * 4.0 * std::f64::consts::PI * HEAD * HEAD / strands as f64).sqrt();
         let mutual = Mutual {
@@ -251,13 +259,9 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
                 let rods = Apart((0..strands).map(rod).collect::<Vec<_>>());
                 add(&scene, targets::XPBD_SWEEPS, Bare::boxed(rods));
             }
-            let straight = Natural::Curl {
-                curvature: 0.0,
-                torsion: 0.0,
-            };
-            for (kind, natural) in [("", Natural::Balanced), (targets::STRAIGHT, straight)] {
+            for (kind, params) in [("", Params::default()), (targets::STRAIGHT, straight())] {
                 let scene = format!("{}{kind}{strands}x{links}", targets::FULL);
-                add(&scene, own, Box::new(Full::new(strands, links, natural)?));
+                add(&scene, own, Box::new(Full::new(strands, links, &params)?));
             }
         }
     }
@@ -299,7 +303,7 @@ mod tests {
 
     #[test]
     fn a_scene_without_contacts_is_refused() {
-        let full = Full::new(8, 10, Natural::Balanced).unwrap();
+        let full = Full::new(8, 10, &Params::default()).unwrap();
         let good = Stats {
             strands: 8,
             wind: 80,

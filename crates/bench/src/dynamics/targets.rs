@@ -7,7 +7,7 @@ use crate::targets::{Found, Limit, Point, Target, curve, time_at};
 /// Starts the names of our solver's rows; then the number of elements where that isn't the knob.
 pub const OWN: &str = "inkstrand-";
 /// Our solver and 20 elements that are so little bent that nothing shows but that their twist is solved.
-pub const WITH_TWIST: &str = "with-twist";
+pub const WITH_TWIST: &str = "inkstrand-twist";
 /// Tetrahedra of springs.
 pub const MASS_SPRING: &str = "mass-spring";
 /// XPBD rods, one sweep a step; the knob is steps a frame.

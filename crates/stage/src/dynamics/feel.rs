@@ -86,8 +86,8 @@ pub const DYNAMICS: &[Param] = &[
     choice(
         "shape",
         "What shape hair returns to: styled holds the style against gravity, sagging lets gravity pull it \
-         down, curl winds it by curl_radius and curl_pitch.",
-        &["styled", "sagging", "curl"],
+         down, curl winds it by curl_radius and curl_pitch, straight has no curl at all and is the fastest where damping is 0.5 or less.",
+        &["styled", "sagging", "curl", "straight"],
         0,
     ),
     number(
@@ -295,9 +295,13 @@ impl Feel {
                 natural: match values.choice("shape") {
                     0 => Natural::Balanced,
                     1 => Natural::Styled,
-                    _ => Natural::Curl {
+                    2 => Natural::Curl {
                         curvature: radius / helix,
                         torsion: climb / helix,
+                    },
+                    _ => Natural::Curl {
+                        curvature: 0.0,
+                        torsion: 0.0,
                     },
                 },
                 damping: (word.damping * number("damping")).min(10.0),
