@@ -31,8 +31,8 @@ fn positions(samples: u32) -> Vec<DVec2> {
     positions.iter().map(|p| p.as_dvec2()).collect()
 }
 
-/// The number of pixels that differ, which needs a sample that shows something else, and the first.
-fn different(picture: &Picture, reference: &Picture) -> (usize, Option<[usize; 2]>) {
+/// The pixels that differ, which needs a sample that shows something else.
+fn different(picture: &Picture, reference: &Picture) -> Vec<usize> {
     assert_eq!(
         (picture.width, picture.height),
         (reference.width, reference.height)
@@ -44,11 +44,51 @@ fn different(picture: &Picture, reference: &Picture) -> (usize, Option<[usize; 2
             .into_iter()
             .all(|(a, b)| (a - b).abs() <= COLOR_TOLERANCE)
     };
+    (0..picture.pixels.len()).filter(differs).collect()
+}
+
+/// The number of pixels of a drawing that differ from the reference, and the first, where single precision is no reason: a pixel whose reference
+/// is another one for samples a few thousandths of a pixel away, or for strands that are nearer and farther by a
+/// millionth, lies at a border, or where depths are equal.
+fn wrong(picture: &Picture, drawing: &Drawing, samples: u32) -> (usize, Option<[usize; 2]>) {
+    let positions = positions(samples);
+    let reference = oracle::picture_at(drawing, &positions);
+    let mut wrong = different(picture, &reference);
+    if !wrong.is_empty() {
+        let moved = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y].map(|way| {
+            let positions: Vec<DVec2> = positions.iter().map(|p| *p + way * 4e-3).collect();
+            oracle::picture_at(drawing, &positions)
+        });
+        let nudged = [1e-6, -1e-6].map(|by| oracle::picture_at(&nudged(drawing, by), &positions));
+        for other in moved.iter().chain(&nudged) {
+            let unsure = different(other, &reference);
+            wrong.retain(|index| unsure.binary_search(index).is_err());
+        }
+    }
     let width = picture.width as usize;
-    let mut indices = (0..picture.pixels.len()).filter(differs);
-    let first = indices.next();
-    let number = usize::from(first.is_some()) + indices.count();
-    (number, first.map(|index| [index % width, index / width]))
+    let first = wrong.first().map(|index| [index % width, index / width]);
+    (wrong.len(), first)
+}
+
+/// Every run's strokes nearer than the run's before by a share of their depth, so that no two are at the same.
+fn nudged(drawing: &Drawing, by: f32) -> Drawing {
+    let mut nudged = drawing.clone();
+    let joints = nudged.clump.len();
+    for (i, run) in drawing.runs.iter().enumerate() {
+        let nearer = 1.0 + by * (i + 1) as f32;
+        for joint in run.joints.clone() {
+            let lists = std::iter::once(&mut nudged.clump)
+                .chain(std::iter::once(&mut nudged.sides))
+                .chain(nudged.layers.iter_mut().map(|layer| &mut layer.discs));
+            for list in lists {
+                for disc in list.iter_mut().skip(joint).step_by(joints) {
+                    disc.inv_depth *= nearer;
+                    disc.inv_depth_biased *= nearer;
+                }
+            }
+        }
+    }
+    nudged
 }
 
 fn disc_around(extent: f32) -> impl Strategy<Value = Disc> {
@@ -246,13 +286,11 @@ fn drawing() -> impl Strategy<Value = Drawing> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A sample may differ only where it lies within rounding of a border of a stroke, or of a line
-    /// where two depths are equal. Of 12,000 drawings 12 differed in one pixel and one in two.
+    /// A sample may differ only where it lies within rounding of a border of a stroke, or where two depths are equal.
     #[test]
     fn small_drawings_agree_sample_for_sample(drawing in drawing(), samples in prop_oneof![Just(1u32), Just(4), Just(16)]) {
         let picture = rasterise(&drawing, samples, 2);
-        let reference = oracle::picture_at(&drawing, &positions(samples));
-        let (number, first) = different(&picture, &reference);
+        let (number, first) = wrong(&picture, &drawing, samples);
         prop_assert!(number <= 3, "{number} pixels differ, {first:?} first");
     }
 }
@@ -276,8 +314,7 @@ fn small_drawings_agree_on_a_graphics_card() {
     let samples = prop_oneof![Just(1u32), Just(4)];
     let found = TestRunner::new(config).run(&(drawing(), samples), |(drawing, samples)| {
         let picture = card.borrow_mut().draw_strokes(&drawing, samples).unwrap();
-        let reference = oracle::picture_at(&drawing, &positions(samples));
-        let (number, first) = different(&picture, &reference);
+        let (number, first) = wrong(&picture, &drawing, samples);
         prop_assert!(number <= 3, "{number} pixels differ, {first:?} first");
         Ok(())
     });
@@ -347,11 +384,11 @@ fn portraits_agree_sample_for_sample() {
         for samples in [1, 4, 16] {
             let picture = rasterise(&drawing, samples, 2);
             let reference = oracle::picture_at(&drawing, &positions(samples));
-            let (number, first) = different(&picture, &reference);
+            let wrong = different(&picture, &reference);
             // None did; two leave room for another order of the same f32 arithmetic.
             assert!(
-                number <= 2,
-                "{order:?}, {brush:?}, {samples} samples: {number}, {first:?}"
+                wrong.len() <= 2,
+                "{order:?}, {brush:?}, {samples} samples: {wrong:?}"
             );
         }
     }
