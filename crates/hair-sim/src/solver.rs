@@ -369,7 +369,9 @@ impl Solver {
         scene.check(dt, self.len(), self.points.iter().sum())?;
         let fits = state.layout == layout(&self.places)
             && state.batches.len() == self.batches.len()
-            && (self.batches.iter().zip(&state.batches)).all(|(b, s)| s.y.len() == b.count())
+            && (self.batches.iter().zip(&state.batches)).all(|(b, s)| {
+                s.y.len() == b.count() && (b.is_straight || s.frames.len() == b.count())
+            })
             && self.hair.as_ref().is_none_or(|h| {
                 (h.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
             });

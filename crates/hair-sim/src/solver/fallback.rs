@@ -44,9 +44,12 @@ pub(super) fn step<T: Number>(
     }
     let mut y = Vec3::ZERO;
     for k in 0..batch.count() {
-        if damps {
-            scratch.past[k] = scratch.turn_start[k];
-        }
+        // The room was another batch's before: what is left there may be no number, even times 0.
+        scratch.past[k] = if damps {
+            scratch.turn_start[k]
+        } else {
+            Vec3::ZERO
+        };
         let frame = root.turn_end.times(scratch.trial.frames[k]).normalize();
         let tangent = frame.tangent();
         y += tangent * batch.links[k].length;

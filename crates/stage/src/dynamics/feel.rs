@@ -86,7 +86,8 @@ pub const DYNAMICS: &[Param] = &[
     choice(
         "shape",
         "What shape hair returns to: styled holds the style against gravity, sagging lets gravity pull it \
-         down, curl winds it by curl_radius and curl_pitch, straight has no curl at all and is the fastest where damping is 0.5 or less.",
+         down, curl winds it by curl_radius and curl_pitch, straight has no curl at all, and is the fastest for limp and springy \
+         hair with damping of 0.5 or less.",
         &["styled", "sagging", "curl", "straight"],
         0,
     ),

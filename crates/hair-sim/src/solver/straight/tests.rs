@@ -333,3 +333,55 @@ fn longer_strands_beside_it_do_not_change_a_strand() {
     };
     assert_eq!(path(0), path(3));
 }
+
+/// The room that batches work in one after the other decides nothing, whatever was left in it.
+#[test]
+fn what_is_left_of_other_batches_decides_nothing() {
+    let path = |left: f64| {
+        let undamped = Params {
+            damping: 0.0,
+            ..straight(1e4)
+        };
+        let (mut solver, mut state) = Solver::new(&strands(), &undamped).unwrap();
+        let (mut path, mut fallbacks) = (Vec::new(), 0);
+        for step in 0..24 {
+            for room in &mut solver.scratch {
+                room.past.fill(Vec3::splat(DVec3::splat(left)));
+                room.turn_start.fill(Vec3::splat(DVec3::splat(left)));
+                room.turns.fill(Vec3::splat(DVec3::splat(left)));
+            }
+            // A head that is thrown about, so that the safe integrator is needed.
+            let scene = Scene {
+                roots: Roots::Head(Pose {
+                    rotation: DQuat::from_rotation_x(f64::from(step % 3) * 2.0),
+                    translation: DVec3::ZERO,
+                }),
+                ..Scene::default()
+            };
+            let stats = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+            assert_eq!(stats.set_aside, 0);
+            fallbacks += stats.fallbacks;
+            path.extend((0..6).flat_map(|s| solver.points(&state, s).collect::<Vec<_>>()));
+        }
+        assert!(fallbacks > 0);
+        path
+    };
+    assert_eq!(path(0.0), path(f64::NAN));
+}
+
+/// Straight strands keep no frames, and others need them.
+#[test]
+fn a_state_without_frames_is_refused_where_they_are_needed() {
+    let (_, mut state) = Solver::new(&strands(), &straight(10.0)).unwrap();
+    let (mut solver, _) = Solver::new(&strands(), &Params::default()).unwrap();
+    let refused = solver.step(&mut state, &Scene::default(), 1.0 / 24.0);
+    assert_eq!(refused, Err(crate::DynamicsError::State));
+    // Five of the six are straight as they are styled, so they stand in other places.
+    let styled = Params {
+        natural: Natural::Styled,
+        ..straight(10.0)
+    };
+    let (mut solver, _) = Solver::new(&strands(), &styled).unwrap();
+    let refused = solver.step(&mut state, &Scene::default(), 1.0 / 24.0);
+    assert_eq!(refused, Err(crate::DynamicsError::State));
+}
