@@ -122,7 +122,7 @@ fn open(path: &Path, root: &Path) -> Result<Stage, String> {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
     let mut preset = Preset::parse(&name, &text, &registry).map_err(|errors| errors.to_string())?;
-    preset.set("scene.fps", &FPS.to_string())?;
+    preset.sections.scene.fps = FPS as f32;
     let files = Files {
         motion: Some(root.join("presets/motions/nod-and-shake.motion.ron")),
         preset_folder: root.join("presets"),

@@ -99,9 +99,10 @@ fn default_is_allowed(kind: &ParamKind) -> Result<(), String> {
         ParamKind::Choice { .. } | ParamKind::Color { .. } | ParamKind::OptionalColor { .. } => {
             Ok(())
         }
-        ParamKind::Text | ParamKind::Triple { .. } | ParamKind::Size { .. } => {
-            Err("an effect has no parameters of this kind".to_owned())
-        }
+        ParamKind::Flag { .. }
+        | ParamKind::Text
+        | ParamKind::Triple { .. }
+        | ParamKind::Size { .. } => Err("an effect has no parameters of this kind".to_owned()),
     }
 }
 
@@ -110,6 +111,7 @@ fn not_readable(effect: &dyn AnyEffect, param: &Param) -> Option<String> {
     extreme_values(&param.kind).iter().find_map(|value| {
         let text = text(value, &param.kind);
         let mut values = Values::defaults(effect.params());
-        values.set_text(effect.id(), param.name, &text).err()
+        let error = values.set_text(effect.id(), param.name, &text).err()?;
+        Some(error.to_string())
     })
 }

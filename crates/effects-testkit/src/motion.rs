@@ -19,7 +19,7 @@ const SMALL: f32 = 0.02;
 pub(crate) fn check(effect: &dyn AnyEffect, parameters: &[(&str, &str)]) -> Result<(), String> {
     let mut values = Values::defaults(effect.params());
     for (name, text) in parameters {
-        values.set_text(effect.id(), name, text)?;
+        (values.set_text(effect.id(), name, text)).map_err(|error| error.to_string())?;
     }
     let program = effect.program(&values);
     for input in CHANGING.iter().filter(|input| program.inputs().has(input)) {

@@ -1,6 +1,6 @@
 //! Parameters to try effects with.
 
-use effects::{AnyEffect, ParamKind, Value, Values, Variation};
+use effects::{AnyEffect, ParamKind, Section as _, Value, Values, Variation};
 
 /// Parameters, and what to call them in a message.
 pub(crate) struct Case {
@@ -80,7 +80,10 @@ pub(crate) fn extreme_values(kind: &ParamKind) -> Vec<Value> {
         ParamKind::Color { .. } => vec![black, white],
         ParamKind::OptionalColor { .. } => vec![Value::Color(None), black, white],
         // No effect has these: they are for sections of presets.
-        ParamKind::Text | ParamKind::Triple { .. } | ParamKind::Size { .. } => Vec::new(),
+        ParamKind::Flag { .. }
+        | ParamKind::Text
+        | ParamKind::Triple { .. }
+        | ParamKind::Size { .. } => Vec::new(),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::joint::{Input, Joint};
 use crate::strokes::evaluate;
 use crate::values::{Case, extremes, some_instances};
 use effects::wgsl::Stroke;
-use effects::{AnyEffect, Value as Setting, Values};
+use effects::{AnyEffect, Section as _, Value as Setting, Values};
 use interpret::Interpreter;
 use naga::TypeInner;
 use value::Value;

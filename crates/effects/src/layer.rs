@@ -1,16 +1,19 @@
 //! A layer: one effect in a preset, with its parameters.
 
+use crate::choices;
 use crate::effect::LayerProgram;
 use crate::wgsl::hash;
 
-/// What a layer's widths are measured in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Units {
-    /// 1/300 of the head's height, in the world: zoom keeps the drawing.
-    #[default]
-    World,
-    /// Screen pixels at 720 lines: lines keep their width.
-    Pixels,
+choices! {
+    /// What a layer's widths are measured in.
+    #[derive(Default)]
+    pub enum Units {
+        /// 1/300 of the head's height, in the world: zoom keeps the drawing.
+        #[default]
+        World = "world",
+        /// Screen pixels at 720 lines: lines keep their width.
+        Pixels = "pixels",
+    }
 }
 
 /// One effect of a preset.

@@ -17,6 +17,7 @@ mod param;
 mod paths;
 pub mod preset;
 mod registry;
+pub mod section;
 pub mod smooth;
 mod source;
 mod varied;
@@ -29,6 +30,7 @@ pub use layer::{Layer, Units, layer_seed};
 pub use param::{Param, ParamKind, Value, Values};
 pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
 pub use registry::{Registry, RegistryError};
+pub use section::Section;
 pub use source::ProgramSource;
 pub use varied::{Variation, Varied};
 

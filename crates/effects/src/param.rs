@@ -2,6 +2,7 @@
 //! error messages, `inkstrand effects` and the documentation.
 
 use crate::color::parse_hex;
+use crate::section::Section;
 use crate::varied::Variation;
 
 /// One parameter of an effect or of a section of a preset.
@@ -39,6 +40,11 @@ pub enum ParamKind {
         max: i32,
         /// Value where the preset says nothing.
         default: i32,
+    },
+    /// `true` or `false`.
+    Flag {
+        /// Value where the preset says nothing.
+        default: bool,
     },
     /// One of several names.
     Choice {
@@ -88,6 +94,8 @@ pub enum Value {
     Varying(Variation),
     /// For [`ParamKind::Integer`].
     Integer(i32),
+    /// For [`ParamKind::Flag`].
+    Flag(bool),
     /// For [`ParamKind::Choice`]: the name's index.
     Choice(u32),
     /// For both kinds of colour: linear light.
@@ -107,12 +115,41 @@ impl ParamKind {
         match *self {
             Self::Number { default, .. } => Value::Number(default),
             Self::Integer { default, .. } => Value::Integer(default),
+            Self::Flag { default } => Value::Flag(default),
             Self::Choice { default, .. } => Value::Choice(default as u32),
             Self::Color { default } => Value::Color(parse_hex(default)),
             Self::OptionalColor { default } => Value::Color(default.and_then(parse_hex)),
             Self::Text => Value::Text(None),
             Self::Triple { default, .. } => Value::Triple(default),
             Self::Size { default, .. } => Value::Size(default),
+        }
+    }
+
+    /// Whether a value is one of those that the parameter takes. Colours may be brighter than white.
+    #[must_use]
+    pub fn takes(&self, value: &Value) -> bool {
+        let is_light =
+            |color: &[f32; 3]| color.iter().all(|light| (0.0..=f32::MAX).contains(light));
+        match (self, value) {
+            (Self::Number { min, max, .. }, Value::Number(number)) => {
+                (*min..=*max).contains(number)
+            }
+            (Self::Number { varies, .. }, Value::Varying(_)) => *varies,
+            (Self::Integer { min, max, .. }, Value::Integer(number)) => {
+                (*min..=*max).contains(number)
+            }
+            (Self::Flag { .. }, Value::Flag(_)) | (Self::Text, Value::Text(_)) => true,
+            (Self::Choice { names, .. }, Value::Choice(index)) => (*index as usize) < names.len(),
+            (Self::Color { .. } | Self::OptionalColor { .. }, Value::Color(Some(color)))
+            | (Self::Color { .. }, Value::Triple(color)) => is_light(color),
+            (Self::OptionalColor { .. }, Value::Color(None)) => true,
+            (Self::Triple { min, max, .. }, Value::Triple(triple)) => {
+                triple.iter().all(|number| (*min..=*max).contains(number))
+            }
+            (Self::Size { min, max, .. }, Value::Size(size)) => {
+                size.iter().all(|number| (*min..=*max).contains(number))
+            }
+            _ => false,
         }
     }
 
@@ -123,6 +160,7 @@ impl ParamKind {
             Self::Number { min, max, .. } => format!("a number from {min} to {max}"),
             Self::Integer { min, max, .. } if min == max => min.to_string(),
             Self::Integer { min, max, .. } => format!("a whole number from {min} to {max}"),
+            Self::Flag { .. } => "true or false".to_owned(),
             Self::Choice { names, .. } => format!("one of {}", names.join(", ")),
             Self::Color { .. } => "a colour such as \"3FC1C0\"".to_owned(),
             Self::OptionalColor { .. } => "a colour such as \"3FC1C0\", or none".to_owned(),
@@ -137,12 +175,11 @@ impl ParamKind {
     }
 }
 
-/// The values of one section: every parameter of its table has one.
+/// The values of an effect's parameters: every parameter of its table has one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values {
     table: &'static [Param],
     values: Vec<Value>,
-    given: Vec<bool>,
 }
 
 impl Values {
@@ -150,32 +187,7 @@ impl Values {
     #[must_use]
     pub fn defaults(table: &'static [Param]) -> Self {
         let values = table.iter().map(|p| p.kind.default_value()).collect();
-        Self {
-            table,
-            values,
-            given: vec![false; table.len()],
-        }
-    }
-
-    /// The table.
-    #[must_use]
-    pub fn table(&self) -> &'static [Param] {
-        self.table
-    }
-
-    /// Sets the value of parameter `index` of the table.
-    pub fn set(&mut self, index: usize, value: Value) {
-        self.values[index] = value;
-        self.given[index] = true;
-    }
-
-    /// Whether the preset gives this parameter, rather than its default being used.
-    #[must_use]
-    pub fn is_given(&self, name: &str) -> bool {
-        self.table
-            .iter()
-            .position(|p| p.name == name)
-            .is_some_and(|index| self.given[index])
+        Self { table, values }
     }
 
     /// The value of any kind.
@@ -235,31 +247,18 @@ impl Values {
             other => panic!("`{name}` is {other:?}, not a colour"),
         }
     }
+}
 
-    /// A text or nothing.
-    #[must_use]
-    pub fn text(&self, name: &str) -> Option<&str> {
-        match self.value(name) {
-            Value::Text(value) => value.as_deref(),
-            other => panic!("`{name}` is {other:?}, not a text"),
-        }
+impl Section for Values {
+    fn table(&self) -> &'static [Param] {
+        self.table
     }
 
-    /// Three numbers.
-    #[must_use]
-    pub fn triple(&self, name: &str) -> [f32; 3] {
-        match self.value(name) {
-            Value::Triple(value) => *value,
-            other => panic!("`{name}` is {other:?}, not three numbers"),
-        }
+    fn set(&mut self, index: usize, value: Value) {
+        self.values[index] = value;
     }
 
-    /// Width and height.
-    #[must_use]
-    pub fn size(&self, name: &str) -> [u32; 2] {
-        match self.value(name) {
-            Value::Size(value) => *value,
-            other => panic!("`{name}` is {other:?}, not a size"),
-        }
+    fn get(&self, index: usize) -> Option<Value> {
+        Some(self.values[index].clone())
     }
 }

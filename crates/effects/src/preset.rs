@@ -7,9 +7,11 @@ mod brackets;
 mod error;
 mod layers;
 mod reader;
+mod set;
 mod syntax;
 mod value;
 
 pub use error::{Place, PresetError, PresetErrors, nearest, suggestion};
 pub use layers::{LAYER, LayerSpec, OF_THE_EFFECT};
 pub use reader::{Field, Reader};
+pub use set::{SetError, set_text};

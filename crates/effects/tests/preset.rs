@@ -250,12 +250,14 @@ fn set_takes_the_texts_that_presets_take() {
         layer
             .set("width", "wide")
             .unwrap_err()
+            .to_string()
             .contains("a number from 0 to 9")
     );
     assert!(
         layer
             .set("withd", "1")
             .unwrap_err()
+            .to_string()
             .contains("did you mean `width`?")
     );
 }

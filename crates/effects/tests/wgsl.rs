@@ -1,6 +1,7 @@
 //! The translation of WGSL to Rust held against WGSL's definitions, and the prelude against the
 //! functions it stands for.
 
+use effects::Section as _;
 use effects::rt::Scalar;
 use effects::wgsl::{self, vec2, vec3};
 use effects::{ParamKind, Parameters, Value, Values};

@@ -57,6 +57,7 @@ const EFFECTS_JSON: &str = "\
   parameter  {name, meaning, type, default, unit?, min?, max?, choices?}
 Types and their defaults in JSON, and how a preset writes them:
   number, integer   0.5             0.5
+  true or false     true            true
   choice            \"linear\"        linear
   color             \"3FC1C0\"        \"3FC1C0\"
   color or none     \"none\"          none, or \"3FC1C0\"
@@ -156,8 +157,8 @@ pub(crate) struct RenderOptions {
     pub light: Option<Numbers>,
 
     /// sRGB colour behind everything, or none for a transparent picture [default: the preset's]
-    #[arg(long, value_name = "none|RRGGBB")]
-    pub background: Option<String>,
+    #[arg(long, value_name = "none|RRGGBB", value_parser = parse_background)]
+    pub background: Option<Background>,
 
     /// Draw only this layer (repeatable)
     #[arg(long, value_name = "LAYER")]
@@ -216,7 +217,7 @@ pub(crate) struct SceneOptions {
     #[arg(long, value_name = "N")]
     pub guides: Option<u32>,
 
-    /// Set a parameter of a layer (by its name) or section, such as hair.silhouette.width=3 or clump.size=1.2 (repeatable)
+    /// Set a parameter of a layer (by its name) or section, or the seed, such as hair.silhouette.width=3, clump.size=1.2 or seed=7 (repeatable)
     #[arg(long, value_name = "LAYER.PARAM=VALUE")]
     pub set: Vec<String>,
 }
@@ -234,6 +235,20 @@ pub(crate) enum Backend {
 /// Numbers with commas between them.
 #[derive(Clone)]
 pub(crate) struct Numbers(pub Vec<f32>);
+
+/// A colour in linear light, or none.
+#[derive(Clone, Copy)]
+pub(crate) struct Background(pub Option<[f32; 3]>);
+
+fn parse_background(text: &str) -> Result<Background, String> {
+    match text {
+        "none" => Ok(Background(None)),
+        hex => match effects::parse_hex(hex) {
+            Some(color) => Ok(Background(Some(color))),
+            None => Err("a colour is six hexadecimal digits RRGGBB, or none".to_owned()),
+        },
+    }
+}
 
 fn parse_finite(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {

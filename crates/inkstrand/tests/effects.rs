@@ -2,11 +2,11 @@
 
 use assert_cmd::Command;
 use effects::preset::{LAYER, OF_THE_EFFECT};
-use effects::{Param, ParamKind, Registry, Values};
+use effects::{Param, ParamKind, Registry, Section};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
-use stage::{MOTION_PARTS, Preset, SECTIONS, STYLE_PARTS};
+use stage::{MOTION_PARTS, Preset, STYLE_PARTS, Sections};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -113,6 +113,10 @@ fn assert_is_table(schema: &Value, table: &[Param]) {
                 assert_eq!((&value["min"], &value["max"]), (&json!(min), &json!(max)));
                 "integer"
             }
+            ParamKind::Flag { default } => {
+                assert_eq!(value["default"], default);
+                "true or false"
+            }
             ParamKind::Choice { names, .. } => {
                 assert_eq!(value["choices"], json!(names));
                 "choice"
@@ -160,17 +164,17 @@ fn the_schema_is_the_tables() {
     let schema = schema(&[]);
     assert_eq!(schema["version"], stage::VERSION);
     let sections = schema["sections"].as_array().unwrap();
-    assert_eq!(sections.len(), SECTIONS.len() + 2);
+    assert_eq!(sections.len(), Sections::ALL.len() + 2);
     assert_eq!(sections[0]["id"], "preset");
     assert_is_table(&sections[0], Preset::TOP);
-    for (section, (name, doc, table)) in sections[1..].iter().zip(SECTIONS) {
+    for (section, (name, doc, table)) in sections[1..].iter().zip(Sections::ALL) {
         assert_eq!(
             (&section["id"], &section["meaning"]),
             (&json!(name), &json!(doc))
         );
         assert_is_table(section, table);
     }
-    let layers = &sections[SECTIONS.len() + 1];
+    let layers = &sections[Sections::ALL.len() + 1];
     assert_eq!(layers["id"], "layers");
     assert_is_table(layers, LAYER);
     for value in layers["parameters"].as_array().unwrap() {
@@ -214,12 +218,13 @@ fn a_part_of_the_schema_is_the_same_part() {
 }
 
 /// All values of a section, whether the preset gives them or not.
-fn values(values: &Values) -> Vec<effects::Value> {
-    let table = values.table();
-    table
-        .iter()
-        .map(|param| values.value(param.name).clone())
-        .collect()
+fn values(section: &dyn Section) -> Vec<effects::Value> {
+    let rows = section.table().iter().enumerate();
+    rows.map(|(index, param)| {
+        let value = section.get(index);
+        value.unwrap_or_else(|| param.kind.default_value())
+    })
+    .collect()
 }
 
 #[test]
@@ -256,13 +261,11 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
     let small = format!("(version: 1, layers: [{layers}])");
     let small = Preset::parse("small.ron", &small, &registry).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(preset.seed, small.seed);
-    let sections = |p: &Preset| {
-        [
-            &p.hair, &p.head, &p.scene, &p.camera, &p.light, &p.path, &p.clump,
-        ]
-        .map(values)
-    };
-    assert_eq!(sections(&preset), sections(&small));
+    let (mut all, mut none) = (preset.sections.clone(), small.sections.clone());
+    for (name, ..) in Sections::ALL {
+        let [all, none] = [&mut all, &mut none].map(|sections| sections.by_name(name).unwrap());
+        assert_eq!(values(all), values(none), "{name}");
+    }
     for (all, none) in preset.layers.iter().zip(&small.layers) {
         assert_eq!(values(&all.values), values(&none.values));
         assert_eq!((&all.name, all.rank), (&none.name, none.rank));

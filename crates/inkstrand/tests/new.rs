@@ -63,7 +63,7 @@ fn the_starter_shows_every_section() {
     let folder = tempfile::tempdir().unwrap();
     inkstrand(folder.path(), &["new", "look.ron"]).success();
     let text = fs::read_to_string(folder.path().join("look.ron")).unwrap();
-    for (section, ..) in stage::SECTIONS {
+    for (section, ..) in stage::Sections::ALL {
         let opening = text.find(&format!("\n    {section}: (\n"));
         let opening = opening.unwrap_or_else(|| panic!("{section} is not in the starter"));
         let before = text[..opening].lines().last().unwrap();

@@ -5,7 +5,7 @@ use effects::preset::{LAYER, Reader};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
-use stage::{Preset, SECTIONS};
+use stage::{Preset, Sections};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -45,7 +45,7 @@ fn everything(registry: &Registry) -> String {
         })
     };
     let mut text = format!("(\n{}", list(Preset::TOP, "    "));
-    for (name, _, table) in SECTIONS {
+    for (name, _, table) in Sections::ALL {
         let _ = writeln!(text, "    {name}: (\n{}    ),", list(table, "        "));
     }
     text += "    layers: [\n";
@@ -65,6 +65,7 @@ fn default(kind: &ParamKind) -> String {
     match *kind {
         ParamKind::Number { default, .. } => default.to_string(),
         ParamKind::Integer { default, .. } => default.to_string(),
+        ParamKind::Flag { default } => default.to_string(),
         ParamKind::Choice { names, default } => names[default].to_owned(),
         ParamKind::Color { default } => format!("\"{default}\""),
         ParamKind::OptionalColor { default } => {
@@ -106,7 +107,7 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
     };
     for field in reader.fields(reader.text(), "the preset") {
         add(field.name, field.value, Preset::TOP);
-        if let Some((_, _, table)) = SECTIONS.iter().find(|(name, ..)| *name == field.name) {
+        if let Some((_, _, table)) = Sections::ALL.iter().find(|(name, ..)| *name == field.name) {
             for inner in reader.fields(field.value, "a section") {
                 add(inner.name, inner.value, table);
             }
@@ -252,6 +253,7 @@ fn is_legal(kind: &ParamKind, text: &str) -> bool {
             let number = text.replace('_', "").replace("0x10", "16").parse::<i32>();
             number.is_ok_and(|number| (min..=max).contains(&number))
         }
+        ParamKind::Flag { .. } => ["true", "false"].contains(&text),
         ParamKind::Choice { names, .. } => names.contains(&text),
         ParamKind::Color { .. } => is_color(quoted),
         ParamKind::OptionalColor { .. } => text == "none" || is_color(quoted),

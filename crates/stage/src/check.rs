@@ -43,7 +43,7 @@ impl<'r> Preset<'r> {
     }
 
     fn check_script(&self, files: &Files) -> Result<(), PresetErrors> {
-        let own = self.motion.text("file");
+        let own = self.sections.motion.file.as_ref();
         let path = load::chosen(files.motion.as_ref(), own, &files.preset_folder);
         match path.filter(|path| path.is_file()) {
             Some(path) => self.check_text(&path, ("motion", "file"), check_motion),
@@ -52,7 +52,7 @@ impl<'r> Preset<'r> {
     }
 
     fn check_style(&self, files: &Files) -> Result<(), PresetErrors> {
-        let own = self.hair.text("file");
+        let own = self.sections.hair.file.as_ref();
         let path = load::chosen(files.hair.as_ref(), own, &files.preset_folder);
         match path.filter(|path| path.is_file() && load::is_style(path)) {
             Some(path) => self.check_text(&path, ("hair", "file"), check_style),
@@ -78,7 +78,7 @@ impl<'r> Preset<'r> {
 
     /// A bake needs the hair that it was made of; where that cannot be read, its own mistakes are named first.
     fn check_bake(&self, files: &Files) -> Result<(), PresetErrors> {
-        let own = self.hair.text("bake");
+        let own = self.sections.hair.bake.as_ref();
         let path = load::chosen(files.bake.as_ref(), own, &files.preset_folder);
         let Some(path) = path.filter(|path| path.is_file()) else {
             return Ok(());

@@ -19,14 +19,17 @@ mod scene;
 mod script;
 mod shapes;
 mod style;
-mod table;
 
 pub use bake::Bake;
 pub use check::{check_motion, check_style};
-pub use dynamics::feel::DYNAMICS;
+pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 pub use files::{Files, StageError};
 pub use motion::MOTION_PARTS;
 pub use part::FilePart;
-pub use preset::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, Preset, SCENE, SECTIONS, VERSION};
+pub use preset::{
+    BrushChoice, CameraSection, ClumpSection, FixedTo, HairSection, HeadSection, HeadShape,
+    LightKind, LightSection, MotionSection, OrderChoice, PathChoice, PathSection, Preset,
+    SceneSection, Sections, TopSection, UpAxis, VERSION,
+};
 pub use scene::Stage;
 pub use style::STYLE_PARTS;

@@ -4,7 +4,7 @@ use crate::bake;
 use crate::files::{Files, StageError};
 use crate::hair::Hair;
 use crate::head::HeadModel;
-use crate::preset::Preset;
+use crate::preset::{HeadShape, Preset, UpAxis};
 use crate::style;
 use glam::Vec3;
 use groom::Guides;
@@ -13,8 +13,12 @@ use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
 use render::{Head, StrandInfo};
 use std::path::{Path, PathBuf};
 
-fn axes(choice: u32) -> Option<Axes> {
-    [None, Some(Axes::Y), Some(Axes::Z)][choice as usize]
+fn axes(up: UpAxis) -> Option<Axes> {
+    match up {
+        UpAxis::Guess => None,
+        UpAxis::Y => Some(Axes::Y),
+        UpAxis::Z => Some(Axes::Z),
+    }
 }
 
 fn scale(number: f32) -> Option<f32> {
@@ -27,7 +31,11 @@ pub(crate) fn is_style(path: &Path) -> bool {
 }
 
 /// The caller's file, or the preset's beside the preset.
-pub(crate) fn chosen(given: Option<&PathBuf>, own: Option<&str>, folder: &Path) -> Option<PathBuf> {
+pub(crate) fn chosen(
+    given: Option<&PathBuf>,
+    own: Option<&String>,
+    folder: &Path,
+) -> Option<PathBuf> {
     given.cloned().or_else(|| own.map(|name| folder.join(name)))
 }
 
@@ -37,20 +45,15 @@ pub(crate) fn head(
     files: &Files,
     notes: &mut Vec<String>,
 ) -> Result<Option<HeadModel>, StageError> {
-    let values = &preset.head;
-    let Some(path) = chosen(
-        files.head.as_ref(),
-        values.text("file"),
-        &files.preset_folder,
-    ) else {
-        let is_bust = values.choice("shape") == 1;
-        return Ok(is_bust.then(HeadModel::bust));
+    let section = &preset.sections.head;
+    let own = section.file.as_ref();
+    let Some(path) = chosen(files.head.as_ref(), own, &files.preset_folder) else {
+        return Ok(match section.shape {
+            HeadShape::None => None,
+            HeadShape::Bust => Some(HeadModel::bust()),
+        });
     };
-    let file = hair_io::read_head(
-        &path,
-        axes(values.choice("up")),
-        scale(values.number("scale")),
-    )?;
+    let file = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
     notes.extend(file.notes);
     let mut mesh = file.mesh;
     if is_inside_out(&mesh) {
@@ -86,7 +89,7 @@ pub(crate) fn hair(
     head: Option<&Mesh>,
     notes: &mut Vec<String>,
 ) -> Result<Hair, StageError> {
-    let own = preset.hair.text("file");
+    let own = preset.sections.hair.file.as_ref();
     let path = chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
     strands(preset, &path, head, notes)
 }
@@ -98,15 +101,15 @@ pub(crate) fn strands(
     head: Option<&Mesh>,
     notes: &mut Vec<String>,
 ) -> Result<Hair, StageError> {
-    let values = &preset.hair;
+    let section = &preset.sections.hair;
     if is_style(path) {
         let mut hair = grow(path, head)?;
         notes.append(&mut hair.file.notes);
         return Ok(hair);
     }
     let given = hair_io::orient::Given {
-        up: axes(values.choice("up")),
-        scale: scale(values.number("scale")),
+        up: axes(section.up),
+        scale: scale(section.scale),
         offset: None,
     };
     let mut hair = hair_io::read_hair(path, &HairOptions { given, head })?;
@@ -135,7 +138,7 @@ fn head_of(frame: HeadFrame) -> Head {
 
 /// Puts baked motion in place of the hair's own, where there is a bake.
 pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<(), StageError> {
-    let own = preset.hair.text("bake");
+    let own = preset.sections.hair.bake.as_ref();
     if let Some(path) = chosen(files.bake.as_ref(), own, &files.preset_folder) {
         hair.file.motion = Some(bake::read(&path, &hair.file.strands)?);
     }
@@ -146,11 +149,12 @@ pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<()
 /// from the strands it stands for.
 pub(crate) fn keep_guides(preset: &Preset, hair: &mut Hair) -> Vec<StrandInfo> {
     let strands = &hair.file.strands;
-    let guides = match preset.hair.integer("guides") {
+    let section = &preset.sections.hair;
+    let guides = match section.guides {
         0 => Guides::choose(strands, strands.len()),
-        n => Guides::choose(strands, n.unsigned_abs() as usize),
+        n => Guides::choose(strands, n as usize),
     };
-    let set = Some(preset.hair.number("size")).filter(|size| *size > 0.0);
+    let set = Some(section.size).filter(|size| *size > 0.0);
     let given = |i: usize| strands.size(i).or(set);
     let sizes = if guides.kept.iter().all(|&i| given(i).is_some()) {
         vec![0.0; guides.kept.len()]

@@ -2,42 +2,25 @@
 
 mod sections;
 
-pub use sections::{CAMERA, HAIR, HEAD, LIGHT, MOTION, PATH, SCENE, SECTIONS};
+pub use sections::*;
 
-use crate::dynamics::feel;
 use crate::files::Files;
 use effects::preset::{
-    Field, LayerSpec, Place, PresetError, PresetErrors, Reader, nearest, suggestion,
+    Field, LayerSpec, Place, PresetError, PresetErrors, Reader, SetError, nearest, set_text,
+    suggestion,
 };
-use effects::{Param, Registry, Values};
-use sections::TOP;
+use effects::{Param, Registry};
 use std::path::Path;
 
 /// The newest version of presets that this build reads.
-pub const VERSION: i32 = 1;
+pub const VERSION: u32 = 1;
 
-/// A preset, read and checked.
+/// A preset, read and checked, or made by a program.
 pub struct Preset<'r> {
     /// Seed of all variations.
     pub seed: u32,
-    /// Values of [`HAIR`].
-    pub hair: Values,
-    /// Values of [`HEAD`].
-    pub head: Values,
-    /// Values of [`SCENE`].
-    pub scene: Values,
-    /// Values of [`CAMERA`].
-    pub camera: Values,
-    /// Values of [`LIGHT`].
-    pub light: Values,
-    /// Values of [`MOTION`].
-    pub motion: Values,
-    /// Values of [`DYNAMICS`](crate::DYNAMICS).
-    pub dynamics: Values,
-    /// Values of [`PATH`].
-    pub path: Values,
-    /// Values of the clump's parameters.
-    pub clump: Values,
+    /// What its sections say.
+    pub sections: Sections,
     /// The layers, in the order of the file.
     pub layers: Vec<LayerSpec<'r>>,
     /// Where the file names other files.
@@ -63,7 +46,18 @@ const FILES: [(&str, &str); 5] = [
 
 impl<'r> Preset<'r> {
     /// What stands in a preset beside its sections and layers.
-    pub const TOP: &'static [Param] = TOP;
+    pub const TOP: &'static [Param] = TopSection::TABLE;
+
+    /// A preset that was not read: what a program says itself.
+    #[must_use]
+    pub fn new(seed: u32, sections: Sections, layers: Vec<LayerSpec<'r>>) -> Self {
+        Self {
+            seed,
+            sections,
+            layers,
+            named: Vec::new(),
+        }
+    }
 
     /// Reads the preset `text`, which messages call `file`.
     ///
@@ -86,76 +80,68 @@ impl<'r> Preset<'r> {
         if let Some(newer) = newer_version(reader, &fields) {
             return Err(PresetErrors(vec![newer]));
         }
-        let sections = SECTIONS.iter().map(|(name, ..)| *name).chain(["layers"]);
-        let known: Vec<&str> = TOP.iter().map(|p| p.name).chain(sections).collect();
-        for field in fields.iter().filter(|f| !known.contains(&f.name)) {
-            let hint = suggestion(field.name, known.iter().copied());
-            reader.error(
-                field.name,
-                format!("a preset has no `{}`{hint}", field.name),
-            );
+        let names = Sections::ALL.iter().map(|(name, ..)| *name);
+        let known: Vec<&str> = (Self::TOP.iter().map(|param| param.name))
+            .chain(names)
+            .chain(["layers"])
+            .collect();
+        let mut preset = Self::new(0, Sections::default(), Vec::new());
+        let mut plain = Vec::new();
+        let mut layers = None;
+        for field in &fields {
+            if field.name == "layers" {
+                layers = Some(field);
+            } else if preset.sections.by_name(field.name).is_some() {
+                preset.read_section(reader, field);
+            } else if Self::TOP.iter().any(|param| param.name == field.name) {
+                plain.push(*field);
+            } else {
+                let hint = suggestion(field.name, known.iter().copied());
+                let message = format!("a preset has no `{}`{hint}", field.name);
+                reader.error(field.name, message);
+            }
         }
-        let field = |name: &str| fields.iter().find(|field| field.name == name);
-        let plain: Vec<Field> = TOP.iter().filter_map(|p| field(p.name)).copied().collect();
-        let top = reader.values(&plain, TOP, "the preset");
-        if !top.is_given("version") && field("version").is_none() {
+        let top: TopSection = reader.section_of(&plain, "the preset");
+        preset.seed = top.seed;
+        if plain.iter().all(|field| field.name != "version") {
             let message =
                 format!("the preset needs `version: {VERSION}`, the version of its format");
             reader.error(reader.text(), message);
         }
-
-        let mut named = Vec::new();
-        let mut section = |name: &str| {
-            let (_, _, table) = SECTIONS
-                .iter()
-                .find(|(known, ..)| *known == name)
-                .unwrap_or_else(|| panic!("no section `{name}`"));
-            let Some(field) = field(name) else {
-                return Values::defaults(table);
-            };
-            let fields = reader.fields(field.value, name);
-            for (section, param) in FILES.into_iter().filter(|(section, _)| *section == name) {
-                let file = fields.iter().find(|field| field.name == param);
-                named.extend(file.map(|file| Named {
-                    section,
-                    param,
-                    place: reader.place(file.value),
-                }));
-            }
-            let values = reader.values(&fields, table, name);
-            if let Some((param, message)) = unsupported(name, &values) {
-                let field = fields.iter().find(|field| field.name == param);
-                reader.error(field.map_or(name, |field| field.name), message);
-            }
-            values
-        };
-        let (hair, head) = (section("hair"), section("head"));
-        let (scene, camera, light) = (section("scene"), section("camera"), section("light"));
-        let (path, clump) = (section("path"), section("clump"));
-        let (motion, dynamics) = (section("motion"), section("dynamics"));
-        let layers = match field("layers") {
-            Some(field) => reader.layers(field.value, registry, &known),
+        match layers {
+            Some(field) => preset.layers = reader.layers(field.value, registry, &known),
             None => {
                 let message = "the preset has no `layers`, so it would draw nothing";
                 reader.error(reader.text(), message);
-                Vec::new()
             }
-        };
-        let seed = top.integer("seed").unsigned_abs();
-        Ok(Self {
-            seed,
-            hair,
-            head,
-            scene,
-            camera,
-            light,
-            motion,
-            dynamics,
-            path,
-            clump,
-            layers,
-            named,
-        })
+        }
+        Ok(preset)
+    }
+
+    /// Reads the section `field`, and notes where it names files.
+    fn read_section<'a>(&mut self, reader: &mut Reader<'a>, field: &Field<'a>) {
+        let name = field.name;
+        let fields = reader.fields(field.value, name);
+        for (section, param) in FILES.into_iter().filter(|(section, _)| *section == name) {
+            let file = fields.iter().find(|field| field.name == param);
+            self.named.extend(file.map(|file| Named {
+                section,
+                param,
+                place: reader.place(file.value),
+            }));
+        }
+        if let Some(section) = self.sections.by_name(name) {
+            reader.fill(&fields, section, name);
+        }
+        if let Some((param, message)) = self.unsupported(name) {
+            let field = fields.iter().find(|field| field.name == param);
+            reader.error(field.map_or(name, |field| field.name), message);
+        }
+    }
+
+    /// What a section asks for that cannot be: a parameter, and why.
+    fn unsupported(&self, section: &str) -> Option<(&'static str, String)> {
+        (section == "dynamics").then(|| self.sections.dynamics.unsupported())?
     }
 
     /// Looks for the files that the preset names and the caller gives no others for.
@@ -165,17 +151,18 @@ impl<'r> Preset<'r> {
     /// For each that is not there, at its place in the preset, with the nearest name in its folder.
     pub fn check_files(&self, files: &Files) -> Result<(), PresetErrors> {
         let missing_file = |named: &Named| {
-            let (values, given) = match (named.section, named.param) {
-                ("hair", "file") => (&self.hair, &files.hair),
-                ("hair", _) => (&self.hair, &files.bake),
-                ("head", _) => (&self.head, &files.head),
-                (_, "file") => (&self.motion, &files.motion),
-                _ => (&self.motion, &None),
+            let sections = &self.sections;
+            let (name, given) = match (named.section, named.param) {
+                ("hair", "file") => (&sections.hair.file, &files.hair),
+                ("hair", _) => (&sections.hair.bake, &files.bake),
+                ("head", _) => (&sections.head.file, &files.head),
+                (_, "file") => (&sections.motion.file, &files.motion),
+                _ => (&sections.motion.gltf, &None),
             };
             if given.is_some() {
                 return None;
             }
-            let name = values.text(named.param)?;
+            let name = name.as_ref()?;
             let message = missing(&files.preset_folder, named.param, name)?;
             let place = named.place.clone();
             Some(PresetError { place, message })
@@ -195,36 +182,38 @@ impl<'r> Preset<'r> {
         self.named.iter().find(is_it).map(|named| &named.place)
     }
 
-    /// Sets a layer's parameter, or one of a section, from its text: `hair.silhouette.width`, `3`.
+    /// Sets a layer's parameter, one of a section, or the seed, from its text: `hair.silhouette.width`, `3`.
     ///
     /// # Errors
     ///
     /// When there is no such layer, section or parameter, or the text is not one of its values.
-    pub fn set(&mut self, name: &str, text: &str) -> Result<(), String> {
+    pub fn set(&mut self, name: &str, text: &str) -> Result<(), SetError> {
         let Some((owner, param)) = name.rsplit_once('.') else {
-            return Err(format!(
-                "`{name}` is not LAYER.PARAM, such as hair.base.brightness or clump.size"
-            ));
+            return self.set_top(name, text);
         };
         if let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == owner) {
             return layer.set(param, text);
         }
-        let section = match owner {
-            "hair" => &mut self.hair,
-            "head" => &mut self.head,
-            "scene" => &mut self.scene,
-            "camera" => &mut self.camera,
-            "light" => &mut self.light,
-            "motion" => &mut self.motion,
-            "dynamics" => &mut self.dynamics,
-            "path" => &mut self.path,
-            "clump" => &mut self.clump,
-            _ => return Err(self.unknown_layer(owner)),
+        let Some(section) = self.sections.by_name(owner) else {
+            return Err(SetError::Unknown(self.no_layer(owner)));
         };
-        section.set_text(owner, param, text)?;
+        set_text(section, owner, param, text)?;
         // What the file says is no longer what is meant.
         self.named
             .retain(|named| (named.section, named.param) != (owner, param));
+        Ok(())
+    }
+
+    /// Sets what stands beside the sections: the seed, as the version is the file's.
+    fn set_top(&mut self, name: &str, text: &str) -> Result<(), SetError> {
+        if name != "seed" {
+            return Err(SetError::Unknown(format!(
+                "`{name}` is neither seed nor LAYER.PARAM, such as hair.base.brightness or clump.size"
+            )));
+        }
+        let mut top = TopSection::default();
+        set_text(&mut top, "the preset", name, text)?;
+        self.seed = top.seed;
         Ok(())
     }
 
@@ -233,17 +222,17 @@ impl<'r> Preset<'r> {
     /// # Errors
     ///
     /// When there is no layer of one of the names.
-    pub fn keep_only(&mut self, names: &[String]) -> Result<(), String> {
+    pub fn keep_only(&mut self, names: &[String]) -> Result<(), SetError> {
         for name in names {
             if self.layers.iter().all(|layer| layer.name != *name) {
-                return Err(self.unknown_layer(name));
+                return Err(SetError::Unknown(self.no_layer(name)));
             }
         }
         self.layers.retain(|layer| names.contains(&layer.name));
         Ok(())
     }
 
-    fn unknown_layer(&self, name: &str) -> String {
+    fn no_layer(&self, name: &str) -> String {
         let layers: Vec<&str> = self
             .layers
             .iter()
@@ -252,11 +241,6 @@ impl<'r> Preset<'r> {
         let hint = suggestion(name, layers.iter().copied());
         format!("there is no layer `{name}`{hint}")
     }
-}
-
-/// What a section asks for that cannot be: a parameter, and why.
-fn unsupported(section: &str, values: &Values) -> Option<(&'static str, String)> {
-    (section == "dynamics").then(|| feel::unsupported(values))?
 }
 
 /// The error of a file of a version that this build doesn't read: nothing else in it means what it

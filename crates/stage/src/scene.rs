@@ -1,7 +1,7 @@
 //! A scene: the hair and head of a preset, at a time, as a frame.
 
 use crate::bake::Bake;
-use crate::dynamics::{Dynamics, feel};
+use crate::dynamics::{Dynamics, DynamicsSection};
 use crate::files::{Files, StageError};
 use crate::hair::Hair;
 use crate::head::{self, HeadPaint};
@@ -9,11 +9,13 @@ use crate::load;
 use crate::material::Material;
 use crate::motion::{HeadPose, MotionScript};
 use crate::neck::{Neck, rigid};
-use crate::preset::Preset;
+use crate::preset::{
+    BrushChoice, FixedTo, LightKind, OrderChoice, PathChoice, PathSection, Preset, Sections,
+};
 use crate::reach::{may_see, reach_m};
 use crate::script;
 use effects::wgsl::hash;
-use effects::{HairStrand, Layer, MadePaths, Parameters, Values, Varied, clump, layer_seed};
+use effects::{HairStrand, Layer, MadePaths, Parameters, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use std::ops::Range;
@@ -59,7 +61,7 @@ pub struct Stage {
     script: MotionScript,
     pose: HeadPose,
     /// What the preset says of dynamics, frames a second, and the simulation once something moves.
-    dynamics_values: Values,
+    dynamics_section: DynamicsSection,
     fps: f32,
     dynamics: Option<Dynamics>,
     /// Sentences for the user: what was guessed.
@@ -107,7 +109,7 @@ impl Stage {
         let script = script::load(preset, files, &mut hair, mesh)?;
         if let Some(model) = &mut model {
             model.add_ties(&hair.ties);
-            let reach = preset.head.number("scalp");
+            let reach = preset.sections.head.scalp;
             // A style's own coat lies there.
             if reach > 0.0 && hair.undercoat == 0 {
                 let roots: Vec<Vec3> = hair.file.strands.roots().collect();
@@ -116,12 +118,12 @@ impl Stage {
         }
         let strands = load::keep_guides(preset, &mut hair);
         load::bake(preset, files, &mut hair)?;
-        if let Some((_, message)) = feel::unsupported(&preset.dynamics) {
+        if let Some((_, message)) = preset.sections.dynamics.unsupported() {
             return Err(StageError::Unsupported(message));
         }
         let settings = Settings::new(preset, head)?;
         let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
-        let clump = Varied::<clump::Program>::new(&preset.clump);
+        let clump = Varied::<clump::Program>::new(&preset.sections.clump.0);
         let reads_material = clump.base().normal == MATERIAL
             || (layers.iter()).any(|layer| layer.program.inputs().has("material_normal"));
         let without_light = |layer: &&Layer| layer.program.needs_point_light();
@@ -152,8 +154,8 @@ impl Stage {
             head,
             script,
             pose: HeadPose::default(),
-            dynamics_values: preset.dynamics.clone(),
-            fps: preset.scene.number("fps"),
+            dynamics_section: preset.sections.dynamics.clone(),
+            fps: preset.sections.scene.fps,
             dynamics: None,
             notes,
             seed: preset.seed,
@@ -240,7 +242,7 @@ impl Stage {
             motion.sample(time as f32, &mut self.points);
             return Ok(());
         }
-        let is_simulated = Dynamics::moves(&self.dynamics_values, &self.script);
+        let is_simulated = Dynamics::moves(&self.dynamics_section, &self.script);
         match &self.hair.shapes {
             // Without dynamics hair is where its keys have it.
             Some(shapes) if !is_simulated => {
@@ -265,7 +267,7 @@ impl Stage {
                     &self.hair,
                     &sizes,
                     self.neck.as_ref().map(Neck::rest_mesh),
-                    &self.dynamics_values,
+                    &self.dynamics_section,
                     self.script.hold,
                     self.fps,
                     self.seed,
@@ -379,7 +381,7 @@ impl Stage {
         let strands = || (0..rest.len()).map(|strand| rest.point_range(strand));
         let (rotation, _) = rigid(self.pose, self.head);
         material.turn(rest.points(), strands(), self.head.center, rotation);
-        let is_simulated = Dynamics::moves(&self.dynamics_values, &self.script);
+        let is_simulated = Dynamics::moves(&self.dynamics_section, &self.script);
         match &self.dynamics {
             _ if self.hair.file.motion.is_some() => {
                 material.follow(rest.points(), &self.points, strands(), rotation);
@@ -475,52 +477,65 @@ fn made_id(id: u32, number: u32) -> u32 {
     hash(id ^ hash(number + 1))
 }
 
+fn path_kind(path: &PathSection) -> PathKind {
+    let subdivision = path.subdivision;
+    match path.kind {
+        PathChoice::Linear => PathKind::Linear { subdivision },
+        PathChoice::CatmullRom => PathKind::CatmullRom { subdivision },
+    }
+}
+
 impl Settings {
     fn new(preset: &Preset, head: Head) -> Result<Self, StageError> {
-        let Preset {
+        let Sections {
             scene,
             camera,
             light,
             path,
             head: paint,
+            clump,
             ..
-        } = preset;
-        let subdivision = path.integer("subdivision").unsigned_abs();
+        } = &preset.sections;
         Ok(Self {
-            size: scene.size("size"),
-            background: scene.optional_color("background"),
-            order: Order::ALL[scene.choice("order") as usize],
-            edge_depth_m: scene.number("edge_depth") * head.height_m,
-            path: match path.choice("kind") {
-                0 => PathKind::Linear { subdivision },
-                _ => PathKind::CatmullRom { subdivision },
+            size: scene.size,
+            background: scene.background,
+            order: match scene.order {
+                OrderChoice::Rounded => Order::Rounded,
+                OrderChoice::Scattered => Order::Scattered,
+                OrderChoice::StrandFirst => Order::StrandFirst,
+                OrderChoice::Shifted => Order::Shifted,
             },
-            brush: [Brush::Circle, Brush::Semicircle][path.choice("brush") as usize],
+            edge_depth_m: scene.edge_depth * head.height_m,
+            path: path_kind(path),
+            brush: match path.brush {
+                BrushChoice::Circle => Brush::Circle,
+                BrushChoice::Semicircle => Brush::Semicircle,
+            },
             view: OrbitView {
                 target: head.center,
-                yaw_degrees: camera.number("yaw"),
-                pitch_degrees: camera.number("pitch"),
-                distance_m: camera.number("distance") * head.height_m,
-                vertical_fov_degrees: camera.number("fov"),
+                yaw_degrees: camera.yaw,
+                pitch_degrees: camera.pitch,
+                distance_m: camera.distance * head.height_m,
+                vertical_fov_degrees: camera.fov,
             },
-            target: Vec3::from(camera.triple("target")),
-            light_is_point: light.choice("kind") == 1,
-            light_follows_camera: light.choice("fixed_to") == 1,
-            light_direction: direction_from_angles(light.number("yaw"), light.number("pitch"))?,
-            light_distance: light.number("distance"),
+            target: Vec3::from(camera.target),
+            light_is_point: light.kind == LightKind::Point,
+            light_follows_camera: light.fixed_to == FixedTo::Camera,
+            light_direction: direction_from_angles(light.yaw, light.pitch)?,
+            light_distance: light.distance,
             paint: HeadPaint {
-                light: paint.color("light"),
-                shadow: paint.color("shadow"),
-                line: paint.color("line"),
-                iris: paint.color("iris"),
-                iris_shadow: paint.color("iris_shadow"),
-                tie: paint.color("tie"),
-                tie_shadow: paint.color("tie_shadow"),
-                scalp: clump::Program::params(&preset.clump).color.to_array(),
-                width_m: paint.number("width") * head.unit_m(),
+                light: paint.light,
+                shadow: paint.shadow,
+                line: paint.line,
+                iris: paint.iris,
+                iris_shadow: paint.iris_shadow,
+                tie: paint.tie,
+                tie_shadow: paint.tie_shadow,
+                scalp: clump::Program::params(&clump.0).color.to_array(),
+                width_m: paint.width * head.unit_m(),
                 inside_margin_m: INSIDE_MARGIN * head.height_m,
                 outline_margin_m: OUTLINE_MARGIN * head.height_m,
-                threshold: paint.number("threshold"),
+                threshold: paint.threshold,
             },
         })
     }

@@ -16,7 +16,7 @@ pub(crate) fn load(
     hair: &mut Hair,
     mesh: Option<&Mesh>,
 ) -> Result<MotionScript, StageError> {
-    let own = preset.motion.text("file");
+    let own = preset.sections.motion.file.as_ref();
     let mut script = MotionScript::default();
     if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
         let text = std::fs::read_to_string(&path).map_err(|source| StageError::Read {
@@ -27,15 +27,15 @@ pub(crate) fn load(
         let folder = path.parent().unwrap_or(Path::new(""));
         hair.shapes = shapes::load(preset, &script, folder, hair, mesh)?;
     }
-    let values = &preset.motion;
-    if let Some(name) = values.text("gltf") {
+    let section = &preset.sections.motion;
+    if let Some(name) = &section.gltf {
         script.bone = Some(Bone {
             motion: BoneMotion::read(
                 &files.preset_folder.join(name),
-                values.text("bone").unwrap_or("head"),
-                values.text("animation"),
+                section.bone.as_deref().unwrap_or("head"),
+                section.animation.as_deref(),
             )?,
-            repeats: values.choice("repeat") == 1,
+            repeats: section.repeat,
             head_height_m: f64::from(hair.head.height_m),
         });
     }

@@ -23,8 +23,8 @@ const SMALL: &str = "(version: 1, layers: [(effect: \"hair.base\")])";
 fn a_preset_needs_little() {
     let registry = registry();
     let preset = Preset::parse("look.ron", SMALL, &registry).unwrap();
-    assert_eq!(preset.camera.number("fov"), 30.0);
-    assert_eq!(preset.scene.size("size"), [960, 720]);
+    assert_eq!(preset.sections.camera.fov, 30.0);
+    assert_eq!(preset.sections.scene.size, [960, 720]);
     assert_eq!(preset.layers[0].rank, 0);
 }
 
@@ -166,20 +166,27 @@ fn set_reaches_layers_and_sections() {
     preset.set("scene.background", "none").unwrap();
     assert_eq!(preset.layers[1].values.number("width"), 4.0);
     assert_eq!(preset.layers[0].values.number("brightness"), 0.5);
-    assert_eq!(preset.clump.number("size"), 2.0);
-    assert_eq!(preset.scene.optional_color("background"), None);
+    assert_eq!(preset.sections.clump.0.number("size"), 2.0);
+    assert_eq!(preset.sections.scene.background, None);
     assert!(
         preset
             .set("lime.width", "4")
             .unwrap_err()
+            .to_string()
             .contains("did you mean `line`?")
     );
     assert!(
         preset
             .set("width", "4")
             .unwrap_err()
+            .to_string()
             .contains("LAYER.PARAM")
     );
+    preset.set("seed", "7").unwrap();
+    assert_eq!(preset.seed, 7);
+    let error = preset.set("seed", "-7").unwrap_err().to_string();
+    assert!(error.contains("seed: expected a whole number"), "{error}");
+    assert!(preset.set("version", "1").is_err());
 
     assert!(preset.keep_only(&["liine".to_owned()]).is_err());
     preset.keep_only(&["line".to_owned()]).unwrap();
@@ -195,6 +202,7 @@ fn defaults_are_within_their_own_ranges() {
                 min, max, default, ..
             } => (min..=max).contains(&default),
             ParamKind::Integer { min, max, default } => (min..=max).contains(&default),
+            ParamKind::Flag { .. } => true,
             ParamKind::Choice { names, default } => default < names.len(),
             ParamKind::Color { default } => effects::parse_hex(default).is_some(),
             ParamKind::OptionalColor { default } => {
@@ -209,7 +217,7 @@ fn defaults_are_within_their_own_ranges() {
             }
         }
     }
-    for (section, doc, table) in stage::SECTIONS {
+    for (section, doc, table) in stage::Sections::ALL {
         assert!(!doc.is_empty());
         for param in *table {
             assert!(legal(param), "{section}.{}", param.name);

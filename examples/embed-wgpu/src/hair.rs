@@ -43,7 +43,7 @@ impl Hair {
         };
         let mut preset = Preset::parse(&name, &text, &registry)?;
         // Presets are made for the frame rates of film.
-        preset.set("scene.fps", &STEPS_PER_SECOND.to_string())?;
+        preset.sections.scene.fps = STEPS_PER_SECOND;
         Ok(Self {
             stage: Stage::new(&preset, &files)?,
             renderer: Renderer::new(device, queue)?,

@@ -168,14 +168,12 @@ impl Look {
         effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
         let mut preset =
             Preset::parse(&name, &text, &registry).map_err(|errors| errors.to_string())?;
-        let [width, height] = preset.scene.size("size").map(|side| side.div_ceil(part));
-        preset.set("scene.size", &format!("({width}, {height})"))?;
-        preset.set("dynamics.step", &seconds(1).to_string())?;
-        if preset.scene.optional_color("background").is_none() {
-            preset.set("scene.background", "FFFFFF")?;
-        }
+        let sections = &mut preset.sections;
+        sections.scene.size = sections.scene.size.map(|side| side.div_ceil(part));
+        sections.dynamics.step = seconds(1) as f32;
+        sections.scene.background.get_or_insert([1.0; 3]);
         if self.guides > 0 {
-            preset.set("hair.guides", &self.guides.to_string())?;
+            sections.hair.guides = self.guides;
         }
         let script = motion.and_then(Motion::script);
         let files = Files {
@@ -188,7 +186,7 @@ impl Look {
         Ok(MovingLook {
             stage: Stage::new(&preset, &files).map_err(|error| error.to_string())?,
             motion,
-            yaw: f64::from(preset.camera.number("yaw")),
+            yaw: f64::from(preset.sections.camera.yaw),
         })
     }
 }

@@ -128,7 +128,7 @@ impl Style {
         let preset =
             Preset::parse("strands", text, &registry).map_err(|errors| errors.to_string())?;
         Ok(Self {
-            clump: Varied::new(&preset.clump),
+            clump: Varied::new(&preset.sections.clump.0),
             layers: preset.layers.iter().map(|layer| layer.build()).collect(),
         })
     }

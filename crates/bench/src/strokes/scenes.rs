@@ -91,7 +91,7 @@ pub fn twin_tails(root: &Path) -> Result<Scene, String> {
     drawing.surfaces.clear();
     drawing.background = None;
     // Resampled between particles: the source's stamps are shared out among more joints.
-    let subdivision = preset.path.integer("subdivision").unsigned_abs() as usize;
+    let subdivision = preset.sections.path.subdivision as usize;
     Ok(Scene {
         name: "twin-tails",
         drawing,

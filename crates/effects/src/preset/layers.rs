@@ -1,58 +1,33 @@
 //! The layers of a preset.
 
 use super::error::suggestion;
-use super::reader::{Field, Reader, unknown};
+use super::reader::{Field, Reader};
+use super::set::{SetError, set_text, unknown};
 use super::value::{parse_value, shown};
 use crate::effect::AnyEffect;
 use crate::layer::{Layer, Units};
 use crate::param::{Param, ParamKind, Value, Values};
 use crate::registry::Registry;
+use crate::section;
+
+section! {
+    /// What a layer may say, beside the effect's own parameters.
+    struct LayerFields {
+        /// The effect's id, such as "hair.base"; every layer has one.
+        effect: Option<String> = text(),
+        /// A name for `--set` and `--only`, unique in the preset; the effect's id by default.
+        name: Option<String> = text(),
+        /// Drawing order within a strand, low first; the base stroke is 0. The effect's own by default.
+        rank: Option<i32> = integer(0, -10_000..=10_000).optional(),
+        /// How much farther from the eye the strokes are than their strand. The effect's own by default.
+        depth_offset: Option<f32> = number(0.0, -10.0..=10.0).unit("head heights").optional(),
+        /// What widths are measured in: 1/300 of the head's height in the world, or pixels at 720 lines.
+        units: Units = Units::World.or_another(),
+    }
+}
 
 /// What a layer may say, beside the effect's own parameters.
-pub const LAYER: &[Param] = &[
-    Param {
-        name: "effect",
-        doc: "The effect's id, such as \"hair.base\"; every layer has one.",
-        unit: "",
-        kind: ParamKind::Text,
-    },
-    Param {
-        name: "name",
-        doc: "A name for `--set` and `--only`, unique in the preset; the effect's id by default.",
-        unit: "",
-        kind: ParamKind::Text,
-    },
-    Param {
-        name: "rank",
-        doc: "Drawing order within a strand, low first; the base stroke is 0. The effect's own by default.",
-        unit: "",
-        kind: ParamKind::Integer {
-            min: -10_000,
-            max: 10_000,
-            default: 0,
-        },
-    },
-    Param {
-        name: "depth_offset",
-        doc: "How much farther from the eye the strokes are than their strand. The effect's own by default.",
-        unit: "head heights",
-        kind: ParamKind::Number {
-            min: -10.0,
-            max: 10.0,
-            default: 0.0,
-            varies: false,
-        },
-    },
-    Param {
-        name: "units",
-        doc: "What widths are measured in: 1/300 of the head's height in the world, or pixels at 720 lines.",
-        unit: "",
-        kind: ParamKind::Choice {
-            names: &["world", "pixels"],
-            default: 0,
-        },
-    },
-];
+pub const LAYER: &[Param] = LayerFields::TABLE;
 
 /// What of [`LAYER`] is the effect's own where the layer says nothing, in place of the table's default.
 pub const OF_THE_EFFECT: &[&str] = &["name", "rank", "depth_offset"];
@@ -73,9 +48,6 @@ pub struct LayerSpec<'r> {
     pub values: Values,
 }
 
-/// In the order of `units` in [`LAYER`].
-const UNITS: [Units; 2] = [Units::World, Units::Pixels];
-
 impl LayerSpec<'_> {
     /// Sets one parameter of the effect, or the layer's own `rank`, `depth_offset` or `units`, from
     /// its text, as `--set` gives it.
@@ -83,19 +55,20 @@ impl LayerSpec<'_> {
     /// # Errors
     ///
     /// When there is no such parameter, or the text is not one of its values.
-    pub fn set(&mut self, param: &str, text: &str) -> Result<(), String> {
+    pub fn set(&mut self, param: &str, text: &str) -> Result<(), SetError> {
         let own = ["rank", "depth_offset", "units"];
         let is_own = own.contains(&param) && self.effect.params().iter().all(|p| p.name != param);
         if !is_own {
-            return set_value(&mut self.values, &self.name, param, text);
+            return set_text(&mut self.values, &self.name, param, text);
         }
-        let mut layer = Values::defaults(LAYER);
-        set_value(&mut layer, &self.name, param, text)?;
-        match param {
-            "rank" => self.rank = layer.integer("rank"),
-            "depth_offset" => self.depth_offset = layer.number("depth_offset"),
-            _ => self.units = UNITS[layer.choice("units") as usize],
-        }
+        let mut fields = LayerFields {
+            units: self.units,
+            ..LayerFields::default()
+        };
+        set_text(&mut fields, &self.name, param, text)?;
+        self.rank = fields.rank.unwrap_or(self.rank);
+        self.depth_offset = fields.depth_offset.unwrap_or(self.depth_offset);
+        self.units = fields.units;
         Ok(())
     }
 
@@ -110,40 +83,6 @@ impl LayerSpec<'_> {
             units: self.units,
             program: self.effect.program(&self.values),
         }
-    }
-}
-
-/// Sets parameter `param` of a section called `what` from its text. A colour may lack its quotes.
-///
-/// # Errors
-///
-/// When there is no such parameter, or the text is not one of its values.
-pub(crate) fn set_value(
-    values: &mut Values,
-    what: &str,
-    param: &str,
-    text: &str,
-) -> Result<(), String> {
-    let table = values.table();
-    let Some(index) = table.iter().position(|p| p.name == param) else {
-        return Err(unknown(param, table, what));
-    };
-    let kind = &table[index].kind;
-    let value = parse_value(text, kind)
-        .or_else(|message| parse_value(&format!("\"{text}\""), kind).map_err(|_| message))
-        .map_err(|message| format!("{what}.{param}: {message}"))?;
-    values.set(index, value);
-    Ok(())
-}
-
-impl Values {
-    /// Sets a parameter from its text, as `--set` gives it. `what` names the section in messages.
-    ///
-    /// # Errors
-    ///
-    /// When there is no such parameter, or the text is not one of its values.
-    pub fn set_text(&mut self, what: &str, param: &str, text: &str) -> Result<(), String> {
-        set_value(self, what, param, text)
     }
 }
 
@@ -198,7 +137,8 @@ impl<'a> Reader<'a> {
             .partition(|field| field.name == "params");
         let effect = self.effect(item, &own, registry);
         let table = effect.map_or(&[][..], AnyEffect::params);
-        let layer = self.values_or(&own, LAYER, |field| {
+        let mut layer = LayerFields::default();
+        self.fill_or(&own, &mut layer, |field| {
             let name = field.name;
             if has(table, name) {
                 let value = shown(field.value);
@@ -213,19 +153,11 @@ impl<'a> Reader<'a> {
             None => Values::defaults(effect.params()),
         };
         Some(LayerSpec {
-            name: layer.text("name").unwrap_or(effect.id()).to_owned(),
+            name: layer.name.unwrap_or_else(|| effect.id().to_owned()),
             effect,
-            rank: if layer.is_given("rank") {
-                layer.integer("rank")
-            } else {
-                effect.rank()
-            },
-            depth_offset: if layer.is_given("depth_offset") {
-                layer.number("depth_offset")
-            } else {
-                effect.depth_offset()
-            },
-            units: UNITS[layer.choice("units") as usize],
+            rank: layer.rank.unwrap_or(effect.rank()),
+            depth_offset: layer.depth_offset.unwrap_or(effect.depth_offset()),
+            units: layer.units,
             values,
         })
     }
@@ -257,13 +189,15 @@ impl<'a> Reader<'a> {
 
     fn params(&mut self, section: &'a str, effect: &dyn AnyEffect) -> Values {
         let fields = self.fields(section, effect.id());
-        self.values_or(&fields, effect.params(), |field| {
+        let mut values = Values::defaults(effect.params());
+        self.fill_or(&fields, &mut values, |field| {
             if has(LAYER, field.name) {
                 format!("`{}` belongs to the layer, outside of `params`", field.name)
             } else {
                 unknown(field.name, effect.params(), effect.id())
             }
-        })
+        });
+        values
     }
 }
 

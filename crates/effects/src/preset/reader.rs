@@ -1,10 +1,12 @@
 //! Reading sections of a preset from its text.
 
 use super::brackets::check_brackets;
-use super::error::{Place, PresetError, PresetErrors, suggestion};
+use super::error::{Place, PresetError, PresetErrors};
+use super::set::unknown;
 use super::syntax::{self, Kind, Piece, pieces};
 use super::value::{parse_value, shown};
-use crate::param::{Param, Value, Values};
+use crate::param::{Param, Value};
+use crate::section::Section;
 use std::collections::HashSet;
 
 /// How many mistakes of a file are told: a file that is no preset at all has any number.
@@ -287,36 +289,43 @@ impl<'a> Reader<'a> {
         items
     }
 
-    /// A section whose fields are those of `table`.
-    pub fn section(&mut self, section: &'a str, table: &'static [Param], what: &str) -> Values {
+    /// A section of its own type, such as those that [`section!`](crate::section!) makes.
+    pub fn section<S: Section + Default>(&mut self, section: &'a str, what: &str) -> S {
         let fields = self.fields(section, what);
-        self.values(&fields, table, what)
+        self.section_of(&fields, what)
     }
 
-    /// The values of these fields by `table`. A field that the table lacks is a mistake.
-    pub fn values(&mut self, fields: &[Field<'a>], table: &'static [Param], what: &str) -> Values {
-        self.values_or(fields, table, |field| unknown(field.name, table, what))
+    /// A section of these fields. One that its table lacks is a mistake.
+    pub fn section_of<S: Section + Default>(&mut self, fields: &[Field<'a>], what: &str) -> S {
+        let mut section = S::default();
+        self.fill(fields, &mut section, what);
+        section
     }
 
-    /// The values of these fields by `table`; what is said of a field that the table lacks.
-    pub(super) fn values_or(
+    /// Sets what these fields say of a section. One that its table lacks is a mistake.
+    pub fn fill(&mut self, fields: &[Field<'a>], section: &mut dyn Section, what: &str) {
+        let table = section.table();
+        self.fill_or(fields, section, |field| unknown(field.name, table, what));
+    }
+
+    /// Sets what these fields say of a section; what is said of a field that its table lacks.
+    pub(super) fn fill_or(
         &mut self,
         fields: &[Field<'a>],
-        table: &'static [Param],
+        section: &mut dyn Section,
         unknown: impl Fn(&Field) -> String,
-    ) -> Values {
-        let mut values = Values::defaults(table);
+    ) {
+        let table = section.table();
         for field in fields {
             match table.iter().position(|p| p.name == field.name) {
                 Some(index) => {
                     if let Some(value) = self.value(field, &table[index]) {
-                        values.set(index, value);
+                        section.set(index, value);
                     }
                 }
                 None => self.error(field.name, unknown(field)),
             }
         }
-        values
     }
 
     /// One value, or `None` after noting what is wrong with it.
@@ -328,16 +337,6 @@ impl<'a> Reader<'a> {
                 None
             }
         }
-    }
-}
-
-/// The message for a name that the table of `what` lacks.
-pub(super) fn unknown(name: &str, table: &[Param], what: &str) -> String {
-    if table.is_empty() {
-        format!("{what} has no `{name}`; it has no parameters")
-    } else {
-        let hint = suggestion(name, table.iter().map(|p| p.name));
-        format!("{what} has no `{name}`{hint}")
     }
 }
 

@@ -7,8 +7,8 @@ use crate::varied::Variation;
 
 /// The value that `text` gives a parameter of this kind.
 pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String> {
-    read(text, kind).ok_or_else(|| match *kind {
-        ParamKind::Choice { names, .. } => {
+    read(text, kind).ok_or_else(|| match names_of(kind) {
+        Some(names) => {
             let bare = unquoted(text);
             match hint(text, kind) {
                 Some(hint) => format!("found `{}`: {hint}", shown(text)),
@@ -18,7 +18,7 @@ pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String>
                 }
             }
         }
-        _ => {
+        None => {
             let hint = hint(text, kind).map_or(String::new(), |hint| format!(": {hint}"));
             format!(
                 "expected {}, found `{}`{hint}",
@@ -27,6 +27,15 @@ pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String>
             )
         }
     })
+}
+
+/// The names that a kind of choice has.
+fn names_of(kind: &ParamKind) -> Option<&'static [&'static str]> {
+    match *kind {
+        ParamKind::Choice { names, .. } => Some(names),
+        ParamKind::Flag { .. } => Some(&["false", "true"]),
+        _ => None,
+    }
 }
 
 fn read(text: &str, kind: &ParamKind) -> Option<Value> {
@@ -52,6 +61,7 @@ fn read(text: &str, kind: &ParamKind) -> Option<Value> {
             let index = names.iter().position(|name| *name == text)?;
             Some(Value::Choice(index as u32))
         }
+        ParamKind::Flag { .. } => text.parse().ok().map(Value::Flag),
         ParamKind::OptionalColor { .. } if text == "none" => Some(Value::Color(None)),
         ParamKind::Color { .. } | ParamKind::OptionalColor { .. } => {
             let hex = ron::from_str::<String>(text).ok()?;
@@ -113,8 +123,9 @@ fn hint(text: &str, kind: &ParamKind) -> Option<String> {
             let number = number_at_start(text)?;
             read(number, kind).map(|_| format!("write {number} alone"))
         }
-        ParamKind::Choice { names, .. } => {
-            (in_quotes && names.contains(&bare)).then(|| format!("write {bare}, without quotes"))
+        ParamKind::Choice { .. } | ParamKind::Flag { .. } => {
+            let is_name = names_of(kind).is_some_and(|names| names.contains(&bare));
+            (in_quotes && is_name).then(|| format!("write {bare}, without quotes"))
         }
         ParamKind::Color { .. } | ParamKind::OptionalColor { .. } => {
             let optional = matches!(kind, ParamKind::OptionalColor { .. });

@@ -181,6 +181,7 @@ fn default(param: &Param) -> String {
     match param.kind {
         ParamKind::Number { default, .. } => default.to_string(),
         ParamKind::Integer { default, .. } => default.to_string(),
+        ParamKind::Flag { default } => default.to_string(),
         ParamKind::Choice { names, default } => names[default].to_owned(),
         ParamKind::Color { default } => format!("\"{default}\""),
         ParamKind::OptionalColor { default: Some(hex) } => format!("\"{hex}\""),

@@ -1,15 +1,15 @@
 //! `inkstrand render`: a preset to pictures.
 
 use super::read_preset;
-use super::scene::{open, parse};
+use super::scene::{check, open, parse};
 use crate::Failure;
-use crate::cli::{Numbers, RenderOptions};
+use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
 use crate::painter::Painter;
 use crate::whole_file::WholeFile;
 use effects::Registry;
 use indicatif::{ProgressBar, ProgressStyle};
-use stage::Preset;
+use stage::{Preset, SceneSection, Sections};
 use std::io::{IsTerminal as _, Write as _};
 
 pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
@@ -29,9 +29,13 @@ fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
     files.bake.clone_from(&options.bake);
     let mut stage = open(&preset, &files, options.quiet)?;
 
-    let fps = preset.scene.number("fps");
-    let samples = preset.scene.integer("samples").unsigned_abs();
-    let transparent = preset.scene.optional_color("background").is_none();
+    let SceneSection {
+        fps,
+        samples,
+        background,
+        ..
+    } = preset.sections.scene;
+    let transparent = background.is_none();
     let sequence = options.frames.is_some();
     let output = Output::new(
         options.output.as_deref(),
@@ -81,31 +85,32 @@ fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
 
 /// Puts the command line's options in place of the preset's.
 fn apply(options: &RenderOptions, preset: &mut Preset) -> Result<(), String> {
-    let mut set = |name: &str, text: String| preset.set(name, &text);
-    if let Some((width, height)) = options.size {
-        set("scene.size", format!("({width}, {height})"))?;
-    }
-    if let Some(samples) = options.samples {
-        set("scene.samples", samples.to_string())?;
-    }
-    if let Some(background) = &options.background {
-        set("scene.background", background.clone())?;
+    let Sections {
+        scene,
+        camera,
+        light,
+        ..
+    } = &mut preset.sections;
+    scene.size = options.size.map_or(scene.size, |(w, h)| [w, h]);
+    scene.samples = options.samples.unwrap_or(scene.samples);
+    if let Some(Background(background)) = options.background {
+        scene.background = background;
     }
     if let Some(Numbers(numbers)) = &options.camera {
-        if !(2..=3).contains(&numbers.len()) {
-            return Err("--camera takes YAW,PITCH or YAW,PITCH,DISTANCE".to_owned());
-        }
-        for (name, number) in ["yaw", "pitch", "distance"].iter().zip(numbers) {
-            set(&format!("camera.{name}"), number.to_string())?;
-        }
+        let [yaw, pitch, distance] = match numbers[..] {
+            [yaw, pitch] => [yaw, pitch, camera.distance],
+            [yaw, pitch, distance] => [yaw, pitch, distance],
+            _ => return Err("--camera takes YAW,PITCH or YAW,PITCH,DISTANCE".to_owned()),
+        };
+        (camera.yaw, camera.pitch, camera.distance) = (yaw, pitch, distance);
     }
     if let Some(Numbers(numbers)) = &options.light {
         let [yaw, pitch] = numbers[..] else {
             return Err("--light takes YAW,PITCH".to_owned());
         };
-        set("light.yaw", yaw.to_string())?;
-        set("light.pitch", pitch.to_string())?;
+        (light.yaw, light.pitch) = (yaw, pitch);
     }
+    check(preset)?;
     if !options.only.is_empty() {
         preset
             .keep_only(&options.only)

@@ -45,17 +45,25 @@ impl SceneOptions {
 
     /// Sets what is given in place of the preset's numbers.
     pub fn apply(&self, preset: &mut Preset) -> Result<(), String> {
-        let mut set = |name: &str, text: String| preset.set(name, &text);
-        if let Some(guides) = self.guides {
-            set("hair.guides", guides.to_string())?;
-        }
+        let hair = &mut preset.sections.hair;
+        hair.guides = self.guides.unwrap_or(hair.guides);
+        check(preset)?;
         for assignment in &self.set {
-            let (name, value) = assignment
-                .split_once('=')
-                .ok_or_else(|| format!("--set {assignment}: it takes LAYER.PARAM=VALUE"))?;
-            set(name.trim(), value.trim().to_owned())
+            let (name, value) = assignment.split_once('=').ok_or_else(|| {
+                format!("--set {assignment}: it takes LAYER.PARAM=VALUE or seed=VALUE")
+            })?;
+            preset
+                .set(name.trim(), value.trim())
                 .map_err(|e| format!("--set {assignment}: {e}"))?;
         }
         Ok(())
     }
+}
+
+/// Whether the options' numbers are ones that a preset could say.
+pub(super) fn check(preset: &Preset) -> Result<(), String> {
+    preset
+        .sections
+        .check()
+        .map_err(|(section, error)| format!("{section}.{error}"))
 }

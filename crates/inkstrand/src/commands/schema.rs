@@ -3,7 +3,7 @@
 use effects::preset::{LAYER, OF_THE_EFFECT};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use serde_json::{Value, json};
-use stage::{FilePart, MOTION_PARTS, Preset, SECTIONS, STYLE_PARTS};
+use stage::{FilePart, MOTION_PARTS, Preset, STYLE_PARTS, Sections};
 
 /// A section of a preset as `inkstrand effects` shows it.
 pub(super) struct Section {
@@ -18,7 +18,7 @@ pub(super) fn sections() -> Vec<Section> {
     let layers = ("layers", "What is drawn: effects, in a list.", LAYER);
     [top]
         .iter()
-        .chain(SECTIONS)
+        .chain(Sections::ALL)
         .chain(&[layers])
         .map(|&(name, doc, table)| Section { name, doc, table })
         .collect()
@@ -100,6 +100,7 @@ fn parameter(param: &Param) -> Value {
             range(json!(min), json!(max));
             ("integer", json!(default))
         }
+        ParamKind::Flag { default } => ("true or false", json!(default)),
         ParamKind::Choice { names, default } => {
             value["choices"] = json!(names);
             ("choice", json!(names[default]))

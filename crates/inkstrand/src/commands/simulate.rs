@@ -16,7 +16,7 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
     let files = options.scene.files(&options.preset);
     let mut stage = open(&preset, &files, options.quiet)?;
 
-    let fps = preset.scene.number("fps");
+    let fps = preset.sections.scene.fps;
     let (first, last) = options.frames;
     let bar = progress_bar(options.quiet, u64::from(last - first) + 1);
     let mut bake = Bake::default();

@@ -5,8 +5,11 @@
 
 mod bodies;
 mod carried;
-pub(crate) mod feel;
+mod feel;
 mod running;
+mod section;
+
+pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 
 use crate::files::StageError;
 use crate::hair::Hair;
@@ -14,8 +17,7 @@ use crate::motion::MotionScript;
 use crate::neck::rigid;
 use bodies::Bodies;
 use carried::Carried;
-use effects::Values;
-use feel::{Feel, SolverKind};
+use feel::Feel;
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::compare::{MassSpring, Xpbd};
@@ -24,6 +26,7 @@ use hair_sim::{
 };
 use render::Head;
 use running::{Run, Running};
+use section::SolverKind;
 use std::ops::Range;
 
 /// The shortest step in s that is worth one of its own.
@@ -80,13 +83,13 @@ impl Dynamics {
         hair: &Hair,
         sizes: &[f32],
         mesh: Option<&Mesh>,
-        values: &Values,
+        section: &DynamicsSection,
         hold: [f64; 3],
         fps: f32,
         seed: u32,
     ) -> Result<Self, StageError> {
         let hold = hair.shapes.as_ref().map(|_| hold);
-        let feel = Feel::new(values, hair.head, hold);
+        let feel = Feel::new(section, hair.head, hold);
         let all = &hair.file.strands;
         let mut free = Strands::new();
         let mut parts = Vec::new();
@@ -99,15 +102,14 @@ impl Dynamics {
                 parts.push(points);
             }
         }
-        let (guides, carried) =
-            carried::choose(&free, &parts, values.integer("guides").unsigned_abs());
+        let (guides, carried) = carried::choose(&free, &parts, section.guides);
         let chosen = free.select(&guides);
         let params = |i: usize| {
             let links = chosen.strand(i).windows(2);
             let length_m: f32 = links.map(|link| link[0].distance(link[1])).sum();
             feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
         };
-        let strands: Box<dyn Running> = match SolverKind::of(values) {
+        let strands: Box<dyn Running> = match section.solver_kind() {
             SolverKind::Xpbd(substeps) => {
                 Box::new(Run::new(Xpbd::with(&chosen, params, substeps, 1)?))
             }
@@ -116,13 +118,13 @@ impl Dynamics {
             }
             SolverKind::Rods | SolverKind::None => {
                 let (mut solver, mut state) = Solver::with(&chosen, params)?;
-                if let Some(mutual) = feel::mutual(values, hair.head) {
+                if let Some(mutual) = feel::mutual(section, hair.head) {
                     solver.interact(&mut state, &mutual)?;
                 }
                 Box::new(Run::new((solver, state)))
             }
         };
-        let step = match f64::from(values.number("step")) {
+        let step = match f64::from(section.step) {
             0.0 => 1.0 / f64::from(fps),
             step => step,
         };
@@ -140,9 +142,9 @@ impl Dynamics {
             bodies: Bodies::new(mesh, hair.head),
             strands,
             head: hair.head,
-            gravity: DVec3::new(0.0, -9.81 * f64::from(values.number("gravity")), 0.0),
+            gravity: DVec3::new(0.0, -9.81 * f64::from(section.gravity), 0.0),
             seed: u64::from(seed),
-            warm_up: (f64::from(values.number("warm_up")) / step).round() as i64,
+            warm_up: (f64::from(section.warm_up) / step).round() as i64,
             step,
             done: 0,
             is_at_start: true,
@@ -158,9 +160,9 @@ impl Dynamics {
     }
 
     /// Whether hair moves in a scene: a script drives it, or it is not at rest by itself.
-    pub fn moves(values: &Values, script: &MotionScript) -> bool {
-        let is_at_rest = values.choice("shape") == 0 && values.number("gravity") == 1.0;
-        SolverKind::of(values) != SolverKind::None && !(script.is_still() && is_at_rest)
+    pub fn moves(section: &DynamicsSection, script: &MotionScript) -> bool {
+        let is_at_rest = section.shape == ShapeChoice::Styled && section.gravity == 1.0;
+        section.solver != SolverChoice::None && !(script.is_still() && is_at_rest)
     }
 
     /// How many steps have been taken, long ones counted as one.

@@ -11,6 +11,7 @@ pub use parse::MOTION_PARTS;
 pub(crate) use parse::parse;
 pub(crate) use pose::HeadPose;
 
+use effects::choices;
 use effects::preset::Place;
 use glam::{DQuat, DVec3};
 use hair_sim::key_weights;
@@ -59,21 +60,22 @@ pub(crate) struct KeyShape {
     pub place: Place,
 }
 
-/// What a move does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum MoveKind {
-    /// Turns once, and stays: towards the character's left.
-    Turn,
-    /// Looks up once, and stays.
-    Lift,
-    /// Leans towards the left shoulder once, and stays.
-    Lean,
-    /// Shakes from side to side.
-    Shake,
-    /// Nods.
-    Nod,
-    /// Bobs and sways as in walking.
-    Walk,
+choices! {
+    /// What a move does.
+    pub(crate) enum MoveKind {
+        /// Turns once, and stays: towards the character's left.
+        Turn = "turn",
+        /// Looks up once, and stays.
+        Lift = "lift",
+        /// Leans towards the left shoulder once, and stays.
+        Lean = "lean",
+        /// Shakes from side to side.
+        Shake = "shake",
+        /// Nods.
+        Nod = "nod",
+        /// Bobs and sways as in walking.
+        Walk = "walk",
+    }
 }
 
 /// A move of the head.

@@ -1,332 +1,302 @@
-//! The sections of presets: their parameters.
+//! The sections of presets: what each may say.
 
 use super::VERSION;
-use crate::dynamics::feel::DYNAMICS;
-use crate::table::{choice, color, number, param};
-use effects::{Param, ParamKind, Parameters, clump};
+use crate::dynamics::DynamicsSection;
+use effects::section::{OutOfRange, Section};
+use effects::{Param, Parameters, Value, Values, choices, clump, section};
 
-/// The section `hair`.
-pub const HAIR: &[Param] = &[
-    param(
-        "file",
-        "Strands to draw, relative to the preset: .tfx, .strands.ron or .style.ron.",
-        ParamKind::Text,
-    ),
-    param(
-        "guides",
-        "How many strands to keep, those that stand best for all; 0 keeps all.",
-        ParamKind::Integer {
-            min: 0,
-            max: 1_000_000,
-            default: 0,
-        },
-    ),
-    param(
-        "bake",
-        "Motion of this hair that `inkstrand simulate` has written, relative to the preset.",
-        ParamKind::Text,
-    ),
-    choice("up", "The file's upward axis.", &["guess", "y", "z"], 0),
-    number(
-        "scale",
-        "Metres in one unit of the file; 0 guesses.",
-        "m",
-        0.0..=1e4,
-        0.0,
-    ),
-    number(
-        "size",
-        "Clump size of strands that bring none; 0 takes it from the spacing of the roots.",
-        "1/300 head height",
-        0.0..=300.0,
-        0.0,
-    ),
-];
+choices! {
+    /// The upward axis of a file.
+    pub enum UpAxis {
+        /// The one that fits the head.
+        Guess = "guess",
+        /// Y.
+        Y = "y",
+        /// Z.
+        Z = "z",
+    }
+}
 
-/// The section `head`.
-pub const HEAD: &[Param] = &[
-    param(
-        "file",
-        "The head, relative to the preset: .obj.",
-        ParamKind::Text,
-    ),
-    choice(
-        "shape",
-        "The head where no file is named: none, or the bust that comes with inkstrand.",
-        &["none", "bust"],
-        0,
-    ),
-    choice("up", "The file's upward axis.", &["guess", "y", "z"], 0),
-    number(
-        "scale",
-        "Metres in one unit of the file; 0 guesses.",
-        "m",
-        0.0..=1e4,
-        0.0,
-    ),
-    color("light", "Colour of the lit side.", "F8DCC8"),
-    color(
-        "shadow",
-        "Colour of the side away from the light.",
-        "E3B49C",
-    ),
-    color("line", "Colour of the outline.", "6B4438"),
-    color("iris", "Colour of the bust's eyes.", "3A9CA6"),
-    color(
-        "iris_shadow",
-        "Colour of the pupils and of the irises under the lids.",
-        "1B4F5C",
-    ),
-    color("tie", "Colour of ties in the hair.", "F0F0F5"),
-    color(
-        "tie_shadow",
-        "Colour of ties away from the light.",
-        "B8B8CC",
-    ),
-    number(
-        "scalp",
-        "How far around roots the head has the hair's basic colour, so that gaps between clumps are no bald spots; 0 is nowhere. Hair styles that have an undercoat don't need it.",
-        "head heights",
-        0.0..=1.0,
-        0.05,
-    ),
-    number(
-        "width",
-        "Width of the outline; 0 is none.",
-        "1/300 head height",
-        0.0..=50.0,
-        1.6,
-    ),
-    number(
-        "threshold",
-        "Where light turns to shadow: the cosine to the light.",
-        "",
-        -1.0..=1.0,
-        0.1,
-    ),
-];
+section! {
+    /// Which strands are drawn.
+    pub struct HairSection {
+        /// Strands to draw, relative to the preset: .tfx, .strands.ron or .style.ron.
+        file: Option<String> = text(),
+        /// How many strands to keep, those that stand best for all; 0 keeps all.
+        guides: u32 = whole(0, 0..=1_000_000),
+        /// Motion of this hair that `inkstrand simulate` has written, relative to the preset.
+        bake: Option<String> = text(),
+        /// The file's upward axis.
+        up: UpAxis = UpAxis::Guess.or_another(),
+        /// Metres in one unit of the file; 0 guesses.
+        scale: f32 = number(0.0, 0.0..=1e4).unit("m"),
+        /// Clump size of strands that bring none; 0 takes it from the spacing of the roots.
+        size: f32 = number(0.0, 0.0..=300.0).unit("1/300 head height"),
+    }
+}
 
-/// The section `scene`.
-pub const SCENE: &[Param] = &[
-    param(
-        "size",
-        "Width and height of the picture.",
-        ParamKind::Size {
-            min: 1,
-            max: 16_384,
-            default: [960, 720],
-        },
-    ),
-    param(
-        "samples",
-        "Samples a pixel.",
-        ParamKind::Integer {
-            min: 1,
-            max: 256,
-            default: 16,
-        },
-    ),
-    param(
-        "background",
-        "Colour behind everything, or none for a transparent picture.",
-        ParamKind::OptionalColor {
-            default: Some("FFFFFF"),
-        },
-    ),
-    number("fps", "Frames a second.", "1/s", 1.0..=1000.0, 24.0),
-    choice(
-        "order",
-        "Within a strand by rank, then by depth: of round clumps, of clumps that fade into each other, or of flat ones; or every stroke by its shifted depth.",
-        &["rounded", "scattered", "strand_first", "shifted"],
-        0,
-    ),
-    number(
-        "edge_depth",
-        "How much deeper than its middle a round clump's edge lies; or the difference of depths over which clumps fade.",
-        "head heights",
-        0.0..=1.0,
-        0.02,
-    ),
-];
+choices! {
+    /// The head where no file is named.
+    pub enum HeadShape {
+        /// None.
+        None = "none",
+        /// The bust that comes with inkstrand.
+        Bust = "bust",
+    }
+}
 
-/// The section `camera`.
-pub const CAMERA: &[Param] = &[
-    number(
-        "yaw",
-        "0 looks at the face; positive moves to the viewer's right.",
-        "degrees",
-        -360.0..=360.0,
-        0.0,
-    ),
-    number(
-        "pitch",
-        "Positive looks from above.",
-        "degrees",
-        -90.0..=90.0,
-        0.0,
-    ),
-    number(
-        "distance",
-        "From the target to the eye.",
-        "head heights",
-        0.01..=1000.0,
-        4.48,
-    ),
-    number(
-        "fov",
-        "Vertical field of view.",
-        "degrees",
-        1.0..=150.0,
-        30.0,
-    ),
-    Param {
-        name: "target",
-        doc: "What the camera looks at, from the head's centre.",
-        unit: "head heights",
-        kind: ParamKind::Triple {
-            min: -1000.0,
-            max: 1000.0,
-            default: [0.0; 3],
-        },
-    },
-];
+section! {
+    /// The head under the hair, and its colours.
+    pub struct HeadSection {
+        /// The head, relative to the preset: .obj.
+        file: Option<String> = text(),
+        /// The head where no file is named: none, or the bust that comes with inkstrand.
+        shape: HeadShape = HeadShape::None.or_another(),
+        /// The file's upward axis.
+        up: UpAxis = UpAxis::Guess.or_another(),
+        /// Metres in one unit of the file; 0 guesses.
+        scale: f32 = number(0.0, 0.0..=1e4).unit("m"),
+        /// Colour of the lit side.
+        light: [f32; 3] = color("F8DCC8"),
+        /// Colour of the side away from the light.
+        shadow: [f32; 3] = color("E3B49C"),
+        /// Colour of the outline.
+        line: [f32; 3] = color("6B4438"),
+        /// Colour of the bust's eyes.
+        iris: [f32; 3] = color("3A9CA6"),
+        /// Colour of the pupils and of the irises under the lids.
+        iris_shadow: [f32; 3] = color("1B4F5C"),
+        /// Colour of ties in the hair.
+        tie: [f32; 3] = color("F0F0F5"),
+        /// Colour of ties away from the light.
+        tie_shadow: [f32; 3] = color("B8B8CC"),
+        /// How far around roots the head has the hair's basic colour, so that gaps between clumps are no bald spots; 0 is nowhere.
+        /// Hair styles that have an undercoat don't need it.
+        scalp: f32 = number(0.05, 0.0..=1.0).unit("head heights"),
+        /// Width of the outline; 0 is none.
+        width: f32 = number(1.6, 0.0..=50.0).unit("1/300 head height"),
+        /// Where light turns to shadow: the cosine to the light.
+        threshold: f32 = number(0.1, -1.0..=1.0),
+    }
+}
 
-/// The section `light`.
-pub const LIGHT: &[Param] = &[
-    choice(
-        "kind",
-        "A light from far away, or one at a place.",
-        &["direction", "point"],
-        0,
-    ),
-    choice(
-        "fixed_to",
-        "What the light turns with.",
-        &["world", "camera"],
-        0,
-    ),
-    number(
-        "yaw",
-        "0 shines at the face; positive comes from the viewer's right.",
-        "degrees",
-        -360.0..=360.0,
-        35.0,
-    ),
-    number(
-        "pitch",
-        "Positive shines from above.",
-        "degrees",
-        -90.0..=90.0,
-        40.0,
-    ),
-    number(
-        "distance",
-        "A point light's distance from the head's centre.",
-        "head heights",
-        0.01..=1000.0,
-        3.0,
-    ),
-];
+choices! {
+    /// Which stroke a sample shows: see [`render::Order`].
+    pub enum OrderChoice {
+        /// [`render::Order::Rounded`].
+        Rounded = "rounded",
+        /// [`render::Order::Scattered`].
+        Scattered = "scattered",
+        /// [`render::Order::StrandFirst`].
+        StrandFirst = "strand_first",
+        /// [`render::Order::Shifted`].
+        Shifted = "shifted",
+    }
+}
 
-/// The section `motion`.
-pub const MOTION: &[Param] = &[
-    param(
-        "file",
-        "How head, wind and hair move, relative to the preset: .motion.ron.",
-        ParamKind::Text,
-    ),
-    param(
-        "gltf",
-        "A character whose animation moves the head, relative to the preset: .glb, .gltf or .vrm. The \
-         script's moves come on top.",
-        ParamKind::Text,
-    ),
-    param(
-        "bone",
-        "The character's bone that the head follows; \"head\" without it.",
-        ParamKind::Text,
-    ),
-    param(
-        "animation",
-        "The character's animation, by its name or its number, 0 first; the first without it.",
-        ParamKind::Text,
-    ),
-    choice(
-        "repeat",
-        "Whether the character's animation starts again at its end.",
-        &["false", "true"],
-        0,
-    ),
-];
+section! {
+    /// The picture: size, samples, background, frame rate.
+    pub struct SceneSection {
+        /// Width and height of the picture.
+        size: [u32; 2] = size([960, 720], 1..=16_384),
+        /// Samples a pixel.
+        samples: u32 = whole(16, 1..=256),
+        /// Colour behind everything, or none for a transparent picture.
+        background: Option<[f32; 3]> = optional_color(Some("FFFFFF")),
+        /// Frames a second.
+        fps: f32 = number(24.0, 1.0..=1000.0).unit("1/s"),
+        /// Within a strand by rank, then by depth: of round clumps, of clumps that fade into each other, or of flat ones; or every
+        /// stroke by its shifted depth.
+        order: OrderChoice = OrderChoice::Rounded.or_another(),
+        /// How much deeper than its middle a round clump's edge lies; or the difference of depths over which clumps fade.
+        edge_depth: f32 = number(0.02, 0.0..=1.0).unit("head heights"),
+    }
+}
 
-/// The section `path`.
-pub const PATH: &[Param] = &[
-    choice(
-        "kind",
-        "How particles are joined.",
-        &["linear", "catmull_rom"],
-        1,
-    ),
-    param(
-        "subdivision",
-        "Joints from one particle to the next.",
-        ParamKind::Integer {
-            min: 1,
-            max: 64,
-            default: 4,
-        },
-    ),
-    choice(
-        "brush",
-        "What is put down along a path: a circle, which ends round, or the half of it behind its centre, which ends flat.",
-        &["circle", "semicircle"],
-        0,
-    ),
-];
+section! {
+    /// From where it is seen.
+    pub struct CameraSection {
+        /// 0 looks at the face; positive moves to the viewer's right.
+        yaw: f32 = number(0.0, -360.0..=360.0).unit("degrees"),
+        /// Positive looks from above.
+        pitch: f32 = number(0.0, -90.0..=90.0).unit("degrees"),
+        /// From the target to the eye.
+        distance: f32 = number(4.48, 0.01..=1000.0).unit("head heights"),
+        /// Vertical field of view.
+        fov: f32 = number(30.0, 1.0..=150.0).unit("degrees"),
+        /// What the camera looks at, from the head's centre.
+        target: [f32; 3] = triple([0.0; 3], -1000.0..=1000.0).unit("head heights"),
+    }
+}
 
-/// A preset's sections by name, with what each is about. `clump` and `layers` come from effects.
-pub const SECTIONS: &[(&str, &str, &[Param])] = &[
-    ("hair", "Which strands are drawn.", HAIR),
-    ("head", "The head under the hair, and its colours.", HEAD),
-    (
-        "scene",
-        "The picture: size, samples, background, frame rate.",
-        SCENE,
-    ),
-    ("camera", "From where it is seen.", CAMERA),
-    ("light", "Where the light comes from.", LIGHT),
-    ("motion", "How head, wind and hair move.", MOTION),
-    (
-        "dynamics",
-        "How hair swings, bends and returns to its style.",
-        DYNAMICS,
-    ),
-    ("path", "How a strand becomes a stroke's path.", PATH),
-    (
-        "clump",
-        "What all layers share of a strand: size, normal, basic colour.",
-        clump::Program::PARAMS,
-    ),
-];
+choices! {
+    /// What a light is.
+    pub enum LightKind {
+        /// A light from far away.
+        Direction = "direction",
+        /// A light at a place.
+        Point = "point",
+    }
+}
 
-/// What stands in a preset beside its sections and layers.
-pub const TOP: &[Param] = &[
-    param(
-        "version",
-        "Version of the preset's format.",
-        ParamKind::Integer {
-            min: 1,
-            max: VERSION,
-            default: VERSION,
-        },
-    ),
-    param(
-        "seed",
-        "Seed of all variations.",
-        ParamKind::Integer {
-            min: 0,
-            max: i32::MAX,
-            default: 1,
-        },
-    ),
-];
+choices! {
+    /// What a light turns with.
+    pub enum FixedTo {
+        /// The world.
+        World = "world",
+        /// The camera.
+        Camera = "camera",
+    }
+}
+
+section! {
+    /// Where the light comes from.
+    pub struct LightSection {
+        /// A light from far away, or one at a place.
+        kind: LightKind = LightKind::Direction.or_another(),
+        /// What the light turns with.
+        fixed_to: FixedTo = FixedTo::World.or_another(),
+        /// 0 shines at the face; positive comes from the viewer's right.
+        yaw: f32 = number(35.0, -360.0..=360.0).unit("degrees"),
+        /// Positive shines from above.
+        pitch: f32 = number(40.0, -90.0..=90.0).unit("degrees"),
+        /// A point light's distance from the head's centre.
+        distance: f32 = number(3.0, 0.01..=1000.0).unit("head heights"),
+    }
+}
+
+section! {
+    /// How head, wind and hair move.
+    pub struct MotionSection {
+        /// How head, wind and hair move, relative to the preset: .motion.ron.
+        file: Option<String> = text(),
+        /// A character whose animation moves the head, relative to the preset: .glb, .gltf or .vrm. The script's moves come on top.
+        gltf: Option<String> = text(),
+        /// The character's bone that the head follows; "head" without it.
+        bone: Option<String> = text(),
+        /// The character's animation, by its name or its number, 0 first; the first without it.
+        animation: Option<String> = text(),
+        /// Whether the character's animation starts again at its end.
+        repeat: bool = flag(false),
+    }
+}
+
+choices! {
+    /// How particles are joined.
+    pub enum PathChoice {
+        /// By straight lines.
+        Linear = "linear",
+        /// By a Catmull-Rom spline.
+        CatmullRom = "catmull_rom",
+    }
+}
+
+choices! {
+    /// What is put down along a path.
+    pub enum BrushChoice {
+        /// A circle, which ends round.
+        Circle = "circle",
+        /// The half of it behind its centre, which ends flat.
+        Semicircle = "semicircle",
+    }
+}
+
+section! {
+    /// How a strand becomes a stroke's path.
+    pub struct PathSection {
+        /// How particles are joined.
+        kind: PathChoice = PathChoice::CatmullRom.or_another(),
+        /// Joints from one particle to the next.
+        subdivision: u32 = whole(4, 1..=64),
+        /// What is put down along a path: a circle, which ends round, or the half of it behind its centre, which ends flat.
+        brush: BrushChoice = BrushChoice::Circle.or_another(),
+    }
+}
+
+section! {
+    /// What stands in a preset beside its sections and layers.
+    pub struct TopSection {
+        /// Version of the preset's format.
+        version: u32 = whole(VERSION, 1..=VERSION),
+        /// Seed of all variations.
+        seed: u32 = whole(1, 0..=i32::MAX as u32),
+    }
+}
+
+/// What all layers share of a strand: size, normal, basic colour. Its table is that of the clump's WGSL.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClumpSection(pub Values);
+
+impl ClumpSection {
+    /// What it is about.
+    pub const DOC: &'static str = "What all layers share of a strand: size, normal, basic colour.";
+    /// What parameters there are.
+    pub const TABLE: &'static [Param] = clump::Program::PARAMS;
+}
+
+impl Default for ClumpSection {
+    fn default() -> Self {
+        Self(Values::defaults(Self::TABLE))
+    }
+}
+
+impl Section for ClumpSection {
+    fn table(&self) -> &'static [Param] {
+        Self::TABLE
+    }
+
+    fn set(&mut self, index: usize, value: Value) {
+        self.0.set(index, value);
+    }
+
+    fn get(&self, index: usize) -> Option<Value> {
+        self.0.get(index)
+    }
+}
+
+/// Makes [`Sections`], and what goes through them by name, from one list.
+macro_rules! sections {
+    ($($name:ident: $Type:ty),+ $(,)?) => {
+        /// A preset's sections: all that it says but for its layers.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct Sections {
+            $(#[doc = concat!("The section `", stringify!($name), "`.")] pub $name: $Type),+
+        }
+
+        impl Sections {
+            /// Names, with what each is about and its table.
+            pub const ALL: &'static [(&'static str, &'static str, &'static [Param])] =
+                &[$((stringify!($name), <$Type>::DOC, <$Type>::TABLE)),+];
+
+            /// The section of that name.
+            pub fn by_name(&mut self, name: &str) -> Option<&mut dyn Section> {
+                match name {
+                    $(stringify!($name) => Some(&mut self.$name),)+
+                    _ => None,
+                }
+            }
+
+            /// Holds all values against their tables, for sections that a program filled in.
+            ///
+            /// # Errors
+            ///
+            /// The first section and parameter whose value is not one of those it takes.
+            pub fn check(&self) -> Result<(), (&'static str, OutOfRange)> {
+                $(self.$name.check().map_err(|error| (stringify!($name), error))?;)+
+                Ok(())
+            }
+        }
+    };
+}
+
+sections! {
+    hair: HairSection,
+    head: HeadSection,
+    scene: SceneSection,
+    camera: CameraSection,
+    light: LightSection,
+    motion: MotionSection,
+    dynamics: DynamicsSection,
+    path: PathSection,
+    clump: ClumpSection,
+}

@@ -1,89 +1,54 @@
 //! Clumps changed or drawn one by one, as styles write them.
 
 use super::lines::point;
-use crate::table::{choice, number, param};
 use effects::preset::{Field, Reader, suggestion};
-use effects::{Param, ParamKind};
+use effects::section;
 use groom::{Drawn, Edit, MOST_CLUMPS, Zone};
 
-/// What an edit of one clump may say.
-pub(super) const EDIT: &[Param] = &[
-    param("zone", "The zone's name.", ParamKind::Text),
-    param(
-        "clump",
-        "The clump's number in the zone, 0 first.",
-        ParamKind::Integer {
-            min: 0,
-            max: MOST_CLUMPS as i32 - 1,
-            default: 0,
-        },
-    ),
-    choice(
-        "mirrored",
-        "Whether the clump of the mirrored half is meant.",
-        &["false", "true"],
-        0,
-    ),
-    choice("remove", "Takes the clump away.", &["false", "true"], 0),
-    number("size", "Its size, as a factor.", "", 0.0..=10.0, 1.0),
-    number(
-        "length",
-        "Its hanging length, as a factor.",
-        "",
-        0.0..=10.0,
-        1.0,
-    ),
-    number(
-        "around",
-        "How far it is turned around the head, towards the character's left.",
-        "degrees",
-        -180.0..=180.0,
-        0.0,
-    ),
-    number(
-        "up",
-        "How far it is turned up.",
-        "degrees",
-        -90.0..=90.0,
-        0.0,
-    ),
-    number(
-        "raise",
-        "How much higher its tip stands above the skin.",
-        "head heights",
-        -1.0..=5.0,
-        0.0,
-    ),
-];
+section! {
+    /// What an edit of one clump may say.
+    pub(super) struct EditFields {
+        /// The zone's name.
+        zone: Option<String> = text(),
+        /// The clump's number in the zone, 0 first.
+        clump: u32 = whole(0, 0..=MOST_CLUMPS - 1),
+        /// Whether the clump of the mirrored half is meant.
+        mirrored: bool = flag(false),
+        /// Takes the clump away.
+        remove: bool = flag(false),
+        /// Its size, as a factor.
+        size: f32 = number(1.0, 0.0..=10.0),
+        /// Its hanging length, as a factor.
+        length: f32 = number(1.0, 0.0..=10.0),
+        /// How far it is turned around the head, towards the character's left.
+        around: f32 = number(0.0, -180.0..=180.0).unit("degrees"),
+        /// How far it is turned up.
+        up: f32 = number(0.0, -90.0..=90.0).unit("degrees"),
+        /// How much higher its tip stands above the skin.
+        raise: f32 = number(0.0, -1.0..=5.0).unit("head heights"),
+    }
+}
 
-/// What a hand-drawn clump may say, beside `points`.
-pub(super) const DRAWN: &[Param] = &[
-    number(
-        "size",
-        "Radius of the clump at its full size.",
-        "1/300 head height",
-        0.0..=200.0,
-        12.0,
-    ),
-    choice(
-        "mirror",
-        "Whether it is also drawn on the other side.",
-        &["false", "true"],
-        0,
-    ),
-];
+section! {
+    /// What a hand-drawn clump may say, beside `points`.
+    pub(super) struct DrawnFields {
+        /// Radius of the clump at its full size.
+        size: f32 = number(12.0, 0.0..=200.0).unit("1/300 head height"),
+        /// Whether it is also drawn on the other side.
+        mirror: bool = flag(false),
+    }
+}
 
 /// Reads an edit of a clump of one of these zones.
 pub(super) fn edit<'a>(reader: &mut Reader<'a>, item: &'a str, zones: &[Zone]) -> Option<Edit> {
-    let fields = reader.fields(item, "an edit");
-    let values = reader.values(&fields, EDIT, "an edit");
-    let name = values.text("zone").unwrap_or_default();
+    let edit: EditFields = reader.section(item, "an edit");
+    let name = edit.zone.unwrap_or_default();
     let Some(zone) = zones.iter().find(|zone| zone.name == name) else {
-        let hint = suggestion(name, zones.iter().map(|zone| zone.name.as_str()));
+        let hint = suggestion(&name, zones.iter().map(|zone| zone.name.as_str()));
         reader.error(item, format!("there is no zone `{name}` to edit{hint}"));
         return None;
     };
-    let clump = values.integer("clump").unsigned_abs();
+    let clump = edit.clump;
     let clumps = zone.count * zone.rows.max(1);
     if clump >= clumps {
         reader.error(
@@ -94,19 +59,18 @@ pub(super) fn edit<'a>(reader: &mut Reader<'a>, item: &'a str, zones: &[Zone]) -
             ),
         );
     }
-    let mirrored = values.choice("mirrored") == 1;
-    if mirrored && !zone.mirror {
+    if edit.mirrored && !zone.mirror {
         reader.error(item, format!("the zone `{name}` has no mirrored half"));
     }
     Some(Edit {
-        zone: name.to_owned(),
+        zone: name,
         clump,
-        mirrored,
-        remove: values.choice("remove") == 1,
-        size: values.number("size"),
-        length: values.number("length"),
-        turn: [values.number("around"), values.number("up")],
-        raise: values.number("raise"),
+        mirrored: edit.mirrored,
+        remove: edit.remove,
+        size: edit.size,
+        length: edit.length,
+        turn: [edit.around, edit.up],
+        raise: edit.raise,
     })
 }
 
@@ -115,7 +79,7 @@ pub(super) fn drawn<'a>(reader: &mut Reader<'a>, item: &'a str) -> Drawn {
     let fields = reader.fields(item, "a strand");
     let (points, plain): (Vec<Field>, Vec<Field>) =
         fields.into_iter().partition(|field| field.name == "points");
-    let values = reader.values(&plain, DRAWN, "a strand");
+    let fields: DrawnFields = reader.section_of(&plain, "a strand");
     let items = match points.first() {
         Some(field) => reader.list(field.value, "points"),
         None => Vec::new(),
@@ -131,7 +95,7 @@ pub(super) fn drawn<'a>(reader: &mut Reader<'a>, item: &'a str) -> Drawn {
             .iter()
             .filter_map(|item| point(reader, item))
             .collect(),
-        size: values.number("size"),
-        mirror: values.choice("mirror") == 1,
+        size: fields.size,
+        mirror: fields.mirror,
     }
 }

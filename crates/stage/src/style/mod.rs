@@ -8,50 +8,28 @@ mod lines;
 mod zone;
 
 use crate::part::FilePart;
-use crate::table::{choice, number, param};
-use clumps::{DRAWN, EDIT};
+use clumps::{DrawnFields, EditFields};
 use effects::preset::{Field, PresetErrors, Reader};
-use effects::{Param, ParamKind};
+use effects::section;
 use groom::{Scalp, Style};
-use zone::ZONE;
+use zone::ZoneFields;
 
 /// The newest version of styles that this build reads.
-const VERSION: i32 = 1;
+const VERSION: u32 = 1;
 
-/// What a style may say, beside its places and lists.
-const STYLE: &[Param] = &[
-    param(
-        "version",
-        "Version of the style's format.",
-        ParamKind::Integer {
-            min: 1,
-            max: VERSION,
-            default: VERSION,
-        },
-    ),
-    param(
-        "seed",
-        "Seed of all variations.",
-        ParamKind::Integer {
-            min: 0,
-            max: i32::MAX,
-            default: 1,
-        },
-    ),
-    choice(
-        "undercoat",
-        "Whether flat clumps cover the scalp below all zones, so that none of it shows.",
-        &["false", "true"],
-        1,
-    ),
-    number(
-        "cap",
-        "How high the undercoat stands above the skin at the whorl: roots sink into it, so that the crown is no valley.",
-        "head heights",
-        0.0..=0.3,
-        0.05,
-    ),
-];
+section! {
+    /// What a style may say, beside its places and lists.
+    struct StyleFields {
+        /// Version of the style's format.
+        version: u32 = whole(VERSION, 1..=VERSION),
+        /// Seed of all variations.
+        seed: u32 = whole(1, 0..=i32::MAX as u32),
+        /// Whether flat clumps cover the scalp below all zones, so that none of it shows.
+        undercoat: bool = flag(true),
+        /// How high the undercoat stands above the skin at the whorl: roots sink into it, so that the crown is no valley.
+        cap: f32 = number(0.05, 0.0..=0.3).unit("head heights"),
+    }
+}
 
 /// The parts of a hair style.
 pub const STYLE_PARTS: &[FilePart] = &[
@@ -59,7 +37,7 @@ pub const STYLE_PARTS: &[FilePart] = &[
         name: "style",
         doc: "A hair style, a file of its own: NAME.style.ron.",
         example: "(version: 1, zones: [...], edits: [...], strands: [...])",
-        table: STYLE,
+        table: StyleFields::TABLE,
         places: &[
             (
                 "whorl",
@@ -81,7 +59,7 @@ pub const STYLE_PARTS: &[FilePart] = &[
         name: "zones",
         doc: "Rows of clumps, tails, buns and braids.",
         example: "zones: [(name: \"fringe\", roots: [...], tips: [...], name: value, ...), ...]",
-        table: ZONE,
+        table: ZoneFields::TABLE,
         places: &[
             (
                 "roots",
@@ -99,14 +77,14 @@ pub const STYLE_PARTS: &[FilePart] = &[
         name: "edits",
         doc: "Changes of single clumps.",
         example: "edits: [(zone: \"fringe\", clump: 3, name: value, ...), ...]",
-        table: EDIT,
+        table: EditFields::TABLE,
         places: &[],
     },
     FilePart {
         name: "strands",
         doc: "Clumps drawn by hand.",
         example: "strands: [(points: [(0, 60, 0), ...], name: value, ...), ...]",
-        table: DRAWN,
+        table: DrawnFields::TABLE,
         places: &[(
             "points",
             "From root to tip: (longitude, latitude, height above the skin in head heights), two or more.",
@@ -135,12 +113,12 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
             format!("the style needs `version: {VERSION}`, the version of its format"),
         );
     }
-    let top = reader.values(&plain, STYLE, "the style");
+    let top: StyleFields = reader.section_of(&plain, "the style");
     let mut style = Style {
-        seed: top.integer("seed").unsigned_abs(),
+        seed: top.seed,
         scalp: scalp(&mut reader, &lists),
-        undercoat: top.choice("undercoat") == 1,
-        cap: top.number("cap"),
+        undercoat: top.undercoat,
+        cap: top.cap,
         zones: Vec::new(),
         edits: Vec::new(),
         drawn: Vec::new(),

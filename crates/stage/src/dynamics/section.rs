@@ -1,0 +1,152 @@
+//! The section `dynamics`, and what its solver can't do.
+
+use effects::{choices, section};
+
+/// Steps within a step of the solvers that take some, where the preset says nothing.
+const XPBD_SUBSTEPS: u32 = 64;
+const MASS_SPRING_SUBSTEPS: u32 = 4;
+
+choices! {
+    /// What moves the hair.
+    pub enum SolverChoice {
+        /// Elastic rods.
+        Rods = "rods",
+        /// Rods by position based dynamics.
+        Xpbd = "xpbd",
+        /// Trusses of springs.
+        MassSpring = "mass_spring",
+        /// Nothing: hair turns with the head.
+        None = "none",
+    }
+}
+
+choices! {
+    /// What hair is like.
+    pub enum FeelChoice {
+        /// It hangs.
+        Limp = "limp",
+        /// It swings, and comes to rest.
+        Soft = "soft",
+        /// It swings long.
+        Springy = "springy",
+        /// It keeps its style.
+        Stiff = "stiff",
+        /// It all but stands.
+        Gel = "gel",
+    }
+}
+
+choices! {
+    /// What shape hair returns to.
+    pub enum ShapeChoice {
+        /// Its style, against gravity.
+        Styled = "styled",
+        /// Its style, pulled down by gravity.
+        Sagging = "sagging",
+        /// A curl.
+        Curl = "curl",
+        /// A straight line.
+        Straight = "straight",
+    }
+}
+
+section! {
+    /// How hair swings, bends and returns to its style.
+    pub struct DynamicsSection {
+        /// rods: strands bend and twist as elastic rods; for comparison, slower, and without damping, links
+        /// and volume, xpbd: softer rods by position based dynamics, and mass_spring: trusses of springs;
+        /// none: hair turns with the head.
+        solver: SolverChoice = SolverChoice::Rods.or_another(),
+        /// What the hair is like; the factors below change it.
+        feel: FeelChoice = FeelChoice::Soft.or_another(),
+        /// Factor on the stiffness against bending and twisting.
+        stiffness: f32 = number(1.0, 0.001..=1000.0),
+        /// Factor on how soon swinging dies down in the hair itself.
+        damping: Option<f32> = number(1.0, 0.0..=100.0).optional(),
+        /// Factor on the drag of the air, and so on the pull of the wind.
+        drag: f32 = number(1.0, 0.0..=100.0),
+        /// Factor on the pull back to the style, or to the script's `shapes`.
+        hold: f32 = number(1.0, 0.0..=100.0),
+        /// Factor on the links that hold neighbouring clumps together until they are pulled apart; 0 has none.
+        links: Option<f32> = number(1.0, 0.0..=100.0).optional(),
+        /// Factor on how clumps keep each other at a distance; 0: they pass through each other.
+        volume: Option<f32> = number(1.0, 0.0..=100.0).optional(),
+        /// Factor on gravity.
+        gravity: f32 = number(1.0, -10.0..=10.0),
+        /// Friction on head and shoulders.
+        friction: f32 = number(0.3, 0.0..=10.0),
+        /// How far a clump's middle line stays from the skin, in its radii.
+        distance: f32 = number(0.5, 0.0..=2.0),
+        /// What shape hair returns to: styled holds the style against gravity, sagging lets gravity pull it
+        /// down, curl winds it by curl_radius and curl_pitch, straight has no curl at all, and is the fastest for limp and springy
+        /// hair with damping of 0.5 or less.
+        shape: ShapeChoice = ShapeChoice::Styled.or_another(),
+        /// Radius of the curls of shape: curl.
+        curl_radius: f32 = number(0.05, 0.001..=10.0).unit("head heights"),
+        /// How far one turn of a curl climbs; below 0 it winds the other way.
+        curl_pitch: f32 = number(0.2, -10.0..=10.0).unit("head heights"),
+        /// Time of a step of the simulation; 0 is a frame's.
+        step: f32 = number(0.0, 0.0..=0.1).unit("s"),
+        /// Steps within a step, of solver: xpbd, where fewer make hair softer, and of mass_spring, where fewer
+        /// make it swing less; 0 is 64 of xpbd's and 4 of mass_spring's.
+        substeps: u32 = whole(0, 0..=1000),
+        /// Time that is simulated before the first frame.
+        warm_up: f32 = number(0.0, 0.0..=600.0).unit("s"),
+        /// Most strands that are simulated; the others are carried by those near them.
+        guides: u32 = whole(600, 1..=100_000),
+    }
+}
+
+/// What moves the hair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SolverKind {
+    Rods,
+    /// With so many steps within a step.
+    Xpbd(u32),
+    MassSpring(u32),
+    None,
+}
+
+impl DynamicsSection {
+    /// What moves the hair, with its steps within a step.
+    pub(crate) fn solver_kind(&self) -> SolverKind {
+        let substeps = |own: u32| match self.substeps {
+            0 => own,
+            given => given,
+        };
+        match self.solver {
+            SolverChoice::Rods => SolverKind::Rods,
+            SolverChoice::Xpbd => SolverKind::Xpbd(substeps(XPBD_SUBSTEPS)),
+            SolverChoice::MassSpring => SolverKind::MassSpring(substeps(MASS_SPRING_SUBSTEPS)),
+            SolverChoice::None => SolverKind::None,
+        }
+    }
+
+    /// What the preset asks for that its solver cannot do: a parameter, and why.
+    pub(crate) fn unsupported(&self) -> Option<(&'static str, String)> {
+        match self.solver {
+            SolverChoice::Xpbd | SolverChoice::MassSpring => {
+                let asked = [
+                    ("damping", self.damping),
+                    ("links", self.links),
+                    ("volume", self.volume),
+                ];
+                let is_asked = |factor: Option<f32>| factor.is_some_and(|factor| factor > 0.0);
+                let (name, _) = asked.into_iter().find(|(_, factor)| is_asked(*factor))?;
+                let solver = self.solver.name();
+                Some((
+                    name,
+                    format!(
+                        "{name}: solver: {solver} has none; leave it out, or take solver: rods"
+                    ),
+                ))
+            }
+            SolverChoice::Rods if self.substeps != 0 => Some((
+                "substeps",
+                "substeps: solver: rods takes a step as one; leave it out, or set `step`"
+                    .to_owned(),
+            )),
+            SolverChoice::Rods | SolverChoice::None => None,
+        }
+    }
+}
