@@ -2,7 +2,7 @@
 //! error messages, `inkstrand effects` and the documentation.
 
 use crate::color::parse_hex;
-use crate::varied::Variation;
+use crate::variation::Variation;
 
 /// One parameter of an effect or of a section of a preset.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,7 +13,7 @@ use crate::preset::Preset;
 use crate::reach::{may_see, reach_m};
 use crate::script;
 use effects::wgsl::hash;
-use effects::{HairStrand, Layer, MadePaths, Parameters, Values, Varied, clump, layer_seed};
+use effects::{HairStrand, Input, Layer, MadePaths, Parameters, Values, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use std::ops::Range;
@@ -123,7 +123,7 @@ impl Stage {
         let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
         let clump = Varied::<clump::Program>::new(&preset.clump);
         let reads_material = clump.base().normal == MATERIAL
-            || (layers.iter()).any(|layer| layer.program.inputs().has("material_normal"));
+            || (layers.iter()).any(|layer| layer.program.inputs().has(Input::MaterialNormal));
         let without_light = |layer: &&Layer| layer.program.needs_point_light();
         if let Some(layer) = layers
             .iter()
