@@ -142,7 +142,7 @@ fn entry(found: vec3<u32>, index: u32) -> u32 {
     return entries[found.x + index];
 }
 
-/// The inverse depth that nothing of an entry's strand exceeds in this tile; a list that is none knows nothing.
+/// The inverse depth that nothing of an entry's strand exceeds in this tile; an invalid list knows nothing.
 fn nearest_in(found: vec3<u32>, index: u32) -> f32 {
     if (found.z == 0u) {
         return 3e38;

@@ -8,10 +8,11 @@ use crate::{Outcome, program};
 /// What the crates of the workspace may use, the lowest layer first. An arrow may only point down.
 const TABLE: &[Row] = &[
     Row(0, "hair-sim", Only(&[]), &[]),
-    Row(0, "stroke-path", Only(&[]), &[]),
+    Row(0, "portable-math", Only(&[]), &[]),
+    Row(0, "stroke-path", Only(&["portable-math"]), &[]),
     Row(0, BUILD_TOOL, Only(&[]), &[]),
     Row(1, "hair-io", Only(&["hair-sim"]), &[]),
-    Row(1, "groom", Only(&["hair-sim"]), &[]),
+    Row(1, "groom", Only(&["hair-sim", "portable-math"]), &[]),
     Row(1, "effects", Only(&["stroke-path"]), &[BUILD_TOOL]),
     Row(2, "effects-builtin", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "effects-testkit", Only(&["effects"]), &[BUILD_TOOL]),

@@ -2,7 +2,7 @@
 //! answers on the CPU are tested to be WGSL's.
 
 use crate::compose::{Entry, Source};
-use crate::error::{BuildError, at};
+use crate::error::BuildError;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{BinaryOperator, Expression, Handle, MathFunction as Math, Module, Span, TypeInner};
 
@@ -16,14 +16,14 @@ pub(crate) fn parse(source: &Source) -> Result<(Module, ModuleInfo), BuildError>
         .map_err(|error| {
             let text = error.emit_to_string_with_path(&source.text, &source.path);
             let span = error.labels().next().map(|(span, _)| span);
-            at(source, span.unwrap_or_default(), text)
+            source.error(span.unwrap_or_default(), text)
         })?;
     let info = validate(&module).map_err(|error| {
         let text = error.emit_to_string_with_path(&source.text, &source.path);
         // The innermost of the nested places that naga names.
         let length = |span: &Span| span.to_range().map_or(usize::MAX, |range| range.len());
         let span = error.spans().map(|(span, _)| *span).min_by_key(length);
-        at(source, span.unwrap_or_default(), text)
+        source.error(span.unwrap_or_default(), text)
     })?;
     Ok((module, info))
 }
@@ -96,11 +96,7 @@ pub(crate) fn entry_point(
     let returned = function.result.as_ref().map(|r| type_name(r.ty));
     if found != arguments || returned.as_deref() != Some(result) {
         let span = module.functions.get_span(handle);
-        return Err(at(
-            source,
-            span,
-            format!("this function must be `{}`", expected()),
-        ));
+        return Err(source.error(span, format!("this function must be `{}`", expected())));
     }
     Ok(())
 }
@@ -113,11 +109,7 @@ pub(crate) fn builtins(
 ) -> Result<(), BuildError> {
     if let Some((handle, _)) = module.global_variables.iter().next() {
         let span = module.global_variables.get_span(handle);
-        return Err(at(
-            source,
-            span,
-            "an effect has no variables outside its functions",
-        ));
+        return Err(source.error(span, "an effect has no variables outside its functions"));
     }
     for (function_handle, function) in module.functions.iter() {
         let type_of = |expression: Handle<Expression>| {
@@ -126,7 +118,7 @@ pub(crate) fn builtins(
         };
         for (handle, expression) in function.expressions.iter() {
             let refuse =
-                |message: String| Err(at(source, function.expressions.get_span(handle), message));
+                |message: String| Err(source.error(function.expressions.get_span(handle), message));
             match *expression {
                 Expression::Math { fun, .. } if !is_tested(fun) => {
                     return refuse(format!(

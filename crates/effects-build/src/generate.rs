@@ -1,9 +1,8 @@
 //! The Rust source of an effect: the translator's output less what the prelude gives to all, and an
 //! implementation of `effects::Program` over it.
 
-use crate::PRELUDE;
 use crate::check;
-use crate::compose::{Entry, Source};
+use crate::compose::{Entry, PRELUDE, Source};
 use crate::error::BuildError;
 use crate::params::{Kind, Param};
 use crate::repair;
@@ -51,6 +50,7 @@ pub(crate) fn effect(
         document(item, params);
     }
     let own = quote! { #(#items)* };
+    let choices = choices(params);
     let program = match entry {
         Entry::Effect => effect_program(source, params),
         Entry::Clump => clump_program(source, params),
@@ -68,6 +68,7 @@ pub(crate) fn effect(
             use ::effects::wgsl::*;
             #own
         }
+        #choices
         #program
     })
     .map_err(|e| BuildError(format!("{}: {e}", source.path)))?;
@@ -125,7 +126,7 @@ fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
 /// What both kinds of source share: the parameters, the inputs and the text for the GPU.
 fn program_items(source: &Source, params: &[Param]) -> TokenStream {
     let text = &source.text;
-    let inputs = source.inputs.iter().map(|input| input.name);
+    let inputs = source.inputs.iter().map(|input| input.in_rust());
     let table = params.iter().map(table_row);
     let fields = params.iter().map(|p| {
         let (field, name) = (format_ident!("{}", p.name), &p.name);
@@ -148,7 +149,7 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
     quote! {
         type Params = Params;
         const PARAMS: &'static [::effects::Param] = &[#(#table),*];
-        const INPUTS: &'static [&'static str] = &[#(#inputs),*];
+        const INPUTS: &'static [::effects::Input] = &[#(#inputs),*];
         const WGSL: &'static str = #text;
         fn params(values: &::effects::Values) -> Params {
             let _ = values;
@@ -195,17 +196,43 @@ fn table_row(param: &Param) -> TokenStream {
     })
 }
 
+/// `Params::KIND_RING` for the choice `ring` of the parameter `kind`, so that nobody compares with a number.
+fn choices(params: &[Param]) -> TokenStream {
+    let constants = params.iter().flat_map(|param| {
+        let names = match &param.kind {
+            Kind::Choice { names, .. } => &names[..],
+            _ => &[],
+        };
+        names.iter().zip(0u32..).map(|(choice, index)| {
+            let name = format!("{}_{choice}", param.name).to_uppercase();
+            let name = name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+            let (name, doc) = (
+                format_ident!("{name}"),
+                format!("`{choice}`, a choice of [`{0}`](Self::{0}).", param.name),
+            );
+            quote!(#[doc = #doc] pub const #name: u32 = #index;)
+        })
+    });
+    let constants: Vec<_> = constants.collect();
+    if constants.is_empty() {
+        return TokenStream::new();
+    }
+    quote! {
+        #[allow(dead_code, reason = "not all that a preset may say makes a difference in Rust")]
+        impl Params {
+            #(#constants)*
+        }
+    }
+}
+
 /// The declared inputs' values at joint `index`.
 fn gather(source: &Source) -> TokenStream {
     let fields = source.inputs.iter().map(|input| {
-        let field = format_ident!("{}", input.name);
+        let (field, value) = (format_ident!("{}", input.name), input.value());
         match input.name {
-            "seed" => quote!(seed: ::effects::strand_seed(seed, joints.strand[index])),
-            "unit" => quote!(unit: joints.unit(index)),
-            "material_normal" => {
-                quote!(material_normal: joints.material_normal_or_zero(index))
-            }
-            _ => quote!(#field: joints.#field[index]),
+            // The list has the strand's part.
+            "seed" => quote!(seed: ::effects::wgsl::hash(seed ^ #value)),
+            _ => quote!(#field: #value),
         }
     });
     quote!(#(#fields),*)

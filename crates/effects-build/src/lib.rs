@@ -8,7 +8,8 @@
 //!
 //! The effect's `.rs` then begins with `effects::effect!("backlight");`. What a source looks like:
 //!
-//! ```wgsl
+//! ```
+//! let source = r#"
 //! //! inputs: clump_radius, clump_color
 //! struct Params {
 //!     /// Width of the line.
@@ -18,7 +19,18 @@
 //! fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
 //!     return Stroke(vec2<f32>(0.0), joint.clump_radius + params.width, 0.0, joint.clump_color);
 //! }
+//! "#;
+//! let rust = effects_build::translate_effect(source, "src/line.wgsl")?;
+//! assert!(rust.contains("impl ::effects::Program for Program"));
+//!
+//! // Mistakes are told at their place in the author's own file.
+//! let mistaken = source.replace("params.width", "params.with");
+//! let error = effects_build::translate_effect(&mistaken, "src/line.wgsl").unwrap_err();
+//! assert!(error.to_string().starts_with("src/line.wgsl:9:"));
+//! # Ok::<(), effects_build::BuildError>(())
 //! ```
+//!
+//! What joints offer is one table: `inputs.rs`.
 
 #![allow(clippy::print_stdout, reason = "cargo reads what build scripts print")]
 
@@ -26,16 +38,13 @@ mod check;
 mod compose;
 mod error;
 mod generate;
+mod inputs;
 mod params;
 mod repair;
 
 use std::path::{Path, PathBuf};
 
-pub use compose::{INPUTS, Input};
 pub use error::BuildError;
-
-/// The WGSL that every effect is composed with.
-const PRELUDE: &str = include_str!("../../../shaders/prelude.wgsl");
 
 /// Translates the effect at `path` (relative to the crate) into `$OUT_DIR/NAME.rs`.
 ///
@@ -58,6 +67,11 @@ pub fn prelude() {
     ));
     println!("cargo::rerun-if-changed={}", path.display());
     write("prelude", generate::prelude());
+}
+
+/// Writes `$OUT_DIR/inputs.rs`, the table of what a joint offers as a macro. For the crate `effects` alone.
+pub fn inputs() {
+    write("inputs", Ok(inputs::for_each_input().to_string()));
 }
 
 fn build(path: &str, entry: compose::Entry) {

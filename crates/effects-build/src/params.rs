@@ -13,7 +13,7 @@
 
 use crate::check::named_type;
 use crate::compose::Source;
-use crate::error::{BuildError, at};
+use crate::error::BuildError;
 use naga::{Module, Scalar, Span, TypeInner, VectorSize};
 
 /// One parameter.
@@ -108,7 +108,7 @@ pub(crate) fn read(module: &Module, source: &Source) -> Result<Vec<Param>, Build
             )
             .map_err(|message| {
                 let place = member_span(source, span, &name);
-                at(source, place, format!("Params.{name}: {message}"))
+                source.error(place, format!("Params.{name}: {message}"))
             })
         })
         .collect()

@@ -5,9 +5,6 @@ effects::effect!("highlight");
 /// `hair.highlight`: a few whole strokes where the hair shines.
 pub struct Highlight;
 
-/// The place of `distance` in the choices of `kind`.
-const DISTANCE: u32 = 1;
-
 impl effects::StrokeEffect for Highlight {
     type Program = Program;
     const ID: &'static str = "hair.highlight";
@@ -24,6 +21,6 @@ impl effects::StrokeEffect for Highlight {
     }
 
     fn needs_point_light(params: &Params) -> bool {
-        params.kind == DISTANCE
+        params.kind == Params::KIND_DISTANCE
     }
 }

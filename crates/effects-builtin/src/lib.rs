@@ -1,4 +1,13 @@
-//! The stroke effects that inkstrand ships, each one `.rs` beside its `.wgsl`.
+//! The stroke effects that inkstrand ships, each one `.rs` beside its `.wgsl`: a program registers them, and presets name them
+//! by their ids.
+//!
+//! ```
+//! let mut registry = effects::Registry::new();
+//! effects_builtin::register(&mut registry)?;
+//! let ids: Vec<_> = registry.iter().map(|effect| effect.id()).collect();
+//! assert_eq!(ids, ["hair.base", "hair.cel", "hair.fine", "hair.highlight", "hair.silhouette"]);
+//! # Ok::<(), effects::RegistryError>(())
+//! ```
 
 mod base;
 mod cel;

@@ -2,7 +2,7 @@
 
 mod joint;
 
-use effects::wgsl::{Stroke, vec2, vec3};
+use effects::wgsl::{Stroke, hash, vec2, vec3};
 use effects::{Joints, StrokeEffect};
 use effects_builtin::Cel;
 use joint::{One, lit_joint, stroke};
@@ -100,7 +100,7 @@ fn where_a_flat_clump_points_away_the_row_lies_along_its_outer_side() {
 fn what_no_light_reaches_is_dark_whatever_varies() {
     for strand in 0..200 {
         let mut joints = lit_joint(0.0, 20.0);
-        joints.strand = vec![strand];
+        joints.seed = vec![hash(strand)];
         let set = [
             ("threshold", "0.1"),
             ("full", "0.05"),
@@ -123,7 +123,7 @@ fn a_given_colour_wins_over_the_factor() {
 fn variation_hangs_on_seed_strand_and_feather() {
     let radius = |seed: u32, strand: u32, feather: u32| {
         let mut joints = lit_joint(0.4, 20.0);
-        joints.strand = vec![strand];
+        joints.seed = vec![hash(strand)];
         let set = [("full", "0"), ("threshold", "1")];
         stroke::<Cel>(&joints, feather, seed, &set).radius
     };

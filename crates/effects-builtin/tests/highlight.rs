@@ -2,7 +2,7 @@
 
 mod joint;
 
-use effects::wgsl::{Stroke, vec3};
+use effects::wgsl::{Stroke, hash, vec3};
 use effects::{Joints, StrokeEffect};
 use effects_builtin::Highlight;
 use joint::{One, lit_joint, stroke};
@@ -112,7 +112,7 @@ fn shares_leave_strands_and_strokes_out() {
     let count = |name: &str| {
         let drawn = |strand: u32| {
             let mut joints = lit_joint(1.0, 20.0);
-            joints.strand = vec![strand];
+            joints.seed = vec![hash(strand)];
             let set = [(name, "0.3"), ("feathers", "5")];
             let radii = (0..5).map(|i| highlight(&joints, i, &set).radius);
             radii.filter(|radius| *radius > 0.0).count()

@@ -1,7 +1,7 @@
 //! Joints to try effects on: a head of hair as any preset has it, and joints as they never should be.
 
 use crate::joint::Joint;
-use effects::wgsl::{vec2, vec3};
+use effects::wgsl::{hash, vec2, vec3};
 use glam::{Vec2, Vec3};
 
 /// Height of the head, metres; its centre is the origin.
@@ -52,6 +52,7 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
     let normal = (outward - outward.dot(backward) * backward).normalize();
     // Across the strand too, but turned about it.
     let material_normal = 0.8 * normal + 0.6 * backward.cross(normal);
+    let mean = points.iter().sum::<Vec3>() / points.len() as f32;
     let to_light = LIGHT - position;
     let light = to_light.normalize();
     let view = (EYE - position).normalize();
@@ -67,6 +68,11 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
             .map(|pair| pair[0].distance(pair[1]))
             .sum(),
         strand,
+        seed: hash(strand),
+        strand_mean: vec3(mean.to_array()),
+        head_center: vec3([0.0; 3]),
+        head_height: HEAD_M,
+        strand_size: 18.0,
         light_direction: vec3(light.to_array()),
         light_distance: to_light.length() / HEAD_M,
         view_direction: vec3(view.to_array()),
@@ -250,6 +256,7 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
             "the last strand there can be",
             Joint {
                 strand: u32::MAX,
+                seed: hash(u32::MAX),
                 ..good
             },
         ),

@@ -1,15 +1,19 @@
 //! What every stroke effect must hold to, as tests that an effect crate runs on its own effects:
 //!
-//! ```ignore
-//! #[test]
+//! ```
+//! use effects_builtin::Silhouette; // yours
+//!
+//! // #[test]
 //! fn it_conforms() {
-//!     effects_testkit::assert_conforms::<Backlight>();
+//!     effects_testkit::assert_conforms::<Silhouette>();
 //! }
 //!
-//! #[test]
+//! // #[test]
 //! fn nothing_pops() {
-//!     effects_testkit::assert_steady::<Backlight>(&[("threshold", "0.4")]);
+//!     effects_testkit::assert_steady::<Silhouette>(&[("width", "4")]);
 //! }
+//! # it_conforms();
+//! # nothing_pops();
 //! ```
 //!
 //! [`assert_conforms`] is for all effects. [`assert_steady`] is for those whose strokes change little
@@ -67,6 +71,7 @@ type Check = fn(&dyn AnyEffect) -> Result<(), String>;
 
 /// A check that an effect did not pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Failure {
     /// What should hold.
     pub check: &'static str,
@@ -76,6 +81,7 @@ pub struct Failure {
 
 /// All checks that an effect did not pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Failures {
     /// The effect's id.
     pub effect: &'static str,

@@ -1,11 +1,11 @@
 //! Nothing pops: each input runs through its range, and strokes follow without a jump.
 
 use crate::hair;
-use crate::joint::{CHANGING, Input, Joint};
+use crate::joint::{InputValue, Joint};
 use crate::strokes::evaluate;
 use crate::values::some_instances;
 use effects::wgsl::{Stroke, vec2, vec3};
-use effects::{AnyEffect, LayerProgram, Values};
+use effects::{AnyEffect, Input, LayerProgram, Values};
 use glam::{Quat, Vec3};
 
 /// Moments of a motion that are looked at, before times between them are halved.
@@ -22,7 +22,9 @@ pub(crate) fn check(effect: &dyn AnyEffect, parameters: &[(&str, &str)]) -> Resu
         (values.set_text(effect.id(), name, text)).map_err(|error| error.to_string())?;
     }
     let program = effect.program(&values);
-    for input in CHANGING.iter().filter(|input| program.inputs().has(input)) {
+    // A strand's id stays, and so does the seed that is made of it.
+    let changes = |input: &Input| !matches!(input, Input::Strand | Input::Seed);
+    for input in program.inputs().iter().filter(changes) {
         for joint in hair::joints().into_iter().step_by(29) {
             let motion = Motion { input, joint };
             for instance in some_instances(program.instances()) {
@@ -35,37 +37,37 @@ pub(crate) fn check(effect: &dyn AnyEffect, parameters: &[(&str, &str)]) -> Resu
 
 /// A joint of which one input moves through its range as time goes from 0 to 1.
 struct Motion {
-    input: &'static str,
+    input: Input,
     joint: Joint,
 }
 
 impl Motion {
     fn at(&self, time: f32) -> Joint {
         let mut joint = self.joint;
-        let along = |low: f32, high: f32| Input::Number(low + (high - low) * time);
-        let value = match (self.input, joint.input(self.input, 0)) {
-            ("position", Some(Input::Triple(place))) => {
+        let along = |low: f32, high: f32| InputValue::Number(low + (high - low) * time);
+        let value = match (self.input, joint.get(self.input, 0)) {
+            (Input::Position, InputValue::Triple(place)) => {
                 let place = Vec3::from(place.to_array()) + (time - 0.5) * Vec3::new(0.4, 0.3, -0.5);
-                Input::Triple(vec3(place.to_array()))
+                InputValue::Triple(vec3(place.to_array()))
             }
-            ("clump_color", _) => Input::Triple(vec3([time, 1.0 - time, 0.5])),
-            ("clump_radius", _) => along(0.0, 40.0),
-            ("arc_length", _) => along(0.0, 1.0),
-            ("light_distance", _) => along(0.0, 10.0),
-            ("unit", _) => along(0.1, 5.0),
+            (Input::ClumpColor, _) => InputValue::Triple(vec3([time, 1.0 - time, 0.5])),
+            (Input::ClumpRadius, _) => along(0.0, 40.0),
+            (Input::ArcLength, _) => along(0.0, 1.0),
+            (Input::LightDistance, _) => along(0.0, 10.0),
+            (Input::Unit, _) => along(0.1, 5.0),
             // u and gray.
-            (_, Some(Input::Number(_))) => along(0.0, 1.0),
+            (_, InputValue::Number(_)) => along(0.0, 1.0),
             // Directions go once around.
-            (_, Some(Input::Triple(direction))) => {
+            (_, InputValue::Triple(direction)) => {
                 let axis = Vec3::new(0.36, 0.48, 0.8);
                 let turn = Quat::from_axis_angle(axis, std::f32::consts::TAU * time);
-                Input::Triple(vec3((turn * Vec3::from(direction.to_array())).to_array()))
+                InputValue::Triple(vec3((turn * Vec3::from(direction.to_array())).to_array()))
             }
-            (_, Some(Input::Pair(_))) => {
+            (_, InputValue::Pair(_)) => {
                 let (sine, cosine) = (std::f32::consts::TAU * time).sin_cos();
-                Input::Pair(vec2([cosine, sine]))
+                InputValue::Pair(vec2([cosine, sine]))
             }
-            (_, Some(Input::Whole(_)) | None) => return joint,
+            (_, InputValue::Whole(_)) => return joint,
         };
         joint.set(self.input, value);
         joint
@@ -115,12 +117,11 @@ impl Motion {
     }
 
     fn tell(&self, instance: u32, [start, end]: [f32; 2], strokes: [Stroke; 2]) -> String {
-        let input = |time| match self.at(time).input(self.input, 0) {
-            Some(Input::Number(value)) => value.to_string(),
-            Some(Input::Triple(value)) => format!("{:?}", value.to_array()),
-            Some(Input::Pair(value)) => format!("[{}, {}]", value.x, value.y),
-            Some(Input::Whole(value)) => value.to_string(),
-            None => String::new(),
+        let input = |time| match self.at(time).get(self.input, 0) {
+            InputValue::Number(value) => value.to_string(),
+            InputValue::Triple(value) => format!("{:?}", value.to_array()),
+            InputValue::Pair(value) => format!("[{}, {}]", value.x, value.y),
+            InputValue::Whole(value) => value.to_string(),
         };
         let stroke = |stroke: &Stroke| {
             let (x, y) = (stroke.offset.x, stroke.offset.y);
@@ -132,7 +133,7 @@ impl Motion {
         };
         format!(
             "stroke {instance} jumps where `{}` goes from {} to {}:\n  {}\n  {}",
-            self.input,
+            self.input.name(),
             input(start),
             input(end),
             stroke(&strokes[0]),

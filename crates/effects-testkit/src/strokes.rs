@@ -4,7 +4,7 @@ use crate::hair;
 use crate::joint::{Joint, list};
 use crate::values::{Case, defaults, extremes, some_instances};
 use effects::wgsl::Stroke;
-use effects::{AnyEffect, LayerProgram};
+use effects::{AnyEffect, Input, LayerProgram};
 
 /// Strokes side by side, at most: no clump is so wide that more would be seen.
 const MOST_INSTANCES: u32 = 1024;
@@ -99,8 +99,8 @@ fn fault(stroke: &Stroke) -> Option<String> {
         ("green", green),
         ("blue", blue),
     ];
-    let endless = numbers.iter().find(|(_, value)| !value.is_finite());
-    if let Some((name, value)) = endless {
+    let infinite = numbers.iter().find(|(_, value)| !value.is_finite());
+    if let Some((name, value)) = infinite {
         return Some(format!("{name} is {value}"));
     }
     let negative =
@@ -140,7 +140,7 @@ pub(crate) fn nothing(effect: &dyn AnyEffect) -> Result<(), String> {
                 100.0 * share
             ));
         }
-        if !effect.inputs().contains(&"clump_radius") {
+        if !effect.inputs().contains(&Input::ClumpRadius) {
             continue;
         }
         let bare = joints.iter().map(|joint| Joint {

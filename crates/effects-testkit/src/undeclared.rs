@@ -1,8 +1,8 @@
 //! An effect gets what it declares; the lists of all else are empty.
 
-use crate::joint::{Joint, all_inputs, list};
+use crate::joint::{Joint, list};
 use crate::{hair, values};
-use effects::{AnyEffect, InputSet, LayerProgram};
+use effects::{AnyEffect, Input, InputSet, LayerProgram};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
@@ -12,10 +12,11 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
         let run = AssertUnwindSafe(|| evaluate(&*program, &joints, read));
         catch_unwind(run).is_ok()
     };
-    if !works(program.inputs()) && works(all_inputs()) {
+    if !works(program.inputs()) && works(InputSet::of(Input::ALL)) {
+        let declared: Vec<_> = effect.inputs().iter().map(|input| input.name()).collect();
         return Err(format!(
             "it reads an input that it doesn't declare; it declares {}",
-            effect.inputs().join(", ")
+            declared.join(", ")
         ));
     }
     Ok(())

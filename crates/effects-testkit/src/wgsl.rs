@@ -6,11 +6,11 @@ mod math;
 mod value;
 
 use crate::hair;
-use crate::joint::{Input, Joint};
+use crate::joint::{InputValue, Joint};
 use crate::strokes::evaluate;
 use crate::values::{Case, extremes, some_instances};
 use effects::wgsl::Stroke;
-use effects::{AnyEffect, Section as _, Value as Setting, Values};
+use effects::{AnyEffect, Input, Section as _, Value as Setting, Values};
 use interpret::Interpreter;
 use naga::TypeInner;
 use value::Value;
@@ -64,10 +64,11 @@ fn is_varied(values: &Values) -> bool {
 /// The WGSL's `Inputs` at a joint.
 fn inputs(module: &naga::Module, joint: &Joint) -> Result<Value, String> {
     structure(module, "Inputs", |name| {
-        let input = joint.input(name, SEED);
-        input
-            .map(Value::from)
-            .ok_or_else(|| format!("there is no input `{name}`"))
+        let mut inputs = Input::ALL.iter().filter(|input| input.name() == name);
+        let input = inputs
+            .next()
+            .ok_or_else(|| format!("there is no input `{name}`"))?;
+        Ok(joint.get(*input, SEED).into())
     })
 }
 
@@ -124,13 +125,13 @@ fn structure(
     Ok(Value::List(values.collect::<Result<_, _>>()?))
 }
 
-impl From<Input> for Value {
-    fn from(input: Input) -> Self {
-        match input {
-            Input::Number(number) => Self::F32(number),
-            Input::Whole(number) => Self::U32(number),
-            Input::Pair(pair) => Self::list([pair.x, pair.y]),
-            Input::Triple(triple) => Self::list(triple.to_array()),
+impl From<InputValue> for Value {
+    fn from(value: InputValue) -> Self {
+        match value {
+            InputValue::Number(number) => Self::F32(number),
+            InputValue::Whole(number) => Self::U32(number),
+            InputValue::Pair(pair) => Self::list([pair.x, pair.y]),
+            InputValue::Triple(triple) => Self::list(triple.to_array()),
         }
     }
 }

@@ -1,7 +1,9 @@
 //! A good effect passes; spoilt in one way, it fails the check that is there for that.
 
 use effects::wgsl::{Stroke, vec2};
-use effects::{Hair, Joints, MadePaths, Param, ParamKind, Parameters as _, StrokeEffect, Values};
+use effects::{
+    Hair, Input, Joints, MadePaths, Param, ParamKind, Parameters as _, StrokeEffect, Values,
+};
 use effects_testkit::{Failures, conforms, steady};
 use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -33,7 +35,7 @@ struct Spoilt<S>(PhantomData<fn() -> S>);
 impl<S: Spoil> effects::Parameters for Spoilt<S> {
     type Params = Params;
     const PARAMS: &'static [Param] = S::PARAMS;
-    const INPUTS: &'static [&'static str] = Program::INPUTS;
+    const INPUTS: &'static [Input] = Program::INPUTS;
     const WGSL: &'static str = Program::WGSL;
     fn params(values: &Values) -> Params {
         Program::params(values)
@@ -308,7 +310,7 @@ fn paths_are_finite_and_the_same_ones_in_every_frame() {
     const CHECK: &str = "its paths";
     spoil!(None_ { const OWN_PATHS: bool = true; });
     assert_fails::<None_>(CHECK, "makes no paths");
-    spoil!(Endless {
+    spoil!(Infinite {
         const OWN_PATHS: bool = true;
         fn make_paths(hair: &Hair, paths: &mut MadePaths) {
             for (i, strand) in hair.strands.iter().enumerate() {
@@ -316,7 +318,7 @@ fn paths_are_finite_and_the_same_ones_in_every_frame() {
             }
         }
     });
-    assert_fails::<Endless>(CHECK, "of strands of no length: path 0 goes through [NaN");
+    assert_fails::<Infinite>(CHECK, "of strands of no length: path 0 goes through [NaN");
     spoil!(Wanders {
         const OWN_PATHS: bool = true;
         fn make_paths(hair: &Hair, paths: &mut MadePaths) {

@@ -1,40 +1,13 @@
 //! What an effect is.
 
+use crate::joints::{Input, InputSet, Joints};
 use crate::param::{Param, Values};
+use crate::paths::{Hair, MadePaths};
+use crate::program::{Parameters, Program};
+use crate::source::ProgramSource;
 use crate::varied::Varied;
 use crate::wgsl::Stroke;
-use crate::{Hair, InputSet, Joints, MadePaths, ProgramSource};
 use std::ops::Range;
-
-/// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
-pub trait Parameters: Send + Sync + 'static {
-    /// The parameters as the WGSL has them.
-    type Params: Clone + Send + Sync + std::fmt::Debug + PartialEq + 'static;
-    /// What parameters there are.
-    const PARAMS: &'static [Param];
-    /// The names of the inputs that are read.
-    const INPUTS: &'static [&'static str];
-    /// The composed WGSL, for the GPU.
-    const WGSL: &'static str;
-    /// The parameters of these values; what varies has its value at the root.
-    fn params(values: &Values) -> Self::Params;
-    /// Sets number `index` of [`Self::PARAMS`]. Only asked for numbers that vary.
-    fn set_number(params: &mut Self::Params, index: usize, value: f32) {
-        let _ = (params, index, value);
-    }
-}
-
-/// An effect's WGSL in Rust. Implemented by the translated code.
-pub trait Program: Parameters {
-    /// The disc of stroke `instance` at joint `index`. `seed` is the layer's.
-    fn stroke(
-        joints: &Joints,
-        index: usize,
-        instance: u32,
-        seed: u32,
-        params: &Self::Params,
-    ) -> Stroke;
-}
 
 /// A stroke effect, as its author writes it.
 ///
@@ -114,7 +87,7 @@ pub trait AnyEffect: Send + Sync {
     /// [`Parameters::PARAMS`].
     fn params(&self) -> &'static [Param];
     /// [`Parameters::INPUTS`].
-    fn inputs(&self) -> &'static [&'static str];
+    fn inputs(&self) -> &'static [Input];
     /// [`Parameters::WGSL`].
     fn wgsl(&self) -> &'static str;
     /// The effect with these values.
@@ -172,7 +145,7 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
     fn params(&self) -> &'static [Param] {
         E::Program::PARAMS
     }
-    fn inputs(&self) -> &'static [&'static str] {
+    fn inputs(&self) -> &'static [Input] {
         E::Program::INPUTS
     }
     fn wgsl(&self) -> &'static str {

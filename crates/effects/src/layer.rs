@@ -2,7 +2,6 @@
 
 use crate::choices;
 use crate::effect::LayerProgram;
-use crate::wgsl::hash;
 
 choices! {
     /// What a layer's widths are measured in.
@@ -30,12 +29,4 @@ pub struct Layer {
     pub units: Units,
     /// The effect with its parameters.
     pub program: Box<dyn LayerProgram>,
-}
-
-/// The seed of a layer's variations: a hash of the style's seed and the layer's name, so that layers
-/// vary apart from each other and none changes when another comes or goes.
-#[must_use]
-pub fn layer_seed(style_seed: u32, name: &str) -> u32 {
-    name.bytes()
-        .fold(hash(style_seed), |seed, byte| hash(seed ^ u32::from(byte)))
 }

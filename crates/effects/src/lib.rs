@@ -2,8 +2,34 @@
 //!
 //! An effect is a WGSL function of one stroke joint, translated to Rust at build time by
 //! `effects-build`, so that the same text runs on both backends. See [`StrokeEffect`] for how one is
-//! written, and [`Joints`] for what a joint offers; `docs/an-effect-in-30-lines.md` makes one from an
+//! written, and [`Input`] for what a joint offers; `docs/an-effect-in-30-lines.md` makes one from an
 //! empty crate to a picture. `effects-testkit` tells whether it is a good one.
+//!
+//! A program has a table of its parameters, made from its WGSL; a section of a preset sets their values. That of the clump,
+//! which all effects share:
+//!
+//! ```
+//! use effects::{Input, Parameters, Section, Value, Values, Variation, Varied, clump};
+//!
+//! let table = clump::Program::PARAMS;
+//! let index = |name| table.iter().position(|param| param.name == name).unwrap();
+//! let mut values = Values::defaults(table);
+//! values.set(index("normal"), Value::Choice(clump::Params::NORMAL_MATERIAL));
+//! // Half of its size at the tip.
+//! let shrinks = Variation { curve: vec![(0.0, 1.0), (1.0, 0.5)], vary: 0.0 };
+//! values.set(index("size"), Value::Varying(shrinks));
+//!
+//! let clump = Varied::<clump::Program>::new(&values);
+//! assert_eq!(clump.base().normal, clump::Params::NORMAL_MATERIAL);
+//! // What is worked out of each joint is what the program reads.
+//! assert!(clump.inputs().has(Input::MaterialNormal));
+//! assert!(!clump.inputs().has(Input::ArcLength));
+//! ```
+//!
+//! Modules, each made of those before it alone: [`wgsl`] (the prelude), `color`, [`smooth`], `paths`, `joints` (what a joint
+//! offers), `seed`, `variation`; `param` (tables and values),
+//! [`mod@section`] (typed ones), `program` (what translated code implements), `source` (the same for a
+//! graphics card), `varied` (a program with its values), [`clump`]; `effect`, `layer`, `registry`; [`preset`].
 
 // The translated WGSL names this crate by its name, here as everywhere.
 extern crate self as effects;
@@ -16,23 +42,29 @@ mod layer;
 mod param;
 mod paths;
 pub mod preset;
+mod program;
 mod registry;
 pub mod section;
+mod seed;
 pub mod smooth;
 mod source;
+mod variation;
 mod varied;
 pub mod wgsl;
 
 pub use color::{linear_from_srgb, parse_hex};
-pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Parameters, Program, StrokeEffect};
-pub use joints::{InputSet, Joints, strand_seed};
-pub use layer::{Layer, Units, layer_seed};
+pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, StrokeEffect};
+pub use joints::{Input, InputSet, Joints};
+pub use layer::{Layer, Units};
 pub use param::{Param, ParamKind, Value, Values};
 pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
+pub use program::{Parameters, Program};
 pub use registry::{Registry, RegistryError};
 pub use section::Section;
+pub use seed::{layer_seed, strand_seed};
 pub use source::ProgramSource;
-pub use varied::{Variation, Varied};
+pub use variation::Variation;
+pub use varied::Varied;
 
 /// The runtime of the translated WGSL.
 pub use naga_rust_rt as rt;

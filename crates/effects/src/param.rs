@@ -2,8 +2,7 @@
 //! error messages, `inkstrand effects` and the documentation.
 
 use crate::color::parse_hex;
-use crate::section::Section;
-use crate::varied::Variation;
+use crate::variation::Variation;
 
 /// One parameter of an effect or of a section of a preset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,8 +177,8 @@ impl ParamKind {
 /// The values of an effect's parameters: every parameter of its table has one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values {
-    table: &'static [Param],
-    values: Vec<Value>,
+    pub(crate) table: &'static [Param],
+    pub(crate) values: Vec<Value>,
 }
 
 impl Values {
@@ -246,19 +245,5 @@ impl Values {
             Value::Color(value) => *value,
             other => panic!("`{name}` is {other:?}, not a colour"),
         }
-    }
-}
-
-impl Section for Values {
-    fn table(&self) -> &'static [Param] {
-        self.table
-    }
-
-    fn set(&mut self, index: usize, value: Value) {
-        self.values[index] = value;
-    }
-
-    fn get(&self, index: usize) -> Option<Value> {
-        Some(self.values[index].clone())
     }
 }

@@ -13,6 +13,7 @@ pub struct Registry {
 
 /// Why an effect was not registered.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RegistryError {
     /// Two effects claim one id.
     #[error("there is already an effect `{id}`")]

@@ -29,7 +29,7 @@
 //! assert_eq!(Light::TABLE[1].doc, "0 shines at the face; positive comes from the viewer's right.");
 //! ```
 
-use crate::param::{Param, ParamKind, Value};
+use crate::param::{Param, ParamKind, Value, Values};
 use std::marker::PhantomData;
 use std::ops::RangeInclusive;
 
@@ -67,6 +67,20 @@ pub trait Section {
                 expected: table[index].kind.expected(),
             })
         })
+    }
+}
+
+impl Section for Values {
+    fn table(&self) -> &'static [Param] {
+        self.table
+    }
+
+    fn set(&mut self, index: usize, value: Value) {
+        self.values[index] = value;
+    }
+
+    fn get(&self, index: usize) -> Option<Value> {
+        Some(self.values[index].clone())
     }
 }
 

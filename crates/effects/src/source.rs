@@ -1,7 +1,8 @@
 //! What a graphics card needs to evaluate a program: its WGSL, and its parameters as words.
 
+use crate::joints::Input;
 use crate::param::{Param, ParamKind, Values};
-use crate::varied::Varying;
+use crate::variation::Varying;
 use crate::wgsl::color_or_none;
 
 /// A program for a graphics card.
@@ -9,8 +10,8 @@ use crate::wgsl::color_or_none;
 pub struct ProgramSource<'a> {
     /// The author's text, `struct Inputs` with the declared inputs, and the prelude.
     pub wgsl: &'static str,
-    /// The names of the inputs that are read, in the order of the fields of `struct Inputs`.
-    pub inputs: &'static [&'static str],
+    /// The inputs that are read, in the order of the fields of `struct Inputs`.
+    pub inputs: &'static [Input],
     /// The fields of `struct Params`, in their order.
     pub params: &'static [Param],
     /// The parameters in their order, as 32-bit words: a number and a whole number take one, a colour three,

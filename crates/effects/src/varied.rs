@@ -1,83 +1,12 @@
-//! Parameters that vary along a strand, and from strand to strand.
+//! A program's parameters, of which some vary along a strand and from strand to strand.
 
-use crate::effect::Parameters;
-use crate::layer::layer_seed;
+use crate::joints::{Input, InputSet, Joints};
 use crate::param::{ParamKind, Value, Values};
+use crate::program::Parameters;
+use crate::seed::layer_seed;
 use crate::source::{self, ProgramSource};
-use crate::wgsl::random_signed;
-use crate::{InputSet, Joints, strand_seed};
-use serde::Deserialize;
-
-/// How a number varies.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Variation {
-    /// Places along the strand, 0 at the root to 1 at the tip, never falling, with the values there.
-    /// Linear between them, constant before the first and after the last. At least one.
-    pub curve: Vec<(f32, f32)>,
-    /// How much strands differ: 0.2 makes the value up to 20 % smaller or larger. 0 to 1.
-    pub vary: f32,
-}
-
-/// As it is written in a preset.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    value: Option<f32>,
-    curve: Option<Vec<(f32, f32)>>,
-    vary: Option<f32>,
-}
-
-impl Variation {
-    /// Reads `(value: 2, vary: 0.2)` or `(curve: [(0, 1), (0.5, 2), (1, 0)], vary: 0.2)`, of values
-    /// from `min` to `max`.
-    pub(crate) fn parse(text: &str, min: f32, max: f32) -> Result<Self, String> {
-        let options = ron::Options::default()
-            .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
-        let written: Written = options.from_str(text).map_err(|error| match error.code {
-            ron::Error::NoSuchStructField { found, .. } => format!("there is no `{found}` in it"),
-            _ => "it is no variation".to_owned(),
-        })?;
-        let curve = match (written.value, written.curve) {
-            (Some(value), None) => vec![(0.0, value)],
-            (None, Some(curve)) => curve,
-            (Some(_), Some(_)) => return Err("it has a `value` and a `curve`".to_owned()),
-            (None, None) => return Err("it has neither `value` nor `curve`".to_owned()),
-        };
-        if curve.is_empty() {
-            return Err("the curve is empty".to_owned());
-        }
-        let mut before = 0.0;
-        for &(place, value) in &curve {
-            if !(place >= before && place <= 1.0) {
-                return Err(format!(
-                    "the curve's places must rise from 0, the root, to 1, the tip: {place} after {before}"
-                ));
-            }
-            if !(value >= min && value <= max) {
-                return Err(format!("{value} is not from {min} to {max}"));
-            }
-            before = place;
-        }
-        let vary = written.vary.unwrap_or(0.0);
-        if !(0.0..=1.0).contains(&vary) {
-            return Err(format!("vary is from 0 to 1, found {vary}"));
-        }
-        Ok(Self { curve, vary })
-    }
-
-    /// The value at `u` along the strand.
-    #[must_use]
-    pub fn at(&self, u: f32) -> f32 {
-        let next = self.curve.partition_point(|(place, _)| *place <= u);
-        let Some(&(start, from)) = next.checked_sub(1).and_then(|i| self.curve.get(i)) else {
-            return self.curve[0].1;
-        };
-        match self.curve.get(next) {
-            Some(&(end, to)) => from + (to - from) * (u - start) / (end - start),
-            None => from,
-        }
-    }
-}
+use crate::variation::Varying;
+use crate::wgsl::hash;
 
 /// The parameters `P` of one layer, or of the clump, of which some may vary.
 #[derive(Clone, Debug)]
@@ -87,16 +16,6 @@ pub struct Varied<P: Parameters> {
     /// For a graphics card: [`ProgramSource::words`] and [`ProgramSource::varying`].
     words: Vec<u32>,
     indices: Vec<usize>,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct Varying {
-    /// Of the parameter in its table.
-    pub(crate) index: usize,
-    /// From the parameter's name, so that parameters vary apart from each other.
-    pub(crate) seed: u32,
-    pub(crate) range: [f32; 2],
-    pub(crate) variation: Variation,
 }
 
 impl<P: Parameters> Varied<P> {
@@ -150,7 +69,7 @@ impl<P: Parameters> Varied<P> {
         if self.varying.is_empty() {
             own
         } else {
-            own.union(InputSet::of(&["u", "strand"]))
+            own.union(InputSet::of(&[Input::U, Input::Seed]))
         }
     }
 
@@ -169,60 +88,11 @@ impl<P: Parameters> Varied<P> {
         }
         let mut params = self.base.clone();
         for i in range {
-            let (u, strand) = (joints.u[i], strand_seed(seed, joints.strand[i]));
+            let (u, strand) = (joints.u[i], hash(seed ^ joints.seed[i]));
             for varying in &self.varying {
-                let factor = 1.0 + varying.variation.vary * random_signed(strand ^ varying.seed, 0);
-                let [min, max] = varying.range;
-                let value = (varying.variation.at(u) * factor).clamp(min, max);
-                P::set_number(&mut params, varying.index, value);
+                P::set_number(&mut params, varying.index, varying.at(u, strand));
             }
             evaluate(i, &params);
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn parse(text: &str) -> Result<Variation, String> {
-        Variation::parse(text, 0.0, 10.0)
-    }
-
-    #[test]
-    fn curves_are_linear_between_their_places() {
-        let curve = parse("(curve: [(0.2, 1), (0.4, 3), (0.4, 5), (1, 0)])").unwrap();
-        for (u, value) in [
-            (0.0, 1.0),
-            (0.2, 1.0),
-            (0.3, 2.0),
-            (0.4, 5.0),
-            (0.7, 2.5),
-            (1.0, 0.0),
-        ] {
-            assert!((curve.at(u) - value).abs() < 1e-6, "{u}: {}", curve.at(u));
-        }
-        let value = parse("(value: 4, vary: 0.5)").unwrap();
-        assert_eq!((value.at(0.0), value.at(1.0), value.vary), (4.0, 4.0, 0.5));
-    }
-
-    #[test]
-    fn mistakes_are_told() {
-        for (text, expected) in [
-            ("()", "neither"),
-            ("(value: 1, curve: [(0, 1)])", "a `value` and a `curve`"),
-            ("(curve: [])", "empty"),
-            ("(curve: [(0.5, 1), (0.2, 1)])", "0.2 after 0.5"),
-            ("(curve: [(0, 1), (1.5, 1)])", "1.5 after 0"),
-            ("(curve: [(0, 11)])", "11 is not from 0 to 10"),
-            ("(value: NaN)", "NaN is not"),
-            ("(curve: [(NaN, 1)])", "NaN after 0"),
-            ("(value: 1, vary: 2)", "from 0 to 1, found 2"),
-            ("(value: 1, vari: 0.2)", "no `vari`"),
-            ("(2.4)", "no variation"),
-        ] {
-            let message = parse(text).unwrap_err();
-            assert!(message.contains(expected), "{text}: {message}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The clump of a joint: sizes by 5.1 to 5.3, the normal of 5.4, colours.
 
-use effects::wgsl::{Clump, vec3};
+use effects::wgsl::{Clump, hash, vec3};
 use effects::{Joints, Parameters, Values, clump};
 use proptest::prelude::*;
 
@@ -12,7 +12,7 @@ fn joint(position: [f32; 3], backward: [f32; 3], u: f32) -> Joints {
         // Across the strand.
         view_direction: vec![vec3([backward[1], -backward[0], 0.0])],
         u: vec![u],
-        strand: vec![3],
+        seed: vec![hash(3)],
         strand_mean: vec![vec3([0.0; 3])],
         head_center: vec![vec3([0.0; 3])],
         head_height: vec![2.0],
@@ -65,7 +65,7 @@ fn a_hard_step_is_legal() {
 fn sizes_vary_by_strand_and_stay_in_their_range() {
     let radius = |strand: u32| {
         let mut joints = joint([0.0, 1.0, 0.0], [1.0, 0.0, 0.0], 0.0);
-        joints.strand = vec![strand];
+        joints.seed = vec![hash(strand)];
         let set = [("size_variation", "0.3"), ("mix", "1")];
         clump_with(&joints, &set).radius
     };

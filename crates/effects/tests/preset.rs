@@ -3,7 +3,8 @@
 use effects::preset::Reader;
 use effects::wgsl::Stroke;
 use effects::{
-    Joints, Param, ParamKind, Parameters, Program, Registry, RegistryError, StrokeEffect, Values,
+    Input, Joints, Param, ParamKind, Parameters, Program, Registry, RegistryError, StrokeEffect,
+    Values,
 };
 
 /// An effect without WGSL, to read layers with.
@@ -40,7 +41,7 @@ impl Parameters for LineProgram {
             kind: ParamKind::Color { default: "000000" },
         },
     ];
-    const INPUTS: &'static [&'static str] = &[];
+    const INPUTS: &'static [Input] = &[];
     const WGSL: &'static str = "";
     fn params(values: &Values) -> f32 {
         values.number("width")

@@ -4,7 +4,7 @@
 use effects::Section as _;
 use effects::rt::Scalar;
 use effects::wgsl::{self, vec2, vec3};
-use effects::{ParamKind, Parameters, Value, Values};
+use effects::{Input, ParamKind, Parameters, Value, Values};
 use proptest::prelude::*;
 
 mod built {
@@ -141,13 +141,24 @@ fn parameters_come_from_the_comments() {
     values.set(0, Value::Number(2.0));
     let made = built::Program::params(&values);
     assert_eq!((made.number, made.count, made.kind), (2.0, 3, 1));
+    assert_eq!(
+        (built::Params::KIND_FIRST, built::Params::KIND_SECOND),
+        (0, 1)
+    );
     assert_eq!(made.color, vec3([1.0, 0.0, 0.0]));
     assert_eq!(made.other_color, wgsl::color_or_none(None));
     values.set(4, Value::Color(Some([0.0, 1.0, 0.0])));
     let given = built::Program::params(&values).other_color;
     assert_eq!([given.x, given.y, given.z, given.w], [0.0, 1.0, 0.0, 1.0]);
-    assert_eq!(built::Program::INPUTS, ["u"]);
+    assert_eq!(built::Program::INPUTS, [Input::U]);
     assert!(built::Program::WGSL.starts_with(include_str!("builtins.wgsl")));
+}
+
+#[test]
+fn the_hash_is_that_of_all_crates() {
+    for n in (0..1_000_000_u32).map(|n| n.wrapping_mul(4_294_967)) {
+        assert_eq!(wgsl::hash(n), portable_math::hash(n), "{n}");
+    }
 }
 
 #[test]

@@ -23,6 +23,7 @@ mod adapter;
 mod buffer;
 mod compose;
 mod error;
+mod inputs;
 mod layout;
 mod offscreen;
 mod pipelines;

@@ -15,7 +15,7 @@ use crate::preset::{
 use crate::reach::{may_see, reach_m};
 use crate::script;
 use effects::wgsl::hash;
-use effects::{HairStrand, Layer, MadePaths, Parameters, Varied, clump, layer_seed};
+use effects::{HairStrand, Input, Layer, MadePaths, Parameters, Varied, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use render::{Brush, Frame, Head, Light, Order, StrandInfo};
 use std::ops::Range;
@@ -34,9 +34,6 @@ const OUTLINE_MARGIN: f32 = 0.04;
 
 /// How far the pieces of a strand that curls go on beyond where they meet, in parts of its full radius.
 const OVERLAP: f32 = 3.0;
-
-/// The clump's choice of normal that reads material frames.
-const MATERIAL: u32 = 1;
 
 /// A scene that makes frames. What a frame needs is kept and reused.
 pub struct Stage {
@@ -124,8 +121,8 @@ impl Stage {
         let settings = Settings::new(preset, head)?;
         let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
         let clump = Varied::<clump::Program>::new(&preset.sections.clump.0);
-        let reads_material = clump.base().normal == MATERIAL
-            || (layers.iter()).any(|layer| layer.program.inputs().has("material_normal"));
+        let reads_material = clump.base().normal == clump::Params::NORMAL_MATERIAL
+            || (layers.iter()).any(|layer| layer.program.inputs().has(Input::MaterialNormal));
         let without_light = |layer: &&Layer| layer.program.needs_point_light();
         if let Some(layer) = layers
             .iter()

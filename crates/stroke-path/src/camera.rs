@@ -4,8 +4,8 @@
 //! viewer's right, y up and z the *depth*, positive away from the viewer (so it is left-handed). The
 //! screen is in pixels, x to the right and y down, (0, 0) at the picture's upper left corner.
 
-use crate::angle::sin_cos_degrees;
 use glam::{Mat4, Vec2, Vec3, Vec4};
+use portable_math::sin_cos_degrees;
 
 /// The widest vertical field of view, in degrees (not itself allowed).
 const MAX_FIELD_OF_VIEW_DEGREES: f32 = 170.0;

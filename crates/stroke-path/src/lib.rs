@@ -7,16 +7,15 @@
 //! This crate takes slices of points and knows no simulation. Its results have the same bits for any
 //! number of threads, any order of strands and any instruction set.
 
-mod angle;
 mod camera;
 mod cuts;
 mod path;
 mod resample;
 pub mod sweep;
 
-pub use angle::sin_cos_degrees;
 pub use camera::{Camera, CameraError, OrbitView, direction_from_angles};
 pub use cuts::{Cut, cuts};
 pub use path::{PathRun, Paths};
+pub use portable_math::sin_cos_degrees;
 pub use resample::{MAX_SUBDIVISION, PathError, PathKind};
 pub use sweep::Brush;

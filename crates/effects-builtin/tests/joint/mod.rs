@@ -1,6 +1,6 @@
 //! One joint to try effects on.
 
-use effects::wgsl::{Stroke, vec2, vec3};
+use effects::wgsl::{Stroke, hash, vec2, vec3};
 use effects::{Joints, Parameters, Program, StrokeEffect, Values};
 use std::marker::PhantomData;
 
@@ -12,7 +12,7 @@ pub fn lit_joint(gray: f32, clump: f32) -> Joints {
         forward: vec![vec3([0.0, -1.0, 0.0])],
         backward: vec![vec3([0.0, 1.0, 0.0])],
         u: vec![0.5],
-        strand: vec![3],
+        seed: vec![hash(3)],
         light_direction: vec![vec3([0.0, (1.0 - gray * gray).max(0.0).sqrt(), gray])],
         light_distance: vec![3.0],
         view_direction: vec![vec3([0.0, 0.0, 1.0])],

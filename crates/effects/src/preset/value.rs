@@ -3,7 +3,7 @@
 use super::error::suggestion;
 use crate::color::parse_hex;
 use crate::param::{ParamKind, Value};
-use crate::varied::Variation;
+use crate::variation::Variation;
 
 /// The value that `text` gives a parameter of this kind.
 pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String> {

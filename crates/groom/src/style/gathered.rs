@@ -1,8 +1,9 @@
 //! Hair gathered in a tie: tails, buns and braids.
 
+use super::description::{Form, Zone};
 use super::hang::{Hanging, hang};
+use super::scalp::Scalp;
 use super::tie::Tie;
-use super::{Form, Scalp, Zone};
 use crate::random::Random;
 use crate::shell::Shell;
 use crate::trig::{sin_cos_degrees, sin_cos_turns};

@@ -1,9 +1,11 @@
 //! From a style to strands on a head.
 
+use super::description::{Form, Style, Zone};
+use super::edit::{Drawn, Edit};
 use super::gathered::Gathered;
 use super::row::{Row, Seat, size_class};
+use super::tie::Tie;
 use super::undercoat::undercoat;
-use super::{Drawn, Edit, Form, Style, Tie, Zone};
 use crate::random::Random;
 use crate::shell::Shell;
 use glam::Vec3;

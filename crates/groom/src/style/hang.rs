@@ -1,7 +1,7 @@
 //! Hair that hangs: from the rim of the head, or from a tie.
 
-use super::Zone;
 use super::curves::smooth;
+use super::description::Zone;
 use crate::random::Random;
 use crate::shell::Shell;
 use crate::trig::sin_cos_turns;

@@ -1,8 +1,10 @@
 //! Rows of clumps over the head, laid like roof tiles.
 
 use super::curves::{arch, eased, smooth};
+use super::description::Zone;
 use super::hang::{Hanging, hang};
-use super::{Line, Scalp, Zone};
+use super::line::Line;
+use super::scalp::Scalp;
 use crate::random::Random;
 use crate::shell::{Shell, between};
 use crate::trig::sin_cos_degrees;

@@ -1,6 +1,6 @@
 //! The part of the head that carries hair.
 
-use super::Line;
+use super::line::Line;
 use crate::shell::{Place, between, direction};
 use glam::Vec3;
 

@@ -1,7 +1,7 @@
 //! A coat of clumps below all zones, so that no scalp shows between them: rings along the hairline, and a
 //! cap of clumps that run from the whorl outwards, which roots of other clumps sink into.
 
-use super::Scalp;
+use super::scalp::Scalp;
 use crate::shell::{Place, Shell, between, direction};
 use glam::Vec3;
 

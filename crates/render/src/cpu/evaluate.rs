@@ -3,8 +3,8 @@
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
 use crate::frame::{FAR_LIGHT, Frame, seen_lengths};
 use effects::smooth::Smoother;
-use effects::wgsl::{Clump, Stroke, clump_disc, vec2, vec3};
-use effects::{CLUMP_DISCS, InputSet, Joints, Layer, Units, clump, layer_seed};
+use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
+use effects::{CLUMP_DISCS, Input, InputSet, Joints, Layer, Units, clump, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -24,13 +24,9 @@ pub struct Evaluator {
 impl Evaluator {
     /// Makes all strokes of `frame`. Only what the active layers declare is worked out.
     pub fn evaluate(&mut self, frame: &Frame, drawing: &mut Drawing) {
-        let read = frame
-            .layers
-            .iter()
-            .map(|layer| layer.program.inputs())
-            .fold(frame.clump.inputs(), InputSet::union);
+        let read = inputs(frame);
         self.fill_inputs(frame, read);
-        self.fill_clump(frame);
+        self.fill_clump(frame, read);
         self.fill_seen_length(frame);
 
         drawing.size = frame.camera.size_px();
@@ -91,7 +87,7 @@ impl Evaluator {
         drawn: &Range<usize>,
         (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
     ) -> LayerStrokes {
-        self.fill_pixel(frame, layer.units);
+        self.fill_unit(frame, layer.units);
         let joints = frame.paths.len();
         let instances = layer.program.instances();
         let length = joints * instances as usize;
@@ -134,91 +130,71 @@ impl Evaluator {
         }
     }
 
+    /// The lists of the inputs that are `read`, but for those that come from the clump or the layer.
     fn fill_inputs(&mut self, frame: &Frame, read: InputSet) {
+        self.joints.clear();
+        read.iter().for_each(|input| self.fill_input(frame, input));
+    }
+
+    fn fill_input(&mut self, frame: &Frame, input: Input) {
         let (paths, joints) = (frame.paths, &mut self.joints);
         let world = |v: &Vec3| vec3(v.to_array());
-        fill(
-            &mut joints.position,
-            read.has("position"),
-            paths.position.iter().map(world),
-        );
-        fill(
-            &mut joints.forward,
-            read.has("forward"),
-            paths.forward.iter().map(world),
-        );
-        fill(
-            &mut joints.backward,
-            read.has("backward"),
-            paths.backward.iter().map(world),
-        );
-        fill(&mut joints.u, read.has("u"), paths.u.iter().copied());
-        fill(
-            &mut joints.arc_length,
-            read.has("arc_length"),
-            paths.arc_length.iter().copied(),
-        );
-        let across = paths.across.iter().map(|v| vec2(v.to_array()));
-        fill(&mut joints.across, read.has("across"), across);
-
-        let normals = frame.material_normals.iter().map(world);
-        fill(&mut joints.material_normal, true, normals);
-
-        let strand_of_joint = || {
+        let strands = || {
             let runs = paths.runs.iter();
             runs.flat_map(|run| run.joints.clone().map(|_| &frame.strands[run.strand]))
         };
-        // The seed of a strand's variations is made from its id.
-        let by_strand = read.has("strand") || read.has("seed");
-        fill(
-            &mut joints.strand,
-            by_strand,
-            strand_of_joint().map(|s| s.id),
-        );
-        let means = strand_of_joint().map(|s| vec3(s.mean.to_array()));
-        fill(&mut joints.strand_mean, read.has("strand_mean"), means);
-        fill(
-            &mut joints.strand_size,
-            read.has("strand_size"),
-            strand_of_joint().map(|s| s.size),
-        );
-        let center = vec3(frame.head.center.to_array());
-        let centers = paths.position.iter().map(|_| center);
-        fill(&mut joints.head_center, read.has("head_center"), centers);
-        let heights = paths.position.iter().map(|_| frame.head.height_m);
-        fill(&mut joints.head_height, read.has("head_height"), heights);
-
+        let points = paths.position.iter();
         let to_light = |point: &Vec3| frame.light.seen_from(*point);
-        let directions = paths
-            .position
-            .iter()
-            .map(|p| vec3(to_light(p).0.to_array()));
-        let lit = read.has("light_direction") || read.has("gray");
-        fill(&mut joints.light_direction, lit, directions);
-        let distances = paths.position.iter().map(|p| {
-            to_light(p)
-                .1
-                .map_or(FAR_LIGHT, |metres| metres / frame.head.height_m)
-        });
-        fill(
-            &mut joints.light_distance,
-            read.has("light_distance"),
-            distances,
-        );
-        let eye = frame.camera.eye();
-        let to_eye = paths
-            .position
-            .iter()
-            .map(|p| vec3((eye - *p).normalize_or(Vec3::Z).to_array()));
-        fill(
-            &mut joints.view_direction,
-            read.has("view_direction"),
-            to_eye,
-        );
+        match input {
+            Input::Position => joints.position.extend(points.map(world)),
+            Input::Forward => joints.forward.extend(paths.forward.iter().map(world)),
+            Input::Backward => joints.backward.extend(paths.backward.iter().map(world)),
+            Input::U => joints.u.extend(&paths.u),
+            Input::ArcLength => joints.arc_length.extend(&paths.arc_length),
+            Input::Across => {
+                let across = paths.across.iter().map(|v| vec2(v.to_array()));
+                joints.across.extend(across);
+            }
+            Input::MaterialNormal => {
+                let normals = frame.material_normals.iter().map(world);
+                joints.material_normal.extend(normals);
+            }
+            Input::Strand => joints.strand.extend(strands().map(|s| s.id)),
+            Input::Seed => joints.seed.extend(strands().map(|s| hash(s.id))),
+            Input::StrandMean => joints.strand_mean.extend(strands().map(|s| world(&s.mean))),
+            Input::StrandSize => joints.strand_size.extend(strands().map(|s| s.size)),
+            Input::HeadCenter => {
+                let center = world(&frame.head.center);
+                joints.head_center.resize(paths.len(), center);
+            }
+            Input::HeadHeight => joints.head_height.resize(paths.len(), frame.head.height_m),
+            Input::LightDirection => {
+                let directions = points.map(|p| world(&to_light(p).0));
+                joints.light_direction.extend(directions);
+            }
+            Input::LightDistance => {
+                let in_heads = |metres: f32| metres / frame.head.height_m;
+                let distances = points.map(|p| to_light(p).1.map_or(FAR_LIGHT, in_heads));
+                joints.light_distance.extend(distances);
+            }
+            Input::ViewDirection => {
+                let eye = frame.camera.eye();
+                let to_eye = points.map(|p| world(&(eye - *p).normalize_or(Vec3::Z)));
+                joints.view_direction.extend(to_eye);
+            }
+            // From the clump: `fill_clump`.
+            Input::Normal
+            | Input::ClumpRadius
+            | Input::ClumpColor
+            | Input::ClumpShift
+            | Input::Gray => {}
+            // From the layer: `fill_unit`.
+            Input::Unit => {}
+        }
     }
 
-    /// The clump of every joint, once for all layers.
-    fn fill_clump(&mut self, frame: &Frame) {
+    /// The clump of every joint, once for all layers: where it is, and what of it is `read`.
+    fn fill_clump(&mut self, frame: &Frame, read: InputSet) {
         let seed = layer_seed(frame.seed, "clump");
         let mut clumps = std::mem::take(&mut self.clumps);
         let joints = &self.joints;
@@ -246,18 +222,23 @@ impl Evaluator {
             clump_shift,
             ..
         } = &mut self.joints;
-        let lit = clumps.iter().zip(light_direction);
-        let grays = lit.map(|(clump, light)| clump.normal.dot(*light).0.max(0.0));
-        fill(gray, true, grays);
-        fill(normal, true, clumps.iter().map(|clump| clump.normal));
-        fill(clump_radius, true, clumps.iter().map(|clump| clump.radius));
-        fill(clump_color, true, clumps.iter().map(|clump| clump.color));
+        if read.has(Input::Gray) {
+            let lit = clumps.iter().zip(light_direction);
+            gray.extend(lit.map(|(clump, light)| clump.normal.dot(*light).0.max(0.0)));
+        }
+        if read.has(Input::Normal) {
+            normal.extend(clumps.iter().map(|clump| clump.normal));
+        }
+        if read.has(Input::ClumpColor) {
+            clump_color.extend(clumps.iter().map(|clump| clump.color));
+        }
+        clump_radius.extend(clumps.iter().map(|clump| clump.radius));
         let on_screen = |clump: &Clump| {
             let shift = Vec3::from(clump.shift.to_array());
             let view = frame.camera.view_from_world_direction(shift);
             vec2([view.x, -view.y])
         };
-        fill(clump_shift, true, clumps.iter().map(on_screen));
+        clump_shift.extend(clumps.iter().map(on_screen));
         self.clumps = clumps;
     }
 
@@ -271,16 +252,27 @@ impl Evaluator {
     }
 
     /// The size of a pixel at 720 lines, for layers whose widths are pixels.
-    fn fill_pixel(&mut self, frame: &Frame, units: Units) {
-        let pixel_px = frame.camera.size_px()[1] as f32 / 720.0;
-        let unit_m = frame.head.unit_m();
-        let sizes = frame
-            .paths
-            .px_per_metre
-            .iter()
-            .map(|scale| pixel_px / (scale * unit_m));
-        fill(&mut self.joints.pixel, units == Units::Pixels, sizes);
+    fn fill_unit(&mut self, frame: &Frame, units: Units) {
+        self.joints.unit.clear();
+        if units == Units::Pixels {
+            let pixel_px = frame.camera.size_px()[1] as f32 / 720.0;
+            let unit_m = frame.head.unit_m();
+            let scales = frame.paths.px_per_metre.iter();
+            let sizes = scales.map(|scale| pixel_px / (scale * unit_m));
+            self.joints.unit.extend(sizes);
+        }
     }
+}
+
+/// What the clump and the active layers read of joints.
+fn inputs(frame: &Frame) -> InputSet {
+    let layers = frame.layers.iter().map(|layer| layer.program.inputs());
+    let read = layers.fold(frame.clump.inputs(), InputSet::union);
+    if read.has(Input::Gray) {
+        // It is made of that.
+        return read.union(InputSet::of(&[Input::LightDirection]));
+    }
+    read
 }
 
 /// A thread's working memory.
@@ -420,13 +412,6 @@ const NO_DISC: Disc = Disc {
     inv_depth: 0.0,
     inv_depth_biased: 0.0,
 };
-
-fn fill<T>(list: &mut Vec<T>, wanted: bool, values: impl Iterator<Item = T>) {
-    list.clear();
-    if wanted {
-        list.extend(values);
-    }
-}
 
 /// A stroke's disc on the screen. Sizes in 1/300 of the head's height, the depth offset in head
 /// heights.

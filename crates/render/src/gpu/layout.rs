@@ -1,8 +1,9 @@
 //! What the shaders' structs look like from Rust: `shaders/gpu/frame.wgsl`, `drawn.wgsl`, `joint.wgsl`.
 
+use super::inputs::InputSource;
 use crate::drawing::{Brush, Drawing};
 use crate::frame::{Frame, Light};
-use effects::{CLUMP_DISCS, InputSet};
+use effects::{CLUMP_DISCS, Input, InputSet};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::fmt::Write as _;
@@ -98,46 +99,54 @@ pub(super) const CHUNK: usize = 8;
 /// Invocations of a workgroup, but for the tiles'.
 pub(super) const WORKGROUP: u32 = 64;
 
-/// What there is of a joint in its record.
+/// Something of a joint in its record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Field {
     Center,
     Depth,
     PxPerMetre,
     Strand,
-    Position,
-    /// First and last joint of its strand's pieces together, and how they follow each other: `Neighbours`.
+    /// First and last joint of its strand's pieces together, and how they follow each other: `neighbours`.
     Run,
-    Forward,
-    Backward,
-    U,
-    ArcLength,
-    Across,
-    MaterialNormal,
     SeenLength,
+    /// A list of the frame: [`InputSource::of`] the input.
+    Input(Input),
 }
 
-use Field::{
-    Across, ArcLength, Backward, Center, Depth, Forward, MaterialNormal, Position, PxPerMetre, Run,
-    SeenLength, Strand, U,
-};
+use Field::{Center, Depth, PxPerMetre, Run, SeenLength, Strand};
 
-/// All fields: the name of the place in WGSL, and how many words it takes.
-const FIELDS: [(Field, &str, u32); 13] = [
-    (Center, "GPU_AT_CENTER", 2),
-    (Depth, "GPU_AT_DEPTH", 1),
-    (PxPerMetre, "GPU_AT_PX_PER_METRE", 1),
-    (Strand, "GPU_AT_STRAND", 1),
-    (Position, "GPU_AT_POSITION", 3),
-    (Run, "GPU_AT_RUN", 5),
-    (Forward, "GPU_AT_FORWARD", 3),
-    (Backward, "GPU_AT_BACKWARD", 3),
-    (U, "GPU_AT_U", 1),
-    (ArcLength, "GPU_AT_ARC_LENGTH", 1),
-    (Across, "GPU_AT_ACROSS", 2),
-    (MaterialNormal, "GPU_AT_MATERIAL_NORMAL", 3),
-    (SeenLength, "GPU_AT_SEEN_LENGTH", 1),
-];
+impl Field {
+    /// All fields that there are, in the order in which a record has them.
+    fn all() -> impl Iterator<Item = Self> {
+        let inputs = Input::ALL.iter().copied().map(Self::Input);
+        [Center, Depth, PxPerMetre, Strand, Run, SeenLength]
+            .into_iter()
+            .chain(inputs.filter(|field| field.words() > 0))
+    }
+
+    fn words(self) -> u32 {
+        match self {
+            Center => 2,
+            Depth | PxPerMetre | Strand | SeenLength => 1,
+            Run => 5,
+            Self::Input(input) => InputSource::of(input).words(),
+        }
+    }
+
+    /// The constant in WGSL that says where in the record it is.
+    fn place(self) -> String {
+        let name = match self {
+            Center => "center",
+            Depth => "depth",
+            PxPerMetre => "px_per_metre",
+            Strand => "strand",
+            Run => "run",
+            SeenLength => "seen_length",
+            Self::Input(input) => input.name(),
+        };
+        format!("GPU_AT_{}", name.to_uppercase())
+    }
+}
 
 /// A joint's record: what somebody reads of it, and nothing else.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -163,27 +172,30 @@ impl JointLayout {
             is_smoothed,
             is_semicircle,
         } = needs;
-        let is_needed = |field: Field| match field {
-            Center | Depth | PxPerMetre | Strand | Position => true,
+        let is_needed = |field: &Field| match *field {
+            Center | Depth | PxPerMetre | Strand => true,
             Run => is_smoothed || is_semicircle,
-            Forward => inputs.has("forward"),
-            Backward => inputs.has("backward"),
-            U => inputs.has("u") || is_semicircle,
-            ArcLength => inputs.has("arc_length"),
-            Across => inputs.has("across") || is_semicircle,
-            MaterialNormal => inputs.has("material_normal") && has_material_normals,
             SeenLength => is_smoothed,
+            // Other inputs are made of it.
+            Field::Input(Input::Position) => true,
+            Field::Input(input @ (Input::U | Input::Across)) => inputs.has(input) || is_semicircle,
+            Field::Input(input @ Input::MaterialNormal) => {
+                inputs.has(input) && has_material_normals
+            }
+            Field::Input(input) => inputs.has(input),
         };
-        let needed = FIELDS.iter().filter(|(field, ..)| is_needed(*field));
+        let fields: Vec<Field> = Field::all().filter(is_needed).collect();
         Self {
-            fields: needed.clone().map(|(field, ..)| *field).collect(),
-            words: needed.map(|(_, _, words)| words).sum(),
+            words: fields.iter().map(|field| field.words()).sum(),
+            fields,
         }
     }
 
-    /// Whether the records have a material normal.
-    pub(super) fn has_material_normal(&self) -> bool {
-        self.fields.contains(&MaterialNormal)
+    /// An input at joint `joint`, as an expression of WGSL.
+    pub(super) fn input(&self, input: Input) -> String {
+        let field = Field::Input(input);
+        let place = self.fields.contains(&field).then(|| field.place());
+        InputSource::of(input).in_wgsl(place.as_deref())
     }
 
     /// The places in the record as WGSL constants. Of what isn't there the place is 0, which nobody reads.
@@ -193,11 +205,11 @@ impl JointLayout {
             self.words
         );
         let mut next = 0;
-        for (field, name, words) in FIELDS {
+        for field in Field::all() {
             let is_there = self.fields.contains(&field);
             let place = if is_there { next } else { 0 };
-            let _ = writeln!(text, "const {name}: u32 = {place}u;");
-            next += if is_there { words } else { 0 };
+            let _ = writeln!(text, "const {}: u32 = {place}u;", field.place());
+            next += if is_there { field.words() } else { 0 };
         }
         text
     }
@@ -239,23 +251,15 @@ impl JointLayout {
                 *place = *word;
             }
         };
-        let bits2 = |v: glam::Vec2| v.to_array().map(f32::to_bits);
-        let bits3 = |v: Vec3| v.to_array().map(f32::to_bits);
         for field in &self.fields {
-            match field {
-                Center => push(&bits2(paths.center[joint])),
+            match *field {
+                Center => push(&paths.center[joint].to_array().map(f32::to_bits)),
                 Depth => push(&[paths.depth[joint].to_bits()]),
                 PxPerMetre => push(&[paths.px_per_metre[joint].to_bits()]),
                 Strand => push(&[run.strand as u32]),
-                Position => push(&bits3(paths.position[joint])),
                 Run => push(&neighbours(&paths.runs, number, joint)),
-                Forward => push(&bits3(paths.forward[joint])),
-                Backward => push(&bits3(paths.backward[joint])),
-                U => push(&[paths.u[joint].to_bits()]),
-                ArcLength => push(&[paths.arc_length[joint].to_bits()]),
-                Across => push(&bits2(paths.across[joint])),
-                MaterialNormal => push(&bits3(frame.material_normals[joint])),
                 SeenLength => push(&[seen_length[joint].to_bits()]),
+                Field::Input(input) => InputSource::of(input).push(frame, joint, &mut push),
             }
         }
     }

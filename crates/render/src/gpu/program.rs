@@ -81,11 +81,8 @@ pub(super) fn compose(samples: u32) -> String {
 
 /// `gpu_inputs` and `gpu_params`: an effect's inputs and parameters at a joint.
 fn gather(source: &ProgramSource, layout: &JointLayout) -> String {
-    let inputs: Vec<String> = source
-        .inputs
-        .iter()
-        .map(|name| input(name, layout))
-        .collect();
+    let inputs = source.inputs.iter().map(|input| layout.input(*input));
+    let inputs: Vec<String> = inputs.collect();
     let mut text = format!(
         "fn gpu_inputs(joint: u32) -> Inputs {{\n    return Inputs({});\n}}\n",
         inputs.join(", ")
@@ -132,38 +129,4 @@ fn vector(size: u32, at: u32) -> String {
         .map(|at| format!("gpu_word({at}u)"))
         .collect();
     format!("vec{size}<f32>({})", words.join(", "))
-}
-
-/// The value of an input at joint `joint`.
-fn input(name: &str, layout: &JointLayout) -> String {
-    let text = match name {
-        "position" => "gpu_vec3(joint, GPU_AT_POSITION)",
-        "forward" => "gpu_vec3(joint, GPU_AT_FORWARD)",
-        "backward" => "gpu_vec3(joint, GPU_AT_BACKWARD)",
-        "u" => "gpu_scalar(joint, GPU_AT_U)",
-        "arc_length" => "gpu_scalar(joint, GPU_AT_ARC_LENGTH)",
-        "strand" => "gpu_of_strand(joint, 0u)",
-        "seed" => "gpu_seed(joint)",
-        "strand_mean" => "gpu_strand_mean(joint)",
-        "head_center" => "gpu_frame.head_center",
-        "head_height" => "gpu_frame.head_height_m",
-        "strand_size" => "bitcast<f32>(gpu_of_strand(joint, 4u))",
-        "light_direction" => "gpu_light_direction(joint)",
-        "light_distance" => "gpu_light_distance(joint)",
-        "view_direction" => "gpu_view_direction(joint)",
-        "across" => "gpu_vec2(joint, GPU_AT_ACROSS)",
-        "material_normal" if layout.has_material_normal() => {
-            "gpu_vec3(joint, GPU_AT_MATERIAL_NORMAL)"
-        }
-        // Zero where nobody has worked it out.
-        "material_normal" => "vec3<f32>(0.0)",
-        "unit" => "gpu_unit(joint)",
-        "normal" => "gpu_clumps[joint].normal",
-        "clump_radius" => "gpu_clumps[joint].radius",
-        "clump_color" => "gpu_clumps[joint].color",
-        "clump_shift" => "gpu_clumps[joint].shift",
-        "gray" => "gpu_clumps[joint].gray",
-        other => return format!("gpu_has_no_input_{other}()"),
-    };
-    text.to_owned()
 }

@@ -2,7 +2,7 @@
 
 use crate::scene::{Scene, driver, driver_gpu, layers, noop, registry};
 use effects::wgsl::Stroke;
-use effects::{Joints, Param, Parameters, Program, StrokeEffect, Values};
+use effects::{Input, Joints, Param, Parameters, Program, StrokeEffect, Values};
 use render::gpu::{GpuError, Offscreen, PassFormat, Renderer};
 
 #[test]
@@ -68,7 +68,7 @@ struct BrokenProgram;
 impl Parameters for BrokenProgram {
     type Params = ();
     const PARAMS: &'static [Param] = &[];
-    const INPUTS: &'static [&'static str] = &["u"];
+    const INPUTS: &'static [Input] = &[Input::U];
     const WGSL: &'static str = "fn stroke() -> Nonsense {}";
     fn params(_: &Values) {}
 }

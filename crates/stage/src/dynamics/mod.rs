@@ -22,7 +22,7 @@ use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
-    Acceleration, DynamicsError, Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind,
+    Acceleration, DynamicsError, GRAVITY, Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind,
 };
 use render::Head;
 use running::{Run, Running};
@@ -142,7 +142,7 @@ impl Dynamics {
             bodies: Bodies::new(mesh, hair.head),
             strands,
             head: hair.head,
-            gravity: DVec3::new(0.0, -9.81 * f64::from(section.gravity), 0.0),
+            gravity: DVec3::new(0.0, -GRAVITY * f64::from(section.gravity), 0.0),
             seed: u64::from(seed),
             warm_up: (f64::from(section.warm_up) / step).round() as i64,
             step,

@@ -5,6 +5,7 @@
 /// Sine and cosine of a finite angle in degrees, to within 1e-12.
 ///
 /// Multiples of 90 degrees are exact, and so is the reduction of large angles.
+#[must_use]
 pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let turned = degrees % 360.0;
     let quadrant = (turned / 90.0).round();
@@ -12,6 +13,25 @@ pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let sin = radians * series(radians * radians, 1.0);
     let cos = series(radians * radians, 0.0);
     match (quadrant as i32).rem_euclid(4) {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// The same in single precision, to within 1e-7, by a shorter series: its bits are not those of [`sin_cos_degrees`] rounded.
+#[must_use]
+pub fn sin_cos_degrees_f32(degrees: f32) -> (f32, f32) {
+    // Fold to [-45, 45] degrees, where short Taylor series are good to 2e-9.
+    let quarter = (f64::from(degrees) / 90.0).round();
+    let x = (f64::from(degrees) - quarter * 90.0) * (std::f64::consts::PI / 180.0);
+    let z = x * x;
+    let sin =
+        x * (1.0 + z * (-1.0 / 6.0 + z * (1.0 / 120.0 + z * (-1.0 / 5040.0 + z / 362_880.0))));
+    let cos = 1.0 + z * (-0.5 + z * (1.0 / 24.0 + z * (-1.0 / 720.0 + z / 40_320.0)));
+    let (sin, cos) = (sin as f32, cos as f32);
+    match quarter.rem_euclid(4.0) as u32 {
         0 => (sin, cos),
         1 => (cos, -sin),
         2 => (-sin, -cos),
@@ -50,6 +70,16 @@ mod tests {
         let (sin, cos) = sin_cos_degrees(37.0);
         assert_eq!(sin.to_bits(), 0x3fe3_4211_9455_beb6);
         assert_eq!(cos.to_bits(), 0x3fe9_8e6c_0ea2_7a14);
+    }
+
+    #[test]
+    fn single_precision_is_good_to_its_last_bits() {
+        for degrees in -800..800 {
+            let (sin, cos) = sin_cos_degrees_f32(degrees as f32);
+            let radians = f64::from(degrees).to_radians();
+            assert!((f64::from(sin) - radians.sin()).abs() < 1e-7, "{degrees}");
+            assert!((f64::from(cos) - radians.cos()).abs() < 1e-7, "{degrees}");
+        }
     }
 
     proptest! {

@@ -1,0 +1,159 @@
+//! What a joint offers: the one table of all inputs. WGSL's `struct Inputs` is made from it, and in Rust `effects::Input`,
+//! the lists of `effects::Joints` and what tests of effects need.
+//!
+//! A new input is a row here, and what works it out: the compiler asks for that in `render`, on the CPU in
+//! `cpu/evaluate.rs` and on a graphics card in `gpu/inputs.rs`, and for values to try it with in `effects-testkit`.
+
+use Offered::{Both, ToClump, ToEffects};
+use Type::{F32, U32, Vec2, Vec3};
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+/// Something that a joint offers. What an effect does not declare is not there.
+pub(crate) struct Input {
+    /// The field's name in WGSL and in `effects::Joints`.
+    pub name: &'static str,
+    pub ty: Type,
+    pub offered: Offered,
+    /// What it is, with its unit.
+    pub doc: &'static str,
+    /// What it is where its list is empty, in Rust. The lists of others are never empty where they are read.
+    pub where_empty: Option<fn() -> TokenStream>,
+}
+
+/// The type of an input.
+#[derive(Clone, Copy)]
+pub(crate) enum Type {
+    F32,
+    U32,
+    Vec2,
+    Vec3,
+}
+
+impl Type {
+    pub fn in_wgsl(self) -> &'static str {
+        match self {
+            F32 => "f32",
+            U32 => "u32",
+            Vec2 => "vec2<f32>",
+            Vec3 => "vec3<f32>",
+        }
+    }
+
+    fn in_rust(self) -> TokenStream {
+        match self {
+            F32 => quote!(f32),
+            U32 => quote!(u32),
+            Vec2 => quote!(::effects::wgsl::Vec2<f32>),
+            Vec3 => quote!(::effects::wgsl::Vec3<f32>),
+        }
+    }
+}
+
+/// Who may declare an input.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Offered {
+    /// The clump's source alone.
+    ToClump,
+    /// Effects alone: it comes from the clump, or is a layer's own.
+    ToEffects,
+    Both,
+}
+
+const fn input(name: &'static str, ty: Type, offered: Offered, doc: &'static str) -> Input {
+    Input {
+        name,
+        ty,
+        offered,
+        doc,
+        where_empty: None,
+    }
+}
+
+impl Input {
+    const fn where_empty(self, value: fn() -> TokenStream) -> Self {
+        Self {
+            where_empty: Some(value),
+            ..self
+        }
+    }
+}
+
+/// All inputs, in the order in which they stand in `struct Inputs`.
+#[rustfmt::skip]
+pub(crate) const INPUTS: &[Input] = &[
+    input("position", Vec3, Both, "place in the world, metres"),
+    input("forward", Vec3, Both, "unit vector to the next joint; at the tip that of the joint before"),
+    input("backward", Vec3, Both, "unit vector to the joint before (B in 5.4); at the root that of the next joint"),
+    input("u", F32, Both, "place along the strand, 0 at the root, 1 at the tip"),
+    input("arc_length", F32, Both, "length of the strand up to here, metres"),
+    input("strand", U32, Both, "the strand's stable id"),
+    input("seed", U32, Both, "for `random`: a hash of style seed, layer name and strand"),
+    input("strand_mean", Vec3, ToClump, "mean of the strand's particles, metres (c_mean in 5.4)"),
+    input("head_center", Vec3, ToClump, "centre of the head, metres (c_head in 5.4)"),
+    input("head_height", F32, ToClump, "height of the head, metres"),
+    input("strand_size", F32, ToClump, "the strand's full size, 1/300 of the head's height"),
+    input("light_direction", Vec3, Both, "unit vector to the light"),
+    input("light_distance", F32, Both, "distance to the light, head heights; 1e6 for a direction"),
+    input("view_direction", Vec3, Both, "unit vector to the eye"),
+    input("across", Vec2, Both, "unit vector across the path on the screen (x right, y down)"),
+    input("material_normal", Vec3, Both, "unit vector across the strand that turns as it twists, outwards at rest; cross(forward, it) is the binormal")
+        // The clump declares it, and reads it where its parameters say so.
+        .where_empty(|| quote!(::effects::wgsl::vec3([0.0; 3]))),
+    input("unit", F32, ToEffects, "one unit of the layer's widths in 1/300 of the head's height: 1, or a pixel's size at 720 lines")
+        .where_empty(|| quote!(1.0)),
+    input("normal", Vec3, ToEffects, "the clump's unit normal (5.4)"),
+    input("clump_radius", F32, ToEffects, "the clump's radius, 1/300 of the head's height (5.3)"),
+    input("clump_color", Vec3, ToEffects, "the clump's basic colour, linear"),
+    input("clump_shift", Vec2, ToEffects, "how far the clump's strokes are moved on the screen (x right, y down), away from its outer end, 1/300 of the head's height; 0 but where a flat clump points to or from the eye"),
+    input("gray", F32, ToEffects, "max(light . normal, 0)"),
+];
+
+/// `for_each_input!`, which gives the table to a macro of another crate: for each input its comment, its name in `effects::Input`
+/// and in `effects::Joints`, and its type.
+pub(crate) fn for_each_input() -> TokenStream {
+    let rows = INPUTS.iter().map(|input| {
+        let (variant, name) = (
+            format_ident!("{}", variant(input.name)),
+            format_ident!("{}", input.name),
+        );
+        let (doc, ty) = (input.doc, input.ty.in_rust());
+        quote!(#[doc = #doc] #variant #name: #ty,)
+    });
+    quote! {
+        #[doc(hidden)]
+        #[macro_export]
+        macro_rules! for_each_input {
+            ($rows:ident) => { $rows! { #(#rows)* } };
+        }
+    }
+}
+
+impl Input {
+    /// `effects::Input` for it.
+    pub fn in_rust(&self) -> TokenStream {
+        let variant = format_ident!("{}", variant(self.name));
+        quote!(::effects::Input::#variant)
+    }
+
+    /// Its value at joint `index` of `joints`.
+    pub fn value(&self) -> TokenStream {
+        let name = format_ident!("{}", self.name);
+        match self.where_empty {
+            Some(value) => {
+                let value = value();
+                quote!(joints.#name.get(index).copied().unwrap_or(#value))
+            }
+            None => quote!(joints.#name[index]),
+        }
+    }
+}
+
+/// `clump_radius` as `ClumpRadius`.
+fn variant(name: &str) -> String {
+    let capital = |word: &str| {
+        let (first, rest) = word.split_at(1);
+        first.to_uppercase() + rest
+    };
+    name.split('_').map(capital).collect()
+}

@@ -1,0 +1,35 @@
+//! What the translated code of an effect, or of the clump, implements.
+
+use crate::joints::{Input, Joints};
+use crate::param::{Param, Values};
+use crate::wgsl::Stroke;
+
+/// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
+pub trait Parameters: Send + Sync + 'static {
+    /// The parameters as the WGSL has them.
+    type Params: Clone + Send + Sync + std::fmt::Debug + PartialEq + 'static;
+    /// What parameters there are.
+    const PARAMS: &'static [Param];
+    /// The inputs that are read, in the order of the fields of `struct Inputs`.
+    const INPUTS: &'static [Input];
+    /// The composed WGSL, for the GPU.
+    const WGSL: &'static str;
+    /// The parameters of these values; what varies has its value at the root.
+    fn params(values: &Values) -> Self::Params;
+    /// Sets number `index` of [`Self::PARAMS`]. Only asked for numbers that vary.
+    fn set_number(params: &mut Self::Params, index: usize, value: f32) {
+        let _ = (params, index, value);
+    }
+}
+
+/// An effect's WGSL in Rust. Implemented by the translated code.
+pub trait Program: Parameters {
+    /// The disc of stroke `instance` at joint `index`. `seed` is the layer's.
+    fn stroke(
+        joints: &Joints,
+        index: usize,
+        instance: u32,
+        seed: u32,
+        params: &Self::Params,
+    ) -> Stroke;
+}

@@ -1,0 +1,82 @@
+//! Where shaders find what a joint offers.
+
+use crate::frame::Frame;
+use effects::Input;
+use glam::{Vec2, Vec3};
+
+/// Where shaders find an input.
+pub(super) enum InputSource {
+    /// In the joint's record, into which a list of the frame goes.
+    Numbers(List<f32>),
+    Pairs(List<Vec2>),
+    Triples(List<Vec3>),
+    /// An expression of `joint`, its index.
+    Wgsl(&'static str),
+}
+
+/// A list with an entry for each joint.
+type List<T> = for<'a> fn(&Frame<'a>) -> &'a [T];
+
+impl InputSource {
+    pub(super) fn of(input: Input) -> Self {
+        use InputSource::{Numbers, Pairs, Triples, Wgsl};
+        match input {
+            Input::Position => Triples(|frame| &frame.paths.position),
+            Input::Forward => Triples(|frame| &frame.paths.forward),
+            Input::Backward => Triples(|frame| &frame.paths.backward),
+            Input::U => Numbers(|frame| &frame.paths.u),
+            Input::ArcLength => Numbers(|frame| &frame.paths.arc_length),
+            Input::Across => Pairs(|frame| &frame.paths.across),
+            Input::MaterialNormal => Triples(|frame| frame.material_normals),
+            Input::Strand => Wgsl("gpu_of_strand(joint, 0u)"),
+            Input::Seed => Wgsl("gpu_seed(joint)"),
+            Input::StrandMean => Wgsl("gpu_strand_mean(joint)"),
+            Input::StrandSize => Wgsl("bitcast<f32>(gpu_of_strand(joint, 4u))"),
+            Input::HeadCenter => Wgsl("gpu_frame.head_center"),
+            Input::HeadHeight => Wgsl("gpu_frame.head_height_m"),
+            Input::LightDirection => Wgsl("gpu_light_direction(joint)"),
+            Input::LightDistance => Wgsl("gpu_light_distance(joint)"),
+            Input::ViewDirection => Wgsl("gpu_view_direction(joint)"),
+            Input::Unit => Wgsl("gpu_unit(joint)"),
+            Input::Normal => Wgsl("gpu_clumps[joint].normal"),
+            Input::ClumpRadius => Wgsl("gpu_clumps[joint].radius"),
+            Input::ClumpColor => Wgsl("gpu_clumps[joint].color"),
+            Input::ClumpShift => Wgsl("gpu_clumps[joint].shift"),
+            Input::Gray => Wgsl("gpu_clumps[joint].gray"),
+        }
+    }
+
+    /// How many words it takes in a joint's record.
+    pub(super) fn words(&self) -> u32 {
+        match self {
+            Self::Numbers(_) => 1,
+            Self::Pairs(_) => 2,
+            Self::Triples(_) => 3,
+            Self::Wgsl(_) => 0,
+        }
+    }
+
+    /// Adds the words of joint `joint` of the frame's list to a record.
+    pub(super) fn push(&self, frame: &Frame, joint: usize, push: &mut impl FnMut(&[u32])) {
+        match self {
+            Self::Numbers(list) => push(&[list(frame)[joint].to_bits()]),
+            Self::Pairs(list) => push(&list(frame)[joint].to_array().map(f32::to_bits)),
+            Self::Triples(list) => push(&list(frame)[joint].to_array().map(f32::to_bits)),
+            Self::Wgsl(_) => {}
+        }
+    }
+
+    /// The input in WGSL, for a record that has its words at the constant `place`; 0 for one that has not, as
+    /// nobody has worked it out.
+    pub(super) fn in_wgsl(&self, place: Option<&str>) -> String {
+        match (self, place) {
+            (Self::Wgsl(text), _) => (*text).to_owned(),
+            (Self::Numbers(_), Some(place)) => format!("gpu_scalar(joint, {place})"),
+            (Self::Pairs(_), Some(place)) => format!("gpu_vec2(joint, {place})"),
+            (Self::Triples(_), Some(place)) => format!("gpu_vec3(joint, {place})"),
+            (Self::Numbers(_), None) => "0.0".to_owned(),
+            (Self::Pairs(_), None) => "vec2<f32>(0.0)".to_owned(),
+            (Self::Triples(_), None) => "vec3<f32>(0.0)".to_owned(),
+        }
+    }
+}
