@@ -146,7 +146,7 @@ fn look(
         let time = f64::from(number) / FPS;
         let start = Instant::now();
         // The camera orbits by 30 degrees a second.
-        stage.set_camera_yaw((30.0 * time) as f32);
+        stage.scene.camera.yaw = (30.0 * time) as f32;
         stage.advance_to(time as f32).map_err(|e| e.to_string())?;
         let simulate = start.elapsed().as_secs_f64();
         let frame = stage.frame().map_err(|e| e.to_string())?;

@@ -2,8 +2,8 @@
 
 use crate::files::{Files, StageError};
 use crate::load;
-use crate::motion;
 use crate::preset::{Preset, missing};
+use crate::script;
 use crate::style;
 use effects::Registry;
 use effects::preset::{Place, PresetError, PresetErrors, Reader};
@@ -88,7 +88,7 @@ impl<'r> Preset<'r> {
             let model = load::head(self, files, notes)?;
             let mesh = model.as_ref().map(|model| &model.mesh);
             let mut hair = load::hair(self, files, mesh, notes)?;
-            load::keep_guides(self, &mut hair);
+            hair.choose_guides(&self.sections.hair);
             load::bake(self, files, &mut hair)
         };
         match read() {
@@ -124,7 +124,7 @@ impl<'r> Preset<'r> {
 ///
 /// All mistakes, each with its line and column.
 pub fn check_motion(path: &Path, text: &str) -> Result<(), PresetErrors> {
-    let script = motion::parse(&path.display().to_string(), text)?;
+    let script = script::parse(&path.display().to_string(), text)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     let mistakes = script.shapes.iter().filter_map(|key| {
         let message = missing(folder, "hair", key.file.as_ref()?)?;

@@ -19,6 +19,7 @@ pub struct Files {
 
 /// Why there is no frame.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum StageError {
     /// The hair or head could not be read.
     #[error(transparent)]
@@ -57,6 +58,17 @@ pub enum StageError {
          light: (kind: point, distance: ...)"
     )]
     NoPointLight(String),
+    /// A section has a value that it doesn't take.
+    #[error("{section}.{error}")]
+    Section {
+        /// The section.
+        section: &'static str,
+        /// Which value, and what it may be.
+        error: effects::section::OutOfRange,
+    },
+    /// Two strands of a program's own have this id.
+    #[error("two strands have the id {0}")]
+    SameId(u32),
     /// A file is no bake of the scene's hair.
     #[error("{}: it is not a bake of this hair: {what}", path.display())]
     OtherHair {

@@ -1,28 +1,115 @@
-//! Hair as a scene has it: strands, what the head holds of them, and the shapes that are wanted of them.
+//! Hair as a scene has it: strands with their sizes, what the head holds of them, and the shapes that are wanted of them.
 
-use groom::Tie;
-use hair_io::HairFile;
-use hair_sim::Motion;
-use render::Head;
+use crate::files::StageError;
+use crate::head::HeadModel;
+use crate::preset::HairSection;
+use crate::reach::reach_m;
+use glam::Vec3;
+use groom::{Guides, Tie};
+use hair_io::{HairFile, HeadFrame, Mesh};
+use hair_sim::{Motion, Strands};
+use render::{Head, StrandInfo};
 
-/// Hair that was read or grown.
-pub(crate) struct Hair {
-    pub file: HairFile,
+/// Hair that was read, grown, or made by a program.
+pub struct HairModel {
+    /// Sorted by id.
+    pub(crate) file: HairFile,
+    /// What drawing needs of each strand; what hangs on a frame is left at zero.
+    pub(crate) infos: Vec<StrandInfo>,
     /// How many strands, the first ones, are an undercoat: no hair comes loose from it.
-    pub undercoat: usize,
+    pub(crate) undercoat: usize,
     /// How many points from its root each strand keeps on the head.
-    pub held: Vec<u32>,
+    pub(crate) held: Vec<u32>,
     /// The shapes that a script wants of it at times.
-    pub shapes: Option<Motion>,
+    pub(crate) shapes: Option<Motion>,
     /// The ties that gather it.
-    pub ties: Vec<Tie>,
+    pub(crate) ties: Vec<Tie>,
     /// The head that it stands on.
-    pub head: Head,
+    pub(crate) head: Head,
+    /// The roots of all strands, also of those that guides stand for.
+    pub(crate) all_roots: Vec<Vec3>,
+    /// The radius of the ball around the head's middle that it stays in, metres.
+    pub(crate) reach_m: f32,
 }
 
-impl Hair {
+impl HairModel {
+    /// Strands of a program's own, in metres, Y up, the face towards +Z. Sizes that they lack are taken from the spacing of their
+    /// roots. Without a head they stand on the sphere that fits their roots.
+    ///
+    /// # Errors
+    ///
+    /// When two strands have one id, or there are none.
+    pub fn new(strands: Strands, head: Option<&HeadModel>) -> Result<Self, StageError> {
+        let mut file = HairFile {
+            strands,
+            motion: None,
+            notes: Vec::new(),
+        };
+        sort_by_id(&mut file);
+        let ids = &file.strands;
+        let twice = (1..ids.len()).find(|&i| ids.id(i) == ids.id(i - 1));
+        if let Some(i) = twice {
+            return Err(StageError::SameId(ids.id(i)));
+        }
+        if file.strands.is_empty() {
+            return Err(StageError::NoHair);
+        }
+        let mut hair = Self::read(file, head.map(|head| &head.mesh));
+        hair.choose_guides(&HairSection::default());
+        Ok(hair)
+    }
+
+    /// Strands of a file, before guides are chosen.
+    pub(crate) fn read(mut file: HairFile, head: Option<&Mesh>) -> Self {
+        sort_by_id(&mut file);
+        // Before strands are chosen: how many are kept moves neither the camera nor any size.
+        let all_roots: Vec<Vec3> = file.strands.roots().collect();
+        Self {
+            held: vec![1; file.strands.len()],
+            undercoat: 0,
+            infos: Vec::new(),
+            shapes: None,
+            ties: Vec::new(),
+            head: head_of(HeadFrame::find(head, &all_roots)),
+            reach_m: 0.0,
+            all_roots,
+            file,
+        }
+    }
+
+    /// The number of strands.
+    #[must_use]
+    pub fn strand_count(&self) -> usize {
+        self.infos.len()
+    }
+
+    /// Keeps as many strands as the section asks for, and says what size each is: its own, the section's, or
+    /// from the strands it stands for.
+    pub(crate) fn choose_guides(&mut self, section: &HairSection) {
+        let strands = &self.file.strands;
+        let guides = match section.guides {
+            0 => Guides::choose(strands, strands.len()),
+            n => Guides::choose(strands, n as usize),
+        };
+        let set = Some(section.size).filter(|size| *size > 0.0);
+        let given = |i: usize| strands.size(i).or(set);
+        let sizes = if guides.kept.iter().all(|&i| given(i).is_some()) {
+            vec![0.0; guides.kept.len()]
+        } else {
+            guides.sizes(strands, self.head.height_m)
+        };
+        let infos = guides.kept.iter().zip(sizes).map(|(&i, size)| StrandInfo {
+            id: strands.id(i),
+            mean: Vec3::ZERO,
+            size: given(i).unwrap_or(size),
+        });
+        self.infos = infos.collect();
+        self.keep(&guides.kept);
+        self.reach_m = reach_m(&self.file.strands, &self.infos, self.head);
+    }
+
     /// Keeps these strands, in this order.
-    pub fn keep(&mut self, indices: &[usize]) {
+    fn keep(&mut self, indices: &[usize]) {
         if let Some(shapes) = &self.shapes {
             let strands = &self.file.strands;
             let points = indices.iter().flat_map(|&i| strands.point_range(i));
@@ -35,8 +122,21 @@ impl Hair {
     }
 
     /// How many points from its root a strand keeps on the head, at least its root.
-    pub fn held(&self, strand: usize) -> usize {
+    pub(crate) fn held(&self, strand: usize) -> usize {
         let points = self.file.strands.strand(strand).len();
         (self.held[strand].max(1) as usize).min(points)
+    }
+}
+
+fn sort_by_id(file: &mut HairFile) {
+    let mut by_id: Vec<usize> = (0..file.strands.len()).collect();
+    by_id.sort_by_key(|&i| file.strands.id(i));
+    file.keep(&by_id);
+}
+
+pub(crate) fn head_of(frame: HeadFrame) -> Head {
+    Head {
+        center: frame.center,
+        height_m: frame.height,
     }
 }

@@ -10,15 +10,15 @@ use stroke_path::Camera;
 
 /// A head's shape, and what is drawn on it.
 #[derive(Clone)]
-pub(crate) struct HeadModel {
-    pub mesh: Mesh,
+pub struct HeadModel {
+    pub(crate) mesh: Mesh,
     /// Shadow whatever the light, one a position, 0 to 1; empty is none.
-    pub shade: Vec<f32>,
-    pub patches: Vec<Patch>,
+    pub(crate) shade: Vec<f32>,
+    pub(crate) patches: Vec<Patch>,
     /// Triangles that have hair, and those that have none; both empty where that is not told apart.
-    pub scalp: [Vec<[u32; 3]>; 2],
+    pub(crate) scalp: [Vec<[u32; 3]>; 2],
     /// The bands that gather the hair on it.
-    pub ties: Mesh,
+    pub(crate) ties: Mesh,
 }
 
 impl HeadModel {
@@ -39,7 +39,8 @@ impl HeadModel {
     }
 
     /// The bust that comes with inkstrand.
-    pub(crate) fn bust() -> Self {
+    #[must_use]
+    pub fn bust() -> Self {
         let bust = groom::bust();
         let mesh = Mesh {
             positions: bust.positions,

@@ -5,9 +5,11 @@ mod bake;
 mod check;
 mod dynamics;
 mod files;
+mod frame_maker;
 mod hair;
 mod head;
 mod load;
+mod look;
 mod material;
 mod motion;
 mod neck;
@@ -18,18 +20,25 @@ mod scalp;
 mod scene;
 mod script;
 mod shapes;
+mod stage;
 mod style;
 
 pub use bake::Bake;
 pub use check::{check_motion, check_style};
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 pub use files::{Files, StageError};
-pub use motion::MOTION_PARTS;
+pub use frame_maker::FrameMaker;
+pub use hair::HairModel;
+pub use head::HeadModel;
+pub use look::Look;
+pub use motion::Motion;
 pub use part::FilePart;
 pub use preset::{
     BrushChoice, CameraSection, ClumpSection, FixedTo, HairSection, HeadSection, HeadShape,
     LightKind, LightSection, MotionSection, OrderChoice, PathChoice, PathSection, Preset,
     SceneSection, Sections, TopSection, UpAxis, VERSION,
 };
-pub use scene::Stage;
+pub use scene::Scene;
+pub use script::MOTION_PARTS;
+pub use stage::Stage;
 pub use style::STYLE_PARTS;

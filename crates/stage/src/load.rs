@@ -2,15 +2,13 @@
 
 use crate::bake;
 use crate::files::{Files, StageError};
-use crate::hair::Hair;
+use crate::hair::{HairModel, head_of};
 use crate::head::HeadModel;
 use crate::preset::{HeadShape, Preset, UpAxis};
 use crate::style;
 use glam::Vec3;
-use groom::Guides;
 use hair_io::orient::Axes;
 use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
-use render::{Head, StrandInfo};
 use std::path::{Path, PathBuf};
 
 fn axes(up: UpAxis) -> Option<Axes> {
@@ -88,7 +86,7 @@ pub(crate) fn hair(
     files: &Files,
     head: Option<&Mesh>,
     notes: &mut Vec<String>,
-) -> Result<Hair, StageError> {
+) -> Result<HairModel, StageError> {
     let own = preset.sections.hair.file.as_ref();
     let path = chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
     strands(preset, &path, head, notes)
@@ -100,7 +98,7 @@ pub(crate) fn strands(
     path: &Path,
     head: Option<&Mesh>,
     notes: &mut Vec<String>,
-) -> Result<Hair, StageError> {
+) -> Result<HairModel, StageError> {
     let section = &preset.sections.hair;
     if is_style(path) {
         let mut hair = grow(path, head)?;
@@ -114,30 +112,11 @@ pub(crate) fn strands(
     };
     let mut hair = hair_io::read_hair(path, &HairOptions { given, head })?;
     notes.append(&mut hair.notes);
-    let mut by_id: Vec<usize> = (0..hair.strands.len()).collect();
-    by_id.sort_by_key(|&i| hair.strands.id(i));
-    hair.keep(&by_id);
-    // Before strands are chosen: how many are kept moves neither the camera nor any size.
-    let roots: Vec<Vec3> = hair.strands.roots().collect();
-    Ok(Hair {
-        held: vec![1; hair.strands.len()],
-        undercoat: 0,
-        file: hair,
-        shapes: None,
-        ties: Vec::new(),
-        head: head_of(HeadFrame::find(head, &roots)),
-    })
-}
-
-fn head_of(frame: HeadFrame) -> Head {
-    Head {
-        center: frame.center,
-        height_m: frame.height,
-    }
+    Ok(HairModel::read(hair, head))
 }
 
 /// Puts baked motion in place of the hair's own, where there is a bake.
-pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<(), StageError> {
+pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut HairModel) -> Result<(), StageError> {
     let own = preset.sections.hair.bake.as_ref();
     if let Some(path) = chosen(files.bake.as_ref(), own, &files.preset_folder) {
         hair.file.motion = Some(bake::read(&path, &hair.file.strands)?);
@@ -145,34 +124,8 @@ pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut Hair) -> Result<()
     Ok(())
 }
 
-/// Keeps as many strands as the preset asks for, and says what size each is: its own, the preset's, or
-/// from the strands it stands for.
-pub(crate) fn keep_guides(preset: &Preset, hair: &mut Hair) -> Vec<StrandInfo> {
-    let strands = &hair.file.strands;
-    let section = &preset.sections.hair;
-    let guides = match section.guides {
-        0 => Guides::choose(strands, strands.len()),
-        n => Guides::choose(strands, n as usize),
-    };
-    let set = Some(section.size).filter(|size| *size > 0.0);
-    let given = |i: usize| strands.size(i).or(set);
-    let sizes = if guides.kept.iter().all(|&i| given(i).is_some()) {
-        vec![0.0; guides.kept.len()]
-    } else {
-        guides.sizes(strands, hair.head.height_m)
-    };
-    let infos = guides.kept.iter().zip(sizes).map(|(&i, size)| StrandInfo {
-        id: strands.id(i),
-        mean: Vec3::ZERO,
-        size: given(i).unwrap_or(size),
-    });
-    let infos = infos.collect();
-    hair.keep(&guides.kept);
-    infos
-}
-
 /// The hair of a style, grown on the head.
-fn grow(path: &Path, head: Option<&Mesh>) -> Result<Hair, StageError> {
+fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
     let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
     let text = std::fs::read_to_string(path).map_err(|source| StageError::Read {
         path: path.to_owned(),
@@ -193,7 +146,10 @@ fn grow(path: &Path, head: Option<&Mesh>) -> Result<Hair, StageError> {
         "hair: {} clumps, grown from the style",
         grown.strands.len()
     )];
-    Ok(Hair {
+    Ok(HairModel {
+        infos: Vec::new(),
+        all_roots: grown.strands.roots().collect(),
+        reach_m: 0.0,
         file: HairFile {
             strands: grown.strands,
             motion: None,

@@ -1,7 +1,7 @@
 //! A head that turns on its neck: the head follows its pose whole, the shoulders not at all.
 
 use crate::head::HeadModel;
-use crate::motion::HeadPose;
+use crate::script::HeadPose;
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use render::Head;
@@ -12,7 +12,7 @@ const PIVOT: Vec3 = Vec3::new(0.0, -0.38, -0.12);
 const SHOULDERS: f32 = -0.95;
 const JAW: f32 = -0.42;
 
-/// A head as its file has it, and as it is posed.
+/// A head as its file has it, and how much of it follows a pose.
 pub(crate) struct Neck {
     rest: HeadModel,
     /// How much each corner of the mesh follows the head, 0 to 1.
@@ -21,9 +21,12 @@ pub(crate) struct Neck {
     patch_shares: Vec<Vec<f32>>,
     pivot: Vec3,
     height_m: f32,
-    /// The pose that `posed` is in.
+}
+
+/// A head in a pose.
+pub(crate) struct PosedHead {
     pose: HeadPose,
-    posed: HeadModel,
+    model: HeadModel,
 }
 
 impl Neck {
@@ -44,8 +47,6 @@ impl Neck {
                 .collect(),
             pivot: pivot(head),
             height_m: head.height_m,
-            pose: HeadPose::default(),
-            posed: model.clone(),
             rest: model,
         }
     }
@@ -54,19 +55,29 @@ impl Neck {
     pub fn rest_mesh(&self) -> &Mesh {
         &self.rest.mesh
     }
+}
 
-    /// The head in a pose.
-    pub fn posed(&mut self, pose: HeadPose) -> &HeadModel {
-        if pose != self.pose {
-            self.pose = pose;
-            self.turn();
+impl PosedHead {
+    /// The head as its file has it.
+    pub fn new(neck: &Neck) -> Self {
+        Self {
+            pose: HeadPose::default(),
+            model: neck.rest.clone(),
         }
-        &self.posed
     }
 
-    fn turn(&mut self) {
+    /// The head of the same neck in this pose.
+    pub fn in_pose(&mut self, neck: &Neck, pose: HeadPose) -> &HeadModel {
+        if pose != self.pose {
+            self.pose = pose;
+            self.turn(neck);
+        }
+        &self.model
+    }
+
+    fn turn(&mut self, neck: &Neck) {
         if self.pose == HeadPose::default() {
-            self.posed.clone_from(&self.rest);
+            self.model.clone_from(&neck.rest);
             return;
         }
         // Corners of one share turn alike: as many turns as there are steps are enough for the eye.
@@ -75,21 +86,21 @@ impl Neck {
             .map(|step| self.pose.rotation(step as f64 / STEPS as f64))
             .collect();
         let turn = |share: f32| turns[(share * STEPS as f32).round() as usize].as_quat();
-        let shift = (self.pose.shift * f64::from(self.height_m)).as_vec3();
-        let pivot = self.pivot;
+        let shift = (self.pose.shift * f64::from(neck.height_m)).as_vec3();
+        let pivot = neck.pivot;
         let moved = |p: Vec3, share: f32| turn(share) * (p - pivot) + pivot + shift;
-        let (rest, posed) = (&self.rest.mesh, &mut self.posed.mesh);
-        for (i, share) in self.shares.iter().enumerate() {
+        let (rest, posed) = (&neck.rest.mesh, &mut self.model.mesh);
+        for (i, share) in neck.shares.iter().enumerate() {
             posed.positions[i] = moved(rest.positions[i], *share);
             posed.normals[i] = turn(*share) * rest.normals[i];
         }
-        let (rest, posed) = (&self.rest.ties, &mut self.posed.ties);
+        let (rest, posed) = (&neck.rest.ties, &mut self.model.ties);
         for i in 0..rest.positions.len() {
             posed.positions[i] = moved(rest.positions[i], 1.0);
             posed.normals[i] = turn(1.0) * rest.normals[i];
         }
-        for (index, shares) in self.patch_shares.iter().enumerate() {
-            let (rest, posed) = (&self.rest.patches[index], &mut self.posed.patches[index]);
+        for (index, shares) in neck.patch_shares.iter().enumerate() {
+            let (rest, posed) = (&neck.rest.patches[index], &mut self.model.patches[index]);
             for (i, share) in shares.iter().enumerate() {
                 posed.positions[i] = moved(rest.positions[i], *share);
             }
@@ -122,18 +133,19 @@ mod tests {
             height_m: 0.24,
         };
         let rest = model.clone();
-        let mut neck = Neck::new(model, head);
-        assert_eq!(neck.posed(HeadPose::default()).mesh, rest.mesh);
+        let neck = Neck::new(model, head);
+        let mut posed = PosedHead::new(&neck);
+        assert_eq!(posed.in_pose(&neck, HeadPose::default()).mesh, rest.mesh);
         let pose = HeadPose {
             turn: DVec3::new(70.0, -20.0, 10.0),
             shift: DVec3::new(0.0, 0.5, 0.0),
             base: DQuat::from_rotation_y(0.3),
         };
         let (rotation, translation) = rigid(pose, head);
-        let posed = neck.posed(pose).clone();
+        let turned_head = posed.in_pose(&neck, pose).clone();
         let up = Vec3::new(0.0, 0.12, 0.0);
         let (mut turned, mut still) = (0, 0);
-        for (from, to) in rest.mesh.positions.iter().zip(&posed.mesh.positions) {
+        for (from, to) in rest.mesh.positions.iter().zip(&turned_head.mesh.positions) {
             let rigid = (rotation * from.as_dvec3() + translation).as_vec3();
             if from.y > 1.5 - 0.42 * 0.24 {
                 assert!(to.distance(rigid) < 1e-6);
@@ -145,10 +157,10 @@ mod tests {
             }
         }
         assert!(turned > 1000 && still > 500, "{turned} {still}");
-        for normal in &posed.mesh.normals {
+        for normal in &turned_head.mesh.normals {
             assert!((normal.length() - 1.0).abs() < 1e-4);
         }
         // Drawn strokes stay on the skin.
-        assert_eq!(neck.posed(HeadPose::default()).mesh, rest.mesh);
+        assert_eq!(posed.in_pose(&neck, HeadPose::default()).mesh, rest.mesh);
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::bake::difference;
 use crate::files::StageError;
-use crate::hair::Hair;
+use crate::hair::HairModel;
 use crate::load;
-use crate::motion::{KeyShape, MotionScript};
 use crate::preset::{Preset, missing};
+use crate::script::{KeyShape, MotionScript};
 use effects::preset::{PresetError, PresetErrors};
 use glam::Vec3;
 use hair_io::Mesh;
@@ -23,7 +23,7 @@ pub(crate) fn load(
     preset: &Preset,
     script: &MotionScript,
     folder: &Path,
-    hair: &Hair,
+    hair: &HairModel,
     head: Option<&Mesh>,
 ) -> Result<Option<Motion>, StageError> {
     let mut samples = Vec::with_capacity(script.shapes.len());
@@ -56,7 +56,7 @@ fn read(
     key: &KeyShape,
     name: &str,
     folder: &Path,
-    hair: &Hair,
+    hair: &HairModel,
     head: Option<&Mesh>,
 ) -> Result<Result<Vec<Vec3>, String>, StageError> {
     if let Some(message) = missing(folder, "hair", name) {
@@ -82,7 +82,7 @@ fn read(
 }
 
 /// The shape of `points` hung from what the head holds of the hair.
-fn hung(hair: &Hair, mut points: Vec<Vec3>) -> Vec<Vec3> {
+fn hung(hair: &HairModel, mut points: Vec<Vec3>) -> Vec<Vec3> {
     let own: &Strands = &hair.file.strands;
     for strand in 0..own.len() {
         let range = own.point_range(strand);

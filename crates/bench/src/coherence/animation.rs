@@ -204,7 +204,7 @@ impl MovingLook {
 
 impl Animation for MovingLook {
     fn at(&mut self, tick: Tick) -> Result<Frame<'_>, String> {
-        self.stage.set_camera_yaw(self.yaw(tick) as f32);
+        self.stage.scene.camera.yaw = self.yaw(tick) as f32;
         self.stage
             .advance_to(seconds(tick) as f32)
             .and_then(|()| self.stage.frame())

@@ -12,9 +12,9 @@ mod section;
 pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 
 use crate::files::StageError;
-use crate::hair::Hair;
-use crate::motion::MotionScript;
+use crate::hair::HairModel;
 use crate::neck::rigid;
+use crate::script::MotionScript;
 use bodies::Bodies;
 use carried::Carried;
 use feel::Feel;
@@ -80,7 +80,7 @@ impl Dynamics {
     ///
     /// When a parameter is out of the solver's range.
     pub fn new(
-        hair: &Hair,
+        hair: &HairModel,
         sizes: &[f32],
         mesh: Option<&Mesh>,
         section: &DynamicsSection,

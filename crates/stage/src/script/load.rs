@@ -1,9 +1,9 @@
-//! The preset's motion script, with what it names.
+//! The preset's script of motion, with what it names.
 
+use super::{Bone, MotionScript, parse};
 use crate::files::{Files, StageError};
-use crate::hair::Hair;
+use crate::hair::HairModel;
 use crate::load::chosen;
-use crate::motion::{self, Bone, MotionScript};
 use crate::preset::Preset;
 use crate::shapes;
 use hair_io::{BoneMotion, Mesh};
@@ -13,7 +13,7 @@ use std::path::Path;
 pub(crate) fn load(
     preset: &Preset,
     files: &Files,
-    hair: &mut Hair,
+    hair: &mut HairModel,
     mesh: Option<&Mesh>,
 ) -> Result<MotionScript, StageError> {
     let own = preset.sections.motion.file.as_ref();
@@ -23,7 +23,7 @@ pub(crate) fn load(
             path: path.clone(),
             source,
         })?;
-        script = motion::parse(&path.display().to_string(), &text)?;
+        script = parse(&path.display().to_string(), &text)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         hair.shapes = shapes::load(preset, &script, folder, hair, mesh)?;
     }

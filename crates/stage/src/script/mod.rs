@@ -3,10 +3,12 @@
 //! A script is a function of time alone. Its head starts from the pose of the files; moves add up.
 
 mod bone;
+mod load;
 mod parse;
 mod pose;
 
 pub(crate) use bone::Bone;
+pub(crate) use load::load;
 pub use parse::MOTION_PARTS;
 pub(crate) use parse::parse;
 pub(crate) use pose::HeadPose;

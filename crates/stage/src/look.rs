@@ -1,0 +1,131 @@
+//! The look: how hair and head are drawn and move, whatever hair and head they are.
+
+use crate::files::StageError;
+use crate::head::HeadPaint;
+use crate::preset::{BrushChoice, FixedTo, LightKind, OrderChoice, PathChoice, Preset, Sections};
+use effects::{Input, Layer, Parameters, Varied, clump};
+use glam::Vec3;
+use render::{Brush, Head, Light, Order};
+use stroke_path::{Camera, PathKind, direction_from_angles};
+
+/// How much nearer than the inside of the head hair must be to be seen through an opening, in head
+/// heights: more than the clumps around the skull reach into it.
+const INSIDE_MARGIN: f32 = 0.6;
+
+/// How much farther than the head's outline hair may be, in head heights, to cover it: hair that lies
+/// on the skin.
+const OUTLINE_MARGIN: f32 = 0.04;
+
+/// What a preset says of strokes, colours, light, picture and dynamics, ready to be used.
+pub struct Look {
+    pub(crate) seed: u32,
+    pub(crate) sections: Sections,
+    pub(crate) clump: Varied<clump::Program>,
+    pub(crate) layers: Vec<Layer>,
+    /// Unit vector to the light, where the camera stands at yaw 0.
+    light_direction: Vec3,
+}
+
+impl Look {
+    /// The look of a preset, read or made by a program. Files that it names play no part.
+    ///
+    /// # Errors
+    ///
+    /// When a value is outside of its range, the solver can't do what the section `dynamics` asks for, or a layer needs another
+    /// light.
+    pub fn new(preset: &Preset) -> Result<Self, StageError> {
+        let sections = preset.sections.clone();
+        sections
+            .check()
+            .map_err(|(section, error)| StageError::Section { section, error })?;
+        if let Some((_, message)) = sections.dynamics.unsupported() {
+            return Err(StageError::Unsupported(message));
+        }
+        let light = &sections.light;
+        let light_direction = direction_from_angles(light.yaw, light.pitch)?;
+        let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
+        if light.kind != LightKind::Point {
+            let needs_place = |layer: &&Layer| layer.program.needs_point_light();
+            if let Some(layer) = layers.iter().find(needs_place) {
+                return Err(StageError::NoPointLight(layer.name.clone()));
+            }
+        }
+        Ok(Self {
+            seed: preset.seed,
+            clump: Varied::new(&sections.clump.0),
+            sections,
+            layers,
+            light_direction,
+        })
+    }
+
+    /// Whether anything reads material normals.
+    pub(crate) fn reads_material(&self) -> bool {
+        let reads = |layer: &Layer| layer.program.inputs().has(Input::MaterialNormal);
+        self.clump.base().normal == clump::Params::NORMAL_MATERIAL || self.layers.iter().any(reads)
+    }
+
+    pub(crate) fn path(&self) -> PathKind {
+        let subdivision = self.sections.path.subdivision;
+        match self.sections.path.kind {
+            PathChoice::Linear => PathKind::Linear { subdivision },
+            PathChoice::CatmullRom => PathKind::CatmullRom { subdivision },
+        }
+    }
+
+    pub(crate) fn brush(&self) -> Brush {
+        match self.sections.path.brush {
+            BrushChoice::Circle => Brush::Circle,
+            BrushChoice::Semicircle => Brush::Semicircle,
+        }
+    }
+
+    pub(crate) fn order(&self) -> Order {
+        match self.sections.scene.order {
+            OrderChoice::Rounded => Order::Rounded,
+            OrderChoice::Scattered => Order::Scattered,
+            OrderChoice::StrandFirst => Order::StrandFirst,
+            OrderChoice::Shifted => Order::Shifted,
+        }
+    }
+
+    /// The light on a head that this camera sees.
+    pub(crate) fn light(&self, camera: &Camera, head: Head) -> Light {
+        let section = &self.sections.light;
+        let direction = match section.fixed_to {
+            FixedTo::Camera => {
+                // The angles are meant from where the eye stands, and depth grows away from the eye.
+                let d = self.light_direction;
+                camera.world_from_view_direction(Vec3::new(d.x, d.y, -d.z))
+            }
+            FixedTo::World => self.light_direction,
+        };
+        match section.kind {
+            LightKind::Point => {
+                Light::Point(head.center + direction * section.distance * head.height_m)
+            }
+            LightKind::Direction => Light::Direction(direction),
+        }
+    }
+
+    /// How a head is painted.
+    pub(crate) fn paint(&self, head: Head) -> HeadPaint {
+        let section = &self.sections.head;
+        HeadPaint {
+            light: section.light,
+            shadow: section.shadow,
+            line: section.line,
+            iris: section.iris,
+            iris_shadow: section.iris_shadow,
+            tie: section.tie,
+            tie_shadow: section.tie_shadow,
+            scalp: clump::Program::params(&self.sections.clump.0)
+                .color
+                .to_array(),
+            width_m: section.width * head.unit_m(),
+            inside_margin_m: INSIDE_MARGIN * head.height_m,
+            outline_margin_m: OUTLINE_MARGIN * head.height_m,
+            threshold: section.threshold,
+        }
+    }
+}
