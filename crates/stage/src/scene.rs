@@ -100,6 +100,9 @@ impl Stage {
     /// When hair or head cannot be read, or camera and path settings contradict each other.
     pub fn new(preset: &Preset, files: &Files) -> Result<Self, StageError> {
         let mut notes = Vec::new();
+        if preset.scene.choice("order") == 1 {
+            notes.push("scene: order `scattered` is no more; `rounded` is drawn".to_owned());
+        }
         let mut model = load::head(preset, files, &mut notes)?;
         let mesh = model.as_ref().map(|model| &model.mesh);
         let mut hair = load::hair(preset, files, mesh, &mut notes)?;
@@ -475,6 +478,16 @@ fn made_id(id: u32, number: u32) -> u32 {
     hash(id ^ hash(number + 1))
 }
 
+/// What a preset's choice of an order is.
+fn order(choice: u32) -> Order {
+    match choice {
+        2 => Order::StrandFirst,
+        3 => Order::Shifted,
+        // `rounded`, and `scattered`, which presets of version 1 may name.
+        _ => Order::Rounded,
+    }
+}
+
 impl Settings {
     fn new(preset: &Preset, head: Head) -> Result<Self, StageError> {
         let Preset {
@@ -489,7 +502,7 @@ impl Settings {
         Ok(Self {
             size: scene.size("size"),
             background: scene.optional_color("background"),
-            order: Order::ALL[scene.choice("order") as usize],
+            order: order(scene.choice("order")),
             edge_depth_m: scene.number("edge_depth") * head.height_m,
             path: match path.choice("kind") {
                 0 => PathKind::Linear { subdivision },

@@ -136,13 +136,13 @@ pub const SCENE: &[Param] = &[
     number("fps", "Frames a second.", "1/s", 1.0..=1000.0, 24.0),
     choice(
         "order",
-        "Within a strand by rank, then by depth: of round clumps, of clumps that fade into each other, or of flat ones; or every stroke by its shifted depth.",
+        "Within a strand by rank, then by depth, of round clumps or of flat ones; or every stroke by its shifted depth. `scattered`, as older presets say, is drawn as `rounded`.",
         &["rounded", "scattered", "strand_first", "shifted"],
         0,
     ),
     number(
         "edge_depth",
-        "How much deeper than its middle a round clump's edge lies; or the difference of depths over which clumps fade.",
+        "How much deeper than its middle a round clump's edge lies.",
         "head heights",
         0.0..=1.0,
         0.02,
