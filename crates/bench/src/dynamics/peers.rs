@@ -140,14 +140,15 @@ impl Peers {
 fn row(scene: &str, line: &str, truth: &Truth) -> Result<Option<Row>, String> {
     let invalid = || format!("a line that can't be read: {line}");
     let value: Value = serde_json::from_str(line).map_err(|_| invalid())?;
-    if value["tips"].is_null() {
+    let tips = value.get("tips").ok_or_else(invalid)?;
+    if tips.is_null() {
         return Ok(None);
     }
     let tip = |tip: &Value| {
         let [x, y, z] = [0, 1, 2].map(|axis| tip[axis].as_f64());
         Some(DVec3::new(x?, y?, z?))
     };
-    let tips = value["tips"].as_array().ok_or_else(invalid)?;
+    let tips = tips.as_array().ok_or_else(invalid)?;
     let tips: Option<Vec<DVec3>> = tips.iter().map(tip).collect();
     let tips = tips.filter(|tips| tips.len() + 1 == truth.path.len());
     let knob = value["steps"].as_u64().ok_or_else(invalid)?;
