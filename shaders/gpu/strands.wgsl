@@ -37,13 +37,6 @@ fn deeper(inv_depth: vec4<f32>, metres: vec4<f32>) -> vec4<f32> {
     return inv_depth / (1.0 + metres * max(inv_depth, vec4<f32>(0.0)));
 }
 
-/// render::scatter
-fn scatter(strand: u32, sample: u32) -> f32 {
-    var mixed = (strand ^ (strand >> 16u)) * 0x45d9f3b5u;
-    mixed = (mixed ^ (mixed >> 15u)) * 0x2c1b3c6du;
-    return f32((mixed + sample * 0x9e3779b9u) >> 8u) / 16777216.0;
-}
-
 fn paint(p: ptr<function, Paint>, s: Segment, at: Nearest, covered: vec4<bool>) -> vec4<bool> {
     let number = vec4<u32>(s.number);
     let is_higher = covered & (number > (*p).number);
@@ -119,7 +112,7 @@ fn set_colors(samples: ptr<function, Samples>, disc: vec4<u32>, way: vec4<f32>, 
 }
 
 /// Puts a finished strand into the picture.
-fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32, first_sample: u32) {
+fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32) {
     let nothing = vec4<f32>(NOTHING);
     let in_clump = strand.depth > nothing;
     let is_outer = strand.outer.number > vec4<u32>(0u);
@@ -136,15 +129,6 @@ fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32, first_s
         let part = select(squared * squared, ratio, in_clump);
         depth = deeper(depth, gpu_frame.edge_depth_m * part);
         biased = deeper(biased, gpu_frame.edge_depth_m * part);
-    } else if (ORDER == SCATTERED) {
-        let parts = vec4<f32>(
-            scatter(number, first_sample),
-            scatter(number, first_sample + 1u),
-            scatter(number, first_sample + 2u),
-            scatter(number, first_sample + 3u),
-        );
-        depth = deeper(depth, gpu_frame.edge_depth_m * parts);
-        biased = deeper(biased, gpu_frame.edge_depth_m * parts);
     }
     let stroke = select(vec4<u32>(0u), strand.outer.number, ORDER == SHIFTED);
     let wins = is_drawn & shows(*samples, depth, biased, stroke, number);

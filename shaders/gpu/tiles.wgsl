@@ -12,9 +12,8 @@
 @group(0) @binding(9) var<uniform> sample_places: array<vec4<f32>, 128>;
 
 const ROUNDED: u32 = 0u;
-const SCATTERED: u32 = 1u;
-const STRAND_FIRST: u32 = 2u;
-const SHIFTED: u32 = 3u;
+const STRAND_FIRST: u32 = 1u;
+const SHIFTED: u32 = 2u;
 
 /// Things that are looked at in one go.
 const BATCH: u32 = 64u;
@@ -99,7 +98,7 @@ fn draw_tile(
         samples.green = vec4<f32>(gpu_frame.background.y);
         samples.blue = vec4<f32>(gpu_frame.background.z);
         draw_surfaces(tile, tile_count + 1u + tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
-        draw_strands(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, first_sample, &samples);
+        draw_strands(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
         sum += write_samples(corner + pixel.xy, first_sample, samples);
     }
     let at = corner + pixel.xy;
@@ -213,7 +212,7 @@ fn strand_at(found: vec3<u32>, first: u32) -> EntriesOfStrand {
     return whole;
 }
 
-fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<f32>, y: vec4<f32>, first_sample: u32, samples: ptr<function, Samples>) {
+fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<f32>, y: vec4<f32>, samples: ptr<function, Samples>) {
     let found = find_list(at, 0u, gpu_frame.chunk_capacity, gpu_frame.chunks, local);
     var strand = no_strand();
     // What `strand` is: the strand's number, and in `SHIFTED` the stroke's.
@@ -299,7 +298,7 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<
             let segment = segment_in(slot);
             let next_key = vec2<u32>(segment.strand, select(0u, segment.number, ORDER == SHIFTED));
             if (any(next_key != key)) {
-                compose(samples, strand, key.x, first_sample);
+                compose(samples, strand, key.x);
                 strand = no_strand();
                 key = next_key;
             }
@@ -307,5 +306,5 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<
         }
         workgroupBarrier();
     }
-    compose(samples, strand, key.x, first_sample);
+    compose(samples, strand, key.x);
 }

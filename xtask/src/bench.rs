@@ -1,57 +1,54 @@
-//! Builds the `bench` program in release and runs one of its suites.
+//! Builds the `bench` program in release and runs one of its suites; or counts instructions, which needs no release.
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
-use crate::Outcome;
 use crate::program::{cargo, succeed};
+use crate::{Outcome, count};
 
-/// Suites that have a name; the flag is true if the program has it.
-const SUITES: &[(&str, bool)] = &[
-    ("strokes", true),
-    ("dynamics", true),
-    ("coherence", true),
-    ("skip", false),
-    ("scale", true),
-    ("frame", true),
-    ("all", false),
-];
+/// Suites of the program, and our own.
+const SUITES: [&str; 6] = ["strokes", "dynamics", "coherence", "frame", "scale", COUNT];
+const COUNT: &str = "count";
+/// Flags of the program's suites.
+const FLAGS: [&str; 3] = ["quick", "check", "peers"];
 
 /// The task's part of the command line.
 pub fn command() -> Command {
     let flag = |name: &'static str| Arg::new(name).long(name).action(ArgAction::SetTrue);
     Command::new("bench")
-        .about("Measures time against error: target/bench/SUITE.csv and a plot")
+        .about("Measures time against error: target/bench/SUITE.csv and a plot; or counts instructions")
         .arg(
             Arg::new("suite")
-                .help("Built so far: strokes, dynamics, coherence, frame, scale")
+                .help("What is measured")
                 .value_name("SUITE")
-                .value_parser(SUITES.iter().map(|suite| suite.0).collect::<Vec<_>>())
+                .value_parser(SUITES)
                 .required(true),
         )
         .arg(flag("quick").help("Within two minutes on two cores"))
         .arg(flag("check").help("Fails if a target is missed"))
         .arg(
-            Arg::new("peers")
-                .long("peers")
-                .help("Other programs too, by the scripts in DIR or in the folder that INKSTRAND_PEERS names: dynamics")
-                .value_name("DIR")
-                .num_args(0..=1)
-                .require_equals(true)
-                .default_missing_value(""),
+            flag("peers")
+                .help("Other programs too, by the Python that INKSTRAND_PYTHON names: dynamics"),
         )
+        .arg(flag("bless").help("Stores the counts as those that later ones are held to: count"))
 }
 
 /// Runs the suite of `args`, its table going where ours goes.
 ///
 /// # Errors
-/// The suite isn't built yet, or its program fails: with `--check` also for a missed target.
+/// Its program fails: with `--check` also for a missed target.
 pub fn run(args: &ArgMatches) -> Outcome {
     let name = args.get_one::<String>("suite").map_or("", String::as_str);
-    if !SUITES.contains(&(name, true)) {
-        return Err(format!("bench {name} isn't built yet").into());
+    let bless = args.get_flag("bless");
+    if name == COUNT {
+        return match FLAGS.iter().find(|flag| args.get_flag(flag)) {
+            Some(flag) => Err(format!("bench count has no --{flag}").into()),
+            None => count::run(bless),
+        };
     }
-    let peers = args.get_one::<String>("peers");
-    if peers.is_some() && name != "dynamics" {
+    if bless {
+        return Err(format!("bench {name} stores nothing: --bless is for count alone").into());
+    }
+    if args.get_flag("peers") && name != "dynamics" {
         return Err(format!("bench {name} has no peers to run: those of dynamics alone").into());
     }
     let mut command = cargo(&[
@@ -62,15 +59,10 @@ pub fn run(args: &ArgMatches) -> Outcome {
         "--bin=bench",
     ]);
     command.args(["--", name]);
-    for flag in ["quick", "check"] {
+    for flag in FLAGS {
         if args.get_flag(flag) {
             command.arg(format!("--{flag}"));
         }
-    }
-    match peers.map(String::as_str) {
-        None => {}
-        Some("") => _ = command.arg("--peers"),
-        Some(folder) => _ = command.arg(format!("--peers={folder}")),
     }
     succeed(command)
 }
@@ -80,19 +72,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_built_says_so() {
-        let error = |line: &[&str]| {
-            let matches = command().try_get_matches_from(line).unwrap();
-            run(&matches).unwrap_err().to_string()
-        };
-        assert_eq!(
-            error(&["bench", "skip", "--quick"]),
-            "bench skip isn't built yet"
-        );
-        assert_eq!(
-            error(&["bench", "strokes", "--peers"]),
-            "bench strokes has no peers to run: those of dynamics alone"
-        );
+    fn flags_of_other_suites_are_refused() {
+        for (suite, flag, complaint) in [
+            ("strokes", "--peers", "has no peers"),
+            ("frame", "--bless", "stores nothing"),
+            ("count", "--quick", "bench count has no --quick"),
+        ] {
+            let matches = command().try_get_matches_from(["bench", suite, flag]);
+            let error = run(&matches.unwrap()).unwrap_err().to_string();
+            assert!(error.contains(complaint), "{error}");
+        }
     }
 
     #[test]

@@ -6,8 +6,8 @@ use std::fs;
 
 use crate::Outcome;
 use crate::html::{escape, head};
+use crate::looks;
 use crate::picture::Picture;
-use crate::presets::presets;
 use crate::program::{self, Inkstrand, sum_up};
 use crate::work;
 
@@ -57,8 +57,8 @@ const HEIGHT: u32 = 300;
 /// A cell can't be drawn or is blank; the sheets of the other looks are written all the same.
 pub fn run(filter: &str) -> Outcome {
     let folder = program::root().join("target/gallery");
-    let all = presets(&program::root().join("presets"))?;
-    let names = all.iter().filter_map(|path| path.file_stem()?.to_str());
+    let all = looks::names()?;
+    let names = all.iter().map(String::as_str);
     let looks: Vec<&str> = names.filter(|name| name.contains(filter)).collect();
     if looks.is_empty() {
         return Err(format!("no preset has {filter:?} in its name").into());

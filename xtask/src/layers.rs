@@ -17,6 +17,7 @@ const TABLE: &[Row] = &[
     Row(2, "effects-builtin", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "effects-testkit", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "render", Only(&["effects", "stroke-path"]), &[]),
+    Row(3, "reference", Only(&["render"]), &[]),
     Row(3, "stage", AllBelow, &[]),
     Row(4, "inkstrand", AllBelow, &[]),
     Row(4, "viewer", AllBelow, &[]),
@@ -34,7 +35,7 @@ const TABLE: &[Row] = &[
 const BUILD_TOOL: &str = "effects-build";
 
 /// What the tests of a crate may use although it stands above.
-const FOR_TESTS: &[&str] = &["bench", "effects-testkit"];
+const FOR_TESTS: &[&str] = &["effects-testkit", "reference"];
 
 /// Families of libraries, and the only crates that may depend on one of them, tests included.
 const GUARDED: &[Guard] = &[
@@ -249,7 +250,8 @@ mod tests {
             ("effect-vendor", "inkstrand", "dev"),
             ("render", "effects", ""),
             ("render", "effects-builtin", "dev"),
-            ("stroke-path", "bench", "dev"),
+            ("render", "reference", "dev"),
+            ("reference", "render", ""),
             ("stage", "hair-sim", ""),
             ("stage", "render", ""),
             ("inkstrand", "stage", ""),
@@ -278,6 +280,9 @@ mod tests {
             ("effect-vendor", "inkstrand", ""),
             ("inkstrand", "effect-vendor", ""),
             ("embed-wgpu", "inkstrand", ""),
+            ("render", "bench", "dev"),
+            ("reference", "stage", ""),
+            ("stage", "reference", ""),
             ("stage", "inkstrand", "dev"),
             ("stage", "effects-build", ""),
             ("bench", "inkstrand", ""),

@@ -9,13 +9,14 @@
 )]
 
 mod bench;
+mod count;
 mod figures;
 mod flip;
 mod gallery;
 mod html;
 mod layers;
+mod looks;
 mod picture;
-mod presets;
 mod program;
 mod regress;
 mod setup;
@@ -32,21 +33,7 @@ use regress::Backend;
 /// What a task returns; the text of the error is all that the maintainer gets to see.
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
-/// Tasks that have a name and no code yet.
-const NOT_BUILT: &[(&str, &str)] = &[("fuzz", "Feeds random input to readers for hours")];
-
 fn command() -> Command {
-    let not_built = NOT_BUILT.iter().map(|&(name, does)| {
-        Command::new(name)
-            .about(format!("{does} (not built yet)"))
-            .arg(
-                Arg::new("anything")
-                    .num_args(0..)
-                    .trailing_var_arg(true)
-                    .allow_hyphen_values(true)
-                    .hide(true),
-            )
-    });
     Command::new("xtask")
         .bin_name("cargo xtask")
         .about("The project's own tasks")
@@ -106,7 +93,6 @@ fn command() -> Command {
         )
         .subcommand(bench::command())
         .subcommand(stress::command())
-        .subcommands(not_built)
 }
 
 fn run(matches: &ArgMatches) -> Outcome {
@@ -130,8 +116,7 @@ fn run(matches: &ArgMatches) -> Outcome {
         }
         Some(("setup", _)) => setup::run(),
         Some(("stress", args)) => stress::run(args),
-        Some((name, _)) => Err(format!("{name} isn't built yet").into()),
-        None => Err("no task given".into()),
+        _ => Err("no task given".into()),
     }
 }
 
@@ -152,16 +137,6 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         command().debug_assert();
-    }
-
-    #[test]
-    fn tasks_without_code_say_so_and_fail() {
-        for (name, _) in NOT_BUILT {
-            let line = ["xtask", name, "strokes", "--quick", "--hours", "2"];
-            let matches = command().try_get_matches_from(line).unwrap();
-            let error = run(&matches).unwrap_err().to_string();
-            assert_eq!(error, format!("{name} isn't built yet"));
-        }
     }
 
     #[test]

@@ -82,6 +82,11 @@ impl Inkstrand {
         }
     }
 
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
     /// What presets may say: `inkstrand effects --json`.
     ///
     /// # Errors
@@ -132,7 +137,11 @@ pub fn sum_up(total: usize, failures: &[String]) -> Outcome {
     .into())
 }
 
-fn finished(output: &Output) -> Outcome {
+/// Whether a command that has ended went well.
+///
+/// # Errors
+/// It failed: what it said.
+pub fn finished(output: &Output) -> Outcome {
     if output.status.success() {
         return Ok(());
     }

@@ -2,10 +2,11 @@
 //!
 //! `tests/golden/cases.toml` lists the cases, `tests/golden/NAME.png` are the pictures. They must
 //! be the same bit by bit; how they differ is shown in `target/regress/index.html`. Beside the cases
-//! of the list there is a contact sheet for each effect, with a cell for each end of each parameter.
+//! of the list, which show the engine on `tests/yardsticks`, there is a contact sheet for each effect,
+//! with a cell for each end of each parameter, and a picture of each look of `presets`.
 //!
-//! A graphics card draws the same cases, and its pictures must agree with the golden ones but for rounding
-//! (`agree`), on a sheet in each cell.
+//! A graphics card draws the same cases but the looks, and its pictures must agree with the golden ones but for
+//! rounding (`agree`), on a sheet in each cell.
 
 mod agree;
 mod case;
@@ -19,7 +20,7 @@ use std::path::{Path, PathBuf};
 
 use crate::picture::Picture;
 use crate::program::{self, Inkstrand, sum_up};
-use crate::{Outcome, setup, work};
+use crate::{Outcome, looks, setup, work};
 use agree::Agreement;
 use case::Case;
 use verdict::Verdict;
@@ -74,8 +75,13 @@ pub fn run(filter: &str, backend: Backend, bless: bool) -> Outcome {
     let program = Inkstrand::build()?;
     let mut cases = folders.cases()?;
     cases.extend(extremes::cases(&folders.golden, &program.schema()?)?);
+    let looks = case::looks(&looks::names()?);
+    let all = [&cases[..], &looks].concat();
     if filter.is_empty() {
-        folders.find_strays(&cases)?;
+        folders.find_strays(&all)?;
+    }
+    if backend == Backend::Cpu {
+        cases = all;
     }
     cases.retain(|case| case.name.contains(filter));
     if cases.is_empty() {

@@ -1,5 +1,5 @@
-//! Installs what the tests need and the machine lacks: cargo's own tools, the web's target, and a Vulkan driver
-//! that needs no GPU, for the tests of the GPU backend.
+//! Installs what the tests need and the machine lacks: cargo's own tools, the web's target, a Vulkan driver
+//! that needs no GPU, for the tests of the GPU backend, and valgrind, which counts instructions.
 
 use std::env;
 use std::ffi::OsStr;
@@ -11,8 +11,31 @@ use crate::Outcome;
 use crate::program::{cargo, line_of, succeed};
 use crate::wasm;
 
-/// Debian's software Vulkan driver, and the loader that finds it.
-const DEBIAN_VULKAN: &[&str] = &["mesa-vulkan-drivers", "libvulkan1"];
+/// Something that Debian has.
+struct Needed {
+    name: &'static str,
+    is_there: fn() -> bool,
+    packages: &'static [&'static str],
+    /// What to do on other systems.
+    elsewhere: &'static str,
+}
+
+const NEEDED: [Needed; 2] = [
+    Needed {
+        name: "Vulkan driver",
+        is_there: has_vulkan_driver,
+        // Mesa's software driver, and the loader that finds it.
+        packages: &["mesa-vulkan-drivers", "libvulkan1"],
+        elsewhere: "Only tests of the GPU backend need one. Install your system's Vulkan loader and a driver; \
+                    Mesa's software driver (lavapipe) needs no GPU",
+    },
+    Needed {
+        name: "valgrind",
+        is_there: has_valgrind,
+        packages: &["valgrind"],
+        elsewhere: "Only `cargo xtask bench count` needs it. Install your system's",
+    },
+];
 
 /// Installs, or says what to install by hand.
 ///
@@ -40,25 +63,39 @@ pub fn run() -> Outcome {
         succeed(rustup)?;
     }
 
-    if has_vulkan_driver() {
-        println!("Vulkan driver: found");
-        return Ok(());
-    }
-    match Installer::of_this_machine() {
-        Some(installer) => {
-            for command in installer.commands() {
-                println!("Vulkan driver: missing; runs {}", line_of(&command));
-                succeed(command)?;
-            }
-        }
-        None => println!(
-            "Vulkan driver: missing, and this is no Debian with root or sudo. Only tests of the \
-             GPU backend need one. Install your system's Vulkan loader and a driver; Mesa's \
-             software driver (lavapipe) needs no GPU. On Debian: apt-get install {}",
-            DEBIAN_VULKAN.join(" ")
-        ),
+    for needed in &NEEDED {
+        needed.install()?;
     }
     Ok(())
+}
+
+impl Needed {
+    fn install(&self) -> Outcome {
+        let name = self.name;
+        if (self.is_there)() {
+            println!("{name}: found");
+            return Ok(());
+        }
+        match Installer::of_this_machine() {
+            Some(installer) => {
+                for command in installer.commands(self.packages) {
+                    println!("{name}: missing; runs {}", line_of(&command));
+                    succeed(command)?;
+                }
+            }
+            None => println!(
+                "{name}: missing, and this is no Debian with root or sudo. {}. On Debian: apt-get install {}",
+                self.elsewhere,
+                self.packages.join(" ")
+            ),
+        }
+        Ok(())
+    }
+}
+
+/// Whether there is a valgrind to run.
+pub fn has_valgrind() -> bool {
+    succeeds(Command::new("valgrind").arg("--version"))
 }
 
 /// Whether the Vulkan loader would find a driver, of a graphics card or in software.
@@ -93,11 +130,11 @@ impl Installer {
         }
     }
 
-    /// The commands that install the driver. None of them asks anything.
-    fn commands(&self) -> [Command; 2] {
+    /// The commands that install packages. None of them asks anything.
+    fn commands(&self, packages: &[&str]) -> [Command; 2] {
         let update = ["update", "--quiet"].as_slice();
         let install = ["install", "--yes", "--quiet", "--no-install-recommends"];
-        let install = [&install, DEBIAN_VULKAN].concat();
+        let install = [&install, packages].concat();
         [update, &install].map(|args| {
             // `env` sets the variable on sudo's other side, too.
             let words: &[&str] = match self {
@@ -172,14 +209,16 @@ mod tests {
     #[test]
     fn the_commands_ask_nothing() {
         for installer in [Installer::AsRoot, Installer::WithSudo] {
-            let lines = installer.commands().map(|command| line_of(&command));
+            let lines = installer
+                .commands(&["a", "b"])
+                .map(|command| line_of(&command));
             for line in &lines {
                 assert!(line.contains("env DEBIAN_FRONTEND=noninteractive apt-get "));
                 let sudo = installer == Installer::WithSudo;
                 assert_eq!(line.starts_with("sudo -n "), sudo, "{line}");
             }
             assert!(lines[1].contains("--yes"));
-            assert!(lines[1].ends_with("mesa-vulkan-drivers libvulkan1"));
+            assert!(lines[1].ends_with(" a b"));
         }
     }
 

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::program::{cargo, succeed};
 use crate::regress::Backend;
-use crate::{Outcome, figures, layers, presets, regress, wasm};
+use crate::{Outcome, count, figures, layers, regress, wasm};
 
 /// A step's name, and what it does; its output goes to the terminal.
 type Step = (&'static str, fn() -> Outcome);
@@ -32,10 +32,10 @@ const STEPS: &[Step] = &[
         succeed(cargo(&["test", "--workspace", "--no-fail-fast"]))
     }),
     ("wasm", wasm::build),
-    ("presets", presets::render_all),
     ("figures", figures::run),
     ("regressions", || regress::run("", Backend::Cpu, false)),
     ("backends", || regress::run("", Backend::Gpu, false)),
+    ("counts", || count::run(false)),
 ];
 
 /// The names of all steps, in the order in which they run.

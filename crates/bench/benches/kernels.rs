@@ -1,7 +1,6 @@
 //! Hot pieces of a frame beside the rasteriser: `cargo bench -p bench`.
 #![allow(missing_docs, reason = "criterion's macros make the functions")]
 
-use bench::oracle;
 use bench::strokes::contenders::{Contender as _, Library, Outlines, PathsAlone};
 use bench::strokes::scenes;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
@@ -15,14 +14,14 @@ use std::path::Path;
 
 /// From the hair to joints on the screen, and from these to strokes, for each joint.
 fn frame(criterion: &mut Criterion) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let path = root.join("presets/twin-tails.ron");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/yardsticks");
+    let path = folder.join("twin-tails.ron");
     let text = std::fs::read_to_string(&path).expect("the preset is there");
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).expect("no effect comes twice");
     let preset = Preset::parse("twin-tails.ron", &text, &registry).expect("it has no mistakes");
     let files = Files {
-        preset_folder: root.join("presets"),
+        preset_folder: folder,
         ..Files::default()
     };
     let mut stage = Stage::new(&preset, &files).expect("its files are there");
@@ -81,7 +80,7 @@ fn reference(criterion: &mut Criterion) {
     ));
     group.sample_size(20);
     group.bench_function("sample", |bencher| {
-        bencher.iter(|| oracle::picture_at(black_box(&drawing), &samples));
+        bencher.iter(|| reference::picture_at(black_box(&drawing), &samples));
     });
     group.finish();
 }

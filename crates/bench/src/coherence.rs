@@ -1,8 +1,10 @@
 //! Suite `coherence`: how continuous pictures are in time, in every order of strokes.
 
 pub mod animation;
+pub mod looks;
 pub mod painter;
 pub mod pictures;
+pub mod scenes;
 pub mod search;
 pub mod strands;
 pub mod targets;
@@ -12,26 +14,16 @@ pub mod warp;
 use crate::results::{self, Row};
 use crate::targets::Target;
 use crate::timing::{Effort, medians};
-use animation::{Animation as _, Kind, Look, PART, Scene, TICKS, seconds};
+use animation::{Animation as _, Kind, TICKS, seconds};
 use indicatif::ProgressBar;
+use looks::Look;
 use painter::Painter;
-use render::Order;
 use render::cpu::Rasterizer;
+use scenes::{NamedOrder, PART, Scene};
 use search::{Continuity, Painters};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::Duration;
-
-/// An order and its name.
-pub type NamedOrder = (&'static str, Order);
-
-/// Every order of strokes, with its name in presets. One more is one more line.
-pub const ORDERS: [NamedOrder; 4] = [
-    ("rounded", Order::Rounded),
-    ("scattered", Order::Scattered),
-    ("strand_first", Order::StrandFirst),
-    ("shifted", Order::Shifted),
-];
 
 /// Samples a pixel of the pictures that are timed, and of those of still input.
 const TIMED_SAMPLES: u32 = 4;
@@ -100,7 +92,7 @@ pub struct Figures {
 /// When a look cannot be read or drawn, or a file cannot be written.
 pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
     let data = options.data.as_deref();
-    let mut scenes = animation::scenes(&options.root, data, options.quick, &options.only)?;
+    let mut scenes = scenes::scenes(&options.root, data, options.quick, &options.only)?;
     if scenes.is_empty() {
         return Err(format!("no scene's name holds `{}`", options.only));
     }

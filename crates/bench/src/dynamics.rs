@@ -3,6 +3,7 @@
 pub mod falls;
 pub mod mass_spring;
 pub mod motion;
+pub mod names;
 pub mod npz;
 pub mod own;
 pub mod peers;
@@ -47,8 +48,6 @@ pub struct Measured {
     pub targets: Vec<Target>,
     /// Our figures against those stored.
     pub regressions: Vec<Target>,
-    /// Peers that couldn't be run, and how to get them.
-    pub missing: Vec<String>,
     /// What a reader of the numbers must know.
     pub comments: Vec<String>,
 }
@@ -60,13 +59,13 @@ pub struct Measured {
 /// When a solver refuses a scene, a counter isn't what it must be, a peer fails, or a file cannot be read or written.
 pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
     let scenes = scenes(options.quick);
-    progress.set_length(scenes.len() as u64 + statics::GAMMAS.len() as u64 * 3 + 2);
+    progress.set_length(scenes.len() as u64 + names::GAMMAS.len() as u64 * 3 + 2);
     let data = options.data.as_deref();
     let truths = [
         (10.0, falls::truth(10.0, 40, data)?),
         (100.0, falls::truth(100.0, 80, data)?),
     ];
-    let mut comments = comments(options, &truths);
+    let comments = comments(options, &truths);
 
     let mut rows = Vec::new();
     let mut slopes = Vec::new();
@@ -75,8 +74,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     for (gamma, count) in scenes {
         let scene = scene(gamma, count);
         progress.set_message(scene.clone());
-        let truth = truths.iter().find(|truth| truth.0 == gamma);
-        let truth = &truth.ok_or("a fall without a reference")?.1.path;
+        let truth = &truth_of(&truths, gamma)?.path;
         let fallen = alone.install(|| fall(&scene, gamma, count, truth, options))?;
         rows.extend(fallen);
         if count == 1 && gamma == 10.0 {
@@ -90,13 +88,9 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     let moving = motion::measure(options.threads, options.quick, effort(options.quick))?;
     rows.extend(moving.rows);
     progress.inc(1);
-    let mut missing = Vec::new();
     if let Some(peers) = &options.peers {
         progress.set_message("peers");
-        let (of_peers, not_run) = peers.rows(&options.out, options.quick)?;
-        rows.extend(of_peers);
-        comments.extend(not_run.iter().cloned());
-        missing = not_run;
+        rows.extend(peers.rows(options.quick, truth_of(&truths, peers::GAMMA)?)?);
     }
     rows.sort_by_key(|row| place_of(&row.scene));
 
@@ -104,11 +98,15 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
         targets: targets::targets(&rows, &slopes, &moving.fallbacks),
         regressions: stored::against(&rows)?,
         rows,
-        missing,
         comments,
     };
     write(&measured, &options.out)?;
     Ok(measured)
+}
+
+fn truth_of(truths: &[(f64, Truth)], gamma: f64) -> Result<&Truth, String> {
+    let found = truths.iter().find(|truth| truth.0 == gamma);
+    Ok(&found.ok_or("a fall without a reference")?.1)
 }
 
 /// Gamma and number of strands of the falls.
@@ -121,13 +119,13 @@ fn scenes(quick: bool) -> Vec<(f64, usize)> {
 }
 
 fn scene(gamma: f64, count: usize) -> String {
-    let many = if count == 1 { "" } else { targets::MANY };
+    let many = if count == 1 { "" } else { names::MANY };
     format!("drop-{gamma}{many}")
 }
 
 /// Falls first, one strand before many: the order of the scenes in the files.
 fn place_of(scene: &str) -> (usize, String) {
-    let kinds = ["drop-", statics::SCENE, "motion-", targets::FULL];
+    let kinds = ["drop-", names::CANTILEVER, "motion-", names::FULL];
     let kind = kinds.iter().position(|kind| scene.starts_with(kind));
     (kind.unwrap_or(kinds.len()), scene.to_owned())
 }
@@ -175,7 +173,7 @@ fn fall(
 fn comments(options: &Options, truths: &[(f64, Truth)]) -> Vec<String> {
     let mut comments = results::machine(options.threads, &["bench", "hair-sim", "glam"]);
     let text = [
-        "seconds: the shortest of several runs in turns, as the peers' scripts take it",
+        "seconds: the shortest of several runs, ours in turns",
         "drop-GAMMA: a strand of 0.3 m, clamped level and let go, undamped, one thread; -x72: 72 of them",
         "  seconds: for a second and strand; error: of the tip at 24 frames, root mean square over the length; inf: diverged",
         "  inkstrand-N: ours, N elements; knob: steps of 1/24 s. All others: 20 elements",

@@ -1,4 +1,4 @@
-//! Suite `frame`: what a whole frame of each look takes, by stages, on both backends. Camera and hair move, so that
+//! Suite `frame`: what a whole frame of each yardstick takes, by stages, on both backends. Camera and hair move, so that
 //! nothing can be reused.
 
 use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
@@ -20,7 +20,7 @@ const WARM_UP: u32 = 3;
 /// What the user asks for.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The project's folder, for its presets.
+    /// The project's folder, for its yardsticks.
     pub root: PathBuf,
     /// Where the files go.
     pub out: PathBuf,
@@ -105,9 +105,12 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     Ok(measured)
 }
 
-/// The project's looks, by name.
+/// Where the looks are that don't change.
+const YARDSTICKS: &str = "tests/yardsticks";
+
+/// Their presets, by name.
 fn presets(root: &Path) -> Result<Vec<PathBuf>, String> {
-    let folder = root.join("presets");
+    let folder = root.join(YARDSTICKS);
     let entries = std::fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "ron"));
@@ -124,8 +127,11 @@ fn open(path: &Path, root: &Path) -> Result<Stage, String> {
     let mut preset = Preset::parse(&name, &text, &registry).map_err(|errors| errors.to_string())?;
     preset.sections.scene.fps = FPS as f32;
     let files = Files {
-        motion: Some(root.join("presets/motions/nod-and-shake.motion.ron")),
-        preset_folder: root.join("presets"),
+        motion: Some(
+            root.join(YARDSTICKS)
+                .join("motions/nod-and-shake.motion.ron"),
+        ),
+        preset_folder: root.join(YARDSTICKS),
         ..Files::default()
     };
     Stage::new(&preset, &files).map_err(|error| error.to_string())
@@ -180,7 +186,7 @@ mod tests {
 
     #[test]
     fn a_look_has_all_its_stages() {
-        let path = root().join("presets/short-ash.ron");
+        let path = root().join(YARDSTICKS).join("short-ash.ron");
         let mut stage = open(&path, &root()).unwrap();
         let mut backends = Backends::new(1, 1, Card::Hardware).unwrap();
         let rows = look("short-ash", &mut stage, &mut backends, 2).unwrap();

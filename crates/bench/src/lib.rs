@@ -3,10 +3,8 @@
 
 pub mod backends;
 pub mod coherence;
-pub mod compare;
 pub mod dynamics;
 pub mod frame;
-pub mod oracle;
 pub mod plot;
 pub mod results;
 pub mod scale;

@@ -77,10 +77,9 @@ struct CoherenceOptions {
 struct DynamicsOptions {
     #[command(flatten)]
     common: Options,
-    /// Other programs too: their scripts are in DIR or in the folder that INKSTRAND_PEERS names; INKSTRAND_PYTHON names the
-    /// Python that has them
-    #[arg(long, value_name = "DIR", num_args = 0..=1, require_equals = true)]
-    peers: Option<Option<PathBuf>>,
+    /// Other programs too, MuJoCo and pyPBD, by the Python that INKSTRAND_PYTHON names [default: python3]
+    #[arg(long)]
+    peers: bool,
     /// Stores our figures as those that later ones are checked against
     #[arg(long, conflicts_with = "quick")]
     store: bool,
@@ -129,7 +128,7 @@ struct Options {
 fn main() -> ExitCode {
     let suite = Arguments::parse().suite;
     if cfg!(debug_assertions) && !matches!(suite, Suite::Stress(_)) {
-        eprintln!("bench: this is no release build: its times say nothing");
+        eprintln!("bench: not a release build: its times say nothing");
     }
     let measured = match suite {
         Suite::Strokes(options) => strokes(&options),
@@ -174,6 +173,11 @@ fn strokes(options: &Options) -> Result<ExitCode, String> {
     Ok(exit_code(&measured.targets, options.check))
 }
 
+fn peers() -> Result<Peers, String> {
+    let python = std::env::var_os("INKSTRAND_PYTHON");
+    Peers::new(&root(), python.unwrap_or_else(|| "python3".into()).into())
+}
+
 fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, String> {
     let common = &options.common;
     let suite = dynamics::Options {
@@ -181,16 +185,11 @@ fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, String> {
         quick: common.quick,
         threads: common.threads(),
         data: std::env::var_os("INKSTRAND_DATA").map(PathBuf::from),
-        peers: (options.peers.as_ref())
-            .map(|folder| Peers::new(folder.as_deref()))
-            .transpose()?,
+        peers: options.peers.then(peers).transpose()?,
     };
     let measured = with_progress(|progress| dynamics::run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
     println!("{}", report(&measured.targets));
-    for peer in &measured.missing {
-        println!("{peer}");
-    }
     if options.store {
         let path = root().join("crates/bench/stored/dynamics.csv");
         let file = stored::file(&measured.rows)?;
@@ -363,12 +362,7 @@ mod tests {
         let Suite::Dynamics(options) = Arguments::try_parse_from(line).unwrap().suite else {
             panic!("another suite");
         };
-        assert!(options.peers == Some(None) && options.common.threads == Some(2));
-        let line = ["bench", "dynamics", "--peers=scripts"];
-        let Suite::Dynamics(options) = Arguments::try_parse_from(line).unwrap().suite else {
-            panic!("another suite");
-        };
-        assert_eq!(options.peers, Some(Some("scripts".into())));
+        assert!(options.peers && options.common.threads == Some(2));
         let line = [
             "bench",
             "coherence",

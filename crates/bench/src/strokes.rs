@@ -8,15 +8,15 @@ pub mod scenes;
 pub mod stamping;
 pub mod targets;
 
-use crate::compare::{self, Difference};
+use crate::plot;
 use crate::results::{self, Row};
 use crate::targets::Target;
 use crate::timing::{Effort, medians};
-use crate::{oracle, plot};
 use contenders::{
     Card, Contender, Library, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order,
 };
 use indicatif::ProgressBar;
+use reference::compare::{self, Difference};
 use render::Order;
 use scenes::Scene;
 use stamping::Stamping;
@@ -247,7 +247,7 @@ fn differences(
     grid: u32,
     progress: &ProgressBar,
 ) -> Result<Vec<Option<Difference>>, String> {
-    let reference = |order| oracle::picture(&in_order(&scene.drawing, order), grid);
+    let reference = |order| reference::picture(&in_order(&scene.drawing, order), grid);
     let rounded = reference(Order::Rounded);
     let shifted = reference(Order::Shifted);
     // Both orders show strokes at the same pixels but where strokes are clipped to clumps.

@@ -103,13 +103,6 @@ pub(crate) enum Command {
     /// Simulate a sequence's strands once, for `render --bake`
     #[command(after_help = SIMULATE_EXAMPLES)]
     Simulate(Box<SimulateOptions>),
-    /// Convert between hair formats (not built yet)
-    Convert {
-        /// File to read
-        input: PathBuf,
-        /// File to write
-        output: PathBuf,
-    },
 }
 
 #[derive(Args)]

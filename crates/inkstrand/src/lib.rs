@@ -68,7 +68,6 @@ pub fn run(registry: &Registry) -> ExitCode {
         cli::Command::Effects { name, json } => commands::effects(name.as_deref(), *json, registry),
         cli::Command::New { file } => commands::new(file),
         cli::Command::Simulate(options) => commands::simulate(options, registry),
-        cli::Command::Convert { .. } => Err(not_built("`convert`")),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -98,9 +97,4 @@ pub fn run(registry: &Registry) -> ExitCode {
 /// Prints a failure's message on the standard error.
 pub fn fail(message: &dyn std::fmt::Display) {
     eprintln!("inkstrand: {message}");
-}
-
-/// A part of the command line whose program is still to be written.
-pub(crate) fn not_built(what: &str) -> Failure {
-    Failure::Failed(format!("{what} is not built yet"))
 }

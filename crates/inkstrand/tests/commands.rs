@@ -1,5 +1,4 @@
-//! Every command and option that the program's own definition has: it works, or it is in the list of
-//! what is not built yet, exits 1 and says so.
+//! Every command and option that the program's own definition has works.
 
 #![allow(clippy::print_stderr, reason = "what is skipped is said")]
 
@@ -24,20 +23,8 @@ const PRESET: &str = "(
 const HEAD: &str = "v -0.1 -0.1 0\nv 0.1 -0.1 0\nv 0 0.1 0.05\nv 0 0 -0.1\n\
     f 1 2 3\nf 2 1 4\nf 3 2 4\nf 1 3 4\n";
 
-/// Commands and options whose part is still to be built, with a command line for each.
-const NOT_BUILT: &[(&str, &[&str])] = &[
-    (
-        "convert INPUT",
-        &["convert", "small.strands.ron", "out.tfx"],
-    ),
-    (
-        "convert OUTPUT",
-        &["convert", "small.strands.ron", "out.tfx"],
-    ),
-];
-
-/// Everything else, with a command line that uses it.
-const BUILT: &[(&str, &[&str])] = &[
+/// All of them, each with a command line that uses it.
+const LINES: &[(&str, &[&str])] = &[
     ("check PRESETS", &["check", "small.ron"]),
     ("effects NAME", &["effects", "hair.base"]),
     ("effects --json", &["effects", "--json"]),
@@ -252,15 +239,11 @@ fn defined() -> BTreeSet<String> {
 
 #[test]
 fn nothing_of_the_definition_is_forgotten() {
-    let listed: Vec<&str> = NOT_BUILT
-        .iter()
-        .chain(BUILT)
-        .map(|(name, _)| *name)
-        .collect();
+    let listed: Vec<&str> = LINES.iter().map(|(name, _)| *name).collect();
     let unique: BTreeSet<String> = listed.iter().map(|name| (*name).to_owned()).collect();
     assert_eq!(unique.len(), listed.len(), "one list, once each");
     assert_eq!(defined(), unique);
-    for (name, line) in NOT_BUILT.iter().chain(BUILT) {
+    for (name, line) in LINES {
         let option = name.split(' ').nth(1).unwrap();
         assert!(
             !option.starts_with("--") || line.contains(&option),
@@ -270,32 +253,9 @@ fn nothing_of_the_definition_is_forgotten() {
 }
 
 #[test]
-fn what_is_not_built_exits_1_and_says_so() {
+fn all_of_it_works() {
     let folder = folder();
-    let before = fs::read_dir(folder.path()).unwrap().count();
-    for (_, line) in NOT_BUILT {
-        inkstrand(&folder, line)
-            .assert()
-            .code(1)
-            .stdout("")
-            .stderr(contains("is not built yet"));
-        // So does its help.
-        inkstrand(&folder, &["help", line[0]])
-            .assert()
-            .success()
-            .stdout(contains("(not built yet)"));
-    }
-    assert_eq!(
-        fs::read_dir(folder.path()).unwrap().count(),
-        before,
-        "nothing is written"
-    );
-}
-
-#[test]
-fn everything_else_works() {
-    let folder = folder();
-    for (name, line) in BUILT {
+    for (name, line) in LINES {
         let output = inkstrand(&folder, line).output().unwrap();
         let told = String::from_utf8_lossy(&output.stderr);
         let has_driver = !told.contains("there is no graphics card to draw on");
@@ -307,7 +267,6 @@ fn everything_else_works() {
             continue;
         }
         assert_eq!(output.status.code(), Some(0), "{name}: {told}");
-        assert!(!told.contains("not built"), "{name}: {told}");
     }
 }
 

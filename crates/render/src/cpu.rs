@@ -267,12 +267,10 @@ impl Worker {
             segments: frame.parts.segments.list(),
             origin,
             samples: frame.samples,
-            first_sample: 0,
         };
         scene.strands(segments_of_tile, &mut self.parts);
-        for (group, samples) in frame.samples.chunks(tile::GROUP).enumerate() {
+        for samples in frame.samples.chunks(tile::GROUP) {
             scene.samples = samples;
-            scene.first_sample = group * tile::GROUP;
             self.target.clear(samples.len(), background);
             let triangles = self.triangles_of_tiles.bin(tile);
             if !triangles.is_empty() {

@@ -91,10 +91,6 @@ pub enum Order {
     /// deeper than its middle, outside of the clump times r^8.
     #[default]
     Rounded,
-    /// As [`StrandFirst`](Self::StrandFirst), with every strand moved away from the eye in each sample, by a part
-    /// of [`Drawing::edge_depth_m`] of its own ([`scatter`]): strands that are nearly as deep fade into
-    /// each other, the more smoothly the more samples a pixel has.
-    Scattered,
     /// First within a strand by rank, then among strands and surfaces by depth.
     ///
     /// Within the strand's clump the highest rank that covers the sample gives the colour (the later
@@ -110,16 +106,11 @@ pub enum Order {
 
 impl Order {
     /// Every order, the default first.
-    pub const ALL: [Self; 4] = [
-        Self::Rounded,
-        Self::Scattered,
-        Self::StrandFirst,
-        Self::Shifted,
-    ];
+    pub const ALL: [Self; 3] = [Self::Rounded, Self::StrandFirst, Self::Shifted];
 }
 
-/// The part, from 0 to 1, of the edge's depth that a strand is moved away by in a sample
-/// ([`Order::Scattered`]), by the strand's number and the sample's: the samples of a pixel share the range evenly.
+/// A strand's part, from 0 to 1, in a sample, by the strand's number and the sample's: the samples of a pixel
+/// share the range evenly, and every strand in an order of its own.
 #[must_use]
 pub fn scatter(strand: u32, sample: u32) -> f32 {
     let mixed = (strand ^ (strand >> 16)).wrapping_mul(0x45D9_F3B5);
@@ -153,4 +144,36 @@ pub struct Drawing {
     pub edge_depth_m: f32,
     /// What strokes are made of.
     pub brush: Brush,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_samples_of_a_pixel_share_the_range_evenly() {
+        for (strand, samples) in [(0, 4), (7, 4), (7, 16), (90_000, 64), (u32::MAX, 256)] {
+            let mut parts: Vec<f32> = (0..samples).map(|s| scatter(strand, s)).collect();
+            parts.sort_by(f32::total_cmp);
+            assert!(parts[0] >= 0.0 && parts[samples as usize - 1] < 1.0);
+            // Around the circle, whose end is its start.
+            let next = parts.iter().skip(1).copied().chain([parts[0] + 1.0]);
+            let gaps = parts.iter().zip(next).map(|(part, next)| next - part);
+            let widest = gaps.fold(0.0, f32::max);
+            assert!(
+                widest < 2.0 / samples as f32,
+                "{strand}, {samples}: {widest}"
+            );
+        }
+    }
+
+    #[test]
+    fn strands_have_parts_of_their_own() {
+        let mut parts: Vec<f32> = (0..1000).map(|strand| scatter(strand, 0)).collect();
+        let mean = parts.iter().sum::<f32>() / 1000.0;
+        assert!((mean - 0.5).abs() < 0.03, "{mean}");
+        parts.sort_by(f32::total_cmp);
+        parts.dedup();
+        assert_eq!(parts.len(), 1000);
+    }
 }

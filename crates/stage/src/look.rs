@@ -82,8 +82,7 @@ impl Look {
 
     pub(crate) fn order(&self) -> Order {
         match self.sections.scene.order {
-            OrderChoice::Rounded => Order::Rounded,
-            OrderChoice::Scattered => Order::Scattered,
+            OrderChoice::Rounded | OrderChoice::Scattered => Order::Rounded,
             OrderChoice::StrandFirst => Order::StrandFirst,
             OrderChoice::Shifted => Order::Shifted,
         }

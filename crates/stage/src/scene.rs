@@ -6,7 +6,7 @@ use crate::head::HeadModel;
 use crate::load;
 use crate::look::Look;
 use crate::neck::Neck;
-use crate::preset::{CameraSection, Preset};
+use crate::preset::{CameraSection, OrderChoice, Preset};
 use crate::script::{self, MotionScript};
 use glam::Vec3;
 use render::{Head, StrandInfo};
@@ -89,6 +89,9 @@ impl Scene {
     /// When hair, head, script or bake cannot be read, or the look contradicts itself.
     pub fn load(preset: &Preset, files: &Files) -> Result<Self, StageError> {
         let mut notes = Vec::new();
+        if preset.sections.scene.order == OrderChoice::Scattered {
+            notes.push("scene: order `scattered` is no more; `rounded` is drawn".to_owned());
+        }
         let head = load::head(preset, files, &mut notes)?;
         let mesh = head.as_ref().map(|model| &model.mesh);
         let mut hair = load::hair(preset, files, mesh, &mut notes)?;

@@ -2,7 +2,7 @@
 
 use effects::Registry;
 use glam::Vec3;
-use render::Light;
+use render::{Light, Order};
 use stage::{Files, Preset, Stage, StageError};
 use std::fs;
 use std::path::Path;
@@ -54,6 +54,26 @@ fn strands_come_sorted_by_id_with_their_sizes() {
     );
     let mean = Vec3::new(0.0, 0.1, 0.17 / 3.0);
     assert!((frame.strands[0].mean - mean).length() < 1e-6);
+}
+
+#[test]
+fn an_order_of_earlier_presets_is_drawn_as_rounded() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, order, notes) in [
+        ("rounded", Order::Rounded, 0),
+        ("strand_first", Order::StrandFirst, 0),
+        ("shifted", Order::Shifted, 0),
+        ("scattered", Order::Rounded, 1),
+    ] {
+        let sections = format!("scene: (order: {name}),");
+        let mut stage = stage(folder.path(), STRANDS, &sections).unwrap();
+        assert_eq!(stage.frame().unwrap().order, order, "{name}");
+        let told = stage
+            .notes()
+            .iter()
+            .filter(|note| note.contains("scattered"));
+        assert_eq!(told.count(), notes, "{name}");
+    }
 }
 
 #[test]

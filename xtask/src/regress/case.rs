@@ -14,7 +14,7 @@ struct Cases {
 }
 
 /// A picture that must stay as it is.
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
     /// The name of its file, without `.png`.
@@ -37,6 +37,20 @@ pub struct Cell {
     pub beside: Option<usize>,
     /// The parameter that it shows; empty for a cell that others are compared with.
     pub shows: String,
+}
+
+/// A case for each look of `presets`: whoever changes one sees what became of it.
+pub fn looks(names: &[String]) -> Vec<Case> {
+    let case = |look: &String| Case {
+        name: format!("look-{look}"),
+        args: vec![
+            format!("presets/{look}.ron"),
+            "--size=240x180".to_owned(),
+            "--samples=4".to_owned(),
+        ],
+        cells: Vec::new(),
+    };
+    names.iter().map(case).collect()
 }
 
 /// Reads the list of cases. Names become names of files, so they are held to letters that are
@@ -65,6 +79,13 @@ pub fn parse(text: &str) -> Outcome<Vec<Case>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_look_has_a_case() {
+        let cases = looks(&["manga-ink".to_owned(), "b".to_owned()]);
+        assert_eq!(cases[0].name, "look-manga-ink");
+        assert_eq!(cases[1].args[0], "presets/b.ron");
+    }
 
     #[test]
     fn lists_of_cases_are_checked() {

@@ -4,8 +4,9 @@
 //! those that do in 1/768 s are drawn with many samples. Pixels that pop are counted with [`POP_SAMPLES`]: an edge that
 //! moves by a quarter of a pixel in a tick changes sixteen of them, and does not count.
 
-use super::animation::{Scene, Tick};
+use super::animation::Tick;
 use super::painter::Painter;
+use super::scenes::Scene;
 use super::tiles::{HairTiles, TILE, corner, difference};
 use glam::Vec2;
 use render::Picture;
@@ -437,8 +438,8 @@ impl Found {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ORDERS;
     use super::super::animation::Kind;
+    use super::super::scenes::ORDERS;
     use super::super::strands::Strands;
     use super::*;
     use render::Order;

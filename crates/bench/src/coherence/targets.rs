@@ -111,7 +111,7 @@ fn of_hair(scene: &SceneFigures, own: Option<&Figures>) -> Vec<Target> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coherence::ORDERS;
+    use crate::coherence::scenes::ORDERS;
     use crate::coherence::search::{Continuity, Motion};
     use crate::targets::report;
 

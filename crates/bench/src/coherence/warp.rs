@@ -1,8 +1,9 @@
 //! How well a picture is the one before, moved as the strands have moved.
 
 use super::NamedOrder;
-use super::animation::{Scene, TICKS, Tick};
+use super::animation::{TICKS, Tick};
 use super::painter::Painter;
+use super::scenes::Scene;
 use glam::Vec2;
 use render::{Frame, Order, Picture};
 

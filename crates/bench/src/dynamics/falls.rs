@@ -5,7 +5,7 @@ use super::own::Own;
 use super::reference;
 use super::rods::{Apart, GRAVITY, NEARLY_STRAIGHT, Rods, Simulation};
 use super::xpbd::Rod;
-use super::{npz, targets};
+use super::{names, npz};
 use glam::{DVec2, DVec3};
 use hair_sim::Pose;
 use std::path::Path;
@@ -67,8 +67,8 @@ fn tips(positions: &npz::Array) -> Result<Vec<DVec2>, String> {
         .collect())
 }
 
-/// Root mean square of a path's distances from the truth; infinite where the path is none.
-fn error(path: &[DVec3], truth: &[DVec2]) -> f64 {
+/// Root mean square of a path's distances from the truth; infinite where the path isn't finite.
+pub fn error(path: &[DVec3], truth: &[DVec2]) -> f64 {
     let squares = path.iter().zip(&truth[1..]);
     let sum: f64 = squares
         .map(|(tip, truth)| (*tip - truth.extend(0.0)).length_squared())
@@ -126,7 +126,7 @@ impl<S: Simulation + Clone> Fall for Falling<S> {
 pub struct Entry {
     /// Of what.
     pub method: String,
-    /// Steps a frame; of [`targets::XPBD_SWEEPS`] the sweeps a step.
+    /// Steps a frame; of [`names::XPBD_SWEEPS`] the sweeps a step.
     pub knob: usize,
     /// Ready to fall.
     pub fall: Box<dyn Fall>,
@@ -165,7 +165,7 @@ pub fn entries(gamma: f64, count: usize, quick: bool) -> Result<Vec<Entry>, Stri
         let rods = Rods::level(count, elements, gamma);
         let own = Own::new(&rods)?;
         for steps in [1, 2, 4, 8, 16] {
-            let method = format!("{}{elements}", targets::OWN);
+            let method = format!("{}{elements}", names::OWN);
             entries.push(entry(method, [steps; 2], own.clone(), &rods));
         }
     }
@@ -175,7 +175,7 @@ pub fn entries(gamma: f64, count: usize, quick: bool) -> Result<Vec<Entry>, Stri
     };
     let solved = Own::new(&twisting)?;
     for steps in [1, 2, 4] {
-        let method = targets::WITH_TWIST.to_owned();
+        let method = names::WITH_TWIST.to_owned();
         entries.push(entry(method, [steps; 2], solved.clone(), &twisting));
     }
     let rods = Rods::level(count, 20, gamma);
@@ -183,16 +183,16 @@ pub fn entries(gamma: f64, count: usize, quick: bool) -> Result<Vec<Entry>, Stri
     let truss = Truss::new(&rods, 0);
     for &steps in knobs(few, &[1, 4, 16], &[64, 256, 1024]) {
         let trusses = Apart(vec![truss.clone(); count]);
-        let method = targets::MASS_SPRING.to_owned();
+        let method = names::MASS_SPRING.to_owned();
         entries.push(entry(method, [steps; 2], trusses, &rods));
     }
     let xpbd = |sweeps| Apart(vec![Rod::new(&rods, 0, sweeps); count]);
     for &steps in knobs(few, &[64, 256], &[1024, 4096]) {
-        let method = targets::XPBD_STEPS.to_owned();
+        let method = names::XPBD_STEPS.to_owned();
         entries.push(entry(method, [steps; 2], xpbd(1), &rods));
     }
     for &sweeps in knobs(few, &[4, 20], &[100, 400]) {
-        let method = targets::XPBD_SWEEPS.to_owned();
+        let method = names::XPBD_SWEEPS.to_owned();
         let steps = 16;
         entries.push(entry(method, [sweeps, steps], xpbd(sweeps), &rods));
     }
@@ -279,9 +279,9 @@ mod tests {
             let error = entry.fall.error(&truth);
             // The finest of each.
             let most = match (entry.method.as_str(), entry.knob) {
-                (targets::MASS_SPRING, 16) => 0.1,
-                (targets::XPBD_STEPS, 256) => 0.1,
-                (method, 16) if method.starts_with(targets::OWN) => 0.02,
+                (names::MASS_SPRING, 16) => 0.1,
+                (names::XPBD_STEPS, 256) => 0.1,
+                (method, 16) if method.starts_with(names::OWN) => 0.02,
                 _ => f64::INFINITY,
             };
             assert!(error <= most, "{} {}: {error}", entry.method, entry.knob);

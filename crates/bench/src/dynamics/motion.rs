@@ -1,9 +1,9 @@
 //! Throughput: how long a step of many strands takes on a head that shakes.
 
 use super::mass_spring::Truss;
+use super::names;
 use super::own::Own;
 use super::rods::{Apart, NEARLY_STRAIGHT, Rods, Simulation};
-use super::targets;
 use super::xpbd::Rod;
 use crate::results::Row;
 use crate::timing::{Effort, shortest};
@@ -233,7 +233,7 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
                 moving,
             });
         };
-        let own = targets::OWN.trim_end_matches('-');
+        let own = names::OWN.trim_end_matches('-');
         for (strands, links) in [(72, 20), (10_000, 16)] {
             let rods = Rods {
                 roots: directions(strands).map(|out| (out * HEAD, out)).collect(),
@@ -246,21 +246,17 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
                 curvature: NEARLY_STRAIGHT,
                 ..rods.clone()
             };
-            add(
-                &scene,
-                targets::WITH_TWIST,
-                Bare::boxed(Own::new(&twisting)?),
-            );
+            add(&scene, names::WITH_TWIST, Bare::boxed(Own::new(&twisting)?));
             if strands == 72 {
                 let truss = |index| Truss::new(&rods, index);
                 let trusses = Apart((0..strands).map(truss).collect::<Vec<_>>());
-                add(&scene, targets::MASS_SPRING, Bare::boxed(trusses));
+                add(&scene, names::MASS_SPRING, Bare::boxed(trusses));
                 let rod = |index| Rod::new(&rods, index, 20);
                 let rods = Apart((0..strands).map(rod).collect::<Vec<_>>());
-                add(&scene, targets::XPBD_SWEEPS, Bare::boxed(rods));
+                add(&scene, names::XPBD_SWEEPS, Bare::boxed(rods));
             }
-            for (kind, params) in [("", Params::default()), (targets::STRAIGHT, straight())] {
-                let scene = format!("{}{kind}{strands}x{links}", targets::FULL);
+            for (kind, params) in [("", Params::default()), (names::STRAIGHT, straight())] {
+                let scene = format!("{}{kind}{strands}x{links}", names::FULL);
                 add(&scene, own, Box::new(Full::new(strands, links, &params)?));
             }
         }

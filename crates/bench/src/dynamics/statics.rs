@@ -1,21 +1,17 @@
 //! The strand at rest: clamped level, it hangs as Euler's elastica.
 
 use super::mass_spring::Truss;
+use super::names::{CANTILEVER, GAMMAS, MASS_SPRING, OWN, XPBD_SWEEPS};
 use super::own::Own;
 use super::reference;
 use super::rods::{Apart, Rods, Simulation};
-use super::targets;
 use super::xpbd::Rod;
 use crate::results::Row;
 use hair_sim::Pose;
 use std::time::Instant;
 
-/// Weight against stiffness of the scenes.
-pub const GAMMAS: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 /// In s: long enough for all to come to rest by the drag of 20 a second.
 const SECONDS: f64 = 10.0;
-/// Scene names begin with this.
-pub const SCENE: &str = "cantilever-";
 
 /// A row each Gamma, method and number of elements (the knob): seconds are those of a simulated second; the error is the tip's
 /// distance from the elastica's in lengths.
@@ -34,14 +30,14 @@ pub fn rows(mut done: impl FnMut()) -> Result<Vec<Row>, String> {
             };
             // In steps that the method needs: its own at 1/24 s, springs at 1/384, XPBD at 1/1536 with 20 sweeps.
             let simulations: [(&str, usize, Box<dyn Simulation>); 3] = [
-                (targets::OWN, 24, Box::new(Own::new(&rods)?)),
+                (OWN, 24, Box::new(Own::new(&rods)?)),
                 (
-                    targets::MASS_SPRING,
+                    MASS_SPRING,
                     384,
                     Box::new(Apart(vec![Truss::new(&rods, 0)])),
                 ),
                 (
-                    targets::XPBD_SWEEPS,
+                    XPBD_SWEEPS,
                     1536,
                     Box::new(Apart(vec![Rod::new(&rods, 0, 20)])),
                 ),
@@ -56,7 +52,7 @@ pub fn rows(mut done: impl FnMut()) -> Result<Vec<Row>, String> {
                 let tip = points[elements] / rods.length;
                 let error = (tip - truth.extend(0.0)).length();
                 rows.push(Row {
-                    scene: format!("{SCENE}{gamma}"),
+                    scene: format!("{CANTILEVER}{gamma}"),
                     method: method.trim_end_matches('-').to_owned(),
                     knob: elements,
                     seconds,

@@ -1,7 +1,6 @@
 //! Our figures as they were, so that worse ones are seen: errors, and times over those of a yardstick.
 
-use super::statics::SCENE;
-use super::targets::{OWN, XPBD_STEPS};
+use super::names::{CANTILEVER, OWN, XPBD_STEPS};
 use crate::results::{Row, table};
 use crate::targets::{Found, Limit, Target};
 
@@ -37,7 +36,7 @@ pub fn file(rows: &[Row]) -> Result<String, String> {
                 .error
                 .map_or(String::new(), |error| format!("{error:.4e}"));
             // What is run only once has no time to hold it to.
-            let time = if row.scene.starts_with(SCENE) {
+            let time = if row.scene.starts_with(CANTILEVER) {
                 String::new()
             } else {
                 format!("{:.4e}", row.seconds / yardstick)
@@ -85,7 +84,7 @@ fn compare(rows: &[Row], stored: &str) -> Result<Vec<Target>, String> {
         }
         if !error.is_empty() {
             let error: f64 = error.parse().map_err(|_| broken())?;
-            let apart = if scene.starts_with(SCENE) {
+            let apart = if scene.starts_with(CANTILEVER) {
                 0.0
             } else {
                 REFERENCES

@@ -1,27 +1,9 @@
 //! What our strands are held to, by themselves and against others.
 
-use super::statics;
+use super::names::{CANTILEVER, FULL, GAMMAS, MUJOCO_CHAIN, OWN, STRAIGHT};
 use crate::results::Row;
 use crate::targets::{Found, Limit, Point, Target, curve, time_at};
 
-/// Starts the names of our solver's rows; then the number of elements where that isn't the knob.
-pub const OWN: &str = "inkstrand-";
-/// Our solver and 20 elements that are so little bent that nothing shows but that their twist is solved.
-pub const WITH_TWIST: &str = "inkstrand-twist";
-/// Tetrahedra of springs.
-pub const MASS_SPRING: &str = "mass-spring";
-/// XPBD rods, one sweep a step; the knob is steps a frame.
-pub const XPBD_STEPS: &str = "xpbd-steps";
-/// XPBD rods; the knob is sweeps a step.
-pub const XPBD_SWEEPS: &str = "xpbd-sweeps";
-/// Starts the names of scenes with everything.
-pub const FULL: &str = "full-";
-/// Comes next where the hair is straight by nature.
-pub const STRAIGHT: &str = "straight-";
-/// Ends the names of scenes of 72 strands that one strand has too.
-pub const MANY: &str = "-x72";
-/// Starts the names of the rows of `MuJoCo`'s chain of ball joints.
-pub const MUJOCO_CHAIN: &str = "mujoco-chain";
 /// Beyond this root mean square, in lengths, a fall is no fall any more, and its time says nothing.
 const USELESS: f64 = 0.5;
 
@@ -54,8 +36,8 @@ fn find<'a>(rows: &'a [Row], scene: &str, method: &str, knob: usize) -> Option<&
 fn at_rest(rows: &[Row]) -> Vec<Target> {
     let method = OWN.trim_end_matches('-');
     let mut targets = Vec::new();
-    for gamma in statics::GAMMAS {
-        let scene = format!("{}{gamma}", statics::SCENE);
+    for gamma in GAMMAS {
+        let scene = format!("{}{gamma}", CANTILEVER);
         let error = |elements| find(rows, &scene, method, elements)?.error;
         if gamma <= 100.0 {
             targets.push(Target {

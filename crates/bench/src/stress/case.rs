@@ -56,7 +56,7 @@ pub enum Body {
     Mesh,
 }
 
-/// Something that is no number or no shape, on one strand.
+/// Invalid input of one strand: NaN, infinity, or a shape that it cannot have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fault {
     /// The strand's index.
@@ -74,7 +74,7 @@ pub enum Broken {
     Folds(usize),
     /// All points at rest are one.
     IsPoint,
-    /// The pose of the root in this frame: not finite, or no rotation.
+    /// The pose of the root in this frame: not finite, or not a rotation.
     Root(usize, f64),
     /// The goal of this point in this frame is not finite.
     Goal(usize, usize, f32),
@@ -469,9 +469,9 @@ fn fault(rng: &mut Rng, rest: &Strands, params: &[Params], frames: &[Frame]) -> 
     let count = rest.strand(strand).len();
     let point = rng.usize(..count);
     let frame = rng.usize(..frames.len());
-    let none = one_of(rng, &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
+    let not_finite = one_of(rng, &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
     let what = match rng.u8(..5) {
-        0 => Broken::Rest(point, none as f32),
+        0 => Broken::Rest(point, not_finite as f32),
         1 if count > 2 => Broken::Folds(rng.usize(1..count - 1)),
         2 if count > 1 => Broken::IsPoint,
         3 if frames[frame].goal.is_some() && point > 0 => {
@@ -481,9 +481,9 @@ fn fault(rng: &mut Rng, rest: &Strands, params: &[Params], frames: &[Frame]) -> 
             if !pulls {
                 return None;
             }
-            Broken::Goal(frame, point, none as f32)
+            Broken::Goal(frame, point, not_finite as f32)
         }
-        _ if frames[frame].each.is_some() => Broken::Root(frame, none),
+        _ if frames[frame].each.is_some() => Broken::Root(frame, not_finite),
         _ => return None,
     };
     Some(Fault { strand, what })

@@ -184,12 +184,12 @@ impl<'a> Run<'a> {
             let place = self.how.order.iter().position(|s| *s == fault.strand);
             let place = place.unwrap_or_default();
             match (fault.what, &mut each, &mut goal) {
-                (Broken::Root(frame, none), Some(each), _) if frame == index => {
-                    each[place].translation.y = none;
+                (Broken::Root(frame, not_finite), Some(each), _) if frame == index => {
+                    each[place].translation.y = not_finite;
                     self.aside[place] = true;
                 }
-                (Broken::Goal(frame, point, none), _, Some(goal)) if frame == index => {
-                    goal[self.rest.point_range(place).start + point].x = none;
+                (Broken::Goal(frame, point, not_finite), _, Some(goal)) if frame == index => {
+                    goal[self.rest.point_range(place).start + point].x = not_finite;
                     self.aside[place] = true;
                 }
                 _ => {}
@@ -277,7 +277,7 @@ impl<'a> Run<'a> {
         }
         let mut frames = self.solver.frames(&self.state, place);
         if !frames.all(|f| (f.length() - 1.0).abs() < 1e-9) {
-            return Err("has a frame that is no rotation".to_owned());
+            return Err("has a frame that is not a rotation".to_owned());
         }
         if self.aside[place] {
             return Ok(());
@@ -391,7 +391,7 @@ fn break_rest(rest: &mut Strands, case: &Case, order: &[usize]) {
         let range = rest.point_range(place.unwrap_or_default());
         let points = &mut rest.points_mut()[range];
         match fault.what {
-            Broken::Rest(point, none) => points[point].z = none,
+            Broken::Rest(point, not_finite) => points[point].z = not_finite,
             Broken::Folds(point) => points[point + 1] = points[point - 1],
             Broken::IsPoint => points.fill(points[0]),
             Broken::Root(..) | Broken::Goal(..) => {}

@@ -54,7 +54,7 @@ impl Scene {
     }
 }
 
-/// All scenes; `root` is the project's folder, for its presets.
+/// All scenes; `root` is the project's folder, for its yardsticks.
 ///
 /// # Errors
 ///
@@ -68,20 +68,21 @@ pub fn all(root: &Path) -> Result<Vec<Scene>, String> {
     ])
 }
 
-/// The strokes of `presets/twin-tails.ron` without the head.
+/// The strokes of `tests/yardsticks/twin-tails.ron` without the head.
 ///
 /// # Errors
 ///
 /// When the preset or a file of it cannot be read.
 pub fn twin_tails(root: &Path) -> Result<Scene, String> {
-    let path = root.join("presets/twin-tails.ron");
+    let folder = root.join("tests/yardsticks");
+    let path = folder.join("twin-tails.ron");
     let name = path.display().to_string();
     let text = std::fs::read_to_string(&path).map_err(|error| format!("{name}: {error}"))?;
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
     let preset = Preset::parse(&name, &text, &registry).map_err(|errors| errors.to_string())?;
     let files = Files {
-        preset_folder: root.join("presets"),
+        preset_folder: folder,
         ..Files::default()
     };
     let mut stage = Stage::new(&preset, &files).map_err(|error| error.to_string())?;

@@ -11,7 +11,7 @@ use super::tile::{
     HEIGHT, LANES, Lanes, Mask, NO_SAMPLES, Plane, ROWS, Target, both, cells, greater, has,
     is_empty, plane, select, without,
 };
-use crate::drawing::{self, Order};
+use crate::drawing::Order;
 use glam::Vec2;
 use std::ops::Range;
 
@@ -28,8 +28,6 @@ pub(super) struct Scene<'a> {
     pub(super) origin: [usize; 2],
     /// The samples that are worked on, from their pixel's corner.
     pub(super) samples: &'a [Vec2],
-    /// The number of the first of them.
-    pub(super) first_sample: usize,
 }
 
 /// The working memory of one strand.
@@ -89,7 +87,7 @@ impl StrandPlanes {
         }
         self.place(scene, strand, &open);
         match scene.order {
-            Order::Rounded | Order::Scattered | Order::StrandFirst => {
+            Order::Rounded | Order::StrandFirst => {
                 let id = scene.segments[strand[0] as usize].strand;
                 self.draw_as_one(scene, u32::MAX - id, target);
             }
@@ -218,9 +216,6 @@ impl StrandPlanes {
                 );
             }
         }
-        if scene.order == Order::Scattered {
-            scatter(scene, u32::MAX - priority, &shown, &mut self.depths);
-        }
         composite(&self.depths, &mut shown, priority, target);
         for stroke in strokes {
             stroke.samples = both(&stroke.samples, &shown);
@@ -332,22 +327,6 @@ fn round(
         let biased = &mut depths.biased[cell.index];
         for k in 0..LANES {
             let deeper_m = scene.edge_depth_m * part[k];
-            let is_taken = has(cell.bits, k);
-            nearest[k] = select(is_taken, deeper(nearest[k], deeper_m), nearest[k]);
-            biased[k] = select(is_taken, deeper(biased[k], deeper_m), biased[k]);
-        }
-    }
-}
-
-/// Takes a strand as much deeper as it is in each sample.
-#[inline(always)]
-fn scatter(scene: &Scene, strand: u32, samples: &Mask, depths: &mut Depths) {
-    for cell in cells(samples) {
-        let sample = scene.first_sample + cell.row / HEIGHT;
-        let deeper_m = scene.edge_depth_m * drawing::scatter(strand, sample as u32);
-        let nearest = &mut depths.inv_depth[cell.index];
-        let biased = &mut depths.biased[cell.index];
-        for k in 0..LANES {
             let is_taken = has(cell.bits, k);
             nearest[k] = select(is_taken, deeper(nearest[k], deeper_m), nearest[k]);
             biased[k] = select(is_taken, deeper(biased[k], deeper_m), biased[k]);

@@ -188,9 +188,8 @@ impl Programs {
         }
         let number = match order {
             Order::Rounded => 0,
-            Order::Scattered => 1,
-            Order::StrandFirst => 2,
-            Order::Shifted => 3,
+            Order::StrandFirst => 1,
+            Order::Shifted => 2,
         };
         let text = program::tiles(number);
         let made = pipelines(device, "tiles", &text, &self.layouts.tiles, &["draw_tile"])?;

@@ -173,7 +173,7 @@ impl Scene {
                 Light::Point(Vec3::new(0.3, 0.5, 0.4))
             },
             background: (!seed.is_multiple_of(3)).then_some([0.2, 0.3, 0.9]),
-            order: Order::ALL[seed as usize % Order::ALL.len()],
+            order: Order::ALL[(seed / 3) as usize % Order::ALL.len()],
             brush: if (seed / 4).is_multiple_of(2) {
                 Brush::Circle
             } else {

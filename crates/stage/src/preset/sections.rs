@@ -85,7 +85,7 @@ choices! {
     pub enum OrderChoice {
         /// [`render::Order::Rounded`].
         Rounded = "rounded",
-        /// [`render::Order::Scattered`].
+        /// An order of earlier presets, drawn as [`Self::Rounded`].
         Scattered = "scattered",
         /// [`render::Order::StrandFirst`].
         StrandFirst = "strand_first",
@@ -105,10 +105,10 @@ section! {
         background: Option<[f32; 3]> = optional_color(Some("FFFFFF")),
         /// Frames a second.
         fps: f32 = number(24.0, 1.0..=1000.0).unit("1/s"),
-        /// Within a strand by rank, then by depth: of round clumps, of clumps that fade into each other, or of flat ones; or every
-        /// stroke by its shifted depth.
+        /// Within a strand by rank, then by depth, of round clumps or of flat ones; or every stroke by its shifted depth.
+        /// `scattered`, as older presets say, is drawn as `rounded`.
         order: OrderChoice = OrderChoice::Rounded.or_another(),
-        /// How much deeper than its middle a round clump's edge lies; or the difference of depths over which clumps fade.
+        /// How much deeper than its middle a round clump's edge lies.
         edge_depth: f32 = number(0.02, 0.0..=1.0).unit("head heights"),
     }
 }

@@ -216,7 +216,7 @@ proptest! {
         colors in proptest::collection::vec([any_number(), any_number(), any_number()], 12),
         surface in any_surface(),
         rank in -1..2_i32,
-        order in 0..4_usize,
+        order in 0..Order::ALL.len(),
         size in [1..40_u32, 1..40],
     ) {
         let drawing = Drawing {

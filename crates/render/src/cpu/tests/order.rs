@@ -234,7 +234,7 @@ fn any_drawing() -> impl Strategy<Value = Drawing> {
     let layers = proptest::collection::vec(any_layer(JOINTS), 1..4);
     let sides = proptest::collection::vec(any_disc(), 2 * JOINTS);
     let colors = proptest::collection::vec([0.0..1.0_f32, 0.0..1.0, 0.0..1.0], 3 * JOINTS);
-    let options = (0..4_usize, any::<[bool; 3]>());
+    let options = (0..Order::ALL.len(), any::<[bool; 3]>());
     let parts = (clump, sides, colors, layers, options);
     parts.prop_map(
         |(clump, mut sides, mut colors, mut layers, (order, options))| {

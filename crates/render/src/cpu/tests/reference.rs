@@ -1,7 +1,7 @@
 //! The rules of [`crate::drawing`] written down sample by sample, without tiles, planes or clipping.
 
 use super::super::segment::strokes_in_order;
-use crate::drawing::{Brush, Disc, Drawing, Order, Run, scatter};
+use crate::drawing::{Brush, Disc, Drawing, Order, Run};
 use crate::picture::Picture;
 use crate::samples::sample_positions;
 use glam::DVec2;
@@ -35,9 +35,9 @@ pub(super) fn draw(drawing: &Drawing, samples: u32) -> Picture {
     for y in 0..height {
         for x in 0..width {
             let mut sum = [0.0_f32; 4];
-            for (number, offset) in (0..).zip(&offsets) {
+            for offset in &offsets {
                 let position = DVec2::new(f64::from(x), f64::from(y)) + offset.as_dvec2();
-                if let Some([red, green, blue]) = sample(drawing, position, number) {
+                if let Some([red, green, blue]) = sample(drawing, position) {
                     for (sum, value) in sum.iter_mut().zip([red, green, blue, 1.0]) {
                         *sum += value;
                     }
@@ -53,7 +53,7 @@ pub(super) fn draw(drawing: &Drawing, samples: u32) -> Picture {
     }
 }
 
-fn sample(drawing: &Drawing, position: DVec2, number: u32) -> Option<[f32; 3]> {
+fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
     let strokes = strokes_in_order(drawing);
     let joints = drawing.clump.len();
     // (inverse depth, place of the stroke, colour)
@@ -65,7 +65,6 @@ fn sample(drawing: &Drawing, position: DVec2, number: u32) -> Option<[f32; 3]> {
     };
     let strands = drawing.runs.chunk_by(|a, b| a.strand == b.strand);
     for runs in strands {
-        let strand = runs[0].strand;
         let no_colors = vec![[0.0; 3]; joints];
         let sides = drawing.sides.chunks(joints);
         let clump = [&drawing.clump[..]]
@@ -93,7 +92,7 @@ fn sample(drawing: &Drawing, position: DVec2, number: u32) -> Option<[f32; 3]> {
                     offer(touch.inv_depth, place, touch.color);
                 }
             }
-            Order::Rounded | Order::Scattered | Order::StrandFirst => {
+            Order::Rounded | Order::StrandFirst => {
                 let top = touches
                     .iter()
                     .rfind(|(_, rank, _)| clump.is_some() || *rank < 0);
@@ -104,7 +103,6 @@ fn sample(drawing: &Drawing, position: DVec2, number: u32) -> Option<[f32; 3]> {
                     };
                     let deeper_m = match drawing.order {
                         Order::Rounded => drawing.edge_depth_m * part,
-                        Order::Scattered => drawing.edge_depth_m * scatter(strand, number),
                         Order::StrandFirst | Order::Shifted => 0.0,
                     };
                     offer(depth / (1.0 + deeper_m * depth.max(0.0)), 0, touch.color);

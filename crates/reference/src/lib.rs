@@ -1,4 +1,38 @@
-//! The reference picture: what a drawing should look like, in f64, slow and plain.
+//! The reference picture: what a [`Drawing`] should look like, in f64, slow and plain; and how far other
+//! pictures are from it ([`compare`]).
+//!
+//! ```
+//! use reference::{compare, picture};
+//! use render::{Disc, Drawing, LayerStrokes, Run, cpu::Rasterizer};
+//!
+//! // One white stroke from the left to the right, 6 pixels wide at first, then pointed.
+//! let joint = |x: f32, radius: f32| Disc {
+//!     center: glam::Vec2::new(x, 8.0),
+//!     radius,
+//!     inv_depth: 1.0,
+//!     inv_depth_biased: 1.0,
+//! };
+//! let discs = vec![joint(4.0, 3.0), joint(28.0, 0.0)];
+//! let drawing = Drawing {
+//!     size: [32, 16],
+//!     runs: vec![Run { strand: 0, joints: 0..2 }],
+//!     clump: discs.clone(),
+//!     layers: vec![LayerStrokes {
+//!         name: "base".to_owned(),
+//!         rank: 0,
+//!         instances: 1,
+//!         discs,
+//!         colors: vec![[1.0; 3]; 2],
+//!     }],
+//!     ..Drawing::default()
+//! };
+//!
+//! let exact = picture(&drawing, 16);
+//! let drawn = Rasterizer::new(16, Some(1))?.draw(&drawing)?;
+//! let difference = compare::error(&drawn, &exact, &compare::mask(&exact))?;
+//! assert!(difference.mean < 0.02 && (difference.ink_ratio - 1.0).abs() < 0.01);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! Every sample asks every stroke near it the three questions of `segment`: does a disc of the
 //! sweep cover me, how near is the nearest disc that does, and which axis point lends its colour.
@@ -9,6 +43,7 @@
 //! along the strand lends its colour, of surfaces equally near the first triangle is seen, and a
 //! stroke exactly as deep as a surface is in front of it.
 
+pub mod compare;
 mod scene;
 mod segment;
 mod triangle;
@@ -66,8 +101,8 @@ fn row(scene: &Scene, width: u32, y: u32, positions: &[DVec2]) -> Vec<[f32; 4]> 
 fn pixel(scene: &Scene, corner: DVec2, positions: &[DVec2]) -> [f32; 4] {
     let scene = scene.within(corner, corner + 1.0);
     let mut sum = [0.0; 4];
-    for (number, position) in (0..).zip(positions) {
-        if let Some([red, green, blue]) = scene.color(corner + *position, number) {
+    for position in positions {
+        if let Some([red, green, blue]) = scene.color(corner + *position) {
             for (total, value) in sum.iter_mut().zip([red, green, blue, 1.0]) {
                 *total += value.clamp(0.0, 1.0);
             }

@@ -1,9 +1,9 @@
 //! Which stroke or surface a sample shows.
 
-use super::segment::{Depth, Segment};
-use super::triangle::{Hit, Triangle};
+use crate::segment::{Depth, Segment};
+use crate::triangle::{Hit, Triangle};
 use glam::DVec2;
-use render::{Brush, Disc, Drawing, Order, scatter};
+use render::{Brush, Disc, Drawing, Order};
 use std::cmp::Reverse;
 
 /// What may cover the samples of one part of the screen.
@@ -20,8 +20,6 @@ pub struct Scene {
 
 #[derive(Debug)]
 struct Strand {
-    /// Its place among the drawing's strands.
-    number: u32,
     clump: Vec<Segment>,
     /// The one that hides the others first.
     strokes: Vec<Stroke>,
@@ -47,9 +45,7 @@ impl Scene {
     pub fn new(drawing: &Drawing) -> Self {
         let strands = drawing.runs.chunk_by(|a, b| a.strand == b.strand);
         Self {
-            strands: strands
-                .map(|runs| Strand::new(drawing, runs[0].strand, runs))
-                .collect(),
+            strands: strands.map(|runs| Strand::new(drawing, runs)).collect(),
             triangles: drawing.surfaces.iter().flat_map(Triangle::of).collect(),
             background: drawing.background.map(|color| color.map(f64::from)),
             order: drawing.order,
@@ -68,14 +64,11 @@ impl Scene {
         }
     }
 
-    /// The colour at `point`, which is sample `number` of its pixel, or nothing where the picture is
-    /// transparent.
-    pub fn color(&self, point: DVec2, number: u32) -> Option<[f64; 3]> {
+    /// The colour at `point`, or nothing where the picture is transparent.
+    pub fn color(&self, point: DVec2) -> Option<[f64; 3]> {
         let surface = self.nearest_surface(point);
         let stroke = match self.order {
-            Order::Rounded | Order::Scattered | Order::StrandFirst => {
-                self.nearest_strand(point, number, surface.as_ref())
-            }
+            Order::Rounded | Order::StrandFirst => self.nearest_strand(point, surface.as_ref()),
             Order::Shifted => self.nearest_stroke(point, surface.as_ref()),
         };
         stroke
@@ -98,12 +91,11 @@ impl Scene {
 
     /// All orders but [`Order::Shifted`]: each strand settles what it shows, then the nearest
     /// strand is seen, the lower id among equals. Strands that `surface` hides are not.
-    fn nearest_strand(&self, point: DVec2, number: u32, surface: Option<&Hit>) -> Option<&Stroke> {
+    fn nearest_strand(&self, point: DVec2, surface: Option<&Hit>) -> Option<&Stroke> {
         let shown = self.strands.iter().filter_map(|strand| {
             let (depth, part, stroke) = strand.shown(point)?;
             let part = match self.order {
                 Order::Rounded => part,
-                Order::Scattered => scatter(strand.number, number).into(),
                 Order::StrandFirst | Order::Shifted => 0.0,
             };
             Some((depth.deeper(self.edge_depth_m * part), stroke))
@@ -137,7 +129,7 @@ impl Scene {
 
 impl Strand {
     /// The strand that has `runs`.
-    fn new(drawing: &Drawing, number: u32, runs: &[render::Run]) -> Self {
+    fn new(drawing: &Drawing, runs: &[render::Run]) -> Self {
         let joints = drawing.clump.len();
         let no_colors = vec![[0.0; 3]; joints];
         let mut strokes: Vec<Stroke> = Vec::new();
@@ -164,7 +156,6 @@ impl Strand {
         let clump = [&drawing.clump[..]].into_iter().chain(sides);
         let clump = clump.flat_map(|discs| segments(runs, discs, &no_colors, drawing.brush));
         Self {
-            number,
             clump: clump.collect(),
             strokes,
         }
@@ -181,7 +172,6 @@ impl Strand {
             segments: touching(&stroke.segments),
         });
         Self {
-            number: self.number,
             clump: touching(&self.clump),
             strokes: strokes.filter(|s| !s.segments.is_empty()).collect(),
         }

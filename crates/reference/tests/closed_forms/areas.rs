@@ -1,7 +1,6 @@
 //! Areas, depths and colours of the reference picture against closed forms.
 
 use crate::drawings::*;
-use bench::oracle;
 use glam::DVec2;
 use render::{Brush, Disc, Drawing};
 use std::f64::consts::PI;
@@ -11,7 +10,7 @@ use std::f64::consts::PI;
 const TOLERANCE: f64 = 0.05;
 
 fn area(drawing: &Drawing) -> f64 {
-    sum(&oracle::picture(drawing, 16), 3)
+    sum(&reference::picture(drawing, 16), 3)
 }
 
 fn assert_area(discs: &[Disc], expected: f64) {
@@ -119,7 +118,7 @@ fn two_crossing_strands() {
     let down = [disc(32.0, 10.0, 4.0, near), disc(32.0, 54.0, 4.0, near)];
     let mut drawing = strokes(&[&across, &down]);
     drawing.layers[0].colors = [RED, RED, GREEN, GREEN].to_vec();
-    let picture = oracle::picture(&drawing, 16);
+    let picture = reference::picture(&drawing, 16);
     let bar = 44.0 * 8.0 + 16.0 * PI;
     assert!((sum(&picture, 0) - (bar - 64.0)).abs() < 0.2);
     assert!((sum(&picture, 1) - bar).abs() < 0.2);
@@ -133,7 +132,7 @@ fn depth_is_reached_by_the_nearest_disc_that_covers_the_sample() {
     let discs = [disc(12.0, 32.0, 6.0, 1.0), disc(52.0, 32.0, 6.0, 3.0)];
     let mut drawing = strokes(&[&discs]);
     add_wall(&mut drawing, 2.0, 1.0, [GREEN; 2]);
-    let shown = sum(&oracle::picture(&drawing, 16), 0);
+    let shown = sum(&reference::picture(&drawing, 16), 0);
     assert!((shown - (20.0 * 12.0 + 36.0 * PI)).abs() < 0.2, "{shown}");
 }
 
@@ -207,7 +206,7 @@ fn grid_converges_at_the_rate_of_lattice_points_in_a_disc() {
                 size: [12, 12],
                 ..strokes(&[&[disc(5.5 + x.fract(), 5.5 + y.fract(), 5.0, 1.0)]])
             };
-            (sum(&oracle::picture(&drawing, grid), 3) - 25.0 * PI).powi(2)
+            (sum(&reference::picture(&drawing, grid), 3) - 25.0 * PI).powi(2)
         });
         (squares.sum::<f64>() / 50.0).sqrt()
     };
@@ -224,12 +223,12 @@ fn samples_are_where_they_are_asked_for() {
     // The left half of pixel (3, 5) is covered.
     let drawing = strokes(&[&[disc(-996.5, 5.5, 1000.0, 1.0)]]);
     let positions = [[0.1, 0.5], [0.4, 0.2], [0.6, 0.5], [0.9, 0.9]].map(DVec2::from_array);
-    let picture = oracle::picture_at(&drawing, &positions);
+    let picture = reference::picture_at(&drawing, &positions);
     assert_eq!(picture.pixels[5 * 64 + 3], [0.5; 4]);
     assert_eq!(picture.pixels[5 * 64 + 2], [1.0; 4]);
     assert_eq!(picture.pixels[5 * 64 + 4], [0.0; 4]);
     assert_eq!(
-        oracle::picture_at(&drawing, &[]).pixels[5 * 64 + 2],
+        reference::picture_at(&drawing, &[]).pixels[5 * 64 + 2],
         [0.0; 4]
     );
 }
@@ -239,7 +238,7 @@ fn light_is_cut_to_the_range_of_a_picture_sample_by_sample() {
     let mut drawing = strokes(&[&[disc(-996.5, 5.5, 1000.0, 1.0)]]);
     drawing.layers[0].colors[0] = [3.0, -1.0, 0.5];
     let positions = [DVec2::new(0.2, 0.5), DVec2::new(0.8, 0.5)];
-    let picture = oracle::picture_at(&drawing, &positions);
+    let picture = reference::picture_at(&drawing, &positions);
     assert_eq!(picture.pixels[5 * 64 + 3], [0.5, 0.0, 0.25, 0.5]);
 }
 
@@ -250,5 +249,5 @@ fn nothing_is_transparent_and_a_background_is_opaque() {
     drawing.background = Some([0.25, 0.5, 0.75]);
     assert_eq!(sample(&drawing, 3.0, 3.0), [0.25, 0.5, 0.75, 1.0]);
     drawing.size = [0, 7];
-    assert!(oracle::picture(&drawing, 4).pixels.is_empty());
+    assert!(reference::picture(&drawing, 4).pixels.is_empty());
 }

@@ -1,8 +1,6 @@
 //! Stamping held against the reference: a stamped stroke is a drawing of many discs.
 
-mod scenes;
-
-use bench::oracle;
+use crate::portrait::{portrait, strokes_alone};
 use glam::DVec2;
 use render::cpu::{Rasterizer, Stamper};
 use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run};
@@ -81,7 +79,7 @@ fn stamping_draws_the_union_of_its_stamps() {
     for (samples, per_interval) in [(1, 1), (4, 3), (8, 1)] {
         let drawing = Drawing {
             background: Some([0.2, 0.4, 0.8]),
-            ..scenes::strokes_alone(&scenes::portrait([150, 110], Order::Shifted))
+            ..strokes_alone(&portrait([150, 110], Order::Shifted))
         };
         let picture = Stamper::new(samples, Some(2))
             .unwrap()
@@ -89,7 +87,7 @@ fn stamping_draws_the_union_of_its_stamps() {
             .unwrap();
         let positions = render::sample_positions(samples).unwrap();
         let positions: Vec<DVec2> = positions.iter().map(|p| p.as_dvec2()).collect();
-        let reference = oracle::picture_at(&stamped(&drawing, per_interval), &positions);
+        let reference = reference::picture_at(&stamped(&drawing, per_interval), &positions);
         let pixels = picture.pixels.iter().zip(&reference.pixels);
         let different = pixels.filter(|(a, b)| (0..4).any(|i| (a[i] - b[i]).abs() > 4e-3));
         let different = different.count();
@@ -105,7 +103,7 @@ fn stamping_draws_the_union_of_its_stamps() {
 fn stamps_of_half_discs_fill_the_half_discs_stroke() {
     let mut drawing = Drawing {
         brush: Brush::Semicircle,
-        ..scenes::strokes_alone(&scenes::portrait([150, 110], Order::Shifted))
+        ..strokes_alone(&portrait([150, 110], Order::Shifted))
     };
     // Ends that are no points.
     let discs = drawing.layers.iter_mut().flat_map(|layer| &mut layer.discs);
@@ -132,7 +130,7 @@ fn stamps_of_half_discs_fill_the_half_discs_stroke() {
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    let drawing = scenes::strokes_alone(&scenes::portrait([150, 110], Order::Shifted));
+    let drawing = strokes_alone(&portrait([150, 110], Order::Shifted));
     let draw = |threads| {
         Stamper::new(4, Some(threads))
             .unwrap()

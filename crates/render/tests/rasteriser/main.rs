@@ -1,0 +1,8 @@
+//! The rasterisers held against the reference picture (crate `reference`), which shares no code with them.
+
+mod agreement;
+mod card;
+mod drawings;
+mod exact;
+mod portrait;
+mod stamping;

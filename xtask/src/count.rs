@@ -1,0 +1,300 @@
+//! Counts the instructions of a frame, stage by stage: `cargo xtask bench count`.
+//!
+//! Times lie where other programs run beside; instructions don't. valgrind's callgrind counts those of the program as
+//! the tests build it, with one thread on the CPU, for a frame of each yardstick as it moves: the second one, when
+//! everything has been loaded and has its memory. `tests/yardsticks/counts.toml` holds the counts that later ones are
+//! held to.
+//!
+//! valgrind runs programs on a processor of its own, which has AVX2 and no AVX-512 where the machine has AVX2: so
+//! every such machine counts the same.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::program::{self, Inkstrand};
+use crate::{Outcome, setup, work};
+
+/// The yardsticks that are counted.
+const YARDSTICKS: [&str; 3] = ["twin-tails", "short-ash", "blond-fantasy"];
+
+/// What else `inkstrand render` gets.
+const ARGS: [&str; 7] = [
+    "--size=960x720",
+    "--samples=4",
+    "--backend=cpu",
+    "--threads=1",
+    "--motion=tests/yardsticks/motions/walk-in-wind.motion.ron",
+    "--frames=0-1",
+    "--quiet",
+];
+
+/// The stages of a frame, in order, each with the function that it is. The first one begins a frame.
+const STAGES: [(&str, &str); 4] = [
+    ("simulate", "stage::motion::Motion::advance_to"),
+    ("paths", "stage::frame_maker::FrameMaker::frame"),
+    ("effects", "render::cpu::evaluate::Evaluator::evaluate"),
+    ("raster", "render::cpu::Rasterizer::draw"),
+];
+
+/// The part of a count by which a later one may differ.
+const TOLERANCE: f64 = 0.03;
+
+/// Instructions of a frame's stages, by their names.
+type Counts = BTreeMap<String, u64>;
+
+/// The counts of yardsticks, by their names.
+type Table = BTreeMap<String, Counts>;
+
+/// Counts, and compares with the stored counts or puts the new ones in their place.
+///
+/// # Errors
+/// A count differs too much; the program doesn't build or run; `bless` where `CI=true`; where `CI=true` also when
+/// nothing can be counted.
+pub fn run(bless: bool) -> Outcome {
+    if bless && program::on_ci() {
+        return Err("--bless is for a person; not where CI=true".into());
+    }
+    if let Some(reason) = obstacle() {
+        if program::on_ci() || bless {
+            return Err(reason.into());
+        }
+        println!("SKIPPED: {reason}");
+        return Ok(());
+    }
+    let program = Inkstrand::build()?;
+    let counted = work::on_all_cores(&YARDSTICKS, "yardsticks", |name| {
+        count(&program, name).map_err(|error| format!("{name}: {error}"))
+    });
+    let counted = YARDSTICKS
+        .iter()
+        .map(|name| (*name).to_owned())
+        .zip(counted);
+    let counted = counted
+        .map(|(name, counts)| Ok((name, counts?)))
+        .collect::<Result<Table, String>>()?;
+    let path = program::root().join("tests/yardsticks/counts.toml");
+    if bless {
+        print(&counted, &Table::new());
+        fs::write(&path, to_toml(&counted))?;
+        println!("  stored in {}", path.display());
+        return Ok(());
+    }
+    let stored = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let stored: Table = toml::from_str(&stored).map_err(|e| format!("{}: {e}", path.display()))?;
+    print(&counted, &stored);
+    let mut differences = differences(&counted, &stored);
+    if differences.is_empty() {
+        return Ok(());
+    }
+    differences.push("if that is meant: cargo xtask bench count --bless".to_owned());
+    Err(differences.join("\n").into())
+}
+
+/// Why nothing can be counted here.
+fn obstacle() -> Option<&'static str> {
+    if !has_avx2() {
+        return Some("the stored counts are of x86-64 with AVX2, which this machine hasn't");
+    }
+    (!setup::has_valgrind()).then_some("no valgrind: `cargo xtask setup` installs it")
+}
+
+fn has_avx2() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return is_x86_feature_detected!("avx2");
+    #[cfg(not(target_arch = "x86_64"))]
+    return false;
+}
+
+/// Counts a frame of a yardstick.
+fn count(program: &Inkstrand, name: &str) -> Outcome<Counts> {
+    let folder = tempfile::tempdir()?;
+    let profile = folder.path().join("profile");
+    let mut command = Command::new("valgrind");
+    command
+        .args(["--tool=callgrind", "--compress-strings=no"])
+        // A profile of its own for what comes before each frame; the last frame's is written at the end.
+        .arg(format!("--dump-before={}", STAGES[0].1))
+        .arg(format!("--callgrind-out-file={}", profile.display()))
+        .arg(program.path())
+        .args(["render", &format!("tests/yardsticks/{name}.ron")])
+        .args(ARGS)
+        .arg("-o")
+        .arg(folder.path().join("frame_#.png"))
+        .current_dir(program::root());
+    program::finished(&command.output()?)?;
+    let last = last_profile(folder.path())?;
+    stages(&fs::read_to_string(last)?)
+}
+
+/// The profile of what came last: that with the greatest number at its end.
+fn last_profile(folder: &Path) -> Outcome<PathBuf> {
+    let mut last = None;
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let number = path
+            .extension()
+            .and_then(|end| end.to_str()?.parse::<u32>().ok());
+        last = last.max(number.map(|number| (number, path)));
+    }
+    let (_, path) = last.ok_or("valgrind wrote no profile of a frame")?;
+    Ok(path)
+}
+
+/// What each stage takes in a profile, in callgrind's format: below a line `cfn=FUNCTION` come `calls=...` and a line
+/// whose last number is what the function took, with all that it called.
+fn stages(profile: &str) -> Outcome<Counts> {
+    let mut counts = Counts::new();
+    let mut lines = profile.lines();
+    let mut called = "";
+    while let Some(line) = lines.next() {
+        if let Some(function) = line.strip_prefix("cfn=") {
+            called = function;
+        }
+        if !line.starts_with("calls=") {
+            continue;
+        }
+        let cost = lines.next().and_then(|line| line.split(' ').next_back());
+        let cost: u64 = cost.ok_or("a profile that ends with a call")?.parse()?;
+        if let Some((stage, _)) = STAGES.iter().find(|(_, function)| *function == called) {
+            *counts.entry((*stage).to_owned()).or_default() += cost;
+        }
+    }
+    for (stage, function) in STAGES {
+        if !counts.contains_key(stage) {
+            let file = file!();
+            return Err(
+                format!("nothing calls {function}: what is stage {stage} now? ({file})").into(),
+            );
+        }
+    }
+    Ok(counts)
+}
+
+/// What is not as stored, a line each.
+fn differences(counted: &Table, stored: &Table) -> Vec<String> {
+    let mut differences = Vec::new();
+    for (name, counts) in counted {
+        for (stage, count) in counts {
+            let Some(before) = stored.get(name).and_then(|counts| counts.get(stage)) else {
+                differences.push(format!("{name}, {stage}: no count is stored"));
+                continue;
+            };
+            let ratio = *count as f64 / *before as f64;
+            if (ratio - 1.0).abs() > TOLERANCE {
+                let percent = 100.0 * (ratio - 1.0);
+                differences.push(format!(
+                    "{name}, {stage}: {count} instructions a frame, {percent:+.1} % of the stored {before}"
+                ));
+            }
+        }
+    }
+    differences
+}
+
+/// A table to read, in millions.
+fn print(counted: &Table, stored: &Table) {
+    for (name, counts) in counted {
+        let before = stored.get(name);
+        let line = |stage: &str, count: u64, before: Option<u64>| {
+            let change = before.map(|before| {
+                let percent = 100.0 * (count as f64 / before as f64 - 1.0);
+                format!("{percent:+8.2} %")
+            });
+            let change = change.unwrap_or_default();
+            println!(
+                "  {name:14} {stage:9} {:9.2} million{change}",
+                count as f64 * 1e-6
+            );
+        };
+        for (stage, _) in STAGES {
+            let before = before.and_then(|counts| counts.get(stage)).copied();
+            line(stage, counts[stage], before);
+        }
+        let before = before.map(|counts| counts.values().sum());
+        line("in all", counts.values().sum(), before);
+    }
+}
+
+fn to_toml(table: &Table) -> String {
+    let mut text = String::from(
+        "# Instructions of a frame of the yardsticks, by stages: made by `cargo xtask bench count --bless`, held to within\n\
+         # 3 % by `cargo xtask test counts`.\n",
+    );
+    for (name, counts) in table {
+        text.push_str(&format!("\n[{name}]\n"));
+        for (stage, _) in STAGES {
+            text.push_str(&format!("{stage} = {}\n", counts[stage]));
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(raster: u64) -> Table {
+        let counts = STAGES.map(|(stage, _)| (stage.to_owned(), 1000));
+        let mut counts = Counts::from(counts);
+        counts.insert("raster".to_owned(), raster);
+        Table::from([("made".to_owned(), counts)])
+    }
+
+    /// A profile in which a function of the program calls each of `called`.
+    fn profile(called: &[&str]) -> String {
+        let calls = called.iter().map(|function| {
+            format!("cob=inkstrand\ncfi=a.rs\ncfn={function}\ncalls=1 12\n34 500\n")
+        });
+        let calls: String = calls.collect();
+        format!("events: Ir\n\nfn=inkstrand::painter::Painter::paint\n33 7\n{calls}35 8\n")
+    }
+
+    #[test]
+    fn a_stage_is_what_calls_of_its_function_take() {
+        let mut called = STAGES.map(|(_, function)| function).to_vec();
+        called.extend([STAGES[3].1, "render::cpu::Rasterizer::draw_other"]);
+        let counts = stages(&profile(&called)).unwrap();
+        assert_eq!(counts["effects"], 500);
+        assert_eq!(counts["raster"], 1000);
+    }
+
+    #[test]
+    fn a_stage_that_nothing_calls_is_an_error() {
+        let error = stages(&profile(&[STAGES[0].1])).unwrap_err().to_string();
+        assert!(error.contains("nothing calls stage::"), "{error}");
+        assert!(stages("fn=a\ncfn=b\ncalls=1 2\n").is_err());
+        assert!(stages("fn=a\ncfn=b\ncalls=1 2\n3 many\n").is_err());
+    }
+
+    #[test]
+    fn more_and_fewer_instructions_than_stored_are_told() {
+        assert_eq!(differences(&table(1029), &table(1000)), [""; 0]);
+        assert_eq!(differences(&table(971), &table(1000)), [""; 0]);
+        for raster in [1031, 969] {
+            let found = differences(&table(raster), &table(1000));
+            assert_eq!(found.len(), 1);
+            assert!(found[0].starts_with("made, raster: "), "{found:?}");
+        }
+        let found = differences(&table(1000), &Table::new());
+        assert_eq!(found.len(), STAGES.len());
+    }
+
+    #[test]
+    fn what_is_stored_is_read_again() {
+        let stored = to_toml(&table(1234));
+        assert_eq!(toml::from_str::<Table>(&stored).unwrap(), table(1234));
+    }
+
+    #[test]
+    fn the_last_profile_has_the_greatest_number() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(last_profile(folder.path()).is_err());
+        for name in ["profile", "profile.2", "profile.10", "frame_1.png"] {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        let last = last_profile(folder.path()).unwrap();
+        assert_eq!(last, folder.path().join("profile.10"));
+    }
+}
