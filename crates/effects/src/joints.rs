@@ -38,6 +38,7 @@ pub struct Joints {
 impl Joints {
     /// One unit of the layer's widths at joint `index`, in 1/300 of the head's height.
     #[must_use]
+    #[inline]
     pub fn unit(&self, index: usize) -> f32 {
         self.pixel.get(index).copied().unwrap_or(1.0)
     }
@@ -45,6 +46,7 @@ impl Joints {
     /// The material normal of joint `index`; zero where the frame has none, as the clump reads it only where its
     /// parameters say so.
     #[must_use]
+    #[inline]
     pub fn material_normal_or_zero(&self, index: usize) -> Vec3<f32> {
         let zero = vec3([0.0; 3]);
         self.material_normal.get(index).copied().unwrap_or(zero)
@@ -53,6 +55,7 @@ impl Joints {
 
 /// The seed of one strand's variations in one layer.
 #[must_use]
+#[inline]
 pub fn strand_seed(layer_seed: u32, strand: u32) -> u32 {
     hash(layer_seed ^ hash(strand))
 }
