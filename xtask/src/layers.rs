@@ -23,7 +23,7 @@ const TABLE: &[Row] = &[
     Row(4, "viewer", AllBelow, &[]),
     Row(4, "bench", AllBelow, &[]),
     // A third party's effects, under `examples/`: its code has the boundary for effects alone, the
-    // program that shows it is an example with all of inkstrand.
+    // program that shows it is behind a feature, with all of inkstrand.
     Row(5, "effect-*", Only(&["effects"]), &[BUILD_TOOL]),
     // Somebody's program with hair in it: all that a library is for, but not the program.
     Row(4, "embed-*", AllBelow, &[]),
@@ -36,6 +36,9 @@ const BUILD_TOOL: &str = "effects-build";
 
 /// What the tests of a crate may use although it stands above.
 const FOR_TESTS: &[&str] = &["effects-testkit", "reference"];
+
+/// What a crate of effects may use behind a feature.
+const FOR_PROGRAMS: &[&str] = &["inkstrand"];
 
 /// Families of libraries, and the only crates that may depend on one of them, tests included.
 const GUARDED: &[Guard] = &[
@@ -68,6 +71,8 @@ struct Guard(&'static [&'static str], &'static [&'static str]);
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Code,
+    /// Code behind a feature.
+    Optional,
     Build,
     Tests,
 }
@@ -90,8 +95,9 @@ impl Row {
             (_, Nothing) => false,
             (Kind::Build, _) => build.contains(to_name),
             (Kind::Tests, _) => to_layer <= layer || FOR_TESTS.contains(to_name),
-            (Kind::Code, Only(names)) => names.contains(to_name),
-            (Kind::Code, AllBelow) => to_layer < layer && *to_name != BUILD_TOOL,
+            (Kind::Optional, Only(_)) if *layer == 5 && FOR_PROGRAMS.contains(to_name) => true,
+            (Kind::Code | Kind::Optional, Only(names)) => names.contains(to_name),
+            (Kind::Code | Kind::Optional, AllBelow) => to_layer < layer && *to_name != BUILD_TOOL,
         }
     }
 
@@ -106,8 +112,10 @@ impl Row {
             (_, Nothing) => list(&[]),
             (Kind::Build, _) => list(build),
             (Kind::Tests, _) => format!("layers 0 to {layer}, {}", FOR_TESTS.join(", ")),
-            (Kind::Code, Only(names)) => list(names),
-            (Kind::Code, AllBelow) => format!("the layers below {layer}, without {BUILD_TOOL}"),
+            (Kind::Code | Kind::Optional, Only(names)) => list(names),
+            (Kind::Code | Kind::Optional, AllBelow) => {
+                format!("the layers below {layer}, without {BUILD_TOOL}")
+            }
         }
     }
 }
@@ -162,6 +170,7 @@ fn violations(metadata: &Value) -> Outcome<Vec<String>> {
             let kind = match dependency["kind"].as_str() {
                 Some("dev") => Kind::Tests,
                 Some("build") => Kind::Build,
+                _ if dependency["optional"] == true => Kind::Optional,
                 _ => Kind::Code,
             };
             if members.contains(&library) {
@@ -192,7 +201,7 @@ fn violations(metadata: &Value) -> Outcome<Vec<String>> {
 
 fn place(kind: Kind) -> &'static str {
     match kind {
-        Kind::Code => "dependencies",
+        Kind::Code | Kind::Optional => "dependencies",
         Kind::Build => "build-dependencies",
         Kind::Tests => "dev-dependencies",
     }
@@ -215,13 +224,14 @@ mod tests {
     use super::*;
 
     /// The violations of a workspace of `members` in which `from` depends on `to`.
-    /// `kind` is as in cargo's metadata, where "" is null: a plain dependency.
+    /// `kind` is as in cargo's metadata, where "" is null: a plain dependency; or "optional".
     fn edge(members: &[&str], from: &str, to: &str, kind: &str) -> Vec<String> {
-        let kind = (!kind.is_empty()).then_some(kind);
+        let optional = kind == "optional";
+        let kind = (!kind.is_empty() && !optional).then_some(kind);
         let packages: Vec<Value> = members
             .iter()
             .map(|&name| {
-                let dependency = json!({"name": to, "kind": kind, "optional": false});
+                let dependency = json!({"name": to, "kind": kind, "optional": optional});
                 let dependencies = if name == from {
                     vec![dependency]
                 } else {
@@ -248,6 +258,7 @@ mod tests {
             ("effect-vendor", "effects", ""),
             ("effect-vendor", "effects-testkit", "dev"),
             ("effect-vendor", "inkstrand", "dev"),
+            ("effect-vendor", "inkstrand", "optional"),
             ("render", "effects", ""),
             ("render", "effects-builtin", "dev"),
             ("render", "reference", "dev"),
@@ -278,6 +289,8 @@ mod tests {
             ("render", "effects-build", "build"),
             ("effect-vendor", "stroke-path", ""),
             ("effect-vendor", "inkstrand", ""),
+            ("effect-vendor", "stage", "optional"),
+            ("render", "hair-sim", "optional"),
             ("inkstrand", "effect-vendor", ""),
             ("embed-wgpu", "inkstrand", ""),
             ("render", "bench", "dev"),

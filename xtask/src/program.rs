@@ -3,6 +3,7 @@
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde_json::Value;
 
@@ -20,6 +21,9 @@ pub fn cargo(args: &[&str]) -> Command {
     command.args(args).current_dir(root());
     command
 }
+
+/// Every crate, and the program of the example effect.
+pub const WORKSPACE: [&str; 2] = ["--workspace", "--features=effect-backlight/program"];
 
 /// True on the machines that test the project by themselves: `CI=true`.
 pub fn on_ci() -> bool {
@@ -54,29 +58,32 @@ pub fn line_of(command: &Command) -> String {
 #[derive(Debug)]
 pub struct Inkstrand(PathBuf);
 
+/// Whether the program is the one that was built with the tests.
+static IS_FROM_TESTS: AtomicBool = AtomicBool::new(false);
+
 impl Inkstrand {
+    /// From now on takes the program that the tests of the workspace are built with. By itself it would be built with
+    /// fewer features of its libraries, all of them once more.
+    pub fn take_from_tests() {
+        IS_FROM_TESTS.store(true, Ordering::Relaxed);
+    }
+
     /// Builds the program. Compiler messages go to our stderr.
     ///
     /// # Errors
     /// The program doesn't compile, or cargo doesn't say where it put it.
     pub fn build() -> Outcome<Self> {
-        let mut command = cargo(&[
-            "build",
-            "--package=inkstrand",
-            "--bin=inkstrand",
-            "--message-format=json-render-diagnostics",
-        ]);
+        let mut command = if IS_FROM_TESTS.load(Ordering::Relaxed) {
+            cargo(&[&["test", "--no-run"][..], &WORKSPACE].concat())
+        } else {
+            cargo(&["build", "--package=inkstrand", "--bin=inkstrand"])
+        };
+        command.arg("--message-format=json-render-diagnostics");
         let output = command.stderr(Stdio::inherit()).output()?;
         if !output.status.success() {
             return Err("inkstrand doesn't build".into());
         }
-        // One JSON object a line; the last executable is the program asked for.
-        let program = String::from_utf8_lossy(&output.stdout)
-            .lines()
-            .filter_map(|line| serde_json::from_str::<Value>(line).ok())
-            .filter_map(|message| message["executable"].as_str().map(PathBuf::from))
-            .next_back();
-        match program {
+        match program_of(&String::from_utf8_lossy(&output.stdout)) {
             Some(program) => Ok(Self(program)),
             None => Err("cargo built inkstrand and named no program".into()),
         }
@@ -121,6 +128,17 @@ impl Inkstrand {
     }
 }
 
+/// Where cargo put the program, by its messages: one JSON object a line. Tests of the program are programs too.
+fn program_of(messages: &str) -> Option<PathBuf> {
+    messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
+        .filter(|message| message["target"]["name"] == "inkstrand")
+        .filter(|message| message["target"]["kind"][0] == "bin")
+        .filter(|message| message["profile"]["test"] == false)
+        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
+}
+
 /// Ends a run over `total` things by naming those that failed.
 ///
 /// # Errors
@@ -160,6 +178,24 @@ mod tests {
     fn the_root_is_the_workspace() {
         let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
         assert!(manifest.contains("[workspace]"));
+    }
+
+    #[test]
+    fn the_program_is_found_among_what_is_built_for_tests() {
+        let message = |kind: &str, is_test: bool, file: &str| {
+            let target = serde_json::json!({"name": "inkstrand", "kind": [kind]});
+            let profile = serde_json::json!({"test": is_test});
+            serde_json::json!({"target": target, "profile": profile, "executable": file})
+        };
+        let messages = [
+            message("lib", true, "tests-of-library"),
+            message("bin", true, "tests-of-program"),
+            message("bin", false, "program"),
+            serde_json::json!({"reason": "build-finished", "success": true}),
+        ];
+        let lines = messages.map(|message| format!("{message}\n")).concat();
+        assert_eq!(program_of(&lines), Some("program".into()));
+        assert_eq!(program_of("no JSON"), None);
     }
 
     #[test]

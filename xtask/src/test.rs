@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::program::{cargo, succeed};
+use crate::program::{Inkstrand, WORKSPACE, cargo, succeed};
 use crate::regress::Backend;
 use crate::{Outcome, count, figures, layers, regress, wasm};
 
@@ -14,29 +14,36 @@ const STEPS: &[Step] = &[
     ("format", || succeed(cargo(&["fmt", "--all", "--check"]))),
     ("layers", layers::check),
     ("lints", || {
-        succeed(cargo(&[
-            "clippy",
-            "--workspace",
-            "--all-targets",
-            "--",
-            "--deny=warnings",
-        ]))
+        let (lint, deny) = (["clippy", "--all-targets"], ["--", "--deny=warnings"]);
+        succeed(cargo(&[&lint[..], &WORKSPACE, &deny].concat()))
     }),
     ("docs", || {
         let mut doc = cargo(&["doc", "--workspace", "--no-deps"]);
         doc.env("RUSTDOCFLAGS", "--deny=warnings");
         succeed(doc)
     }),
+    ("features", || {
+        WITHOUT_DEFAULTS.iter().try_for_each(|package| {
+            let check = ["clippy", "--no-default-features", "--package", package];
+            succeed(cargo(&[&check[..], &["--", "--deny=warnings"]].concat()))
+        })
+    }),
     // Unit, property, conformance and command-line tests.
     ("tests", || {
-        succeed(cargo(&["test", "--workspace", "--no-fail-fast"]))
+        Inkstrand::take_from_tests();
+        let tests = ["test", "--no-fail-fast"];
+        succeed(cargo(&[&tests[..], &WORKSPACE].concat()))
     }),
-    ("wasm", wasm::build),
+    ("wasm", wasm::check),
     ("figures", figures::run),
     ("regressions", || regress::run("", Backend::Cpu, false)),
     ("backends", || regress::run("", Backend::Gpu, false)),
     ("counts", || count::run(false)),
 ];
+
+/// The crates that must compile with all of their features off: those whose own they are, and the program, which
+/// turns them off for all.
+const WITHOUT_DEFAULTS: &[&str] = &["hair-io", "render", "inkstrand"];
 
 /// The names of all steps, in the order in which they run.
 pub fn step_names() -> Vec<&'static str> {

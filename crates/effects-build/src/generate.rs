@@ -18,7 +18,11 @@ pub(crate) fn prelude() -> Result<String, BuildError> {
     let mut items = prelude_items()?;
     for item in &mut items {
         let (visibility, attributes, name) = match item {
-            Item::Fn(f) => (&mut f.vis, &mut f.attrs, f.sig.ident.to_string()),
+            Item::Fn(f) => {
+                // Into effects, which are crates of their own.
+                f.attrs.push(syn::parse_quote!(#[inline]));
+                (&mut f.vis, &mut f.attrs, f.sig.ident.to_string())
+            }
             Item::Struct(s) => (&mut s.vis, &mut s.attrs, s.ident.to_string()),
             Item::Const(c) => (&mut c.vis, &mut c.attrs, c.ident.to_string()),
             _ => continue,
@@ -29,7 +33,6 @@ pub(crate) fn prelude() -> Result<String, BuildError> {
         }
         if name.starts_with("v_") {
             attributes.push(syn::parse_quote!(#[doc(hidden)]));
-            attributes.push(syn::parse_quote!(#[inline]));
         }
     }
     Ok(print(items))

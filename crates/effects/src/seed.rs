@@ -12,6 +12,7 @@ pub fn layer_seed(style_seed: u32, name: &str) -> u32 {
 
 /// The seed of one strand's variations in one layer.
 #[must_use]
+#[inline]
 pub fn strand_seed(layer_seed: u32, strand: u32) -> u32 {
     hash(layer_seed ^ hash(strand))
 }

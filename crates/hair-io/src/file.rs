@@ -1,97 +1,17 @@
-//! Files: choosing the reader, and the errors that name the file.
+//! Files: choosing the reader, settling axes and units, and writing.
 
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::Vec3;
 use hair_sim::{Motion, Strands};
 
+use crate::error::HairError;
+use crate::format::{self, HAIR_FORMATS, HEAD_FORMATS, HairFormat};
 use crate::mesh::Mesh;
-use crate::obj::{self, ObjError};
 use crate::orient::{self, Axes, Given, Orientation};
-use crate::skeleton::SkeletonError;
-use crate::strands_ron::{self, StrandsRonError};
-use crate::tfx::{self, TfxError};
-
-/// The hair formats that this build reads, for messages.
-const HAIR_FORMATS: &str = "TressFX (.tfx) and own strands (.strands.ron)";
-/// The head formats that this build reads, for messages.
-const HEAD_FORMATS: &str = "Wavefront OBJ (.obj)";
-
-/// Why a hair or head file could not be read or written. Every message names the file.
-#[derive(Debug, thiserror::Error)]
-pub enum HairError {
-    /// The file system refused.
-    #[error("{}: {source}", path.display())]
-    Open {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// A format that is not read.
-    #[error("{}: {found} is not a format that this build reads; it reads {reads}", path.display())]
-    Format {
-        /// The file.
-        path: PathBuf,
-        /// What the file seems to be.
-        found: String,
-        /// What can be read.
-        reads: &'static str,
-    },
-    /// A TressFX file with errors.
-    #[error("{}: {source}", path.display())]
-    Tfx {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong in it.
-        source: TfxError,
-    },
-    /// A strands file with errors.
-    #[error("{}: {source}", path.display())]
-    StrandsRon {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong in it.
-        source: StrandsRonError,
-    },
-    /// A text that is not UTF-8.
-    #[error("{}: byte {at}: the text is not UTF-8", path.display())]
-    Text {
-        /// The file.
-        path: PathBuf,
-        /// The first byte that is not.
-        at: usize,
-    },
-    /// An OBJ file with errors.
-    #[error("{}: {source}", path.display())]
-    Obj {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong in it.
-        source: ObjError,
-    },
-    /// A character that gives no motion.
-    #[error("{}: {source}", path.display())]
-    Skeleton {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong in it.
-        source: Box<SkeletonError>,
-    },
-    /// A scale that is no number above 0, or that makes positions too large for numbers.
-    #[error(
-        "{}: the scale {scale} m a unit is not above 0, or too large for the positions",
-        path.display()
-    )]
-    Scale {
-        /// The file.
-        path: PathBuf,
-        /// Metres a unit.
-        scale: f32,
-    },
-}
+use crate::skeleton::BoneMotion;
+use crate::{obj, strands_ron, tfx};
 
 /// How to read a hair file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -146,10 +66,22 @@ pub struct HeadFile {
 ///
 /// When the file cannot be read, is of another format, or has errors.
 pub fn read_hair(path: &Path, options: &HairOptions) -> Result<HairFile, HairError> {
-    let (mut strands, mut motion, unspecified) = match hair_format(path)? {
-        Format::Tfx => (tfx::from_path(path)?, None, true),
-        Format::StrandsRon => {
-            let text = String::from_utf8(read_bytes(path)?).map_err(|e| HairError::Text {
+    let bytes = read_bytes(path)?;
+    let format = HairFormat::of(path, &bytes).ok_or_else(|| HairError::Format {
+        path: path.into(),
+        found: format::guess(path, &bytes),
+        reads: HAIR_FORMATS,
+    })?;
+    let (mut strands, mut motion, unspecified) = match format {
+        HairFormat::Tfx => {
+            let strands = tfx::from_bytes(&bytes).map_err(|source| HairError::Tfx {
+                path: path.into(),
+                source,
+            })?;
+            (strands, None, true)
+        }
+        HairFormat::StrandsRon => {
+            let text = String::from_utf8(bytes).map_err(|e| HairError::Text {
                 path: path.into(),
                 at: e.utf8_error().valid_up_to(),
             })?;
@@ -193,17 +125,20 @@ pub fn read_hair(path: &Path, options: &HairOptions) -> Result<HairFile, HairErr
 ///
 /// When the file cannot be read, is of another format, or has errors.
 pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<HeadFile, HairError> {
-    let ending = ending(path);
-    if ending != "obj" {
-        let bytes = read_bytes(path)?;
-        let found = known_format(&ending, &bytes);
+    let bytes = read_bytes(path)?;
+    if !format::is_obj(path) {
         return Err(HairError::Format {
             path: path.into(),
-            found,
+            found: format::guess(path, &bytes),
             reads: HEAD_FORMATS,
         });
     }
-    let (mut mesh, left_out) = obj::from_path(path)?;
+    // Names in the file may be in any encoding; its numbers are ASCII.
+    let text = String::from_utf8_lossy(&bytes);
+    let (mut mesh, left_out) = obj::from_text(&text).map_err(|source| HairError::Obj {
+        path: path.into(),
+        source,
+    })?;
     let (orientation, note) = orient::head(
         &mesh,
         &Given {
@@ -255,7 +190,35 @@ pub fn write_strands(
         })
 }
 
-pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, HairError> {
+impl BoneMotion {
+    /// Reads the bone named `bone` of a glTF 2.0 file (.glb, .gltf, .vrm), in the animation of this name or number (0
+    /// first), or else in the first. The case of letters counts only where it tells bones apart.
+    ///
+    /// # Errors
+    ///
+    /// When the file cannot be read, or has no such bone or animation; always, where this crate is built without
+    /// its feature `gltf`.
+    #[cfg_attr(not(feature = "gltf"), expect(unused_variables))]
+    pub fn read(path: &Path, bone: &str, animation: Option<&str>) -> Result<Self, HairError> {
+        #[cfg(not(feature = "gltf"))]
+        {
+            Err(HairError::WithoutGltf(path.into()))
+        }
+        #[cfg(feature = "gltf")]
+        {
+            let bytes = read_bytes(path)?;
+            let folder = path.parent().unwrap_or(Path::new(""));
+            Self::from_bytes(&bytes, folder, bone, animation).map_err(|source| {
+                HairError::Skeleton {
+                    path: path.into(),
+                    source: Box::new(source),
+                }
+            })
+        }
+    }
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, HairError> {
     fs::read(path).map_err(|source| HairError::Open {
         path: path.into(),
         source,
@@ -270,66 +233,4 @@ fn check_finite(path: &Path, orientation: &Orientation, points: &[Vec3]) -> Resu
         path: path.into(),
         scale: orientation.scale,
     })
-}
-
-enum Format {
-    Tfx,
-    StrandsRon,
-}
-
-fn hair_format(path: &Path) -> Result<Format, HairError> {
-    let ending = ending(path);
-    match ending.as_str() {
-        "tfx" => return Ok(Format::Tfx),
-        "ron" => return Ok(Format::StrandsRon),
-        _ => {}
-    }
-    let bytes = read_bytes(path)?;
-    if bytes.starts_with(&4.0f32.to_le_bytes()) {
-        return Ok(Format::Tfx);
-    }
-    let found = known_format(&ending, &bytes);
-    Err(HairError::Format {
-        path: path.into(),
-        found,
-        reads: HAIR_FORMATS,
-    })
-}
-
-fn ending(path: &Path) -> String {
-    path.extension()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase()
-}
-
-/// What a file that is not read seems to be, by its first bytes, else by its name's ending.
-fn known_format(ending: &str, bytes: &[u8]) -> String {
-    let magic: [(&[u8], &str); 8] = [
-        (b"PXR-USDC", "USD"),
-        (b"#usda", "USD"),
-        (b"Ogawa", "Alembic"),
-        (b"\x89HDF", "Alembic (HDF5)"),
-        (b"glTF", "glTF"),
-        (b"HAIR", "Cem Yuksel's .hair"),
-        (b"ply\n", "PLY"),
-        (b"ply\r", "PLY"),
-    ];
-    if let Some((_, name)) = magic.iter().find(|(magic, _)| bytes.starts_with(magic)) {
-        return (*name).to_string();
-    }
-    let name = match ending {
-        "usd" | "usda" | "usdc" | "usdz" => "USD",
-        "abc" => "Alembic",
-        "gltf" | "glb" => "glTF",
-        "vrm" => "VRM",
-        "hair" => "Cem Yuksel's .hair",
-        "data" => "USC-HairSalon's .data",
-        "ply" => "PLY",
-        "obj" => "Wavefront OBJ",
-        "tfx" => "TressFX",
-        "" => "a file without an ending",
-        other => return format!("\".{other}\""),
-    };
-    name.to_string()
 }

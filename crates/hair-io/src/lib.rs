@@ -3,19 +3,48 @@
 //! [`read_hair`] and [`read_head`] choose the reader, settle axes and units ([`orient`]) and say what
 //! they guessed. [`tfx`], [`strands_ron`] and [`obj`] are the formats; [`HeadFrame`] is where the head
 //! is and how large, [`BoneMotion`] how a character's animation moves it.
+//!
+//! ```
+//! use hair_io::{HairOptions, HeadFrame, read_hair};
+//!
+//! let text = "(version: 1, strands: [(size: 14, points: [(0, 1.7, 0.1), (0, 1.6, 0.12)])])";
+//! let path = std::env::temp_dir().join("one.strands.ron");
+//! std::fs::write(&path, text)?;
+//!
+//! let hair = read_hair(&path, &HairOptions::default())?;
+//! assert_eq!(hair.strands.len(), 1);
+//! assert_eq!(hair.notes, ["hair: 1 strands, Y up, metres"]);
+//! // Nothing says how large the head is: it is of the usual size.
+//! let roots: Vec<_> = hair.strands.roots().collect();
+//! assert_eq!(HeadFrame::find(None, &roots).height, 0.24);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Features
+//!
+//! - `gltf`, on by default: [`BoneMotion::read`] reads glTF 2.0. Without it every character is refused.
 
+mod error;
 mod file;
+mod format;
 mod head;
 mod mesh;
 mod nearest;
 pub mod obj;
 pub mod orient;
+#[cfg(feature = "gltf")]
+mod skeleton;
+#[cfg(not(feature = "gltf"))]
+#[path = "without_gltf.rs"]
 mod skeleton;
 mod sphere;
 pub mod strands_ron;
 pub mod tfx;
 
-pub use file::{HairError, HairFile, HairOptions, HeadFile, read_hair, read_head, write_strands};
+pub use error::HairError;
+pub use file::{HairFile, HairOptions, HeadFile, read_hair, read_head, write_strands};
 pub use head::HeadFrame;
 pub use mesh::Mesh;
-pub use skeleton::{BoneMotion, SkeletonError, TrackError};
+pub use skeleton::BoneMotion;
+#[cfg(feature = "gltf")]
+pub use skeleton::{SkeletonError, TrackError};

@@ -5,11 +5,11 @@ use std::path::Path;
 use glam::Vec3;
 use tobj::{LoadError, LoadOptions};
 
-use crate::file::{HairError, read_bytes};
 use crate::mesh::Mesh;
 
-/// Why a text is no OBJ head.
+/// Why a text is not an OBJ file with a head.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ObjError {
     /// A line that cannot be read, or a face of vertices that are not there.
     #[error("{0}")]
@@ -77,20 +77,6 @@ pub fn from_text(text: &str) -> Result<(Mesh, Option<String>), ObjError> {
         return Err(ObjError::NoTriangles);
     }
     Ok((mesh, note))
-}
-
-/// Reads an OBJ file at a path; see [`from_text`].
-///
-/// # Errors
-///
-/// When the file cannot be read or holds no head; the error names the file.
-pub fn from_path(path: &Path) -> Result<(Mesh, Option<String>), HairError> {
-    // Names in the file may be in any encoding; its numbers are ASCII.
-    let bytes = read_bytes(path)?;
-    from_text(&String::from_utf8_lossy(&bytes)).map_err(|source| HairError::Obj {
-        path: path.into(),
-        source,
-    })
 }
 
 /// The lines that make a shape: positions, faces by their positions alone, names of groups.

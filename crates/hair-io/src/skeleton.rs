@@ -2,60 +2,20 @@
 //!
 //! Only nodes and animations are read: a bone moves as its chain of parents does.
 
+mod error;
 mod numbers;
 mod track;
 
-use crate::file::{HairError, read_bytes};
+pub use error::{SkeletonError, TrackError};
 use glam::{DAffine3, DQuat, DVec3};
 use gltf::animation::Property;
 use gltf::{Animation, Document};
 use numbers::Buffers;
 use std::path::Path;
 use track::Track;
-pub use track::TrackError;
 
 /// The most names that a message lists.
 const MOST_NAMES: usize = 8;
-
-/// Why a character gives no motion.
-#[derive(Debug, thiserror::Error)]
-pub enum SkeletonError {
-    /// It is not glTF.
-    #[error("it is not glTF: {0}")]
-    Gltf(#[from] gltf::Error),
-    /// There is no such bone.
-    #[error("there is no bone `{wanted}`; the nearest names are: {}", .names.join(", "))]
-    Bone {
-        /// The name as it was given.
-        wanted: String,
-        /// Names that there are, the nearest first.
-        names: Vec<String>,
-    },
-    /// The file has no animations.
-    #[error("there is no animation in it")]
-    NoAnimation,
-    /// There is no such animation.
-    #[error("there is no animation `{wanted}`; the nearest names are: {}", .names.join(", "))]
-    Animation {
-        /// The name or number as it was given.
-        wanted: String,
-        /// Names that there are, the nearest first; numbers of those without.
-        names: Vec<String>,
-    },
-    /// No animation can be read from the chain of its parents.
-    #[error("the bone `{0}` is its own parent, or of no size")]
-    Chain(String),
-    /// A track of the animation has mistakes.
-    #[error("animation {animation}, channel {channel}: {source}")]
-    Track {
-        /// The animation's number.
-        animation: usize,
-        /// The channel's number.
-        channel: usize,
-        /// What is wrong.
-        source: TrackError,
-    },
-}
 
 /// The motion of a bone against its rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,26 +40,12 @@ struct Joint {
 }
 
 impl BoneMotion {
-    /// Reads the bone named `bone` of a file, in the animation of this name or number (0 first), or else in the
-    /// first. The case of letters counts only where it tells bones apart.
+    /// Reads the bone named `bone` of a file's bytes, in the animation of this name or number (0 first), or else in
+    /// the first. The case of letters counts only where it tells bones apart. Files that the file names are in `folder`.
     ///
     /// # Errors
     ///
-    /// When the file cannot be read, or has no such bone or animation.
-    pub fn read(path: &Path, bone: &str, animation: Option<&str>) -> Result<Self, HairError> {
-        let bytes = read_bytes(path)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Self::from_bytes(&bytes, folder, bone, animation).map_err(|source| HairError::Skeleton {
-            path: path.into(),
-            source: Box::new(source),
-        })
-    }
-
-    /// The same of a file's bytes; files that it names are in `folder`.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::read`].
+    /// When the bytes are not glTF, or have no such bone or animation.
     pub fn from_bytes(
         bytes: &[u8],
         folder: &Path,

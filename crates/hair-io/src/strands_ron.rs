@@ -42,8 +42,9 @@ pub const VERSION: u32 = 1;
 /// The bit that tells a mirror image's id from its original's.
 pub const MIRROR: u32 = 1 << 31;
 
-/// Why a text is no strands file. Lines and columns (in characters) count from 1.
+/// Why a text is not a valid strands file. Lines and columns (in characters) count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StrandsRonError {
     /// The file is of a later version than this build.
     #[error("version {found} is newer than this build, which reads up to version {VERSION}")]
@@ -65,6 +66,7 @@ pub enum StrandsRonError {
 
 /// What can be wrong at a place in a strands file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Problem {
     /// Not RON, or not the fields of the format.
     #[error("{0}")]

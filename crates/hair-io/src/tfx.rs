@@ -5,21 +5,17 @@
 //! reserved words; positions are four f32, of which the last is the inverse mass. Files hold guide
 //! strands and followers in any order; all are kept.
 
-use std::path::Path;
-
 use glam::Vec3;
 use hair_sim::Strands;
-
-use crate::HairError;
-use crate::file::read_bytes;
 
 /// The header's size in bytes.
 const HEADER: u64 = 160;
 /// The size of one position in bytes: x, y, z and inverse mass.
 const POSITION: u64 = 16;
 
-/// Why bytes are no TressFX file. Offsets count bytes from the start of the file.
+/// Why bytes are not a valid TressFX file. Offsets count bytes from the start of the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TfxError {
     /// The file ends inside the header.
     #[error("byte 0: a header of {HEADER} bytes was expected, the file has {found} bytes")]
@@ -144,18 +140,6 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Strands, TfxError> {
         }
     }
     read_positions(bytes, word(bytes, 12) as usize, strands, vertices)
-}
-
-/// Reads the strands of a TressFX file at a path; see [`from_bytes`].
-///
-/// # Errors
-///
-/// When the file cannot be read, or is no TressFX file.
-pub fn from_path(path: &Path) -> Result<Strands, HairError> {
-    from_bytes(&read_bytes(path)?).map_err(|source| HairError::Tfx {
-        path: path.into(),
-        source,
-    })
 }
 
 /// The block at `offset`, which is known to lie inside `bytes`.

@@ -1,6 +1,6 @@
 //! `--stats`: one line of JSON a frame.
 
-use render::{Drawing, Frame};
+use render::Drawing;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -50,7 +50,8 @@ pub(crate) struct Bytes {
 }
 
 /// Joints and segments of each layer of a frame.
-pub(crate) fn frame_counts(frame: &Frame) -> BTreeMap<String, LayerCounts> {
+#[cfg(feature = "gpu")]
+pub(crate) fn frame_counts(frame: &render::Frame) -> BTreeMap<String, LayerCounts> {
     let layers = frame.layers.iter().zip(frame.layer_joints);
     let counts = layers.map(|(layer, joints)| {
         let instances = layer.program.instances() as usize;

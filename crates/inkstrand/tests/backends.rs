@@ -47,10 +47,11 @@ fn stats(folder: &TempDir) -> serde_json::Value {
 }
 
 /// The loader finds drivers by this list alone, which names none.
+#[cfg(all(feature = "gpu", target_os = "linux"))]
 const NO_DRIVERS: (&str, &str) = ("VK_DRIVER_FILES", "/no-such-driver.json");
 
 #[test]
-#[cfg(target_os = "linux")] // elsewhere drivers are part of the system
+#[cfg(all(feature = "gpu", target_os = "linux"))] // elsewhere drivers are part of the system
 fn without_a_driver_gpu_fails_and_says_what_to_do() {
     let folder = folder();
     render(&folder, "gpu")
@@ -63,7 +64,7 @@ fn without_a_driver_gpu_fails_and_says_what_to_do() {
 }
 
 #[test]
-#[cfg(target_os = "linux")]
+#[cfg(all(feature = "gpu", target_os = "linux"))]
 fn without_a_driver_auto_is_the_cpu_and_says_nothing_of_it() {
     let folder = folder();
     let output = render(&folder, "auto")
@@ -76,6 +77,7 @@ fn without_a_driver_auto_is_the_cpu_and_says_nothing_of_it() {
 }
 
 #[test]
+#[cfg(feature = "gpu")]
 fn a_driver_draws_what_the_cpu_draws() {
     let folder = folder();
     let output = render(&folder, "gpu").output().unwrap();
@@ -100,6 +102,7 @@ fn a_driver_draws_what_the_cpu_draws() {
 }
 
 /// Whether two PNG files differ in a few pixels at most: samples that rounding decides.
+#[cfg(feature = "gpu")]
 fn close(a: &[u8], b: &[u8]) -> bool {
     let pixels = |file: &[u8]| {
         let mut reader = png::Decoder::new(std::io::Cursor::new(file.to_vec()))

@@ -1,21 +1,41 @@
 //! The tutorial's crate is built as it stands there, outside of the workspace, and its mistakes are told
-//! as it says.
+//! as it says; crates made by earlier tutorials still compile.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 const TUTORIAL: &str = "docs/an-effect-in-30-lines.md";
+const FIRST_CRATE: &str = "crates/inkstrand/tests/tutorial/first-crate.md";
 
-/// As the workspace does, so that what it has built of other crates is used; and nothing moves here.
-const OPTIMISED: &str = "profile.dev.package.\"*\".opt-level=2";
-const NOT_USED: &str = "profile.dev.package.hair-sim.opt-level=0";
+/// Our crates that the workspace leaves as they are, and those that nothing here uses much.
+const NOT_OPTIMISED: [&str; 5] = ["effects-build", "hair-io", "hair-sim", "inkstrand", "stage"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../..")
         .canonicalize()
         .unwrap()
+}
+
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).unwrap()
+}
+
+/// The workspace's settings for its dependencies, for a cargo outside of it: so what the workspace has built of other
+/// crates is used.
+fn config() -> String {
+    let manifest = read("Cargo.toml");
+    let profile = manifest.split("[profile.dev.package]").nth(1).unwrap();
+    let settings = profile.lines().take_while(|line| !line.starts_with('['));
+    let is_ours = |line: &&str| NOT_OPTIMISED.iter().any(|name| line.starts_with(name));
+    let kept = settings.filter(|line| !is_ours(line));
+    let ours = NOT_OPTIMISED.map(|name| format!("{name} = {{ opt-level = 0, debug = false }}\n"));
+    let kept: String = kept.map(|line| format!("{line}\n")).collect();
+    format!(
+        "[profile.dev]\nopt-level = 0\n[profile.dev.package]\n{}{kept}",
+        ours.concat()
+    )
 }
 
 /// A block of code, and the words before it.
@@ -55,6 +75,9 @@ fn blocks(markdown: &str) -> Vec<Block> {
     blocks
 }
 
+/// Runs the crate's program.
+const PROGRAM: [&str; 5] = ["run", "--quiet", "--features", "program", "--"];
+
 /// A crate outside of the workspace.
 struct Crate(tempfile::TempDir);
 
@@ -63,6 +86,8 @@ impl Crate {
     fn write(blocks: &[Block]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("src")).unwrap();
+        fs::create_dir(folder.path().join(".cargo")).unwrap();
+        fs::write(folder.path().join(".cargo/config.toml"), config()).unwrap();
         // The versions that we test with, which are there without a network.
         fs::copy(root().join("Cargo.lock"), folder.path().join("Cargo.lock")).unwrap();
         let this = Self(folder);
@@ -94,7 +119,7 @@ impl Crate {
     fn cargo(&self, arguments: &[&str]) -> Output {
         let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
         Command::new(env!("CARGO"))
-            .args(["--offline", "--config", OPTIMISED, "--config", NOT_USED])
+            .arg("--offline")
             .args(arguments)
             .env("CARGO_TARGET_DIR", target)
             .current_dir(self.0.path())
@@ -154,21 +179,21 @@ fn assert_says(message: &str, part: &str) {
 
 #[test]
 fn the_tutorial_is_right() {
-    let markdown = fs::read_to_string(root().join(TUTORIAL)).unwrap();
-    let blocks = blocks(&markdown);
+    let blocks = blocks(&read(TUTORIAL));
     let dip_dye = Crate::write(&blocks);
+
+    // It is a good effect, and to know that nothing is built that draws.
+    let built = text(&dip_dye.cargo(&["tree", "--prefix=none", "--format={p}"]));
+    assert_says(&built, "effects-testkit v");
+    for unused in ["inkstrand v", "render v", "hair-sim v", "wgpu v", "gltf v"] {
+        assert!(!built.contains(unused), "{built}");
+    }
+    dip_dye.succeed(&["test", "--quiet"]);
 
     // The picture has the dye in it, and without the layer it has not.
     let draw = |name: &str, more: &[&str]| {
         let size = ["--size", "320x240", "--samples", "4", "-o", name];
-        dip_dye.succeed(
-            &[
-                &["run", "--quiet", "--", "render", "look.ron"],
-                &size[..],
-                more,
-            ]
-            .concat(),
-        );
+        dip_dye.succeed(&[&PROGRAM[..], &["render", "look.ron"], &size, more].concat());
         count(&dip_dye.path(name), [0x3F, 0xC1, 0xC0])
     };
     let dyed = draw("dyed.png", &[]);
@@ -186,8 +211,27 @@ fn the_tutorial_is_right() {
         0
     );
 
-    // It is a good effect.
-    dip_dye.succeed(&["test", "--quiet"]);
+    // What the program was built without is refused.
+    let refused = |arguments: &[&str], why: &str| {
+        let line = [&PROGRAM[..], &["render", "look.ron"], arguments].concat();
+        assert_says(&dip_dye.fail(&line), why);
+    };
+    refused(
+        &["--backend", "gpu", "-o", "gpu.png"],
+        "this program was built without graphics cards",
+    );
+    assert!(!dip_dye.path("gpu.png").exists());
+    fs::write(dip_dye.path("walker.glb"), "").unwrap();
+    let look = fs::read_to_string(dip_dye.path("look.ron")).unwrap();
+    dip_dye.change("look.ron", |text| {
+        text.replace("layers:", "motion: (gltf: \"walker.glb\"), layers:")
+    });
+    refused(
+        &["-o", "gltf.png"],
+        "walker.glb: this program was built without glTF",
+    );
+    assert!(!dip_dye.path("gltf.png").exists());
+    fs::write(dip_dye.path("look.ron"), look).unwrap();
 
     // Mistakes in the effect are told where the author made them, as the tutorial shows.
     let told: Vec<&str> = blocks
@@ -230,25 +274,26 @@ fn the_tutorial_is_right() {
 
     // And those in the preset in the preset.
     dip_dye.change("look.ron", |text| text.replace("start:", "strat:"));
-    let message = dip_dye.fail(&["run", "--quiet", "--", "check", "look.ron"]);
+    let message = dip_dye.fail(&[&PROGRAM[..], &["check", "look.ron"]].concat());
     assert_says(&message, misspelt_parameter);
 }
 
 #[test]
+fn a_crate_of_the_first_tutorial_compiles_unchanged() {
+    let dip_dye = Crate::write(&blocks(&read(FIRST_CRATE)));
+    dip_dye.succeed(&["check", "--quiet", "--bins"]);
+}
+
+#[test]
 fn the_effect_has_thirty_lines() {
-    let markdown = fs::read_to_string(root().join(TUTORIAL)).unwrap();
+    let blocks = blocks(&read(TUTORIAL));
     let lines = |file: &str| {
-        let blocks = blocks(&markdown);
         let block = blocks
             .iter()
             .find(|block| block.file() == Some(file))
             .unwrap();
-        let of_effect = block
-            .text
-            .lines()
-            .take_while(|line| !line.starts_with("fn main"));
-        of_effect.filter(|line| !line.is_empty()).count()
+        block.text.lines().filter(|line| !line.is_empty()).count()
     };
-    let all = lines("src/dip.wgsl") + lines("src/main.rs");
+    let all = lines("src/dip.wgsl") + lines("src/lib.rs");
     assert!(all <= 30, "{all} lines");
 }

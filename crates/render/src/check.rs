@@ -11,6 +11,7 @@ pub const MAX_COORDINATE: f32 = 1e9;
 
 /// Why a drawing can't be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DrawError {
     /// A picture has from 1 to [`MAX_SIZE`] pixels a side.
     #[error("the picture's size is {0} x {1}: each side must be 1 to {MAX_SIZE} pixels")]
@@ -21,7 +22,7 @@ pub enum DrawError {
     /// The background is not a colour.
     #[error("the background's colour is not finite")]
     Background,
-    /// Edges lie a finite length deeper, or none.
+    /// Edges lie a finite length deeper, 0 or more.
     #[error("edge_depth_m is {0}, not a finite number of 0 or more")]
     EdgeDepth(f32),
     /// A run has no joint, or some that the drawing doesn't have.
@@ -82,17 +83,17 @@ pub enum DrawError {
         /// The drawing's joints.
         joints: usize,
     },
-    /// A disc of the clump is no disc.
-    #[error("clump, joint {joint}: {disc:?} is not a disc: {DISC_RULE}")]
+    /// A disc of the clump is invalid.
+    #[error("clump, joint {joint}: {disc:?} is invalid: {DISC_RULE}")]
     ClumpDisc {
         /// Index of the joint.
         joint: usize,
         /// As it was given.
         disc: Disc,
     },
-    /// A disc of a layer is no disc.
+    /// A disc of a layer is invalid.
     #[error(
-        "layer \"{layer}\", instance {instance}, joint {joint}: {disc:?} is not a disc: {DISC_RULE}"
+        "layer \"{layer}\", instance {instance}, joint {joint}: {disc:?} is invalid: {DISC_RULE}"
     )]
     LayerDisc {
         /// The layer's name.
@@ -114,7 +115,7 @@ pub enum DrawError {
         /// Index of the joint.
         joint: usize,
     },
-    /// A margin is a length.
+    /// A margin is not finite.
     #[error("surface {surface}: margin_m is {margin_m}, not a finite number")]
     Margin {
         /// The surface's index.
@@ -122,13 +123,13 @@ pub enum DrawError {
         /// As it was given, metres.
         margin_m: f32,
     },
-    /// A surface's tone has no colour.
+    /// A colour of a surface is not finite.
     #[error("surface {surface}: a colour is not finite")]
     SurfaceColor {
         /// Index of the surface.
         surface: usize,
     },
-    /// A corner has no place.
+    /// A corner is not finite, or too far away.
     #[error(
         "surface {surface}, vertex {vertex}: its numbers must be finite, its position at most {MAX_COORDINATE} pixels away"
     )]

@@ -46,6 +46,7 @@ pub const MAX_THREADS: usize = 1024;
 
 /// Why there is no rasteriser.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RasterizerError {
     /// No such number of samples.
     #[error(transparent)]
@@ -108,7 +109,7 @@ impl Rasterizer {
     ///
     /// # Errors
     ///
-    /// When the drawing is not a drawing (see [`DrawError`]); then nothing has been drawn.
+    /// When the drawing is invalid (see [`DrawError`]); then nothing has been drawn.
     pub fn draw(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
         let Self {
             pool,

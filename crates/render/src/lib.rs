@@ -1,9 +1,49 @@
 //! Frames of strokes to pictures. This crate never sees files, presets or simulation.
+//!
+//! A [`Frame`] is hair as the camera sees it, with the effects that make strokes of it; a [`Drawing`] is those strokes
+//! as discs in pixels. [`cpu`] makes the one from the other and draws it without a driver, `gpu` does both on a graphics
+//! card. Whoever has strokes of his own needs a [`Drawing`] alone:
+//!
+//! ```
+//! use glam::Vec2;
+//! use render::cpu::Rasterizer;
+//! use render::{Disc, Drawing, LayerStrokes, Run};
+//!
+//! // One strand of two joints, 2 m away, in red.
+//! let disc = |y| Disc {
+//!     center: Vec2::new(32.0, y),
+//!     radius: 6.0,
+//!     inv_depth: 0.5,
+//!     inv_depth_biased: 0.5,
+//! };
+//! let drawing = Drawing {
+//!     size: [64, 64],
+//!     runs: vec![Run { strand: 0, joints: 0..2 }],
+//!     clump: vec![disc(10.0), disc(54.0)],
+//!     layers: vec![LayerStrokes {
+//!         name: "hair".to_owned(),
+//!         rank: 0,
+//!         instances: 1,
+//!         discs: vec![disc(10.0), disc(54.0)],
+//!         colors: vec![[1.0, 0.0, 0.0]; 2],
+//!     }],
+//!     ..Drawing::default()
+//! };
+//! let picture = Rasterizer::new(4, None)?.draw(&drawing)?;
+//! assert_eq!(picture.pixels[32 * 64 + 32], [1.0, 0.0, 0.0, 1.0]);
+//! assert_eq!(picture.pixels[0], [0.0; 4]); // nothing there
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Features
+//!
+//! - `gpu`, on by default: the module `gpu`, and wgpu for it.
 
 mod check;
 pub mod cpu;
 mod drawing;
 mod frame;
+#[cfg(feature = "gpu")]
 pub mod gpu;
 mod picture;
 mod samples;

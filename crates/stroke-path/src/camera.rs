@@ -29,6 +29,7 @@ pub struct OrbitView {
 
 /// Why a camera or a direction was refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CameraError {
     /// The target is finite.
     #[error("the camera's target {0} is not finite")]

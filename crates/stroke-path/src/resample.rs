@@ -29,6 +29,7 @@ pub enum PathKind {
 
 /// Why a path was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PathError {
     /// The subdivision is 1 to 64.
     #[error("the subdivision {0} is not within 1 to {MAX_SUBDIVISION}")]

@@ -1,7 +1,7 @@
 //! Hair against the light: an effect for inkstrand from a crate of its own.
 //!
-//! The library needs the crates `effects` and, to be built, `effects-build`. `examples/backlight.rs` is
-//! the whole of inkstrand with this effect in it.
+//! The library needs the crates `effects` and, to be built, `effects-build`. `src/main.rs`, behind the feature
+//! `program`, is the whole of inkstrand with this effect in it.
 
 effects::effect!("backlight");
 

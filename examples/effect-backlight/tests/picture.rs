@@ -1,18 +1,14 @@
 //! The program with the effect draws its preset.
 
-use std::path::Path;
 use std::process::{Command, Output};
 
-/// Runs the program, which `cargo test` has built beside this test, in the crate's folder.
+/// Runs the program in the crate's folder.
 fn backlight(arguments: &[&str]) -> Output {
-    let test = std::env::current_exe().unwrap();
-    let built = test.parent().and_then(Path::parent).unwrap();
-    let program = built.join("examples/backlight");
-    Command::new(&program)
+    Command::new(env!("CARGO_BIN_EXE_backlight"))
         .args(arguments)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
-        .unwrap_or_else(|error| panic!("{}: {error}; run all of `cargo test`", program.display()))
+        .unwrap()
 }
 
 #[test]

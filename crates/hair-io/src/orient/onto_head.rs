@@ -2,7 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Axes, Cloud, Given, Orientation, UNITS, as_scale, scale_to};
+use super::axes::{Axes, Given, Orientation};
+use super::cloud::Cloud;
+use super::unit::{UNITS, as_scale, scale_to};
 use crate::head::HeadFrame;
 use crate::mesh::Mesh;
 use crate::nearest::Nearest;

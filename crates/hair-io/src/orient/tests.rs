@@ -1,3 +1,4 @@
+use super::unit::UNITS;
 use super::*;
 use proptest::prelude::*;
 

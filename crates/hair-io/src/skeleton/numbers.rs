@@ -1,6 +1,6 @@
 //! Numbers of a glTF file: accessors in buffers.
 
-use super::TrackError;
+use super::error::TrackError;
 use base64::Engine as _;
 use gltf::Accessor;
 use gltf::accessor::{DataType, Dimensions};

@@ -1,48 +1,11 @@
 //! One property of a node in time, sampled as the glTF 2.0 specification has it (appendix C), without the
 //! platform's sine.
 
+use super::error::TrackError;
 use super::numbers::Buffers;
 use glam::{DQuat, DVec3};
 use gltf::animation::{Interpolation, Sampler};
 use std::ops::{Add, Mul};
-
-/// What is wrong with a channel's numbers.
-#[derive(Debug, thiserror::Error)]
-pub enum TrackError {
-    /// A buffer that cannot be read.
-    #[error("buffer {buffer}: {why}")]
-    Buffer {
-        /// Its number.
-        buffer: usize,
-        /// Why.
-        why: String,
-    },
-    /// Numbers of another kind.
-    #[error("accessor {accessor} is not of {wanted} numbers an element")]
-    Kind {
-        /// Its number.
-        accessor: usize,
-        /// How many numbers an element must have.
-        wanted: usize,
-    },
-    /// A sparse accessor, which this build doesn't read.
-    #[error("accessor {0} is sparse, or has no buffer view")]
-    Sparse(usize),
-    /// An accessor that reaches beyond its buffer.
-    #[error("accessor {0} reaches beyond its buffer")]
-    Outside(usize),
-    /// NaN or infinity.
-    #[error("accessor {0} has numbers that are not finite")]
-    NotFinite(usize),
-    /// Times that don't increase, or not as many values.
-    #[error("it has {keys} keys and {values} values, and times that must increase")]
-    Keys {
-        /// Times.
-        keys: usize,
-        /// Values; three a key where it is cubic.
-        values: usize,
-    },
-}
 
 /// A property in time.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use std::ops::Range;
 
-/// Room for rounding around everything that is drawn, in pixels.
+/// A margin for rounding around everything that is drawn, in pixels.
 const MARGIN: f64 = 0.01;
 
 /// The pixels that something may reach: a range of columns and one of rows. By default none.

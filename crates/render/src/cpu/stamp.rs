@@ -94,7 +94,7 @@ impl Stamper {
     ///
     /// # Errors
     ///
-    /// When the drawing is not a drawing.
+    /// When the drawing is invalid.
     pub fn draw(&mut self, drawing: &Drawing, per_interval: usize) -> Result<Picture, DrawError> {
         let Self {
             pool,
@@ -273,28 +273,32 @@ impl Stamp {
         for row in clip(self.rows, origin[1], tile::HEIGHT) {
             for (sample, offset) in samples.iter().enumerate() {
                 let y = row as f32 + offset.y - center.y;
-                let room = self.radius_squared - y * y;
-                if room < 0.0 {
+                let half_width_squared = self.radius_squared - y * y;
+                if half_width_squared < 0.0 {
                     continue;
                 }
                 let start = row_start(sample * tile::HEIGHT + row);
                 for chunk in chunks.clone() {
                     let x = (chunk * LANES) as f32 + offset.x - center.x;
-                    self.draw_chunk(Vec2::new(x, y), room, start + chunk, target);
+                    self.draw_chunk(Vec2::new(x, y), half_width_squared, start + chunk, target);
                 }
             }
         }
     }
 
-    /// `first` is the first lane's place from the centre, `room` the largest square of an x that is covered.
+    /// `first` is the first lane's place from the centre, `half_width_squared` the largest square of an x that is covered.
     #[inline(always)]
-    fn draw_chunk(&self, first: Vec2, room: f32, cell: usize, target: &mut Target) {
+    fn draw_chunk(&self, first: Vec2, half_width_squared: f32, cell: usize, target: &mut Target) {
         let mut nearest = target.strand[cell];
         let mut wins = [0.0; LANES];
         for k in 0..LANES {
             let x = first.x + LANE[k];
             let is_behind = x * self.ahead.x + first.y * self.ahead.y <= 0.0;
-            let depth = select((x * x <= room) & is_behind, self.inv_depth, NOTHING);
+            let depth = select(
+                (x * x <= half_width_squared) & is_behind,
+                self.inv_depth,
+                NOTHING,
+            );
             wins[k] = select(depth > nearest[k], 1.0, 0.0);
             nearest[k] = select(depth > nearest[k], depth, nearest[k]);
         }

@@ -23,7 +23,7 @@ impl Growing {
         }
     }
 
-    /// Makes room for so many bytes; true where that took a new buffer, whose contents are lost.
+    /// Grows to at least so many bytes; true where that took a new buffer, whose contents are lost.
     pub(super) fn reserve(&mut self, device: &wgpu::Device, bytes: u64) -> Result<bool, GpuError> {
         if self.size() >= bytes.max(LEAST) {
             return Ok(false);
@@ -56,7 +56,7 @@ impl Growing {
         Ok(true)
     }
 
-    /// Puts words at its start, making room as in [`Self::reserve`].
+    /// Puts words at its start, growing as in [`Self::reserve`].
     pub(super) fn write(
         &mut self,
         device: &wgpu::Device,

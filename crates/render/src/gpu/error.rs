@@ -5,6 +5,7 @@ use crate::samples::SampleCountError;
 
 /// Why a graphics card drew nothing. All of these leave the CPU's rasteriser as a way out.
 #[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum GpuError {
     /// No driver, or none of the kind that was asked for.
     #[error("there is no graphics card to draw on{}", if *.software { "" } else { " (software drivers are not counted)" })]
@@ -69,7 +70,7 @@ pub enum GpuError {
         /// The frame's.
         prepared: u32,
     },
-    /// The frame is not one.
+    /// The frame is invalid.
     #[error(transparent)]
     Draw(#[from] DrawError),
     /// No such number of samples.

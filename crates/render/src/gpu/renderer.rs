@@ -25,8 +25,8 @@ pub struct GpuStats {
     pub bytes: u64,
     /// Buffers and pipelines that the last frame had to make: none once warm.
     pub made: usize,
-    /// Whether the tiles' lists had too little room in the last frame that was read back: it took longer, and was drawn as
-    /// it should be. The next one has room.
+    /// Whether the tiles' lists were too short in the last frame that was read back: it took longer, and was drawn as
+    /// it should be. The next one's are longer.
     pub lists_were_short: bool,
     /// Milliseconds on the card of the last frame that was read back: strokes, sorting into tiles, tiles. Of devices with
     /// timestamps alone.
@@ -62,8 +62,8 @@ pub struct Renderer {
     composer: Option<Composer>,
     /// Entries that the tiles' lists needed in the last frame that is known of: chunks, triangles.
     entries_needed: [u32; 2],
-    /// Entries that there was room for in the frame that the report is of.
-    room: [u32; 2],
+    /// Lengths of the tiles' lists in the frame that the report is of, in entries.
+    list_capacity: [u32; 2],
     report: Report,
     stats: GpuStats,
 }
@@ -93,7 +93,7 @@ impl Renderer {
             groups: None,
             composer: None,
             entries_needed: [0; 2],
-            room: [0; 2],
+            list_capacity: [0; 2],
             report: Report::new(device, queue),
             stats: GpuStats::default(),
         })
@@ -232,15 +232,15 @@ impl Renderer {
             None => self.make_groups()?,
         };
         if self.report.is_free() {
-            self.room = [chunk_capacity, triangle_capacity];
+            self.list_capacity = [chunk_capacity, triangle_capacity];
         }
         self.record(encoder, &groups, &settings);
         self.groups = Some(groups);
         Ok(is_new)
     }
 
-    /// How many entries the tiles' lists have room for: what the last frame needed and half as much, or a
-    /// guess. A tile whose list has no room looks at everything, so that a guess that is too low costs time alone.
+    /// Capacities of the tiles' lists, in entries: what the last frame needed and half as much, or a
+    /// guess. A tile whose list is full looks at everything, so that a guess that is too low costs time alone.
     fn capacities(&self, tiles: u64) -> [u32; 2] {
         let chunks = self.scene.chunks.len() as u64 / 4;
         let triangles = self.scene.triangles.len() as u64 / 4;
@@ -494,7 +494,7 @@ impl Renderer {
     fn read_report(&mut self) {
         if let Some((entries, milliseconds)) = self.report.read(&self.device) {
             self.entries_needed = entries;
-            self.stats.lists_were_short = (0..2).any(|i| entries[i] > self.room[i]);
+            self.stats.lists_were_short = (0..2).any(|i| entries[i] > self.list_capacity[i]);
             self.stats.milliseconds = milliseconds;
         }
     }

@@ -96,7 +96,7 @@ fn a_frame_of_nothing_is_its_background() {
     assert!(picture.pixels.iter().all(|pixel| *pixel == [0.0; 4]));
 }
 
-/// A few strands that each reach nearly every tile need more room than is guessed; the picture is the same without it.
+/// A few strands that each reach nearly every tile need longer lists than is guessed; the picture is the same with short ones.
 #[test]
 fn lists_without_room_draw_the_same() {
     let Some(mut card) = driver() else { return };

@@ -34,7 +34,7 @@ fn once_warm_nothing_is_made() {
     }
 }
 
-/// Hair that moves by a little takes no more room than buffers keep in reserve.
+/// Hair that moves by a little takes no more memory than buffers keep in reserve.
 #[test]
 fn once_warm_nothing_is_made_for_hair_that_moves() {
     let mut card = on_noop();

@@ -1,0 +1,92 @@
+//! Errors that name the file.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::obj::ObjError;
+#[cfg(feature = "gltf")]
+use crate::skeleton::SkeletonError;
+use crate::strands_ron::StrandsRonError;
+use crate::tfx::TfxError;
+
+/// Why a hair or head file could not be read or written. Every message names the file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum HairError {
+    /// The file system refused.
+    #[error("{}: {source}", path.display())]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A format that is not read.
+    #[error("{}: {found} is not a format that this build reads; it reads {reads}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What the file seems to be.
+        found: String,
+        /// What can be read.
+        reads: &'static str,
+    },
+    /// A TressFX file with errors.
+    #[error("{}: {source}", path.display())]
+    Tfx {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong in it.
+        source: TfxError,
+    },
+    /// A strands file with errors.
+    #[error("{}: {source}", path.display())]
+    StrandsRon {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong in it.
+        source: StrandsRonError,
+    },
+    /// A text that is not UTF-8.
+    #[error("{}: byte {at}: the text is not UTF-8", path.display())]
+    Text {
+        /// The file.
+        path: PathBuf,
+        /// The first byte that is not.
+        at: usize,
+    },
+    /// An OBJ file with errors.
+    #[error("{}: {source}", path.display())]
+    Obj {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong in it.
+        source: ObjError,
+    },
+    /// A character that gives no motion.
+    #[cfg(feature = "gltf")]
+    #[error("{}: {source}", path.display())]
+    Skeleton {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong in it.
+        source: Box<SkeletonError>,
+    },
+    /// Reading a character is left out of this build.
+    #[error("{}: this program was built without glTF, which is the feature `gltf`", .0.display())]
+    WithoutGltf(
+        /// The file.
+        PathBuf,
+    ),
+    /// A scale that is not above 0 and finite, or with which positions are not finite.
+    #[error(
+        "{}: the scale {scale} m a unit is not above 0, or too large for the positions",
+        path.display()
+    )]
+    Scale {
+        /// The file.
+        path: PathBuf,
+        /// Metres a unit.
+        scale: f32,
+    },
+}

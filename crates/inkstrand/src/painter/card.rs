@@ -1,0 +1,67 @@
+//! The graphics card's part of a painter.
+
+use super::Lap;
+use crate::Failure;
+use crate::stats::{Bytes, FrameStats, frame_counts};
+use render::gpu::{AdapterKind, GpuError, Offscreen};
+use render::{Frame, Picture};
+
+/// A graphics card that draws.
+pub(super) struct Card(pub Offscreen);
+
+impl Card {
+    /// A graphics card, or a driver that draws in software where there is none.
+    pub fn any() -> Result<Self, Failure> {
+        Offscreen::open(AdapterKind::Any)
+            .map(Self)
+            .map_err(explained)
+    }
+
+    /// A graphics card, where there is one that can draw.
+    pub fn hardware(is_quiet: bool) -> Option<Self> {
+        match Offscreen::open(AdapterKind::Hardware) {
+            Ok(gpu) => Some(Self(gpu)),
+            Err(GpuError::NoAdapter { .. }) => None,
+            Err(error) => {
+                tell(is_quiet, &error);
+                None
+            }
+        }
+    }
+
+    /// Draws a frame, and says what it took.
+    pub fn draw(
+        &mut self,
+        frame: &Frame,
+        samples: u32,
+        stats: &mut FrameStats,
+        lap: &mut Lap,
+    ) -> Result<Picture, GpuError> {
+        let picture = self.0.draw(frame, samples)?;
+        let whole = lap.passed();
+        let card = self.0.stats();
+        let strokes = card.milliseconds.map_or(0.0, |[strokes, ..]| strokes);
+        stats.backend = "gpu";
+        stats.milliseconds.effects = strokes;
+        stats.milliseconds.raster = whole - strokes;
+        stats.milliseconds.card = card.milliseconds;
+        stats.layers = frame_counts(frame);
+        stats.bytes = Bytes {
+            buffers: card.bytes as usize,
+        };
+        Ok(picture)
+    }
+}
+
+/// Says that the CPU draws in place of the graphics card.
+pub(super) fn tell(is_quiet: bool, error: &GpuError) {
+    if !is_quiet {
+        eprintln!("the CPU draws: {error}");
+    }
+}
+
+pub(super) fn explained(error: GpuError) -> Failure {
+    Failure::Failed(format!(
+        "{error}\n--backend cpu draws without a graphics card"
+    ))
+}
