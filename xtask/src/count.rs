@@ -10,7 +10,6 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::program::{self, Inkstrand};
@@ -114,7 +113,7 @@ fn count(program: &Inkstrand, name: &str) -> Outcome<Counts> {
     let mut command = Command::new("valgrind");
     command
         .args(["--tool=callgrind", "--compress-strings=no"])
-        // A profile of its own for what comes before each frame; the last frame's is written at the end.
+        // What comes before each frame has a profile of its own, with a number at its end: this one is the last frame's.
         .arg(format!("--dump-before={}", STAGES[0].1))
         .arg(format!("--callgrind-out-file={}", profile.display()))
         .arg(program.path())
@@ -124,22 +123,7 @@ fn count(program: &Inkstrand, name: &str) -> Outcome<Counts> {
         .arg(folder.path().join("frame_#.png"))
         .current_dir(program::root());
     program::finished(&command.output()?)?;
-    let last = last_profile(folder.path())?;
-    stages(&fs::read_to_string(last)?)
-}
-
-/// The profile of what came last: that with the greatest number at its end.
-fn last_profile(folder: &Path) -> Outcome<PathBuf> {
-    let mut last = None;
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        let number = path
-            .extension()
-            .and_then(|end| end.to_str()?.parse::<u32>().ok());
-        last = last.max(number.map(|number| (number, path)));
-    }
-    let (_, path) = last.ok_or("valgrind wrote no profile of a frame")?;
-    Ok(path)
+    stages(&fs::read_to_string(profile)?)
 }
 
 /// What each stage takes in a profile, in callgrind's format: below a line `cfn=FUNCTION` come `calls=...` and a line
@@ -285,16 +269,5 @@ mod tests {
     fn what_is_stored_is_read_again() {
         let stored = to_toml(&table(1234));
         assert_eq!(toml::from_str::<Table>(&stored).unwrap(), table(1234));
-    }
-
-    #[test]
-    fn the_last_profile_has_the_greatest_number() {
-        let folder = tempfile::tempdir().unwrap();
-        assert!(last_profile(folder.path()).is_err());
-        for name in ["profile", "profile.2", "profile.10", "frame_1.png"] {
-            fs::write(folder.path().join(name), "").unwrap();
-        }
-        let last = last_profile(folder.path()).unwrap();
-        assert_eq!(last, folder.path().join("profile.10"));
     }
 }
