@@ -3,7 +3,6 @@
 #![allow(clippy::print_stderr, reason = "what is skipped is said")]
 
 use assert_cmd::Command;
-use predicates::str::contains;
 use std::collections::BTreeSet;
 use std::fs;
 use tempfile::TempDir;
