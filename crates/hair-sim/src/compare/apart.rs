@@ -1,10 +1,18 @@
 //! What solvers of strands that don't meet have in common: each strand is solved by itself.
 
 use crate::{
-    Collider, DynamicsError, Params, Pose, Roots, Scene, Stats, Strands, forces::wind::Gusts, lanes,
+    collision::shape::Collider,
+    error::DynamicsError,
+    forces::wind::Gusts,
+    lanes,
+    params::Params,
+    pose::Pose,
+    scene::{Roots, Scene},
+    stats::Stats,
+    strands::Strands,
+    threads::join,
 };
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 
 /// A strand of a solver for comparison, constants and motion.
 pub(super) trait Strand: Send {
@@ -45,9 +53,29 @@ pub(super) fn step<S: Strand>(
     step: impl Fn(&mut S, Pose) -> Stats + Sync,
 ) -> Result<Stats, DynamicsError> {
     scene.check(dt, state.len(), points)?;
-    let one = |(index, strand): (usize, &mut S)| step(strand, scene.roots.of(index));
-    let stats = state.par_iter_mut().enumerate().with_min_len(4).map(one);
-    Ok(stats.reduce(Stats::default, Stats::plus))
+    let one = |index: usize, strand: &mut S| step(strand, scene.roots.of(index));
+    Ok(step_all(state, 0, &one))
+}
+
+/// Steps strands, of which the first is number `first` of all.
+fn step_all<S: Strand>(
+    state: &mut [S],
+    first: usize,
+    step: &(impl Fn(usize, &mut S) -> Stats + Sync),
+) -> Stats {
+    // A task for fewer of them costs more than they do.
+    if state.len() > 4 {
+        let half = state.len() / 2;
+        let (one, two) = state.split_at_mut(half);
+        let (sum, more) = join(
+            || step_all(one, first, step),
+            || step_all(two, first + half, step),
+        );
+        return sum.plus(more);
+    }
+    (state.iter_mut().enumerate())
+        .map(|(i, strand)| step(first + i, strand))
+        .fold(Stats::default(), Stats::plus)
 }
 
 /// Puts the roots elsewhere at once.

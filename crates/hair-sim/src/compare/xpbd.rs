@@ -6,7 +6,14 @@
 
 use super::apart::{self, Acting, Pull, Strand};
 use crate::{
-    DynamicsError, Params, Pose, Roots, Scene, Stats, StrandSolver, Strands, rest::RestStrand,
+    error::DynamicsError,
+    params::Params,
+    pose::Pose,
+    rest::RestStrand,
+    scene::{Roots, Scene},
+    stats::Stats,
+    strand_solver::StrandSolver,
+    strands::Strands,
 };
 use glam::{DQuat, DVec3, Vec3};
 
@@ -70,12 +77,12 @@ impl StrandSolver for Xpbd {
         apart::teleport(state, to, self.points)
     }
 
-    fn points(&self, state: &Vec<Rod>, strand: usize) -> Vec<DVec3> {
-        state[strand].points.clone()
+    fn points(&self, state: &Vec<Rod>, strand: usize) -> impl ExactSizeIterator<Item = DVec3> {
+        state[strand].points.iter().copied()
     }
 
-    fn frames(&self, state: &Vec<Rod>, strand: usize) -> Vec<DQuat> {
-        state[strand].frames[1..].to_vec()
+    fn frames(&self, state: &Vec<Rod>, strand: usize) -> impl ExactSizeIterator<Item = DQuat> {
+        state[strand].frames[1..].iter().copied()
     }
 }
 
