@@ -26,19 +26,6 @@ impl Pose {
         self.rotation.conjugate() * (at - self.translation)
     }
 
-    /// The pose at `share` of the way to another, 0 to 1: along the chord, which needs no sine.
-    pub(crate) fn towards(self, to: Self, share: f64) -> Self {
-        let short = if self.rotation.dot(to.rotation) < 0.0 {
-            -to.rotation
-        } else {
-            to.rotation
-        };
-        Self {
-            rotation: (self.rotation * (1.0 - share) + short * share).normalize(),
-            translation: self.translation.lerp(to.translation, share),
-        }
-    }
-
     pub(crate) fn is_finite(&self) -> bool {
         self.rotation.is_finite() && self.translation.is_finite()
     }

@@ -123,7 +123,7 @@ impl Acting<'_> {
     ) -> usize {
         let mut found = 0;
         for collider in self.colliders {
-            let pose = collider.before.towards(collider.now, self.share);
+            let pose = on_the_way(collider.before, collider.now, self.share);
             let place = pose.to_local(*point);
             let depth = thickness - collider.shape.distance(place);
             if depth <= 0.0 || !depth.is_finite() {
@@ -138,6 +138,19 @@ impl Acting<'_> {
             *point = pushed - slid * held;
         }
         found
+    }
+}
+
+/// The pose at `share` of the way from one to another, 0 to 1: along the chord, which needs no sine.
+pub(super) fn on_the_way(from: Pose, to: Pose, share: f64) -> Pose {
+    let short = if from.rotation.dot(to.rotation) < 0.0 {
+        -to.rotation
+    } else {
+        to.rotation
+    };
+    Pose {
+        rotation: (from.rotation * (1.0 - share) + short * share).normalize(),
+        translation: from.translation.lerp(to.translation, share),
     }
 }
 

@@ -11,7 +11,7 @@
 //! that a straight strand at rest, lightly loaded, bends as a rod of the given stiffness does.
 
 use super::{
-    apart::{self, Acting, Pull, Strand},
+    apart::{self, Acting, Pull, Strand, on_the_way},
     truss::{HELD, Truss, bending_share, frame, zigzag},
 };
 use crate::{
@@ -170,7 +170,7 @@ impl Zigzag {
             let now = if substep == substeps {
                 head
             } else {
-                before.towards(head, acting.share)
+                on_the_way(before, head, acting.share)
             };
             stats.contacts += self.substep(&acting, &goals, now, dt, substeps);
         }

@@ -4,7 +4,7 @@
 //! shear and of bending and twist), solved as Macklin et al. 2016, *XPBD*, say (algorithm 1): their compliance makes the
 //! stiffness physical, and Gauss-Seidel sweeps leave an error that more sweeps or more steps lessen.
 
-use super::apart::{self, Acting, Pull, Strand};
+use super::apart::{self, Acting, Pull, Strand, on_the_way};
 use crate::{
     error::DynamicsError,
     params::Params,
@@ -200,7 +200,7 @@ impl Rod {
             let now = if substep == substeps {
                 head
             } else {
-                before.towards(head, share)
+                on_the_way(before, head, share)
             };
             self.predict(&acting, &goals, now, part, substeps);
             for sweep in 0..sweeps {

@@ -335,7 +335,7 @@ impl Path {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{collision::Shape, pose::Pose};
+    use crate::{collision::shape::Shape, pose::Pose};
     use glam::DQuat;
 
     #[test]
