@@ -321,7 +321,7 @@ impl<'a> Source<'a> {
         let part = match &error {
             StrandError::NotFinite { point, .. } => parts.map(|p| p.points[*point]),
             StrandError::Size { .. } => parts.and_then(|p| p.size),
-            StrandError::Empty { .. } => None,
+            _ => None,
         };
         self.at(part.unwrap_or(raw).trim().get_ron(), Problem::Strand(error))
     }

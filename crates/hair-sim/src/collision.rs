@@ -1,11 +1,7 @@
-//! Collision of strands with bodies.
+//! Bodies that hair cannot enter.
 
-pub(crate) mod contact;
-mod grid;
-mod shape;
-
-pub use grid::{GridError, SignedDistance};
-pub use shape::{Collider, Shape};
+pub(crate) mod grid;
+pub(crate) mod shape;
 
 #[cfg(test)]
 mod properties;

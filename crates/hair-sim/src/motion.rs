@@ -1,10 +1,10 @@
 //! Played-back motion: positions of the same points at given times.
 
-mod spline;
+pub(crate) mod spline;
 
-pub use spline::key_weights;
+use glam::{DVec3, Vec3};
 
-use glam::Vec3;
+use spline::key_weights;
 
 /// Positions of all points of some [`Strands`](crate::Strands) at increasing times.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +15,7 @@ pub struct Motion {
 
 /// Why time samples make no motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MotionError {
     /// There must be at least one sample.
     #[error("the motion has no time samples")]
@@ -107,6 +108,22 @@ impl Motion {
         }
     }
 
+    /// Writes the positions at `time` (seconds) into `points`: on a spline through the samples, as [`key_weights`]
+    /// has it.
+    ///
+    /// # Panics
+    ///
+    /// As [`Self::sample`].
+    pub fn sample_smooth(&self, time: f64, points: &mut [Vec3]) {
+        let time_of = |key: usize| f64::from(self.times[key]);
+        let keys = key_weights(self.times.len(), time_of, time);
+        assert_eq!(points.len(), self.samples[0].len());
+        for (i, point) in points.iter_mut().enumerate() {
+            let weighted = keys.map(|(key, weight)| self.samples[key][i].as_dvec3() * weight);
+            *point = weighted.into_iter().sum::<DVec3>().as_vec3();
+        }
+    }
+
     /// The motion of the points at these indices of the list, in this order.
     #[must_use]
     pub fn select(&self, indices: &[usize]) -> Self {
@@ -167,5 +184,20 @@ mod tests {
             Err(MotionError::NotFinite { .. })
         ));
         assert!(Motion::new(vec![(f32::NAN, vec![])]).is_err());
+    }
+
+    #[test]
+    fn shapes_are_joined_smoothly() {
+        let shape = |x: f32| vec![Vec3::ZERO, Vec3::new(x, -1.0, 0.0)];
+        let motion = Motion::new(vec![(0.0, shape(0.0)), (1.0, shape(1.0))]).unwrap();
+        let mut points = [Vec3::ZERO; 2];
+        motion.sample_smooth(0.25, &mut points);
+        // It starts slowly: 3 t^2 - 2 t^3.
+        assert_eq!(points, [Vec3::ZERO, Vec3::new(0.15625, -1.0, 0.0)]);
+        motion.sample_smooth(7.0, &mut points);
+        assert_eq!(points[1].x, 1.0);
+        let still = Motion::new(vec![(5.0, shape(3.0))]).unwrap();
+        still.sample_smooth(0.0, &mut points);
+        assert_eq!(points[1].x, 3.0);
     }
 }

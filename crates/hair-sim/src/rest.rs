@@ -3,10 +3,9 @@
 use glam::{DQuat, DVec3};
 
 use crate::{
-    GRAVITY,
+    error::Reason,
     math::{cos, sin},
-    params::{Natural, Params},
-    solver::Reason,
+    params::{GRAVITY, Natural, Params},
 };
 
 /// Joints of less than this fraction of the mean length count as this long, so that a very short link does not
@@ -264,7 +263,7 @@ pub(crate) fn from_axis(tangent: DVec3) -> DQuat {
     .normalize()
 }
 
-/// The least rotation between unit vectors; none where they are all but opposite.
+/// The least rotation between unit vectors; `None` where they are all but opposite.
 fn least_turn(from: DVec3, to: DVec3) -> Option<DQuat> {
     let w = 1.0 + from.dot(to);
     // w = 2 cos^2(angle / 2).

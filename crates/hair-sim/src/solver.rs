@@ -1,51 +1,74 @@
 //! The strand solver: strands in batches, each stepped by itself.
+//!
+//! Its parts, of which each imports those above it alone:
+//!
+//! - `link`, `batch`, `chain`, `stage`, `contact`: data; what strands are, where they are, what a stage of a step is, what touches
+//!   them
+//! - `load`: what acts on particles in a stage
+//! - `rods`: the two kinds of strands, `curled` and `straight`, behind one interface
+//! - `scratch`: what a step works with
+//! - `neighbours`; `drive`: what drives a batch in a step
+//! - `tr_bdf2`, the integrator; `safe`, the one behind it; `energy`, which keeps them from making any; `finish`
+//! - `step`: all of a batch's step
+//!
+//! What works on all particles is compiled for several instruction sets, see [`crate::lanes`]: a function for every phase of a
+//! step, by [`Number::run`](crate::lanes::Number::run).
 
-pub(crate) mod batch;
+mod batch;
+mod chain;
+mod contact;
 mod drive;
 mod energy;
-mod fallback;
 mod finish;
 #[cfg(test)]
 mod free_flight;
-mod free_motion;
-pub(crate) mod instructions;
-mod integrate;
+mod link;
+mod load;
 mod neighbours;
 #[cfg(test)]
 mod ring;
-mod scene;
-mod straight;
-pub(crate) mod sweep;
+mod rods;
+mod safe;
+mod scratch;
+mod stage;
+mod step;
+mod tr_bdf2;
 
 use glam::{DQuat, DVec3, Vec3};
-use rayon::prelude::*;
 
 use crate::{
-    Strands,
-    collision::contact::Guard,
+    error::{DynamicsError, Fault},
     forces::mutual::{Course, Mutual, Pair},
-    lanes::{LANES, Lane, Quat, Vec3 as LaneVec3},
+    lanes::{LANES, Lane, Quat, Vec3 as LaneVec3, instructions::Instructions},
     params::Params,
     rest::RestStrand,
+    scene::{Acceleration, Roots, Scene},
+    stats::Stats,
+    strands::Strands,
+    threads::join,
 };
 
-pub use batch::Reason;
-use batch::{Batch, BatchState, Scratch};
-use drive::{Drive, Hair, whole_poses};
-use instructions::{Instructions, run};
-use integrate::{GAMMA, advance};
-pub use scene::{Acceleration, DynamicsError, Fault, Pose, Roots, Scene, Stats};
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::avx2::Avx2;
+use batch::{Batch, BatchState};
+use contact::Guard;
+use drive::{Drive, Others, whole_poses};
+use energy::whole_energy;
+use rods::Rods;
+use scratch::Scratch;
+use stage::GAMMA;
+use step::advance;
 
 /// The most groups of batches, so of tasks in a step.
 const MOST_GROUPS: usize = 64;
 
-/// The constants of some strands, and room to work in. The strands' motion is in [`State`].
+/// The constants of some strands, and scratch. The strands' motion is in [`State`].
 #[derive(Clone, Debug)]
 pub struct Solver {
     batches: Vec<Batch>,
     /// One for every group of batches.
     scratch: Vec<Scratch>,
-    /// Batches in a group: a task steps them one after the other in the same room, which stays in the processor's cache.
+    /// Batches in a group: a task steps them one after the other in the same scratch, which stays in the processor's cache.
     group: usize,
     /// Batch and lane of every strand.
     places: Vec<(usize, usize)>,
@@ -53,7 +76,7 @@ pub struct Solver {
     points: Vec<usize>,
     first_points: Vec<usize>,
     ids: Vec<u32>,
-    hair: Option<HairHair>,
+    interaction: Option<Interaction>,
     /// Of the bodies in the step at hand.
     guards: Vec<Guard>,
     instructions: Instructions,
@@ -61,7 +84,7 @@ pub struct Solver {
 
 /// How the strands act on each other.
 #[derive(Clone, Debug)]
-struct HairHair {
+struct Interaction {
     mutual: Mutual,
     /// Of every batch.
     pairs: Vec<Vec<Pair>>,
@@ -83,7 +106,7 @@ fn follow(
         let (first, second) = batches.split_at(half);
         let particles: usize = first.iter().map(Batch::count).sum();
         let (these, those) = courses.split_at_mut(particles * LANES);
-        rayon::join(
+        join(
             || follow(first, &states[..half], these, scene, dt),
             || follow(second, &states[half..], those, scene, dt),
         );
@@ -181,7 +204,7 @@ impl Solver {
             points: rest.iter().map(<[Vec3]>::len).collect(),
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
             ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
-            hair: None,
+            interaction: None,
             guards: Vec::new(),
             instructions: Instructions::best(),
         };
@@ -237,7 +260,7 @@ impl Solver {
     ///
     /// When a number is out of its range, or the state is not of these strands.
     pub fn interact(&mut self, state: &mut State, mutual: &Mutual) -> Result<(), DynamicsError> {
-        self.hair = None;
+        self.interaction = None;
         self.check(state, &Scene::default(), 1.0)?;
         if let Some((name, value, least, most)) = mutual.out_of_range() {
             return Err(DynamicsError::Mutual {
@@ -252,7 +275,7 @@ impl Solver {
             state.broken = vec![[false; LANES]; pairs.len()];
         }
         let total: usize = self.batches.iter().map(|b| b.count() * LANES).sum();
-        self.hair = Some(HairHair {
+        self.interaction = Some(Interaction {
             mutual: *mutual,
             pairs,
             courses: vec![Course::default(); total],
@@ -276,7 +299,7 @@ impl Solver {
     ///
     /// # Errors
     ///
-    /// When the step, the state or the scene is none. The state is untouched then.
+    /// When the length of the step, the scene or the state is invalid. The state is unchanged then.
     pub fn step(
         &mut self,
         state: &mut State,
@@ -287,14 +310,20 @@ impl Solver {
         let instructions = self.instructions;
         let gusts = [GAMMA, 1.0].map(|share| scene.wind_at(share).at(state.time + share * dt));
         let acting = scene.fingerprint();
-        let calm = acting == state.last && self.hair.is_none() && scene.is_calm();
+        let calm = acting == state.last && self.interaction.is_none() && scene.is_calm();
         state.last = acting;
         self.guards.clear();
         self.guards.extend(scene.colliders.iter().map(Guard::new));
-        if let Some(hair) = &mut self.hair {
-            follow(&self.batches, &state.batches, &mut hair.courses, scene, dt);
+        if let Some(interaction) = &mut self.interaction {
+            follow(
+                &self.batches,
+                &state.batches,
+                &mut interaction.courses,
+                scene,
+                dt,
+            );
         }
-        let hair = self.hair.as_ref();
+        let interaction = self.interaction.as_ref();
         let (first_points, guards) = (&self.first_points, &self.guards);
         let last_dt = if state.last_dt > 0.0 {
             state.last_dt
@@ -314,33 +343,25 @@ impl Solver {
                 base,
                 accelerations: accelerations(batch, scene),
                 calm,
-                hair: hair.map(|h| Hair {
-                    mutual: &h.mutual,
-                    pairs: &h.pairs[index],
-                    courses: &h.courses,
+                others: interaction.map(|all| Others {
+                    mutual: &all.mutual,
+                    pairs: &all.pairs[index],
+                    courses: &all.courses,
                 }),
             };
-            Stats::from(run!(instructions, advance(batch, state, scratch, &drive)))
+            match instructions {
+                Instructions::Compiled => advance::<Lane>(batch, state, scratch, &drive),
+                #[cfg(target_arch = "x86_64")]
+                Instructions::Avx2 => advance::<Avx2>(batch, state, scratch, &drive),
+            }
         };
-        let group = self.group;
-        let one_group =
-            |index: usize, batches: &[Batch], states: &mut [BatchState], scratch: &mut Scratch| {
-                (batches.iter().zip(states).enumerate())
-                    .map(|(i, (batch, state))| step(index * group + i, batch, state, scratch))
-                    .fold(Stats::default(), Stats::plus)
-            };
-        let sum = if let [scratch] = &mut self.scratch[..] {
-            // A task for the only one would take longer than the strand.
-            one_group(0, &self.batches, &mut state.batches, scratch)
-        } else {
-            (self.batches.par_chunks(group).enumerate())
-                .zip(state.batches.par_chunks_mut(group))
-                .zip(self.scratch.par_iter_mut())
-                .map(|(((index, batches), states), scratch)| {
-                    one_group(index, batches, states, scratch)
-                })
-                .reduce(Stats::default, Stats::plus)
-        };
+        let sum = step_all(
+            &self.batches,
+            &mut state.batches,
+            &mut self.scratch,
+            (0, self.group),
+            &step,
+        );
         state.time += dt;
         state.last_dt = dt;
         Ok(sum)
@@ -350,7 +371,7 @@ impl Solver {
     ///
     /// # Errors
     ///
-    /// When the poses or the state are none.
+    /// When the poses or the state are invalid. The state is unchanged then.
     pub fn teleport(&self, state: &mut State, to: Roots) -> Result<(), DynamicsError> {
         let scene = Scene {
             roots: to,
@@ -369,11 +390,10 @@ impl Solver {
         scene.check(dt, self.len(), self.points.iter().sum())?;
         let fits = state.layout == layout(&self.places)
             && state.batches.len() == self.batches.len()
-            && (self.batches.iter().zip(&state.batches)).all(|(b, s)| {
-                s.y.len() == b.count() && (b.is_straight || s.frames.len() == b.count())
-            })
-            && self.hair.as_ref().is_none_or(|h| {
-                (h.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
+            && (self.batches.iter().zip(&state.batches))
+                .all(|(b, s)| s.y.len() == b.count() && s.frames.len() == b.count_of_frames())
+            && self.interaction.as_ref().is_none_or(|all| {
+                (all.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
             });
         if fits {
             Ok(())
@@ -392,7 +412,7 @@ impl Solver {
     pub fn energy(&self, state: &State, strand: usize, gravity: DVec3) -> f64 {
         let (batch, lane) = self.places[strand];
         let pull = LaneVec3::splat(gravity);
-        state.batches[batch].energy::<Lane>(&self.batches[batch], pull)[lane]
+        whole_energy::<Lane>(&self.batches[batch], &state.batches[batch], &pull)[lane]
     }
 
     /// The points of a strand in the world, root first, in m.
@@ -442,15 +462,43 @@ impl Solver {
     /// # Panics
     ///
     /// As [`Self::points`].
-    pub fn frames(
-        &self,
-        state: &State,
-        strand: usize,
-    ) -> impl ExactSizeIterator<Item = DQuat> + use<> {
+    pub fn frames(&self, state: &State, strand: usize) -> impl ExactSizeIterator<Item = DQuat> {
         let (batch, lane) = self.places[strand];
-        let mut frames = state.batches[batch].link_frames(&self.batches[batch]);
-        frames.truncate(self.points[strand] - 1);
-        frames.into_iter().map(move |frame| frame.get(lane))
+        let mut frames = Rods::frames_one_by_one(&self.batches[batch], &state.batches[batch]);
+        (1..self.points[strand]).map(move |_| frames().get(lane))
+    }
+}
+
+/// Steps batches in groups, each by a task of its own and in its own scratch. The first of them is number `first` of all, and `group`
+/// of them make a group.
+fn step_all<F>(
+    batches: &[Batch],
+    states: &mut [BatchState],
+    scratch: &mut [Scratch],
+    (first, group): (usize, usize),
+    step: &F,
+) -> Stats
+where
+    F: Fn(usize, &Batch, &mut BatchState, &mut Scratch) -> Stats + Sync,
+{
+    match scratch {
+        [] => Stats::default(),
+        [scratch] => (batches.iter().zip(states).enumerate())
+            .map(|(i, (batch, state))| step(first + i, batch, state, scratch))
+            .fold(Stats::default(), Stats::plus),
+        _ => {
+            let half = scratch.len() / 2;
+            let middle = half * group;
+            let (batches, later_batches) = batches.split_at(middle);
+            let (states, later_states) = states.split_at_mut(middle);
+            let (scratch, later_scratch) = scratch.split_at_mut(half);
+            let later = (first + middle, group);
+            let (sum, more) = join(
+                || step_all(batches, states, scratch, (first, group), step),
+                || step_all(later_batches, later_states, later_scratch, later, step),
+            );
+            sum.plus(more)
+        }
     }
 }
 
@@ -471,10 +519,7 @@ fn roots(batch: &Batch, scene: &Scene) -> (LaneVec3, Quat) {
         let Some(strand) = batch.strands[lane] else {
             continue;
         };
-        let pose = match scene.roots {
-            Roots::Head(pose) => pose,
-            Roots::Each(poses) => poses[strand],
-        };
+        let pose = scene.roots.of(strand);
         root.set(
             lane,
             pose.translation + pose.rotation * batch.root.get(lane),
@@ -502,20 +547,14 @@ fn accelerations(batch: &Batch, scene: &Scene) -> Option<[LaneVec3; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{GRAVITY, Wind};
+    use crate::{Collider, GRAVITY, Material, Natural, Pose, Profile, Shape, Wind};
     use std::time::{Duration, Instant};
 
-    /// Prints what a step takes in each as well.
-    #[test]
-    #[allow(
-        clippy::print_stdout,
-        reason = "it shows what vector instructions are worth"
-    )]
-    fn every_instruction_set_gives_the_same_bits() {
+    /// 72 strands on a ball, of different lengths, so that batches mix them.
+    fn style() -> Strands {
         let mut rest = Strands::new();
         for s in 0..72_u32 {
             let turn = s as f32 * 0.6;
-            // Of different lengths, so that batches mix them.
             let links = 18 + s % 3;
             let points: Vec<Vec3> = (0..=links)
                 .map(|i| {
@@ -525,26 +564,99 @@ mod tests {
                 .collect();
             rest.push(s, &points, None).unwrap();
         }
-        let states = [Instructions::Compiled, Instructions::best()].map(|instructions| {
-            let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
-            solver.instructions = instructions;
-            let mut shortest = Duration::MAX;
-            for i in 0..96 {
-                let scene = Scene {
-                    gravity: DVec3::new(f64::from(i % 5), -GRAVITY, 0.0),
-                    wind: Wind {
-                        gust: 3.0,
-                        ..Wind::default()
-                    },
-                    ..Scene::default()
+        rest
+    }
+
+    /// The state after 96 steps in which a head shakes; with everything that can act on strands, or with wind alone. And the time of
+    /// the shortest step.
+    fn shaken(params: &Params, everything: bool, instructions: Instructions) -> (State, Duration) {
+        let rest = style();
+        let goal = rest.points().to_vec();
+        let (mut solver, mut state) = Solver::new(&rest, params).unwrap();
+        solver.instructions = instructions;
+        if everything {
+            let mutual = Mutual {
+                reach: 0.05,
+                ..Mutual::default()
+            };
+            solver.interact(&mut state, &mutual).unwrap();
+        }
+        let head = |step: i32| Pose {
+            // At times faster than the integrator can follow: the safe one is needed.
+            rotation: DQuat::from_rotation_x(if everything {
+                f64::from(step % 24)
+            } else {
+                0.0
+            }),
+            translation: DVec3::ZERO,
+        };
+        let (mut shortest, mut sum) = (Duration::MAX, Stats::default());
+        for i in 0..96 {
+            let colliders = [Collider {
+                shape: Shape::Sphere {
+                    center: DVec3::ZERO,
+                    radius: 0.1,
+                },
+                before: head(i),
+                now: head(i + 1),
+            }];
+            let scene = Scene {
+                roots: Roots::Head(head(i + 1)),
+                gravity: DVec3::new(f64::from(i % 5), -GRAVITY, 0.0),
+                wind: Wind {
+                    gust: 3.0,
+                    ..Wind::default()
+                },
+                colliders: if everything { &colliders } else { &[] },
+                goal: everything.then_some(&goal[..]),
+                ..Scene::default()
+            };
+            let start = Instant::now();
+            let stats = solver.step(&mut state, &scene, 1.0 / 60.0).unwrap();
+            shortest = shortest.min(start.elapsed());
+            sum = sum.plus(stats);
+        }
+        let acted = [sum.contacts, sum.links, sum.repulsions, sum.fallbacks].map(|n| n > 0);
+        assert!(!everything || acted == [true; 4], "{sum:?}");
+        (state, shortest)
+    }
+
+    /// Prints what a step takes in each as well.
+    #[test]
+    #[allow(
+        clippy::print_stdout,
+        reason = "it shows what vector instructions are worth"
+    )]
+    fn every_instruction_set_gives_the_same_bits() {
+        let curled = Params {
+            material: Material::from_gamma(30.0, 0.2),
+            natural: Natural::Styled,
+            ..Params::default()
+        };
+        let straight = Params {
+            natural: Natural::Curl {
+                curvature: 0.0,
+                torsion: 0.0,
+            },
+            ..curled
+        };
+        for (name, params) in [("curled", curled), ("straight", straight)] {
+            for everything in [false, true] {
+                let params = Params {
+                    goal: Profile::constant(if everything { 20.0 } else { 0.0 }),
+                    ..params
                 };
-                let start = Instant::now();
-                solver.step(&mut state, &scene, 1.0 / 60.0).unwrap();
-                shortest = shortest.min(start.elapsed());
+                let sets = [Instructions::Compiled, Instructions::best()];
+                let states = sets.map(|instructions| {
+                    let (state, shortest) = shaken(&params, everything, instructions);
+                    let what = if everything { "everything" } else { "wind" };
+                    println!(
+                        "{instructions:?}: {shortest:?} for a step of 72 {name} strands of 20 points in {what}"
+                    );
+                    state
+                });
+                assert!(states[0] == states[1], "{name}, everything: {everything}");
             }
-            println!("{instructions:?}: {shortest:?} for a step of 72 strands of 20 points");
-            state
-        });
-        assert!(states[0] == states[1]);
+        }
     }
 }

@@ -1,11 +1,17 @@
 //! What every solver of strands can do.
 
-use crate::{DynamicsError, Roots, Scene, Solver, State, Stats};
 use glam::{DQuat, DVec3};
 
-/// A solver of strands: constants and room to work in, apart from the state that it advances.
+use crate::{
+    error::DynamicsError,
+    scene::{Roots, Scene},
+    solver::{Solver, State},
+    stats::Stats,
+};
+
+/// A solver of strands: constants and scratch, apart from the state that it advances.
 ///
-/// [`Solver`] is the one to use; those of [`compare`](crate::compare) are for comparison. What a scene may hold that a
+/// [`Solver`] is the one to use; those of the module `compare` are for comparison. What a scene may hold that a
 /// solver leaves out, it says itself.
 pub trait StrandSolver {
     /// All that decides what happens next.
@@ -15,7 +21,7 @@ pub trait StrandSolver {
     ///
     /// # Errors
     ///
-    /// When the step, the state or the scene is none. The state is untouched then.
+    /// When the length of the step, the scene or the state is invalid. The state is unchanged then.
     fn step(
         &mut self,
         state: &mut Self::State,
@@ -27,22 +33,22 @@ pub trait StrandSolver {
     ///
     /// # Errors
     ///
-    /// When the poses or the state are none.
+    /// When the poses or the state are invalid. The state is unchanged then.
     fn teleport(&self, state: &mut Self::State, to: Roots) -> Result<(), DynamicsError>;
 
     /// The points of a strand in the world, root first, in m.
     ///
     /// # Panics
     ///
-    /// When there is no such strand, or the state is not of this solver's.
-    fn points(&self, state: &Self::State, strand: usize) -> Vec<DVec3>;
+    /// When there is no such strand, or the state is of another solver.
+    fn points(&self, state: &Self::State, strand: usize) -> impl ExactSizeIterator<Item = DVec3>;
 
     /// The frames of a strand's links in the world, root first: the third axis points along the link.
     ///
     /// # Panics
     ///
     /// As [`Self::points`].
-    fn frames(&self, state: &Self::State, strand: usize) -> Vec<DQuat>;
+    fn frames(&self, state: &Self::State, strand: usize) -> impl ExactSizeIterator<Item = DQuat>;
 }
 
 impl StrandSolver for Solver {
@@ -56,11 +62,11 @@ impl StrandSolver for Solver {
         Self::teleport(self, state, to)
     }
 
-    fn points(&self, state: &State, strand: usize) -> Vec<DVec3> {
-        Self::points(self, state, strand).collect()
+    fn points(&self, state: &State, strand: usize) -> impl ExactSizeIterator<Item = DVec3> {
+        Self::points(self, state, strand)
     }
 
-    fn frames(&self, state: &State, strand: usize) -> Vec<DQuat> {
-        Self::frames(self, state, strand).collect()
+    fn frames(&self, state: &State, strand: usize) -> impl ExactSizeIterator<Item = DQuat> {
+        Self::frames(self, state, strand)
     }
 }

@@ -17,6 +17,7 @@ pub struct Strands {
 
 /// Why a strand was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StrandError {
     /// A strand needs a root.
     #[error("strand {id} has no points")]
@@ -35,7 +36,7 @@ pub enum StrandError {
         position: Vec3,
     },
     /// A clump size is a finite number, 0 or more.
-    #[error("strand {id}: the size {size} is not a number of 0 or more")]
+    #[error("strand {id}: the size {size} must be finite, and 0 or more")]
     Size {
         /// The strand's id.
         id: u32,

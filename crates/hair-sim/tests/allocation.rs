@@ -1,4 +1,4 @@
-//! What a step works with is in the solver's own room: once everything has happened that will, it allocates nothing.
+//! What a step works with is in the solver's own scratch: once everything has happened that will, it allocates nothing.
 #![allow(clippy::print_stdout, reason = "tests show the figures that they hold")]
 
 use std::alloc::{GlobalAlloc, Layout, System};

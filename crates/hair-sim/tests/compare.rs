@@ -1,5 +1,5 @@
 //! The solvers for comparison, against the own one.
-
+#![cfg(feature = "compare")]
 #![allow(clippy::print_stdout, reason = "tests show the figures that they hold")]
 
 use glam::{DQuat, DVec3, Vec3};
@@ -60,7 +60,12 @@ fn run<S: StrandSolver>(
     for _ in 0..steps {
         solver.step(state, scene, 1.0 / 24.0).unwrap();
     }
-    solver.points(state, 0)
+    points(solver, state)
+}
+
+/// Of the first strand.
+fn points<S: StrandSolver>(solver: &S, state: &S::State) -> Vec<DVec3> {
+    solver.points(state, 0).collect()
 }
 
 fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {
@@ -75,7 +80,7 @@ fn without_gravity_a_style_stays_as_it_is() {
             gravity: DVec3::ZERO,
             ..Scene::default()
         };
-        let start = solver.points(&state, 0);
+        let start = points(&solver, &state);
         let error = farthest(&run(&mut solver, &mut state, &scene, 48), &start);
         assert!(error < 1e-12, "{error}");
     }
@@ -99,7 +104,7 @@ fn more_substeps_come_nearer_to_the_own_solver() {
     let mut truth = Vec::new();
     for _ in 0..24 * 16 {
         own.step(&mut state, &scene, 1.0 / 384.0).unwrap();
-        truth = StrandSolver::points(&own, &state, 0);
+        truth = points(&own, &state);
     }
     let errors = [16, 64, 512].map(|substeps| {
         let (mut solver, mut rods) = xpbd(&styled, substeps);
@@ -122,13 +127,13 @@ fn a_balanced_style_hangs_nearly_as_it_was_styled() {
     // One sweep a substep leaves some sag, and more substeps less.
     let errors = [64, 256].map(|substeps| {
         let (mut solver, mut rods) = xpbd(&params(), substeps);
-        let start = solver.points(&rods, 0);
+        let start = points(&solver, &rods);
         farthest(&run(&mut solver, &mut rods, &Scene::default(), 48), &start) / LENGTH
     });
     assert!(errors[1] < errors[0] && errors[1] < 0.04, "{errors:?}");
 
     let (mut solver, mut state) = mass_spring(&params(), 4);
-    let start = solver.points(&state, 0);
+    let start = points(&solver, &state);
     let hung = run(&mut solver, &mut state, &Scene::default(), 240);
     let error = farthest(&hung, &start) / LENGTH;
     println!("mass-spring: {error:.1e}");
@@ -168,7 +173,7 @@ fn all_act<S: StrandSolver>(solver: impl Fn(&Params) -> (S, S::State)) {
         ..Scene::default()
     };
     let (mut simulation, mut state) = solver(&params());
-    let start = simulation.points(&state, 0);
+    let start = points(&simulation, &state);
     let tip = run(&mut simulation, &mut state, &blown, 24)[16];
     assert!(tip.z - start[16].z > 0.02, "{tip}");
 
@@ -322,11 +327,11 @@ fn follow<S: StrandSolver>((mut solver, mut state): (S, S::State)) {
     let stats = solver.step(&mut state, &scene, 0.1).unwrap();
     assert!(stats.set_aside > 0, "{stats:?}");
     for (strand, points) in [1, 4].into_iter().enumerate() {
-        let found = solver.points(&state, strand);
+        let found: Vec<DVec3> = solver.points(&state, strand).collect();
         let at = DVec3::new(1.0, 2.0, 1.0);
         assert_eq!(found.len(), points);
         assert!(found.iter().all(|p| (*p - at).length() < 1e-6), "{found:?}");
-        let frames = solver.frames(&state, strand);
+        let frames: Vec<DQuat> = solver.frames(&state, strand).collect();
         assert_eq!(frames.len(), points - 1);
         assert!(frames.iter().all(|frame| frame.is_finite()), "{frames:?}");
     }
@@ -376,13 +381,10 @@ fn springs_of_odd_strands_stay_finite() {
             };
             let stats = solver.step(&mut state, &scene, 0.1).unwrap();
             for strand in 0..odd.len() {
-                let points = solver.points(&state, strand);
-                assert!(points.iter().all(|p| p.is_finite()), "{gamma}: {stats:?}");
-                let frames = solver.frames(&state, strand);
-                assert!(
-                    frames.iter().all(|f| f.is_normalized()),
-                    "{gamma}: {stats:?}"
-                );
+                let mut points = solver.points(&state, strand);
+                assert!(points.all(|p| p.is_finite()), "{gamma}: {stats:?}");
+                let mut frames = solver.frames(&state, strand);
+                assert!(frames.all(|f| f.is_normalized()), "{gamma}: {stats:?}");
             }
         }
     }

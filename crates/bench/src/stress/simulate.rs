@@ -413,6 +413,7 @@ fn is_deserved(points: &[Vec3], reason: Reason) -> bool {
                 before.angle_between(after) > 169.0_f64.to_radians()
             })
         }
-        Reason::Root | Reason::Goal | Reason::Motion => false,
+        // The pose of a root, a goal, the motion: not at the start.
+        _ => false,
     }
 }

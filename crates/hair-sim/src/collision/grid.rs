@@ -25,6 +25,7 @@ pub struct SignedDistance {
 
 /// Why a mesh has no grid of distances.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GridError {
     /// A mesh has triangles.
     #[error("the mesh has no triangles")]
@@ -55,7 +56,7 @@ impl SignedDistance {
     ///
     /// # Errors
     ///
-    /// When the mesh is empty or broken, or the grid too large.
+    /// When the mesh is empty or invalid, or the grid too large.
     pub fn new(points: &[Vec3], triangles: &[[u32; 3]], cell: f64) -> Result<Self, GridError> {
         if triangles.is_empty() {
             return Err(GridError::Empty);

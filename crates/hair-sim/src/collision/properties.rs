@@ -1,4 +1,4 @@
-use super::*;
+use super::{grid::SignedDistance, shape::Shape};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 

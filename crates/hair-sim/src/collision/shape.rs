@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use crate::solver::Pose;
+use crate::pose::Pose;
 
-use super::SignedDistance;
+use super::grid::SignedDistance;
 
 /// A body in its own space.
 #[derive(Clone, Copy, Debug)]

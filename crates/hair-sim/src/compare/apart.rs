@@ -1,10 +1,18 @@
 //! What solvers of strands that don't meet have in common: each strand is solved by itself.
 
 use crate::{
-    Collider, DynamicsError, Params, Pose, Roots, Scene, Stats, Strands, forces::wind::Gusts, lanes,
+    collision::shape::Collider,
+    error::DynamicsError,
+    forces::wind::Gusts,
+    lanes,
+    params::Params,
+    pose::Pose,
+    scene::{Roots, Scene},
+    stats::Stats,
+    strands::Strands,
+    threads::join,
 };
 use glam::{DVec3, Vec3};
-use rayon::prelude::*;
 
 /// A strand of a solver for comparison, constants and motion.
 pub(super) trait Strand: Send {
@@ -45,9 +53,29 @@ pub(super) fn step<S: Strand>(
     step: impl Fn(&mut S, Pose) -> Stats + Sync,
 ) -> Result<Stats, DynamicsError> {
     scene.check(dt, state.len(), points)?;
-    let one = |(index, strand): (usize, &mut S)| step(strand, scene.roots.of(index));
-    let stats = state.par_iter_mut().enumerate().with_min_len(4).map(one);
-    Ok(stats.reduce(Stats::default, Stats::plus))
+    let one = |index: usize, strand: &mut S| step(strand, scene.roots.of(index));
+    Ok(step_all(state, 0, &one))
+}
+
+/// Steps strands, of which the first is number `first` of all.
+fn step_all<S: Strand>(
+    state: &mut [S],
+    first: usize,
+    step: &(impl Fn(usize, &mut S) -> Stats + Sync),
+) -> Stats {
+    // A task for fewer of them costs more than they do.
+    if state.len() > 4 {
+        let half = state.len() / 2;
+        let (one, two) = state.split_at_mut(half);
+        let (sum, more) = join(
+            || step_all(one, first, step),
+            || step_all(two, first + half, step),
+        );
+        return sum.plus(more);
+    }
+    (state.iter_mut().enumerate())
+        .map(|(i, strand)| step(first + i, strand))
+        .fold(Stats::default(), Stats::plus)
 }
 
 /// Puts the roots elsewhere at once.
@@ -95,7 +123,7 @@ impl Acting<'_> {
     ) -> usize {
         let mut found = 0;
         for collider in self.colliders {
-            let pose = collider.before.towards(collider.now, self.share);
+            let pose = on_the_way(collider.before, collider.now, self.share);
             let place = pose.to_local(*point);
             let depth = thickness - collider.shape.distance(place);
             if depth <= 0.0 || !depth.is_finite() {
@@ -110,6 +138,19 @@ impl Acting<'_> {
             *point = pushed - slid * held;
         }
         found
+    }
+}
+
+/// The pose at `share` of the way from one to another, 0 to 1: along the chord, which needs no sine.
+pub(super) fn on_the_way(from: Pose, to: Pose, share: f64) -> Pose {
+    let short = if from.rotation.dot(to.rotation) < 0.0 {
+        -to.rotation
+    } else {
+        to.rotation
+    };
+    Pose {
+        rotation: (from.rotation * (1.0 - share) + short * share).normalize(),
+        translation: from.translation.lerp(to.translation, share),
     }
 }
 

@@ -11,12 +11,18 @@
 //! that a straight strand at rest, lightly loaded, bends as a rod of the given stiffness does.
 
 use super::{
-    apart::{self, Acting, Pull, Strand},
+    apart::{self, Acting, Pull, Strand, on_the_way},
     truss::{HELD, Truss, bending_share, frame, zigzag},
 };
 use crate::{
-    DynamicsError, GRAVITY, Natural, Params, Pose, Roots, Scene, Stats, StrandSolver, Strands,
+    error::DynamicsError,
+    params::{GRAVITY, Natural, Params},
+    pose::Pose,
     rest::{RestLink, RestStrand},
+    scene::{Roots, Scene},
+    stats::Stats,
+    strand_solver::StrandSolver,
+    strands::Strands,
 };
 use glam::{DQuat, DVec3, Vec3};
 
@@ -74,19 +80,20 @@ impl StrandSolver for MassSpring {
         apart::teleport(state, to, self.points)
     }
 
-    fn points(&self, state: &Vec<Zigzag>, strand: usize) -> Vec<DVec3> {
-        state[strand].points().collect()
+    fn points(&self, state: &Vec<Zigzag>, strand: usize) -> impl ExactSizeIterator<Item = DVec3> {
+        state[strand].points()
     }
 
-    fn frames(&self, state: &Vec<Zigzag>, strand: usize) -> Vec<DQuat> {
+    fn frames(&self, state: &Vec<Zigzag>, strand: usize) -> impl ExactSizeIterator<Item = DQuat> {
         let strand = &state[strand];
-        let links = 1..=strand.pulls.len();
-        if strand.is_rigid {
-            // Its zigzag may be a point.
-            let turn = strand.head.rotation;
-            return links.map(|link| turn * strand.rest_frames[link]).collect();
-        }
-        links.map(|link| frame(&strand.points, link)).collect()
+        (0..strand.pulls.len()).map(|link| {
+            if strand.is_rigid {
+                // Its zigzag may be a point.
+                strand.head.rotation * strand.rest_frames[link + 1]
+            } else {
+                frame(&strand.points, link + 1)
+            }
+        })
     }
 }
 
@@ -125,7 +132,7 @@ impl Zigzag {
     }
 
     /// Its points in the world, root first, in m.
-    pub fn points(&self) -> impl Iterator<Item = DVec3> {
+    pub fn points(&self) -> impl ExactSizeIterator<Item = DVec3> {
         self.points.iter().skip(HELD - 1).step_by(2).copied()
     }
 
@@ -163,7 +170,7 @@ impl Zigzag {
             let now = if substep == substeps {
                 head
             } else {
-                before.towards(head, acting.share)
+                on_the_way(before, head, acting.share)
             };
             stats.contacts += self.substep(&acting, &goals, now, dt, substeps);
         }

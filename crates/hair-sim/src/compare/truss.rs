@@ -4,7 +4,7 @@ use super::{
     altitudes::{Altitude, altitudes},
     banded::Banded,
 };
-use crate::{GRAVITY, rest::from_axis};
+use crate::{params::GRAVITY, rest::from_axis};
 use glam::{DMat3, DQuat, DVec3};
 
 /// The zigzag's particles that the head holds: one before the root, one aside, the root.
@@ -70,7 +70,7 @@ pub(super) fn frame(points: &[DVec3], link: usize) -> DQuat {
     DQuat::from_mat3(&frame).normalize()
 }
 
-/// Springs between the particles of a zigzag, their masses, and room for the system that a step solves.
+/// Springs between the particles of a zigzag, their masses, and scratch for the system that a step solves.
 #[derive(Clone, Debug)]
 pub(super) struct Truss {
     springs: Vec<Spring>,

@@ -4,9 +4,16 @@
 //! shear and of bending and twist), solved as Macklin et al. 2016, *XPBD*, say (algorithm 1): their compliance makes the
 //! stiffness physical, and Gauss-Seidel sweeps leave an error that more sweeps or more steps lessen.
 
-use super::apart::{self, Acting, Pull, Strand};
+use super::apart::{self, Acting, Pull, Strand, on_the_way};
 use crate::{
-    DynamicsError, Params, Pose, Roots, Scene, Stats, StrandSolver, Strands, rest::RestStrand,
+    error::DynamicsError,
+    params::Params,
+    pose::Pose,
+    rest::RestStrand,
+    scene::{Roots, Scene},
+    stats::Stats,
+    strand_solver::StrandSolver,
+    strands::Strands,
 };
 use glam::{DQuat, DVec3, Vec3};
 
@@ -70,12 +77,12 @@ impl StrandSolver for Xpbd {
         apart::teleport(state, to, self.points)
     }
 
-    fn points(&self, state: &Vec<Rod>, strand: usize) -> Vec<DVec3> {
-        state[strand].points.clone()
+    fn points(&self, state: &Vec<Rod>, strand: usize) -> impl ExactSizeIterator<Item = DVec3> {
+        state[strand].points.iter().copied()
     }
 
-    fn frames(&self, state: &Vec<Rod>, strand: usize) -> Vec<DQuat> {
-        state[strand].frames[1..].to_vec()
+    fn frames(&self, state: &Vec<Rod>, strand: usize) -> impl ExactSizeIterator<Item = DQuat> {
+        state[strand].frames[1..].iter().copied()
     }
 }
 
@@ -193,7 +200,7 @@ impl Rod {
             let now = if substep == substeps {
                 head
             } else {
-                before.towards(head, share)
+                on_the_way(before, head, share)
             };
             self.predict(&acting, &goals, now, part, substeps);
             for sweep in 0..sweeps {

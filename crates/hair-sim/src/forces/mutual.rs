@@ -198,58 +198,61 @@ impl Kind {
 }
 
 /// Adds the pairs of a batch, in the order of their particles, to its springs. `broken` are the links that hold no more.
-#[inline(always)]
 pub(crate) fn act<T: Number>(
     mutual: &Mutual,
-    pairs: &[Pair],
-    courses: &[Course],
+    (pairs, courses): (&[Pair], &[Course]),
     own: &Own,
     broken: &mut [[bool; LANES]],
     springs: &mut [Spring],
 ) -> Counts {
-    let mut counts = Counts::default();
-    let [link, repulsion] =
-        [mutual.link, mutual.repulsion].map(|stiffness| Kind::new(mutual, stiffness, own.dt));
-    let (root_before, root_now) = (own.root_before.load::<T>(), own.root_now.load::<T>());
-    let mut left = broken;
-    for pairs in pairs.chunk_by(|one, next| one.at == next.at) {
-        let broken;
-        (broken, left) = left.split_at_mut(pairs.len());
-        let at = pairs[0].at;
-        let y = own.y[at].load::<T>();
-        let frame = own.frames[at].load::<T>();
-        let mut pulls = Pulls::none();
-        for (pair, broken) in pairs.iter().zip(broken) {
-            let others = pair.other.map(|other| &courses[other as usize]);
-            let before = gather(|lane| &others[lane].before) - root_before;
-            let way = gather(|lane| &others[lane].now) - root_now - before;
-            let apart = before - y;
-            let size = apart.length_squared().sqrt();
-            let length = size.store();
+    T::run(
+        #[inline(always)]
+        move || {
+            let mut counts = Counts::default();
+            let [link, repulsion] = [mutual.link, mutual.repulsion]
+                .map(|stiffness| Kind::new(mutual, stiffness, own.dt));
+            let (root_before, root_now) = (own.root_before.load::<T>(), own.root_now.load::<T>());
+            let mut left = broken;
+            for pairs in pairs.chunk_by(|one, next| one.at == next.at) {
+                let broken;
+                (broken, left) = left.split_at_mut(pairs.len());
+                let at = pairs[0].at;
+                let y = own.y[at].load::<T>();
+                let frame = own.frames[at].load::<T>();
+                let mut pulls = Pulls::none();
+                for (pair, broken) in pairs.iter().zip(broken) {
+                    let others = pair.other.map(|other| &courses[other as usize]);
+                    let before = gather(|lane| &others[lane].before) - root_before;
+                    let way = gather(|lane| &others[lane].now) - root_now - before;
+                    let apart = before - y;
+                    let size = apart.length_squared().sqrt();
+                    let length = size.store();
 
-            let holds = pair.linked.and(still_holds(mutual, pair, length, broken));
-            let keep = pair.length.min(Lane::splat(mutual.distance));
-            let close = pair.on.and(length.lt(keep * 0.999));
-            counts.links += holds.count();
-            counts.repulsions += close.count();
-            if holds.any() {
-                let to = before - frame.rotate(pair.offset.load());
-                pulls.add(&link, holds, to, way);
+                    let holds = pair.linked.and(still_holds(mutual, pair, length, broken));
+                    let keep = pair.length.min(Lane::splat(mutual.distance));
+                    let close = pair.on.and(length.lt(keep * 0.999));
+                    counts.links += holds.count();
+                    counts.repulsions += close.count();
+                    if holds.any() {
+                        let to = before - frame.rotate(pair.offset.load());
+                        pulls.add(&link, holds, to, way);
+                    }
+                    if close.any() {
+                        // Away along the line between them; strands in one place stay together.
+                        let least = Lane::splat(1e-9);
+                        let away = (keep / length.max(least)).min(Lane::splat(10.0));
+                        let pushes = close.and(length.gt(least));
+                        let to = before - apart.scale(away.load());
+                        pulls.add(&repulsion, pushes, to, way);
+                    }
+                }
+                let a = own.a[at].load::<T>();
+                let a = Vec3::choose(T::condition(&own.known), a, Vec3::zero());
+                pulls.add_to(&mut springs[at], a, own.gamma, own.dt);
             }
-            if close.any() {
-                // Away along the line between them; strands in one place stay together.
-                let least = Lane::splat(1e-9);
-                let away = (keep / length.max(least)).min(Lane::splat(10.0));
-                let pushes = close.and(length.gt(least));
-                let to = before - apart.scale(away.load());
-                pulls.add(&repulsion, pushes, to, way);
-            }
-        }
-        let a = own.a[at].load::<T>();
-        let a = Vec3::choose(T::condition(&own.known), a, Vec3::zero());
-        pulls.add_to(&mut springs[at], a, own.gamma, own.dt);
-    }
-    counts
+            counts
+        },
+    )
 }
 
 /// Whether the links of a pair, which are `length` long, hold; `broken` are those that do not.

@@ -67,7 +67,7 @@ impl Spring {
 
     #[inline(always)]
     pub(crate) fn add<T: Number>(&mut self, more: Spring<T>) {
-        // Number by number: the whole spring has no room in registers.
+        // Number by number: the whole spring does not fit in registers.
         self.stiffness = (self.stiffness.load::<T>() + more.stiffness).store();
         self.rate = (self.rate.load::<T>() + more.rate).store();
         let add = |sum: &mut Vec3, more: Vec3<T>| *sum = (sum.load::<T>() + more).store();

@@ -1,9 +1,9 @@
 //! Four numbers in a register of AVX2.
 //!
-//! The `unsafe` here calls single instructions. A test of the processor is behind each: values of this type are used only in what
-//! [`Instructions::run`](crate::solver::instructions::Instructions) calls with AVX2, which is where these functions are inlined. What it is
-//! worth is measured there.
-#![allow(unsafe_code, reason = "it saves time, see `solver::instructions`")]
+//! The `unsafe` here calls single instructions, and functions that are compiled for them. A test of the processor is behind each:
+//! [`Instructions::best`](super::instructions::Instructions::best) alone chooses this type, where it has found AVX2, and
+//! what works with it is inlined into what [`Number::run`] calls. What it is worth is measured there.
+#![allow(unsafe_code, reason = "it saves time, see `lanes::instructions`")]
 
 use std::arch::x86_64::{
     __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_cmp_pd,
@@ -12,7 +12,10 @@ use std::arch::x86_64::{
 };
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{LANES, Lane, Mask, Number};
+use super::{
+    lane::{LANES, Lane, Mask},
+    number::Number,
+};
 
 /// A [`Lane`] in a register.
 #[derive(Clone, Copy)]
@@ -92,5 +95,15 @@ impl Number for Avx2 {
     fn choose(condition: Self, yes: Self, no: Self) -> Self {
         // SAFETY: see the module.
         Self(unsafe { _mm256_blendv_pd(no.0, yes.0, condition.0) })
+    }
+    #[inline(always)]
+    fn run<R>(work: impl FnOnce() -> R) -> R {
+        #[target_feature(enable = "avx2")]
+        #[inline(never)]
+        fn compiled<R>(work: impl FnOnce() -> R) -> R {
+            work()
+        }
+        // SAFETY: see the module.
+        unsafe { compiled(work) }
     }
 }

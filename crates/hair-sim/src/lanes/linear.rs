@@ -4,7 +4,10 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 use glam::{DQuat, DVec3};
 
-use super::{Lane, Mask, Number, stored};
+use super::{
+    lane::{Lane, Mask},
+    number::{Number, stored},
+};
 
 /// Three coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]

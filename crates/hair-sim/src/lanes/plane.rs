@@ -2,11 +2,14 @@
 
 use std::ops::{Add, Sub};
 
-use super::{Number, stored};
+use super::{
+    lane::Lane,
+    number::{Number, stored},
+};
 
 /// Two coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Vec2<T = super::Lane> {
+pub(crate) struct Vec2<T = Lane> {
     pub x: T,
     pub y: T,
 }
@@ -14,7 +17,7 @@ stored!(Vec2 { x, y });
 
 /// A symmetric 2 x 2 matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sym2<T = super::Lane> {
+pub(crate) struct Sym2<T = Lane> {
     pub xx: T,
     pub yy: T,
     pub xy: T,

@@ -1,8 +1,5 @@
 //! Keyframes joined by a spline.
 
-use super::Motion;
-use glam::{DVec3, Vec3};
-
 /// The keys that decide the spline at `time`, by their indices, with weights that add up to 1.
 ///
 /// The spline is Hermite's cubic through `count` keys at increasing times, 1 or more, with the slopes of the
@@ -34,24 +31,6 @@ pub fn key_weights(count: usize, time_of: impl Fn(usize) -> f64, time: f64) -> [
         at_a -= share;
     }
     [before, (a, at_a), (b, at_b), after]
-}
-
-impl Motion {
-    /// Writes the positions at `time` (seconds) into `points`: on a spline through the samples, as [`key_weights`]
-    /// has it.
-    ///
-    /// # Panics
-    ///
-    /// As [`Self::sample`].
-    pub fn sample_smooth(&self, time: f64, points: &mut [Vec3]) {
-        let time_of = |key: usize| f64::from(self.times[key]);
-        let keys = key_weights(self.times.len(), time_of, time);
-        assert_eq!(points.len(), self.samples[0].len());
-        for (i, point) in points.iter_mut().enumerate() {
-            let weighted = keys.map(|(key, weight)| self.samples[key][i].as_dvec3() * weight);
-            *point = weighted.into_iter().sum::<DVec3>().as_vec3();
-        }
-    }
 }
 
 #[cfg(test)]
@@ -95,20 +74,5 @@ mod tests {
                 assert!((at(TIMES, time) - time).abs() < 1e-12, "{time}");
             }
         }
-    }
-
-    #[test]
-    fn shapes_are_joined_smoothly() {
-        let shape = |x: f32| vec![Vec3::ZERO, Vec3::new(x, -1.0, 0.0)];
-        let motion = Motion::new(vec![(0.0, shape(0.0)), (1.0, shape(1.0))]).unwrap();
-        let mut points = [Vec3::ZERO; 2];
-        motion.sample_smooth(0.25, &mut points);
-        // It starts slowly: 3 t^2 - 2 t^3.
-        assert_eq!(points, [Vec3::ZERO, Vec3::new(0.15625, -1.0, 0.0)]);
-        motion.sample_smooth(7.0, &mut points);
-        assert_eq!(points[1].x, 1.0);
-        let still = Motion::new(vec![(5.0, shape(3.0))]).unwrap();
-        still.sample_smooth(0.0, &mut points);
-        assert_eq!(points[1].x, 3.0);
     }
 }

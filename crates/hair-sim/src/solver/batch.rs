@@ -3,15 +3,13 @@
 use glam::DVec3;
 
 use crate::{
-    collision::contact::Contact,
-    forces::springs::Spring,
-    lanes::{LANES, Lane, Mask, Quat, Vec3, stored},
+    error::Reason,
+    lanes::{LANES, Lane, Mask, Quat, Vec3},
     params::Params,
     rest::RestStrand,
 };
 
-use super::straight::{self, Across, Bend};
-use super::sweep::{Elimination, Joint, Node, Pose};
+use super::link::{Link, Particle};
 
 /// [`LANES`] strands and their constants. A shorter strand is continued by links without length, mass and force,
 /// which add exactly nothing.
@@ -41,38 +39,9 @@ pub(crate) struct Batch {
     pub base: Quat,
     /// Lanes that hold a strand with links.
     pub used: Mask,
-    /// Whether all its strands are straight by nature: see [`super::straight`].
+    /// Whether all its strands are straight by nature: see [`super::rods`].
     pub is_straight: bool,
 }
-
-/// A link and the joint at its root end: see [`crate::rest::RestLink`].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Link<T = Lane> {
-    pub length: T,
-    pub bend: T,
-    pub twist: T,
-    pub natural: Vec3<T>,
-    /// 1 for links of strands, 0 for those that only fill the batch.
-    pub counts: T,
-}
-stored!(Link {
-    length,
-    bend,
-    twist,
-    natural,
-    counts
-});
-
-/// The particle at a link's tip end.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Particle<T = Lane> {
-    pub mass: T,
-    /// In 1/s.
-    pub drag: T,
-    /// In 1/s^2.
-    pub goal: T,
-}
-stored!(Particle { mass, drag, goal });
 
 impl Batch {
     pub(crate) fn new(members: &[(usize, &RestStrand, &Params)]) -> Self {
@@ -150,10 +119,15 @@ impl Batch {
     pub(crate) fn count(&self) -> usize {
         self.links.len()
     }
+
+    /// How many frames a state of it holds.
+    pub(crate) fn count_of_frames(&self) -> usize {
+        if self.is_straight { 0 } else { self.count() }
+    }
 }
 
-/// A pull that there cannot be.
-pub(super) const NO_PULL: Vec3 = Vec3::new(
+/// Stands for no pull: larger than any.
+pub(crate) const NO_PULL: Vec3 = Vec3::new(
     Lane::splat(f64::MAX),
     Lane::splat(f64::MAX),
     Lane::splat(f64::MAX),
@@ -204,7 +178,7 @@ impl BatchState {
             y: vec![Vec3::ZERO; count],
             v: vec![Vec3::ZERO; count],
             a: vec![Vec3::ZERO; count],
-            frames: vec![Quat::IDENTITY; if batch.is_straight { 0 } else { count }],
+            frames: vec![Quat::IDENTITY; batch.count_of_frames()],
             past: vec![Vec3::ZERO; count],
             root: batch.root,
             root_velocity: Vec3::ZERO,
@@ -229,8 +203,8 @@ impl BatchState {
                     frame = link.frame;
                     y += frame * DVec3::Z * link.length;
                 }
-                if !batch.is_straight {
-                    state.frames[k].set(lane, frame);
+                if let Some(frames) = state.frames.get_mut(k) {
+                    frames.set(lane, frame);
                 }
                 state.y[k].set(lane, y);
             }
@@ -239,46 +213,11 @@ impl BatchState {
     }
 }
 
-/// Why a strand is set aside.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize,
-)]
-pub enum Reason {
-    /// A point of its rest shape (from the root, 0 first) is not finite.
-    #[error("point {0} at rest is not finite")]
-    Rest(usize),
-    /// All its points are one.
-    #[error("it has no length")]
-    NoLength,
-    /// It turns by more than 170 degrees at a point (from the root, 0 first).
-    #[error("it folds back on itself at point {0}")]
-    Folded(usize),
-    /// The pose of its root was not finite, or no rotation.
-    #[error("the pose of its root is not finite, or no rotation")]
-    Root,
-    /// A goal was not finite.
-    #[error("a goal of its points is not finite")]
-    Goal,
-    /// It had no finite motion.
-    #[error("it had no finite motion")]
-    Motion,
-}
-
 impl BatchState {
     /// The strands that are set aside.
     #[inline(always)]
     pub(crate) fn aside(&self) -> Mask {
         Mask::new(self.set_aside.map(|r| r.is_some()))
-    }
-
-    /// The material frames of the links, in world axes.
-    pub(crate) fn link_frames(&self, batch: &Batch) -> Vec<Quat> {
-        if !batch.is_straight {
-            return self.frames.clone();
-        }
-        let mut frames = vec![Quat::IDENTITY; batch.count()];
-        straight::frames::<Lane>(&self.base, &batch.links, &self.y, &mut frames);
-        frames
     }
 
     /// Carries shape and motion to another root and skin frame.
@@ -298,94 +237,5 @@ impl BatchState {
         self.pull = NO_PULL;
         self.root = root;
         self.base = base;
-    }
-}
-
-/// Room to work in; its content decides nothing.
-#[derive(Clone, Debug)]
-pub(crate) struct Scratch {
-    pub nodes: Vec<Node>,
-    pub joints: Vec<Joint>,
-    pub eliminations: Vec<Elimination>,
-    /// Of straight strands.
-    pub straight: Vec<straight::Elimination>,
-    pub turns: Vec<Vec3>,
-    /// The turn of every joint at the start of the step, and what damping holds to in a stage.
-    pub turn_start: Vec<Vec3>,
-    pub past: Vec<Vec3>,
-    /// The stage in the middle and the one at the end.
-    pub mid: Stage,
-    pub end: Stage,
-    /// Of a stage: positions without force, velocities without force.
-    pub free_y: Vec<Vec3>,
-    pub free_v: Vec<Vec3>,
-    /// A shape that is tried.
-    pub trial: Stage,
-    pub springs: Vec<Spring>,
-    pub contacts: Vec<Contact>,
-    /// The places on the strands where particles have contacts in this step.
-    pub touched: Vec<usize>,
-    /// Whether there are any springs in this step.
-    pub has_springs: bool,
-}
-
-/// A strand's shape in the course of a step.
-#[derive(Clone, Debug)]
-pub(crate) struct Stage {
-    pub y: Vec<Vec3>,
-    pub v: Vec<Vec3>,
-    pub frames: Vec<Quat>,
-    /// The third axes of the frames.
-    pub tangents: Vec<Vec3>,
-    /// Of straight strands, in place of `frames`.
-    pub across: Vec<Across>,
-    pub bends: Vec<Bend>,
-}
-
-impl Stage {
-    pub(crate) fn new(count: usize) -> Self {
-        Self {
-            y: vec![Vec3::ZERO; count],
-            v: vec![Vec3::ZERO; count],
-            frames: vec![Quat::IDENTITY; count],
-            tangents: vec![Vec3::ZERO; count],
-            across: vec![Across::ZERO; count],
-            bends: vec![Bend::STRAIGHT; count],
-        }
-    }
-}
-
-impl Stage {
-    #[inline(always)]
-    pub(crate) fn pose<'a>(&'a self, base: &'a Quat) -> Pose<'a> {
-        Pose {
-            base,
-            y: &self.y,
-            frames: &self.frames,
-            tangents: &self.tangents,
-        }
-    }
-}
-
-impl Scratch {
-    pub(crate) fn new(count: usize) -> Self {
-        Self {
-            nodes: vec![Node::<Lane>::zero(); count],
-            joints: vec![Joint::<Lane>::zero(); count],
-            eliminations: vec![Elimination::<Lane>::zero(); count],
-            straight: vec![straight::Elimination::ZERO; count],
-            turns: vec![Vec3::ZERO; count],
-            turn_start: vec![Vec3::ZERO; count],
-            past: vec![Vec3::ZERO; count],
-            mid: Stage::new(count),
-            end: Stage::new(count),
-            free_y: vec![Vec3::ZERO; count],
-            free_v: vec![Vec3::ZERO; count],
-            trial: Stage::new(count),
-            springs: vec![Spring::NONE; count],
-            contacts: vec![Contact::NONE; count],
-            touched: Vec::with_capacity(count),
-            has_springs: false,
-        }
     }
 }

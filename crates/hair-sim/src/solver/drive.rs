@@ -3,20 +3,24 @@
 use glam::{DVec3, Vec3 as Point};
 
 use crate::{
-    collision::contact::{self, Course, Guard},
+    error::Reason,
     forces::{
-        mutual::{self, Course as ParticleCourse, Mutual, Own, Pair},
+        mutual::{self, Course, Mutual, Own, Pair},
         springs::Spring,
         wind::Gusts,
     },
     lanes::{LANES, Lane, Mask, Number, Quat, Vec3},
+    scene::Scene,
+    stats::Stats,
 };
 
 use super::{
-    Roots, Scene,
-    batch::{Batch, BatchState, Reason, Scratch},
-    integrate::{BatchStats, GAMMA},
-    straight,
+    batch::{Batch, BatchState},
+    contact::{self, Guard},
+    load::Loads,
+    rods::Rods,
+    scratch::Scratch,
+    stage::GAMMA,
 };
 
 /// What drives a batch in a step.
@@ -38,15 +42,15 @@ pub(crate) struct Drive<'a> {
     pub accelerations: Option<[Vec3; 2]>,
     /// Whether what acts is the same as in the last step, and does not move.
     pub calm: bool,
-    /// The other hair.
-    pub hair: Option<Hair<'a>>,
+    /// The other strands, where they act on each other.
+    pub others: Option<Others<'a>>,
 }
 
 /// The pairs of a batch with other strands, and where all particles are.
-pub(crate) struct Hair<'a> {
+pub(crate) struct Others<'a> {
     pub mutual: &'a Mutual,
     pub pairs: &'a [Pair],
-    pub courses: &'a [ParticleCourse],
+    pub courses: &'a [Course],
 }
 
 /// The motion of the roots within a step, and what it does to the strands.
@@ -113,9 +117,9 @@ impl RootMotion {
     }
 }
 
-/// The poses that roots are to have; where one is broken, that before, and its strand is set aside.
+/// The poses that roots are to have; where one is invalid, the one before, and its strand is set aside.
 #[inline(always)]
-pub(super) fn whole_poses(state: &mut BatchState, root: Vec3, base: Quat) -> (Vec3, Quat) {
+pub(crate) fn whole_poses(state: &mut BatchState, root: Vec3, base: Quat) -> (Vec3, Quat) {
     let size = base.v.length_squared() + base.w * base.w;
     let place = root.length_squared();
     let whole = (place.is_finite())
@@ -130,79 +134,68 @@ pub(super) fn whole_poses(state: &mut BatchState, root: Vec3, base: Quat) -> (Ve
     (Vec3::pick(whole, root, state.root), base)
 }
 
-/// Finds contacts, and fills in the air's motion and the springs of the step. Returns the strands that step.
+/// Finds contacts, and the springs of the step. Returns the strands that step.
 #[inline(always)]
 pub(crate) fn prepare<T: Number>(
+    rods: Rods,
     batch: &Batch,
     state: &mut BatchState,
     scratch: &mut Scratch,
-    drive: &Drive,
-    root: &RootMotion,
+    (drive, root): (&Drive, &RootMotion),
     awake: Mask,
-    stats: &mut BatchStats,
+    stats: &mut Stats,
 ) -> Mask {
-    scratch.has_springs = batch.has_goal.any() || drive.hair.is_some();
-    if scratch.has_springs {
-        scratch.springs.fill(Spring::NONE);
+    let loads = &mut scratch.work.loads;
+    loads.has_springs = batch.has_goal.any() || drive.others.is_some();
+    if loads.has_springs {
+        loads.springs.fill(Spring::NONE);
     }
     if batch.has_goal.any() {
-        pull_to_goals(batch, state, scratch, drive);
+        pull_to_goals(batch, state, loads, drive);
     }
-    if let Some(hair) = &drive.hair {
-        if batch.is_straight {
-            let frames = &mut scratch.mid.frames;
-            straight::frames::<T>(&state.base, &batch.links, &state.y, frames);
-        }
+    if let Some(others) = &drive.others {
+        let held = (&state.base, &state.y[..], &state.frames[..]);
         let own = Own {
             y: &state.y,
             a: &state.a,
             known: Mask::new(state.restart).not(),
-            frames: if batch.is_straight {
-                &scratch.mid.frames
-            } else {
-                &state.frames
-            },
+            frames: rods.frames::<T>(batch, held, &mut scratch.mid.frames),
             root_before: state.root,
             root_now: root.root,
             gamma: GAMMA,
             dt: drive.dt,
         };
-        let springs = &mut scratch.springs;
-        stats.hair = mutual::act::<T>(
-            hair.mutual,
-            hair.pairs,
-            hair.courses,
-            &own,
-            &mut state.broken,
-            springs,
-        );
+        let (springs, broken) = (&mut loads.springs, &mut state.broken);
+        let pairs = (others.pairs, others.courses);
+        let counts = mutual::act::<T>(others.mutual, pairs, &own, broken, springs);
+        (stats.links, stats.repulsions) = (counts.links, counts.repulsions);
     }
     let active = batch.used.and(state.aside().not()).and(awake);
     if batch.has_drag.any() && drive.gusts[1].blows {
         stats.wind = active.count() * batch.count();
     }
-    scratch.touched.clear();
+    loads.touched.clear();
     if !drive.scene.colliders.is_empty() {
         if !state.skin_known {
             contact::settle_in(batch, state, drive.scene.colliders);
             state.skin_known = true;
         }
-        let course = Course {
-            root: root.root,
-            dt: drive.dt,
-            gamma: GAMMA,
-        };
         let bodies = (drive.scene.colliders, drive.guards);
-        let Scratch {
-            contacts, touched, ..
-        } = scratch;
-        stats.contacts =
-            contact::detect::<T>(batch, state, bodies, &course, active, contacts, touched);
+        let (contacts, touched) = (&mut loads.contacts, &mut loads.touched);
+        stats.contacts = contact::detect::<T>(
+            batch,
+            state,
+            bodies,
+            (root.root, drive.dt),
+            active,
+            contacts,
+            touched,
+        );
     }
     active
 }
 
-fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, drive: &Drive) {
+fn pull_to_goals(batch: &Batch, state: &mut BatchState, loads: &mut Loads, drive: &Drive) {
     let known = !state.goal.is_empty();
     let turn = drive
         .scene
@@ -217,10 +210,7 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, d
             let Some(strand) = batch.strands[lane] else {
                 continue;
             };
-            let pose = match drive.scene.roots {
-                Roots::Head(pose) => pose,
-                Roots::Each(poses) => poses[strand],
-            };
+            let pose = drive.scene.roots.of(strand);
             let goal = match drive.scene.goal {
                 Some(goal) if k < batch.counts[lane] => {
                     let at: Point = goal[drive.first_points[strand] + k + 1];
@@ -235,12 +225,12 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, scratch: &mut Scratch, d
             if goal.is_finite() {
                 now.set(lane, goal);
             } else if pose.is_finite() && batch.particles[k].goal[lane] > 0.0 {
-                // Where nothing pulls, nothing is broken.
+                // Where nothing pulls, an invalid goal changes nothing.
                 state.set_aside[lane].get_or_insert(Reason::Goal);
             }
         }
         let before = if known { state.goal[k] } else { now };
-        let spring = &mut scratch.springs[k];
+        let spring = &mut loads.springs[k];
         let stiffness = batch.particles[k].goal;
         spring.pull(stiffness, before, now, acceleration, GAMMA, drive.dt);
         state.goal[k] = now;

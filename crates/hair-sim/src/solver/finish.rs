@@ -3,9 +3,12 @@
 use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
 
 use super::{
-    batch::{Batch, BatchState, Scratch},
+    batch::{Batch, BatchState},
+    chain::{Chain, chord},
+    contact::Contact,
     drive::{Drive, RootMotion},
-    straight::chord,
+    rods::Rods,
+    scratch::Scratch,
 };
 
 /// The cosine of the most that a link may turn against the skin in a step of this integrator (2.1 rad): beyond it the
@@ -22,7 +25,7 @@ const QUIET_STEPS: u32 = 24;
 
 /// Strands that have not moved for [`QUIET_STEPS`], on roots that do not move, where what acts stays as it is.
 #[inline(always)]
-pub(super) fn asleep(state: &BatchState, drive: &Drive, used: Mask) -> Mask {
+pub(crate) fn asleep(state: &BatchState, drive: &Drive, used: Mask) -> Mask {
     if !drive.calm {
         return Mask::NONE;
     }
@@ -34,7 +37,7 @@ pub(super) fn asleep(state: &BatchState, drive: &Drive, used: Mask) -> Mask {
 }
 
 #[inline(always)]
-pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
+pub(crate) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
     let mut fastest = Lane::ZERO;
     for k in 0..batch.count() {
         fastest = fastest.max(state.v[k].length_squared());
@@ -49,92 +52,116 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
     }
 }
 
-#[inline(always)]
-pub(super) fn turned_too_far<T: Number>(
+/// The strands of which the end stage turned a link further than an ordinary motion does.
+pub(crate) fn turned_too_far<T: Number>(
     batch: &Batch,
     state: &BatchState,
-    scratch: &Scratch,
+    end: &Chain,
     root: &RootMotion,
 ) -> Mask {
-    let count = batch.count();
-    let (links, y) = (&batch.links[..count], &state.y[..count]);
-    let tangents = &scratch.end.tangents[..count];
-    let (zero, ordinary) = (T::splat(0.0), T::splat(LEAST_COSINE));
-    let turn = root.turn_end.load::<T>();
-    let mut least = T::splat(1.0);
-    for k in 0..count {
-        let (length, counts) = (links[k].length.load::<T>(), links[k].counts.load());
-        let before = chord(y, k);
-        let now = tangents[k].load();
-        // Links that only fill the batch have no say.
-        let limit = ordinary * length - (T::splat(1.0) - counts);
-        // Turned with the skin, or left where it was: either is an ordinary motion.
-        let still = before.dot(now) - limit;
-        if T::all(zero.less(still)) {
-            continue;
-        }
-        let carried = turn.rotate(before).dot(now) - limit;
-        let more = T::choose(carried.less(still), still, carried);
-        // What is no number is the least.
-        least = T::choose(least.less(more), least, more);
-    }
-    least.store().gt(Lane::ZERO).not()
+    T::run(
+        #[inline(always)]
+        move || {
+            let count = batch.count();
+            let (links, y) = (&batch.links[..count], &state.y[..count]);
+            let tangents = &end.tangents[..count];
+            let (zero, ordinary) = (T::splat(0.0), T::splat(LEAST_COSINE));
+            let turn = root.turn_end.load::<T>();
+            let mut least = T::splat(1.0);
+            for k in 0..count {
+                let (length, counts) = (links[k].length.load::<T>(), links[k].counts.load());
+                let before = chord(y, k);
+                let now = tangents[k].load();
+                // Links that only fill the batch have no say.
+                let limit = ordinary * length - (T::splat(1.0) - counts);
+                // Turned with the skin, or left where it was: either is an ordinary motion.
+                let still = before.dot(now) - limit;
+                if T::all(zero.less(still)) {
+                    continue;
+                }
+                let carried = turn.rotate(before).dot(now) - limit;
+                let more = T::choose(carried.less(still), still, carried);
+                // NaN is the least.
+                least = T::choose(least.less(more), least, more);
+            }
+            least.store().gt(Lane::ZERO).not()
+        },
+    )
 }
 
-/// Takes the end stage of the lanes in `which` as the new state.
-#[inline(always)]
-pub(super) fn finish<T: Number>(
+/// Takes the end stage of the lanes in `which` as the new state, where the stage's length is `d`.
+pub(crate) fn finish<T: Number>(
     batch: &Batch,
     state: &mut BatchState,
     scratch: &Scratch,
     which: Mask,
     d: f64,
 ) {
-    let count = batch.count();
-    let Scratch {
-        end, free_v, past, ..
-    } = scratch;
-    let (v, y, tangents) = (&end.v[..count], &end.y[..count], &end.tangents[..count]);
-    let (frames, free_v, past) = (&end.frames[..count], &free_v[..count], &past[..count]);
-    let (rate, damps) = (T::splat(1.0 / d), batch.damping != Lane::ZERO);
-    let mut before = Vec3::zero();
-    let mut velocity = Vec3::<T>::zero();
-    for k in 0..count {
-        let v = v[k].load::<T>();
-        let t = tangents[k].load();
-        let along = v - before;
-        before = v;
-        velocity += along - t.scale(along.dot(t) * T::splat(UNSTRETCH));
-        let a = (v - free_v[k].load()).scale(rate);
-        // By bits: of numbers chosen in registers the compiler makes masked stores, which take far longer on some machines.
-        state.a[k] = Vec3::pick(which, a.store(), state.a[k]);
-        state.v[k] = Vec3::pick(which, velocity.store(), state.v[k]);
-        state.y[k] = Vec3::pick(which, y[k], state.y[k]);
-        if damps {
-            state.past[k] = Vec3::pick(which, past[k], state.past[k]);
-        }
-        if !batch.is_straight {
-            state.frames[k] = Quat::pick(which, frames[k], state.frames[k]);
-        }
-        state.press[k] = which.pick(Lane::ZERO, state.press[k]);
-    }
-    let mut struck = Mask::new(state.restart).and(which.not());
-    for &k in &scratch.touched {
-        struck = struck.or(settle_contact(state, scratch, k, which));
-    }
-    state.restart = struck.bools();
+    T::run(
+        #[inline(always)]
+        move || {
+            let count = batch.count();
+            let (end, work) = (&scratch.end, &scratch.work);
+            let (v, y, tangents) = (&end.v[..count], &end.y[..count], &end.tangents[..count]);
+            let (free_v, past) = (&work.loads.free_v[..count], &work.past[..count]);
+            let (rate, damps) = (T::splat(1.0 / d), batch.damping != Lane::ZERO);
+            let mut before = Vec3::zero();
+            let mut velocity = Vec3::<T>::zero();
+            for k in 0..count {
+                let v = v[k].load::<T>();
+                let t = tangents[k].load();
+                let along = v - before;
+                before = v;
+                velocity += along - t.scale(along.dot(t) * T::splat(UNSTRETCH));
+                let a = (v - free_v[k].load()).scale(rate);
+                // By bits: of numbers chosen in registers the compiler makes masked stores, which take far longer on some
+                // machines.
+                state.a[k] = Vec3::pick(which, a.store(), state.a[k]);
+                state.v[k] = Vec3::pick(which, velocity.store(), state.v[k]);
+                state.y[k] = Vec3::pick(which, y[k], state.y[k]);
+                if damps {
+                    state.past[k] = Vec3::pick(which, past[k], state.past[k]);
+                }
+                state.press[k] = which.pick(Lane::ZERO, state.press[k]);
+            }
+            // Where the state holds any.
+            for (frame, new) in state.frames.iter_mut().zip(&end.frames) {
+                *frame = Quat::pick(which, *new, *frame);
+            }
+            let mut struck = Mask::new(state.restart).and(which.not());
+            for &k in &work.loads.touched {
+                let contact = &work.loads.contacts[k];
+                struck = struck.or(settle_contact(state, contact, end.y[k], k, which));
+            }
+            state.restart = struck.bools();
+        },
+    );
 }
 
-/// Remembers the pressure on particle `k`, and takes the blow of a contact out of its acceleration: that is over, and
+/// Remembers the pressure on particle `k` at `y`, and takes the blow of a contact out of its acceleration: that is over, and
 /// the next step must not start with it. Returns the strands that were struck: they start anew.
 #[inline(always)]
-fn settle_contact(state: &mut BatchState, scratch: &Scratch, k: usize, which: Mask) -> Mask {
-    let contact = &scratch.contacts[k];
-    let press = contact.pressure(scratch.end.y[k]);
+fn settle_contact(
+    state: &mut BatchState,
+    contact: &Contact,
+    y: Vec3,
+    k: usize,
+    which: Mask,
+) -> Mask {
+    let press = contact.pressure(y);
     state.press[k] = which.pick(press, state.press[k]);
     let a = state.a[k];
     let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
     state.a[k] = Vec3::pick(which, a - contact.normal * out, a);
     let is_new = (contact.press.gt(Lane::ZERO).not()).and(press.gt(Lane::ZERO));
     is_new.and(which)
+}
+
+/// Carries the lanes in `which` along with the skin, at rest against it.
+pub(crate) fn carry(rods: Rods, batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
+    rods.carry(batch, state, turn, which);
+    for k in 0..batch.count() {
+        state.v[k] = Vec3::pick(which, Vec3::ZERO, state.v[k]);
+        state.a[k] = Vec3::pick(which, Vec3::ZERO, state.a[k]);
+    }
 }

@@ -3,14 +3,17 @@
 use std::{cmp::Ordering, collections::HashMap};
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::{
     forces::mutual::{Mutual, Pair},
-    lanes::{LANES, Lane, Mask, Vec3},
+    lanes::{LANES, Lane, Mask, Quat, Vec3},
+    threads::join,
 };
 
-use super::batch::{Batch, BatchState};
+use super::{
+    batch::{Batch, BatchState},
+    rods::Rods,
+};
 
 /// One strand as its neighbours see it.
 struct Strand {
@@ -59,11 +62,13 @@ pub(super) fn pairs(
         .map(|b| vec![None; b.count() * mutual.neighbours])
         .collect();
     let cells = Cells::new(&strands);
-    let nearest: Vec<Vec<usize>> = (strands.par_iter())
-        .map(|strand| cells.nearest(strand, &strands, mutual.neighbours))
-        .collect();
-    let frames: Vec<_> = (batches.iter().zip(states))
-        .map(|(batch, state)| state.link_frames(batch))
+    let mut nearest = vec![Vec::new(); strands.len()];
+    cells.find_nearest(&strands, &strands, mutual.neighbours, &mut nearest);
+    let frames: Vec<Vec<Quat>> = (batches.iter().zip(states))
+        .map(|(batch, state)| {
+            let mut frames = Rods::frames_one_by_one(batch, state);
+            (0..batch.count()).map(|_| frames()).collect()
+        })
         .collect();
     for (strand, nearest) in strands.iter().zip(nearest) {
         for (n, other) in nearest.into_iter().map(|i| &strands[i]).enumerate() {
@@ -148,6 +153,29 @@ impl Cells {
             .floor()
             .to_array()
             .map(|v| v as i64)
+    }
+
+    /// The same of each of some strands.
+    fn find_nearest(
+        &self,
+        of: &[Strand],
+        all: &[Strand],
+        count: usize,
+        nearest: &mut [Vec<usize>],
+    ) {
+        // A task for fewer of them costs more than they do.
+        if of.len() > 16 {
+            let half = of.len() / 2;
+            let ((of, other), (one, two)) = (of.split_at(half), nearest.split_at_mut(half));
+            join(
+                || self.find_nearest(of, all, count, one),
+                || self.find_nearest(other, all, count, two),
+            );
+            return;
+        }
+        for (strand, nearest) in of.iter().zip(nearest) {
+            *nearest = self.nearest(strand, all, count);
+        }
     }
 
     /// The strands with the nearest roots, nearest first; of the same distance, the lower id first.

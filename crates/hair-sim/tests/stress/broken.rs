@@ -1,4 +1,4 @@
-//! Rows 4 and 7: strands that cannot be, and numbers that are none.
+//! Rows 4 and 7: invalid strands, and numbers that are not finite.
 
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
@@ -270,7 +270,7 @@ fn restored(state: &State) -> State {
 
 #[test]
 fn a_state_can_be_saved_whatever_is_set_aside() {
-    // No drag and no damping, so that the energies of the strands are in the state; of a folded one it is no number.
+    // No drag and no damping, so that the energies of the strands are in the state; of a folded one it is NaN.
     let params = Params {
         drag: 0.0,
         damping: 0.0,

@@ -75,12 +75,12 @@ where
     }
 
     fn points(&self, strand: usize) -> Vec<DVec3> {
-        self.solver.points(self.shown(), strand)
+        self.solver.points(self.shown(), strand).collect()
     }
 
     fn turns(&self, strand: usize) -> Vec<DQuat> {
-        let rest = self.solver.frames(&self.start, strand).into_iter();
-        let now = self.solver.frames(self.shown(), strand).into_iter();
+        let rest = self.solver.frames(&self.start, strand);
+        let now = self.solver.frames(self.shown(), strand);
         now.zip(rest)
             .map(|(now, rest)| now * rest.inverse())
             .collect()

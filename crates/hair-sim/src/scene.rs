@@ -1,55 +1,14 @@
-//! What a step is given and what it tells.
+//! What acts on strands in a step.
 
-use glam::{DMat3, DQuat, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
-use crate::{collision::Collider, forces::wind::Wind, params::GRAVITY};
-
-use super::{batch::Reason, integrate::BatchStats};
+use crate::{
+    collision::shape::Collider, error::DynamicsError, forces::wind::Wind, params::GRAVITY,
+    pose::Pose,
+};
 
 /// In s. Velocities are differences of places over the step: below it they would be those of rounding.
 const SHORTEST_STEP: f64 = 1e-6;
-
-/// A rigid motion from style space to the world: where a head is.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Pose {
-    /// A unit quaternion.
-    pub rotation: DQuat,
-    /// In m.
-    pub translation: DVec3,
-}
-
-impl Pose {
-    /// Style space is the world.
-    pub const IDENTITY: Self = Self {
-        rotation: DQuat::IDENTITY,
-        translation: DVec3::ZERO,
-    };
-
-    pub(crate) fn to_world(self, at: DVec3) -> DVec3 {
-        self.rotation * at + self.translation
-    }
-
-    pub(crate) fn to_local(self, at: DVec3) -> DVec3 {
-        self.rotation.conjugate() * (at - self.translation)
-    }
-
-    /// The pose at `share` of the way to another, 0 to 1: along the chord, which needs no sine.
-    pub(crate) fn towards(self, to: Self, share: f64) -> Self {
-        let short = if self.rotation.dot(to.rotation) < 0.0 {
-            -to.rotation
-        } else {
-            to.rotation
-        };
-        Self {
-            rotation: (self.rotation * (1.0 - share) + short * share).normalize(),
-            translation: self.translation.lerp(to.translation, share),
-        }
-    }
-
-    pub(crate) fn is_finite(&self) -> bool {
-        self.rotation.is_finite() && self.translation.is_finite()
-    }
-}
 
 /// Where the roots are at the end of a step.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +52,7 @@ impl Acceleration {
         }
     }
 
-    pub(super) fn of(&self, root: DVec3) -> DVec3 {
+    pub(crate) fn of(&self, root: DVec3) -> DVec3 {
         self.turn * root + self.shift
     }
 }
@@ -114,7 +73,7 @@ pub struct Scene<'a> {
     pub wind_before: Option<Wind>,
     /// What hair cannot enter.
     pub colliders: &'a [Collider<'a>],
-    /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; none
+    /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; `None`
     /// is the style itself.
     pub goal: Option<&'a [Vec3]>,
 }
@@ -178,7 +137,7 @@ impl Scene<'_> {
     }
 
     /// Whether nothing in it moves but, perhaps, the roots.
-    pub(super) fn is_calm(&self) -> bool {
+    pub(crate) fn is_calm(&self) -> bool {
         let still = |c: &Collider| c.before == c.now;
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
         self.wind.gust == 0.0 && is_even && self.goal.is_none() && self.colliders.iter().all(still)
@@ -198,7 +157,7 @@ impl Scene<'_> {
     }
 
     /// A hash of what acts on strands at rest.
-    pub(super) fn fingerprint(&self) -> u64 {
+    pub(crate) fn fingerprint(&self) -> u64 {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a, by words
         let mut add = |v: DVec3| {
             for bits in v.to_array().map(f64::to_bits) {
@@ -217,125 +176,4 @@ impl Scene<'_> {
         }
         hash
     }
-}
-
-/// What happened in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Stats {
-    /// Strands that were stepped.
-    pub strands: usize,
-    /// Newton iterations of all strands; two a strand is the least.
-    pub iterations: usize,
-    /// Strands that took the safe integrator in this step.
-    pub fallbacks: usize,
-    /// Strands that are set aside: see [`Solver::faults`](crate::Solver::faults).
-    pub set_aside: usize,
-    /// Particles that were near a body or touched it.
-    pub contacts: usize,
-    /// Particles that felt wind.
-    pub wind: usize,
-    /// Links between strands that held.
-    pub links: usize,
-    /// Particles that another strand pushed away.
-    pub repulsions: usize,
-    /// Strands that rest, and cost nothing.
-    pub asleep: usize,
-}
-
-impl Stats {
-    pub(crate) fn plus(self, other: Self) -> Self {
-        Self {
-            strands: self.strands + other.strands,
-            iterations: self.iterations + other.iterations,
-            fallbacks: self.fallbacks + other.fallbacks,
-            set_aside: self.set_aside + other.set_aside,
-            contacts: self.contacts + other.contacts,
-            wind: self.wind + other.wind,
-            links: self.links + other.links,
-            repulsions: self.repulsions + other.repulsions,
-            asleep: self.asleep + other.asleep,
-        }
-    }
-}
-
-impl From<BatchStats> for Stats {
-    fn from(batch: BatchStats) -> Self {
-        Self {
-            strands: batch.strands,
-            iterations: batch.iterations,
-            fallbacks: batch.fallbacks,
-            set_aside: batch.set_aside,
-            contacts: batch.contacts,
-            wind: batch.wind,
-            links: batch.hair.links,
-            repulsions: batch.hair.repulsions,
-            asleep: batch.asleep,
-        }
-    }
-}
-
-/// Why strands make no solver.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DynamicsError {
-    /// A parameter has a range.
-    #[error("strand {id}: {name} is {value}, and must be from {least} to {most}")]
-    Parameter {
-        /// The strand's id.
-        id: u32,
-        /// The parameter.
-        name: &'static str,
-        /// As it was given.
-        value: f64,
-        /// The least.
-        least: f64,
-        /// The most.
-        most: f64,
-    },
-    /// A step takes time.
-    #[error("a step of {0} s: it must be from 1e-6 to 10 s")]
-    Step(f64),
-    /// Numbers of the scene are finite.
-    #[error("the scene's {0} is not finite")]
-    Scene(&'static str),
-    /// A number of [`Mutual`](crate::Mutual) has a range.
-    #[error("{name} is {value}, and must be from {least} to {most}")]
-    Mutual {
-        /// Its name.
-        name: &'static str,
-        /// As it was given.
-        value: f64,
-        /// The least.
-        least: f64,
-        /// The most.
-        most: f64,
-    },
-    /// There is one pose for every strand.
-    #[error("{found} poses for {expected} strands")]
-    Poses {
-        /// How many there are.
-        found: usize,
-        /// How many strands there are.
-        expected: usize,
-    },
-    /// There is one goal for every point.
-    #[error("goals for {found} points; the strands have {expected}")]
-    Goal {
-        /// How many there are.
-        found: usize,
-        /// How many points there are.
-        expected: usize,
-    },
-    /// A state belongs to the strands that it was made with.
-    #[error("the state is not of these strands and their parameters")]
-    State,
-}
-
-/// A strand that is set aside: it follows its root without a motion of its own.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("strand {id} is set aside: {reason}")]
-pub struct Fault {
-    /// The strand's id.
-    pub id: u32,
-    /// Why.
-    pub reason: Reason,
 }

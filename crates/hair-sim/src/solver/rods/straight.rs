@@ -10,16 +10,39 @@
 //! ```
 //!
 //! when the link before moves its direction by p and the link by f, in the axes of each. So a joint's spring couples the two by one
-//! number in place of a matrix, and [`super::sweep`]'s recursion, with the same energy and the same model of it, needs
+//! number in place of a matrix, and [`super::curled::sweep`]'s recursion, with the same energy and the same model of it, needs
 //! about a third of the arithmetic.
 
-use crate::lanes::{Lane, Mask, Number, Quat, Sym3, Vec3, plane::Sym2, plane::Vec2, stored};
-
-use super::{
-    batch::{Link, Stage},
-    free_motion::FreeMotion,
-    sweep::{Elastic, Node},
+use crate::{
+    lanes::{Lane, Mask, Number, Quat, Sym3, Vec3, plane::Sym2, plane::Vec2, stored},
+    solver::{
+        batch::{Batch, BatchState},
+        chain::{Chain, ShapeEnergy, chord},
+        link::{Elastic, Link, Node},
+        stage::{FreeMotion, Model},
+    },
 };
+
+/// Scratch of a Newton step.
+#[derive(Clone, Debug)]
+pub(crate) struct Scratch {
+    acrosses: Vec<Across>,
+    bends: Vec<Bend>,
+    eliminations: Vec<Elimination>,
+    /// How the links' directions are to move.
+    moves: Vec<Vec3>,
+}
+
+impl Scratch {
+    pub(crate) fn new(count: usize) -> Self {
+        Self {
+            acrosses: vec![Across::ZERO; count],
+            bends: vec![Bend::STRAIGHT; count],
+            eliminations: vec![Elimination::ZERO; count],
+            moves: vec![Vec3::ZERO; count],
+        }
+    }
+}
 
 /// The axes across a link of a frame without twist, in the world.
 #[derive(Clone, Copy, Debug)]
@@ -72,13 +95,6 @@ fn onward<T: Number>(t: Vec3<T>, across: Across<T>, next: Vec3<T>) -> (Across<T>
     (across, Bend { turn, sharp })
 }
 
-/// The way from the particle at the start of link `k` to that at its end.
-#[inline(always)]
-pub(super) fn chord<T: Number>(y: &[Vec3], k: usize) -> Vec3<T> {
-    let end = y[k].load();
-    if k == 0 { end } else { end - y[k - 1].load() }
-}
-
 /// Goes along the joints from the skin's frame `base` by the `tangent` of every link: its axes, and the joint's bend. Links that only
 /// fill the batch go on as the one before.
 #[inline(always)]
@@ -101,8 +117,39 @@ fn along<T: Number>(
 }
 
 /// The turn of every joint along its axis, in the frame of its link, by the links' tangents.
+pub(crate) fn turns<T: Number>(base: &Quat, links: &[Link], tangents: &[Vec3], out: &mut [Vec3]) {
+    T::run(
+        #[inline(always)]
+        move || {
+            turns_by::<T>(
+                base,
+                links,
+                #[inline(always)]
+                |k| tangents[k].load(),
+                out,
+            );
+        },
+    );
+}
+
+/// The same by the particles.
+pub(crate) fn turns_of<T: Number>(base: &Quat, links: &[Link], y: &[Vec3], out: &mut [Vec3]) {
+    T::run(
+        #[inline(always)]
+        move || {
+            turns_by::<T>(
+                base,
+                links,
+                #[inline(always)]
+                |k| direction(links, y, k),
+                out,
+            );
+        },
+    );
+}
+
 #[inline(always)]
-pub(super) fn turns<T: Number>(
+fn turns_by<T: Number>(
     base: &Quat,
     links: &[Link],
     tangent: impl Fn(usize) -> Vec3<T>,
@@ -120,46 +167,21 @@ pub(super) fn turns<T: Number>(
     );
 }
 
-/// The same by the particles.
+/// The direction of link `k` by the particles.
 #[inline(always)]
-pub(super) fn turns_of<T: Number>(base: &Quat, links: &[Link], y: &[Vec3], out: &mut [Vec3]) {
-    turns::<T>(
-        base,
-        links,
-        #[inline(always)]
-        |k| chord(y, k).scale(T::splat(1.0) / links[k].length.load()),
-        out,
-    );
+fn direction<T: Number>(links: &[Link], y: &[Vec3], k: usize) -> Vec3<T> {
+    chord(y, k).scale(T::splat(1.0) / links[k].length.load())
 }
 
-/// Makes the joints of a shape ready for [`ascend`].
-#[inline(always)]
-pub(super) fn bend_joints<T: Number>(base: &Quat, links: &[Link], shape: &mut Stage) {
-    let count = links.len();
-    let tangents = &shape.tangents[..count];
-    let (acrosses, bends) = (&mut shape.across[..count], &mut shape.bends[..count]);
-    along::<T>(
-        base,
-        links,
-        #[inline(always)]
-        |k| tangents[k].load(),
-        #[inline(always)]
-        |k, across, bend| {
-            acrosses[k] = across.store();
-            bends[k] = bend.store();
-        },
-    );
-}
-
-/// Lays a shape out by the `direction` of each link, which is told the one that it has.
+/// Lays a chain out by the `direction` of each link, which is told the one that it has.
 #[inline(always)]
 fn lay_out<T: Number>(
     links: &[Link],
-    shape: &mut Stage,
+    chain: &mut Chain,
     mut direction: impl FnMut(usize, Vec3<T>) -> Vec3<T>,
 ) {
     let count = links.len();
-    let (ys, tangents) = (&mut shape.y[..count], &mut shape.tangents[..count]);
+    let (ys, tangents) = (&mut chain.y[..count], &mut chain.tangents[..count]);
     let mut y = Vec3::zero();
     for k in 0..count {
         let next = direction(k, tangents[k].load());
@@ -169,45 +191,97 @@ fn lay_out<T: Number>(
     }
 }
 
-/// Points every link along the free motion from the shape `before`; one whose way is not clear goes on as `carry` takes it.
-#[inline(always)]
-pub(super) fn predict<T: Number>(
+/// Points every link along the free motion from the particles `before`; one whose way is not clear goes on as `carry` takes it.
+pub(crate) fn predict<T: Number>(
     links: &[Link],
     mut free: FreeMotion,
     carry: Quat,
     before: &[Vec3],
-    shape: &mut Stage,
+    chain: &mut Chain,
 ) {
-    let before = &before[..links.len()];
-    let mut end = Vec3::<T>::zero();
-    let mut next = Vec3::zero();
-    lay_out(
-        links,
-        shape,
+    T::run(
         #[inline(always)]
-        |k, _| {
-            let place = free.place(k);
-            let way = place - end;
-            end = place;
-            let length = links[k].length.load::<T>();
-            let squared = way.length_squared();
-            let size = squared.sqrt();
-            let ahead = way.scale(T::splat(1.0) / size);
-            let chord = chord::<T>(before, k);
-            let is_clear = (length * length * T::splat(0.01)).less(squared);
-            let is_ahead = T::splat(0.0).less(chord.dot(way));
-            if T::all(is_clear) && T::all(is_ahead) {
-                next = ahead;
-                return next;
-            }
-            let carried = carry.load().rotate(chord.scale(T::splat(1.0) / length));
-            let is_on = (size * T::splat(-0.95)).less(carried.dot(way));
-            let turned = Vec3::choose(is_on, ahead, carried);
-            let turned = Vec3::choose(is_ahead, ahead, turned);
-            let turned = Vec3::choose(is_clear, turned, carried);
-            // What only fills the batch goes on as the link before.
-            next = Vec3::choose(T::splat(0.0).less(length), turned, next);
-            next
+        move || {
+            let before = &before[..links.len()];
+            let mut end = Vec3::<T>::zero();
+            let mut next = Vec3::zero();
+            lay_out(
+                links,
+                chain,
+                #[inline(always)]
+                |k, _| {
+                    let place = free.place(k);
+                    let way = place - end;
+                    end = place;
+                    let length = links[k].length.load::<T>();
+                    let squared = way.length_squared();
+                    let size = squared.sqrt();
+                    let ahead = way.scale(T::splat(1.0) / size);
+                    let chord = chord::<T>(before, k);
+                    let is_clear = (length * length * T::splat(0.01)).less(squared);
+                    let is_ahead = T::splat(0.0).less(chord.dot(way));
+                    if T::all(is_clear) && T::all(is_ahead) {
+                        next = ahead;
+                        return next;
+                    }
+                    let carried = carry.load().rotate(chord.scale(T::splat(1.0) / length));
+                    let is_on = (size * T::splat(-0.95)).less(carried.dot(way));
+                    let turned = Vec3::choose(is_on, ahead, carried);
+                    let turned = Vec3::choose(is_ahead, ahead, turned);
+                    let turned = Vec3::choose(is_clear, turned, carried);
+                    // What only fills the batch goes on as the link before.
+                    next = Vec3::choose(T::splat(0.0).less(length), turned, next);
+                    next
+                },
+            );
+        },
+    );
+}
+
+/// One Newton step, in which no link of the lanes in `which` turns by more than `most` (radians). Returns the largest turn that it
+/// asks for, and the square of 1 / cos(angle / 2) of the sharpest joint.
+pub(crate) fn newton<T: Number>(
+    links: &[Link],
+    model: &Model,
+    chain: &mut Chain,
+    scratch: &mut Scratch,
+    most: f64,
+    which: Mask,
+) -> (Lane, Lane) {
+    T::run(
+        #[inline(always)]
+        move || {
+            bend_joints::<T>(model.base, links, chain, scratch);
+            let sharpest = ascend::<T>(links, chain, model, scratch);
+            let Scratch {
+                acrosses,
+                eliminations,
+                moves,
+                ..
+            } = scratch;
+            let largest = descend::<T>(links, acrosses, eliminations, moves);
+            let scale = (Lane::splat(most) / largest).min(Lane::ONE);
+            turn_links::<T>(links, chain, moves, scale, which);
+            (largest, sharpest)
+        },
+    )
+}
+
+/// Makes the joints of a chain ready for [`ascend`].
+#[inline(always)]
+fn bend_joints<T: Number>(base: &Quat, links: &[Link], chain: &Chain, scratch: &mut Scratch) {
+    let count = links.len();
+    let tangents = &chain.tangents[..count];
+    let (acrosses, bends) = (&mut scratch.acrosses[..count], &mut scratch.bends[..count]);
+    along::<T>(
+        base,
+        links,
+        #[inline(always)]
+        |k| tangents[k].load(),
+        #[inline(always)]
+        |k, across, bend| {
+            acrosses[k] = across.store();
+            bends[k] = bend.store();
         },
     );
 }
@@ -254,23 +328,16 @@ struct Beyond<T> {
     force: Vec3<T>,
 }
 
-/// From tip to root, as [`super::sweep::ascend`]. Returns how sharp the sharpest joint is.
+/// From tip to root, as [`super::curled::sweep::ascend`]. Returns how sharp the sharpest joint is.
 #[inline(always)]
-pub(super) fn ascend<T: Number>(
-    links: &[Link],
-    shape: &Stage,
-    nodes: &[Node],
-    past: &[Vec3],
-    elastic: &Elastic,
-    damps: bool,
-    out: &mut [Elimination],
-) -> Lane {
+fn ascend<T: Number>(links: &[Link], chain: &Chain, model: &Model, scratch: &mut Scratch) -> Lane {
     let count = links.len();
-    let (y, tangents) = (&shape.y[..count], &shape.tangents[..count]);
-    let (acrosses, bends) = (&shape.across[..count], &shape.bends[..count]);
-    let (nodes, past) = (&nodes[..count], &past[..count]);
-    let out = &mut out[..count];
-    let elastic = elastic.load::<T>();
+    let (y, tangents) = (&chain.y[..count], &chain.tangents[..count]);
+    let (acrosses, bends) = (&scratch.acrosses[..count], &scratch.bends[..count]);
+    let (nodes, past) = (&model.nodes[..count], &model.past[..count]);
+    let out = &mut scratch.eliminations[..count];
+    let damps = model.elastic.damping != Lane::ZERO;
+    let elastic = model.elastic.load::<T>();
     let zero = Vec3::<T>::zero();
     let mut sharpest = T::splat(1.0);
     let mut spin = Spin {
@@ -445,7 +512,7 @@ fn eliminate<T: Number>(
 
 /// From root to tip: how every link's direction moves, in the world, into `moves`. Returns the largest.
 #[inline(always)]
-pub(super) fn descend<T: Number>(
+fn descend<T: Number>(
     links: &[Link],
     acrosses: &[Across],
     eliminations: &[Elimination],
@@ -466,7 +533,7 @@ pub(super) fn descend<T: Number>(
         moves[k] = moved.store();
         shift += moved.scale(links[k].length.load());
         let squared = (f.x * f.x + f.y * f.y) * links[k].counts.load();
-        // What is no number stays: every link after it has none.
+        // NaN stays: every link after it has it too.
         largest = T::choose(squared.less(largest), largest, squared);
     }
     largest.sqrt().store()
@@ -474,9 +541,9 @@ pub(super) fn descend<T: Number>(
 
 /// Turns the links of the lanes in `which` by `scale` times `moves`, and moves the particles along.
 #[inline(always)]
-pub(super) fn turn_links<T: Number>(
+fn turn_links<T: Number>(
     links: &[Link],
-    shape: &mut Stage,
+    chain: &mut Chain,
     moves: &[Vec3],
     scale: Lane,
     which: Mask,
@@ -486,7 +553,7 @@ pub(super) fn turn_links<T: Number>(
     let one = T::splat(1.0);
     lay_out(
         links,
-        shape,
+        chain,
         #[inline(always)]
         |k, tangent| {
             // The rotation whose Rodrigues vector is half of t x move: as `Quat::turned`.
@@ -498,28 +565,134 @@ pub(super) fn turn_links<T: Number>(
     );
 }
 
-/// The frames of the links of a shape, carried along without twist from the skin's.
-#[inline(always)]
-pub(super) fn frames<T: Number>(base: &Quat, links: &[Link], y: &[Vec3], out: &mut [Quat]) {
-    let (y, out) = (&y[..links.len()], &mut out[..links.len()]);
-    let mut frame: Quat<T> = base.load();
-    let mut t = frame.tangent();
-    for (k, link) in links.iter().enumerate() {
+/// The frames of the links through particles, carried along without twist from the skin's.
+pub(crate) fn frames<T: Number>(base: &Quat, links: &[Link], y: &[Vec3], out: &mut [Quat]) {
+    T::run(
+        #[inline(always)]
+        move || {
+            let (y, out) = (&y[..links.len()], &mut out[..links.len()]);
+            let mut frames = Frames::<T>::new(base);
+            for (k, link) in links.iter().enumerate() {
+                out[k] = frames.go_on(link, chord(y, k)).store();
+            }
+        },
+    );
+}
+
+/// Frames along links, one after the other.
+pub(crate) struct Frames<T> {
+    /// Of the link before, and its third axis.
+    frame: Quat<T>,
+    t: Vec3<T>,
+}
+
+impl<T: Number> Frames<T> {
+    /// From the skin's frame.
+    #[inline(always)]
+    pub(crate) fn new(base: &Quat) -> Self {
+        let frame: Quat<T> = base.load();
+        Self {
+            frame,
+            t: frame.tangent(),
+        }
+    }
+
+    /// The frame of the next link, whose particles are `chord` apart.
+    #[inline(always)]
+    pub(crate) fn go_on(&mut self, link: &Link, chord: Vec3<T>) -> Quat<T> {
         let length = link.length.load();
-        let next = chord(y, k).scale(T::splat(1.0) / length);
-        let next = Vec3::choose(T::splat(0.0).less(length), next, t);
-        let w = t.dot(next) + T::splat(1.0);
+        let next = chord.scale(T::splat(1.0) / length);
+        let next = Vec3::choose(T::splat(0.0).less(length), next, self.t);
+        let w = self.t.dot(next) + T::splat(1.0);
         // The length of this quaternion is sqrt(2 w).
         let s = T::splat(1.0) / (w + w).sqrt();
         let turn = Quat {
-            v: t.cross(next).scale(s),
+            v: self.t.cross(next).scale(s),
             w: w * s,
         };
         // Between links that are folded on each other there is no least turn.
         let is_turn = T::splat(1e-9).less(w);
-        frame = Quat::choose(is_turn, turn.times(frame), frame);
-        t = next;
-        out[k] = frame.store();
+        self.frame = Quat::choose(is_turn, turn.times(self.frame), self.frame);
+        self.t = next;
+        self.frame
+    }
+}
+
+/// Of chains through these particles.
+pub(crate) fn energy_of<T: Number>(
+    batch: &Batch,
+    base: &Quat,
+    y: &[Vec3],
+    pull: &Vec3,
+) -> ShapeEnergy {
+    T::run(
+        #[inline(always)]
+        move || {
+            energy_by::<T>(
+                batch,
+                base,
+                y,
+                #[inline(always)]
+                |k| direction(&batch.links, y, k),
+                pull,
+            )
+        },
+    )
+}
+
+/// Of a chain.
+pub(crate) fn energy<T: Number>(
+    batch: &Batch,
+    base: &Quat,
+    chain: &Chain,
+    pull: &Vec3,
+) -> ShapeEnergy {
+    T::run(
+        #[inline(always)]
+        move || {
+            energy_by::<T>(
+                batch,
+                base,
+                &chain.y,
+                #[inline(always)]
+                |k| chain.tangents[k].load(),
+                pull,
+            )
+        },
+    )
+}
+
+#[inline(always)]
+fn energy_by<T: Number>(
+    batch: &Batch,
+    base: &Quat,
+    y: &[Vec3],
+    tangent: impl Fn(usize) -> Vec3<T>,
+    pull: &Vec3,
+) -> ShapeEnergy {
+    let (mut elastic, mut weight) = (T::splat(0.0), T::splat(0.0));
+    let (mut before, pull) = (base.load::<T>().tangent(), pull.load::<T>());
+    for (k, link) in batch.links.iter().enumerate() {
+        let mass: T = batch.particles[k].mass.load();
+        weight = weight - mass * y[k].load().dot(pull);
+        // Of an angle between two unit vectors: the tangent of its half is their difference over their sum.
+        let length = link.length.load::<T>();
+        let t = Vec3::choose(T::splat(0.0).less(length), tangent(k), before);
+        let (difference, sum) = (t - before, t + before);
+        let tangent_squared = difference.length_squared() / sum.length_squared();
+        elastic = elastic + link.bend.load::<T>() * tangent_squared * T::splat(2.0);
+        before = t;
+    }
+    ShapeEnergy {
+        elastic: elastic.store(),
+        weight: weight.store(),
+    }
+}
+
+/// Carries the lanes in `which` along with the skin.
+pub(crate) fn carry(batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
+    for y in &mut state.y[..batch.count()] {
+        *y = Vec3::pick(which, turn.rotate(*y), *y);
     }
 }
 

@@ -4,12 +4,15 @@
 use glam::{DMat3, DVec3};
 
 use crate::{
+    collision::shape::Collider,
     lanes::{LANES, Lane, Mask, Number, Sym3, Vec3},
-    solver::batch::{Batch, BatchState},
-    solver::sweep::Node,
 };
 
-use super::Collider;
+use super::{
+    batch::{Batch, BatchState},
+    link::Node,
+    stage::GAMMA,
+};
 
 /// The time in s in which a contact settles. At steps above it contact is as good as rigid.
 const SETTLE: f64 = 2e-4;
@@ -58,23 +61,13 @@ impl Contact {
         press: Lane::ZERO,
     };
 
-    /// Where a stage of length `d` had better start with the plane: without the pressure of the last step, the predicted `y`
-    /// would be behind it (the primal-dual active set of Hintermüller et al. 2003).
+    /// Where a particle at `y` is behind the plane at `level` and was not held, in the strands that have the plane.
     #[inline(always)]
-    pub(crate) fn expected(&self, y: Vec3, level: Lane, d: Lane) -> Mask {
-        let fall = self.press * d * d;
-        self.newly_below(y, level + fall)
-    }
-
-    /// Where a stage's answer `y` is behind the plane.
-    #[inline(always)]
-    pub(crate) fn passed(&self, y: Vec3, level: Lane) -> Mask {
-        self.newly_below(y, level - Lane::splat(TOUCH))
-    }
-
-    /// In the lanes where it did not hold.
-    #[inline(always)]
-    fn newly_below(&self, y: Vec3, level: Lane) -> Mask {
+    pub(crate) fn is_due(&self, why: Due, y: Vec3, level: Lane) -> Mask {
+        let level = match why {
+            Due::Expected(d) => level + self.press * d * d,
+            Due::Passed => level - Lane::splat(TOUCH),
+        };
         let half = Lane::splat(0.5);
         (self.on.gt(half))
             .and(self.holds.lt(half))
@@ -110,6 +103,16 @@ impl Contact {
         let depth = (self.end - self.normal.dot(y)).max(Lane::ZERO);
         depth * self.holds * (1.0 / (SETTLE * SETTLE))
     }
+}
+
+/// When a plane begins to hold a particle.
+#[derive(Clone, Copy)]
+pub(crate) enum Due {
+    /// In a stage of this length in s that had better start with the plane: without the pressure of the last step, the predicted
+    /// particle would be behind it (the primal-dual active set of Hintermüller et al. 2003).
+    Expected(Lane),
+    /// A stage's answer is behind the plane.
+    Passed,
 }
 
 /// A ball around a body, and how the body moves in a step: what lies far off is known by this alone.
@@ -148,17 +151,9 @@ impl Guard {
         let reach = way + keep + T::splat(self.radius + NEAR + MARGIN);
         let apart = (to - Vec3::all(self.center)).length_squared().sqrt();
         let (apart, reach) = (apart.store(), reach.store());
-        // What is no number is near.
+        // NaN is near.
         reach.lt(apart).not()
     }
-}
-
-/// How the frames of the roots move in a step.
-pub(crate) struct Course {
-    pub root: Vec3,
-    pub dt: f64,
-    /// Where in the step its middle stage is.
-    pub gamma: f64,
 }
 
 /// The depth at which every particle of a strand may stay: that of the style, where it starts inside a body.
@@ -175,72 +170,76 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
     }
 }
 
-/// Finds the planes of a step. Returns the number of particles that have one; `touched` are their places on the strands.
-#[inline(always)]
+/// Finds the planes of a step of `dt` seconds, at whose end the roots are at `root`. Returns the number of particles that have one;
+/// their places on the strands are added to `touched`.
 pub(crate) fn detect<T: Number>(
     batch: &Batch,
     state: &BatchState,
     (colliders, guards): (&[Collider], &[Guard]),
-    course: &Course,
+    (root, dt): (Vec3, f64),
     active: Mask,
     contacts: &mut [Contact],
     touched: &mut Vec<usize>,
 ) -> usize {
-    let mut count = 0;
-    touched.clear();
-    let dt = course.dt;
-    for k in 0..batch.count() {
-        let contact = &mut contacts[k];
-        contact.on = Lane::ZERO;
-        contact.holds = Lane::ZERO;
-        let y0 = state.y[k].load::<T>();
-        let y1 = y0 + state.v[k].load() * dt + state.a[k].load() * (0.5 * dt * dt);
-        let (p0, p1) = (state.root.load() + y0, course.root.load() + y1);
-        let keep = batch.thickness.load::<T>() + state.skin[k].load();
-        let mut near = Mask::NONE;
-        for guard in guards {
-            near = near.or(guard.is_near(p0, p1, keep));
-        }
-        let near = near.and(active);
-        if !near.any() {
-            continue;
-        }
-        let (p0, p1, keep) = (p0.store(), p1.store(), keep.store());
-        for lane in 0..LANES {
-            if !near.get(lane) || k >= batch.counts[lane] {
-                continue;
+    T::run(
+        #[inline(always)]
+        move || {
+            let mut count = 0;
+            for k in 0..batch.count() {
+                let contact = &mut contacts[k];
+                contact.on = Lane::ZERO;
+                contact.holds = Lane::ZERO;
+                let y0 = state.y[k].load::<T>();
+                let y1 = y0 + state.v[k].load() * dt + state.a[k].load() * (0.5 * dt * dt);
+                let (p0, p1) = (state.root.load() + y0, root.load() + y1);
+                let keep = batch.thickness.load::<T>() + state.skin[k].load();
+                let mut near = Mask::NONE;
+                for guard in guards {
+                    near = near.or(guard.is_near(p0, p1, keep));
+                }
+                let near = near.and(active);
+                if !near.any() {
+                    continue;
+                }
+                let (p0, p1, keep) = (p0.store(), p1.store(), keep.store());
+                for lane in 0..LANES {
+                    if !near.get(lane) || k >= batch.counts[lane] {
+                        continue;
+                    }
+                    let path = Path {
+                        from: p0.get(lane),
+                        to: p1.get(lane),
+                        keep: keep[lane],
+                        dt,
+                    };
+                    let Some((collider, plane)) = path.first(colliders) else {
+                        continue;
+                    };
+                    count += 1;
+                    if touched.last() != Some(&k) {
+                        touched.push(k);
+                    }
+                    let (before, now) = (collider.before, collider.now);
+                    let normal = now.rotation * plane.normal;
+                    let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
+                    let (s0, s1) = (s0 - state.root.get(lane), s1 - root.get(lane));
+                    let mid = s0 + (s1 - s0) * GAMMA;
+                    let flow = (s1 - s0) / dt;
+                    contact.on[lane] = 1.0;
+                    contact.press[lane] = state.press[k][lane];
+                    contact.normal.set(lane, normal);
+                    contact.mid[lane] = normal.dot(mid);
+                    contact.end[lane] = normal.dot(s1);
+                    contact.flow.set(lane, flow);
+                    let velocity = state.v[k].get(lane) - flow;
+                    let sliding = (velocity - normal * velocity.dot(normal)).length();
+                    contact.slip[lane] =
+                        batch.friction[lane] * state.press[k][lane] / sliding.max(CREEP);
+                }
             }
-            let path = Path {
-                from: p0.get(lane),
-                to: p1.get(lane),
-                keep: keep[lane],
-                dt,
-            };
-            let Some((collider, plane)) = path.first(colliders) else {
-                continue;
-            };
-            count += 1;
-            if touched.last() != Some(&k) {
-                touched.push(k);
-            }
-            let (before, now) = (collider.before, collider.now);
-            let normal = now.rotation * plane.normal;
-            let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
-            let (s0, s1) = (s0 - state.root.get(lane), s1 - course.root.get(lane));
-            let mid = s0 + (s1 - s0) * course.gamma;
-            let flow = (s1 - s0) / dt;
-            contact.on[lane] = 1.0;
-            contact.press[lane] = state.press[k][lane];
-            contact.normal.set(lane, normal);
-            contact.mid[lane] = normal.dot(mid);
-            contact.end[lane] = normal.dot(s1);
-            contact.flow.set(lane, flow);
-            let velocity = state.v[k].get(lane) - flow;
-            let sliding = (velocity - normal * velocity.dot(normal)).length();
-            contact.slip[lane] = batch.friction[lane] * state.press[k][lane] / sliding.max(CREEP);
-        }
-    }
-    count
+            count
+        },
+    )
 }
 
 /// A particle's way through the world in a step.
@@ -336,7 +335,7 @@ impl Path {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{collision::Shape, solver::Pose};
+    use crate::{collision::shape::Shape, pose::Pose};
     use glam::DQuat;
 
     #[test]

@@ -1,7 +1,6 @@
 //! Straight strands against the energy that a stage minimises, and against the same strands with their twist solved.
 
 use super::*;
-use crate::solver::batch::Batch;
 use crate::{
     Collider, Material, Mutual, Natural, Params, Pose, Roots, Scene, Shape, Solver, Strands, Wind,
     rest::RestStrand,
@@ -92,7 +91,7 @@ proptest! {
         };
         let mut nodes = vec![Node::<Lane>::zero(); count];
         let mut past = vec![Vec3::ZERO; count];
-        let mut shape = Stage::new(count);
+        let mut chain = Chain::new(count);
         // As stiff as heavy.
         let h2 = 1e-4 * params.material.bending().recip();
         for (k, link) in rest.links.iter().enumerate() {
@@ -108,31 +107,33 @@ proptest! {
             nodes[k].n = Sym3::outer(Lane::splat(link.mass), pulls, Lane::splat(link.mass));
             nodes[k].b.set(0, b);
             past[k].set(0, DVec3::new(-turn.y, turn.x, 0.0));
-            shape.tangents[k] = Vec3::splat((rest.base * DVec3::Z + 0.3 * vector()).normalize());
+            chain.tangents[k] = Vec3::splat((rest.base * DVec3::Z + 0.3 * vector()).normalize());
         }
-        lay_out::<Lane>(&batch.links, &mut shape, |_, t| t);
+        lay_out::<Lane>(&batch.links, &mut chain, |_, t| t);
 
-        let elastic = Elastic {
-            h2: Lane::splat(h2),
-            damping: Lane::splat(damping),
+        let model = Model {
+            base: &batch.base,
+            nodes: &nodes,
+            past: &past,
+            elastic: Elastic {
+                h2: Lane::splat(h2),
+                damping: Lane::splat(damping),
+            },
         };
-        let mut eliminations = vec![Elimination::ZERO; count];
-        let mut moves = vec![Vec3::ZERO; count];
+        let mut scratch = Scratch::new(count);
         let mut largest = f64::MAX;
         for _ in 0..400 {
-            bend_joints::<Lane>(&batch.base, &batch.links, &mut shape);
-            ascend::<Lane>(&batch.links, &shape, &nodes, &past, &elastic, true, &mut eliminations);
-            largest = descend::<Lane>(&batch.links, &shape.across, &eliminations, &mut moves)[0];
-            let scale = Lane::splat((0.5 / largest).min(1.0));
-            turn_links::<Lane>(&batch.links, &mut shape, &moves, scale, Mask::NONE.not());
+            let (links, all) = (&batch.links, Mask::NONE.not());
+            largest = newton::<Lane>(links, &model, &mut chain, &mut scratch, 0.5, all).0[0];
         }
         // Where it jumps between two shapes it has found neither.
         prop_assume!(largest < 1e-9);
 
-        let tangents: Vec<DVec3> = shape.tangents.iter().map(|t| t.get(0)).collect();
+        let tangents: Vec<DVec3> = chain.tangents.iter().map(|t| t.get(0)).collect();
         let scale: f64 = stage.bend.iter().sum();
         for k in 0..count {
-            for axis in [shape.across[k].first.get(0), shape.across[k].second.get(0)] {
+            let across = &scratch.acrosses[k];
+            for axis in [across.first.get(0), across.second.get(0)] {
                 let h = 1e-5;
                 let at = |by: f64| {
                     let mut moved = tangents.clone();
@@ -334,7 +335,7 @@ fn longer_strands_beside_it_do_not_change_a_strand() {
     assert_eq!(path(0), path(3));
 }
 
-/// The room that batches work in one after the other decides nothing, whatever was left in it.
+/// The scratch that batches work in one after the other decides nothing, whatever was left in it.
 #[test]
 fn what_is_left_of_other_batches_decides_nothing() {
     let path = |left: f64| {
@@ -345,10 +346,16 @@ fn what_is_left_of_other_batches_decides_nothing() {
         let (mut solver, mut state) = Solver::new(&strands(), &undamped).unwrap();
         let (mut path, mut fallbacks) = (Vec::new(), 0);
         for step in 0..24 {
-            for room in &mut solver.scratch {
-                room.past.fill(Vec3::splat(DVec3::splat(left)));
-                room.turn_start.fill(Vec3::splat(DVec3::splat(left)));
-                room.turns.fill(Vec3::splat(DVec3::splat(left)));
+            for scratch in &mut solver.scratch {
+                let work = &mut scratch.work;
+                for list in [
+                    &mut work.past,
+                    &mut scratch.turn_start,
+                    &mut work.newton.curled.turns,
+                    &mut work.newton.straight.moves,
+                ] {
+                    list.fill(Vec3::splat(DVec3::splat(left)));
+                }
             }
             // A head that is thrown about, so that the safe integrator is needed.
             let scene = Scene {

@@ -21,26 +21,14 @@
 //! What the joints add doesn't wait for the recursion, so it is made ready before ([`joints`]): that loop has nothing to
 //! wait for, and the other less to do.
 
-use crate::lanes::{Lane, Mat3, Number, Quat, Sym3, Vec3, stored};
-
-use super::batch::Link;
-
-/// The quadratic model of what acts on one particle: its gradient at y is N y - b.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Node<T = Lane> {
-    pub n: Sym3<T>,
-    pub b: Vec3<T>,
-}
-stored!(Node { n, b });
-
-impl<T: Number> Node<T> {
-    pub(crate) fn zero() -> Self {
-        Self {
-            n: Sym3::diagonal(T::splat(0.0)),
-            b: Vec3::zero(),
-        }
-    }
-}
+use crate::{
+    lanes::{Lane, Mat3, Number, Quat, Sym3, Vec3, stored},
+    solver::{
+        chain::Chain,
+        link::{Elastic, Link, Node},
+        stage::Model,
+    },
+};
 
 /// Moment on a joint and its stiffness, in world axes, both times h^2.
 #[derive(Clone, Copy, Debug)]
@@ -82,25 +70,6 @@ impl<T: Number> Elimination<T> {
     }
 }
 
-/// How joints resist in a stage.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Elastic<T = Lane> {
-    /// The square of the stage's length in s.
-    pub h2: T,
-    /// Time of damping over the time from `past` to the stage's end.
-    pub damping: T,
-}
-stored!(Elastic { h2, damping });
-
-/// A strand's shape: particles from the root, frames of links and their tangents, and the frame of the skin.
-#[derive(Clone, Copy)]
-pub(crate) struct Pose<'a> {
-    pub base: &'a Quat,
-    pub y: &'a [Vec3],
-    pub frames: &'a [Quat],
-    pub tangents: &'a [Vec3],
-}
-
 /// The turn c = tan(angle / 2) times the axis, from frame to frame, in either frame.
 #[inline(always)]
 pub(crate) fn half_turn<T: Number>(before: Quat<T>, after: Quat<T>) -> Vec3<T> {
@@ -114,24 +83,23 @@ pub(crate) fn half_turn<T: Number>(before: Quat<T>, after: Quat<T>) -> Vec3<T> {
 #[inline(always)]
 pub(crate) fn joints<T: Number>(
     links: &[Link],
-    pose: Pose,
-    past: &[Vec3],
-    elastic: &Elastic,
+    model: &Model,
+    chain: &Chain,
     out: &mut [Joint],
 ) -> Lane {
     let count = links.len();
-    let (frames, tangents) = (&pose.frames[..count], &pose.tangents[..count]);
-    let (past, out) = (&past[..count], &mut out[..count]);
+    let (frames, tangents) = (&chain.frames[..count], &chain.tangents[..count]);
+    let (past, out) = (&model.past[..count], &mut out[..count]);
     let mut sharpest = T::splat(1.0);
     for k in 0..count {
-        let before = if k == 0 { pose.base } else { &frames[k - 1] };
+        let before = if k == 0 { model.base } else { &frames[k - 1] };
         let (joint, sharp): (Joint<T>, T) = joint(
             &links[k].load(),
             past[k].load(),
             before.load(),
             frames[k].load(),
             tangents[k].load(),
-            &elastic.load(),
+            &model.elastic.load(),
         );
         sharpest = T::choose(sharpest.less(sharp), sharp, sharpest);
         out[k] = joint.store();
@@ -179,18 +147,18 @@ struct Beyond<T = Lane> {
     force: Vec3<T>,
 }
 
-/// From tip to root: fills `out` with what [`descend`] needs. `pose.y[k]`, `pose.tangents[k]` and `nodes[k]` are of link k
+/// From tip to root: fills `out` with what [`descend`] needs. `chain.y[k]`, `chain.tangents[k]` and `nodes[k]` are of link k
 /// and the particle at its end, `joints[k]` is at its start.
 #[inline(always)]
 pub(crate) fn ascend<T: Number>(
     links: &[Link],
-    pose: Pose,
     nodes: &[Node],
+    chain: &Chain,
     joints: &[Joint],
     out: &mut [Elimination],
 ) {
     let count = links.len();
-    let (y, tangents) = (&pose.y[..count], &pose.tangents[..count]);
+    let (y, tangents) = (&chain.y[..count], &chain.tangents[..count]);
     let (nodes, joints) = (&nodes[..count], &joints[..count]);
     let out = &mut out[..count];
     let mut beyond = Beyond {
@@ -292,31 +260,26 @@ pub(crate) fn descend<T: Number>(
         turns[k] = turn.store();
         shift += turn.cross(tangents[k].load().scale(links[k].length.load()));
         let squared = turn.length_squared() * links[k].counts.load();
-        // What is no number stays: every turn after it is none.
+        // NaN stays: every turn after it is NaN too.
         largest = T::choose(squared.less(largest), largest, squared);
     }
     largest.sqrt().store()
 }
 
-/// The energy that a stage minimises, for a pose: it goes down in every step that is accepted.
-pub(crate) fn potential(
-    links: &[Link],
-    pose: Pose,
-    nodes: &[Node],
-    past: &[Vec3],
-    elastic: &Elastic,
-) -> Lane {
+/// The energy that a stage minimises: it goes down in every step that is accepted.
+pub(crate) fn potential(links: &[Link], model: &Model, chain: &Chain) -> Lane {
     let mut sum = Lane::ZERO;
-    let mut before = *pose.base;
+    let mut before = *model.base;
     for (k, link) in links.iter().enumerate() {
-        let y = pose.y[k];
-        sum += (nodes[k].n.apply(y) * 0.5 - nodes[k].b).dot(y);
-        let c = half_turn(before, pose.frames[k]);
+        let (y, node) = (chain.y[k], &model.nodes[k]);
+        sum += (node.n.apply(y) * 0.5 - node.b).dot(y);
+        let c = half_turn(before, chain.frames[k]);
         let u = c + c;
-        let (e, rate) = (u - link.natural, u - past[k]);
+        let (e, rate) = (u - link.natural, u - model.past[k]);
         let weigh = |v: Vec3| (v.x * v.x + v.y * v.y) * link.bend + v.z * v.z * link.twist;
+        let elastic = &model.elastic;
         sum += (weigh(e) + weigh(rate) * elastic.damping) * elastic.h2 * 0.5;
-        before = pose.frames[k];
+        before = chain.frames[k];
     }
     sum
 }

@@ -143,9 +143,7 @@ fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
 struct Stage {
     batch: Batch,
     base: Quat,
-    frames: Vec<Quat>,
-    tangents: Vec<Vec3>,
-    y: Vec<Vec3>,
+    chain: Chain,
     nodes: Vec<Node>,
     past: Vec<Vec3>,
     elastic: Elastic,
@@ -181,9 +179,7 @@ fn stage(counts: [usize; 2], mut number: impl FnMut() -> f64) -> Stage {
     let (h2, damping) = (0.02, 0.3);
     let mut stage = Stage {
         base: batch.base,
-        frames: vec![Quat::IDENTITY; count],
-        tangents: vec![Vec3::ZERO; count],
-        y: vec![Vec3::ZERO; count],
+        chain: Chain::new(count),
         nodes: vec![Node::<Lane>::zero(); count],
         past: vec![Vec3::ZERO; count],
         elastic: Elastic {
@@ -219,7 +215,7 @@ fn stage(counts: [usize; 2], mut number: impl FnMut() -> f64) -> Stage {
             let n = (DMat3::IDENTITY + outer) * link.mass;
             let b = 0.5 * link.mass * vector();
             dense.nodes.push((n, b));
-            stage.frames[k].set(lane, frame);
+            stage.chain.frames[k].set(lane, frame);
             stage.past[k].set(lane, past);
             let node = &mut stage.nodes[k];
             let mut pulls = Vec3::ZERO;
@@ -230,7 +226,7 @@ fn stage(counts: [usize; 2], mut number: impl FnMut() -> f64) -> Stage {
             node.b.set(lane, b);
         }
         for (k, y) in dense.particles(&dense.frames).into_iter().enumerate() {
-            stage.y[k].set(lane, y);
+            stage.chain.y[k].set(lane, y);
         }
         stage.dense.push(dense);
     }
@@ -238,34 +234,34 @@ fn stage(counts: [usize; 2], mut number: impl FnMut() -> f64) -> Stage {
     for (lane, dense) in stage.dense.iter().enumerate() {
         let last = dense.frames.len() - 1;
         for k in last + 1..count {
-            let (frame, y) = (stage.frames[last], stage.y[last]);
-            stage.frames[k].set(lane, frame.get(lane));
-            stage.y[k].set(lane, y.get(lane));
+            let (frame, y) = (stage.chain.frames[last], stage.chain.y[last]);
+            stage.chain.frames[k].set(lane, frame.get(lane));
+            stage.chain.y[k].set(lane, y.get(lane));
         }
     }
-    stage.tangents = stage.frames.iter().map(|f| f.tangent()).collect();
+    stage.chain.tangents = stage.chain.frames.iter().map(|f| f.tangent()).collect();
     stage
 }
 
 impl Stage {
-    fn pose(&self) -> Pose<'_> {
-        Pose {
+    fn model(&self) -> Model<'_> {
+        Model {
             base: &self.base,
-            y: &self.y,
-            frames: &self.frames,
-            tangents: &self.tangents,
+            nodes: &self.nodes,
+            past: &self.past,
+            elastic: self.elastic,
         }
     }
 
     /// The turn of every link in one sweep, and the largest.
     fn sweep(&self) -> (Vec<Vec3>, Lane) {
-        let (links, pose) = (&self.batch.links, self.pose());
+        let (links, model) = (&self.batch.links, self.model());
         let mut ready = vec![Joint::<Lane>::zero(); links.len()];
         let mut eliminations = vec![Elimination::<Lane>::zero(); links.len()];
         let mut turns = vec![Vec3::ZERO; links.len()];
-        joints::<Lane>(links, pose, &self.past, &self.elastic, &mut ready);
-        ascend::<Lane>(links, pose, &self.nodes, &ready, &mut eliminations);
-        let largest = descend::<Lane>(links, &self.tangents, &eliminations, &mut turns);
+        joints::<Lane>(links, &model, &self.chain, &mut ready);
+        ascend::<Lane>(links, &self.nodes, &self.chain, &ready, &mut eliminations);
+        let largest = descend::<Lane>(links, &self.chain.tangents, &eliminations, &mut turns);
         (turns, largest)
     }
 }
@@ -306,7 +302,7 @@ proptest! {
         let mut numbers = numbers.into_iter().cycle();
         let stage = stage(counts, || numbers.next().unwrap());
         let links = &stage.batch.links;
-        let sum = potential(links, stage.pose(), &stage.nodes, &stage.past, &stage.elastic);
+        let sum = potential(links, &stage.model(), &stage.chain);
         for (lane, dense) in stage.dense.iter().enumerate() {
             let expected = dense.energy(&dense.frames);
             prop_assert!((sum[lane] - expected).abs() < 1e-12 * (1.0 + expected.abs()));

@@ -1,0 +1,83 @@
+//! A step of a batch.
+
+use crate::{
+    lanes::{Number, Vec3},
+    stats::Stats,
+};
+
+use super::{
+    batch::{Batch, BatchState},
+    chain::ShapeEnergy,
+    drive::{Drive, RootMotion, prepare},
+    energy::{take_gain, watch},
+    finish::{asleep, carry, count_quiet, finish, turned_too_far},
+    rods::Rods,
+    safe,
+    scratch::Scratch,
+    tr_bdf2,
+};
+
+/// Advances a batch by `drive.dt`.
+pub(crate) fn advance<T: Number>(
+    batch: &Batch,
+    state: &mut BatchState,
+    scratch: &mut Scratch,
+    drive: &Drive,
+) -> Stats {
+    T::run(
+        #[inline(always)]
+        move || {
+            let root = RootMotion::new(state, drive);
+            let asleep = asleep(state, drive, batch.used);
+            let mut stats = Stats {
+                asleep: asleep.count(),
+                ..Stats::default()
+            };
+            if asleep == batch.used && !state.aside().and(batch.used).any() {
+                // Strands of a root alone have nothing that could sleep.
+                state.root = Vec3::pick(batch.used, state.root, root.root);
+                state.root_velocity = Vec3::pick(batch.used, state.root_velocity, root.velocity);
+                return stats;
+            }
+            let rods = Rods::of(batch);
+            let drives = (drive, &root);
+            let awake = asleep.not();
+            let active = prepare::<T>(rods, batch, state, scratch, drives, awake, &mut stats);
+            stats.strands = active.count();
+
+            let found = tr_bdf2::step::<T>(rods, batch, state, scratch, drives, active);
+            stats.iterations = found.iterations;
+            let too_far = turned_too_far::<T>(batch, state, &scratch.end, &root);
+            let mut failed = found.failed.or(too_far).and(active);
+            let watched = watch::<T>(batch, state, &scratch.work.loads, drive, &root, active);
+            let mut shape = ShapeEnergy::NONE;
+            if watched.any() {
+                shape = rods.energy::<T>(batch, &scratch.end, &root.end, &root.pull);
+                failed = failed.or(shape.is_out_of_reach(batch, state, &root, watched));
+            }
+            stats.fallbacks = failed.count();
+            let d = tr_bdf2::stage_length(drive.dt);
+            finish::<T>(batch, state, scratch, active.and(failed.not()), d);
+            if failed.any() {
+                safe::step::<T>(rods, batch, state, scratch, drives, failed);
+            }
+            if watched.any() {
+                if failed.any() {
+                    let other = rods.energy_of::<T>(batch, state, &root.end, &root.pull);
+                    shape = ShapeEnergy::pick(failed, other, shape);
+                }
+                take_gain::<T>(batch, state, &root, &shape, watched);
+            }
+            let aside = state.aside().and(batch.used);
+            if aside.any() {
+                stats.set_aside = aside.count();
+                carry(rods, batch, state, root.turn_end, aside);
+            }
+            count_quiet(batch, state, drive, active);
+            state.root = root.root;
+            state.root_velocity = root.velocity;
+            state.base = root.end;
+            stats
+        },
+    )
+}
