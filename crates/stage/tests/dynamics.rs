@@ -169,6 +169,7 @@ fn warm_up_is_before_the_first_frame() {
     assert!(means(&mut warm, 0.0) == means(&mut cold, 2.0));
 }
 
+#[cfg(feature = "compare")]
 #[test]
 fn the_solvers_for_comparison_do_nearly_the_same() {
     // They know no other hair.
@@ -201,18 +202,32 @@ fn the_solvers_for_comparison_do_nearly_the_same() {
     }
 }
 
-#[test]
-fn what_a_solver_cannot_do_is_refused_at_its_place() {
+/// The mistakes of a preset with this section.
+fn error(dynamics: &str) -> String {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
-    let error = |dynamics: &str| {
-        let text = format!("(version: 1, dynamics: ({dynamics}), layers: [])");
-        let preset = Preset::parse("look.ron", &text, &registry);
-        preset
-            .err()
-            .map(|errors| errors.to_string())
-            .unwrap_or_default()
-    };
+    let text = format!("(version: 1, dynamics: ({dynamics}), layers: [])");
+    let preset = Preset::parse("look.ron", &text, &registry);
+    preset
+        .err()
+        .map(|errors| errors.to_string())
+        .unwrap_or_default()
+}
+
+#[cfg(not(feature = "compare"))]
+#[test]
+fn solvers_to_compare_with_are_refused_without_their_feature() {
+    for solver in ["xpbd", "mass_spring"] {
+        let error = error(&format!("solver: {solver}"));
+        let place = format!("look.ron:1:25: solver: {solver} is for comparison");
+        assert!(error.contains(&place), "{error}");
+    }
+    assert_eq!(error("solver: none"), "");
+}
+
+#[cfg(feature = "compare")]
+#[test]
+fn what_a_solver_cannot_do_is_refused_at_its_place() {
     let links = error("solver: xpbd, links: 2");
     assert!(
         links.contains("look.ron:1:39: links: solver: xpbd has none"),

@@ -20,6 +20,7 @@ use carried::Carried;
 use feel::Feel;
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
+#[cfg(feature = "compare")]
 use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
     Acceleration, DynamicsError, GRAVITY, Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind,
@@ -110,13 +111,16 @@ impl Dynamics {
             feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
         };
         let strands: Box<dyn Running> = match section.solver_kind() {
+            #[cfg(feature = "compare")]
             SolverKind::Xpbd(substeps) => {
                 Box::new(Run::new(Xpbd::with(&chosen, params, substeps, 1)?))
             }
+            #[cfg(feature = "compare")]
             SolverKind::MassSpring(substeps) => {
                 Box::new(Run::new(MassSpring::with(&chosen, params, substeps)?))
             }
-            SolverKind::Rods | SolverKind::None => {
+            // Without solvers to compare with nothing else was let through.
+            _ => {
                 let (mut solver, mut state) = Solver::with(&chosen, params)?;
                 if let Some(mutual) = feel::mutual(section, hair.head) {
                     solver.interact(&mut state, &mutual)?;

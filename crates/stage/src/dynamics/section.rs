@@ -125,6 +125,15 @@ impl DynamicsSection {
     /// What the preset asks for that its solver cannot do: a parameter, and why.
     pub(crate) fn unsupported(&self) -> Option<(&'static str, String)> {
         match self.solver {
+            SolverChoice::Xpbd | SolverChoice::MassSpring if cfg!(not(feature = "compare")) => {
+                let solver = self.solver.name();
+                Some((
+                    "solver",
+                    format!(
+                        "solver: {solver} is for comparison, and this program was built without it (feature `compare`); take rods"
+                    ),
+                ))
+            }
             SolverChoice::Xpbd | SolverChoice::MassSpring => {
                 let asked = [
                     ("damping", self.damping),
