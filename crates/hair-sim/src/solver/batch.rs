@@ -120,9 +120,9 @@ impl Batch {
         self.links.len()
     }
 
-    /// How many frames a state of it holds.
-    pub(crate) fn count_of_frames(&self) -> usize {
-        if self.is_straight { 0 } else { self.count() }
+    /// Whether a state with `count` frames will do: straight strands need none, and keep them as they are.
+    pub(crate) fn does_with(&self, count: usize) -> bool {
+        self.is_straight || count == self.count()
     }
 }
 
@@ -178,7 +178,7 @@ impl BatchState {
             y: vec![Vec3::ZERO; count],
             v: vec![Vec3::ZERO; count],
             a: vec![Vec3::ZERO; count],
-            frames: vec![Quat::IDENTITY; batch.count_of_frames()],
+            frames: vec![Quat::IDENTITY; if batch.is_straight { 0 } else { count }],
             past: vec![Vec3::ZERO; count],
             root: batch.root,
             root_velocity: Vec3::ZERO,

@@ -95,7 +95,7 @@ pub(crate) fn finish<T: Number>(
     state: &mut BatchState,
     scratch: &Scratch,
     which: Mask,
-    d: f64,
+    (rods, d): (Rods, f64),
 ) {
     T::run(
         #[inline(always)]
@@ -124,10 +124,7 @@ pub(crate) fn finish<T: Number>(
                 }
                 state.press[k] = which.pick(Lane::ZERO, state.press[k]);
             }
-            // Where the state holds any.
-            for (frame, new) in state.frames.iter_mut().zip(&end.frames) {
-                *frame = Quat::pick(which, *new, *frame);
-            }
+            rods.keep_frames(state, end, which);
             let mut struck = Mask::new(state.restart).and(which.not());
             for &k in &work.loads.touched {
                 let contact = &work.loads.contacts[k];

@@ -168,6 +168,19 @@ impl Rods {
         }
     }
 
+    /// Takes the frames of a chain into a state, in the lanes of `which`.
+    #[inline(always)]
+    pub(crate) fn keep_frames(self, state: &mut BatchState, chain: &Chain, which: Mask) {
+        match self {
+            Self::Curled => {
+                for (frame, new) in state.frames.iter_mut().zip(&chain.frames) {
+                    *frame = Quat::pick(which, *new, *frame);
+                }
+            }
+            Self::Straight => {}
+        }
+    }
+
     /// Carries the shape of the lanes in `which` along with the skin.
     pub(crate) fn carry(self, batch: &Batch, state: &mut BatchState, turn: Quat, which: Mask) {
         match self {

@@ -84,7 +84,7 @@ pub(crate) fn step<T: Number>(
             .hold::<T>(batch, &stage, trial, Due::Passed, which);
         minimise::<T>(batch, &stage, trial, end, work, met);
     }
-    take(batch, state, scratch, which, drive.dt);
+    take(rods, batch, state, scratch, which, drive.dt);
 }
 
 /// Damped Newton on `chain`; `trial` is what is tried.
@@ -139,7 +139,14 @@ fn minimise<T: Number>(
     }
 }
 
-fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, dt: f64) {
+fn take(
+    rods: Rods,
+    batch: &Batch,
+    state: &mut BatchState,
+    scratch: &Scratch,
+    which: Mask,
+    dt: f64,
+) {
     let (trial, loads) = (&scratch.trial, &scratch.work.loads);
     let mut sum = Lane::ZERO;
     for k in 0..batch.count() {
@@ -161,10 +168,7 @@ fn take(batch: &Batch, state: &mut BatchState, scratch: &Scratch, which: Mask, d
         state.v[k] = Vec3::pick(good, v, state.v[k]);
         state.y[k] = Vec3::pick(good, trial.y[k], state.y[k]);
     }
-    // Where the state holds any.
-    for (frame, new) in state.frames.iter_mut().zip(&trial.frames) {
-        *frame = Quat::pick(good, *new, *frame);
-    }
+    rods.keep_frames(state, trial, good);
     let bad = which.and(good.not());
     for lane in 0..LANES {
         if which.get(lane) {

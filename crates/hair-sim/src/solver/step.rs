@@ -57,7 +57,7 @@ pub(crate) fn advance<T: Number>(
             }
             stats.fallbacks = failed.count();
             let d = tr_bdf2::stage_length(drive.dt);
-            finish::<T>(batch, state, scratch, active.and(failed.not()), d);
+            finish::<T>(batch, state, scratch, active.and(failed.not()), (rods, d));
             if failed.any() {
                 safe::step::<T>(rods, batch, state, scratch, drives, failed);
             }
