@@ -356,7 +356,7 @@ macro_rules! choices {
 /// Makes a [`Section`]: a struct with public fields, `Default`, what it is about (`DOC`), and the table (`TABLE`) that parser, help
 /// and errors read. A field is `name: type = description`, with a comment that is its help; `name as "other"` is called `other` in presets.
 ///
-/// The descriptions are the functions of [`section`](crate::section).
+/// The descriptions are the functions of the module [`section`](mod@crate::section).
 #[macro_export]
 macro_rules! section {
     (

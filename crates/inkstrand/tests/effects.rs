@@ -144,7 +144,7 @@ fn defaults(schema: &Value) -> String {
     let fields = parameters.iter().filter_map(|value| {
         let default = &value["default"];
         let text = match value["type"].as_str().unwrap() {
-            "number" | "integer" => default.to_string(),
+            "number" | "integer" | "true or false" => default.to_string(),
             "choice" => default.as_str().unwrap().to_owned(),
             "color or none" if default == "none" => "none".to_owned(),
             "color" | "color or none" => default.to_string(),

@@ -23,12 +23,18 @@ use hair_io::Mesh;
 #[cfg(feature = "compare")]
 use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
-    Acceleration, DynamicsError, GRAVITY, Motion, Pose, Roots, Scene, Solver, Stats, Strands, Wind,
+    Acceleration, DynamicsError, GRAVITY, Motion, Params, Pose, Roots, Scene, Solver, Stats,
+    Strands, Wind,
 };
 use render::Head;
 use running::{Run, Running};
-use section::SolverKind;
 use std::ops::Range;
+
+/// Steps within a step of the solvers that take some, where the preset says nothing.
+#[cfg(feature = "compare")]
+const XPBD_SUBSTEPS: u32 = 64;
+#[cfg(feature = "compare")]
+const MASS_SPRING_SUBSTEPS: u32 = 4;
 
 /// The shortest step in s that is worth one of its own.
 const SHORTEST_STEP: f64 = 2e-6;
@@ -73,6 +79,36 @@ pub(crate) struct Dynamics {
     stats: Stats,
 }
 
+/// The solver that the section asks for, with strands of these parameters.
+fn simulated(
+    section: &DynamicsSection,
+    head: Head,
+    strands: &Strands,
+    params: impl Fn(usize) -> Params,
+) -> Result<Box<dyn Running>, DynamicsError> {
+    #[cfg(feature = "compare")]
+    match section.solver {
+        SolverChoice::Xpbd => {
+            let substeps = section.substeps_or(XPBD_SUBSTEPS);
+            return Ok(Box::new(Run::new(Xpbd::with(
+                strands, params, substeps, 1,
+            )?)));
+        }
+        SolverChoice::MassSpring => {
+            let substeps = section.substeps_or(MASS_SPRING_SUBSTEPS);
+            return Ok(Box::new(Run::new(MassSpring::with(
+                strands, params, substeps,
+            )?)));
+        }
+        SolverChoice::Rods | SolverChoice::None => {}
+    }
+    let (mut solver, mut state) = Solver::with(strands, params)?;
+    if let Some(mutual) = feel::mutual(section, head) {
+        solver.interact(&mut state, &mutual)?;
+    }
+    Ok(Box::new(Run::new((solver, state))))
+}
+
 impl Dynamics {
     /// The dynamics of hair whose strands have these sizes (1/300 head heights), on a head of this mesh. `hold` is
     /// the pull to its key shapes, where it has some.
@@ -110,24 +146,7 @@ impl Dynamics {
             let length_m: f32 = links.map(|link| link[0].distance(link[1])).sum();
             feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
         };
-        let strands: Box<dyn Running> = match section.solver_kind() {
-            #[cfg(feature = "compare")]
-            SolverKind::Xpbd(substeps) => {
-                Box::new(Run::new(Xpbd::with(&chosen, params, substeps, 1)?))
-            }
-            #[cfg(feature = "compare")]
-            SolverKind::MassSpring(substeps) => {
-                Box::new(Run::new(MassSpring::with(&chosen, params, substeps)?))
-            }
-            // Without solvers to compare with nothing else was let through.
-            _ => {
-                let (mut solver, mut state) = Solver::with(&chosen, params)?;
-                if let Some(mutual) = feel::mutual(section, hair.head) {
-                    solver.interact(&mut state, &mutual)?;
-                }
-                Box::new(Run::new((solver, state)))
-            }
-        };
+        let strands = simulated(section, hair.head, &chosen, params)?;
         let step = match f64::from(section.step) {
             0.0 => 1.0 / f64::from(fps),
             step => step,

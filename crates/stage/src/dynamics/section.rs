@@ -2,10 +2,6 @@
 
 use effects::{choices, section};
 
-/// Steps within a step of the solvers that take some, where the preset says nothing.
-const XPBD_SUBSTEPS: u32 = 64;
-const MASS_SPRING_SUBSTEPS: u32 = 4;
-
 choices! {
     /// What moves the hair.
     pub enum SolverChoice {
@@ -97,28 +93,13 @@ section! {
     }
 }
 
-/// What moves the hair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum SolverKind {
-    Rods,
-    /// With so many steps within a step.
-    Xpbd(u32),
-    MassSpring(u32),
-    None,
-}
-
 impl DynamicsSection {
-    /// What moves the hair, with its steps within a step.
-    pub(crate) fn solver_kind(&self) -> SolverKind {
-        let substeps = |own: u32| match self.substeps {
+    /// Steps within a step, of solvers that take some: `own` where the preset doesn't say.
+    #[cfg(feature = "compare")]
+    pub(super) fn substeps_or(&self, own: u32) -> u32 {
+        match self.substeps {
             0 => own,
             given => given,
-        };
-        match self.solver {
-            SolverChoice::Rods => SolverKind::Rods,
-            SolverChoice::Xpbd => SolverKind::Xpbd(substeps(XPBD_SUBSTEPS)),
-            SolverChoice::MassSpring => SolverKind::MassSpring(substeps(MASS_SPRING_SUBSTEPS)),
-            SolverChoice::None => SolverKind::None,
         }
     }
 
