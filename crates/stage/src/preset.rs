@@ -212,7 +212,7 @@ impl<'r> Preset<'r> {
             )));
         }
         let mut top = TopSection::default();
-        set_text(&mut top, "the preset", name, text)?;
+        set_text(&mut top, "preset", name, text)?;
         self.seed = top.seed;
         Ok(())
     }
