@@ -1,12 +1,13 @@
-// The clump of every joint, once for all layers: composed with shaders/clump.wgsl.
+// The clump of every joint of an object, once for all layers: composed with shaders/clump.wgsl.
 
 @group(0) @binding(4) var<storage, read_write> gpu_clumps: array<GpuClump>;
 @group(0) @binding(5) var<storage, read_write> gpu_discs: array<GpuDisc>;
 
 @compute @workgroup_size(64)
 fn gpu_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) local: u32) {
-    let joint = gpu_index(group, groups, local);
-    if (joint >= gpu_frame.joints) { return; }
+    let index = gpu_index(group, groups, local);
+    if (index >= gpu_words[GPU_JOINT_COUNT]) { return; }
+    let joint = gpu_words[GPU_FIRST_JOINT] + index;
     let made = clump(gpu_inputs(joint), gpu_params(joint));
     let gray = max(dot(made.normal, gpu_light_direction(joint)), 0.0);
     let shift = vec2<f32>(dot(gpu_frame.right, made.shift), -dot(gpu_frame.up, made.shift));

@@ -14,8 +14,6 @@ struct GpuFrame {
     /// Place of the eye, metres.
     eye: vec3<f32>,
     near_m: f32,
-    head_center: vec3<f32>,
-    head_height_m: f32,
     /// The unit vector to the light, or its place.
     light: vec3<f32>,
     light_is_point: u32,
@@ -23,12 +21,10 @@ struct GpuFrame {
     background: vec4<f32>,
     /// The camera's axis to the picture's right, a unit vector.
     right: vec3<f32>,
-    /// Metres in 1/300 of the head's height.
-    unit_m: f32,
-    /// The camera's axis to the picture's upper edge, a unit vector.
-    up: vec3<f32>,
     /// A pixel at 720 lines, in pixels.
     pixel_px: f32,
+    /// The camera's axis to the picture's upper edge, a unit vector.
+    up: vec3<f32>,
     edge_depth_m: f32,
     /// Entries that the tiles' lists of chunks and of triangles have room for.
     chunk_capacity: u32,

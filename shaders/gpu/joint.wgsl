@@ -6,7 +6,7 @@
 @group(0) @binding(1) var<storage, read> gpu_joints: array<u32>;
 /// Id, mean of the particles, size.
 @group(0) @binding(2) var<storage, read> gpu_strands: array<u32>;
-/// What the layer is (the places below), its parameters, and how they vary.
+/// What the layer or the clump is and on which head (the places below), its parameters, and how they vary.
 @group(0) @binding(3) var<storage, read> gpu_words: array<u32>;
 
 const GPU_LAYER_SEED: u32 = 0u;
@@ -17,6 +17,12 @@ const GPU_SHORTEST: u32 = 4u;
 const GPU_DEPTH_OFFSET: u32 = 5u;
 const GPU_IS_IN_PIXELS: u32 = 6u;
 const GPU_HAS_OWN_PATHS: u32 = 7u;
+/// Metres, as are the next two words.
+const GPU_HEAD_CENTER: u32 = 8u;
+/// Metres.
+const GPU_HEAD_HEIGHT: u32 = 11u;
+/// Metres in 1/300 of the head's height.
+const GPU_UNIT: u32 = 12u;
 
 /// Where the discs of one of the layer's strokes would begin, if the frame's first joint had one.
 fn gpu_first_disc(instance: u32) -> u32 {
@@ -53,6 +59,10 @@ fn gpu_seed(joint: u32) -> u32 {
     return hash(gpu_words[GPU_LAYER_SEED] ^ hash(gpu_of_strand(joint, 0u)));
 }
 
+fn gpu_head_center() -> vec3<f32> {
+    return vec3<f32>(gpu_word(GPU_HEAD_CENTER), gpu_word(GPU_HEAD_CENTER + 1u), gpu_word(GPU_HEAD_CENTER + 2u));
+}
+
 fn gpu_light_direction(joint: u32) -> vec3<f32> {
     if (gpu_frame.light_is_point == 0u) {
         return gpu_frame.light;
@@ -64,7 +74,7 @@ fn gpu_light_direction(joint: u32) -> vec3<f32> {
 
 /// Head heights; far away where the light has no place.
 fn gpu_light_distance(joint: u32) -> f32 {
-    let distance = length(gpu_frame.light - gpu_vec3(joint, GPU_AT_POSITION)) / gpu_frame.head_height_m;
+    let distance = length(gpu_frame.light - gpu_vec3(joint, GPU_AT_POSITION)) / gpu_word(GPU_HEAD_HEIGHT);
     return select(1e6, distance, gpu_frame.light_is_point != 0u);
 }
 
@@ -79,7 +89,7 @@ fn gpu_unit(joint: u32) -> f32 {
 
 /// Pixels in a unit of size.
 fn gpu_unit_px(joint: u32) -> f32 {
-    return gpu_frame.unit_m * gpu_scalar(joint, GPU_AT_PX_PER_METRE);
+    return gpu_word(GPU_UNIT) * gpu_scalar(joint, GPU_AT_PX_PER_METRE);
 }
 
 fn gpu_word(at: u32) -> f32 {
@@ -127,8 +137,8 @@ const GPU_LARGEST_PX: f32 = 1e8;
 fn gpu_disc(joint: u32, offset: vec2<f32>, radius: f32, scale: f32, clump_radius: f32, depth_offset: f32) -> GpuDisc {
     let depth = gpu_scalar(joint, GPU_AT_DEPTH);
     // No depth is nearer than the near plane, whatever is taken from it.
-    let shifted = max(depth + depth_offset * gpu_frame.head_height_m, gpu_frame.near_m);
-    let biased = max(depth - clump_radius * gpu_frame.unit_m, gpu_frame.near_m);
+    let shifted = max(depth + depth_offset * gpu_word(GPU_HEAD_HEIGHT), gpu_frame.near_m);
+    let biased = max(depth - clump_radius * gpu_word(GPU_UNIT), gpu_frame.near_m);
     return GpuDisc(
         gpu_vec2(joint, GPU_AT_CENTER) + offset * gpu_unit_px(joint),
         min(max(radius, 0.0) * scale, GPU_LARGEST_PX),

@@ -20,7 +20,7 @@ fn run_of(joint: u32, instance: u32) -> Run {
     let last = gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_RUN + 1u];
     let whole = seen(last) - seen(first);
     // Of a short strand no more than a third counts as short.
-    let length = min(gpu_word(GPU_SHORTEST) * gpu_frame.head_height_m, whole / 3.0);
+    let length = min(gpu_word(GPU_SHORTEST) * gpu_word(GPU_HEAD_HEIGHT), whole / 3.0);
     return Run(first, last, gpu_first_disc(instance), length);
 }
 

@@ -84,7 +84,9 @@ impl Backends {
     /// When the frame can't be drawn.
     pub fn on_cpu(&mut self, frame: &Frame) -> Result<(Picture, CpuTimes), String> {
         let start = Instant::now();
-        self.evaluator.evaluate(frame, &mut self.drawing);
+        self.evaluator
+            .evaluate(frame, &mut self.drawing)
+            .map_err(|e| e.to_string())?;
         let effects = start.elapsed().as_secs_f64();
         let picture = self
             .rasterizer

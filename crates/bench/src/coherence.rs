@@ -193,7 +193,7 @@ fn times(scene: &mut Scene, options: &Options) -> Result<Vec<f64>, String> {
     for (_, order) in &scene.orders {
         let rasterizer = Rasterizer::new(TIMED_SAMPLES, Some(options.threads));
         let mut rasterizer = rasterizer.map_err(|error| error.to_string())?;
-        let drawing = painter.strokes(&mut frame, *order).clone();
+        let drawing = painter.strokes(&mut frame, *order)?.clone();
         runs.push(move || {
             let drawn = rasterizer.draw(&drawing);
             drawn.map(drop).map_err(|error| error.to_string())

@@ -7,7 +7,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use indicatif::ProgressBar;
-use render::{Brush, Frame, Head, Light, Order, StrandInfo};
+use render::{Brush, Frame, Head, Light, Object, Order, StrandInfo};
 use std::path::PathBuf;
 use std::time::Instant;
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
@@ -196,19 +196,23 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
                 .map_err(|e| e.to_string())?;
         }
         let of_paths = start.elapsed().as_secs_f64();
+        let layer_joints = vec![0..paths.len(); layers.len()];
         let frame = Frame {
             camera: &camera,
             paths: &paths,
             strands: &hair.strands,
-            head: Head {
-                center: Vec3::ZERO,
-                height_m: HEAD_M,
-            },
+            objects: vec![Object {
+                joints: 0..paths.len(),
+                head: Head {
+                    center: Vec3::ZERO,
+                    height_m: HEAD_M,
+                },
+                clump: &clump,
+                seed: 1,
+                layers: &layers,
+                layer_joints: &layer_joints,
+            }],
             light: Light::Direction(Vec3::new(0.48, 0.6, 0.64)),
-            clump: &clump,
-            seed: 1,
-            layers: &layers,
-            layer_joints: &vec![0..paths.len(); layers.len()],
             material_normals: &[],
             surfaces: Vec::new(),
             background: Some([1.0; 3]),

@@ -24,7 +24,9 @@ pub struct Stats {
 }
 
 impl Stats {
-    pub(crate) fn plus(self, other: Self) -> Self {
+    /// What happened in two simulations together.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
         Self {
             strands: self.strands + other.strands,
             iterations: self.iterations + other.iterations,

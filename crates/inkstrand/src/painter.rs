@@ -100,7 +100,7 @@ impl Painter {
             }
         }
         let cpu = self.cpu()?;
-        cpu.evaluator.evaluate(&frame, &mut cpu.drawing);
+        cpu.evaluator.evaluate(&frame, &mut cpu.drawing)?;
         stats.milliseconds.effects = lap.passed();
         let picture = cpu.rasterizer.draw(&cpu.drawing)?;
         stats.milliseconds.raster = lap.passed();

@@ -1,8 +1,9 @@
 //! `--stats`: one line of JSON a frame.
 
-use render::Drawing;
+use render::{Drawing, LayerStrokes};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 #[derive(Default, Serialize)]
 pub(crate) struct FrameStats {
@@ -37,7 +38,7 @@ pub(crate) struct StrandCounts {
     pub asleep: usize,
 }
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(crate) struct LayerCounts {
     pub joints: usize,
     pub segments: usize,
@@ -49,38 +50,54 @@ pub(crate) struct Bytes {
     pub buffers: usize,
 }
 
-/// Joints and segments of each layer of a frame.
+/// Joints and segments of each layer of a frame; layers of one name together.
 #[cfg(feature = "gpu")]
 pub(crate) fn frame_counts(frame: &render::Frame) -> BTreeMap<String, LayerCounts> {
-    let layers = frame.layers.iter().zip(frame.layer_joints);
-    let counts = layers.map(|(layer, joints)| {
-        let instances = layer.program.instances() as usize;
-        let runs = frame.paths.runs.iter().map(|run| &run.joints);
-        let drawn = runs.filter(|run| joints.start <= run.start && run.end <= joints.end);
-        let segments: usize = drawn.map(|run| run.len() - 1).sum();
-        let counts = LayerCounts {
-            joints: joints.len() * instances,
-            segments: segments * instances,
-        };
-        (layer.name.clone(), counts)
+    let runs: Vec<&Range<usize>> = frame.paths.runs.iter().map(|run| &run.joints).collect();
+    let layers = frame.objects.iter().flat_map(|object| {
+        let layers = object.layers.iter().zip(object.layer_joints);
+        layers.map(|(layer, joints)| {
+            let instances = layer.program.instances() as usize;
+            (&layer.name, counts(&runs, joints, instances))
+        })
     });
-    counts.collect()
+    by_name(layers)
 }
 
-/// Joints and segments of each layer of a drawing.
+/// Joints and segments of each layer of a drawing; layers of one name together.
 pub(crate) fn drawing_counts(drawing: &Drawing) -> BTreeMap<String, LayerCounts> {
-    let segments: usize = drawing.runs.iter().map(|run| run.joints.len() - 1).sum();
-    drawing
-        .layers
+    let runs: Vec<&Range<usize>> = drawing.runs.iter().map(|run| &run.joints).collect();
+    let of_layer = |layer: &LayerStrokes| counts(&runs, &layer.joints, layer.instances);
+    by_name(
+        drawing
+            .layers
+            .iter()
+            .map(|layer| (&layer.name, of_layer(layer))),
+    )
+}
+
+/// What so many strokes have on those of the runs that are in `joints`.
+fn counts(runs: &[&Range<usize>], joints: &Range<usize>, instances: usize) -> LayerCounts {
+    let drawn = runs
         .iter()
-        .map(|layer| {
-            let counts = LayerCounts {
-                joints: layer.discs.len(),
-                segments: segments * layer.instances,
-            };
-            (layer.name.clone(), counts)
-        })
-        .collect()
+        .filter(|run| joints.start <= run.start && run.end <= joints.end);
+    let segments: usize = drawn.map(|run| run.len() - 1).sum();
+    LayerCounts {
+        joints: joints.len() * instances,
+        segments: segments * instances,
+    }
+}
+
+fn by_name<'a>(
+    layers: impl Iterator<Item = (&'a String, LayerCounts)>,
+) -> BTreeMap<String, LayerCounts> {
+    let mut all: BTreeMap<String, LayerCounts> = BTreeMap::new();
+    for (name, counts) in layers {
+        let sum = all.entry(name.clone()).or_default();
+        sum.joints += counts.joints;
+        sum.segments += counts.segments;
+    }
+    all
 }
 
 /// Bytes that the drawing's lists hold.

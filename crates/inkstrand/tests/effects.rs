@@ -6,7 +6,7 @@ use effects::{Param, ParamKind, Registry, Section};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
-use stage::{MOTION_PARTS, Preset, STYLE_PARTS, Sections};
+use stage::{MOTION_PARTS, ObjectSection, Preset, STYLE_PARTS, Sections};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -164,7 +164,7 @@ fn the_schema_is_the_tables() {
     let schema = schema(&[]);
     assert_eq!(schema["version"], stage::VERSION);
     let sections = schema["sections"].as_array().unwrap();
-    assert_eq!(sections.len(), Sections::ALL.len() + 2);
+    assert_eq!(sections.len(), Sections::ALL.len() + 3);
     assert_eq!(sections[0]["id"], "preset");
     assert_is_table(&sections[0], Preset::TOP);
     for (section, (name, doc, table)) in sections[1..].iter().zip(Sections::ALL) {
@@ -177,6 +177,9 @@ fn the_schema_is_the_tables() {
     let layers = &sections[Sections::ALL.len() + 1];
     assert_eq!(layers["id"], "layers");
     assert_is_table(layers, LAYER);
+    let objects = &sections[Sections::ALL.len() + 2];
+    assert_eq!(objects["id"], "objects");
+    assert_is_table(objects, ObjectSection::TABLE);
     for value in layers["parameters"].as_array().unwrap() {
         let own = OF_THE_EFFECT.contains(&value["name"].as_str().unwrap());
         assert!(!own || value["default"].is_null(), "{value}");
@@ -238,6 +241,8 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
         match section["id"].as_str().unwrap() {
             "preset" => text += &format!("{fields}, "),
             "layers" => layer_fields = fields,
+            // In place of most sections.
+            "objects" => {}
             name => text += &format!("{name}: ({fields}), "),
         }
     }

@@ -5,7 +5,7 @@ use effects::preset::{LAYER, Reader};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
-use stage::{Preset, Sections};
+use stage::{ObjectSection, Preset, Sections};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -110,6 +110,13 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
         if let Some((_, _, table)) = Sections::ALL.iter().find(|(name, ..)| *name == field.name) {
             for inner in reader.fields(field.value, "a section") {
                 add(inner.name, inner.value, table);
+            }
+        }
+        if field.name == "objects" {
+            for object in reader.list(field.value, "objects") {
+                for inner in reader.fields(object, "an object") {
+                    add(inner.name, inner.value, ObjectSection::TABLE);
+                }
             }
         }
         if field.name == "layers" {
@@ -301,7 +308,9 @@ fn every_wrong_value_is_an_error_at_its_line() {
                 // An effect is a text of few values; a layer's name may be any.
                 let legal = place.kind.is_some_and(|kind| is_legal(&kind, value))
                     && name != "effect"
-                    || place.kind.is_none() && value == "()" && name != "layers"
+                    || place.kind.is_none()
+                        && value == "()"
+                        && !["layers", "objects"].contains(&name)
                     || name == "layers" && value == "[]";
                 match Preset::parse("look.ron", &spoilt, &registry) {
                     Ok(_) => assert!(legal, "{} is accepted", what()),

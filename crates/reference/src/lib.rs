@@ -19,6 +19,7 @@
 //!     clump: discs.clone(),
 //!     layers: vec![LayerStrokes {
 //!         name: "base".to_owned(),
+//!         joints: 0..2,
 //!         rank: 0,
 //!         instances: 1,
 //!         discs,

@@ -5,6 +5,7 @@ use crate::triangle::{Hit, Triangle};
 use glam::DVec2;
 use render::{Brush, Disc, Drawing, Order};
 use std::cmp::Reverse;
+use std::ops::Range;
 
 /// What may cover the samples of one part of the screen.
 #[derive(Debug)]
@@ -134,8 +135,15 @@ impl Strand {
         let no_colors = vec![[0.0; 3]; joints];
         let mut strokes: Vec<Stroke> = Vec::new();
         for (layer, strokes_of_layer) in drawing.layers.iter().enumerate() {
+            let joints = &strokes_of_layer.joints;
+            let is_drawn = |run: &&render::Run| {
+                joints.start <= run.joints.start && run.joints.end <= joints.end
+            };
+            let drawn: Vec<Range<usize>> = (runs.iter().filter(is_drawn))
+                .map(|run| run.joints.start - joints.start..run.joints.end - joints.start)
+                .collect();
             for instance in 0..strokes_of_layer.instances {
-                let of_instance = instance * joints..(instance + 1) * joints;
+                let of_instance = instance * joints.len()..(instance + 1) * joints.len();
                 strokes.push(Stroke {
                     precedence: Precedence {
                         rank: strokes_of_layer.rank,
@@ -143,7 +151,7 @@ impl Strand {
                         instance,
                     },
                     segments: segments(
-                        runs,
+                        &drawn,
                         &strokes_of_layer.discs[of_instance.clone()],
                         &strokes_of_layer.colors[of_instance],
                         drawing.brush,
@@ -151,10 +159,11 @@ impl Strand {
                 });
             }
         }
+        let runs: Vec<Range<usize>> = runs.iter().map(|run| run.joints.clone()).collect();
         strokes.sort_by_key(|stroke| Reverse(stroke.precedence));
         let sides = drawing.sides.chunks(joints);
         let clump = [&drawing.clump[..]].into_iter().chain(sides);
-        let clump = clump.flat_map(|discs| segments(runs, discs, &no_colors, drawing.brush));
+        let clump = clump.flat_map(|discs| segments(&runs, discs, &no_colors, drawing.brush));
         Self {
             clump: clump.collect(),
             strokes,
@@ -210,9 +219,9 @@ impl Stroke {
     }
 }
 
-/// The segments of all `runs`, in order along the strand.
+/// The segments of all `runs`, ranges of the discs, in order along the strand.
 fn segments(
-    runs: &[render::Run],
+    runs: &[Range<usize>],
     discs: &[Disc],
     colors: &[[f32; 3]],
     brush: Brush,
@@ -226,11 +235,10 @@ fn segments(
     };
     let mut segments = Vec::new();
     for run in runs {
-        match run.joints.len() {
+        match run.len() {
             0 => {}
-            1 => segments.push(segment(run.joints.start, run.joints.start)),
-            _ => segments
-                .extend((run.joints.start + 1..run.joints.end).map(|to| segment(to - 1, to))),
+            1 => segments.push(segment(run.start, run.start)),
+            _ => segments.extend((run.start + 1..run.end).map(|to| segment(to - 1, to))),
         }
     }
     segments

@@ -79,6 +79,7 @@ impl Hair {
             layers: vec![
                 LayerStrokes {
                     name: "outline".into(),
+                    joints: 0..clump.len(),
                     rank: -1,
                     instances: 1,
                     discs: outline.collect(),
@@ -86,6 +87,7 @@ impl Hair {
                 },
                 LayerStrokes {
                     name: "base".into(),
+                    joints: 0..clump.len(),
                     rank: 0,
                     instances: 1,
                     discs: clump.clone(),
@@ -144,6 +146,7 @@ fn shaded() -> Drawing {
     });
     let feathers = LayerStrokes {
         name: "feathers".into(),
+        joints: 0..drawing.clump.len(),
         rank: 100,
         instances: 8,
         discs: discs.collect(),

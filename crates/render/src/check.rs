@@ -1,7 +1,8 @@
 //! What a drawing must be before anything is drawn.
 
-use crate::drawing::{Disc, Drawing, LayerStrokes, Surface};
+use crate::drawing::{Disc, Drawing, LayerStrokes, Run, Surface};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Largest width and height of a picture, in pixels.
 pub const MAX_SIZE: u32 = 16384;
@@ -57,6 +58,20 @@ pub enum DrawError {
         /// The strand of the run before.
         before: u32,
     },
+    /// A layer draws on joints that the drawing doesn't have, or on a part of a run.
+    #[error(
+        "layer \"{layer}\": it draws on the joints {start}..{end}, which are no whole runs of the drawing's {joints}"
+    )]
+    LayerJoints {
+        /// The layer's name.
+        layer: String,
+        /// The first joint that it draws on.
+        start: usize,
+        /// One beyond the last.
+        end: usize,
+        /// How many the drawing has.
+        joints: usize,
+    },
     /// A layer's lists don't fit its joints and instances.
     #[error(
         "layer \"{layer}\": {discs} discs and {colors} colours for {instances} instances of {joints} joints"
@@ -70,7 +85,7 @@ pub enum DrawError {
         colors: usize,
         /// Its strokes per run.
         instances: usize,
-        /// The drawing's joints.
+        /// The joints that it draws on.
         joints: usize,
     },
     /// There are sides of the clump for other joints than the drawing's.
@@ -179,7 +194,7 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
         return Err(DrawError::ClumpDisc { joint, disc });
     }
     for layer in &drawing.layers {
-        check_layer(layer, joints)?;
+        check_layer(layer, drawing)?;
     }
     check_surfaces(&drawing.surfaces)
 }
@@ -248,7 +263,26 @@ fn check_runs(drawing: &Drawing) -> Result<(), DrawError> {
     Ok(())
 }
 
-fn check_layer(layer: &LayerStrokes, joints: usize) -> Result<(), DrawError> {
+fn check_layer(layer: &LayerStrokes, drawing: &Drawing) -> Result<(), DrawError> {
+    let Range { start, end } = layer.joints;
+    let all = drawing.clump.len();
+    let is_whole = |run: &Run| {
+        let Range {
+            start: first,
+            end: last,
+        } = run.joints;
+        last <= start || end <= first || (start <= first && last <= end)
+    };
+    let is_range = start <= end && end <= all;
+    if !is_range || !(layer.joints == (0..all) || drawing.runs.iter().all(is_whole)) {
+        return Err(DrawError::LayerJoints {
+            layer: layer.name.clone(),
+            start,
+            end,
+            joints: all,
+        });
+    }
+    let joints = layer.joints.len();
     let length = layer.instances.checked_mul(joints);
     if length != Some(layer.discs.len()) || length != Some(layer.colors.len()) {
         return Err(DrawError::LayerLength {
@@ -263,7 +297,7 @@ fn check_layer(layer: &LayerStrokes, joints: usize) -> Result<(), DrawError> {
         return Err(DrawError::LayerDisc {
             layer: layer.name.clone(),
             instance: index / joints,
-            joint: index % joints,
+            joint: start + index % joints,
             disc: layer.discs[index],
         });
     }
@@ -271,7 +305,7 @@ fn check_layer(layer: &LayerStrokes, joints: usize) -> Result<(), DrawError> {
         return Err(DrawError::LayerColor {
             layer: layer.name.clone(),
             instance: index / joints,
-            joint: index % joints,
+            joint: start + index % joints,
         });
     }
     Ok(())

@@ -36,17 +36,19 @@ pub struct Run {
     pub joints: Range<usize>,
 }
 
-/// The strokes of one layer: `instances` strokes for each run.
+/// The strokes of one layer: `instances` strokes for each run that it draws on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerStrokes {
-    /// The layer's unique name.
+    /// The layer's name, for messages.
     pub name: String,
+    /// The joints of the drawing that it draws on, whole runs.
+    pub joints: Range<usize>,
     /// Drawing order within a strand, low first; 0 is the base stroke's. Below 0 a stroke shows
     /// outside the clump; from 0 on it is clipped to the clump.
     pub rank: i32,
     /// Strokes per run (feathers); a later one lies over an earlier one.
     pub instances: usize,
-    /// `discs[instance * joints + joint]`.
+    /// `discs[instance * joints.len() + joint - joints.start]`.
     pub discs: Vec<Disc>,
     /// Linear colours, parallel to `discs`; linear between joints.
     pub colors: Vec<[f32; 3]>,
@@ -120,6 +122,17 @@ pub fn scatter(strand: u32, sample: u32) -> f32 {
     (place >> 8) as f32 / (1 << 24) as f32
 }
 
+impl LayerStrokes {
+    /// Where the lists hold one stroke of joints that it draws on; nothing where it doesn't draw on them.
+    #[must_use]
+    pub fn places(&self, instance: usize, joints: &Range<usize>) -> Option<Range<usize>> {
+        let is_drawn = self.joints.start <= joints.start && joints.end <= self.joints.end;
+        let first = instance * self.joints.len();
+        let place = |joint: usize| first + joint - self.joints.start;
+        is_drawn.then(|| place(joints.start)..place(joints.end))
+    }
+}
+
 /// Everything on the screen, ready to be drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
@@ -132,9 +145,9 @@ pub struct Drawing {
     /// What the clump has to both sides where it is flat (`effects::wgsl::clump_disc`): one disc a joint for the one, then for the
     /// other; empty where no clump has any.
     pub sides: Vec<Disc>,
-    /// The strokes, in the preset's order of layers.
+    /// The strokes, in the order of the objects and of their presets' layers.
     pub layers: Vec<LayerStrokes>,
-    /// The head and its outline.
+    /// The heads and their outlines.
     pub surfaces: Vec<Surface>,
     /// Linear colour behind everything, or a transparent picture.
     pub background: Option<[f32; 3]>,

@@ -1,7 +1,11 @@
 //! A frame: everything that a backend needs to make strokes and draw them.
 
+mod check;
+
+pub use check::FrameError;
+
 use crate::drawing::{Order, Surface};
-use effects::{Layer, Varied, clump};
+use effects::{InputSet, Layer, Varied, clump};
 use glam::Vec3;
 use std::ops::Range;
 use stroke_path::{Brush, Camera, Paths};
@@ -70,26 +74,17 @@ impl Light {
 pub struct Frame<'a> {
     /// The eye.
     pub camera: &'a Camera,
-    /// The strands' paths on the screen.
+    /// The strands' paths on the screen, object after object.
     pub paths: &'a Paths,
     /// What is known of each strand; `paths.runs[i].strand` is an index of this list.
     pub strands: &'a [StrandInfo],
-    /// The head.
-    pub head: Head,
+    /// What is drawn along the paths.
+    pub objects: Vec<Object<'a>>,
     /// The light.
     pub light: Light,
-    /// The preset's clump section.
-    pub clump: &'a Varied<clump::Program>,
-    /// Seed of the style's variations.
-    pub seed: u32,
-    /// The layers that are on, in the preset's order.
-    pub layers: &'a [Layer],
-    /// For each layer the joints of `paths` that it draws on, whole runs: the strands', or those of
-    /// paths that its effect made. No joint is on two layers' own paths.
-    pub layer_joints: &'a [Range<usize>],
-    /// The material normal of each joint of `paths`; empty where neither the clump nor a layer reads it.
+    /// The material normal of each joint of `paths`; empty where neither a clump nor a layer reads it.
     pub material_normals: &'a [Vec3],
-    /// The head's surfaces on the screen.
+    /// The heads' surfaces on the screen.
     pub surfaces: Vec<Surface>,
     /// Linear colour behind everything, or a transparent picture.
     pub background: Option<[f32; 3]>,
@@ -99,6 +94,33 @@ pub struct Frame<'a> {
     pub edge_depth_m: f32,
     /// What strokes are made of.
     pub brush: Brush,
+}
+
+/// Hair on a head, and how it is drawn.
+#[derive(Clone)]
+pub struct Object<'a> {
+    /// Its joints of the frame's paths: those of its strands, then those of paths that its effects made. They are whole runs, and
+    /// those of an object follow those of the one before, from the paths' first joint to their last.
+    pub joints: Range<usize>,
+    /// The head.
+    pub head: Head,
+    /// Its preset's clump section.
+    pub clump: &'a Varied<clump::Program>,
+    /// Seed of its style's variations.
+    pub seed: u32,
+    /// The layers that are on, in its preset's order.
+    pub layers: &'a [Layer],
+    /// For each layer those of `joints` that it draws on, whole runs: the strands', or those of paths that its effect made.
+    /// No joint is on two layers' own paths.
+    pub layer_joints: &'a [Range<usize>],
+}
+
+impl Object<'_> {
+    /// What its clump and its layers read of joints.
+    pub(crate) fn inputs(&self) -> InputSet {
+        let layers = self.layers.iter().map(|layer| layer.program.inputs());
+        layers.fold(self.clump.inputs(), InputSet::union)
+    }
 }
 
 /// For each joint the length of its run up to there as it is seen, metres at its depth, in place of what was there. Pieces of a

@@ -22,6 +22,7 @@
 //!     clump: vec![disc(10.0), disc(54.0)],
 //!     layers: vec![LayerStrokes {
 //!         name: "hair".to_owned(),
+//!         joints: 0..2,
 //!         rank: 0,
 //!         instances: 1,
 //!         discs: vec![disc(10.0), disc(54.0)],
@@ -52,6 +53,6 @@ pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use drawing::{
     Brush, Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex, scatter,
 };
-pub use frame::{Frame, Head, Light, StrandInfo};
+pub use frame::{Frame, FrameError, Head, Light, Object, StrandInfo};
 pub use picture::Picture;
 pub use samples::{MAX_SAMPLES, SampleCountError, sample_positions};

@@ -4,7 +4,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3};
 use render::cpu::Evaluator;
-use render::{Brush, Drawing, Frame, Head, Light, Order, StrandInfo};
+use render::{Brush, Drawing, Frame, Head, Light, Object, Order, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
 /// The picture is 200 x 360, the eye 2 m in front of the origin, a 0.3 m head: a unit is 1 mm.
@@ -70,19 +70,23 @@ fn drawing_on(
         values.set_text("clump", name, text).unwrap();
     }
     let layers = layers(list);
+    let clump = Varied::new(&values);
     let frame = Frame {
         camera: &camera,
         paths: &paths,
         strands: &[strand(3), strand(8)],
-        head: Head {
-            center: Vec3::ZERO,
-            height_m: 0.3,
-        },
+        objects: vec![Object {
+            joints: 0..4,
+            head: Head {
+                center: Vec3::ZERO,
+                height_m: 0.3,
+            },
+            clump: &clump,
+            seed,
+            layers: &layers,
+            layer_joints,
+        }],
         light: Light::Direction(Vec3::Z),
-        clump: &Varied::new(&values),
-        seed,
-        layers: &layers,
-        layer_joints,
         material_normals: &[],
         surfaces: Vec::new(),
         background: None,
@@ -91,7 +95,7 @@ fn drawing_on(
         brush,
     };
     let mut drawing = Drawing::default();
-    Evaluator::default().evaluate(&frame, &mut drawing);
+    Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
     (drawing, camera)
 }
 
@@ -215,16 +219,17 @@ fn a_layer_draws_on_its_own_paths_alone() {
     let list = "[(effect: \"hair.base\"), (effect: \"hair.fine\", params: (width: 4, width_variation: 0, taper: 0))]";
     // As if the second strand were a path that the second layer made.
     let (drawing, _) = drawing_on(list, &[], 1, Brush::Circle, &[0..2, 2..4]);
-    let radii = |layer: usize| drawing.layers[layer].discs.iter().map(|d| d.radius > 0.0);
-    let of_clump = radii(0).take(4).collect::<Vec<_>>();
-    assert_eq!(of_clump, [true, true, false, false]);
+    let [base, fine] = [0, 1].map(|layer| &drawing.layers[layer]);
+    assert_eq!([&base.joints, &fine.joints], [&(0..2), &(2..4)]);
+    let is_drawn = |disc: &render::Disc| disc.radius > 0.0;
+    assert!(base.discs[..2].iter().all(is_drawn));
     assert!(
-        !radii(0).skip(4).any(|is_drawn| is_drawn),
+        !base.discs[2..].iter().any(is_drawn),
         "no sides of round clumps"
     );
-    assert_eq!(radii(1).collect::<Vec<_>>(), [false, false, true, true]);
-    assert_eq!(drawing.clump[..2], drawing.layers[0].discs[..2]);
-    assert_eq!(drawing.clump[2..], drawing.layers[1].discs[2..]);
+    assert!(fine.discs.iter().all(is_drawn));
+    assert_eq!(drawing.clump[..2], base.discs[..2]);
+    assert_eq!(drawing.clump[2..], fine.discs[..]);
     // 4 mm wide, 2 m and 1.5 m away.
     assert_near(
         drawing.clump[2].radius / drawing.clump[0].radius,

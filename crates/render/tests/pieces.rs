@@ -4,7 +4,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Brush, Drawing, Frame, Head, Light, Order, Picture, StrandInfo};
+use render::{Brush, Drawing, Frame, Head, Light, Object, Order, Picture, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths, cuts};
 
 const SPLINE: PathKind = PathKind::CatmullRom { subdivision: 5 };
@@ -68,6 +68,8 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
     }
     let layers = layers();
     let joints = 0..paths.len();
+    let layer_joints = vec![joints.clone(); layers.len()];
+    let clump = Varied::new(&values);
     let frame = Frame {
         camera,
         paths: &paths,
@@ -76,15 +78,18 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
             mean: Vec3::ZERO,
             size: SIZE,
         }],
-        head: Head {
-            center: Vec3::new(0.0, 0.0, -0.3),
-            height_m: 0.3,
-        },
+        objects: vec![Object {
+            joints,
+            head: Head {
+                center: Vec3::new(0.0, 0.0, -0.3),
+                height_m: 0.3,
+            },
+            clump: &clump,
+            seed: 1,
+            layers: &layers,
+            layer_joints: &layer_joints,
+        }],
         light: Light::Direction(Vec3::new(0.6, 0.6, 0.53).normalize()),
-        clump: &Varied::new(&values),
-        seed: 1,
-        layers: &layers,
-        layer_joints: &vec![joints; layers.len()],
         material_normals: &[],
         surfaces: Vec::new(),
         background: Some([1.0; 3]),
@@ -93,7 +98,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         brush: Brush::Circle,
     };
     let mut drawing = Drawing::default();
-    Evaluator::default().evaluate(&frame, &mut drawing);
+    Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
     (paths, drawing)
 }
 

@@ -66,6 +66,24 @@ pub enum StageError {
         /// Which value, and what it may be.
         error: effects::section::OutOfRange,
     },
+    /// A scene has one object or more, and an index is one of theirs.
+    #[error("there is no such object in the scene")]
+    NoObject,
+    /// All strokes of a picture are made of one kind of disc.
+    #[error(
+        "the objects have different brushes, and a picture has one: path: (brush: ...) of their presets"
+    )]
+    Brushes,
+    /// What objects have is said by their own presets.
+    #[error(
+        "the preset names objects: hair, head, motion, dynamics, path, clump and layers are given in their presets, not beside them"
+    )]
+    OfObjects,
+    /// A bake is of one head of hair.
+    #[error(
+        "the preset names {0} objects: simulate each one's own preset, which then names its bake"
+    )]
+    BakeOfObjects(usize),
     /// Two strands of a program's own have this id.
     #[error("two strands have the id {0}")]
     SameId(u32),

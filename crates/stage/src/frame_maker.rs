@@ -4,34 +4,42 @@ use crate::dynamics::Dynamics;
 use crate::files::StageError;
 use crate::head;
 use crate::material::Material;
-use crate::motion::Motion;
+use crate::motion::{Motion, ObjectMotion};
 use crate::neck::{PosedHead, rigid};
+use crate::object::Object;
 use crate::scene::Scene;
 use effects::wgsl::hash;
 use effects::{HairStrand, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
-use render::{Frame, StrandInfo};
+use render::{Frame, Light, StrandInfo, Surface};
 use std::ops::Range;
 use stroke_path::{Camera, Paths};
 
 /// Makes frames of scenes.
 #[derive(Default)]
 pub struct FrameMaker {
-    /// The hair's strands, then those of the last frame's made paths.
+    /// Of each object the hair's strands, then those of the last frame's made paths.
     strands: Vec<StrandInfo>,
-    /// How many of them are the hair's.
-    strand_count: usize,
     paths: Paths,
+    /// Material normals of the paths' joints; empty where nothing reads them.
+    normals: Vec<Vec3>,
+    objects: Vec<ObjectFrame>,
+    camera: Option<Camera>,
+}
+
+/// An object in the last frame.
+struct ObjectFrame {
+    of: Object,
+    /// Its hair's strands, and its joints.
+    strands: Range<usize>,
+    joints: Range<usize>,
     made: MadePaths,
-    /// The strand that each made path belongs to.
+    /// The strand of its hair that each made path belongs to.
     made_of: Vec<usize>,
     layer_joints: Vec<Range<usize>>,
     /// Normals of the links, where something reads them.
     material: Option<Material>,
     head: Option<PosedHead>,
-    camera: Option<Camera>,
-    /// The scene of the last frame.
-    of: Option<Scene>,
 }
 
 impl FrameMaker {
@@ -65,93 +73,102 @@ impl FrameMaker {
         motion: &Motion,
         camera: Camera,
     ) -> Result<Frame<'a>, StageError> {
-        self.follow(scene);
-        let (hair, look) = (scene.hair(), scene.look());
-        let points = motion.points(scene);
-        self.paths.clear();
-        self.strands.clone_from(&hair.infos);
-        self.strand_count = hair.infos.len();
-        for (i, info) in self.strands.iter_mut().enumerate() {
-            let particles = &points[hair.file.strands.point_range(i)];
-            info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
-            self.paths
-                .push_pieces(i, particles, &scene.cuts()[i], look.path(), &camera)?;
-        }
-        self.push_made_paths(scene, motion, &camera)?;
-        self.find_material_normals(scene, motion);
-        let camera = &*self.camera.insert(camera);
-        let head = motion.head(scene);
-        let light = look.light(camera, head);
-        let surfaces = match (scene.neck(), &mut self.head) {
-            (Some(neck), Some(posed)) => {
-                let model = posed.in_pose(neck, motion.pose());
-                head::surfaces(model, &look.paint(scene.head()), camera, &light)
+        let Self {
+            strands,
+            paths,
+            normals,
+            objects,
+            ..
+        } = self;
+        paths.clear();
+        strands.clear();
+        normals.clear();
+        objects.truncate(scene.objects().len());
+        let reads_material = |object: &Object| object.look().reads_material();
+        let reads_material = scene.objects().iter().any(reads_material);
+        let light = scene.look().light(&camera, motion.head(scene));
+        let mut surfaces = Vec::new();
+        for (index, object) in scene.objects().iter().enumerate() {
+            match objects.get_mut(index) {
+                Some(frame) => frame.follow(object),
+                None => objects.push(ObjectFrame::new(object)),
             }
-            _ => Vec::new(),
+            let frame = &mut objects[index];
+            let motion = motion.of(index);
+            let own_camera = object.placement().own_camera(&camera);
+            frame.push_strands(motion, &own_camera, strands, paths)?;
+            frame.push_made_paths(motion, &own_camera, strands, paths)?;
+            if reads_material {
+                frame.push_material_normals(motion, paths, normals);
+            }
+            let own_normals = normals.get_mut(frame.joints.clone());
+            object
+                .placement()
+                .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
+            surfaces.extend(frame.surfaces(motion, &own_camera, light));
+        }
+        let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
+            let look = object.look();
+            render::Object {
+                joints: frame.joints.clone(),
+                head: object.placement().head(motion.of(index).head(object)),
+                clump: &look.clump,
+                seed: look.seed,
+                layers: &look.layers,
+                layer_joints: &frame.layer_joints,
+            }
         };
+        let objects = self.objects.iter().zip(scene.objects()).enumerate();
+        let section = &scene.look().sections.scene;
         Ok(Frame {
-            camera,
+            camera: self.camera.insert(camera),
             paths: &self.paths,
             strands: &self.strands,
-            head,
+            objects: objects.map(of_frame).collect(),
             light,
-            clump: &look.clump,
-            seed: look.seed,
-            layers: &look.layers,
-            layer_joints: &self.layer_joints,
-            material_normals: self.material.as_ref().map_or(&[], Material::joints),
+            material_normals: &self.normals,
             surfaces,
-            background: look.sections.scene.background,
-            order: look.order(),
-            edge_depth_m: look.sections.scene.edge_depth * scene.head().height_m,
-            brush: look.brush(),
+            background: section.background,
+            order: scene.look().order(),
+            edge_depth_m: section.edge_depth * scene.head().height_m,
+            brush: scene.brush(),
         })
-    }
-
-    /// Drops what was kept of another scene.
-    fn follow(&mut self, scene: &Scene) {
-        let is_same = (self.of.as_ref()).is_some_and(|of| of.has_hair_and_head_of(scene));
-        if !is_same {
-            self.material = None;
-            self.head = scene.neck().map(PosedHead::new);
-        }
-        if scene.look().reads_material() {
-            self.material.get_or_insert_default();
-        } else {
-            self.material = None;
-        }
-        self.of = Some(scene.clone());
     }
 
     /// Strands of the last frame that are behind the eye or wholly off the picture.
     #[must_use]
     pub fn culled(&self) -> usize {
-        let (Some(camera), Some(scene)) = (&self.camera, &self.of) else {
+        let Some(camera) = &self.camera else {
             return 0;
         };
         let [width, height] = camera.size_px().map(|size| size as f32);
         let picture = Vec2::new(width, height);
-        let mut seen = 0;
-        let hair = self
-            .paths
-            .runs
-            .iter()
-            .take_while(|run| run.strand < self.strand_count);
-        let hair = &self.paths.runs[..hair.count()];
-        for runs in hair.chunk_by(|a, b| a.strand == b.strand) {
-            let size_m = self.strands[runs[0].strand].size * scene.head().unit_m();
-            let joints = runs.iter().flat_map(|run| run.joints.clone());
-            let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
-            for joint in joints {
-                // Room for a clump three times its size: shifted, with its outline and all.
-                let reach = Vec2::splat(3.0 * size_m * self.paths.px_per_metre[joint]);
-                low = low.min(self.paths.center[joint] - reach);
-                high = high.max(self.paths.center[joint] + reach);
+        let mut culled = 0;
+        let mut all = self.paths.runs.chunk_by(|a, b| a.strand == b.strand);
+        let mut next = all.next();
+        for object in &self.objects {
+            let unit_m = object.of.head().unit_m();
+            let mut seen = 0;
+            while let Some(runs) = next.filter(|runs| runs[0].joints.end <= object.joints.end) {
+                next = all.next();
+                if !object.strands.contains(&runs[0].strand) {
+                    continue;
+                }
+                let size_m = self.strands[runs[0].strand].size * unit_m;
+                let joints = runs.iter().flat_map(|run| run.joints.clone());
+                let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+                for joint in joints {
+                    // Room for a clump three times its size: shifted, with its outline and all.
+                    let reach = Vec2::splat(3.0 * size_m * self.paths.px_per_metre[joint]);
+                    low = low.min(self.paths.center[joint] - reach);
+                    high = high.max(self.paths.center[joint] + reach);
+                }
+                let is_seen = high.cmpge(Vec2::ZERO).all() && low.cmple(picture).all();
+                seen += usize::from(is_seen);
             }
-            let is_seen = high.cmpge(Vec2::ZERO).all() && low.cmple(picture).all();
-            seen += usize::from(is_seen);
+            culled += object.strands.len() - seen;
         }
-        self.strand_count - seen
+        culled
     }
 
     /// Strands of the last frame that were left out because they are too far away to be drawn.
@@ -159,21 +176,83 @@ impl FrameMaker {
     pub fn left_out(&self) -> usize {
         self.paths.dropped()
     }
+}
+
+impl ObjectFrame {
+    fn new(object: &Object) -> Self {
+        let reads_material = object.look().reads_material();
+        Self {
+            of: object.clone(),
+            strands: 0..0,
+            joints: 0..0,
+            made: MadePaths::default(),
+            made_of: Vec::new(),
+            layer_joints: Vec::new(),
+            material: reads_material.then(Material::default),
+            head: object.neck().map(PosedHead::new),
+        }
+    }
+
+    /// Drops what was kept of another object.
+    fn follow(&mut self, object: &Object) {
+        if !self.of.has_hair_and_head_of(object) {
+            self.material = None;
+            self.head = object.neck().map(PosedHead::new);
+        }
+        if object.look().reads_material() {
+            self.material.get_or_insert_default();
+        } else {
+            self.material = None;
+        }
+        self.of = object.clone();
+    }
+
+    /// Appends the hair's strands and their paths.
+    fn push_strands(
+        &mut self,
+        motion: &ObjectMotion,
+        camera: &Camera,
+        strands: &mut Vec<StrandInfo>,
+        paths: &mut Paths,
+    ) -> Result<(), StageError> {
+        let (hair, path) = (self.of.hair(), self.of.look().path());
+        let points = motion.points(&self.of);
+        let first = strands.len();
+        self.strands = first..first + hair.infos.len();
+        self.joints = paths.len()..paths.len();
+        for (i, info) in hair.infos.iter().enumerate() {
+            let particles = &points[hair.file.strands.point_range(i)];
+            let mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
+            strands.push(StrandInfo {
+                mean: self.of.placement().point(mean),
+                ..*info
+            });
+            paths.push_pieces(first + i, particles, &self.of.cuts()[i], path, camera)?;
+        }
+        self.joints.end = paths.len();
+        Ok(())
+    }
 
     /// Appends the paths that layers make, and notes which joints each layer draws on.
     fn push_made_paths(
         &mut self,
-        scene: &Scene,
-        motion: &Motion,
+        motion: &ObjectMotion,
         camera: &Camera,
+        strands: &mut Vec<StrandInfo>,
+        paths: &mut Paths,
     ) -> Result<(), StageError> {
-        let (hair, look) = (scene.hair(), scene.look());
-        let points = motion.points(scene);
-        let of_hair = 0..self.paths.len();
-        let runs = self.paths.runs.iter();
-        let of_undercoat = runs.take_while(|run| run.strand < hair.undercoat);
-        let above_undercoat = of_undercoat.last().map_or(0, |run| run.joints.end);
-        let head = motion.head(scene);
+        let (hair, look) = (self.of.hair(), self.of.look());
+        let points = motion.points(&self.of);
+        let of_hair = self.joints.clone();
+        let first_above = self.strands.start + hair.undercoat;
+        let runs = &paths.runs[paths
+            .runs
+            .partition_point(|run| run.joints.end <= of_hair.start)..];
+        let of_undercoat = runs.iter().take_while(|run| run.strand < first_above);
+        let above_undercoat = of_undercoat
+            .last()
+            .map_or(of_hair.start, |run| run.joints.end);
+        let head = motion.head(&self.of);
         self.layer_joints.clear();
         self.made_of.clear();
         for layer in &look.layers {
@@ -191,45 +270,51 @@ impl FrameMaker {
                 at_rest: hair.file.strands.strand(i),
                 size: info.size,
             };
-            let infos = self.strands[..self.strand_count].iter().enumerate();
-            let above = infos.skip(hair.undercoat);
-            let strands: Vec<HairStrand> = above.map(of_strand).collect();
+            let above = hair.infos.iter().enumerate().skip(hair.undercoat);
+            let above: Vec<HairStrand> = above.map(of_strand).collect();
             let of_effects = effects::Hair {
-                strands: &strands,
+                strands: &above,
                 head_center: head.center,
                 head_height_m: head.height_m,
             };
             self.made.clear();
             let seed = layer_seed(look.seed, &layer.name);
             layer.program.make_paths(&of_effects, seed, &mut self.made);
-            let start = self.paths.len();
+            let start = paths.len();
             for (strand, number, points) in self.made.iter() {
-                let parent = self.strands[hair.undercoat + strand];
-                let index = self.strands.len();
-                self.made_of.push(strand);
-                self.strands.push(StrandInfo {
+                let parent = strands[first_above + strand];
+                let index = strands.len();
+                self.made_of.push(hair.undercoat + strand);
+                strands.push(StrandInfo {
                     id: made_id(parent.id, number),
                     ..parent
                 });
-                self.paths.push_strand(index, points, look.path(), camera)?;
+                paths.push_strand(index, points, look.path(), camera)?;
             }
-            self.layer_joints.push(start..self.paths.len());
+            self.layer_joints.push(start..paths.len());
         }
+        self.joints.end = paths.len();
         Ok(())
     }
 
-    /// Fills in the material normals of all joints, where something reads them.
-    fn find_material_normals(&mut self, scene: &Scene, motion: &Motion) {
+    /// Appends the material normals of the object's joints: any where it reads none.
+    fn push_material_normals(
+        &mut self,
+        motion: &ObjectMotion,
+        paths: &Paths,
+        normals: &mut Vec<Vec3>,
+    ) {
         let Some(material) = &mut self.material else {
+            normals.resize(self.joints.end, Vec3::Y);
             return;
         };
-        let hair = scene.hair();
+        let hair = self.of.hair();
         let rest = &hair.file.strands;
-        let points = motion.points(scene);
+        let points = motion.points(&self.of);
         let strands = || (0..rest.len()).map(|strand| rest.point_range(strand));
         let (rotation, _) = rigid(motion.pose(), hair.head);
         material.turn(rest.points(), strands(), hair.head.center, rotation);
-        let is_simulated = Dynamics::moves(&scene.look().sections.dynamics, scene.script());
+        let is_simulated = Dynamics::moves(&self.of.look().sections.dynamics, self.of.script());
         match motion.dynamics() {
             _ if hair.file.motion.is_some() => {
                 material.follow(rest.points(), points, strands(), rotation);
@@ -243,11 +328,22 @@ impl FrameMaker {
             }
             None => {}
         }
-        let of_path = |strand: usize| match strand.checked_sub(self.strand_count) {
+        let of_path = |strand: usize| match strand.checked_sub(self.strands.end) {
             Some(made) => rest.point_range(self.made_of[made]),
-            None => rest.point_range(strand),
+            None => rest.point_range(strand - self.strands.start),
         };
-        material.at_joints(&self.paths, of_path);
+        material.push_at_joints(paths, self.joints.clone(), of_path, normals);
+    }
+
+    /// The head's surfaces on the screen, by a camera of the object's own.
+    fn surfaces(&mut self, motion: &ObjectMotion, camera: &Camera, light: Light) -> Vec<Surface> {
+        let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
+            return Vec::new();
+        };
+        let model = posed.in_pose(neck, motion.pose());
+        let paint = self.of.look().paint(self.of.hair().head);
+        let light = self.of.placement().own_light(light);
+        head::surfaces(model, &paint, camera, &light)
     }
 }
 

@@ -13,7 +13,9 @@ mod look;
 mod material;
 mod motion;
 mod neck;
+mod object;
 mod part;
+mod placement;
 mod preset;
 mod reach;
 mod scalp;
@@ -32,11 +34,12 @@ pub use hair::HairModel;
 pub use head::HeadModel;
 pub use look::Look;
 pub use motion::Motion;
+pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
     BrushChoice, CameraSection, ClumpSection, FixedTo, HairSection, HeadSection, HeadShape,
-    LightKind, LightSection, MotionSection, OrderChoice, PathChoice, PathSection, Preset,
-    SceneSection, Sections, TopSection, UpAxis, VERSION,
+    LightKind, LightSection, MotionSection, NamedObject, ObjectSection, OrderChoice, PathChoice,
+    PathSection, Preset, SceneSection, Sections, TopSection, UpAxis, VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;

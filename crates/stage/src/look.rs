@@ -43,20 +43,27 @@ impl Look {
         }
         let light = &sections.light;
         let light_direction = direction_from_angles(light.yaw, light.pitch)?;
-        let layers: Vec<Layer> = preset.layers.iter().map(|layer| layer.build()).collect();
-        if light.kind != LightKind::Point {
-            let needs_place = |layer: &&Layer| layer.program.needs_point_light();
-            if let Some(layer) = layers.iter().find(needs_place) {
-                return Err(StageError::NoPointLight(layer.name.clone()));
-            }
-        }
-        Ok(Self {
+        let look = Self {
             seed: preset.seed,
             clump: Varied::new(&sections.clump.0),
             sections,
-            layers,
+            layers: preset.layers.iter().map(|layer| layer.build()).collect(),
             light_direction,
-        })
+        };
+        look.lights(&look)?;
+        Ok(look)
+    }
+
+    /// Whether the light of this look is one that the layers of another can be drawn in.
+    pub(crate) fn lights(&self, other: &Self) -> Result<(), StageError> {
+        if self.sections.light.kind == LightKind::Point {
+            return Ok(());
+        }
+        let needs_place = |layer: &&Layer| layer.program.needs_point_light();
+        match other.layers.iter().find(needs_place) {
+            Some(layer) => Err(StageError::NoPointLight(layer.name.clone())),
+            None => Ok(()),
+        }
     }
 
     /// Whether anything reads material normals.

@@ -16,7 +16,6 @@ pub(crate) struct Material {
     /// Unit vectors across the links at rest; empty until something reads them.
     rest: Vec<Vec3>,
     now: Vec<Vec3>,
-    joints: Vec<Vec3>,
 }
 
 /// Shorter links have no direction (m).
@@ -72,25 +71,28 @@ impl Material {
         }
     }
 
-    /// The normals at the joints of paths, across the path there; `of_path` gives the points of the strand that a
+    /// Appends the normals at joints of paths, across the path there; `of_path` gives the points of the strand that a
     /// run follows.
-    pub fn at_joints(&mut self, paths: &Paths, of_path: impl Fn(usize) -> Range<usize>) {
-        self.joints.clear();
-        for run in &paths.runs {
+    pub fn push_at_joints(
+        &self,
+        paths: &Paths,
+        joints: Range<usize>,
+        of_path: impl Fn(usize) -> Range<usize>,
+        normals_at_joints: &mut Vec<Vec3>,
+    ) {
+        let first = paths
+            .runs
+            .partition_point(|run| run.joints.end <= joints.start);
+        for run in &paths.runs[first..] {
             let normals = &self.now[of_path(run.strand)];
             for joint in run.joints.clone() {
                 let tangent = (paths.forward[joint] - paths.backward[joint])
                     .normalize_or(paths.forward[joint]);
                 let normal = between(normals, paths.u[joint]);
-                self.joints
+                normals_at_joints
                     .push(across(normal, tangent).normalize_or(tangent.any_orthonormal_vector()));
             }
         }
-    }
-
-    /// One for each joint of the last paths; none where nothing reads them.
-    pub fn joints(&self) -> &[Vec3] {
-        &self.joints
     }
 }
 

@@ -1,24 +1,32 @@
-//! The motion of a scene: where its head is, and its hair.
+//! The motion of a scene: where its heads are, and their hair.
 
 use crate::bake::Bake;
 use crate::dynamics::Dynamics;
 use crate::files::StageError;
 use crate::neck::{Neck, rigid};
+use crate::object::Object;
 use crate::reach::may_see;
-use crate::scene::Scene;
+use crate::scene::{Scene, mean_head};
 use crate::script::HeadPose;
 use glam::Vec3;
+use hair_sim::Stats;
 use render::Head;
 use stroke_path::Camera;
 
-/// Where the head of a scene is, and its hair: simulated, baked, or in its key shapes.
+/// Where the heads of a scene are, and their hair: simulated, baked, or in its key shapes.
 #[derive(Default)]
 pub struct Motion {
+    objects: Vec<ObjectMotion>,
+}
+
+/// An object in motion, in its own coordinates: where its files have it.
+#[derive(Default)]
+pub(crate) struct ObjectMotion {
     pose: HeadPose,
     points: Vec<Vec3>,
     dynamics: Option<Dynamics>,
-    /// The scene that this is the motion of.
-    of: Option<Scene>,
+    /// What this is the motion of, and the scene's frames a second.
+    of: Option<(Object, f32)>,
 }
 
 impl Motion {
@@ -28,8 +36,8 @@ impl Motion {
         Self::default()
     }
 
-    /// Moves head and hair to `time` (seconds): hair that moves is simulated, in steps from the start. A scene that
-    /// moves in another way than the last one begins anew.
+    /// Moves heads and hair to `time` (seconds): hair that moves is simulated, in steps from the start. An object that
+    /// moves in another way than the last one in its place begins anew.
     ///
     /// # Errors
     ///
@@ -62,11 +70,84 @@ impl Motion {
         time: f64,
         camera: Option<&Camera>,
     ) -> Result<(), StageError> {
-        if !self.of.as_ref().is_some_and(|of| of.moves_as(scene)) {
-            self.dynamics = None;
-            self.of = Some(scene.clone());
+        let objects = scene.objects();
+        self.objects
+            .resize_with(objects.len(), ObjectMotion::default);
+        for (object, motion) in objects.iter().zip(&mut self.objects) {
+            motion.advance(object, scene.fps(), time, camera)?;
         }
-        let (hair, script, look) = (scene.hair(), scene.script(), scene.look());
+        Ok(())
+    }
+
+    /// Adds the strands of all objects as they stand to a bake, at `time` (seconds).
+    pub fn record(&self, time: f32, bake: &mut Bake) {
+        match &self.objects[..] {
+            [one] => bake.push(time, &one.points),
+            objects => {
+                let points: Vec<&[Vec3]> = objects.iter().map(|o| &o.points[..]).collect();
+                bake.push(time, &points.concat());
+            }
+        }
+    }
+
+    /// What the simulation did in its last step; nothing where nothing is simulated.
+    #[must_use]
+    pub fn simulated(&self) -> Stats {
+        let dynamics = self.dynamics().map(Dynamics::stats);
+        dynamics.fold(Stats::default(), Stats::plus)
+    }
+
+    /// How many steps the simulation has taken, long ones of hair off screen counted as one, and those of each object for themselves.
+    #[must_use]
+    pub fn steps_taken(&self) -> u64 {
+        self.dynamics().map(Dynamics::taken).sum()
+    }
+
+    fn dynamics(&self) -> impl Iterator<Item = &Dynamics> {
+        let objects = self.objects.iter();
+        objects.filter_map(|object| object.dynamics.as_ref())
+    }
+
+    /// The head of the scene where it is now; of several the mean.
+    #[must_use]
+    pub fn head(&self, scene: &Scene) -> Head {
+        let heads = scene.objects().iter().enumerate();
+        mean_head(heads.map(|(index, object)| {
+            let own = self.of(index).head(object);
+            object.placement().head(own)
+        }))
+    }
+
+    /// The motion of the object of that index; one that has not begun where there is none.
+    pub(crate) fn of(&self, index: usize) -> &ObjectMotion {
+        const STILL: &ObjectMotion = &ObjectMotion::new();
+        self.objects.get(index).unwrap_or(STILL)
+    }
+}
+
+impl ObjectMotion {
+    const fn new() -> Self {
+        Self {
+            pose: HeadPose::REST,
+            points: Vec::new(),
+            dynamics: None,
+            of: None,
+        }
+    }
+
+    fn advance(
+        &mut self,
+        object: &Object,
+        fps: f32,
+        time: f64,
+        camera: Option<&Camera>,
+    ) -> Result<(), StageError> {
+        let is_same = |(of, at): &(Object, f32)| of.moves_as(object) && *at == fps;
+        if !self.of.as_ref().is_some_and(is_same) {
+            self.dynamics = None;
+            self.of = Some((object.clone(), fps));
+        }
+        let (hair, script, look) = (object.hair(), object.script(), object.look());
         let at_rest = hair.file.strands.points();
         self.points.resize(at_rest.len(), Vec3::ZERO);
         self.pose = script.head_at(time);
@@ -90,7 +171,7 @@ impl Motion {
         if !is_simulated {
             return Ok(());
         }
-        let center = self.head(scene).center;
+        let center = object.placement().point(self.head(object).center);
         let is_seen = camera.is_none_or(|camera| may_see(camera, center, hair.reach_m));
         let dynamics = match &mut self.dynamics {
             Some(dynamics) => dynamics,
@@ -99,10 +180,10 @@ impl Motion {
                 self.dynamics.insert(Dynamics::new(
                     hair,
                     &sizes,
-                    scene.neck().map(Neck::rest_mesh),
+                    object.neck().map(Neck::rest_mesh),
                     section,
                     script.hold,
-                    look.sections.scene.fps,
+                    fps,
                     look.seed,
                 )?)
             }
@@ -110,30 +191,9 @@ impl Motion {
         dynamics.advance_to(time, script, is_seen, &mut self.points)
     }
 
-    /// Adds the strands as they stand to a bake, at `time` (seconds).
-    pub fn record(&self, time: f32, bake: &mut Bake) {
-        bake.push(time, &self.points);
-    }
-
-    /// What the simulation did in its last step; nothing where nothing is simulated.
-    #[must_use]
-    pub fn simulated(&self) -> hair_sim::Stats {
-        self.dynamics
-            .as_ref()
-            .map(Dynamics::stats)
-            .unwrap_or_default()
-    }
-
-    /// How many steps the simulation has taken, long ones of hair off screen counted as one.
-    #[must_use]
-    pub fn steps_taken(&self) -> u64 {
-        self.dynamics.as_ref().map_or(0, Dynamics::taken)
-    }
-
-    /// The head of the scene where it is now.
-    #[must_use]
-    pub fn head(&self, scene: &Scene) -> Head {
-        let head = scene.head();
+    /// Its head where it is now.
+    pub(crate) fn head(&self, object: &Object) -> Head {
+        let head = object.hair().head;
         let (rotation, translation) = rigid(self.pose, head);
         Head {
             center: (rotation * head.center.as_dvec3() + translation).as_vec3(),
@@ -149,11 +209,13 @@ impl Motion {
         self.dynamics.as_ref()
     }
 
-    /// The points of the scene's strands, as they stand; at rest where no motion has begun.
-    pub(crate) fn points<'a>(&'a self, scene: &'a Scene) -> &'a [Vec3] {
-        let at_rest = scene.hair().file.strands.points();
+    /// The points of the object's strands, as they stand; at rest where no motion of it has begun.
+    pub(crate) fn points<'a>(&'a self, object: &'a Object) -> &'a [Vec3] {
+        let at_rest = object.hair().file.strands.points();
         match &self.of {
-            Some(of) if of.moves_as(scene) && self.points.len() == at_rest.len() => &self.points,
+            Some((of, _)) if of.moves_as(object) && self.points.len() == at_rest.len() => {
+                &self.points
+            }
             _ => at_rest,
         }
     }

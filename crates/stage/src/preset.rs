@@ -1,7 +1,9 @@
 //! Presets: one RON file that says what is drawn and how.
 
+mod objects;
 mod sections;
 
+pub use objects::{NamedObject, ObjectSection};
 pub use sections::*;
 
 use crate::files::Files;
@@ -23,6 +25,10 @@ pub struct Preset<'r> {
     pub sections: Sections,
     /// The layers, in the order of the file.
     pub layers: Vec<LayerSpec<'r>>,
+    /// The objects that it names. Without any it describes one itself.
+    pub objects: Vec<NamedObject>,
+    /// The effects that it was read with, and that its objects' presets are read with.
+    registry: Option<&'r Registry>,
     /// Where the file names other files.
     named: Vec<Named>,
 }
@@ -55,6 +61,8 @@ impl<'r> Preset<'r> {
             seed,
             sections,
             layers,
+            objects: Vec::new(),
+            registry: None,
             named: Vec::new(),
         }
     }
@@ -83,13 +91,24 @@ impl<'r> Preset<'r> {
         let names = Sections::ALL.iter().map(|(name, ..)| *name);
         let known: Vec<&str> = (Self::TOP.iter().map(|param| param.name))
             .chain(names)
-            .chain(["layers"])
+            .chain(["layers", "objects"])
             .collect();
-        let mut preset = Self::new(0, Sections::default(), Vec::new());
+        let mut preset = Self {
+            registry: Some(registry),
+            ..Self::new(0, Sections::default(), Vec::new())
+        };
         let mut plain = Vec::new();
         let mut layers = None;
+        let objects = fields.iter().find(|field| field.name == "objects");
         for field in &fields {
-            if field.name == "layers" {
+            let is_section = Sections::ALL.iter().any(|(name, ..)| *name == field.name);
+            if field.name == "objects" {
+                preset.objects = NamedObject::read_list(reader, field.value);
+            } else if objects.is_some()
+                && (field.name == "layers" || is_section && objects::is_of_objects(field.name))
+            {
+                reader.error(field.name, objects::said_elsewhere(field.name));
+            } else if field.name == "layers" {
                 layers = Some(field);
             } else if preset.sections.by_name(field.name).is_some() {
                 preset.read_section(reader, field);
@@ -110,6 +129,7 @@ impl<'r> Preset<'r> {
         }
         match layers {
             Some(field) => preset.layers = reader.layers(field.value, registry, &known),
+            None if objects.is_some() => {}
             None => {
                 let message = "the preset has no `layers`, so it would draw nothing";
                 reader.error(reader.text(), message);
@@ -168,6 +188,8 @@ impl<'r> Preset<'r> {
             Some(PresetError { place, message })
         };
         let mut errors: Vec<PresetError> = self.named.iter().filter_map(missing_file).collect();
+        let objects = self.objects.iter();
+        errors.extend(objects.filter_map(|object| object.missing(&files.preset_folder)));
         errors.sort_by_key(|e| (e.place.line, e.place.column));
         if errors.is_empty() {
             Ok(())
@@ -197,6 +219,9 @@ impl<'r> Preset<'r> {
         let Some(section) = self.sections.by_name(owner) else {
             return Err(SetError::Unknown(self.no_layer(owner)));
         };
+        if !self.objects.is_empty() && objects::is_of_objects(owner) {
+            return Err(SetError::Unknown(objects::said_elsewhere(owner)));
+        }
         set_text(section, owner, param, text)?;
         // What the file says is no longer what is meant.
         self.named

@@ -1,30 +1,25 @@
-//! A scene: hair, head, script and look, which never change. What moves and what is drawn is kept apart from it.
+//! A scene: objects, light and picture, which never change. What moves and what is drawn is kept apart from it.
 
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
-use crate::load;
 use crate::look::Look;
-use crate::neck::Neck;
+use crate::object::Object;
 use crate::preset::{CameraSection, OrderChoice, Preset};
-use crate::script::{self, MotionScript};
 use glam::Vec3;
-use render::{Head, StrandInfo};
+use render::{Brush, Head};
 use std::sync::Arc;
-use stroke_path::{Camera, Cut, OrbitView};
+use stroke_path::{Camera, OrbitView};
 
 /// How near the eye strokes are cut, in head heights.
 const NEAR: f32 = 0.05;
 
-/// How far the pieces of a strand that curls go on beyond where they meet, in parts of its full radius.
-const OVERLAP: f32 = 3.0;
-
-/// Hair on a head, with a look. Its parts are shared: a clone is cheap, and a scene with another part is one of which
-/// the others are not made again.
+/// Objects in one light, for one picture. They are shared: a clone is cheap, and a scene with another part is one of which the
+/// others are not made again.
 ///
 /// ```
 /// use hair_sim::Strands;
-/// use stage::{FrameMaker, HairModel, HeadModel, Look, Motion, Preset, Scene, Sections};
+/// use stage::{FrameMaker, HairModel, HeadModel, Look, Motion, Object, Preset, Scene, Sections};
 ///
 /// // Strands of the program's own, in metres, Y up, the face towards +Z; here on the bust that comes with inkstrand.
 /// let head = HeadModel::bust();
@@ -37,35 +32,34 @@ const OVERLAP: f32 = 3.0;
 /// let hair = HairModel::new(strands, Some(&head))?;
 ///
 /// // A look without a file: sections and layers.
-/// let registry = effects::Registry::new(); // with effects in it, strokes are drawn
 /// let mut sections = Sections::default();
 /// sections.scene.size = [320, 240];
-/// let look = Look::new(&Preset::new(1, sections.clone(), Vec::new()))?;
-/// let scene = Scene::new(hair, Some(head), look)?;
+/// let preset = Preset::new(1, sections.clone(), Vec::new()); // with effects in a list of layers, strokes are drawn
+/// let girl = Object::new(hair, Some(head), Look::new(&preset)?)?;
+///
+/// // Two of her, who look at each other. Nothing is made twice.
+/// let left = girl.placed(60.0, glam::Vec3::new(-0.2, 0.0, 0.0));
+/// let right = girl.placed(-60.0, glam::Vec3::new(0.2, 0.0, 0.0));
+/// let scene = Scene::new(vec![left, right], Look::new(&preset)?)?;
 ///
 /// let mut motion = Motion::new();
 /// let mut frames = FrameMaker::new();
 /// motion.advance_to(&scene, 0.5)?;
 /// let frame = frames.frame(&scene, &motion)?;
-/// assert_eq!(frame.strands.len(), 8);
+/// assert_eq!(frame.strands.len(), 16);
 ///
-/// // Another look for the same hair and head, which aren't made again.
+/// // Another look for the left one: hair and head aren't made again, and the other stays as she is.
 /// sections.head.light = [0.2, 0.1, 0.05];
-/// let darker = scene.with_look(Look::new(&Preset::new(1, sections, Vec::new()))?)?;
-/// assert!(std::ptr::eq(scene.hair(), darker.hair()));
-/// # let _ = registry;
+/// let tanned = Look::new(&Preset::new(1, sections, Vec::new()))?;
+/// let other = scene.with_object(0, scene.objects()[0].with_look(tanned)?)?;
+/// assert!(std::ptr::eq(scene.objects()[0].hair(), other.objects()[0].hair()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone)]
 pub struct Scene {
-    hair: Arc<HairModel>,
-    /// The head as it was given, and as it stands under this hair.
-    bare_head: Option<Arc<HeadModel>>,
-    neck: Option<Arc<Neck>>,
-    script: Arc<MotionScript>,
+    objects: Arc<[Object]>,
+    /// Of which sections `scene`, `camera` and `light` are meant.
     look: Arc<Look>,
-    /// Where each strand's path is cut.
-    cuts: Arc<Vec<Vec<Cut>>>,
     /// From where it is seen. Values are as in presets; a camera is made of them for each frame.
     pub camera: CameraSection,
     /// Sentences for the user: what was guessed.
@@ -73,106 +67,121 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A scene of a program's own, without any file. Its head is still; hair may fall.
+    /// A scene of a program's own, without any file. Light, camera and picture are those of `look`; what else it says is of no account.
+    ///
+    /// # Errors
+    ///
+    /// When there is no object, objects have different brushes, or a layer needs another light.
+    pub fn new(objects: Vec<Object>, look: Look) -> Result<Self, StageError> {
+        Self::of(objects, Arc::new(look), Vec::new())
+    }
+
+    /// One head of hair in its own light.
     ///
     /// # Errors
     ///
     /// When no path can be made of the strands.
-    pub fn new(hair: HairModel, head: Option<HeadModel>, look: Look) -> Result<Self, StageError> {
-        Self::of(hair, head, look, MotionScript::default(), Vec::new())
+    pub fn of_one(
+        hair: HairModel,
+        head: Option<HeadModel>,
+        look: Look,
+    ) -> Result<Self, StageError> {
+        let object = Object::new(hair, head, look)?;
+        let look = object.shared_look().clone();
+        Self::of(vec![object], look, Vec::new())
     }
 
-    /// Reads the preset's files.
+    /// Reads the preset's files, or the presets of the objects that it names, and theirs.
     ///
     /// # Errors
     ///
-    /// When hair, head, script or bake cannot be read, or the look contradicts itself.
+    /// When hair, head, script or bake cannot be read, or a look contradicts itself.
     pub fn load(preset: &Preset, files: &Files) -> Result<Self, StageError> {
         let mut notes = Vec::new();
         if preset.sections.scene.order == OrderChoice::Scattered {
             notes.push("scene: order `scattered` is no more; `rounded` is drawn".to_owned());
         }
-        let head = load::head(preset, files, &mut notes)?;
-        let mesh = head.as_ref().map(|model| &model.mesh);
-        let mut hair = load::hair(preset, files, mesh, &mut notes)?;
-        let script = script::load(preset, files, &mut hair, mesh)?;
-        hair.choose_guides(&preset.sections.hair);
-        load::bake(preset, files, &mut hair)?;
-        Self::of(hair, head, Look::new(preset)?, script, notes)
+        let look = Arc::new(Look::new(preset)?);
+        let objects = match &preset.objects[..] {
+            [] => vec![Object::load(preset, files, look.clone(), &mut notes)?],
+            _ => preset.load_objects(files, &mut notes)?,
+        };
+        Self::of(objects, look, notes)
     }
 
-    fn of(
-        hair: HairModel,
-        head: Option<HeadModel>,
-        look: Look,
-        script: MotionScript,
-        notes: Vec<String>,
-    ) -> Result<Self, StageError> {
-        let head = head.map(Arc::new);
+    fn of(objects: Vec<Object>, look: Arc<Look>, notes: Vec<String>) -> Result<Self, StageError> {
+        let first = objects.first().ok_or(StageError::NoObject)?;
+        let brush = first.look().brush();
+        if objects.iter().any(|object| object.look().brush() != brush) {
+            return Err(StageError::Brushes);
+        }
+        for object in &objects {
+            look.lights(object.look())?;
+        }
         Ok(Self {
-            neck: head
-                .as_deref()
-                .map(|head| Arc::new(neck(head, &hair, &look))),
-            cuts: Arc::new(cuts(&hair, &look)?),
+            objects: objects.into(),
             camera: look.sections.camera.clone(),
-            bare_head: head,
-            hair: Arc::new(hair),
-            script: Arc::new(script),
-            look: Arc::new(look),
+            look,
             notes: notes.into(),
         })
     }
 
-    /// The same hair and head with another look, seen by that look's camera.
+    /// The same with another look, and seen by that look's camera. Of one object that is its own too; where there are more, theirs
+    /// stay, and light, camera and picture change.
     ///
     /// # Errors
     ///
-    /// When no path of the look's kind can be made of the strands.
+    /// When no path of the look's kind can be made of the strands, or a layer needs another light.
     pub fn with_look(&self, look: Look) -> Result<Self, StageError> {
-        let mut scene = self.clone();
-        if look.path() != self.look.path() {
-            scene.cuts = Arc::new(cuts(&self.hair, &look)?);
-        }
-        if look.sections.head.scalp != self.look.sections.head.scalp {
-            let bare = self.bare_head.as_deref();
-            scene.neck = bare.map(|head| Arc::new(neck(head, &self.hair, &look)));
-        }
-        scene.camera = look.sections.camera.clone();
-        scene.look = Arc::new(look);
-        Ok(scene)
-    }
-
-    /// Other hair on the same head, in the same look.
-    ///
-    /// # Errors
-    ///
-    /// When no path can be made of the strands.
-    pub fn with_hair(&self, hair: HairModel) -> Result<Self, StageError> {
-        let bare = self.bare_head.as_deref();
+        let look = Arc::new(look);
+        let objects = match &self.objects[..] {
+            [one] => vec![one.in_look(look.clone())?],
+            objects => objects.to_vec(),
+        };
         Ok(Self {
-            cuts: Arc::new(cuts(&hair, &self.look)?),
-            neck: bare.map(|head| Arc::new(neck(head, &hair, &self.look))),
-            hair: Arc::new(hair),
-            ..self.clone()
+            notes: self.notes.clone(),
+            ..Self::of(objects, look, Vec::new())?
         })
     }
 
-    /// The hair.
-    #[must_use]
-    pub fn hair(&self) -> &HairModel {
-        &self.hair
+    /// The same with another object in place of one.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`], and when there is no object of that index.
+    pub fn with_object(&self, index: usize, object: Object) -> Result<Self, StageError> {
+        let mut objects = self.objects.to_vec();
+        *objects.get_mut(index).ok_or(StageError::NoObject)? = object;
+        Ok(Self {
+            camera: self.camera.clone(),
+            notes: self.notes.clone(),
+            ..Self::of(objects, self.look.clone(), Vec::new())?
+        })
     }
 
-    /// The look.
+    /// What stands in it, one or more.
+    #[must_use]
+    pub fn objects(&self) -> &[Object] {
+        &self.objects
+    }
+
+    /// The look whose light and picture it has.
     #[must_use]
     pub fn look(&self) -> &Look {
         &self.look
     }
 
-    /// Where the head is while nothing moves, and how large.
+    /// The number of all strands.
+    #[must_use]
+    pub fn strand_count(&self) -> usize {
+        let hair = self.objects.iter().map(Object::hair);
+        hair.map(HairModel::strand_count).sum()
+    }
+
+    /// Where the head is while nothing moves, and how large; of several the mean.
     #[must_use]
     pub fn head(&self) -> Head {
-        self.hair.head
+        mean_head(self.objects.iter().map(Object::head))
     }
 
     /// Sentences for the user: what was guessed about the files.
@@ -205,60 +214,23 @@ impl Scene {
         Ok(Camera::orbit(view, size, self.near_m())?)
     }
 
-    pub(crate) fn script(&self) -> &MotionScript {
-        &self.script
+    /// What all strokes are made of.
+    pub(crate) fn brush(&self) -> Brush {
+        let first = self.objects.first();
+        first.map_or(Brush::default(), |object| object.look().brush())
     }
 
-    pub(crate) fn neck(&self) -> Option<&Neck> {
-        self.neck.as_deref()
-    }
-
-    pub(crate) fn cuts(&self) -> &[Vec<Cut>] {
-        &self.cuts
-    }
-
-    /// Whether both have the same hair on the same head, not only alike ones.
-    pub(crate) fn has_hair_and_head_of(&self, other: &Self) -> bool {
-        let same_head = match (&self.neck, &other.neck) {
-            (Some(own), Some(others)) => Arc::ptr_eq(own, others),
-            (own, others) => own.is_none() && others.is_none(),
-        };
-        same_head && Arc::ptr_eq(&self.hair, &other.hair)
-    }
-
-    /// Whether hair moves alike in both: the same hair on the same head, with the same script and dynamics.
-    pub(crate) fn moves_as(&self, other: &Self) -> bool {
-        let of_look = |scene: &Self| {
-            let sections = &scene.look.sections;
-            (
-                sections.scene.fps,
-                scene.look.seed,
-                sections.dynamics.clone(),
-            )
-        };
-        self.has_hair_and_head_of(other)
-            && Arc::ptr_eq(&self.script, &other.script)
-            && of_look(self) == of_look(other)
+    /// Steps of the simulation a second, where a preset gives none.
+    pub(crate) fn fps(&self) -> f32 {
+        self.look.sections.scene.fps
     }
 }
 
-/// The head with the hair's bands in it, and with what of it has hair told from what has none.
-fn neck(head: &HeadModel, hair: &HairModel, look: &Look) -> Neck {
-    let mut model = head.clone();
-    model.add_ties(&hair.ties);
-    let reach = look.sections.head.scalp;
-    // A style's own coat lies there.
-    if reach > 0.0 && hair.undercoat == 0 {
-        model.find_scalp(&hair.all_roots, reach * hair.head.height_m);
+/// The mean of heads; that of one is itself.
+pub(crate) fn mean_head(heads: impl ExactSizeIterator<Item = Head> + Clone) -> Head {
+    let count = heads.len() as f32;
+    Head {
+        center: heads.clone().map(|head| head.center).sum::<Vec3>() / count,
+        height_m: heads.map(|head| head.height_m).sum::<f32>() / count,
     }
-    Neck::new(model, hair.head)
-}
-
-fn cuts(hair: &HairModel, look: &Look) -> Result<Vec<Vec<Cut>>, StageError> {
-    let cut = |(i, info): (usize, &StrandInfo)| {
-        let overlap_m = OVERLAP * info.size * hair.head.unit_m();
-        stroke_path::cuts(hair.file.strands.strand(i), look.path(), overlap_m)
-    };
-    let strands = hair.infos.iter().enumerate();
-    Ok(strands.map(cut).collect::<Result<_, _>>()?)
 }

@@ -46,7 +46,7 @@ impl Stage {
     /// The number of strands.
     #[must_use]
     pub fn strand_count(&self) -> usize {
-        self.scene.hair().strand_count()
+        self.scene.strand_count()
     }
 
     /// [`FrameMaker::culled`].
@@ -88,10 +88,12 @@ impl Stage {
     ///
     /// # Errors
     ///
-    /// When it has no frames, or their times do not increase.
+    /// When it has no frames, or their times do not increase; or when the scene has several objects.
     pub fn bake_text(&self, bake: Bake) -> Result<String, StageError> {
-        let hair = self.scene.hair();
-        bake.text(&hair.file.strands, &hair.infos)
+        match self.scene.objects() {
+            [one] => bake.text(&one.hair().file.strands, &one.hair().infos),
+            objects => Err(StageError::BakeOfObjects(objects.len())),
+        }
     }
 
     /// [`Motion::simulated`].

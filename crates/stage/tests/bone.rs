@@ -76,7 +76,11 @@ fn moment(stage: &mut Stage, time: f32) -> (Vec3, f32, Vec<Vec3>) {
     stage.advance_to(time).unwrap();
     let frame = stage.frame().unwrap();
     let means = frame.strands.iter().map(|strand| strand.mean).collect();
-    (frame.head.center, frame.head.height_m, means)
+    (
+        frame.objects[0].head.center,
+        frame.objects[0].head.height_m,
+        means,
+    )
 }
 
 #[test]

@@ -75,7 +75,9 @@ fn stage(folder: &Path, values: &[(&str, f32)]) -> Stage {
 
 fn picture(stage: &mut Stage) -> Picture {
     let mut drawing = Drawing::default();
-    Evaluator::default().evaluate(&stage.frame().unwrap(), &mut drawing);
+    Evaluator::default()
+        .evaluate(&stage.frame().unwrap(), &mut drawing)
+        .unwrap();
     let mut rasterizer = Rasterizer::new(SAMPLES, Some(2)).unwrap();
     rasterizer.draw(&drawing).unwrap()
 }

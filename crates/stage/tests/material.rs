@@ -101,7 +101,7 @@ fn they_are_across_the_strand_and_change_gently_along_it_and_in_time() {
 fn they_point_away_from_the_head_at_rest_and_turn_with_it() {
     let mut stage = scene("bob.style.ron", &[READ[0], ("dynamics.solver", "none")]);
     let (normals, _, positions, _) = joints(&mut stage, 0.0);
-    let head = stage.frame().unwrap().head.center;
+    let head = stage.frame().unwrap().objects[0].head.center;
     let out: f32 = (normals.iter().zip(&positions))
         .map(|(normal, position)| normal.dot((*position - head).normalize()))
         .sum::<f32>()

@@ -89,7 +89,7 @@ fn the_head_turns_and_what_stands_on_it_turns_with_it() {
     let means = |stage: &mut Stage| -> (render::Head, Vec<Vec3>) {
         let frame = stage.frame().unwrap();
         let means = frame.strands.iter().map(|strand| strand.mean).collect();
-        (frame.head, means)
+        (frame.objects[0].head, means)
     };
     let before = means(&mut stage);
     stage.advance_to(1.0).unwrap();

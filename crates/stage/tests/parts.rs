@@ -43,13 +43,13 @@ fn files() -> Files {
 fn content(frame: &Frame) -> (Vec<Vec3>, Vec<u32>, String) {
     let numbers = [
         frame.edge_depth_m,
-        frame.head.height_m,
-        frame.clump.base().size,
+        frame.objects[0].head.height_m,
+        frame.objects[0].clump.base().size,
     ];
     let bits = numbers.map(f32::to_bits).to_vec();
     let rest = format!(
         "{:?} {:?} {:?} {:?} {:?}",
-        frame.surfaces, frame.light, frame.strands, frame.layer_joints, frame.brush
+        frame.surfaces, frame.light, frame.strands, frame.objects[0].layer_joints, frame.brush
     );
     (frame.paths.position.clone(), bits, rest)
 }
@@ -86,7 +86,10 @@ fn another_look_is_as_if_it_had_been_there_from_the_start() {
     for change in changes {
         let preset = preset(&registry, change);
         let changed = scene.with_look(Look::new(&preset).unwrap()).unwrap();
-        assert!(std::ptr::eq(changed.hair(), scene.hair()));
+        assert!(std::ptr::eq(
+            changed.objects()[0].hair(),
+            scene.objects()[0].hair()
+        ));
         let found = shown(&changed, &mut motion, &mut frames, 0.3);
         let mut fresh = Stage::new(&preset, &files()).unwrap();
         fresh.advance_to(0.3).unwrap();
@@ -126,7 +129,8 @@ fn other_hair_on_the_same_head() {
         strands.push(id, &points, None).unwrap();
     }
     let hair = HairModel::new(strands, Some(&HeadModel::bust())).unwrap();
-    let other = scene.with_hair(hair).unwrap();
+    let other = scene.objects()[0].with_hair(hair).unwrap();
+    let other = scene.with_object(0, other).unwrap();
     motion.advance_to(&other, 0.2).unwrap();
     let frame = frames.frame(&other, &motion).unwrap();
     let ids: Vec<u32> = frame

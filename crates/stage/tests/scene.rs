@@ -126,7 +126,7 @@ fn a_point_light_stands_in_head_heights() {
     let Light::Point(place) = frame.light else {
         panic!("the preset asks for a point")
     };
-    let expected = frame.head.center + Vec3::Z * 2.0 * frame.head.height_m;
+    let expected = frame.objects[0].head.center + Vec3::Z * 2.0 * frame.objects[0].head.height_m;
     assert!((place - expected).length() < 1e-5);
 }
 
@@ -212,7 +212,11 @@ fn how_many_strands_are_kept_moves_nothing() {
         };
         let mut stage = Stage::new(&preset, &files).unwrap();
         let frame = stage.frame().unwrap();
-        (frame.head, frame.camera.eye(), frame.strands.to_vec())
+        (
+            frame.objects[0].head,
+            frame.camera.eye(),
+            frame.strands.to_vec(),
+        )
     };
     let (head, eye, all) = view(0);
     for guides in [1, 7, 30] {

@@ -154,10 +154,10 @@ fn pixels(style: &Path, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
     let mut stage = Stage::new(&preset, &files).unwrap();
     let frame = stage.frame().unwrap();
     let mut drawing = Drawing::default();
-    Evaluator::default().evaluate(&frame, &mut drawing);
+    Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
 
     // The bare scalp over the head, in a colour of its own: what no hair covers shows.
-    let (camera, head) = (*frame.camera, frame.head);
+    let (camera, head) = (*frame.camera, frame.objects[0].head);
     let bust = groom::bust();
     let shell = groom::Shell::new(
         &bust.positions,
@@ -226,7 +226,7 @@ fn hair_does_not_change_the_size_of_the_head_it_grows_on() {
             ..Files::default()
         };
         let mut stage = Stage::new(&preset, &files).unwrap();
-        stage.frame().unwrap().head
+        stage.frame().unwrap().objects[0].head
     };
     let heads: Vec<render::Head> = styles().into_iter().map(head_under).collect();
     assert!(heads.iter().all(|head| *head == heads[0]), "{heads:?}");

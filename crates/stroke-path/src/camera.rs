@@ -4,7 +4,7 @@
 //! viewer's right, y up and z the *depth*, positive away from the viewer (so it is left-handed). The
 //! screen is in pixels, x to the right and y down, (0, 0) at the picture's upper left corner.
 
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 use portable_math::sin_cos_degrees;
 
 /// The widest vertical field of view, in degrees (not itself allowed).
@@ -157,6 +157,20 @@ impl Camera {
             forward: -back,
             ..Self::orbit(level, size_px, near_m)?
         })
+    }
+
+    /// The same camera in the coordinates of something that stands in the world turned by `rotation` and then moved by
+    /// `translation` (m): it sees a point of that as this one sees the placed point.
+    #[must_use]
+    pub fn seen_from(&self, rotation: Quat, translation: Vec3) -> Self {
+        let back = rotation.inverse();
+        Self {
+            eye: back * (self.eye - translation),
+            right: back * self.right,
+            up: back * self.up,
+            forward: back * self.forward,
+            ..*self
+        }
     }
 
     /// The camera's place in the world, in metres.

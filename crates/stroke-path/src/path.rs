@@ -3,7 +3,7 @@
 use crate::camera::Camera;
 use crate::cuts::Cut;
 use crate::resample::{PathError, PathKind};
-use glam::{Vec2, Vec3};
+use glam::{Quat, Vec2, Vec3};
 use std::ops::Range;
 
 /// Shorter segments have no direction of their own (m).
@@ -117,6 +117,22 @@ impl Paths {
     #[must_use]
     pub fn dropped(&self) -> usize {
         self.dropped
+    }
+
+    /// Turns and then moves (m) the places and directions in the world of some joints; where they are on the screen stays. For
+    /// strands that a camera [in their own coordinates](Camera::seen_from) has seen.
+    ///
+    /// # Panics
+    ///
+    /// When there are no such joints.
+    pub fn place(&mut self, joints: Range<usize>, rotation: Quat, translation: Vec3) {
+        for position in &mut self.position[joints.clone()] {
+            *position = rotation * *position + translation;
+        }
+        let directions = self.forward[joints.clone()].iter_mut();
+        for direction in directions.chain(&mut self.backward[joints]) {
+            *direction = rotation * *direction;
+        }
     }
 
     /// Appends what the camera sees of a strand: its particles from root to tip, in metres.

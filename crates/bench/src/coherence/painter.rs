@@ -30,10 +30,15 @@ impl Painter {
     }
 
     /// The frame's strokes.
-    pub fn strokes(&mut self, frame: &mut Frame, order: Order) -> &mut Drawing {
+    ///
+    /// # Errors
+    ///
+    /// When it makes none.
+    pub fn strokes(&mut self, frame: &mut Frame, order: Order) -> Result<&mut Drawing, String> {
         frame.order = order;
-        self.evaluator.evaluate(frame, &mut self.drawing);
-        &mut self.drawing
+        let made = self.evaluator.evaluate(frame, &mut self.drawing);
+        made.map_err(|error| error.to_string())?;
+        Ok(&mut self.drawing)
     }
 
     /// The frame's picture.
@@ -42,7 +47,7 @@ impl Painter {
     ///
     /// When it can't be drawn.
     pub fn picture(&mut self, frame: &mut Frame, order: Order) -> Result<Picture, String> {
-        self.strokes(frame, order);
+        self.strokes(frame, order)?;
         self.draw()
     }
 
@@ -81,11 +86,11 @@ impl Painter {
         order: Order,
         color: impl Fn(usize) -> [f32; 3],
     ) -> Result<Picture, String> {
-        let drawing = self.strokes(frame, order);
-        let joints = drawing.clump.len();
+        let drawing = self.strokes(frame, order)?;
         for layer in &mut drawing.layers {
+            let joints = layer.joints.clone();
             for (i, of_joint) in layer.colors.iter_mut().enumerate() {
-                *of_joint = color(i % joints);
+                *of_joint = color(joints.start + i % joints.len());
             }
         }
         for surface in &mut drawing.surfaces {

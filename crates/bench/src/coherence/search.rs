@@ -352,7 +352,7 @@ fn refine(
             if wanted.tiles.is_empty() {
                 continue;
             }
-            painters.many.strokes(&mut frame, *order);
+            painters.many.strokes(&mut frame, *order)?;
             let mut tiles = Vec::new();
             for &tile in &wanted.tiles {
                 let corner = corner(tile, size[0]).map(|place| place as i32 - AROUND as i32);

@@ -4,7 +4,7 @@
 use super::animation::{Animation, Kind, TICKS, Tick, seconds};
 use effects::{Layer, Registry, Varied, clump};
 use glam::{DVec3, Vec3};
-use render::{Brush, Frame, Head, Light, Order, StrandInfo};
+use render::{Brush, Frame, Head, Light, Object, Order, StrandInfo};
 use stage::Preset;
 use stroke_path::{Camera, Cut, OrbitView, PathKind, Paths, sin_cos_degrees};
 
@@ -157,12 +157,15 @@ impl Animation for Strands {
             camera: &self.camera,
             paths: &self.paths,
             strands: &self.infos,
-            head: HEAD,
+            objects: vec![Object {
+                joints: 0..self.paths.len(),
+                head: HEAD,
+                clump: &style.clump,
+                seed: 1,
+                layers: &style.layers,
+                layer_joints: &self.layer_joints,
+            }],
             light: Light::Direction(Vec3::new(0.5, 0.6, 0.62).normalize()),
-            clump: &style.clump,
-            seed: 1,
-            layers: &style.layers,
-            layer_joints: &self.layer_joints,
             material_normals: &[],
             surfaces: Vec::new(),
             background: Some([1.0; 3]),

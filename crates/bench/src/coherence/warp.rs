@@ -76,7 +76,7 @@ impl Shown {
         centers: &mut Painter,
         painters: &mut [Painter],
     ) -> Result<Self, String> {
-        let drawing = centers.strokes(frame, Order::default());
+        let drawing = centers.strokes(frame, Order::default())?;
         let centers = drawing.clump.iter().map(|disc| disc.center).collect();
         let mut pictures = Vec::new();
         for (_, order) in orders {

@@ -283,7 +283,7 @@ fn for_each_figure<P: Pen>(
 ) {
     for piece in painters_order(drawing) {
         let layer = &drawing.layers[piece.layer];
-        let places = piece.places(drawing);
+        let places = piece.places;
         let (discs, colors) = (&layer.discs[places.clone()], &layer.colors[places]);
         match outlines {
             Outlines::Strokes => {

@@ -10,17 +10,8 @@ pub struct Piece {
     pub layer: usize,
     /// Which of the layer's strokes.
     pub instance: usize,
-    /// The run's joints.
-    pub joints: Range<usize>,
-}
-
-impl Piece {
     /// The places of its discs and colours in its layer's lists.
-    #[must_use]
-    pub fn places(&self, drawing: &Drawing) -> Range<usize> {
-        let first = self.instance * drawing.clump.len();
-        first + self.joints.start..first + self.joints.end
-    }
+    pub places: Range<usize>,
 }
 
 /// All pieces of a drawing, the one that lies lowest first: strands from the far one to the near one
@@ -41,11 +32,13 @@ pub fn painters_order(drawing: &Drawing) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for (_, runs) in strands {
         for &layer in &layers {
-            for instance in 0..drawing.layers[layer].instances {
-                pieces.extend(runs.iter().map(|run| Piece {
+            let strokes = &drawing.layers[layer];
+            for instance in 0..strokes.instances {
+                let places = |run: &Run| strokes.places(instance, &run.joints);
+                pieces.extend(runs.iter().filter_map(places).map(|places| Piece {
                     layer,
                     instance,
-                    joints: run.joints.clone(),
+                    places,
                 }));
             }
         }
@@ -84,6 +77,7 @@ mod tests {
             .to_vec();
         let layer = |rank, instances| LayerStrokes {
             name: String::new(),
+            joints: 0..6,
             rank,
             instances,
             discs: discs.repeat(instances),
@@ -103,15 +97,14 @@ mod tests {
         let far_to_near = [1..3, 3..4, 0..1].map(|runs| &drawing.runs[runs]);
         for runs in far_to_near {
             for (layer, instance) in strokes {
+                let of_layer = 6 * instance;
                 expected.extend(runs.iter().map(|run| Piece {
                     layer,
                     instance,
-                    joints: run.joints.clone(),
+                    places: of_layer + run.joints.start..of_layer + run.joints.end,
                 }));
             }
         }
         assert_eq!(pieces, expected);
-        assert_eq!(pieces[6].places(&drawing), 8..9);
-        assert_eq!(pieces[5].places(&drawing), 3..4);
     }
 }

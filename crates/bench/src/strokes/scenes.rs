@@ -36,13 +36,13 @@ impl Scene {
     /// Segments of all strokes, empty ones too, and those that cover anything.
     #[must_use]
     pub fn segments(&self) -> [usize; 2] {
-        let joints = self.drawing.clump.len();
         let mut count = [0, 0];
         for layer in &self.drawing.layers {
-            for discs in layer.discs.chunks(joints) {
+            for instance in 0..layer.instances {
                 let runs = self.drawing.runs.iter();
-                for run in runs.map(|run| &discs[run.joints.clone()]) {
-                    let pairs = || run.windows(2);
+                let places = runs.filter_map(|run| layer.places(instance, &run.joints));
+                for discs in places.map(|places| &layer.discs[places]) {
+                    let pairs = || discs.windows(2);
                     count[0] += pairs().count();
                     count[1] += pairs()
                         .filter(|p| p[0].radius.max(p[1].radius) > 0.0)
@@ -88,7 +88,9 @@ pub fn twin_tails(root: &Path) -> Result<Scene, String> {
     let mut stage = Stage::new(&preset, &files).map_err(|error| error.to_string())?;
     let frame = stage.frame().map_err(|error| error.to_string())?;
     let mut drawing = Drawing::default();
-    Evaluator::default().evaluate(&frame, &mut drawing);
+    Evaluator::default()
+        .evaluate(&frame, &mut drawing)
+        .map_err(|error| error.to_string())?;
     drawing.surfaces.clear();
     drawing.background = None;
     // Resampled between particles: the source's stamps are shared out among more joints.
@@ -336,6 +338,7 @@ fn drawing(strands: impl Iterator<Item = (u32, Vec<Joint>)>, layers: &[LayerOf])
         let colors: Vec<[f32; 3]> = joints.iter().map(layer.color).collect();
         LayerStrokes {
             name: layer.name.to_owned(),
+            joints: 0..joints.len(),
             rank: layer.rank,
             instances: layer.instances,
             discs: (0..layer.instances).flat_map(discs_of).collect(),

@@ -3,7 +3,7 @@
 use effects::preset::{LAYER, OF_THE_EFFECT};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use serde_json::{Value, json};
-use stage::{FilePart, MOTION_PARTS, Preset, STYLE_PARTS, Sections};
+use stage::{FilePart, MOTION_PARTS, ObjectSection, Preset, STYLE_PARTS, Sections};
 
 /// A section of a preset as `inkstrand effects` shows it.
 pub(super) struct Section {
@@ -16,10 +16,15 @@ pub(super) struct Section {
 pub(super) fn sections() -> Vec<Section> {
     let top = ("preset", "What stands beside the sections.", Preset::TOP);
     let layers = ("layers", "What is drawn: effects, in a list.", LAYER);
+    let objects = (
+        "objects",
+        "Heads of hair of other presets in one picture, a list in place of all sections but scene, camera and light.",
+        ObjectSection::TABLE,
+    );
     [top]
         .iter()
         .chain(Sections::ALL)
-        .chain(&[layers])
+        .chain(&[layers, objects])
         .map(|&(name, doc, table)| Section { name, doc, table })
         .collect()
 }

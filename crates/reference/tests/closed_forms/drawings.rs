@@ -41,6 +41,7 @@ pub fn add_layer(drawing: &mut Drawing, rank: i32, color: [f32; 3], instances: &
     let discs = instances.concat();
     drawing.layers.push(LayerStrokes {
         name: format!("layer {}", drawing.layers.len()),
+        joints: 0..drawing.clump.len(),
         rank,
         instances: instances.len(),
         colors: vec![color; discs.len()],

@@ -1,7 +1,7 @@
 //! Joints to strokes on the screen, by the layers' own WGSL in Rust.
 
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
-use crate::frame::{FAR_LIGHT, Frame, seen_lengths};
+use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, Object, seen_lengths};
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
 use effects::{CLUMP_DISCS, Input, InputSet, Joints, Layer, Units, clump, layer_seed};
@@ -23,10 +23,15 @@ pub struct Evaluator {
 
 impl Evaluator {
     /// Makes all strokes of `frame`. Only what the active layers declare is worked out.
-    pub fn evaluate(&mut self, frame: &Frame, drawing: &mut Drawing) {
+    ///
+    /// # Errors
+    ///
+    /// When the frame is invalid ([`Frame::check`]); then the drawing is as it was.
+    pub fn evaluate(&mut self, frame: &Frame, drawing: &mut Drawing) -> Result<(), FrameError> {
+        frame.check()?;
         let read = inputs(frame);
         self.fill_inputs(frame, read);
-        self.fill_clump(frame, read);
+        self.fill_clumps(frame, read);
         self.fill_seen_length(frame);
 
         drawing.size = frame.camera.size_px();
@@ -43,33 +48,41 @@ impl Evaluator {
         self.fill_clump_discs(frame, &mut drawing.clump, &mut drawing.sides);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
-        for (layer, joints) in frame.layers.iter().zip(frame.layer_joints) {
-            let lists = spare
-                .next()
-                .map(|l| (l.discs, l.colors))
-                .unwrap_or_default();
-            let strokes = self.layer(frame, layer, joints, lists);
-            if layer.program.has_own_paths() {
-                // No strand's clump holds them: they are their own.
-                drawing.clump[joints.clone()].copy_from_slice(&strokes.discs[joints.clone()]);
-                for side in drawing.sides.chunks_mut(frame.paths.len().max(1)) {
-                    side[joints.clone()].fill(NO_DISC);
+        for object in &frame.objects {
+            for (layer, joints) in object.layers.iter().zip(object.layer_joints) {
+                let lists = spare
+                    .next()
+                    .map(|l| (l.discs, l.colors))
+                    .unwrap_or_default();
+                let strokes = self.layer(frame, object, layer, joints, lists);
+                if layer.program.has_own_paths() {
+                    // No strand's clump holds them: they are their own.
+                    let own = &strokes.discs[..joints.len()];
+                    drawing.clump[joints.clone()].copy_from_slice(own);
+                    for side in drawing.sides.chunks_mut(frame.paths.len().max(1)) {
+                        side[joints.clone()].fill(NO_DISC);
+                    }
                 }
+                drawing.layers.push(strokes);
             }
-            drawing.layers.push(strokes);
         }
+        Ok(())
     }
 
     /// The discs of all clumps, and those at their sides if any is flat.
     fn fill_clump_discs(&self, frame: &Frame, clumps: &mut Vec<Disc>, sides: &mut Vec<Disc>) {
         let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
         let fill = |discs: &mut Vec<Disc>, instance| {
-            let joints = radii.par_iter().zip(shifts).with_min_len(CHUNK).enumerate();
-            discs.par_extend(joints.map(|(i, (&radius, &shift))| {
-                let [x, y, size] = clump_disc(instance, radius, shift).to_array();
-                let place = shift + vec2([x, y]);
-                disc(frame, i, Vec2::new(place.x, place.y), size, radius, 0.0)
-            }));
+            for object in &frame.objects {
+                let joints = object.joints.clone().into_par_iter().with_min_len(CHUNK);
+                discs.par_extend(joints.map(|i| {
+                    let (radius, shift) = (radii[i], shifts[i]);
+                    let [x, y, size] = clump_disc(instance, radius, shift).to_array();
+                    let place = shift + vec2([x, y]);
+                    let place = Vec2::new(place.x, place.y);
+                    disc_at(frame, object.head, i, place, size, radius, 0.0)
+                }));
+            }
         };
         clumps.clear();
         fill(clumps, 0);
@@ -79,38 +92,37 @@ impl Evaluator {
         }
     }
 
-    /// The strokes of one layer on the joints `drawn`, nothing on others; `lists` are reused.
+    /// The strokes of one layer on the joints `drawn`; `lists` are reused.
     fn layer(
         &mut self,
         frame: &Frame,
+        object: &Object,
         layer: &Layer,
         drawn: &Range<usize>,
         (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
     ) -> LayerStrokes {
-        self.fill_unit(frame, layer.units);
-        let joints = frame.paths.len();
+        self.fill_unit(frame, object.head, layer.units);
+        let joints = drawn.len();
         let instances = layer.program.instances();
         let length = joints * instances as usize;
         discs.resize(length, NO_DISC);
         colors.resize(length, [0.0; 3]);
-        let seed = layer_seed(frame.seed, &layer.name);
+        let seed = layer_seed(object.seed, &layer.name);
         let mut parts = Vec::new();
         let lists = discs
             .chunks_mut(joints.max(1))
             .zip(colors.chunks_mut(joints.max(1)));
         for ((mut discs, mut colors), number) in lists.zip(0..instances) {
-            for joints in pieces(frame.paths) {
+            for joints in pieces(frame.paths, drawn) {
                 let (these, others) = discs.split_at_mut(joints.len());
                 let (their_colors, other_colors) = colors.split_at_mut(joints.len());
                 (discs, colors) = (others, other_colors);
-                // Whole runs, as both ranges are.
-                let start = drawn.start.clamp(joints.start, joints.end);
                 let part = Part {
                     frame,
+                    head: object.head,
                     layer,
-                    joints: &self.joints,
-                    first: joints.start,
-                    drawn: start..drawn.end.clamp(start, joints.end),
+                    inputs: &self.joints,
+                    joints,
                     seen_length: &self.seen_length,
                     seed,
                 };
@@ -123,6 +135,7 @@ impl Evaluator {
         );
         LayerStrokes {
             name: layer.name.clone(),
+            joints: drawn.clone(),
             rank: layer.rank,
             instances: instances as usize,
             discs,
@@ -164,25 +177,42 @@ impl Evaluator {
             Input::StrandMean => joints.strand_mean.extend(strands().map(|s| world(&s.mean))),
             Input::StrandSize => joints.strand_size.extend(strands().map(|s| s.size)),
             Input::HeadCenter => {
-                let center = world(&frame.head.center);
-                joints.head_center.resize(paths.len(), center);
+                for Object {
+                    head, joints: own, ..
+                } in &frame.objects
+                {
+                    joints.head_center.resize(own.end, world(&head.center));
+                }
             }
-            Input::HeadHeight => joints.head_height.resize(paths.len(), frame.head.height_m),
+            Input::HeadHeight => {
+                for Object {
+                    head, joints: own, ..
+                } in &frame.objects
+                {
+                    joints.head_height.resize(own.end, head.height_m);
+                }
+            }
             Input::LightDirection => {
                 let directions = points.map(|p| world(&to_light(p).0));
                 joints.light_direction.extend(directions);
             }
             Input::LightDistance => {
-                let in_heads = |metres: f32| metres / frame.head.height_m;
-                let distances = points.map(|p| to_light(p).1.map_or(FAR_LIGHT, in_heads));
-                joints.light_distance.extend(distances);
+                for Object {
+                    head, joints: own, ..
+                } in &frame.objects
+                {
+                    let in_heads = |metres: f32| metres / head.height_m;
+                    let points = paths.position[own.clone()].iter();
+                    let distances = points.map(|p| to_light(p).1.map_or(FAR_LIGHT, in_heads));
+                    joints.light_distance.extend(distances);
+                }
             }
             Input::ViewDirection => {
                 let eye = frame.camera.eye();
                 let to_eye = points.map(|p| world(&(eye - *p).normalize_or(Vec3::Z)));
                 joints.view_direction.extend(to_eye);
             }
-            // From the clump: `fill_clump`.
+            // From the clump: `fill_clumps`.
             Input::Normal
             | Input::ClumpRadius
             | Input::ClumpColor
@@ -194,25 +224,23 @@ impl Evaluator {
     }
 
     /// The clump of every joint, once for all layers: where it is, and what of it is `read`.
-    fn fill_clump(&mut self, frame: &Frame, read: InputSet) {
-        let seed = layer_seed(frame.seed, "clump");
+    fn fill_clumps(&mut self, frame: &Frame, read: InputSet) {
         let mut clumps = std::mem::take(&mut self.clumps);
         let joints = &self.joints;
-        let length = frame.paths.len();
-        let starts = (0..length).step_by(CHUNK);
-        let made = starts
-            .collect::<Vec<_>>()
-            .into_par_iter()
-            .flat_map_iter(|start| {
-                let range = start..(start + CHUNK).min(length);
+        clumps.clear();
+        for object in &frame.objects {
+            let seed = layer_seed(object.seed, "clump");
+            let starts: Vec<usize> = object.joints.clone().step_by(CHUNK).collect();
+            let made = starts.into_par_iter().flat_map_iter(|start| {
+                let range = start..(start + CHUNK).min(object.joints.end);
                 let mut clumps = Vec::with_capacity(range.len());
-                frame.clump.for_each(joints, range, seed, |i, params| {
+                object.clump.for_each(joints, range, seed, |i, params| {
                     clumps.push(clump::Program::clump(joints, i, seed, params));
                 });
                 clumps
             });
-        clumps.clear();
-        clumps.par_extend(made);
+            clumps.par_extend(made);
+        }
         let Joints {
             light_direction,
             gray,
@@ -245,18 +273,19 @@ impl Evaluator {
     fn fill_seen_length(&mut self, frame: &Frame) {
         self.seen_length.clear();
         let is_read = |layer: &Layer| layer.program.shortest() > 0.0;
-        if !frame.layers.iter().any(is_read) {
+        let mut layers = frame.objects.iter().flat_map(|object| object.layers);
+        if !layers.any(is_read) {
             return;
         }
         seen_lengths(frame.paths, &mut self.seen_length);
     }
 
     /// The size of a pixel at 720 lines, for layers whose widths are pixels.
-    fn fill_unit(&mut self, frame: &Frame, units: Units) {
+    fn fill_unit(&mut self, frame: &Frame, head: Head, units: Units) {
         self.joints.unit.clear();
         if units == Units::Pixels {
             let pixel_px = frame.camera.size_px()[1] as f32 / 720.0;
-            let unit_m = frame.head.unit_m();
+            let unit_m = head.unit_m();
             let scales = frame.paths.px_per_metre.iter();
             let sizes = scales.map(|scale| pixel_px / (scale * unit_m));
             self.joints.unit.extend(sizes);
@@ -264,10 +293,11 @@ impl Evaluator {
     }
 }
 
-/// What the clump and the active layers read of joints.
+/// What clumps and active layers read of joints.
 fn inputs(frame: &Frame) -> InputSet {
-    let layers = frame.layers.iter().map(|layer| layer.program.inputs());
-    let read = layers.fold(frame.clump.inputs(), InputSet::union);
+    let read = (frame.objects.iter())
+        .map(Object::inputs)
+        .fold(InputSet::default(), InputSet::union);
     if read.has(Input::Gray) {
         // It is made of that.
         return read.union(InputSet::of(&[Input::LightDirection]));
@@ -287,12 +317,10 @@ struct Scratch {
 /// Some neighbouring joints of a layer.
 struct Part<'a> {
     frame: &'a Frame<'a>,
+    head: Head,
     layer: &'a Layer,
-    joints: &'a Joints,
-    /// The first of them.
-    first: usize,
-    /// Those that the layer draws on.
-    drawn: Range<usize>,
+    inputs: &'a Joints,
+    joints: Range<usize>,
     seen_length: &'a [f32],
     seed: u32,
 }
@@ -306,23 +334,34 @@ impl Part<'_> {
         discs: &mut [Disc],
         colors: &mut [[f32; 3]],
     ) {
-        let (frame, layer, joints) = (self.frame, self.layer, self.joints);
-        let Range { start, end } = self.drawn;
-        let (program, seed) = (&layer.program, self.seed);
+        let (frame, layer, inputs) = (self.frame, self.layer, self.inputs);
+        let (program, joints) = (&layer.program, self.joints.clone());
         scratch.strokes.clear();
-        program.evaluate(joints, start..end, number, seed, &mut scratch.strokes);
+        program.evaluate(
+            inputs,
+            joints.clone(),
+            number,
+            self.seed,
+            &mut scratch.strokes,
+        );
         scratch.strokes.iter_mut().for_each(drop_if_not_finite);
         self.smooth(scratch);
-        discs[..start - self.first].fill(NO_DISC);
-        discs[end - self.first..].fill(NO_DISC);
-        for (i, stroke) in (start..end).zip(&scratch.strokes) {
-            let offset = joints.clump_shift[i] + stroke.offset;
+        let made = discs.iter_mut().zip(colors).zip(&scratch.strokes);
+        for (i, ((disc, color), stroke)) in joints.zip(made) {
+            let offset = inputs.clump_shift[i] + stroke.offset;
             let offset = Vec2::new(offset.x, offset.y);
             let depth_offset = layer.depth_offset + stroke.depth_offset;
-            let clump_radius = joints.clump_radius[i];
-            let place = i - self.first;
-            discs[place] = disc(frame, i, offset, stroke.radius, clump_radius, depth_offset);
-            colors[place] = stroke.color.to_array();
+            let (radius, clump_radius) = (stroke.radius, inputs.clump_radius[i]);
+            *disc = disc_at(
+                frame,
+                self.head,
+                i,
+                offset,
+                radius,
+                clump_radius,
+                depth_offset,
+            );
+            *color = stroke.color.to_array();
         }
         if frame.brush == Brush::Semicircle {
             self.go_around_flat_ends(&scratch.strokes, discs);
@@ -335,27 +374,24 @@ impl Part<'_> {
         let paths = self.frame.paths;
         let tips = self.runs().iter().map(|run| run.joints.end - 1);
         for tip in tips.filter(|&tip| paths.u[tip] == 1.0) {
-            let wider =
-                (strokes[tip - self.drawn.start].radius - self.joints.clump_radius[tip]).max(0.0);
-            let unit_px = self.frame.head.unit_m() * paths.px_per_metre[tip];
+            let place = tip - self.joints.start;
+            let wider = (strokes[place].radius - self.inputs.clump_radius[tip]).max(0.0);
+            let unit_px = self.head.unit_m() * paths.px_per_metre[tip];
             // The path on the screen, of which `across` is a right angle to the right.
             let ahead = -paths.across[tip].perp();
-            discs[tip - self.first].center += ahead * (wider * unit_px).min(LARGEST_PX);
+            discs[place].center += ahead * (wider * unit_px).min(LARGEST_PX);
         }
     }
 
-    /// Those of their runs that the layer draws on.
+    /// Their runs.
     fn runs(&self) -> &[PathRun] {
-        let runs = &self.frame.paths.runs;
-        let first = runs.partition_point(|run| run.joints.start < self.drawn.start);
-        let end = runs.partition_point(|run| run.joints.end <= self.drawn.end);
-        &runs[first..end.max(first)]
+        runs_of(self.frame.paths, &self.joints)
     }
 
     /// Takes stretches and gaps of the strokes that are too short away, as they are seen: hair that
     /// points at the eye would show long ones as dots.
     fn smooth(&self, scratch: &mut Scratch) {
-        let length_m = self.layer.program.shortest() * self.frame.head.height_m;
+        let length_m = self.layer.program.shortest() * self.head.height_m;
         if length_m <= 0.0 {
             return;
         }
@@ -365,7 +401,7 @@ impl Part<'_> {
             places,
             smoother,
         } = scratch;
-        let start = self.drawn.start;
+        let start = self.joints.start;
         // Pieces of one strand together, and what they share once.
         for pieces in self.runs().chunk_by(|_, next| next.overlap > 0) {
             let joints = || {
@@ -390,19 +426,25 @@ impl Part<'_> {
     }
 }
 
-/// The joints in pieces that a thread works on at a time: whole strands, as smoothing looks along them.
-fn pieces(paths: &Paths) -> impl Iterator<Item = Range<usize>> {
-    let mut runs = paths.runs.iter();
-    let mut start = 0;
+/// The runs whose joints are in a range, which is one of whole runs.
+fn runs_of<'a>(paths: &'a Paths, joints: &Range<usize>) -> &'a [PathRun] {
+    let runs = &paths.runs;
+    let first = runs.partition_point(|run| run.joints.start < joints.start);
+    let end = runs.partition_point(|run| run.joints.end <= joints.end);
+    &runs[first..end.max(first)]
+}
+
+/// A range of joints in pieces that a thread works on at a time: whole strands, as smoothing looks along them.
+fn pieces(paths: &Paths, joints: &Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    let mut runs = runs_of(paths, joints).iter();
+    let Range { mut start, end } = *joints;
     std::iter::from_fn(move || {
-        if start == paths.len() {
+        if start == end {
             return None;
         }
-        let is_end = |run: &&PathRun| run.overlap == 0 && run.joints.start >= start + CHUNK;
-        let end = runs
-            .find(is_end)
-            .map_or(paths.len(), |run| run.joints.start);
-        Some(std::mem::replace(&mut start, end)..end)
+        let is_next = |run: &&PathRun| run.overlap == 0 && run.joints.start >= start + CHUNK;
+        let next = runs.find(is_next).map_or(end, |run| run.joints.start);
+        Some(std::mem::replace(&mut start, next)..next)
     })
 }
 
@@ -418,20 +460,21 @@ const NO_DISC: Disc = Disc {
 ///
 /// Against surfaces a stroke stands where its strand stands, less the radius of the clump there: the
 /// depth offset orders strands, and must not push an outline into the face behind it.
-fn disc(
+fn disc_at(
     frame: &Frame,
+    head: Head,
     joint: usize,
     offset: Vec2,
     radius: f32,
     clump_radius: f32,
     depth_offset: f32,
 ) -> Disc {
-    let unit_m = frame.head.unit_m();
+    let unit_m = head.unit_m();
     let unit_px = unit_m * frame.paths.px_per_metre[joint];
     // No depth is nearer than the near plane, whatever is taken from it.
     let nearest = frame.camera.near_m();
     let depth = frame.paths.depth[joint];
-    let shifted = (depth + depth_offset * frame.head.height_m).max(nearest);
+    let shifted = (depth + depth_offset * head.height_m).max(nearest);
     let biased = (depth - clump_radius * unit_m).max(nearest);
     Disc {
         center: frame.paths.center[joint] + offset * unit_px,

@@ -216,8 +216,9 @@ impl<'a> Strand<'a> {
         let clumps = clumps(drawing).enumerate().filter(move |_| has_clump);
         let clump = clumps.flat_map(move |(part, discs)| {
             runs.iter().map(move |run| {
-                let colors = base.get(part).map(|stroke| {
-                    &drawing.layers[stroke.layer].colors[joints_of(drawing, stroke, run)]
+                let colors = base.get(part).and_then(|stroke| {
+                    let layer = &drawing.layers[stroke.layer];
+                    Some(&layer.colors[layer.places(stroke.instance, &run.joints)?])
                 });
                 let drawn_as = colors.map_or(0, |_| drawn_as + part as u32);
                 (&discs[run.joints.clone()], colors, (0, drawn_as))
@@ -227,10 +228,10 @@ impl<'a> Strand<'a> {
         let others = (strokes.iter().zip(1..)).filter(move |(_, n)| !as_clump.contains(n));
         let others = others.flat_map(move |(stroke, number)| {
             let layer = &drawing.layers[stroke.layer];
-            runs.iter().map(move |run| {
-                let joints = joints_of(drawing, stroke, run);
-                let colors = &layer.colors[joints.clone()];
-                (&layer.discs[joints], Some(colors), (number, 0))
+            runs.iter().filter_map(move |run| {
+                let places = layer.places(stroke.instance, &run.joints)?;
+                let colors = &layer.colors[places.clone()];
+                Some((&layer.discs[places], Some(colors), (number, 0)))
             })
         });
         clump.chain(others)
@@ -275,12 +276,6 @@ impl<'a> Strand<'a> {
     }
 }
 
-/// A run's joints in the lists of a stroke's layer.
-fn joints_of(drawing: &Drawing, stroke: &Stroke, run: &Run) -> Range<usize> {
-    let first = stroke.instance * drawing.clump.len();
-    first + run.joints.start..first + run.joints.end
-}
-
 /// The discs of all clumps, then those of their sides.
 fn clumps(drawing: &Drawing) -> impl Iterator<Item = &[Disc]> {
     let sides = drawing.sides.chunks(drawing.clump.len().max(1));
@@ -291,9 +286,13 @@ fn clumps(drawing: &Drawing) -> impl Iterator<Item = &[Disc]> {
 fn is_clump(drawing: &Drawing, strokes: &[Stroke], run: &Run) -> bool {
     let is_same = |(a, b): (&Disc, &Disc)| a.center == b.center && a.radius == b.radius;
     strokes.iter().zip(clumps(drawing)).all(|(stroke, clump)| {
-        let discs = &drawing.layers[stroke.layer].discs[joints_of(drawing, stroke, run)];
-        let is_here = stroke.layer == strokes[0].layer;
-        is_here && discs.iter().zip(&clump[run.joints.clone()]).all(is_same)
+        let layer = &drawing.layers[stroke.layer];
+        let places = layer.places(stroke.instance, &run.joints);
+        let is_of_one_layer = stroke.layer == strokes[0].layer;
+        places.filter(|_| is_of_one_layer).is_some_and(|places| {
+            let discs = layer.discs[places].iter();
+            discs.zip(&clump[run.joints.clone()]).all(is_same)
+        })
     })
 }
 

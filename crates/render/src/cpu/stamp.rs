@@ -6,12 +6,13 @@ use super::instructions::Instructions;
 use super::tile::{self, LANE, LANES, NOTHING, Sums, Target, overwrite, row_start, select};
 use super::{DrawError, RasterizerError, empty_picture, segment};
 use crate::check;
-use crate::drawing::{Brush, Drawing, Run};
+use crate::drawing::{Brush, Drawing, LayerStrokes};
 use crate::picture::Picture;
 use crate::samples::sample_positions;
 use glam::Vec2;
 use rayon::prelude::*;
 use segment::Stroke;
+use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 /// Stamps the strokes of [`Drawing`]s.
@@ -136,28 +137,28 @@ impl Stamper {
 /// first, in a stroke by strand. So the first is in front where depths are equal.
 fn collect(drawing: &Drawing, per_interval: usize, stamps: &mut Vec<Stamp>) {
     let strokes = segment::strokes_in_order(drawing);
-    let pieces: Vec<(&Stroke, &Run)> = strokes
-        .iter()
-        .rev()
-        .flat_map(|stroke| drawing.runs.iter().map(move |run| (stroke, run)))
-        .collect();
+    let of_stroke = |stroke: &Stroke| {
+        let (layer, instance) = (&drawing.layers[stroke.layer], stroke.instance);
+        let runs = drawing.runs.iter();
+        runs.filter_map(move |run| Some((layer, layer.places(instance, &run.joints)?)))
+    };
+    let pieces: Vec<_> = strokes.iter().rev().flat_map(of_stroke).collect();
     stamps.clear();
     stamps.par_extend(
         pieces
-            .par_iter()
-            .flat_map_iter(|(stroke, run)| of_run(drawing, stroke, run, per_interval)),
+            .into_par_iter()
+            .flat_map_iter(|(layer, places)| of_run(drawing, layer, places, per_interval)),
     );
 }
 
+/// The stamps of one stroke of a run, whose places these are in the lists of its layer.
 fn of_run<'a>(
-    drawing: &'a Drawing,
-    stroke: &Stroke,
-    run: &Run,
+    drawing: &Drawing,
+    layer: &'a LayerStrokes,
+    places: Range<usize>,
     per_interval: usize,
 ) -> impl Iterator<Item = Stamp> + use<'a> {
-    let layer = &drawing.layers[stroke.layer];
-    let first = stroke.instance * drawing.clump.len();
-    let (start, last) = (first + run.joints.start, first + run.joints.end - 1);
+    let (start, last) = (places.start, places.end - 1);
     let size = drawing.size;
     let brush = drawing.brush;
     let between = (start..last).flat_map(move |i| {

@@ -30,6 +30,7 @@ fn opaque([red, green, blue]: [f32; 3]) -> [f32; 4] {
 fn layer(name: &str, rank: i32, color: [f32; 3], discs: &[Disc]) -> LayerStrokes {
     LayerStrokes {
         name: name.to_owned(),
+        joints: 0..discs.len(),
         rank,
         instances: 1,
         discs: discs.to_vec(),
@@ -60,6 +61,7 @@ fn strands(size: [u32; 2], strands: &[(u32, [f32; 3], &[Disc])]) -> Drawing {
         drawing.clump.extend_from_slice(discs);
         drawing.layers[0].discs.extend_from_slice(discs);
         drawing.layers[0].colors.extend(vec![*color; discs.len()]);
+        drawing.layers[0].joints = 0..drawing.clump.len();
         drawing.runs.push(Run {
             strand: *strand,
             joints: start..drawing.clump.len(),

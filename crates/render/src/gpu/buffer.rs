@@ -86,13 +86,12 @@ impl Growing {
     }
 }
 
-/// All buffers of a renderer but for its layers' own.
+/// All buffers of a renderer but for those of its clumps and layers.
 pub(super) struct Buffers {
     pub(super) frame: Growing,
     pub(super) sample_places: Growing,
     pub(super) joints: Growing,
     pub(super) strands: Growing,
-    pub(super) clump_words: Growing,
     pub(super) clumps: Growing,
     pub(super) discs: Growing,
     pub(super) windows: Growing,
@@ -118,7 +117,6 @@ impl Buffers {
             sample_places: uniform("sample places"),
             joints: filled("joints"),
             strands: filled("strands"),
-            clump_words: filled("clump's parameters"),
             clumps: made("clumps"),
             discs: filled("strokes' discs"),
             windows: made("smoothing windows"),
@@ -133,13 +131,12 @@ impl Buffers {
         }
     }
 
-    pub(super) fn all(&self) -> [&Growing; 16] {
+    pub(super) fn all(&self) -> [&Growing; 15] {
         [
             &self.frame,
             &self.sample_places,
             &self.joints,
             &self.strands,
-            &self.clump_words,
             &self.clumps,
             &self.discs,
             &self.windows,

@@ -1,6 +1,7 @@
 //! What can go wrong on a graphics card.
 
 use crate::check::DrawError;
+use crate::frame::FrameError;
 use crate::samples::SampleCountError;
 
 /// Why a graphics card drew nothing. All of these leave the CPU's rasteriser as a way out.
@@ -70,9 +71,12 @@ pub enum GpuError {
         /// The frame's.
         prepared: u32,
     },
-    /// The frame is invalid.
+    /// The drawing is invalid.
     #[error(transparent)]
     Draw(#[from] DrawError),
+    /// The frame is invalid.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
     /// No such number of samples.
     #[error(transparent)]
     Samples(#[from] SampleCountError),

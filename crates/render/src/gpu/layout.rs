@@ -21,15 +21,12 @@ pub(super) struct GpuFrame {
     pub(super) samples: u32,
     pub(super) eye: [f32; 3],
     pub(super) near_m: f32,
-    pub(super) head_center: [f32; 3],
-    pub(super) head_height_m: f32,
     pub(super) light: [f32; 3],
     pub(super) light_is_point: u32,
     pub(super) background: [f32; 4],
     pub(super) right: [f32; 3],
-    pub(super) unit_m: f32,
-    pub(super) up: [f32; 3],
     pub(super) pixel_px: f32,
+    pub(super) up: [f32; 3],
     pub(super) edge_depth_m: f32,
     pub(super) chunk_capacity: u32,
     pub(super) triangle_capacity: u32,
@@ -37,7 +34,7 @@ pub(super) struct GpuFrame {
     pub(super) surfaces_at: u32,
     pub(super) writes_samples: u32,
     /// The shader's struct ends at a multiple of 16 bytes.
-    pub(super) padding: [u32; 2],
+    pub(super) padding: [u32; 3],
 }
 
 impl GpuFrame {
@@ -68,8 +65,6 @@ impl GpuFrame {
             joints: frame.paths.len() as u32,
             eye: frame.camera.eye().to_array(),
             near_m: frame.camera.near_m(),
-            head_center: frame.head.center.to_array(),
-            head_height_m: frame.head.height_m,
             light: light.to_array(),
             light_is_point: is_point,
             background: [
@@ -79,7 +74,6 @@ impl GpuFrame {
                 if frame.background.is_some() { 1.0 } else { 0.0 },
             ],
             right: frame.camera.world_from_view_direction(Vec3::X).to_array(),
-            unit_m: frame.head.unit_m(),
             up: frame.camera.world_from_view_direction(Vec3::Y).to_array(),
             pixel_px: frame.camera.size_px()[1] as f32 / 720.0,
             edge_depth_m: frame.edge_depth_m,

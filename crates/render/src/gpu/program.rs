@@ -21,8 +21,8 @@ const SURFACES: &str = include_str!("../../../../shaders/gpu/surfaces.wgsl");
 const STRANDS: &str = include_str!("../../../../shaders/gpu/strands.wgsl");
 const TILES: &str = include_str!("../../../../shaders/gpu/tiles.wgsl");
 
-/// Words before a layer's parameters: `shaders/gpu/joint.wgsl` names them.
-pub(super) const LAYER_WORDS: u32 = 8;
+/// Words before the parameters of a layer or a clump: `shaders/gpu/joint.wgsl` names them.
+pub(super) const LAYER_WORDS: u32 = 13;
 
 /// The clump's shader.
 pub(super) fn clump(source: &ProgramSource, layout: &JointLayout) -> String {

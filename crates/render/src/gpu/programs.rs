@@ -16,8 +16,10 @@ pub(super) struct Programs {
     /// In the order in which they run.
     pub(super) bins: Vec<ComputePipeline>,
     pub(super) tiles: Option<(Order, ComputePipeline)>,
-    pub(super) clump: Option<Program>,
-    pub(super) layers: Vec<LayerPrograms>,
+    /// One for each object.
+    pub(super) clumps: Vec<JointProgram>,
+    /// One for each layer of each object.
+    pub(super) layers: Vec<JointProgram>,
     pub(super) smooth: Option<Smooth>,
 }
 
@@ -30,10 +32,12 @@ pub(super) struct Change {
     pub(super) rebinds: bool,
 }
 
-/// A pipeline with what it was made from.
-pub(super) struct Program {
+/// A pipeline that works out something at each joint, and the words that it reads.
+pub(super) struct JointProgram {
     made_from: ProgramKey,
     pub(super) pipeline: ComputePipeline,
+    pub(super) words: Growing,
+    is_smoothed: bool,
 }
 
 /// What a program's text hangs on.
@@ -42,13 +46,6 @@ struct ProgramKey {
     wgsl: &'static str,
     varying: Vec<usize>,
     joint_constants: String,
-}
-
-/// A layer's shader, and the words that it reads.
-pub(super) struct LayerPrograms {
-    pub(super) program: Program,
-    pub(super) words: Growing,
-    is_smoothed: bool,
 }
 
 /// The smoothing of all layers.
@@ -90,7 +87,7 @@ impl Programs {
             bins: pipelines(device, "bins", &text, &layouts.bins, &entry_points)?,
             layouts,
             tiles: None,
-            clump: None,
+            clumps: Vec::new(),
             layers: Vec::new(),
             smooth: None,
         })
@@ -100,8 +97,8 @@ impl Programs {
     pub(super) fn count(&self) -> usize {
         self.bins.len()
             + usize::from(self.tiles.is_some())
-            + usize::from(self.clump.is_some())
-            + self.layers.len()
+            + distinct(&self.clumps)
+            + distinct(&self.layers)
             + self.smooth.as_ref().map_or(0, |s| s.pipelines.len())
     }
 
@@ -119,49 +116,43 @@ impl Programs {
             joint_constants: joint_constants.clone(),
         };
         let mut change = Change::default();
-        let clump = frame.clump.source();
-        let made_from = key(&clump);
-        let is_it = |program: &Program| program.made_from == made_from;
-        if !self.clump.as_ref().is_some_and(is_it) {
-            let text = program::clump(&clump, &scene.layout);
-            let pipeline = one_pipeline(device, "the clump", &text, &self.layouts.clump)?;
-            self.clump = Some(Program {
-                made_from,
-                pipeline,
-            });
-            change.made += 1;
-        }
-        let mut before = std::mem::take(&mut self.layers);
-        for (layer, words) in frame.layers.iter().zip(&scene.layers) {
-            let source = layer.program.source();
+        let mut before = std::mem::take(&mut self.clumps);
+        for object in &frame.objects {
+            let source = object.clump.source();
+            let make = || {
+                let text = program::clump(&source, &scene.layout);
+                one_pipeline(device, "the clump", &text, &self.layouts.clump)
+            };
             let made_from = key(&source);
-            let is_it = |l: &LayerPrograms| {
-                l.program.made_from == made_from && l.is_smoothed == words.is_smoothed
+            let program = take(
+                &mut before,
+                &self.clumps,
+                made_from,
+                false,
+                &mut change,
+                make,
+            )?;
+            self.clumps.push(program);
+        }
+        change.rebinds |= !before.is_empty();
+        let mut before = std::mem::take(&mut self.layers);
+        let layers = frame.objects.iter().flat_map(|object| object.layers);
+        for (layer, words) in layers.zip(&scene.layers) {
+            let source = layer.program.source();
+            let make = || {
+                let text = program::strokes(&source, &scene.layout);
+                one_pipeline(device, layer.effect, &text, &self.layouts.strokes)
             };
-            let place = before.iter().position(is_it);
-            // In the same order each is the first of those that are left.
-            change.rebinds |= place != Some(0);
-            let programs = match place {
-                Some(place) => before.remove(place),
-                None => {
-                    let text = program::strokes(&source, &scene.layout);
-                    let layout = &self.layouts.strokes;
-                    let pipeline = one_pipeline(device, layer.effect, &text, layout)?;
-                    change.made += 1;
-                    LayerPrograms {
-                        program: Program {
-                            made_from,
-                            pipeline,
-                        },
-                        words: Growing::new(
-                            "a layer's parameters",
-                            BufferUsages::STORAGE | BufferUsages::COPY_DST,
-                        ),
-                        is_smoothed: words.is_smoothed,
-                    }
-                }
-            };
-            self.layers.push(programs);
+            let (made_from, is_smoothed) = (key(&source), words.is_smoothed);
+            let program = take(
+                &mut before,
+                &self.layers,
+                made_from,
+                is_smoothed,
+                &mut change,
+                make,
+            )?;
+            self.layers.push(program);
         }
         change.rebinds |= !before.is_empty();
         let is_current = |s: &Smooth| s.joint_constants == joint_constants;
@@ -196,6 +187,48 @@ impl Programs {
         self.tiles = made.into_iter().next().map(|pipeline| (order, pipeline));
         Ok(1)
     }
+}
+
+/// How many different pipelines there are.
+fn distinct(programs: &[JointProgram]) -> usize {
+    let is_first = |i: &usize| {
+        let made_from = &programs[*i].made_from;
+        programs[..*i].iter().all(|p| p.made_from != *made_from)
+    };
+    (0..programs.len()).filter(is_first).count()
+}
+
+/// The next program: one of those that were there `before`, or a new one. Objects of one look share their pipelines.
+fn take(
+    before: &mut Vec<JointProgram>,
+    others: &[JointProgram],
+    made_from: ProgramKey,
+    is_smoothed: bool,
+    change: &mut Change,
+    make: impl FnOnce() -> Result<ComputePipeline, GpuError>,
+) -> Result<JointProgram, GpuError> {
+    let is_it = |p: &JointProgram| p.made_from == made_from && p.is_smoothed == is_smoothed;
+    let place = before.iter().position(is_it);
+    // In the same order each is the first of those that are left.
+    change.rebinds |= place != Some(0);
+    if let Some(place) = place {
+        return Ok(before.remove(place));
+    }
+    let shared = others.iter().find(|p| p.made_from == made_from);
+    let pipeline = match shared {
+        Some(program) => program.pipeline.clone(),
+        None => {
+            change.made += 1;
+            make()?
+        }
+    };
+    let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+    Ok(JointProgram {
+        made_from,
+        pipeline,
+        words: Growing::new("parameters", usage),
+        is_smoothed,
+    })
 }
 
 fn one_pipeline(

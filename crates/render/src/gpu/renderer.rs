@@ -8,7 +8,7 @@ use super::layout::{CLUMP_BYTES, GpuFrame, TILE, WORKGROUP};
 use super::programs::Programs;
 use super::report::Report;
 use super::scene::SceneWords;
-use crate::check::{self, check_picture, check_surfaces};
+use crate::check;
 use crate::drawing::Drawing;
 use crate::frame::Frame;
 use crate::samples::sample_positions;
@@ -70,7 +70,7 @@ pub struct Renderer {
 
 /// What the passes bind. Made anew where a buffer is.
 struct Groups {
-    clump: BindGroup,
+    clumps: Vec<BindGroup>,
     layers: Vec<(BindGroup, Option<BindGroup>)>,
     bins: BindGroup,
     tiles: BindGroup,
@@ -103,7 +103,8 @@ impl Renderer {
     #[must_use]
     pub fn stats(&self) -> GpuStats {
         let buffers = self.buffers.all().into_iter();
-        let buffers = buffers.chain(self.programs.layers.iter().map(|layer| &layer.words));
+        let programs = self.programs.clumps.iter().chain(&self.programs.layers);
+        let buffers = buffers.chain(programs.map(|program| &program.words));
         let alive = buffers.filter(|buffer| buffer.size() > 0);
         GpuStats {
             pipelines: self.programs.count() + usize::from(self.composer.is_some()),
@@ -188,8 +189,7 @@ impl Renderer {
         let (size, order, settings) = match source {
             Source::Frame(frame) => {
                 let size = frame.camera.size_px();
-                check_picture(size, frame.background, frame.edge_depth_m)?;
-                check_surfaces(&frame.surfaces)?;
+                frame.check()?;
                 self.scene.fill(frame);
                 self.follow(frame)?;
                 (size, frame.order, GpuFrame::of_frame(frame))
@@ -197,6 +197,7 @@ impl Renderer {
             Source::Drawing(drawing) => {
                 check::check(drawing)?;
                 self.scene.fill_drawing(drawing);
+                self.programs.clumps.clear();
                 self.programs.layers.clear();
                 self.groups = None;
                 let settings = GpuFrame::of_drawing(drawing);
@@ -302,14 +303,16 @@ impl Renderer {
         note(buffers.sample_places.write(device, queue, sample_words)?);
         note(buffers.joints.write(device, queue, &scene.joints)?);
         note(buffers.strands.write(device, queue, &scene.strands)?);
-        note(buffers.clump_words.write(device, queue, &scene.clump)?);
         note(buffers.chunks.write(device, queue, &scene.chunks)?);
         note(buffers.tables.write(device, queue, &scene.tables)?);
         note(buffers.corners.write(device, queue, &scene.corners)?);
         note(buffers.triangles.write(device, queue, &scene.triangles)?);
+        for (clump, program) in scene.clumps.iter().zip(&mut programs.clumps) {
+            note(program.words.write(device, queue, &clump.words)?);
+        }
         let mut windows = 0;
-        for (layer, programs) in scene.layers.iter().zip(&mut programs.layers) {
-            note(programs.words.write(device, queue, &layer.words)?);
+        for (layer, program) in scene.layers.iter().zip(&mut programs.layers) {
+            note(program.words.write(device, queue, &layer.words)?);
             if layer.is_smoothed {
                 windows = windows.max(layer.joints as u64 * u64::from(layer.instances));
             }
@@ -359,16 +362,16 @@ impl Renderer {
                 entries: &entries,
             }))
         };
+        let bound = |program| {
+            [
+                &b.frame, &b.joints, &b.strands, program, &b.clumps, &b.discs,
+            ]
+        };
+        let clumps = self.programs.clumps.iter();
+        let clumps = clumps.map(|clump| group(&self.programs.layouts.clump, &bound(&clump.words)));
         let layers = self.scene.layers.iter().zip(&self.programs.layers);
-        let layers = layers.map(|(layer, programs)| {
-            let mut bound = vec![
-                &b.frame,
-                &b.joints,
-                &b.strands,
-                &programs.words,
-                &b.clumps,
-                &b.discs,
-            ];
+        let layers = layers.map(|(layer, program)| {
+            let mut bound = bound(&program.words).to_vec();
             let strokes = group(&self.programs.layouts.strokes, &bound)?;
             bound.push(&b.windows);
             let smooth = layer
@@ -388,17 +391,7 @@ impl Renderer {
         bins.extend([&b.counters, &b.starts, &b.entries]);
         tiles.extend([&b.starts, &b.entries, &b.picture, &b.sample_places]);
         Ok(Groups {
-            clump: group(
-                &self.programs.layouts.clump,
-                &[
-                    &b.frame,
-                    &b.joints,
-                    &b.strands,
-                    &b.clump_words,
-                    &b.clumps,
-                    &b.discs,
-                ],
-            )?,
+            clumps: clumps.collect::<Result<_, GpuError>>()?,
             layers: layers.collect::<Result<_, GpuError>>()?,
             bins: group(&self.programs.layouts.bins, &bins)?,
             tiles: group(&self.programs.layouts.tiles, &tiles)?,
@@ -428,15 +421,11 @@ impl Renderer {
         };
 
         let mut pass = begin(encoder, "strokes", 0);
-        // A drawing brings its strokes along.
-        if let Some(clump) = self
-            .programs
-            .clump
-            .as_ref()
-            .filter(|_| self.scene.disc_words.is_empty())
-        {
-            pass.set_bind_group(0, &groups.clump, &[]);
-            run(&mut pass, &clump.pipeline, frame.joints, 1);
+        // A drawing brings its strokes along, and has no clumps here.
+        let clumps = self.scene.clumps.iter().zip(&self.programs.clumps);
+        for ((clump, program), group) in clumps.zip(&groups.clumps) {
+            pass.set_bind_group(0, group, &[]);
+            run(&mut pass, &program.pipeline, clump.joints as u32, 1);
         }
         let layers = self
             .scene
@@ -444,10 +433,10 @@ impl Renderer {
             .iter()
             .zip(&self.programs.layers)
             .zip(&groups.layers);
-        for ((layer, programs), (strokes, smooth)) in layers {
+        for ((layer, program), (strokes, smooth)) in layers {
             let (joints, instances) = (layer.joints as u32, layer.instances);
             pass.set_bind_group(0, strokes, &[]);
-            run(&mut pass, &programs.program.pipeline, joints, instances);
+            run(&mut pass, &program.pipeline, joints, instances);
             if let (Some(group), Some(smooth)) = (smooth, &self.programs.smooth) {
                 pass.set_bind_group(0, group, &[]);
                 for pipeline in &smooth.pipelines {

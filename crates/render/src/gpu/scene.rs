@@ -3,7 +3,7 @@
 use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
 use super::program::LAYER_WORDS;
 use crate::drawing::{Disc, Drawing, Surface};
-use crate::frame::Frame;
+use crate::frame::{Frame, Head, Object};
 use effects::{CLUMP_DISCS, InputSet, Layer, Units, layer_seed};
 use std::ops::Range;
 
@@ -21,13 +21,23 @@ pub(super) struct SceneWords {
     pub(super) surfaces_at: u32,
     pub(super) corners: Vec<u32>,
     pub(super) triangles: Vec<u32>,
-    pub(super) clump: Vec<u32>,
+    pub(super) clumps: Vec<ClumpScene>,
+    /// Those of all objects, in their order.
     pub(super) layers: Vec<LayerScene>,
     /// Discs of all strokes, the clump's first.
     pub(super) discs: usize,
     /// The discs themselves, of a drawing; empty for a frame, whose discs the card makes.
     pub(super) disc_words: Vec<u32>,
     seen_length: Vec<f32>,
+}
+
+/// An object's clump in a frame.
+#[derive(Default)]
+pub(super) struct ClumpScene {
+    /// What it is, then its parameters.
+    pub(super) words: Vec<u32>,
+    /// Joints of the object.
+    pub(super) joints: usize,
 }
 
 /// A layer in a frame.
@@ -54,12 +64,13 @@ impl SceneWords {
     /// Takes the frame apart, in place of the one before.
     pub(super) fn fill(&mut self, frame: &Frame) {
         let is_smoothed = |layer: &Layer| layer.program.shortest() > 0.0;
+        let mut layers = frame.objects.iter().flat_map(|object| object.layers);
         let needs = Needs {
-            inputs: (frame.layers.iter())
-                .map(|layer| layer.program.inputs())
-                .fold(frame.clump.inputs(), InputSet::union),
+            inputs: (frame.objects.iter())
+                .map(Object::inputs)
+                .fold(InputSet::default(), InputSet::union),
             has_material_normals: !frame.material_normals.is_empty(),
-            is_smoothed: frame.layers.iter().any(is_smoothed),
+            is_smoothed: layers.any(is_smoothed),
             is_semicircle: frame.brush == crate::Brush::Semicircle,
         };
         self.layout = JointLayout::new(needs);
@@ -69,6 +80,7 @@ impl SceneWords {
         }
         self.layout.fill(frame, &self.seen_length, &mut self.joints);
         self.fill_strands(frame);
+        self.fill_clumps(frame);
         let placed = self.fill_layers(frame);
         self.disc_words.clear();
         let runs = frame.paths.runs.iter();
@@ -79,6 +91,7 @@ impl SceneWords {
 
     /// Takes a checked drawing apart, in place of the frame before.
     pub(super) fn fill_drawing(&mut self, drawing: &Drawing) {
+        self.clumps.clear();
         self.layers.clear();
         self.disc_words.clear();
         let joints = drawing.clump.len();
@@ -95,7 +108,7 @@ impl SceneWords {
                 rank: strokes.rank,
                 layer,
                 instances: strokes.instances as u32,
-                joints: 0..joints,
+                joints: strokes.joints.clone(),
                 first_disc: self.discs,
             });
             self.discs += strokes.discs.len();
@@ -120,19 +133,33 @@ impl SceneWords {
         }
     }
 
+    /// The clumps' own words.
+    fn fill_clumps(&mut self, frame: &Frame) {
+        self.clumps
+            .resize_with(frame.objects.len(), Default::default);
+        for (object, scene) in frame.objects.iter().zip(&mut self.clumps) {
+            scene.joints = object.joints.len();
+            scene.words.clear();
+            let (seed, joints) = (layer_seed(object.seed, "clump"), &object.joints);
+            let [first, count] = [joints.start, joints.len()].map(|number| number as u32);
+            scene.words.extend([seed, 0, first, count, 0, 0, 0, 0]);
+            push_head(&mut scene.words, object.head);
+            scene.words.extend(object.clump.source().words);
+        }
+    }
+
     /// The layers' own words, and their places in the order of strokes.
     fn fill_layers(&mut self, frame: &Frame) -> Vec<Placed> {
-        self.clump.clear();
-        self.clump.push(layer_seed(frame.seed, "clump"));
-        self.clump.resize(LAYER_WORDS as usize, 0);
-        self.clump.extend(frame.clump.source().words);
-
+        let of_object = |object: &Object| object.layers.len();
+        let count = frame.objects.iter().map(of_object).sum();
         self.discs = frame.paths.len() * CLUMP_DISCS as usize;
-        self.layers
-            .resize_with(frame.layers.len(), Default::default);
+        self.layers.resize_with(count, Default::default);
         let mut placed = Vec::new();
-        let layers = frame.layers.iter().zip(frame.layer_joints).enumerate();
-        for (index, (layer, joints)) in layers {
+        let layers = frame.objects.iter().flat_map(|object| {
+            let layers = object.layers.iter().zip(object.layer_joints);
+            layers.map(move |(layer, joints)| (object, layer, joints))
+        });
+        for (index, (object, layer, joints)) in layers.enumerate() {
             let scene = &mut self.layers[index];
             let shortest = layer.program.shortest();
             scene.joints = joints.len();
@@ -142,7 +169,7 @@ impl SceneWords {
             self.discs += scene.joints * scene.instances as usize;
             scene.words.clear();
             scene.words.extend([
-                layer_seed(frame.seed, &layer.name),
+                layer_seed(object.seed, &layer.name),
                 // As if the frame's first joint had a disc: wrapping, as the shader's sums are.
                 (first_disc as u32).wrapping_sub(joints.start as u32),
                 joints.start as u32,
@@ -152,6 +179,7 @@ impl SceneWords {
                 u32::from(layer.units == Units::Pixels),
                 u32::from(layer.program.has_own_paths()),
             ]);
+            push_head(&mut scene.words, object.head);
             scene.words.extend(layer.program.source().words);
             placed.push(Placed {
                 rank: layer.rank,
@@ -265,6 +293,13 @@ impl SceneWords {
             }
         }
     }
+}
+
+/// What `shaders/gpu/joint.wgsl` knows of an object's head, behind the words of a layer.
+fn push_head(words: &mut Vec<u32>, head: Head) {
+    let [x, y, z] = head.center.to_array();
+    words.extend([x, y, z, head.height_m, head.unit_m()].map(f32::to_bits));
+    debug_assert_eq!(words.len(), LAYER_WORDS as usize);
 }
 
 /// A `GpuDisc`.

@@ -6,7 +6,9 @@ use render::{Drawing, Picture};
 
 fn on_cpu(scene: &Scene, samples: u32) -> Picture {
     let mut drawing = Drawing::default();
-    Evaluator::default().evaluate(&scene.frame(), &mut drawing);
+    Evaluator::default()
+        .evaluate(&scene.frame(), &mut drawing)
+        .unwrap();
     Rasterizer::new(samples, Some(1))
         .unwrap()
         .draw(&drawing)
@@ -45,6 +47,20 @@ fn random_frames_agree() {
         drawn += usize::from(share_beyond(&cpu, &on_cpu(&without_hair(seed), 4), 0.01) > 0.02);
     }
     assert!(drawn > 18, "hair is seen in {drawn} of 24 frames");
+}
+
+#[test]
+fn two_objects_agree() {
+    let Some(mut card) = driver() else { return };
+    for seed in 0..12 {
+        let scene = Scene::random_pair(seed);
+        let (cpu, gpu) = (on_cpu(&scene, 4), card.draw(&scene.frame(), 4).unwrap());
+        let wrong = share_beyond(&cpu, &gpu, 2.0 / 255.0);
+        assert!(wrong <= 0.003, "seed {seed}: {:.2} %", 100.0 * wrong);
+        // Another head makes another picture.
+        let alone = on_cpu(&Scene::random(seed), 4);
+        assert!(share_beyond(&cpu, &alone, 0.01) > 0.01, "seed {seed}");
+    }
 }
 
 /// The measure itself: the frame without hair doesn't agree.

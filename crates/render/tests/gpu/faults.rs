@@ -4,6 +4,7 @@ use crate::scene::{Scene, driver, driver_gpu, layers, noop, registry};
 use effects::wgsl::Stroke;
 use effects::{Input, Joints, Param, Parameters, Program, StrokeEffect, Values};
 use render::gpu::{GpuError, Offscreen, PassFormat, Renderer};
+use render::{DrawError, FrameError};
 
 #[test]
 fn limits_that_are_too_small_are_named() {
@@ -133,13 +134,15 @@ fn frames_that_are_none_are_refused_as_on_the_cpu() {
     scene.background = Some([f32::NAN, 0.0, 0.0]);
     assert!(matches!(
         card.draw(&scene.frame(), 4),
-        Err(GpuError::Draw(_))
+        Err(GpuError::Frame(FrameError::Draw(DrawError::Background)))
     ));
     scene.background = None;
     scene.surfaces[0].triangles.push([0, 1, 99]);
     assert!(matches!(
         card.draw(&scene.frame(), 4),
-        Err(GpuError::Draw(_))
+        Err(GpuError::Frame(FrameError::Draw(
+            DrawError::TriangleIndex { .. }
+        )))
     ));
     scene.surfaces.clear();
     card.draw(&scene.frame(), 4).unwrap();

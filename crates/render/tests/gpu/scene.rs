@@ -4,7 +4,8 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
-use render::{Brush, Frame, Head, Light, Order, StrandInfo, Surface, SurfaceVertex};
+use render::{Brush, Frame, Head, Light, Object, Order, StrandInfo, Surface, SurfaceVertex};
+use std::iter;
 use std::ops::Range;
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
@@ -16,6 +17,8 @@ pub struct Scene {
     pub clump: Varied<clump::Program>,
     pub layers: Vec<Layer>,
     pub layer_joints: Vec<Range<usize>>,
+    /// A second object, which has the last joints.
+    pub second: Option<Second>,
     pub material_normals: Vec<Vec3>,
     pub surfaces: Vec<Surface>,
     pub light: Light,
@@ -23,6 +26,13 @@ pub struct Scene {
     pub order: Order,
     pub brush: Brush,
     pub seed: u32,
+}
+
+/// An object beside the first, in the same look.
+pub struct Second {
+    joints: Range<usize>,
+    head: Head,
+    layer_joints: Vec<Range<usize>>,
 }
 
 /// Every effect of inkstrand's own, some of their numbers varying.
@@ -161,6 +171,7 @@ impl Scene {
             strands,
             clump: Varied::new(&values),
             layer_joints: layer_joints.collect(),
+            second: None,
             layers,
             paths,
             surfaces: vec![
@@ -183,6 +194,29 @@ impl Scene {
         }
     }
 
+    /// The same with the strands behind the first six on another head, which is smaller and stands elsewhere.
+    pub fn random_pair(seed: u32) -> Self {
+        let mut scene = Self::random(seed);
+        let runs = &scene.paths.runs;
+        let first = runs.iter().find(|run| run.strand >= 6);
+        let joints = first.map_or(0, |run| run.joints.start)..scene.paths.len();
+        let behind =
+            |drawn: &Range<usize>| drawn.start.max(joints.start)..drawn.end.max(joints.start);
+        let layer_joints = scene.layer_joints.iter().map(behind).collect();
+        for drawn in &mut scene.layer_joints {
+            *drawn = drawn.start.min(joints.start)..drawn.end.min(joints.start);
+        }
+        scene.second = Some(Second {
+            joints,
+            head: Head {
+                center: Vec3::new(0.1, -0.05, 0.03),
+                height_m: 0.15,
+            },
+            layer_joints,
+        });
+        scene
+    }
+
     /// Turns all strands by so many degrees around the head, each on straight paths through the joints it has now.
     pub fn turn_by(&mut self, degrees: f32) {
         let turned = glam::Quat::from_rotation_y(degrees.to_radians());
@@ -202,19 +236,33 @@ impl Scene {
     }
 
     pub fn frame(&self) -> Frame<'_> {
-        Frame {
-            camera: &self.camera,
-            paths: &self.paths,
-            strands: &self.strands,
+        let first = Object {
+            joints: 0..self
+                .second
+                .as_ref()
+                .map_or(self.paths.len(), |second| second.joints.start),
             head: Head {
                 center: Vec3::new(0.0, 0.02, 0.0),
                 height_m: 0.24,
             },
-            light: self.light,
             clump: &self.clump,
             seed: self.seed,
             layers: &self.layers,
             layer_joints: &self.layer_joints,
+        };
+        let second = self.second.as_ref().map(|second| Object {
+            joints: second.joints.clone(),
+            head: second.head,
+            seed: self.seed + 1,
+            layer_joints: &second.layer_joints,
+            ..first.clone()
+        });
+        Frame {
+            camera: &self.camera,
+            paths: &self.paths,
+            strands: &self.strands,
+            objects: iter::once(first).chain(second).collect(),
+            light: self.light,
             material_normals: &self.material_normals,
             surfaces: self.surfaces.clone(),
             background: self.background,

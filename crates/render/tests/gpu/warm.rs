@@ -34,6 +34,23 @@ fn once_warm_nothing_is_made() {
     }
 }
 
+#[test]
+fn objects_of_one_look_share_their_pipelines() {
+    let mut card = on_noop();
+    card.draw(&Scene::random(3).frame(), 4).unwrap();
+    let alone = card.stats();
+    let pair = Scene::random_pair(3);
+    card.draw(&pair.frame(), 4).unwrap();
+    // Parameters of a clump and five layers.
+    let together = card.stats();
+    assert_eq!(together.pipelines, alone.pipelines);
+    assert_eq!(together.buffers, alone.buffers + 6);
+    card.draw(&pair.frame(), 4).unwrap();
+    assert_eq!(card.stats().made, 0);
+    card.draw(&Scene::random(3).frame(), 4).unwrap();
+    assert_eq!(card.stats().buffers, alone.buffers);
+}
+
 /// Hair that moves by a little takes no more memory than buffers keep in reserve.
 #[test]
 fn once_warm_nothing_is_made_for_hair_that_moves() {

@@ -92,6 +92,7 @@ fn layer(extent: f32, clump: Vec<Disc>) -> impl Strategy<Value = LayerStrokes> {
                 }
                 LayerStrokes {
                     name: String::new(),
+                    joints: 0..clump.len(),
                     rank,
                     instances,
                     discs,
@@ -99,6 +100,26 @@ fn layer(extent: f32, clump: Vec<Disc>) -> impl Strategy<Value = LayerStrokes> {
                 }
             })
     })
+}
+
+/// A layer without its strokes before the share `from` of the runs, if that is below 1, and without those behind the share `to`.
+fn on_some_runs(layer: LayerStrokes, runs: &[Run], [from, to]: [f32; 2]) -> LayerStrokes {
+    let run = |share: f32| &runs[((share * runs.len() as f32) as usize).min(runs.len() - 1)];
+    let all = layer.joints.len();
+    let start = if from < 1.0 {
+        run(from).joints.start
+    } else {
+        0
+    };
+    let end = if to < 1.0 { run(to).joints.end } else { all };
+    let joints = start..end.max(start);
+    let kept = (0..layer.instances * all).filter(|index| joints.contains(&(index % all)));
+    LayerStrokes {
+        discs: kept.clone().map(|index| layer.discs[index]).collect(),
+        colors: kept.map(|index| layer.colors[index]).collect(),
+        joints: joints.clone(),
+        ..layer
+    }
 }
 
 /// Everything a drawing may hold, small.
@@ -114,7 +135,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
         (
             Just(strands),
             Just(clump.clone()),
-            vec(layer(extent, clump), 1..5),
+            vec((layer(extent, clump), 0.0..3.0f32, 0.0..3.0f32), 1..5),
         )
     });
     let order = prop_oneof![
@@ -152,9 +173,6 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                         start += joints;
                     }
                 }
-                for (index, layer) in layers.iter_mut().enumerate() {
-                    layer.name = format!("layer {index}");
-                }
                 if order == Order::Rounded {
                     // Strands of equal depth are told apart by r^8 alone, which f32 takes for 0 near
                     // their middles.
@@ -163,11 +181,13 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                         let run = runs.iter().find(|run: &&Run| run.joints.contains(&joint));
                         run.map_or(0, |run| run.strand)
                     };
-                    let discs = layers.iter_mut().flat_map(|layer| &mut layer.discs);
+                    let discs = (layers.iter_mut()).flat_map(|(layer, ..)| &mut layer.discs);
                     for (index, disc) in clump.iter_mut().enumerate().chain(discs.enumerate()) {
                         disc.inv_depth += 1e-3 * strand_of(index % joints) as f32;
                     }
                 }
+                let some = |(layer, from, to)| on_some_runs(layer, &runs, [from, to]);
+                let layers = layers.into_iter().map(some).collect();
                 let beside = |side: f32| {
                     clump.iter().map(move |disc| Disc {
                         center: disc.center + side * Vec2::new(4.0, 3.0),

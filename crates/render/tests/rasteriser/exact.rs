@@ -59,6 +59,7 @@ fn radius_zero_draws_nothing_even_at_a_sample() {
             .collect(),
         layers: vec![LayerStrokes {
             name: "thread".to_owned(),
+            joints: 0..discs.len(),
             rank: 0,
             instances: 1,
             colors: vec![[1.0; 3]; discs.len()],

@@ -79,6 +79,7 @@ pub fn portrait(size: [u32; 2], order: Order) -> Drawing {
             (0..instances).flat_map(|instance| joints.clone().map(move |joint| (instance, joint)));
         LayerStrokes {
             name: name.to_owned(),
+            joints: joints.clone(),
             rank,
             instances,
             discs: all

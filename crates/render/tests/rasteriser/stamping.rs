@@ -45,6 +45,7 @@ fn stamped(drawing: &Drawing, per_interval: usize) -> Drawing {
         });
         LayerStrokes {
             name: layer.name.clone(),
+            joints: 0..places.len(),
             rank: layer.rank,
             instances: layer.instances,
             discs: discs.collect(),

@@ -16,6 +16,13 @@ pub(crate) struct HeadPose {
 }
 
 impl HeadPose {
+    /// Where the file has it.
+    pub const REST: Self = Self {
+        base: DQuat::IDENTITY,
+        turn: DVec3::ZERO,
+        shift: DVec3::ZERO,
+    };
+
     /// The turn as a unit quaternion, of which `share` (0 to 1) is done: the neck turns less than the
     /// head.
     pub fn rotation(&self, share: f64) -> DQuat {

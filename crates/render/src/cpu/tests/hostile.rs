@@ -57,6 +57,26 @@ fn runs_must_be_sorted_and_have_their_own_joints() {
 }
 
 #[test]
+fn layers_draw_on_whole_runs() {
+    let on = |joints: Range<usize>| {
+        after(|d| {
+            d.runs[1].joints = 1..4;
+            d.runs[0].joints = 0..1;
+            d.layers[0].joints = joints;
+        })
+    };
+    for (start, end) in [(0, 2), (2, 4), (0, 5), (3, 1), (usize::MAX, usize::MAX)] {
+        let joints = Range { start, end };
+        assert!(matches!(
+            on(joints),
+            DrawError::LayerJoints { joints: 4, .. }
+        ));
+    }
+    // Whole runs, whose lists are still as long as those of all.
+    assert!(matches!(on(1..4), DrawError::LayerLength { joints: 3, .. }));
+}
+
+#[test]
 fn layers_must_fit_their_joints() {
     let is_length = |error| matches!(error, DrawError::LayerLength { .. });
     assert!(is_length(after(|d| d.layers[0].instances = 2)));
@@ -224,7 +244,7 @@ proptest! {
             runs: vec![Run { strand: 0, joints: 0..1 }, Run { strand: 7, joints: 1..6 }],
             clump,
             sides: discs.clone(),
-            layers: vec![LayerStrokes { name: String::new(), rank, instances: 2, discs, colors }],
+            layers: vec![LayerStrokes { name: String::new(), joints: 0..6, rank, instances: 2, discs, colors }],
             surfaces: vec![surface],
             background: None,
             order: Order::ALL[order],

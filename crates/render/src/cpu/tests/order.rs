@@ -217,6 +217,7 @@ fn any_layer(joints: usize) -> impl Strategy<Value = LayerStrokes> {
             }
             LayerStrokes {
                 name: String::new(),
+                joints: 0..joints,
                 rank,
                 instances,
                 discs,
@@ -247,6 +248,7 @@ fn any_drawing() -> impl Strategy<Value = Drawing> {
                 colors.truncate(discs.len());
                 layers.push(LayerStrokes {
                     name: String::new(),
+                    joints: 0..JOINTS,
                     rank: 0,
                     instances: discs.len() / JOINTS,
                     discs,

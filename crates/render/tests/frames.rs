@@ -1,0 +1,217 @@
+//! Frames that a program made itself, and made wrong, are refused in words.
+
+use effects::preset::Reader;
+use effects::{Layer, Parameters, Registry, Values, Varied, clump};
+use glam::Vec3;
+use render::cpu::Evaluator;
+use render::{Brush, Drawing, Frame, FrameError, Head, Light, Object, Order, StrandInfo};
+use std::ops::Range;
+use stroke_path::{Camera, OrbitView, PathKind, Paths};
+
+/// Two heads with two strands each, of two joints.
+struct Scene {
+    camera: Camera,
+    paths: Paths,
+    strands: Vec<StrandInfo>,
+    clump: Varied<clump::Program>,
+    layers: Vec<Layer>,
+    /// Of each object all of its joints, and those of each layer.
+    joints: [(Range<usize>, Vec<Range<usize>>); 2],
+    heads: [Head; 2],
+    light: Light,
+    normals: Vec<Vec3>,
+}
+
+impl Scene {
+    fn new() -> Self {
+        let view = OrbitView {
+            target: Vec3::ZERO,
+            yaw_degrees: 0.0,
+            pitch_degrees: 0.0,
+            distance_m: 2.0,
+            vertical_fov_degrees: 30.0,
+        };
+        let camera = Camera::orbit(view, [80, 60], 0.01).unwrap();
+        let mut paths = Paths::new();
+        for strand in 0..4 {
+            let x = 0.1 * strand as f32 - 0.15;
+            let points = [Vec3::new(x, 0.1, 0.0), Vec3::new(x, -0.1, 0.0)];
+            let kind = PathKind::Linear { subdivision: 1 };
+            paths.push_strand(strand, &points, kind, &camera).unwrap();
+        }
+        let strand = |id| StrandInfo {
+            id,
+            mean: Vec3::ZERO,
+            size: 10.0,
+        };
+        let mut registry = Registry::new();
+        effects_builtin::register(&mut registry).unwrap();
+        let text = "[(effect: \"hair.silhouette\"), (effect: \"hair.base\")]";
+        let mut reader = Reader::new("test", text);
+        let specs = reader.layers(text, &registry, &[]);
+        reader.report().unwrap();
+        let head = |x| Head {
+            center: Vec3::new(x, 0.0, -0.1),
+            height_m: 0.3,
+        };
+        let of_object = |joints: Range<usize>| (joints.clone(), vec![joints; 2]);
+        Self {
+            camera,
+            paths,
+            strands: (0..4).map(strand).collect(),
+            clump: Varied::new(&Values::defaults(clump::Program::PARAMS)),
+            layers: specs.iter().map(|spec| spec.build()).collect(),
+            joints: [of_object(0..4), of_object(4..8)],
+            heads: [head(-0.1), head(0.1)],
+            light: Light::Direction(Vec3::Z),
+            normals: Vec::new(),
+        }
+    }
+
+    fn frame(&self) -> Frame<'_> {
+        let object = |index: usize| Object {
+            joints: self.joints[index].0.clone(),
+            head: self.heads[index],
+            clump: &self.clump,
+            seed: 1,
+            layers: &self.layers,
+            layer_joints: &self.joints[index].1,
+        };
+        Frame {
+            camera: &self.camera,
+            paths: &self.paths,
+            strands: &self.strands,
+            objects: vec![object(0), object(1)],
+            light: self.light,
+            material_normals: &self.normals,
+            surfaces: Vec::new(),
+            background: None,
+            order: Order::Rounded,
+            edge_depth_m: 0.005,
+            brush: Brush::Circle,
+        }
+    }
+}
+
+/// What is said of the scene after a change; the drawing stays what it was.
+fn refused(change: impl FnOnce(&mut Scene)) -> FrameError {
+    let mut scene = Scene::new();
+    change(&mut scene);
+    let mut drawing = Drawing::default();
+    let error = Evaluator::default().evaluate(&scene.frame(), &mut drawing);
+    assert_eq!(drawing, Drawing::default());
+    error.unwrap_err()
+}
+
+#[test]
+fn each_object_is_drawn_on_its_own_joints() {
+    let scene = Scene::new();
+    let mut drawing = Drawing::default();
+    Evaluator::default()
+        .evaluate(&scene.frame(), &mut drawing)
+        .unwrap();
+    let joints: Vec<Range<usize>> = drawing.layers.iter().map(|l| l.joints.clone()).collect();
+    assert_eq!(joints, [0..4, 0..4, 4..8, 4..8]);
+    assert_eq!(drawing.layers[1].discs[..4], drawing.clump[..4]);
+    assert_eq!(drawing.layers[3].discs[..4], drawing.clump[4..]);
+}
+
+#[test]
+fn a_head_measures_its_own_hair_alone() {
+    let mut scene = Scene::new();
+    let mut drawings = [Drawing::default(), Drawing::default()];
+    for drawing in &mut drawings {
+        let mut evaluator = Evaluator::default();
+        evaluator.evaluate(&scene.frame(), drawing).unwrap();
+        scene.heads[1].height_m = 0.6;
+    }
+    let [small, large] = drawings;
+    assert_eq!(small.clump[..4], large.clump[..4]);
+    for (a, b) in small.clump[4..].iter().zip(&large.clump[4..]) {
+        assert!(
+            (b.radius - 2.0 * a.radius).abs() <= 1e-4 * b.radius,
+            "{a:?} {b:?}"
+        );
+    }
+}
+
+#[test]
+fn joints_belong_to_one_object() {
+    let split = |first: Range<usize>, second: Range<usize>| {
+        refused(|scene| {
+            scene.joints[0].0 = first;
+            scene.joints[1].0 = second;
+        })
+    };
+    for (first, second) in [
+        (0..4, 5..8),
+        (0..3, 3..8),
+        (0..4, 4..6),
+        (0..4, 4..10),
+        (2..4, 4..8),
+    ] {
+        let error = split(first, second);
+        assert!(matches!(error, FrameError::ObjectJoints { .. }), "{error}");
+    }
+    let error = refused(|scene| scene.joints[1].1[0] = 2..8);
+    assert!(matches!(error, FrameError::LayerJoints { object: 1, .. }));
+    assert!(error.to_string().contains("hair.silhouette"), "{error}");
+    let error = refused(|scene| scene.joints[0].1[1] = 0..1);
+    assert!(matches!(error, FrameError::LayerJoints { object: 0, .. }));
+    let error = refused(|scene| scene.joints[0].1.truncate(1));
+    assert!(matches!(
+        error,
+        FrameError::Layers {
+            layers: 2,
+            ranges: 1,
+            ..
+        }
+    ));
+}
+
+#[test]
+fn strands_and_paths_are_whole() {
+    let error = refused(|scene| scene.strands.truncate(3));
+    assert!(matches!(
+        error,
+        FrameError::Strand {
+            run: 3,
+            strand: 3,
+            strands: 3
+        }
+    ));
+    for size in [f32::NAN, f32::INFINITY, -1.0] {
+        let error = refused(|scene| scene.strands[2].size = size);
+        assert!(matches!(error, FrameError::StrandNumbers { strand: 2, .. }));
+    }
+    let error = refused(|scene| scene.strands[0].mean.x = f32::NAN);
+    assert!(matches!(error, FrameError::StrandNumbers { strand: 0, .. }));
+    let error = refused(|scene| scene.paths.depth.truncate(7));
+    assert_eq!(
+        error.to_string(),
+        "the paths have 8 joints, but 7 in the list `depth`"
+    );
+    for joints in [1..4, 2..2, 2..99] {
+        let error = refused(|scene| scene.paths.runs[1].joints = joints);
+        assert!(matches!(error, FrameError::Run { run: 1, .. }), "{error}");
+    }
+    let error = refused(|scene| scene.paths.runs[1].overlap = 3);
+    assert!(matches!(error, FrameError::Run { run: 1, .. }));
+    let error = refused(|scene| scene.normals = vec![Vec3::Y; 7]);
+    assert!(matches!(
+        error,
+        FrameError::MaterialNormals { normals: 7, .. }
+    ));
+}
+
+#[test]
+fn heads_and_light_are_somewhere() {
+    for height_m in [0.0, -0.2, f32::NAN, f32::INFINITY] {
+        let error = refused(|scene| scene.heads[1].height_m = height_m);
+        assert!(matches!(error, FrameError::Head { object: 1, .. }));
+    }
+    let error = refused(|scene| scene.heads[0].center.y = f32::INFINITY);
+    assert!(matches!(error, FrameError::Head { object: 0, .. }));
+    let error = refused(|scene| scene.light = Light::Point(Vec3::NAN));
+    assert_eq!(error, FrameError::Light);
+}

@@ -1,0 +1,211 @@
+//! An object of a scene: hair on a head, how it moves, how it is drawn, and where it stands.
+
+use crate::files::{Files, StageError};
+use crate::hair::HairModel;
+use crate::head::HeadModel;
+use crate::load;
+use crate::look::Look;
+use crate::neck::Neck;
+use crate::placement::Placement;
+use crate::preset::Preset;
+use crate::script::{self, MotionScript};
+use glam::Vec3;
+use render::{Head, StrandInfo};
+use std::sync::Arc;
+use stroke_path::Cut;
+
+/// How far the pieces of a strand that curls go on beyond where they meet, in parts of its full radius.
+const OVERLAP: f32 = 3.0;
+
+/// Hair on a head, with a look. Its parts are shared: a clone is cheap, and an object with another part is one of which
+/// the others are not made again.
+#[derive(Clone)]
+pub struct Object {
+    hair: Arc<HairModel>,
+    /// The head as it was given, and as it stands under this hair.
+    bare_head: Option<Arc<HeadModel>>,
+    neck: Option<Arc<Neck>>,
+    script: Arc<MotionScript>,
+    look: Arc<Look>,
+    /// Where each strand's path is cut.
+    cuts: Arc<Vec<Vec<Cut>>>,
+    placement: Placement,
+}
+
+impl Object {
+    /// An object of a program's own, without any file, where its head and hair are. Its head is still; hair may fall.
+    ///
+    /// # Errors
+    ///
+    /// When no path can be made of the strands.
+    pub fn new(hair: HairModel, head: Option<HeadModel>, look: Look) -> Result<Self, StageError> {
+        let look = Arc::new(look);
+        Self::of(hair, head, look, MotionScript::default())
+    }
+
+    /// Reads the preset's files. What is guessed about them is noted.
+    pub(crate) fn load(
+        preset: &Preset,
+        files: &Files,
+        look: Arc<Look>,
+        notes: &mut Vec<String>,
+    ) -> Result<Self, StageError> {
+        let head = load::head(preset, files, notes)?;
+        let mesh = head.as_ref().map(|model| &model.mesh);
+        let mut hair = load::hair(preset, files, mesh, notes)?;
+        let script = script::load(preset, files, &mut hair, mesh)?;
+        hair.choose_guides(&preset.sections.hair);
+        load::bake(preset, files, &mut hair)?;
+        Self::of(hair, head, look, script)
+    }
+
+    fn of(
+        hair: HairModel,
+        head: Option<HeadModel>,
+        look: Arc<Look>,
+        script: MotionScript,
+    ) -> Result<Self, StageError> {
+        let head = head.map(Arc::new);
+        Ok(Self {
+            neck: head
+                .as_deref()
+                .map(|head| Arc::new(neck(head, &hair, &look))),
+            cuts: Arc::new(cuts(&hair, &look)?),
+            bare_head: head,
+            hair: Arc::new(hair),
+            script: Arc::new(script),
+            look,
+            placement: Placement::default(),
+        })
+    }
+
+    /// The same hair and head with another look.
+    ///
+    /// # Errors
+    ///
+    /// When no path of the look's kind can be made of the strands.
+    pub fn with_look(&self, look: Look) -> Result<Self, StageError> {
+        self.in_look(Arc::new(look))
+    }
+
+    pub(crate) fn in_look(&self, look: Arc<Look>) -> Result<Self, StageError> {
+        let mut object = self.clone();
+        if look.path() != self.look.path() {
+            object.cuts = Arc::new(cuts(&self.hair, &look)?);
+        }
+        if look.sections.head.scalp != self.look.sections.head.scalp {
+            let bare = self.bare_head.as_deref();
+            object.neck = bare.map(|head| Arc::new(neck(head, &self.hair, &look)));
+        }
+        object.look = look;
+        Ok(object)
+    }
+
+    /// Other hair on the same head, in the same look.
+    ///
+    /// # Errors
+    ///
+    /// When no path can be made of the strands.
+    pub fn with_hair(&self, hair: HairModel) -> Result<Self, StageError> {
+        let bare = self.bare_head.as_deref();
+        Ok(Self {
+            cuts: Arc::new(cuts(&hair, &self.look)?),
+            neck: bare.map(|head| Arc::new(neck(head, &hair, &self.look))),
+            hair: Arc::new(hair),
+            ..self.clone()
+        })
+    }
+
+    /// The same, turned by degrees to its left about the world's upward axis through 0, and then moved by `shift_m` (metres). Head and
+    /// hair move as they did in front of it; winds blow as they did in the world.
+    #[must_use]
+    pub fn placed(&self, turn_degrees: f32, shift_m: Vec3) -> Self {
+        let placement = Placement::new(turn_degrees, shift_m);
+        let mut object = Self {
+            placement,
+            ..self.clone()
+        };
+        for wind in &mut Arc::make_mut(&mut object.script).winds {
+            let in_world = self.placement.direction(wind.direction);
+            wind.direction = placement.own_direction(in_world);
+        }
+        object
+    }
+
+    /// The hair.
+    #[must_use]
+    pub fn hair(&self) -> &HairModel {
+        &self.hair
+    }
+
+    /// The look.
+    #[must_use]
+    pub fn look(&self) -> &Look {
+        &self.look
+    }
+
+    /// Where its head is in the scene while nothing moves, and how large.
+    #[must_use]
+    pub fn head(&self) -> Head {
+        self.placement.head(self.hair.head)
+    }
+
+    pub(crate) fn shared_look(&self) -> &Arc<Look> {
+        &self.look
+    }
+
+    pub(crate) fn script(&self) -> &MotionScript {
+        &self.script
+    }
+
+    pub(crate) fn neck(&self) -> Option<&Neck> {
+        self.neck.as_deref()
+    }
+
+    pub(crate) fn cuts(&self) -> &[Vec<Cut>] {
+        &self.cuts
+    }
+
+    pub(crate) fn placement(&self) -> Placement {
+        self.placement
+    }
+
+    /// Whether both have the same hair on the same head, not only alike ones.
+    pub(crate) fn has_hair_and_head_of(&self, other: &Self) -> bool {
+        let same_head = match (&self.neck, &other.neck) {
+            (Some(own), Some(others)) => Arc::ptr_eq(own, others),
+            (own, others) => own.is_none() && others.is_none(),
+        };
+        same_head && Arc::ptr_eq(&self.hair, &other.hair)
+    }
+
+    /// Whether hair moves alike in both: the same hair on the same head, with the same script and dynamics.
+    pub(crate) fn moves_as(&self, other: &Self) -> bool {
+        let (own, others) = (&self.look, &other.look);
+        self.has_hair_and_head_of(other)
+            && Arc::ptr_eq(&self.script, &other.script)
+            && own.seed == others.seed
+            && own.sections.dynamics == others.sections.dynamics
+    }
+}
+
+/// The head with the hair's bands in it, and with what of it has hair told from what has none.
+fn neck(head: &HeadModel, hair: &HairModel, look: &Look) -> Neck {
+    let mut model = head.clone();
+    model.add_ties(&hair.ties);
+    let reach = look.sections.head.scalp;
+    // A style's own coat lies there.
+    if reach > 0.0 && hair.undercoat == 0 {
+        model.find_scalp(&hair.all_roots, reach * hair.head.height_m);
+    }
+    Neck::new(model, hair.head)
+}
+
+fn cuts(hair: &HairModel, look: &Look) -> Result<Vec<Vec<Cut>>, StageError> {
+    let cut = |(i, info): (usize, &StrandInfo)| {
+        let overlap_m = OVERLAP * info.size * hair.head.unit_m();
+        stroke_path::cuts(hair.file.strands.strand(i), look.path(), overlap_m)
+    };
+    let strands = hair.infos.iter().enumerate();
+    Ok(strands.map(cut).collect::<Result<_, _>>()?)
+}
