@@ -22,6 +22,13 @@ fn edge(start: vec2<f32>, end: vec2<f32>) -> vec3<f32> {
     return select(area, -area, is_turned);
 }
 
+/// The value at the tile's corner, and the slopes, of what is linear between the corners. From the first corner's value on: sums of whole
+/// values would lose in needles what tells a surface's outside from its inside, which meet where it turns away.
+fn linear(values: vec3<f32>, edges: array<vec3<f32>, 3>, area: f32) -> vec3<f32> {
+    let rise = (values.y - values.x) * edges[1] + (values.z - values.x) * edges[2];
+    return vec3<f32>(values.x, 0.0, 0.0) + rise / area;
+}
+
 fn place(index: u32, tile: vec2<f32>) -> Placed {
     var placed: Placed;
     let triangle = triangles[index];
@@ -45,8 +52,8 @@ fn place(index: u32, tile: vec2<f32>) -> Placed {
     let edges = array<vec3<f32>, 3>(edge(pb, pc), edge(pc, pa), edge(pa, pb));
     placed.is_there = true;
     placed.box = vec4<f32>(low, high);
-    placed.depth = (a.inv_depth * edges[0] + b.inv_depth * edges[1] + c.inv_depth * edges[2]) / area;
-    placed.tone = (a.tone * edges[0] + b.tone * edges[1] + c.tone * edges[2]) / area;
+    placed.depth = linear(vec3<f32>(a.inv_depth, b.inv_depth, c.inv_depth), edges, area);
+    placed.tone = linear(vec3<f32>(a.tone, b.tone, c.tone), edges, area);
     let side = sign(area);
     placed.edges = array<vec3<f32>, 3>(side * edges[0], side * edges[1], side * edges[2]);
     placed.depth_range = vec2<f32>(min(min(a.inv_depth, b.inv_depth), c.inv_depth), max(max(a.inv_depth, b.inv_depth), c.inv_depth));

@@ -1,8 +1,9 @@
 //! A graphics card draws what the CPU draws.
 
-use crate::scene::{Scene, driver};
+use crate::scene::{Numbers, Scene, driver};
+use glam::Vec2;
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Drawing, Picture};
+use render::{Drawing, Picture, Surface, SurfaceVertex};
 
 fn on_cpu(scene: &Scene, samples: u32) -> Picture {
     let mut drawing = Drawing::default();
@@ -61,6 +62,48 @@ fn two_objects_agree() {
         let alone = on_cpu(&Scene::random(seed), 4);
         assert!(share_beyond(&cpu, &alone, 0.01) > 0.01, "seed {seed}");
     }
+}
+
+/// A head seen along its skin: triangles of its outside and of its inside meet at an edge, where they are as deep, and those of the inside
+/// are needles.
+#[test]
+fn surfaces_that_meet_agree() {
+    let Some(mut card) = driver() else { return };
+    let mut scene = without_hair(2);
+    let corner = |x: f32, y: f32, inv_depth: f32| SurfaceVertex {
+        position: Vec2::new(x, y),
+        inv_depth,
+        tone: inv_depth,
+    };
+    let mut sides = [0, 1].map(|side| Surface {
+        light: [side as f32, 0.5, 0.0],
+        ..Surface::default()
+    });
+    let mut numbers = Numbers::new(1);
+    for row in 0..70 {
+        for column in 0..5 {
+            let (x, y) = (
+                18.0 * column as f32 + numbers.next(),
+                row as f32 + numbers.next(),
+            );
+            let (from, to) = (
+                corner(x, y, 0.67),
+                corner(x + 17.0, y + 0.7 * numbers.next(), 0.672),
+            );
+            let beyond = |up: f32, nearer: f32| corner(x + 9.0, y + up, 0.671 + nearer);
+            // Both lie above their edge, the inside by next to nothing, and deeper.
+            let thirds = [beyond(1.2, 1e-4), beyond(0.4, -1e-5)];
+            for (side, third) in sides.iter_mut().zip(thirds) {
+                let first = side.vertices.len() as u32;
+                side.vertices.extend([from, to, third]);
+                side.triangles.push([first, first + 1, first + 2]);
+            }
+        }
+    }
+    scene.surfaces = sides.to_vec();
+    let (cpu, gpu) = (on_cpu(&scene, 4), card.draw(&scene.frame(), 4).unwrap());
+    let wrong = share_beyond(&cpu, &gpu, 2.0 / 255.0);
+    assert!(wrong <= 0.0005, "{:.3} %", 100.0 * wrong);
 }
 
 /// The measure itself: the frame without hair doesn't agree.
