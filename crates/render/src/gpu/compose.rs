@@ -19,6 +19,55 @@ pub struct PassFormat {
     pub samples: u32,
 }
 
+impl PassFormat {
+    /// Whether there can be such a pass on a device of these features.
+    pub(super) fn check(&self, features: wgpu::Features) -> Result<(), GpuError> {
+        let refused = |message: String| Err(GpuError::PassFormat { message });
+        if !matches!(self.samples, 1 | 2 | 4 | 8 | 16) {
+            let message = format!(
+                "{} samples: there are passes of 1, 2, 4, 8 and 16",
+                self.samples
+            );
+            return refused(message);
+        }
+        let can = self.color.guaranteed_format_features(features);
+        let is_drawn_on = can
+            .allowed_usages
+            .contains(wgpu::TextureUsages::RENDER_ATTACHMENT);
+        let sample_type = self.color.sample_type(None, None);
+        let is_float = matches!(sample_type, Some(wgpu::TextureSampleType::Float { .. }));
+        if !is_float || !is_drawn_on {
+            let message = format!("colours in {:?}, which no pass draws on", self.color);
+            return refused(message);
+        }
+        let blends = can
+            .flags
+            .contains(wgpu::TextureFormatFeatureFlags::BLENDABLE);
+        if self.samples == 1 && !blends {
+            let message = format!("one sample in {:?}, which can't be blended", self.color);
+            return refused(message);
+        }
+        let Some(depth) = self.depth else {
+            return Ok(());
+        };
+        if !depth.format.has_depth_aspect() {
+            return refused(format!("depths in {:?}, which holds none", depth.format));
+        }
+        use wgpu::CompareFunction::{Greater, GreaterEqual, Less, LessEqual};
+        if !matches!(depth.compare, Less | LessEqual | Greater | GreaterEqual) {
+            let message = format!(
+                "depths are compared by {:?}: what is nearer needs Less, LessEqual, Greater or GreaterEqual",
+                depth.compare
+            );
+            return refused(message);
+        }
+        match depth.mapping.iter().all(|number| number.is_finite()) {
+            true => Ok(()),
+            false => refused(format!("depths are mapped by {:?}", depth.mapping)),
+        }
+    }
+}
+
 /// Depths in a render pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassDepth {

@@ -71,6 +71,12 @@ pub enum GpuError {
         /// The frame's.
         prepared: u32,
     },
+    /// There is no such pass.
+    #[error("the render pass can't be as it is said to be: {message}")]
+    PassFormat {
+        /// What cannot be.
+        message: String,
+    },
     /// The drawing is invalid.
     #[error(transparent)]
     Draw(#[from] DrawError),

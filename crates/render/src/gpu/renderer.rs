@@ -120,8 +120,8 @@ impl Renderer {
     ///
     /// # Errors
     ///
-    /// When the frame is no frame, is larger than the device allows, or the driver refuses a shader; when the pass has
-    /// neither one sample nor as many as are prepared. Then nothing was recorded, and [`Self::render`] draws nothing.
+    /// When the frame is invalid, is larger than the device allows, or the driver refuses a shader; when there can be no such pass, or it
+    /// has neither one sample nor as many as are prepared. Then nothing was recorded, and [`Self::render`] draws nothing.
     pub fn prepare(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -130,6 +130,7 @@ impl Renderer {
         pass: PassFormat,
     ) -> Result<(), GpuError> {
         let before = self.composer.take();
+        pass.check(self.device.features())?;
         if pass.samples != 1 && pass.samples != samples {
             return Err(GpuError::PassSamples {
                 pass: pass.samples,

@@ -3,7 +3,7 @@
 use crate::scene::{Scene, driver, driver_gpu, layers, noop, registry};
 use effects::wgsl::Stroke;
 use effects::{Input, Joints, Param, Parameters, Program, StrokeEffect, Values};
-use render::gpu::{GpuError, Offscreen, PassFormat, Renderer};
+use render::gpu::{GpuError, Offscreen, PassDepth, PassFormat, Renderer};
 use render::{DrawError, FrameError};
 
 #[test]
@@ -146,6 +146,61 @@ fn frames_that_are_none_are_refused_as_on_the_cpu() {
     ));
     scene.surfaces.clear();
     card.draw(&scene.frame(), 4).unwrap();
+}
+
+#[test]
+fn passes_that_cannot_be_are_refused_in_words() {
+    let gpu = noop(wgpu::Limits::default());
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).unwrap();
+    let scene = Scene::random(2);
+    let good = PassFormat {
+        color: wgpu::TextureFormat::Bgra8Unorm,
+        depth: Some(PassDepth {
+            format: wgpu::TextureFormat::Depth32Float,
+            compare: wgpu::CompareFunction::Less,
+            mapping: [1.0, -0.1],
+        }),
+        samples: 4,
+    };
+    let mut refused = |pass: PassFormat| {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let prepared = renderer.prepare(&mut encoder, &scene.frame(), 4, pass);
+        prepared.map_err(|error| error.to_string())
+    };
+    refused(good).unwrap();
+    let with_depth = |change: fn(&mut PassDepth)| {
+        let mut pass = good;
+        pass.depth.iter_mut().for_each(change);
+        pass
+    };
+    let color = |color| PassFormat { color, ..good };
+    let cases = [
+        (PassFormat { samples: 3, ..good }, "1, 2, 4, 8 and 16"),
+        (color(wgpu::TextureFormat::Depth32Float), "Depth32Float"),
+        (color(wgpu::TextureFormat::Rgba8Uint), "Rgba8Uint"),
+        (color(wgpu::TextureFormat::Bc1RgbaUnorm), "Bc1RgbaUnorm"),
+        (
+            PassFormat {
+                samples: 1,
+                ..color(wgpu::TextureFormat::Rgba32Float)
+            },
+            "can't be blended",
+        ),
+        (
+            with_depth(|depth| depth.format = wgpu::TextureFormat::Rgba8Unorm),
+            "depths in Rgba8Unorm",
+        ),
+        (
+            with_depth(|depth| depth.compare = wgpu::CompareFunction::Equal),
+            "Less, LessEqual, Greater or GreaterEqual",
+        ),
+        (with_depth(|depth| depth.mapping[1] = f32::NAN), "NaN"),
+    ];
+    for (pass, words) in cases {
+        let error = refused(pass).unwrap_err();
+        assert!(error.contains(words), "{error}");
+    }
+    gpu.check().unwrap();
 }
 
 #[test]
