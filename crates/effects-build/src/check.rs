@@ -3,6 +3,7 @@
 
 use crate::compose::{Entry, Source};
 use crate::error::BuildError;
+use crate::places;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{BinaryOperator, Expression, Handle, MathFunction as Math, Module, Span, TypeInner};
 
@@ -16,14 +17,14 @@ pub(crate) fn parse(source: &Source) -> Result<(Module, ModuleInfo), BuildError>
         .map_err(|error| {
             let text = error.emit_to_string_with_path(&source.text, &source.path);
             let span = error.labels().next().map(|(span, _)| span);
-            source.error(span.unwrap_or_default(), text)
+            places::error(source, span, error.message(), &text)
         })?;
     let info = validate(&module).map_err(|error| {
         let text = error.emit_to_string_with_path(&source.text, &source.path);
         // The innermost of the nested places that naga names.
         let length = |span: &Span| span.to_range().map_or(usize::MAX, |range| range.len());
         let span = error.spans().map(|(span, _)| *span).min_by_key(length);
-        source.error(span.unwrap_or_default(), text)
+        places::error(source, span, &error.to_string(), &text)
     })?;
     Ok((module, info))
 }

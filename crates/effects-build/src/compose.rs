@@ -33,6 +33,8 @@ pub(crate) struct Source {
     pub path: String,
     /// The author's text, then ours.
     pub text: String,
+    /// Bytes of the author's.
+    pub author_length: usize,
     /// The declared inputs, in the order of [`INPUTS`].
     pub inputs: Vec<&'static Input>,
 }
@@ -60,6 +62,7 @@ pub(crate) fn compose(author: &str, path: &str, entry: Entry) -> Result<Source, 
     Ok(Source {
         path: path.to_owned(),
         text,
+        author_length: author.len(),
         inputs,
     })
 }

@@ -271,6 +271,7 @@ fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
     let source = Source {
         path: "prelude.wgsl".to_owned(),
         text: PRELUDE.to_owned(),
+        author_length: PRELUDE.len(),
         inputs: Vec::new(),
     };
     let (module, _) = check::parse(&source)?;

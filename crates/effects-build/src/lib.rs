@@ -40,6 +40,7 @@ mod error;
 mod generate;
 mod inputs;
 mod params;
+mod places;
 mod repair;
 
 use std::path::{Path, PathBuf};

@@ -62,6 +62,27 @@ fn unknown_inputs_are_named_with_what_there_is() {
     assert_error(&source, &["src/mine.wgsl:1:1", "//! inputs:"]);
 }
 
+/// naga names no place for these, or one in text that the author never wrote.
+#[test]
+fn mistakes_are_told_in_the_authors_text() {
+    let both = with_radius("select(1.0, 0.0, instance || joint.u > 0.5)");
+    assert_error(&both, &["src/mine.wgsl:3:61: ", "LogicalOr(u32"]);
+    let twice = both.replace(
+        "select",
+        "select(1.0, 0.0, joint.u > 2.0 ||\n joint.u < 0.0) + select",
+    );
+    let twice = twice.replace("instance ||", "\ninstance ||");
+    assert_error(&twice, &["src/mine.wgsl:3:", "a `||` of the lines 3, 5"]);
+    // A brace that is never closed: in a text whose last line is 8.
+    let open = with_radius("1.0").replace(";\n}\nstruct", ";\nstruct");
+    assert_error(&open, &["src/mine.wgsl:2:", "`{` is never closed"]);
+    let open = with_radius("1.0").replace("width: f32,\n}", "width: f32,");
+    assert_error(&open, &["src/mine.wgsl:5:15: this `{` is never closed"]);
+    for spoilt in [&both, &twice, &open] {
+        assert!(!error(spoilt).contains("mine.wgsl:1:1"));
+    }
+}
+
 #[test]
 fn wgsl_errors_are_nagas() {
     assert_error(&with_radius("1.0 +"), &["src/mine.wgsl:3:"]);

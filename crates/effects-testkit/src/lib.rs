@@ -19,6 +19,7 @@
 //! [`assert_conforms`] is for all effects. [`assert_steady`] is for those whose strokes change little
 //! where their inputs do; with a hard step they can't, so it takes the parameters to hold it for.
 
+mod constants;
 mod descriptor;
 mod hair;
 mod joint;
@@ -27,6 +28,7 @@ mod paths;
 mod repeat;
 mod strokes;
 mod undeclared;
+mod unread;
 mod values;
 mod wgsl;
 
@@ -58,9 +60,14 @@ const CHECKS: &[(&str, Check)] = &[
         repeat::check,
     ),
     (
-        "its paths are finite, and the same ones in every frame",
+        "its paths are finite, and the same ones in every frame, and none jumps",
         paths::check,
     ),
+    (
+        "what its Rust reads doesn't vary along a strand",
+        constants::check,
+    ),
+    ("it declares what it reads, and no more", unread::check),
     ("its Rust is its WGSL", wgsl::check),
 ];
 

@@ -8,8 +8,19 @@ use glam::Vec3;
 /// Strand and number of a path, and its points.
 pub(crate) type Path = (usize, u32, Vec<Vec3>);
 
-/// The paths that are made of strands that rest as `rest` and stand as `now`.
-pub(crate) fn made(program: &dyn LayerProgram, rest: &[Vec<Vec3>], now: &[Vec<Vec3>]) -> Vec<Path> {
+/// Moments of moving hair that are looked at, before the time between two of them is halved.
+const MOMENTS: u32 = 64;
+/// How often it is.
+const HALVINGS: u32 = 16;
+/// How far a path may come from one moment to the next without having jumped, metres.
+const SMALL_M: f32 = 0.01 * HEAD_M;
+
+/// The paths that are made of strands that rest as `rest` and stand as `now`, and what is wrong with them.
+pub(crate) fn made(
+    program: &dyn LayerProgram,
+    rest: &[Vec<Vec3>],
+    now: &[Vec<Vec3>],
+) -> Result<Vec<Path>, String> {
     let strands: Vec<HairStrand> = (0..)
         .zip(rest.iter().zip(now))
         .map(|(number, (at_rest, particles))| HairStrand {
@@ -27,10 +38,13 @@ pub(crate) fn made(program: &dyn LayerProgram, rest: &[Vec<Vec3>], now: &[Vec<Ve
     };
     let mut paths = MadePaths::default();
     program.make_paths(&hair, 1, &mut paths);
+    if let Some(fault) = paths.fault() {
+        return Err(fault.to_owned());
+    }
     let points = paths.iter();
-    points
+    Ok(points
         .map(|(strand, number, points)| (strand, number, points.to_vec()))
-        .collect()
+        .collect())
 }
 
 pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
@@ -41,7 +55,8 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
         }
         for (what, strands) in hostile_hair() {
             let at = || format!("{}, of {what}", case.name);
-            for (strand, number, points) in made(&*program, &strands, &strands) {
+            let paths = made(&*program, &strands, &strands);
+            for (strand, number, points) in paths.map_err(|fault| format!("{}: {fault}", at()))? {
                 if strand >= strands.len() {
                     return Err(format!(
                         "{}: a path of strand {strand}, which is not there",
@@ -56,33 +71,85 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
     }
     let program = effect.program(&defaults(effect).values);
     let rest = strands();
-    let before = made(&*program, &rest, &rest);
+    let before = made(&*program, &rest, &rest)?;
     if before.is_empty() {
         return Err("at its defaults it makes no paths of a head of hair".to_owned());
     }
-    if before != made(&*program, &rest, &rest) {
+    if before != made(&*program, &rest, &rest)? {
         return Err("made again, the paths are others".to_owned());
     }
+    moves_with_the_hair(&*program, &rest)
+}
+
+/// Hair that is blown aside: its paths are the same ones all the while, and none jumps. Where one comes far from one moment to the
+/// next, the time between them is halved again and again: what moves fast comes less far then, what jumps doesn't.
+fn moves_with_the_hair(program: &dyn LayerProgram, rest: &[Vec<Vec3>]) -> Result<(), String> {
+    let hair = |time: f32| -> Vec<Vec<Vec3>> {
+        let strand = |points: &Vec<Vec3>| points.iter().map(|p| blown(*p, time)).collect();
+        rest.iter().map(strand).collect()
+    };
+    let paths = |time: f32| made(program, rest, &hair(time));
+    let mut before = paths(0.0)?;
+    for moment in 0..MOMENTS {
+        let [start, end] = [moment, moment + 1].map(|m| m as f32 / MOMENTS as f32);
+        let after = paths(end)?;
+        let (mut times, mut jump) = ([start, end], farthest(&before, &after)?);
+        let (mut first, mut last) = (before, after.clone());
+        for _ in 0..HALVINGS {
+            if jump.0 <= SMALL_M {
+                break;
+            }
+            let middle = 0.5 * (times[0] + times[1]);
+            let between = paths(middle)?;
+            let halves = [farthest(&first, &between)?, farthest(&between, &last)?];
+            if halves[0].0 > halves[1].0 {
+                (times[1], last, jump) = (middle, between, halves[0]);
+            } else {
+                (times[0], first, jump) = (middle, between, halves[1]);
+            }
+        }
+        let (distance_m, (strand, number)) = jump;
+        if distance_m > SMALL_M {
+            let [a, b] = times.map(hair);
+            let points = a.iter().flatten().zip(b.iter().flatten());
+            let moved_m = points.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+            return Err(format!(
+                "path {number} of strand {strand} jumps by {distance_m} m where the hair moves by {moved_m} m: what is chosen hangs on \
+                 seed, id and the hair at rest, not on where the hair is"
+            ));
+        }
+        before = after;
+    }
+    Ok(())
+}
+
+/// How far the paths are apart at most, metres, and strand and number of that one.
+fn farthest(a: &[Path], b: &[Path]) -> Result<(f32, (usize, u32)), String> {
     let names = |paths: &[Path]| -> Vec<(usize, u32, usize)> {
         let name = |(strand, number, points): &Path| (*strand, *number, points.len());
         paths.iter().map(name).collect()
     };
-    let moved: Vec<Vec<Vec3>> = rest
-        .iter()
-        .map(|strand| strand.iter().map(|point| blown(*point)).collect())
-        .collect();
-    if names(&before) != names(&made(&*program, &rest, &moved)) {
+    if names(a) != names(b) {
         return Err(
             "where the hair moves there are other paths: choose by seed, id and the hair at rest"
                 .to_owned(),
         );
     }
-    Ok(())
+    let mut farthest = (0.0, (0, 0));
+    for ((strand, number, a), (.., b)) in a.iter().zip(b) {
+        let distances = a.iter().zip(b).map(|(a, b)| a.distance(*b));
+        let distance_m = distances.fold(0.0, f32::max);
+        if distance_m > farthest.0 {
+            farthest = (distance_m, (*strand, *number));
+        }
+    }
+    Ok(farthest)
 }
 
-/// A point as a wind moves it.
-fn blown(point: Vec3) -> Vec3 {
-    point + 0.1 * Vec3::new(1.0, (9.0 * point.x).sin(), (7.0 * point.y).cos())
+/// A point as a wind moves it that rises from 0 to 1.
+fn blown(point: Vec3, strength: f32) -> Vec3 {
+    let aside = Vec3::new(1.0, (9.0 * point.x).sin(), (7.0 * point.y).cos());
+    point + 0.1 * strength * aside
 }
 
 fn hostile_hair() -> Vec<(&'static str, Vec<Vec<Vec3>>)> {

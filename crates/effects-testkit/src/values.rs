@@ -47,7 +47,25 @@ pub(crate) fn extremes(effect: &dyn AnyEffect) -> Vec<Case> {
         values: varied,
     });
     cases.extend((0..32).map(|number| mixture(effect, number)));
+    cases.extend(SHARES.map(|share| level(effect, share)));
     cases
+}
+
+/// Places in the ranges of numbers at which all of them are tried together.
+const SHARES: [f32; 4] = [0.0, 0.25, 0.5, 1.0];
+
+/// Every number at the same place of its range: where two are the ends of something, it has no length.
+fn level(effect: &dyn AnyEffect, share: f32) -> Case {
+    let mut values = Values::defaults(effect.params());
+    for (index, param) in effect.params().iter().enumerate() {
+        if let ParamKind::Number { min, max, .. } = param.kind {
+            values.set(index, Value::Number(min + (max - min) * share));
+        }
+    }
+    Case {
+        name: format!("with each number at {share} of its range"),
+        values,
+    }
 }
 
 /// Every parameter at one of its extremes, the same ones for the same `number`.
@@ -70,11 +88,18 @@ fn mixture(effect: &dyn AnyEffect, number: u32) -> Case {
     }
 }
 
-/// The values at the ends of a parameter's range, all of a choice.
+/// The values at the ends of a parameter's range, and 0 within it; all of a choice.
 pub(crate) fn extreme_values(kind: &ParamKind) -> Vec<Value> {
     let (black, white) = (Value::Color(Some([0.0; 3])), Value::Color(Some([1.0; 3])));
     match *kind {
-        ParamKind::Number { min, max, .. } => vec![Value::Number(min), Value::Number(max)],
+        ParamKind::Number { min, max, .. } => {
+            let mut numbers = vec![Value::Number(min), Value::Number(max)];
+            // Within its range, 0 is what divisions forget.
+            if min < 0.0 && max > 0.0 {
+                numbers.push(Value::Number(0.0));
+            }
+            numbers
+        }
         ParamKind::Integer { min, max, .. } => vec![Value::Integer(min), Value::Integer(max)],
         ParamKind::Choice { names, .. } => (0..names.len() as u32).map(Value::Choice).collect(),
         ParamKind::Color { .. } => vec![black, white],

@@ -1,6 +1,6 @@
 //! A good effect passes; spoilt in one way, it fails the check that is there for that.
 
-use effects::wgsl::{Stroke, vec2};
+use effects::wgsl::{Stroke, random, vec2};
 use effects::{
     Hair, Input, Joints, MadePaths, Param, ParamKind, Parameters as _, StrokeEffect, Values,
 };
@@ -18,6 +18,7 @@ trait Spoil: Send + Sync + 'static {
     const DEPTH_OFFSET: f32 = 0.0;
     const PARAMS: &'static [Param] = Program::PARAMS;
     const OWN_PATHS: bool = false;
+    const WGSL: &'static str = Program::WGSL;
     fn stroke(good: Stroke, _joints: &Joints, _index: usize, _params: &Params) -> Stroke {
         good
     }
@@ -36,7 +37,7 @@ impl<S: Spoil> effects::Parameters for Spoilt<S> {
     type Params = Params;
     const PARAMS: &'static [Param] = S::PARAMS;
     const INPUTS: &'static [Input] = Program::INPUTS;
-    const WGSL: &'static str = Program::WGSL;
+    const WGSL: &'static str = S::WGSL;
     fn params(values: &Values) -> Params {
         Program::params(values)
     }
@@ -337,6 +338,89 @@ fn paths_are_finite_and_the_same_ones_in_every_frame() {
         }
     });
     assert_fails::<Stranger>(CHECK, "which is not there");
+}
+
+#[test]
+fn paths_that_jump_are_found() {
+    // Chosen anew wherever the hair is.
+    spoil!(Jumping {
+        const OWN_PATHS: bool = true;
+        fn make_paths(hair: &Hair, paths: &mut MadePaths) {
+            for (strand, hair) in hair.strands.iter().enumerate() {
+                let tip = hair.point(1.0);
+                let aside = 0.1 * random(tip.x.to_bits(), 0);
+                paths.push(strand, 0, [hair.point(0.0), tip + glam::Vec3::X * aside]);
+            }
+        }
+    });
+    assert_fails::<Jumping>("none jumps", "path 0 of strand");
+    // Steps of 2 cm.
+    spoil!(Stepping {
+        const OWN_PATHS: bool = true;
+        fn make_paths(hair: &Hair, paths: &mut MadePaths) {
+            for (strand, hair) in hair.strands.iter().enumerate() {
+                let points = [0.0, 1.0].map(|u| (hair.point(u) / 0.02).floor() * 0.02);
+                paths.push(strand, 0, points);
+            }
+        }
+    });
+    assert_fails::<Stepping>("none jumps", "jumps by");
+    // Far beyond the tip, where hair moves fast.
+    spoil!(Fast {
+        const OWN_PATHS: bool = true;
+        fn make_paths(hair: &Hair, paths: &mut MadePaths) {
+            for (strand, hair) in hair.strands.iter().enumerate() {
+                paths.push(strand, 0, [0.0, 1.0, 20.0].map(|u| hair.point(u)));
+            }
+        }
+    });
+    effects_testkit::assert_conforms::<Spoilt<Fast>>();
+    spoil!(Crowd {
+        const OWN_PATHS: bool = true;
+        fn make_paths(hair: &Hair, paths: &mut MadePaths) {
+            for (strand, hair) in hair.strands.iter().enumerate() {
+                (0..9).for_each(|number| paths.push(strand, number, [hair.point(0.0)]));
+            }
+        }
+    });
+    assert_fails::<Crowd>("its paths", "a strand has at most 8 paths");
+}
+
+#[test]
+fn rust_reads_what_does_not_vary() {
+    spoil!(Wide { fn instances(params: &Params) -> u32 { 1 + params.width as u32 % 3 } });
+    assert_fails::<Wide>(
+        "doesn't vary",
+        "`width` may vary along the strand, and `instances`",
+    );
+}
+
+#[test]
+fn what_is_declared_is_read() {
+    spoil!(Wasteful {
+        const WGSL: &'static str = "struct Inputs { u: f32, gray: f32, across: vec2<f32>, }
+            fn ahead(joint: Inputs) -> f32 { return joint.gray; }
+            fn stroke(joint: Inputs) -> f32 { return ahead(joint) + joint.across.x; }";
+    });
+    assert_fails::<Wasteful>(
+        "declares what it reads, and no more",
+        "`u` is declared and never read",
+    );
+}
+
+#[test]
+fn ends_that_meet_are_tried() {
+    spoil!(Meeting {
+        fn stroke(mut good: Stroke, _: &Joints, _: usize, params: &Params) -> Stroke {
+            // 0 / 0 where both are at the same place of their ranges, within them.
+            let (from, to) = (params.threshold, params.taper);
+            if from > 0.1 && from < 0.9 {
+                good.radius *= ((from - to) / (from - to)).abs();
+            }
+            good
+        }
+    });
+    assert_fails::<Meeting>("whatever the parameters", "of its range");
 }
 
 #[test]

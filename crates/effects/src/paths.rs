@@ -57,6 +57,7 @@ fn point(particles: &[Vec3], u: f32) -> Vec3 {
 pub struct MadePaths {
     points: Vec<Vec3>,
     paths: Vec<MadePath>,
+    fault: Option<String>,
 }
 
 /// Where a path's points end, and whose it is.
@@ -75,6 +76,7 @@ impl MadePaths {
     pub fn clear(&mut self) {
         self.points.clear();
         self.paths.clear();
+        self.fault = None;
     }
 
     /// Adds path `number` (0 to 7) of strand `strand`, an index of [`Hair::strands`]: its points from root
@@ -83,19 +85,37 @@ impl MadePaths {
     /// The strand lends the path its size and colour. Strand and number must name the same path in
     /// every frame: its variations hang on them.
     ///
-    /// # Panics
-    ///
-    /// When the path is out of this order, or its number is above 7.
+    /// A path that is out of this order, or whose number is above 7, is left out, and the frame isn't drawn: [`Self::fault`].
     pub fn push(&mut self, strand: usize, number: u32, points: impl IntoIterator<Item = Vec3>) {
-        assert!(number < MOST_PATHS, "path {number} of a strand");
         let before = self.paths.last().map(|path| (path.strand, path.number));
-        assert!(before < Some((strand, number)), "paths out of order");
+        let fault = if number >= MOST_PATHS {
+            format!(
+                "a strand has at most {MOST_PATHS} paths, 0 to 7, and strand {strand} has a path {number}"
+            )
+        } else if let Some((last, last_number)) = before.filter(|last| *last >= (strand, number)) {
+            format!(
+                "path {number} of strand {strand} comes after path {last_number} of strand {last}: \
+                 they go by strand, then by number"
+            )
+        } else {
+            String::new()
+        };
+        if !fault.is_empty() {
+            self.fault.get_or_insert(fault);
+            return;
+        }
         self.points.extend(points);
         self.paths.push(MadePath {
             strand,
             number,
             end: self.points.len(),
         });
+    }
+
+    /// What is wrong with the first path that is none.
+    #[must_use]
+    pub fn fault(&self) -> Option<&str> {
+        self.fault.as_deref()
     }
 
     /// All paths: strand, number and points.
@@ -152,10 +172,21 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "out of order")]
-    fn paths_have_an_order() {
+    fn paths_have_an_order_and_an_end() {
         let mut paths = MadePaths::default();
         paths.push(1, 0, []);
-        paths.push(1, 0, []);
+        assert_eq!(paths.fault(), None);
+        paths.push(1, 0, [Vec3::X]);
+        paths.push(2, MOST_PATHS, [Vec3::X]);
+        assert!(
+            paths
+                .fault()
+                .unwrap()
+                .starts_with("path 0 of strand 1 comes after")
+        );
+        assert_eq!(paths.iter().count(), 1);
+        paths.clear();
+        paths.push(2, MOST_PATHS, [Vec3::X]);
+        assert!(paths.fault().unwrap().contains("at most 8 paths"));
     }
 }

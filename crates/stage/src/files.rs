@@ -84,6 +84,14 @@ pub enum StageError {
         "the preset names {0} objects: simulate each one's own preset, which then names its bake"
     )]
     BakeOfObjects(usize),
+    /// An effect made paths that are none.
+    #[error("layer `{layer}`: {what}")]
+    MadePaths {
+        /// The layer's name.
+        layer: String,
+        /// What is wrong with them.
+        what: String,
+    },
     /// Two strands of a program's own have this id.
     #[error("two strands have the id {0}")]
     SameId(u32),

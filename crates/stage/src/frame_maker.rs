@@ -280,8 +280,19 @@ impl ObjectFrame {
             self.made.clear();
             let seed = layer_seed(look.seed, &layer.name);
             layer.program.make_paths(&of_effects, seed, &mut self.made);
+            let fault = |what: String| StageError::MadePaths {
+                layer: layer.name.clone(),
+                what,
+            };
+            if let Some(what) = self.made.fault() {
+                return Err(fault(what.to_owned()));
+            }
             let start = paths.len();
             for (strand, number, points) in self.made.iter() {
+                if strand >= above.len() {
+                    let what = format!("a path of strand {strand}, and there are {}", above.len());
+                    return Err(fault(what));
+                }
                 let parent = strands[first_above + strand];
                 let index = strands.len();
                 self.made_of.push(hair.undercoat + strand);
