@@ -34,6 +34,7 @@ struct GpuFrame {
     surfaces_at: u32,
     /// 0 to write the mean of each pixel, 1 every sample.
     writes_samples: u32,
+    time_s: f32,
 }
 
 /// One disc of a stroke on the screen.

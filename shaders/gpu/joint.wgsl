@@ -78,6 +78,11 @@ fn gpu_light_distance(joint: u32) -> f32 {
     return select(1e6, distance, gpu_frame.light_is_point != 0u);
 }
 
+/// Head heights.
+fn gpu_depth(joint: u32) -> f32 {
+    return gpu_scalar(joint, GPU_AT_DEPTH) / gpu_word(GPU_HEAD_HEIGHT);
+}
+
 fn gpu_view_direction(joint: u32) -> vec3<f32> {
     return unit_or(gpu_frame.eye - gpu_vec3(joint, GPU_AT_POSITION), vec3<f32>(0.0, 0.0, 1.0));
 }

@@ -213,6 +213,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
                 layer_joints: &layer_joints,
             }],
             light: Light::Direction(Vec3::new(0.48, 0.6, 0.64)),
+            time_s: number as f32 / 60.0,
             material_normals: &[],
             surfaces: Vec::new(),
             background: Some([1.0; 3]),

@@ -21,8 +21,8 @@ pub(crate) enum Entry {
 impl Entry {
     fn offers(self, input: &Input) -> bool {
         match self {
-            Self::Effect => input.offered != Offered::ToClump,
-            Self::Clump => input.offered != Offered::ToEffects,
+            Self::Effect => true,
+            Self::Clump => input.offered == Offered::Both,
         }
     }
 }

@@ -4,7 +4,7 @@
 //! A new input is a row here, and what works it out: the compiler asks for that in `render`, on the CPU in
 //! `cpu/evaluate.rs` and on a graphics card in `gpu/inputs.rs`, and for values to try it with in `effects-testkit`.
 
-use Offered::{Both, ToClump, ToEffects};
+use Offered::{Both, ToEffects};
 use Type::{F32, U32, Vec2, Vec3};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -53,8 +53,6 @@ impl Type {
 /// Who may declare an input.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Offered {
-    /// The clump's source alone.
-    ToClump,
     /// Effects alone: it comes from the clump, or is a layer's own.
     ToEffects,
     Both,
@@ -89,13 +87,15 @@ pub(crate) const INPUTS: &[Input] = &[
     input("arc_length", F32, Both, "length of the strand up to here, metres"),
     input("strand", U32, Both, "the strand's stable id"),
     input("seed", U32, Both, "for `random`: a hash of style seed, layer name and strand"),
-    input("strand_mean", Vec3, ToClump, "mean of the strand's particles, metres (c_mean in 5.4)"),
-    input("head_center", Vec3, ToClump, "centre of the head, metres (c_head in 5.4)"),
-    input("head_height", F32, ToClump, "height of the head, metres"),
-    input("strand_size", F32, ToClump, "the strand's full size, 1/300 of the head's height"),
+    input("strand_mean", Vec3, Both, "mean of the strand's particles, metres (c_mean in 5.4)"),
+    input("head_center", Vec3, Both, "centre of the head, metres (c_head in 5.4)"),
+    input("head_height", F32, Both, "height of the head, metres"),
+    input("strand_size", F32, Both, "the strand's full size, 1/300 of the head's height"),
     input("light_direction", Vec3, Both, "unit vector to the light"),
     input("light_distance", F32, Both, "distance to the light, head heights; 1e6 for a direction"),
     input("view_direction", Vec3, Both, "unit vector to the eye"),
+    input("depth", F32, Both, "distance from the eye along the view's axis, head heights"),
+    input("time", F32, Both, "time of the scene, seconds: what reads it changes while nothing moves"),
     input("across", Vec2, Both, "unit vector across the path on the screen (x right, y down)"),
     input("material_normal", Vec3, Both, "unit vector across the strand that turns as it twists, outwards at rest; cross(forward, it) is the binormal")
         // The clump declares it, and reads it where its parameters say so.

@@ -76,6 +76,8 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         light_direction: vec3(light.to_array()),
         light_distance: to_light.length() / HEAD_M,
         view_direction: vec3(view.to_array()),
+        depth: EYE.distance(position) / HEAD_M,
+        time: 0.7,
         across: vec2([-ahead.y, ahead.x]),
         unit: 0.8,
         normal: vec3(normal.to_array()),
@@ -250,6 +252,9 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
                 ..good
             },
         ),
+        ("hair at the eye", Joint { depth: 0.0, ..good }),
+        ("hair far away", Joint { depth: 1e6, ..good }),
+        ("the last day of a long show", Joint { time: 1e6, ..good }),
         ("a picture of a speck of hair", Joint { unit: 1e4, ..good }),
         ("a picture of a hair's width", Joint { unit: 1e-4, ..good }),
         (

@@ -55,6 +55,15 @@ impl Motion {
             (Input::ArcLength, _) => along(0.0, 1.0),
             (Input::LightDistance, _) => along(0.0, 10.0),
             (Input::Unit, _) => along(0.1, 5.0),
+            (Input::Depth, _) => along(0.2, 20.0),
+            (Input::Time, _) => along(0.0, 10.0),
+            (Input::HeadHeight, _) => along(0.1, 0.4),
+            (Input::StrandSize, _) => along(0.0, 40.0),
+            // As the head and its hair move.
+            (Input::HeadCenter | Input::StrandMean, InputValue::Triple(place)) => {
+                let place = Vec3::from(place.to_array()) + time * Vec3::new(0.2, -0.1, 0.1);
+                InputValue::Triple(vec3(place.to_array()))
+            }
             // u and gray.
             (_, InputValue::Number(_)) => along(0.0, 1.0),
             // Directions go once around.

@@ -82,6 +82,8 @@ pub struct Frame<'a> {
     pub objects: Vec<Object<'a>>,
     /// The light.
     pub light: Light,
+    /// Time of the scene in seconds, for effects that read it.
+    pub time_s: f32,
     /// The material normal of each joint of `paths`; empty where neither a clump nor a layer reads it.
     pub material_normals: &'a [Vec3],
     /// The heads' surfaces on the screen.

@@ -87,6 +87,7 @@ fn drawing_on(
             layer_joints,
         }],
         light: Light::Direction(Vec3::Z),
+        time_s: 0.0,
         material_normals: &[],
         surfaces: Vec::new(),
         background: None,

@@ -19,6 +19,7 @@ struct Scene {
     joints: [(Range<usize>, Vec<Range<usize>>); 2],
     heads: [Head; 2],
     light: Light,
+    time_s: f32,
     normals: Vec<Vec3>,
 }
 
@@ -64,6 +65,7 @@ impl Scene {
             joints: [of_object(0..4), of_object(4..8)],
             heads: [head(-0.1), head(0.1)],
             light: Light::Direction(Vec3::Z),
+            time_s: 0.0,
             normals: Vec::new(),
         }
     }
@@ -83,6 +85,7 @@ impl Scene {
             strands: &self.strands,
             objects: vec![object(0), object(1)],
             light: self.light,
+            time_s: self.time_s,
             material_normals: &self.normals,
             surfaces: Vec::new(),
             background: None,
@@ -214,4 +217,6 @@ fn heads_and_light_are_somewhere() {
     assert!(matches!(error, FrameError::Head { object: 0, .. }));
     let error = refused(|scene| scene.light = Light::Point(Vec3::NAN));
     assert_eq!(error, FrameError::Light);
+    let error = refused(|scene| scene.time_s = f32::INFINITY);
+    assert_eq!(error, FrameError::Time(f32::INFINITY));
 }

@@ -90,6 +90,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
             layer_joints: &layer_joints,
         }],
         light: Light::Direction(Vec3::new(0.6, 0.6, 0.53).normalize()),
+        time_s: 0.0,
         material_normals: &[],
         surfaces: Vec::new(),
         background: Some([1.0; 3]),

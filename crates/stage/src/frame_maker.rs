@@ -126,6 +126,7 @@ impl FrameMaker {
             strands: &self.strands,
             objects: objects.map(of_frame).collect(),
             light,
+            time_s: motion.time_s(),
             material_normals: &self.normals,
             surfaces,
             background: section.background,

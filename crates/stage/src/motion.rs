@@ -17,6 +17,7 @@ use stroke_path::Camera;
 #[derive(Default)]
 pub struct Motion {
     objects: Vec<ObjectMotion>,
+    time_s: f32,
 }
 
 /// An object in motion, in its own coordinates: where its files have it.
@@ -71,12 +72,19 @@ impl Motion {
         camera: Option<&Camera>,
     ) -> Result<(), StageError> {
         let objects = scene.objects();
+        self.time_s = time as f32;
         self.objects
             .resize_with(objects.len(), ObjectMotion::default);
         for (object, motion) in objects.iter().zip(&mut self.objects) {
             motion.advance(object, scene.fps(), time, camera)?;
         }
         Ok(())
+    }
+
+    /// The time that it was last moved to, seconds.
+    #[must_use]
+    pub fn time_s(&self) -> f32 {
+        self.time_s
     }
 
     /// Adds the strands of all objects as they stand to a bake, at `time` (seconds).

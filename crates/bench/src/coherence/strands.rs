@@ -166,6 +166,7 @@ impl Animation for Strands {
                 layer_joints: &self.layer_joints,
             }],
             light: Light::Direction(Vec3::new(0.5, 0.6, 0.62).normalize()),
+            time_s: time as f32,
             material_normals: &[],
             surfaces: Vec::new(),
             background: Some([1.0; 3]),

@@ -207,6 +207,18 @@ impl Evaluator {
                     joints.light_distance.extend(distances);
                 }
             }
+            Input::Depth => {
+                for Object {
+                    head, joints: own, ..
+                } in &frame.objects
+                {
+                    let depths = paths.depth[own.clone()].iter();
+                    joints
+                        .depth
+                        .extend(depths.map(|depth| depth / head.height_m));
+                }
+            }
+            Input::Time => joints.time.resize(paths.len(), frame.time_s),
             Input::ViewDirection => {
                 let eye = frame.camera.eye();
                 let to_eye = points.map(|p| world(&(eye - *p).normalize_or(Vec3::Z)));

@@ -121,6 +121,9 @@ pub enum FrameError {
     /// The light is nowhere.
     #[error("the light's numbers are not finite")]
     Light,
+    /// It is no time.
+    #[error("the time of {0} s is not finite")]
+    Time(f32),
 }
 
 impl Frame<'_> {
@@ -136,6 +139,9 @@ impl Frame<'_> {
         let (Light::Direction(light) | Light::Point(light)) = self.light;
         if !light.is_finite() {
             return Err(FrameError::Light);
+        }
+        if !self.time_s.is_finite() {
+            return Err(FrameError::Time(self.time_s));
         }
         self.check_paths()?;
         self.check_strands()?;

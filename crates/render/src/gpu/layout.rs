@@ -33,8 +33,9 @@ pub(super) struct GpuFrame {
     pub(super) is_semicircle: u32,
     pub(super) surfaces_at: u32,
     pub(super) writes_samples: u32,
+    pub(super) time_s: f32,
     /// The shader's struct ends at a multiple of 16 bytes.
-    pub(super) padding: [u32; 3],
+    pub(super) padding: [u32; 2],
 }
 
 impl GpuFrame {
@@ -75,6 +76,7 @@ impl GpuFrame {
             ],
             right: frame.camera.world_from_view_direction(Vec3::X).to_array(),
             up: frame.camera.world_from_view_direction(Vec3::Y).to_array(),
+            time_s: frame.time_s,
             pixel_px: frame.camera.size_px()[1] as f32 / 720.0,
             edge_depth_m: frame.edge_depth_m,
             is_semicircle: u32::from(frame.brush == Brush::Semicircle),

@@ -5,6 +5,7 @@
 
 mod agree;
 mod faults;
+mod inputs;
 mod prelude;
 mod scene;
 mod warm;

@@ -35,6 +35,13 @@ pub struct Second {
     layer_joints: Vec<Range<usize>>,
 }
 
+impl Second {
+    /// Takes a layer away, which the first object has no more.
+    pub fn drop_layer(&mut self, layer: usize) {
+        self.layer_joints.remove(layer);
+    }
+}
+
 /// Every effect of inkstrand's own, some of their numbers varying.
 pub const ALL_EFFECTS: &str = "[
     (effect: \"hair.silhouette\", units: pixels),
@@ -263,6 +270,7 @@ impl Scene {
             strands: &self.strands,
             objects: iter::once(first).chain(second).collect(),
             light: self.light,
+            time_s: 0.3,
             material_normals: &self.material_normals,
             surfaces: self.surfaces.clone(),
             background: self.background,
