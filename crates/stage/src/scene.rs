@@ -1,5 +1,6 @@
 //! A scene: hair, head, script and look, which never change. What moves and what is drawn is kept apart from it.
 
+use crate::bake;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
@@ -97,7 +98,9 @@ impl Scene {
         let mut hair = load::hair(preset, files, mesh, &mut notes)?;
         let script = script::load(preset, files, &mut hair, mesh)?;
         hair.choose_guides(&preset.sections.hair);
-        load::bake(preset, files, &mut hair)?;
+        if let Some(motion) = bake::load(preset, files, &hair, &mut notes)? {
+            hair.file.motion = Some(motion);
+        }
         Self::of(hair, head, Look::new(preset)?, script, notes)
     }
 
