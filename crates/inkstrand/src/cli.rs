@@ -92,7 +92,7 @@ pub(crate) enum Command {
     Render(Box<RenderOptions>),
     /// Name every mistake in presets and in the files that they name
     Check {
-        /// Presets, .motion.ron, .style.ron or .strands.ron files, or folders of them
+        /// Presets, .motion.ron, .style.ron, .strands.ron or .tfx files, or folders, whose .ron files are checked
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
     },

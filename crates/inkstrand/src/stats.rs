@@ -1,7 +1,7 @@
 //! `--stats`: one line of JSON a frame.
 
 use crate::say;
-use crate::whole_file::named;
+use crate::whole_file::{named, try_to_write};
 use render::Drawing;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -16,6 +16,15 @@ pub(crate) enum Lines {
 }
 
 impl Lines {
+    /// Tells before the work whether lines can be written to that file. It stays as it is.
+    pub fn try_path(path: &Path) -> io::Result<()> {
+        if path.is_file() {
+            let opened = File::options().append(true).open(path);
+            return opened.map(drop).map_err(|e| named(path, &e));
+        }
+        try_to_write(path)
+    }
+
     /// Lines to a new file, or to the standard output where `path` is `-`.
     pub fn create(path: &Path) -> io::Result<Self> {
         if path == Path::new("-") {

@@ -154,6 +154,10 @@ impl Parts {
 
 /// Tells before the work whether a file can be written at `path`.
 pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
+    // Who reads a pipe would take its closing for the end.
+    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+        return Ok(());
+    }
     WholeFile::create(path).map(drop)
 }
 

@@ -67,12 +67,12 @@ fn check_and_render_say_the_same() {
         (
             "hair: (file: \"cut.strands.ron\"),",
             base,
-            "look.ron:2:14: file: cut.strands.ron: line 2, column 10: ",
+            "look.ron:2:14: file: cut.strands.ron: line 2, column 16: ",
         ),
         (
             "hair: (file: \"bad.style.ron\"),",
             base,
-            "bad.style.ron:1:22: ",
+            "bad.style.ron:1:21: ",
         ),
         (
             "hair: (file: \"good.style.ron\"),",
@@ -108,7 +108,7 @@ fn check_and_render_say_the_same() {
         (
             "hair: (file: \"small.strands.ron\"), dynamics: (step: 0.000001),",
             base,
-            "look.ron:2:53: step: expected 0, which is a frame's, or a number from 0.00001 to 0.1",
+            "look.ron:2:47: step: expected 0, which is a frame's, or a number from 0.00001 to 0.1",
         ),
     ] {
         let text = format!("(version: 1,\n{sections}\nlayers: [{layer}])");
@@ -158,11 +158,11 @@ fn files_are_judged_by_their_kind() {
     .assert()
     .code(1)
     .stderr(
-        contains("cut.strands.ron: line 2, column 10: ")
-            .and(contains("bad.style.ron:1:22: "))
+        contains("cut.strands.ron: line 2, column 16: ")
+            .and(contains("bad.style.ron:1:21: "))
             .and(contains("nodd.motion.ron:1:29: "))
             .and(contains("3 files, 3 of them with mistakes"))
-            .and(contains("inkstrand: 3 mistakes")),
+            .and(contains("inkstrand: 4 mistakes")),
     );
 }
 

@@ -158,9 +158,16 @@ impl<'r> Preset<'r> {
             Err(StageError::Mistakes(errors)) => return Err(errors),
             Err(error) => error,
         };
-        // Messages about a file begin with its name.
+        // Messages about a file begin with its name; a bake may be another's file too.
         let message = error.to_string();
-        let is_of = |file: &&NamedFile| message.starts_with(&format!("{}: ", file.path.display()));
+        let is_of_bake = matches!(
+            error,
+            StageError::OtherHair { .. } | StageError::OtherMotion { .. }
+        );
+        let is_of = |file: &&NamedFile| {
+            let begins = message.starts_with(&format!("{}: ", file.path.display()));
+            begins && (file.param == "bake" || !is_of_bake)
+        };
         let named = self.named(files);
         if let Some(file) = named.iter().find(is_of) {
             return self.mistake(file, message);

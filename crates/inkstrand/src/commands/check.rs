@@ -83,7 +83,7 @@ fn files_in(folder: &Path) -> Result<Vec<PathBuf>, String> {
 /// What is wrong with a file of the kind that its name says.
 fn mistakes_of(path: &Path, registry: &Registry) -> Vec<String> {
     let name = path.display().to_string();
-    if name.ends_with(".strands.ron") {
+    if name.ends_with(".strands.ron") || name.ends_with(".tfx") {
         let wrong = check_hair(path).err();
         return wrong.map(|error| error.to_string()).into_iter().collect();
     }

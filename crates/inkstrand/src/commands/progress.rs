@@ -21,25 +21,26 @@ pub(super) fn bar(quiet: bool, length: u64, noun: &str) -> ProgressBar {
     bar
 }
 
-/// The bar of a command that goes to the frame `first` and makes `frames` from there on. When it returns, hair has come to
-/// the frame before the first.
+/// The bar of a command that makes `frames`, the first of them at `time` (seconds). When it returns, hair has come to the frame
+/// before that.
 pub(super) fn bar_from_first_frame(
     quiet: bool,
     stage: &mut Stage,
     preset: &Preset,
-    first: u32,
+    time: f32,
     frames: u64,
 ) -> Result<ProgressBar, Failure> {
-    let fps = preset.sections.scene.fps;
-    let warm_up = (preset.sections.dynamics.warm_up * fps).ceil() as u64;
-    let before = (warm_up + u64::from(first)).saturating_sub(1);
+    let fps = f64::from(preset.sections.scene.fps);
+    let warm_up = (f64::from(preset.sections.dynamics.warm_up) * fps).ceil();
+    let before = (warm_up + f64::from(time) * fps) as u64;
+    let before = before.saturating_sub(1);
     let bar = bar(quiet, before + frames, "frames");
     bar.set_message(", those before the first among them");
     // In parts, so that the bar moves; hair moves alike in any.
     let parts = before.min(PARTS);
     for part in 1..=parts {
         let done = before * part / parts;
-        stage.advance_to((done as f32 - warm_up as f32) / fps)?;
+        stage.advance_to(((done as f64 - warm_up) / fps) as f32)?;
         bar.set_position(done);
     }
     bar.set_message("");

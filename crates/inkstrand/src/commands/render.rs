@@ -57,7 +57,7 @@ fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
         options.quiet,
         &mut stage,
         &preset,
-        (time_of(first) * fps) as u32,
+        time_of(first),
         u64::from(last - first) + 1,
     )?;
     let mut stats = options.stats.as_deref().map(Lines::create).transpose()?;
@@ -120,7 +120,7 @@ fn check_outputs(
             let message = format!("--stats: {} is a picture of -o", stats.display());
             return Err(Failure::Usage(message));
         }
-        try_to_write(stats)?;
+        Lines::try_path(stats)?;
     }
     Ok(try_to_write(&output.path(first))?)
 }
