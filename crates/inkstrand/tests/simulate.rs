@@ -219,3 +219,40 @@ fn a_bake_has_no_more_frames_than_it_has() {
     let line = [&line[..], &["-o", "a.png", "--frames", "2-4"]].concat();
     inkstrand(&folder, &line).assert().success();
 }
+
+#[test]
+fn a_bake_is_made_anew_in_the_place_of_the_one_that_the_preset_names() {
+    let folder = folder();
+    let preset = fs::read_to_string(presets().join("short-ash.ron")).unwrap();
+    let style = presets().join("styles/bob.style.ron");
+    let hair = format!(
+        "file: {:?}, bake: \"b.strands.ron\"",
+        style.to_str().unwrap()
+    );
+    let preset = preset.replace("file: \"styles/bob.style.ron\"", &hair);
+    fs::write(folder.path().join("look.ron"), preset).unwrap();
+    let run = |line: &[&str]| {
+        let mut command = Command::cargo_bin("inkstrand").unwrap();
+        command.current_dir(folder.path()).args(line).assert()
+    };
+    let simulate = [
+        "simulate",
+        "look.ron",
+        "-o",
+        "b.strands.ron",
+        "--frames",
+        "0-1",
+    ];
+    let moving = ["--motion", "walk.motion.ron"];
+    run(&simulate).success();
+    let still = fs::read(folder.path().join("b.strands.ron")).unwrap();
+    run(&[&simulate[..], &moving].concat()).success();
+    assert_ne!(
+        fs::read(folder.path().join("b.strands.ron")).unwrap(),
+        still
+    );
+    run(&["check", "look.ron"])
+        .code(1)
+        .stderr(contains("look.ron:4:"))
+        .stderr(contains("motion was walk.motion.ron and is none"));
+}

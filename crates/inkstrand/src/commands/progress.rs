@@ -14,7 +14,7 @@ pub(super) fn bar(quiet: bool, length: u64, noun: &str) -> ProgressBar {
         return ProgressBar::hidden();
     }
     let bar = ProgressBar::new(length);
-    let template = format!("{{bar:40}} {{pos}}/{{len}} {noun}{{msg}}, {{eta}} left");
+    let template = format!("{{bar:30}} {{pos}}/{{len}} {noun}{{msg}}, {{eta}} left");
     if let Ok(style) = ProgressStyle::with_template(&template) {
         bar.set_style(style);
     }
@@ -35,7 +35,7 @@ pub(super) fn bar_from_first_frame(
     let before = (warm_up + f64::from(time) * fps) as u64;
     let before = before.saturating_sub(1);
     let bar = bar(quiet, before + frames, "frames");
-    bar.set_message(", those before the first among them");
+    bar.set_message(", the first to come");
     // In parts, so that the bar moves; hair moves alike in any.
     let parts = before.min(PARTS);
     for part in 1..=parts {
