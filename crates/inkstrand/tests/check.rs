@@ -22,6 +22,10 @@ fn folder() -> TempDir {
         ("cut.obj", "v 0 0 zero\n"),
         ("cut.glb", "glTF"),
         ("nodd.motion.ron", "(version: 1, moves: [(move: nodd)])"),
+        (
+            "shape.motion.ron",
+            "(version: 1, shapes: [(time: 0, hair: \"cut.strands.ron\")])",
+        ),
         ("bad.style.ron", "(version: 1, zones: 3)"),
         (
             "good.style.ron",
@@ -93,6 +97,11 @@ fn check_and_render_say_the_same() {
             "hair: (file: \"small.strands.ron\"), motion: (file: \"nodd.motion.ron\"),",
             base,
             "nodd.motion.ron:1:29: move: there is no `nodd`",
+        ),
+        (
+            "hair: (file: \"small.strands.ron\"), motion: (file: \"shape.motion.ron\"),",
+            base,
+            "look.ron:2:51: file: cut.strands.ron: line 2, column 16: ",
         ),
         #[cfg(feature = "gltf")]
         (
@@ -172,7 +181,7 @@ fn folders_are_checked_whole() {
     inkstrand(&folder, &["check", "."])
         .assert()
         .code(1)
-        .stderr(contains("5 files, 3 of them with mistakes"));
+        .stderr(contains("6 files, 3 of them with mistakes"));
     // Files and folders that are hidden are not looks.
     let inner = folder.path().join("inner/looks");
     fs::create_dir_all(&inner).unwrap();

@@ -172,6 +172,12 @@ impl<'r> Preset<'r> {
         if let Some(file) = named.iter().find(is_of) {
             return self.mistake(file, message);
         }
+        // Of files that the preset does not name, its script does.
+        if matches!(error, StageError::File(_) | StageError::Read { .. }) {
+            let is_script = |file: &&NamedFile| (file.section, file.param) == ("motion", "file");
+            let script = named.iter().find(is_script);
+            return script.map_or(Ok(()), |script| self.mistake(script, message));
+        }
         let section = match error {
             StageError::NoPointLight(_) | StageError::Camera(_) => "light",
             StageError::Shapes(_) => "motion",
