@@ -143,7 +143,8 @@ impl Parts {
             if !is_part || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
                 continue;
             }
-            if let Ok(file) = File::open(entry.path())
+            // To write, without which network file systems lock nothing.
+            if let Ok(file) = File::options().write(true).open(entry.path())
                 && file.try_lock().is_ok()
             {
                 let _ = fs::remove_file(entry.path());
