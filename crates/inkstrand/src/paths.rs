@@ -14,6 +14,23 @@ pub(crate) fn place(path: &Path) -> PathBuf {
     }
 }
 
+/// Whether two paths are one file: by another spelling, or by another name that the file has.
+pub(crate) fn is_same(path: &Path, other: &Path) -> bool {
+    place(path) == place(other) || has_both_names(path, other)
+}
+
+#[cfg(unix)]
+fn has_both_names(path: &Path, other: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let node = |path| fs::metadata(path).map(|there| (there.dev(), there.ino()));
+    matches!((node(path), node(other)), (Ok(one), Ok(another)) if one == another)
+}
+
+#[cfg(not(unix))]
+fn has_both_names(_path: &Path, _other: &Path) -> bool {
+    false
+}
+
 /// The folder of a file, `.` where its path is a mere name.
 pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
@@ -50,5 +67,9 @@ mod tests {
             assert_eq!(place(&folder.join(one)), place(&folder.join(other)));
         }
         assert_ne!(place(&folder.join("there")), place(&folder.join("not")));
+
+        fs::hard_link(folder.join("there"), folder.join("name")).unwrap();
+        assert!(is_same(&folder.join("name"), &folder.join("sub/../there")));
+        assert!(!is_same(&folder.join("name"), &folder.join("not")));
     }
 }

@@ -125,6 +125,8 @@ fn two_files_of_one_path_are_refused() {
     let folder = folder();
     fs::create_dir(folder.path().join("sub")).unwrap();
     fs::write(folder.path().join("look.png"), "(version: 1)").unwrap();
+    #[cfg(unix)]
+    fs::hard_link(folder.path().join("small.ron"), folder.path().join("name")).unwrap();
     let before = contents(folder.path());
     let twice = "is a picture of -o";
     let lines: &[(&[&str], &str)] = &[
@@ -159,6 +161,8 @@ fn two_files_of_one_path_are_refused() {
             &["render", "small.ron", "--stats", "sub/../small.ron"],
             "is read",
         ),
+        #[cfg(unix)]
+        (&["render", "small.ron", "--stats", "name"], "is read"),
         (
             &["render", "small.ron", "--stats", "small.strands.ron"],
             "is read",

@@ -6,7 +6,7 @@ use crate::Failure;
 use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
 use crate::painter::Painter;
-use crate::paths::place;
+use crate::paths::is_same;
 use crate::say::say;
 use crate::stats::Lines;
 use crate::whole_file::try_to_write;
@@ -110,7 +110,7 @@ fn check_outputs(
             );
             return Err(Failure::Usage(message));
         }
-        if stats.is_some_and(|stats| place(stats) == place(path)) {
+        if stats.is_some_and(|stats| is_same(stats, path)) {
             let message = format!("--stats: {} is read, and cannot be written", path.display());
             return Err(Failure::Usage(message));
         }

@@ -4,7 +4,7 @@ use super::progress::bar_from_first_frame;
 use super::scene::Source;
 use crate::Failure;
 use crate::cli::SimulateOptions;
-use crate::paths::{file_name, place};
+use crate::paths::{file_name, is_same};
 use crate::say::say;
 use crate::whole_file::WholeFile;
 use effects::Registry;
@@ -60,7 +60,7 @@ fn check_output(
     }
     let mut read = preset.files(files);
     read.push(preset_file.to_owned());
-    if read.iter().any(|path| place(path) == place(output)) {
+    if read.iter().any(|path| is_same(path, output)) {
         let message = format!("-o {shown}: it is read, and cannot be written");
         return Err(Failure::Usage(message));
     }
