@@ -11,14 +11,15 @@ Examples:
       another groom on another head, with 150 of its strands
   inkstrand render look.ron --camera 30,10 --set hair.silhouette.width=3
       from the viewer's right and a little above, with thicker lines
-  inkstrand check presets/*.ron
-      names every mistake in these presets
+  inkstrand check presets
+      names every mistake in the presets, styles and scripts of this folder
   inkstrand effects hair.silhouette
       lists an effect's parameters with units, ranges and defaults
   inkstrand new look.ron
       writes a preset to start from, with a hair style
 
-Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (nothing half written is left)";
+Exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted (nothing half written is left),
+101 a mistake of inkstrand's own, which it asks you to report";
 
 const RENDER_EXAMPLES: &str = "\
 Options take the place of what the preset says. What neither says has its default, which
@@ -44,10 +45,20 @@ Examples:
       this look on another groom, of which 150 strands are drawn";
 
 const SIMULATE_EXAMPLES: &str = "\
+A bake says what moved its hair: hair, head, script, `dynamics`, frame rate and seed. `render` refuses
+it where one of them has changed since, and says which; layers, camera and light are free.
+
 Examples:
   inkstrand simulate look.ron --motion walk.motion.ron --frames 0-95 -o walk.strands.ron
   inkstrand render look.ron --motion walk.motion.ron --bake walk.strands.ron --frames 0-95
       the pictures of `render` without --bake, and no time spent on simulation";
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  inkstrand completions bash > ~/.local/share/bash-completion/completions/inkstrand
+  inkstrand completions zsh > \"${fpath[1]}/_inkstrand\"
+  inkstrand completions fish > ~/.config/fish/completions/inkstrand.fish
+New shells complete commands, options and file names.";
 
 const EFFECTS_JSON: &str = "\
 --json writes an object {version, sections, effects}; with NAME, that section or effect alone:
@@ -79,11 +90,11 @@ pub(crate) enum Command {
     /// Draw a preset: one picture, or a sequence
     #[command(after_help = RENDER_EXAMPLES)]
     Render(Box<RenderOptions>),
-    /// Name every mistake in presets
+    /// Name every mistake in presets and in the files that they name
     Check {
-        /// Presets to check, with the motion scripts, styles and bakes that they name; scripts and styles by themselves too
-        #[arg(required = true)]
-        presets: Vec<PathBuf>,
+        /// Presets, .motion.ron, .style.ron, .strands.ron or .tfx files, or folders, whose .ron files are checked
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
     },
     /// List effects and sections, or the parameters of one
     #[command(after_help = EFFECTS_JSON)]
@@ -103,6 +114,12 @@ pub(crate) enum Command {
     /// Simulate a sequence's strands once, for `render --bake`
     #[command(after_help = SIMULATE_EXAMPLES)]
     Simulate(Box<SimulateOptions>),
+    /// Write what makes a shell complete the command line
+    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
+    },
 }
 
 #[derive(Args)]
@@ -122,19 +139,19 @@ pub(crate) struct RenderOptions {
     pub bake: Option<PathBuf>,
 
     /// Frames to draw, first and last, at the preset's frame rate (fps)
-    #[arg(long, value_name = "A-B", conflicts_with = "time", value_parser = parse_frames)]
+    #[arg(long, value_name = "A-B", conflicts_with = "time", allow_hyphen_values = true, value_parser = parse_frames)]
     pub frames: Option<(u32, u32)>,
 
     /// Moment to draw, in seconds [default: 0]
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = parse_finite)]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = parse_time)]
     pub time: Option<f32>,
 
     /// Width and height in pixels, 1 to 16384 [default: the preset's]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
 
     /// Samples a pixel, 1 to 256 [default: the preset's]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=256))]
     pub samples: Option<u32>,
 
     /// What draws
@@ -158,10 +175,10 @@ pub(crate) struct RenderOptions {
     pub only: Vec<String>,
 
     /// Threads to draw with [default: one a core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub threads: Option<u32>,
 
-    /// Write a line of JSON a frame: milliseconds, counts, bytes
+    /// Write a line of JSON a frame: milliseconds, counts, bytes. The file grows as frames are done; - is the standard output
     #[arg(long, value_name = "FILE")]
     pub stats: Option<PathBuf>,
 
@@ -175,7 +192,7 @@ pub(crate) struct SimulateOptions {
     /// The preset, a .ron file
     pub preset: PathBuf,
 
-    /// Bake to write, .strands.ron
+    /// Bake to write, .strands.ron; of files that are there it takes the place of a bake alone
     #[arg(short, long, value_name = "PATH")]
     pub output: PathBuf,
 
@@ -183,7 +200,7 @@ pub(crate) struct SimulateOptions {
     pub scene: SceneOptions,
 
     /// Frames to bake, first and last, at the preset's frame rate (fps)
-    #[arg(long, value_name = "A-B", default_value = "0-47", value_parser = parse_frames)]
+    #[arg(long, value_name = "A-B", default_value = "0-47", allow_hyphen_values = true, value_parser = parse_frames)]
     pub frames: (u32, u32),
 
     /// Say nothing but errors
@@ -207,10 +224,10 @@ pub(crate) struct SceneOptions {
     pub motion: Option<PathBuf>,
 
     /// Strands to keep, those that stand best for all, the same ones every time; 0 keeps all [default: the preset's]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     pub guides: Option<u32>,
 
-    /// Set a parameter of a layer (by its name) or section, or the seed, such as hair.silhouette.width=3, clump.size=1.2 or seed=7 (repeatable)
+    /// Set a parameter of a layer (by its name) or section, or the seed, such as hair.silhouette.width=3, clump.size=1.2 or seed=7 (repeatable). Names of files are relative to the preset, as in it
     #[arg(long, value_name = "LAYER.PARAM=VALUE")]
     pub set: Vec<String>,
 }
@@ -250,12 +267,25 @@ fn parse_finite(text: &str) -> Result<f32, String> {
     }
 }
 
+/// The last moment, in seconds: more than a day.
+const LAST_TIME: f32 = 100_000.0;
+
+fn parse_time(text: &str) -> Result<f32, String> {
+    match parse_finite(text)? {
+        time if (0.0..=LAST_TIME).contains(&time) => Ok(time),
+        _ => Err(format!("a time is from 0 to {LAST_TIME} seconds")),
+    }
+}
+
 fn parse_numbers(text: &str) -> Result<Numbers, String> {
     let numbers = text
         .split(',')
         .map(|part| parse_finite(part.trim()).map_err(|_| format!("`{part}` is not a number")));
     Ok(Numbers(numbers.collect::<Result<_, _>>()?))
 }
+
+/// The last frame: eleven hours at 24 a second.
+const LAST_FRAME: u32 = 999_999;
 
 fn parse_frames(text: &str) -> Result<(u32, u32), String> {
     let wrong = || "frames are A-B, such as 0-23".to_owned();
@@ -264,6 +294,9 @@ fn parse_frames(text: &str) -> Result<(u32, u32), String> {
     let last: u32 = last.parse().map_err(|_| wrong())?;
     if first > last {
         return Err(format!("frame {first} comes after frame {last}"));
+    }
+    if last > LAST_FRAME {
+        return Err(format!("frames go up to {LAST_FRAME}"));
     }
     Ok((first, last))
 }
@@ -289,6 +322,9 @@ mod tests {
         assert_eq!(parse_frames("100-110"), Ok((100, 110)));
         assert_eq!(parse_frames("7"), Ok((7, 7)));
         assert!(parse_frames("3-1").is_err() && parse_frames("a-b").is_err());
+        assert!(parse_frames("0-1000000").is_err() && parse_frames("-3-1").is_err());
+        assert_eq!(parse_time("0"), Ok(0.0));
+        assert!(parse_time("-1").is_err() && parse_time("1e6").is_err());
         assert_eq!(parse_size("960x720"), Ok((960, 720)));
         assert!(parse_size("960").is_err() && parse_size("-1x4").is_err());
         assert!(parse_numbers("30,NaN").is_err() && parse_numbers("30,").is_err());

@@ -1,14 +1,17 @@
 //! The commands.
 
 mod check;
+mod completions;
 mod effects;
 mod new;
+mod progress;
 mod render;
 mod scene;
 mod schema;
 mod simulate;
 
 pub(crate) use check::check;
+pub(crate) use completions::completions;
 pub(crate) use effects::effects;
 pub(crate) use new::new;
 pub(crate) use render::render;

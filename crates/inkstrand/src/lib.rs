@@ -16,21 +16,21 @@
 //! - `gpu`: `--backend gpu`, and `auto` draws on graphics cards.
 //! - `gltf`: `motion: (gltf: ..)` of a preset moves the head by a character's animation.
 
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "this is what a program talks with"
-)]
-
 mod cli;
 mod commands;
 mod output;
 mod painter;
+mod paths;
+mod quiet_drivers;
+mod say;
 mod stats;
 mod whole_file;
 
 use clap::{CommandFactory as _, Parser as _};
+use cli::{Arguments, Backend, Command};
 use effects::Registry;
+use say::{heard, say};
+use std::io::Write as _;
 use std::process::ExitCode;
 
 /// Why a command did not do its work.
@@ -52,7 +52,7 @@ impl<E: std::error::Error> From<E> for Failure {
 /// The command line's definition: for completions of a shell, manuals and tests.
 #[must_use]
 pub fn command() -> clap::Command {
-    cli::Arguments::command()
+    Arguments::command()
 }
 
 /// The effects that inkstrand ships, to register others beside them.
@@ -63,31 +63,37 @@ pub fn builtin_effects() -> Registry {
     registry
 }
 
-/// Runs the program with these effects on the process's arguments: 0 done, 1 failed, 2 wrong usage.
-/// Interrupted (Ctrl-C, or asked to end) it removes what is half written and exits with 130.
+/// Runs the program with these effects on the process's arguments: 0 done, 1 failed, 2 wrong usage, 101 a mistake in
+/// the program itself, which it owns up to. Interrupted (Ctrl-C, or asked to end) it removes what is half written and
+/// exits with 130. To be called first: before it draws, the program may start anew in its own process.
 #[must_use]
 pub fn run(registry: &Registry) -> ExitCode {
-    let arguments = cli::Arguments::parse();
+    say::own_up_to_bugs();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(answer) => return give(&answer),
+    };
     whole_file::leave_no_parts();
     let done = match &arguments.command {
-        cli::Command::Render(options) => commands::render(options, registry),
-        cli::Command::Check { presets } => commands::check(presets, registry),
-        cli::Command::Effects { name, json } => commands::effects(name.as_deref(), *json, registry),
-        cli::Command::New { file } => commands::new(file),
-        cli::Command::Simulate(options) => commands::simulate(options, registry),
+        Command::Render(options) => {
+            if options.backend != Backend::Cpu {
+                quiet_drivers::start_without_noise();
+            }
+            commands::render(options, registry)
+        }
+        Command::Check { files } => commands::check(files, registry),
+        Command::Effects { name, json } => commands::effects(name.as_deref(), *json, registry),
+        Command::New { file } => commands::new(file),
+        Command::Simulate(options) => commands::simulate(options, registry),
+        Command::Completions { shell } => commands::completions(*shell),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure::Mistakes(mistakes)) => {
             for mistake in &mistakes {
-                eprintln!("{mistake}\n");
+                say(format_args!("{mistake}\n"));
             }
-            let noun = if mistakes.len() == 1 {
-                "mistake"
-            } else {
-                "mistakes"
-            };
-            fail(&format!("{} {noun}", mistakes.len()));
+            fail(&counted(mistakes.len(), "mistake"));
             ExitCode::FAILURE
         }
         Err(Failure::Failed(message)) => {
@@ -101,7 +107,28 @@ pub fn run(registry: &Registry) -> ExitCode {
     }
 }
 
+/// Gives the answer to a command line that starts no work: help, the version, or what is wrong with it.
+fn give(answer: &clap::Error) -> ExitCode {
+    let given = answer.print();
+    if answer.use_stderr() {
+        return ExitCode::from(2);
+    }
+    match heard(given.and_then(|()| std::io::stdout().flush())) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            fail(&error);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// A number of things in words: `1 mistake`, `2 mistakes`.
+fn counted(number: usize, thing: &str) -> String {
+    let ending = if number == 1 { "" } else { "s" };
+    format!("{number} {thing}{ending}")
+}
+
 /// Prints a failure's message on the standard error.
 pub fn fail(message: &dyn std::fmt::Display) {
-    eprintln!("inkstrand: {message}");
+    say(format_args!("inkstrand: {message}"));
 }

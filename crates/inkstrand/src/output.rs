@@ -1,14 +1,26 @@
 //! Picture files: their names and their bytes.
 
-use crate::whole_file::{file_name, write_whole};
+use crate::paths::place;
+use crate::whole_file::write_whole;
 use render::Picture;
+use std::ffi::{OsStr, OsString};
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// Where pictures go.
 pub(crate) struct Output {
-    pattern: PathBuf,
+    /// Any file in their folder.
+    beside: PathBuf,
+    name: Name,
     transparent: bool,
+}
+
+/// What pictures are called.
+enum Name {
+    One(OsString),
+    /// The frame's number, of at least so many digits, between two texts.
+    Numbered(String, usize, String),
 }
 
 impl Output {
@@ -24,39 +36,38 @@ impl Output {
         sequence: bool,
         transparent: bool,
     ) -> Result<Self, String> {
-        let mut pattern = match given {
-            Some(path) => path.to_owned(),
-            None => PathBuf::from(preset.file_stem().unwrap_or_default()).with_extension("png"),
+        let (beside, name) = match given {
+            Some(path) => (path.to_owned(), given_name(path, sequence)?),
+            None => (PathBuf::new(), name_after(preset, sequence)?),
         };
-        let is_png = pattern
-            .extension()
-            .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        if !is_png {
-            let name = pattern.display();
-            return Err(format!(
-                "-o {name}: pictures are PNG, so the name must end in .png"
-            ));
-        }
-        let numbered = |path: &Path| file_name(path).contains('#');
-        if sequence && !numbered(&pattern) {
-            pattern.set_extension("####.png");
-        }
         Ok(Self {
-            pattern,
+            beside,
+            name,
             transparent,
         })
     }
 
-    /// The file of a frame: its number stands where the last run of `#` is, padded with zeros.
+    /// The file of a frame.
     pub fn path(&self, frame: u32) -> PathBuf {
-        let name = file_name(&self.pattern);
-        let Some(end) = name.rfind('#').map(|i| i + 1) else {
-            return self.pattern.clone();
+        match &self.name {
+            Name::One(name) => self.beside.with_file_name(name),
+            Name::Numbered(before, width, after) => {
+                let name = format!("{before}{frame:0width$}{after}");
+                self.beside.with_file_name(name)
+            }
+        }
+    }
+
+    /// Whether the picture of one of these frames is written at `path`.
+    pub fn writes(&self, path: &Path, frames: RangeInclusive<u32>) -> bool {
+        let path = place(path);
+        let Name::Numbered(before, _, after) = &self.name else {
+            return place(&self.path(*frames.start())) == path;
         };
-        let start = name[..end].trim_end_matches('#').len();
-        let width = end - start;
-        let name = format!("{}{frame:0width$}{}", &name[..start], &name[end..]);
-        self.pattern.with_file_name(name)
+        let name = path.file_name().and_then(OsStr::to_str);
+        let number = name.and_then(|name| name.strip_prefix(before)?.strip_suffix(after));
+        let frame = number.and_then(|digits| digits.parse().ok());
+        frame.is_some_and(|frame| frames.contains(&frame) && place(&self.path(frame)) == path)
     }
 
     /// Writes a picture as PNG: sRGB, straight alpha where it is transparent.
@@ -66,6 +77,66 @@ impl Output {
         write_whole(&path, &bytes)?;
         Ok(path)
     }
+}
+
+/// The name that the user gives: where a frame's number goes, the last run of `#` stands.
+fn given_name(path: &Path, sequence: bool) -> Result<Name, String> {
+    let shown = path.display();
+    let is_png = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+    let Some(name) = path.file_name().filter(|_| is_png) else {
+        return Err(format!(
+            "-o {shown}: pictures are PNG, so the name must end in .png"
+        ));
+    };
+    let Some(text) = name.to_str() else {
+        if sequence {
+            return Err(format!(
+                "-o {shown}: the name must be UTF-8 text, to put numbers into it"
+            ));
+        }
+        return Ok(Name::One(name.to_owned()));
+    };
+    if let Some(last) = text.rfind('#') {
+        let (marked, after) = text.split_at(last + 1);
+        let before = marked.trim_end_matches('#');
+        let width = marked.len() - before.len();
+        return Ok(Name::Numbered(before.to_owned(), width, after.to_owned()));
+    }
+    let (stem, ending) = text.split_at(text.len() - ".png".len());
+    Ok(match sequence {
+        true => Name::Numbered(format!("{stem}."), DIGITS, ending.to_owned()),
+        false => Name::One(name.to_owned()),
+    })
+}
+
+/// The digits of frames where the user says nothing of them.
+const DIGITS: usize = 4;
+
+/// The preset's name without `.ron`.
+fn name_after(preset: &Path, sequence: bool) -> Result<Name, String> {
+    let is_ron = preset.extension().is_some_and(|ending| ending == "ron");
+    let stem = if is_ron {
+        preset.file_stem()
+    } else {
+        preset.file_name()
+    };
+    let stem = stem.unwrap_or_default();
+    if !sequence {
+        let mut name = stem.to_owned();
+        name.push(".png");
+        return Ok(Name::One(name));
+    }
+    let stem = stem.to_str().ok_or_else(|| {
+        let shown = preset.display();
+        format!("{shown}: the name is not UTF-8 text: say with -o where the pictures go")
+    })?;
+    Ok(Name::Numbered(
+        format!("{stem}."),
+        DIGITS,
+        ".png".to_owned(),
+    ))
 }
 
 fn encode(picture: &Picture, transparent: bool) -> io::Result<Vec<u8>> {
@@ -97,15 +168,13 @@ fn encode(picture: &Picture, transparent: bool) -> io::Result<Vec<u8>> {
 mod tests {
     use super::*;
 
+    fn output(given: Option<&str>, preset: &str, sequence: bool) -> Output {
+        Output::new(given.map(Path::new), Path::new(preset), sequence, false).unwrap()
+    }
+
     fn path(given: Option<&str>, sequence: bool, frame: u32) -> String {
-        let output = Output::new(
-            given.map(Path::new),
-            Path::new("a/look.ron"),
-            sequence,
-            false,
-        )
-        .unwrap();
-        output.path(frame).to_string_lossy().into_owned()
+        let path = output(given, "a/look.ron", sequence).path(frame);
+        path.to_string_lossy().into_owned()
     }
 
     #[test]
@@ -116,5 +185,37 @@ mod tests {
         assert_eq!(path(Some("out/x.png"), true, 5), "out/x.0005.png");
         assert_eq!(path(Some("out/x_##.png"), true, 123), "out/x_123.png");
         assert_eq!(path(Some("x#y###.png"), true, 7), "x#y007.png");
+        assert_eq!(path(Some("x.v2.PNG"), true, 7), "x.v2.0007.PNG");
+    }
+
+    #[test]
+    fn names_after_presets() {
+        for (preset, one, numbered) in [
+            ("look.v2.ron", "look.v2.png", "look.v2.0007.png"),
+            ("look", "look.png", "look.0007.png"),
+            ("look.v2", "look.v2.png", "look.v2.0007.png"),
+            ("no#1.ron", "no#1.png", "no#1.0007.png"),
+        ] {
+            let name = |sequence| output(None, preset, sequence).path(7);
+            assert_eq!(name(false), Path::new(one));
+            assert_eq!(name(true), Path::new(numbered));
+        }
+    }
+
+    #[test]
+    fn what_a_sequence_writes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let pattern = path("a_##.png");
+        let output = output(Some(pattern.to_str().unwrap()), "look.ron", true);
+        for (name, is_written) in [
+            ("a_07.png", true),
+            ("./a_12.png", true),
+            ("a_7.png", false),
+            ("a_13.png", false),
+            ("a_.png", false),
+        ] {
+            assert_eq!(output.writes(&path(name), 5..=12), is_written, "{name}");
+        }
     }
 }

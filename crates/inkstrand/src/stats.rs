@@ -1,9 +1,49 @@
 //! `--stats`: one line of JSON a frame.
 
+use crate::say;
+use crate::whole_file::{named, try_to_write};
 use render::{Drawing, LayerStrokes};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Write as _};
 use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// Where the lines go.
+pub(crate) enum Lines {
+    Output,
+    File(PathBuf, File),
+}
+
+impl Lines {
+    /// Tells before the work whether lines can be written to that file. It stays as it is.
+    pub fn try_path(path: &Path) -> io::Result<()> {
+        if path.is_file() {
+            let opened = File::options().append(true).open(path);
+            return opened.map(drop).map_err(|e| named(path, &e));
+        }
+        try_to_write(path)
+    }
+
+    /// Lines to a new file, or to the standard output where `path` is `-`.
+    pub fn create(path: &Path) -> io::Result<Self> {
+        if path == Path::new("-") {
+            return Ok(Self::Output);
+        }
+        let file = File::create(path).map_err(|e| named(path, &e))?;
+        Ok(Self::File(path.to_owned(), file))
+    }
+
+    /// Adds a frame's line, whole, for whoever watches the file grow.
+    pub fn push(&mut self, frame: &FrameStats) -> io::Result<()> {
+        let line = serde_json::to_string(frame)? + "\n";
+        match self {
+            Self::Output => say::print(&line),
+            Self::File(path, file) => file.write_all(line.as_bytes()).map_err(|e| named(path, &e)),
+        }
+    }
+}
 
 #[derive(Default, Serialize)]
 pub(crate) struct FrameStats {

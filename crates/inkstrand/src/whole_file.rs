@@ -1,14 +1,26 @@
 //! Files that are whole or not there: written beside their place, then renamed.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use crate::paths::folder_of;
+use std::collections::HashSet;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+
+/// How names of unfinished files begin and end. They are short: a name of the length that a file system allows has a part too.
+const PART: (&str, &str) = (".inkstrand-", ".part");
 
 /// The unfinished files of this process. Whoever creates, renames or removes one holds the lock.
-static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static PARTS: LazyLock<Mutex<Parts>> = LazyLock::new(Mutex::default);
 
-fn parts() -> MutexGuard<'static, Vec<PathBuf>> {
+#[derive(Default)]
+struct Parts {
+    own: Vec<PathBuf>,
+    /// Folders in which what others have left is cleaned up.
+    clean: HashSet<PathBuf>,
+}
+
+fn parts() -> MutexGuard<'static, Parts> {
     // A list of paths is right whoever panicked beside it.
     PARTS.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -18,7 +30,7 @@ pub(crate) fn leave_no_parts() {
     let set = ctrlc::set_handler(|| {
         // Held until the end of the process: nothing is created or renamed after this.
         let parts = parts();
-        for part in parts.iter() {
+        for part in &parts.own {
             let _ = fs::remove_file(part); // nobody is left to tell
         }
         std::process::exit(130);
@@ -32,6 +44,7 @@ pub(crate) struct WholeFile {
     path: PathBuf,
     /// Where it is until it is whole.
     part: Option<PathBuf>,
+    /// Locked while it is a part.
     writer: BufWriter<File>,
 }
 
@@ -39,25 +52,21 @@ impl WholeFile {
     /// A file that will be at `path`, or where a link there points. What is there but no file (a
     /// pipe, a device) is written to as it is.
     pub fn create(path: &Path) -> io::Result<Self> {
-        let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
-            let file = File::options()
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let made = match fs::metadata(&path) {
+            Ok(there) if there.is_dir() => Err(ErrorKind::IsADirectory.into()),
+            Ok(there) if !there.is_file() => File::options()
                 .write(true)
-                .open(path)
-                .map_err(|e| named(path, &e))?;
-            return Ok(Self {
-                path: path.clone(),
-                part: None,
-                writer: BufWriter::new(file),
-            });
-        }
-        let part = path.with_file_name(format!(".{}.{}.part", file_name(path), std::process::id()));
-        let mut parts = parts();
-        let file = File::create(&part).map_err(|e| named(path, &e))?;
-        parts.push(part.clone());
+                .open(&path)
+                .map(|file| (None, file)),
+            _ => parts()
+                .create(folder_of(&path))
+                .map(|(part, file)| (Some(part), file)),
+        };
+        let (part, file) = made.map_err(|e| named(&path, &e))?;
         Ok(Self {
-            path: path.to_owned(),
-            part: Some(part),
+            path,
+            part,
             writer: BufWriter::new(file),
         })
     }
@@ -65,11 +74,11 @@ impl WholeFile {
     /// Puts the file in its place, where it takes that of an older one.
     pub fn finish(mut self) -> io::Result<()> {
         self.flush()?;
+        let Some(part) = &self.part else {
+            return Ok(());
+        };
         let _parts = parts();
-        match &self.part {
-            Some(part) => fs::rename(part, &self.path).map_err(|e| named(&self.path, &e)),
-            None => Ok(()),
-        }
+        fs::rename(part, &self.path).map_err(|e| named(&self.path, &e))
     }
 }
 
@@ -89,12 +98,72 @@ impl Drop for WholeFile {
         let mut parts = parts();
         // The first error is the one to tell; a finished part is no longer there.
         let _ = fs::remove_file(own);
-        parts.retain(|part| part != own);
+        parts.own.retain(|part| part != own);
     }
 }
 
+/// A new file in the folder, locked, so that others see that somebody is at it.
+fn new_part(folder: &Path) -> io::Result<(PathBuf, File)> {
+    let (begin, end) = PART;
+    for count in 0.. {
+        let path = folder.join(format!("{begin}{}-{count}{end}", std::process::id()));
+        let file = match File::create_new(&path) {
+            // Another part of ours, or of a process of the same number on another machine.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
+            created => created?,
+        };
+        // Before it was locked, somebody who cleans up may have taken it for one that was left.
+        let is_ours = !matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+        if is_ours && path.exists() {
+            return Ok((path, file));
+        }
+    }
+    Err(ErrorKind::AlreadyExists.into())
+}
+
+impl Parts {
+    /// A new part in the folder.
+    fn create(&mut self, folder: &Path) -> io::Result<(PathBuf, File)> {
+        self.clean_up(folder);
+        let (part, file) = new_part(folder)?;
+        self.own.push(part.clone());
+        Ok((part, file))
+    }
+
+    /// Removes the parts that killed processes have left in the folder: those that nobody holds. Once a folder.
+    fn clean_up(&mut self, folder: &Path) {
+        if !self.clean.insert(folder.to_owned()) {
+            return;
+        }
+        // What cannot be cleaned up stays, and hinders nobody.
+        for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+            let name = entry.file_name();
+            let name = name.to_string_lossy();
+            let is_part = name.starts_with(PART.0) && name.ends_with(PART.1);
+            if !is_part || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
+                continue;
+            }
+            // To write, without which network file systems lock nothing.
+            if let Ok(file) = File::options().write(true).open(entry.path())
+                && file.try_lock().is_ok()
+            {
+                let _ = fs::remove_file(entry.path());
+            }
+        }
+    }
+}
+
+/// Tells before the work whether a file can be written at `path`.
+pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
+    // Who reads a pipe would take its closing for the end.
+    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+        return Ok(());
+    }
+    WholeFile::create(path).map(drop)
+}
+
 /// The error, beginning with the file's name.
-fn named(path: &Path, error: &io::Error) -> io::Error {
+pub(crate) fn named(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
@@ -103,14 +172,6 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = WholeFile::create(path)?;
     file.write_all(bytes)?;
     file.finish()
-}
-
-/// The last part of a path as text.
-pub(crate) fn file_name(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
 }
 
 #[cfg(test)]
@@ -152,7 +213,8 @@ mod tests {
         write_whole(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(names(), ["a.txt"]);
-        assert!(parts().iter().all(|part| !part.starts_with(folder.path())));
+        let is_left = |part: &PathBuf| part.starts_with(folder.path());
+        assert!(!parts().own.iter().any(is_left));
     }
 
     #[test]
@@ -165,5 +227,34 @@ mod tests {
         fs::create_dir(folder.path().join("taken")).unwrap();
         assert!(write_whole(&folder.path().join("taken"), b"x").is_err());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn parts_that_nobody_holds_are_cleaned_up() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        for name in [
+            ".inkstrand-1-0.part",
+            ".inkstrand-1-1.part",
+            "mine.part",
+            ".a.png.1.part",
+        ] {
+            fs::write(path(name), "half").unwrap();
+        }
+        let held = File::open(path(".inkstrand-1-1.part")).unwrap();
+        held.lock().unwrap();
+        write_whole(&path("a.txt"), b"whole").unwrap();
+        assert!(!path(".inkstrand-1-0.part").exists());
+        for name in [".inkstrand-1-1.part", "mine.part", ".a.png.1.part", "a.txt"] {
+            assert!(path(name).exists(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_may_be_as_long_as_the_file_system_allows() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("n".repeat(255));
+        write_whole(&path, b"x").unwrap();
+        assert_eq!(fs::read(path).unwrap(), b"x");
     }
 }

@@ -24,7 +24,15 @@ const HEAD: &str = "v -0.1 -0.1 0\nv 0.1 -0.1 0\nv 0 0.1 0.05\nv 0 0 -0.1\n\
 
 /// All of them, each with a command line that uses it.
 const LINES: &[(&str, &[&str])] = &[
-    ("check PRESETS", &["check", "small.ron"]),
+    ("check FILE", &["check", "small.ron"]),
+    ("completions SHELL bash", &["completions", "bash"]),
+    ("completions SHELL elvish", &["completions", "elvish"]),
+    ("completions SHELL fish", &["completions", "fish"]),
+    (
+        "completions SHELL powershell",
+        &["completions", "powershell"],
+    ),
+    ("completions SHELL zsh", &["completions", "zsh"]),
     ("effects NAME", &["effects", "hair.base"]),
     ("effects --json", &["effects", "--json"]),
     ("new NAME.ron", &["new", "fresh.ron"]),
@@ -132,7 +140,7 @@ const LINES: &[(&str, &[&str])] = &[
         "render --frames",
         &["render", "small.ron", "--frames", "0-1"],
     ),
-    ("render --time", &["render", "small.ron", "--time", "-0.5"]),
+    ("render --time", &["render", "small.ron", "--time", "0.5"]),
     ("render --size", &["render", "small.ron", "--size", "8x6"]),
     (
         "render --samples",

@@ -58,10 +58,6 @@ fn an_interrupt_leaves_no_half_file() {
         let path = folder.path();
         let mut child = start(path, "0-999999");
         wait_for(&mut child, || path.join("a_1.png").exists());
-        let part = names(path)
-            .iter()
-            .any(|name| name.contains("stats") && name.ends_with(".part"));
-        assert!(part, "the stats are under way: {:?}", names(path));
         // At another moment of a frame each time.
         std::thread::sleep(Duration::from_micros(700 * round as u64));
         let id = child.id().to_string();
@@ -72,10 +68,7 @@ fn an_interrupt_leaves_no_half_file() {
         assert_eq!(child.wait().unwrap().code(), Some(130), "SIG{signal}");
 
         for name in names(path) {
-            assert!(
-                !name.ends_with(".part") && !name.starts_with("stats"),
-                "{name} is left"
-            );
+            assert!(!name.ends_with(".part"), "{name} is left");
             if name.ends_with(".png") {
                 let file = fs::File::open(path.join(&name)).unwrap();
                 let mut reader = png::Decoder::new(std::io::BufReader::new(file))
@@ -94,18 +87,68 @@ fn stats_grow_with_the_frames() {
     let path = folder.path();
     let mut child = start(path, "0-999999");
     wait_for(&mut child, || path.join("a_50.png").exists());
-    let part = names(path)
-        .into_iter()
-        .find(|name| name.contains("stats"))
-        .unwrap();
-    let lines = fs::read_to_string(path.join(&part))
-        .unwrap()
-        .lines()
-        .count();
     child.kill().unwrap();
     child.wait().unwrap();
-    assert!(lines >= 50, "{lines} lines after 51 frames");
-    assert!(!path.join("stats.jsonl").exists(), "only whole");
+    let text = fs::read_to_string(path.join("stats.jsonl")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines.len() >= 50, "{} lines after 51 frames", lines.len());
+    for line in lines {
+        assert!(serde_json::from_str::<serde_json::Value>(line).is_ok());
+    }
+}
+
+#[test]
+fn what_a_killed_run_leaves_a_later_one_removes() {
+    let folder = folder("(400, 300)");
+    let path = folder.path();
+    let is_part = |name: &String| name.ends_with(".part");
+    // Killed while a picture is being written, which takes a few tries.
+    for _ in 0..50 {
+        let mut child = start(path, "0-999999");
+        wait_for(&mut child, || names(path).iter().any(is_part));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        if names(path).iter().any(is_part) {
+            break;
+        }
+    }
+    assert!(names(path).iter().any(is_part), "{:?}", names(path));
+    assert!(start(path, "0-1").wait().unwrap().success());
+    assert!(!names(path).iter().any(is_part), "{:?}", names(path));
+}
+
+#[test]
+fn an_interrupt_is_heard_before_the_first_frame() {
+    let folder = folder("(40, 30)");
+    let path = folder.path();
+    let text = fs::read_to_string(path.join("small.ron")).unwrap();
+    let slow = "(version: 1, dynamics: (warm_up: 600, step: 0.00001, gravity: 2),";
+    fs::write(path.join("small.ron"), text.replace("(version: 1,", slow)).unwrap();
+    for arguments in [
+        &["render", "small.ron", "-o", "a.png"][..],
+        &["simulate", "small.ron", "-o", "a.strands.ron"],
+    ] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_inkstrand"))
+            .current_dir(path)
+            .args(arguments)
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(500));
+        assert_eq!(child.try_wait().unwrap(), None, "it is not long enough");
+        let id = child.id().to_string();
+        assert!(
+            Command::new("kill")
+                .args(["-INT", &id])
+                .status()
+                .unwrap()
+                .success()
+        );
+        let sent = Instant::now();
+        assert_eq!(child.wait().unwrap().code(), Some(130));
+        assert!(sent.elapsed() < Duration::from_secs(5));
+        assert_eq!(names(path).len(), 2, "{:?}", names(path));
+    }
 }
 
 #[test]

@@ -117,3 +117,32 @@ fn names_that_are_no_presets() {
         .stderr(contains("no/such/look.style.ron"));
     assert!(names(folder.path()).is_empty());
 }
+
+#[test]
+fn names_of_any_kind_are_drawn_by_the_hint_that_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, word) in [
+        ("my look.ron", "'my look.ron'"),
+        ("look.v2.ron", "look.v2.ron"),
+        #[cfg(unix)]
+        ("say \"a\\b\".ron", "'say \"a\\b\".ron'"),
+    ] {
+        inkstrand(folder.path(), &["new", name])
+            .success()
+            .stderr(contains(format!("inkstrand render {word}\n")));
+        inkstrand(folder.path(), &["check", name])
+            .success()
+            .stderr("");
+    }
+}
+
+#[test]
+fn a_style_is_not_a_preset() {
+    let folder = tempfile::tempdir().unwrap();
+    inkstrand(folder.path(), &["new", "x.style.ron"])
+        .code(2)
+        .stderr(contains(
+            "x.style.ron: .style.ron is the name of a hair style; `inkstrand new x.ron` writes a preset",
+        ));
+    assert!(names(folder.path()).is_empty());
+}

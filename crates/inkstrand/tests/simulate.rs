@@ -1,6 +1,7 @@
 //! `inkstrand simulate`, and drawing what it baked.
 
 use assert_cmd::Command;
+use predicates::prelude::*;
 use predicates::str::contains;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -109,4 +110,149 @@ fn a_bake_of_other_hair_is_refused() {
     .assert()
     .code(1)
     .stderr(contains("no/where.strands.ron"));
+}
+
+#[test]
+fn a_bake_that_something_else_moved_is_refused_and_says_what() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    inkstrand(
+        &folder,
+        &["simulate", "-o", "b.strands.ron", "--frames", "0-2"],
+    )
+    .assert()
+    .success();
+    let text = fs::read_to_string(path("b.strands.ron")).unwrap();
+    for said in [
+        " strands of bob.style.ron\n",
+        " walk.motion.ron\n",
+        "// dynamics.feel: ",
+        "// scene.fps: 24\n",
+    ] {
+        assert!(text.contains(said), "`{said}`");
+    }
+    let draw = [
+        "render",
+        "--bake",
+        "b.strands.ron",
+        "--size",
+        "20x20",
+        "-o",
+        "a.png",
+    ];
+    let draw_with = |more: &[&str]| inkstrand(&folder, &[&draw[..], more].concat());
+
+    // What draws is free, and the script's name.
+    for more in [
+        &[][..],
+        &["--camera", "90,0", "--light", "0,0"],
+        &["--set", "hair.silhouette.width=9", "--samples", "1"],
+    ] {
+        draw_with(more).assert().success();
+    }
+    let renamed = text.replace("walk.motion", "old.motion");
+    fs::write(path("b.strands.ron"), renamed).unwrap();
+    draw_with(&[]).assert().success();
+    fs::write(path("b.strands.ron"), &text).unwrap();
+
+    for (setting, said) in [
+        ("dynamics.stiffness=2", "dynamics.stiffness was 1 and is 2"),
+        ("dynamics.feel=gel", "and is gel"),
+        ("scene.fps=12", "scene.fps was 24 and is 12"),
+        ("seed=99", " and is 99"),
+    ] {
+        draw_with(&["--set", setting])
+            .assert()
+            .code(1)
+            .stderr(contains("it is not a bake of this motion: ").and(contains(said)));
+    }
+    fs::write(path("walk.motion.ron"), WALK.replace("30", "31")).unwrap();
+    draw_with(&[])
+        .assert()
+        .code(1)
+        .stderr(contains("motion (walk.motion.ron) has changed since"));
+    fs::write(path("walk.motion.ron"), WALK).unwrap();
+
+    // As if the style had been changed, with as many points.
+    fs::write(
+        path("b.strands.ron"),
+        text.replace("// hair: ", "// hair: 0"),
+    )
+    .unwrap();
+    draw_with(&[])
+        .assert()
+        .code(1)
+        .stderr(contains("hair (").and(contains(" strands of bob.style.ron) has changed since")));
+
+    // Bakes of older builds say nothing.
+    let start = text.find("(version").unwrap();
+    fs::write(path("b.strands.ron"), &text[start..]).unwrap();
+    draw_with(&[]).assert().success().stderr(contains(
+        "b.strands.ron: the bake does not say what moved its hair",
+    ));
+}
+
+#[test]
+fn a_bake_has_no_more_frames_than_it_has() {
+    let folder = folder();
+    inkstrand(
+        &folder,
+        &["simulate", "-o", "b.strands.ron", "--frames", "2-4"],
+    )
+    .assert()
+    .success();
+    for (option, value, asked) in [
+        ("--frames", "3-5", "frame 5 (0.20833333 s)"),
+        ("--frames", "1-3", "frame 1 (0.041666668 s)"),
+        ("--time", "7", "frame 168 (7 s)"),
+    ] {
+        let line = ["render", "--size", "20x20", "--bake", "b.strands.ron"];
+        let line = [&line[..], &["-o", "a.png", option, value]].concat();
+        inkstrand(&folder, &line).assert().code(1).stderr(
+            contains(
+                "b.strands.ron: the bake goes from frame 2 (0.083333336 s) to 4 (0.16666667 s)",
+            )
+            .and(contains(asked)),
+        );
+    }
+    let line = ["render", "--size", "20x20", "--bake", "b.strands.ron"];
+    let line = [&line[..], &["-o", "a.png", "--frames", "2-4"]].concat();
+    inkstrand(&folder, &line).assert().success();
+}
+
+#[test]
+fn a_bake_is_made_anew_in_the_place_of_the_one_that_the_preset_names() {
+    let folder = folder();
+    let preset = fs::read_to_string(presets().join("short-ash.ron")).unwrap();
+    let style = presets().join("styles/bob.style.ron");
+    let hair = format!(
+        "file: {:?}, bake: \"b.strands.ron\"",
+        style.to_str().unwrap()
+    );
+    let preset = preset.replace("file: \"styles/bob.style.ron\"", &hair);
+    fs::write(folder.path().join("look.ron"), preset).unwrap();
+    let run = |line: &[&str]| {
+        let mut command = Command::cargo_bin("inkstrand").unwrap();
+        command.current_dir(folder.path()).args(line).assert()
+    };
+    let simulate = [
+        "simulate",
+        "look.ron",
+        "-o",
+        "b.strands.ron",
+        "--frames",
+        "0-1",
+    ];
+    let moving = ["--motion", "walk.motion.ron"];
+    run(&simulate).success();
+    let still = fs::read(folder.path().join("b.strands.ron")).unwrap();
+    run(&[&simulate[..], &moving].concat()).success();
+    assert_ne!(
+        fs::read(folder.path().join("b.strands.ron")).unwrap(),
+        still
+    );
+    run(&["check", "look.ron"])
+        .code(1)
+        .stderr(contains("look.ron:4:"))
+        .stderr(contains("motion was walk.motion.ron and is none"));
 }

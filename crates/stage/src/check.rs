@@ -1,17 +1,28 @@
-//! All that is wrong with a preset and with the motion script, style and bake that it names, without a picture.
+//! All that is wrong with a preset and with the files that it names, without a picture.
 
 use crate::files::{Files, StageError};
 use crate::load;
 use crate::preset::{Preset, missing};
 use crate::script;
+use crate::stage::Stage;
 use crate::style;
 use effects::Registry;
 use effects::preset::{Place, PresetError, PresetErrors, Reader};
-use std::path::Path;
+use hair_io::{BoneMotion, HairOptions};
+use std::path::{Path, PathBuf};
+
+/// A file that a preset names.
+struct NamedFile {
+    section: &'static str,
+    param: &'static str,
+    path: PathBuf,
+    /// Whether the caller names it, in place of the preset.
+    is_given: bool,
+}
 
 impl<'r> Preset<'r> {
-    /// Looks for all that is wrong with the preset `text`, also with the files that it names: whether they are there, what is
-    /// wrong in a motion script and in a style, and whether a bake is one of the preset's hair.
+    /// Looks for all that is wrong with the preset `text`, also with the files that it names, which are opened, and with the scene
+    /// that they make.
     ///
     /// # Errors
     ///
@@ -25,97 +36,179 @@ impl<'r> Preset<'r> {
         let mut reader = Reader::new(file, text);
         let preset = Self::read(&mut reader, registry)?;
         let mut found = Found::default();
-        found.add(reader.report());
-        found.add(preset.check_files(files));
-        found.add(preset.check_script(files));
-        found.add(preset.check_style(files));
-        found.add(preset.check_bake(files));
-        (found.0).sort_by_cached_key(|e| {
-            let place = &e.place;
-            (
-                place.file != file,
-                place.file.clone(),
-                place.line,
-                place.column,
-            )
-        });
-        found.report()
+        let own = reader.report();
+        let is_whole = own.is_ok();
+        found.add(own);
+        found.add(preset.check_opened(files));
+        if is_whole && found.0.is_empty() {
+            found.add(preset.check_made(file, text, files));
+        }
+        found.report(file)
     }
 
-    fn check_script(&self, files: &Files) -> Result<(), PresetErrors> {
+    /// Looks for all that is wrong with the files of a preset that was read, and maybe changed since, and with the scene that they
+    /// make. `text` is the preset's own, of the file that messages call `file`. Without hair there is no scene, and nothing wrong
+    /// with it: some may be given later.
+    ///
+    /// # Errors
+    ///
+    /// All mistakes, each with its file, line and column: those of the preset first.
+    pub fn check_scene(&self, file: &str, text: &str, files: &Files) -> Result<(), PresetErrors> {
+        let mut found = Found::default();
+        found.add(self.check_opened(files));
+        if found.0.is_empty() {
+            found.add(self.check_made(file, text, files));
+        }
+        found.report(file)
+    }
+
+    /// The files that a scene is read from: those of the preset, but where the caller gives others, and those that its script
+    /// names.
+    #[must_use]
+    pub fn files(&self, files: &Files) -> Vec<PathBuf> {
+        let mut paths: Vec<PathBuf> = self.named(files).into_iter().map(|f| f.path).collect();
+        if let Some(script) = &self.script_path(files)
+            && let Ok(text) = std::fs::read_to_string(script)
+            && let Ok(parsed) = script::parse("", &text)
+        {
+            let shapes = parsed.shapes.into_iter().filter_map(|key| key.file);
+            paths.extend(shapes.map(|name| script.with_file_name(name)));
+        }
+        paths.extend(self.files_of_objects(files));
+        paths
+    }
+
+    fn script_path(&self, files: &Files) -> Option<PathBuf> {
         let own = self.sections.motion.file.as_ref();
-        let path = load::chosen(files.motion.as_ref(), own, &files.preset_folder);
-        match path.filter(|path| path.is_file()) {
-            Some(path) => self.check_text(&path, ("motion", "file"), check_motion),
-            None => Ok(()),
-        }
+        load::chosen(files.motion.as_ref(), own, &files.preset_folder)
     }
 
-    fn check_style(&self, files: &Files) -> Result<(), PresetErrors> {
-        let own = self.sections.hair.file.as_ref();
-        let path = load::chosen(files.hair.as_ref(), own, &files.preset_folder);
-        match path.filter(|path| path.is_file() && load::is_style(path)) {
-            Some(path) => self.check_text(&path, ("hair", "file"), check_style),
-            None => Ok(()),
+    fn named(&self, files: &Files) -> Vec<NamedFile> {
+        let sections = &self.sections;
+        let all = [
+            ("hair", "file", &sections.hair.file, &files.hair),
+            ("hair", "bake", &sections.hair.bake, &files.bake),
+            ("head", "file", &sections.head.file, &files.head),
+            ("motion", "file", &sections.motion.file, &files.motion),
+            ("motion", "gltf", &sections.motion.gltf, &None),
+        ];
+        let named = all.into_iter().filter_map(|(section, param, own, given)| {
+            Some(NamedFile {
+                section,
+                param,
+                path: load::chosen(given.as_ref(), own.as_ref(), &files.preset_folder)?,
+                is_given: given.is_some(),
+            })
+        });
+        named.collect()
+    }
+
+    /// Opens each file that the preset names by itself. What is wrong with those that the caller names has no place in it.
+    fn check_opened(&self, files: &Files) -> Result<(), PresetErrors> {
+        let mut found = Found::default();
+        found.add(self.check_files(files));
+        for file in self.named(files) {
+            if !file.is_given && file.path.is_file() {
+                found.add(self.check_file(&file));
+            }
         }
+        found.all()
+    }
+
+    fn check_file(&self, file: &NamedFile) -> Result<(), PresetErrors> {
+        let path = &file.path;
+        let opened: Result<(), StageError> = match (file.section, file.param) {
+            ("motion", "file") => return self.check_text(file, check_motion),
+            ("hair", "file") if load::is_style(path) => return self.check_text(file, check_style),
+            ("hair", _) => check_hair(path),
+            ("head", _) => hair_io::read_head(path, None, None)
+                .map(drop)
+                .map_err(StageError::from),
+            _ => {
+                let section = &self.sections.motion;
+                let bone = section.bone.as_deref().unwrap_or("head");
+                BoneMotion::read(path, bone, section.animation.as_deref())
+                    .map(drop)
+                    .map_err(StageError::from)
+            }
+        };
+        opened.or_else(|error| self.mistake(file, error.to_string()))
     }
 
     /// Checks a file's text; one that cannot be read is a mistake where the preset names it.
     fn check_text(
         &self,
-        path: &Path,
-        (section, param): (&str, &str),
+        file: &NamedFile,
         check: impl Fn(&Path, &str) -> Result<(), PresetErrors>,
     ) -> Result<(), PresetErrors> {
-        match std::fs::read_to_string(path) {
-            Ok(text) => check(path, &text),
+        match std::fs::read_to_string(&file.path) {
+            Ok(text) => check(&file.path, &text),
             Err(error) => {
-                let message = format!("{param}: `{}` cannot be read: {error}", path.display());
-                self.mistake(section, param, path, message)
+                let message = format!("`{}` cannot be read: {error}", file.path.display());
+                self.mistake(file, message)
             }
         }
     }
 
-    /// A bake needs the hair that it was made of; where that cannot be read, its own mistakes are named first.
-    fn check_bake(&self, files: &Files) -> Result<(), PresetErrors> {
-        let own = self.sections.hair.bake.as_ref();
-        let path = load::chosen(files.bake.as_ref(), own, &files.preset_folder);
-        let Some(path) = path.filter(|path| path.is_file()) else {
-            return Ok(());
+    /// Makes the scene, and its hair where the motion begins.
+    fn check_made(&self, file: &str, text: &str, files: &Files) -> Result<(), PresetErrors> {
+        let begin = -self.sections.dynamics.warm_up;
+        let made = Stage::new(self, files).and_then(|mut stage| stage.advance_to(begin));
+        let error = match made {
+            Ok(()) | Err(StageError::NoHair) => return Ok(()),
+            Err(StageError::Mistakes(errors)) => return Err(errors),
+            Err(error) => error,
         };
-        let read = || {
-            let notes = &mut Vec::new();
-            let model = load::head(self, files, notes)?;
-            let mesh = model.as_ref().map(|model| &model.mesh);
-            let mut hair = load::hair(self, files, mesh, notes)?;
-            hair.choose_guides(&self.sections.hair);
-            load::bake(self, files, &mut hair)
+        // Messages about a file begin with its name; a bake may be another's file too.
+        let message = error.to_string();
+        let is_of_bake = matches!(
+            error,
+            StageError::OtherHair { .. } | StageError::OtherMotion { .. }
+        );
+        let is_of = |file: &&NamedFile| {
+            let begins = message.starts_with(&format!("{}: ", file.path.display()));
+            begins && (file.param == "bake" || !is_of_bake)
         };
-        match read() {
-            // Hair may be given later, and a style's mistakes are its own.
-            Ok(()) | Err(StageError::NoHair | StageError::Mistakes(_)) => Ok(()),
-            Err(error) => self.mistake("hair", "bake", &path, format!("bake: {error}")),
+        let named = self.named(files);
+        if let Some(file) = named.iter().find(is_of) {
+            return self.mistake(file, message);
         }
-    }
-
-    /// A mistake of the file at `path`, where the preset names it; in the file itself where the caller does.
-    fn mistake(
-        &self,
-        section: &str,
-        param: &str,
-        path: &Path,
-        message: String,
-    ) -> Result<(), PresetErrors> {
-        let in_file = || Place {
-            file: path.display().to_string(),
-            line: 1,
-            column: 1,
-            source_line: String::new(),
+        // Of files that the preset does not name, its script does.
+        if matches!(error, StageError::File(_) | StageError::Read { .. }) {
+            let is_script = |file: &&NamedFile| (file.section, file.param) == ("motion", "file");
+            let script = named.iter().find(is_script);
+            return script.map_or(Ok(()), |script| self.mistake(script, message));
+        }
+        let section = match error {
+            _ if !self.objects.is_empty() => "objects",
+            StageError::NoPointLight(_) | StageError::Camera(_) => "light",
+            StageError::Shapes(_) => "motion",
+            StageError::Path(_) => "path",
+            _ => "dynamics",
         };
-        let place = self.place_of(section, param).cloned();
-        let place = place.unwrap_or_else(in_file);
+        let place = place_of_section(file, text, section);
         Err(PresetErrors(vec![PresetError { place, message }]))
     }
+
+    /// A mistake of a file, where the preset names it; none where it does not.
+    fn mistake(&self, file: &NamedFile, message: String) -> Result<(), PresetErrors> {
+        let place = self.place_of(file.section, file.param);
+        match place.filter(|_| !file.is_given) {
+            Some(place) => Err(PresetErrors(vec![PresetError {
+                place: place.clone(),
+                message: format!("{}: {message}", file.param),
+            }])),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Where a preset says that section, or where it begins.
+fn place_of_section(file: &str, text: &str, section: &str) -> Place {
+    let mut reader = Reader::new(file, text);
+    let fields = reader.fields(reader.text(), "the preset");
+    let field = fields.iter().find(|field| field.name == section);
+    reader.place(field.map_or(reader.text(), |field| field.name))
 }
 
 /// Looks for all that is wrong with a motion script and with the names of the shapes in it.
@@ -131,7 +224,7 @@ pub fn check_motion(path: &Path, text: &str) -> Result<(), PresetErrors> {
         let place = key.place.clone();
         Some(PresetError { place, message })
     });
-    Found(mistakes.collect()).report()
+    Found(mistakes.collect()).all()
 }
 
 /// Looks for all that is wrong with a style.
@@ -141,6 +234,16 @@ pub fn check_motion(path: &Path, text: &str) -> Result<(), PresetErrors> {
 /// All mistakes, each with its line and column.
 pub fn check_style(path: &Path, text: &str) -> Result<(), PresetErrors> {
     style::parse(&path.display().to_string(), text).map(|_| ())
+}
+
+/// Looks for what is wrong with strands of a file, or a bake.
+///
+/// # Errors
+///
+/// The first mistake, with the file's name.
+pub fn check_hair(path: &Path) -> Result<(), StageError> {
+    hair_io::read_hair(path, &HairOptions::default())?;
+    Ok(())
 }
 
 /// Mistakes from several places.
@@ -153,11 +256,25 @@ impl Found {
             .extend(result.err().into_iter().flat_map(|errors| errors.0));
     }
 
-    fn report(self) -> Result<(), PresetErrors> {
+    fn all(self) -> Result<(), PresetErrors> {
         if self.0.is_empty() {
             Ok(())
         } else {
             Err(PresetErrors(self.0))
         }
+    }
+
+    /// All of them, those of `file` first.
+    fn report(mut self, file: &str) -> Result<(), PresetErrors> {
+        (self.0).sort_by_cached_key(|e| {
+            let place = &e.place;
+            (
+                place.file != file,
+                place.file.clone(),
+                place.line,
+                place.column,
+            )
+        });
+        self.all()
     }
 }

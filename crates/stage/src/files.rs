@@ -103,6 +103,26 @@ pub enum StageError {
         /// Where it differs.
         what: String,
     },
+    /// A bake of the scene's hair that something else moved.
+    #[error("{}: it is not a bake of this motion: {what}; `inkstrand simulate` makes a new one", path.display())]
+    OtherMotion {
+        /// The file.
+        path: PathBuf,
+        /// Where it differs.
+        what: String,
+    },
+    /// A time that a bake does not have.
+    #[error("{}: the bake goes from frame {first} to {last}, and frame {asked} is asked for", path.display())]
+    BeyondBake {
+        /// The file.
+        path: PathBuf,
+        /// Its first frame.
+        first: String,
+        /// Its last frame.
+        last: String,
+        /// The frame that it does not have.
+        asked: String,
+    },
     /// Frames that make no motion.
     #[error("bake: {0}")]
     Bake(hair_sim::MotionError),

@@ -9,6 +9,7 @@ use groom::{Guides, Tie};
 use hair_io::{HairFile, HeadFrame, Mesh};
 use hair_sim::{Motion, Strands};
 use render::{Head, StrandInfo};
+use std::path::PathBuf;
 
 /// Hair that was read, grown, or made by a program.
 pub struct HairModel {
@@ -22,6 +23,8 @@ pub struct HairModel {
     pub(crate) held: Vec<u32>,
     /// The shapes that a script wants of it at times.
     pub(crate) shapes: Option<Motion>,
+    /// The bake that its file's motion is of.
+    pub(crate) bake: Option<PathBuf>,
     /// The ties that gather it.
     pub(crate) ties: Vec<Tie>,
     /// The head that it stands on.
@@ -69,6 +72,7 @@ impl HairModel {
             undercoat: 0,
             infos: Vec::new(),
             shapes: None,
+            bake: None,
             ties: Vec::new(),
             head: head_of(HeadFrame::find(head, &all_roots)),
             reach_m: 0.0,

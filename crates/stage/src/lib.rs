@@ -25,8 +25,8 @@ mod shapes;
 mod stage;
 mod style;
 
-pub use bake::Bake;
-pub use check::{check_motion, check_style};
+pub use bake::{Bake, is_bake};
+pub use check::{check_hair, check_motion, check_style};
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 pub use files::{Files, StageError};
 pub use frame_maker::FrameMaker;

@@ -1,6 +1,5 @@
 //! The preset's files: hair and head in, strands with their sizes out.
 
-use crate::bake;
 use crate::files::{Files, StageError};
 use crate::hair::{HairModel, head_of};
 use crate::head::HeadModel;
@@ -115,15 +114,6 @@ pub(crate) fn strands(
     Ok(HairModel::read(hair, head))
 }
 
-/// Puts baked motion in place of the hair's own, where there is a bake.
-pub(crate) fn bake(preset: &Preset, files: &Files, hair: &mut HairModel) -> Result<(), StageError> {
-    let own = preset.sections.hair.bake.as_ref();
-    if let Some(path) = chosen(files.bake.as_ref(), own, &files.preset_folder) {
-        hair.file.motion = Some(bake::read(&path, &hair.file.strands)?);
-    }
-    Ok(())
-}
-
 /// The hair of a style, grown on the head.
 fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
     let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
@@ -158,6 +148,7 @@ fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
         held: grown.held,
         undercoat: grown.undercoat,
         shapes: None,
+        bake: None,
         ties: grown.ties,
         head,
     })

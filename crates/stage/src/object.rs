@@ -1,5 +1,6 @@
 //! An object of a scene: hair on a head, how it moves, how it is drawn, and where it stands.
 
+use crate::bake;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
@@ -55,7 +56,7 @@ impl Object {
         let mut hair = load::hair(preset, files, mesh, notes)?;
         let script = script::load(preset, files, &mut hair, mesh)?;
         hair.choose_guides(&preset.sections.hair);
-        load::bake(preset, files, &mut hair)?;
+        bake::load(preset, files, &mut hair, notes)?;
         Self::of(hair, head, look, script)
     }
 

@@ -1,5 +1,6 @@
 //! A scene: objects, light and picture, which never change. What moves and what is drawn is kept apart from it.
 
+use crate::bake;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
@@ -182,6 +183,17 @@ impl Scene {
     #[must_use]
     pub fn head(&self) -> Head {
         mean_head(self.objects.iter().map(Object::head))
+    }
+
+    /// Holds `time` (seconds) against the bakes of the scene's hair.
+    ///
+    /// # Errors
+    ///
+    /// When one of them doesn't go as far.
+    pub fn check_time(&self, time: f32) -> Result<(), StageError> {
+        let hair = self.objects.iter().map(Object::hair);
+        hair.into_iter()
+            .try_for_each(|hair| bake::check_reaches(hair, self.fps(), time))
     }
 
     /// Sentences for the user: what was guessed about the files.

@@ -1,49 +1,106 @@
-//! `inkstrand check`: every mistake of every preset, with the script, style and bake that it names.
+//! `inkstrand check`: every mistake of every file, with those of the files that presets name.
 
+use super::progress::bar;
 use super::{mistakes, preset_folder, read_preset};
-use crate::Failure;
+use crate::paths::file_name;
+use crate::say::say;
+use crate::{Failure, counted};
 use effects::Registry;
-use effects::preset::PresetErrors;
-use stage::{Files, Preset, check_motion, check_style};
+use stage::{Files, Preset, check_hair, check_motion, check_style};
+use std::fs;
+use std::io::{self, IsTerminal as _};
 use std::path::{Path, PathBuf};
 
-pub(crate) fn check(presets: &[PathBuf], registry: &Registry) -> Result<(), Failure> {
-    let found: Vec<String> = presets
-        .iter()
-        .flat_map(|path| mistakes_of(path, registry))
-        .collect();
-    if found.is_empty() {
-        Ok(())
-    } else {
-        Err(Failure::Mistakes(found))
+pub(crate) fn check(paths: &[PathBuf], registry: &Registry) -> Result<(), Failure> {
+    let mut found = Vec::new();
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            match files_in(path) {
+                Ok(inside) => files.extend(inside),
+                Err(message) => found.push(message),
+            }
+        } else {
+            files.push(path.clone());
+        }
     }
+
+    let bar = bar(false, files.len() as u64, "files");
+    let mut wrong = 0;
+    for file in &files {
+        let mistakes = mistakes_of(file, registry);
+        wrong += usize::from(!mistakes.is_empty());
+        found.extend(mistakes);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+
+    let checked = counted(files.len(), "file");
+    if !found.is_empty() {
+        if files.len() > 1 {
+            say(format_args!("{checked}, {wrong} of them with mistakes\n"));
+        }
+        return Err(Failure::Mistakes(found));
+    }
+    // Scripts go by the exit status.
+    if io::stderr().is_terminal() {
+        say(format_args!("ok: {checked}"));
+    }
+    Ok(())
 }
 
+/// The .ron files in a folder and in those in it, sorted; hidden ones are left out.
+fn files_in(folder: &Path) -> Result<Vec<PathBuf>, String> {
+    let named = |error: io::Error| format!("{}: {error}", folder.display());
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(inner) = folders.pop() {
+        for entry in fs::read_dir(inner).map_err(named)? {
+            let entry = entry.map_err(named)?;
+            let (path, kind) = (entry.path(), entry.file_type().map_err(named)?);
+            let name = file_name(&path);
+            if name.starts_with('.') {
+                continue;
+            }
+            // Links to folders may lead around in a circle.
+            if kind.is_dir() {
+                folders.push(path);
+            } else if name.ends_with(".ron") && path.is_file() {
+                files.push(path);
+            }
+        }
+    }
+    if files.is_empty() {
+        return Err(format!(
+            "{}: there is no .ron file in this folder",
+            folder.display()
+        ));
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// What is wrong with a file of the kind that its name says.
 fn mistakes_of(path: &Path, registry: &Registry) -> Vec<String> {
+    let name = path.display().to_string();
+    if name.ends_with(".strands.ron") || name.ends_with(".tfx") {
+        let wrong = check_hair(path).err();
+        return wrong.map(|error| error.to_string()).into_iter().collect();
+    }
     let text = match read_preset(path) {
         Ok(text) => text,
         Err(message) => return vec![message],
     };
-    let found = match path.to_string_lossy() {
-        name if name.ends_with(".motion.ron") => check_motion(path, &text),
-        name if name.ends_with(".style.ron") => check_style(path, &text),
-        name => check_preset(path, &name, &text, registry),
+    let found = if name.ends_with(".motion.ron") {
+        check_motion(path, &text)
+    } else if name.ends_with(".style.ron") {
+        check_style(path, &text)
+    } else {
+        let files = Files {
+            preset_folder: preset_folder(path),
+            ..Files::default()
+        };
+        Preset::check(&name, &text, registry, &files)
     };
-    match found {
-        Ok(()) => Vec::new(),
-        Err(errors) => mistakes(&errors).collect(),
-    }
-}
-
-fn check_preset(
-    path: &Path,
-    name: &str,
-    text: &str,
-    registry: &Registry,
-) -> Result<(), PresetErrors> {
-    let files = Files {
-        preset_folder: preset_folder(path),
-        ..Files::default()
-    };
-    Preset::check(name, text, registry, &files)
+    found.err().iter().flat_map(mistakes).collect()
 }

@@ -1,11 +1,10 @@
 //! `inkstrand effects`: what there is to build a look from.
 
 use super::schema::{self, Section, sections};
-use crate::Failure;
+use crate::{Failure, say};
 use effects::preset::{OF_THE_EFFECT, suggestion};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use stage::{FilePart, MOTION_PARTS, STYLE_PARTS};
-use std::io::{ErrorKind, Write as _};
 
 /// Lists effects and sections, or what one of them takes.
 pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Result<(), Failure> {
@@ -25,11 +24,7 @@ pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Re
             Found::Part(part) => file_part_text(part),
         }
     };
-    match std::io::stdout().write_all(text.as_bytes()) {
-        // Who reads it has seen enough, such as `head`.
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        written => Ok(written?),
-    }
+    Ok(say::print(&text)?)
 }
 
 /// What a name means.

@@ -1,7 +1,9 @@
 //! `inkstrand new`: a preset that explains itself, and a hair style for it.
 
 use crate::Failure;
-use crate::whole_file::{file_name, write_whole};
+use crate::paths::file_name;
+use crate::say::{say, shell_word};
+use crate::whole_file::write_whole;
 use std::fs;
 use std::path::Path;
 
@@ -13,11 +15,7 @@ const STYLE: &str = include_str!("../../../../presets/styles/bob.style.ron");
 /// Writes the starter preset at `path` and its style beside it. Neither may be there already.
 pub(crate) fn new(path: &Path) -> Result<(), Failure> {
     let name = file_name(path);
-    let stem = name.strip_suffix(".ron").filter(|stem| !stem.is_empty());
-    let Some(stem) = stem.filter(|stem| !stem.contains('.')) else {
-        let message = format!("{}: a preset's name ends in .ron", path.display());
-        return Err(Failure::Usage(message));
-    };
+    let stem = stem(&name).map_err(|e| Failure::Usage(format!("{}: {e}", path.display())))?;
     let style_name = format!("{stem}.style.ron");
     let style = path.with_file_name(&style_name);
     for file in [path, &style] {
@@ -26,13 +24,46 @@ pub(crate) fn new(path: &Path) -> Result<(), Failure> {
             return Err(Failure::Failed(message));
         }
     }
-    let preset = PRESET.replace("NAME", &name).replace("STYLE", &style_name);
+    let preset = PRESET
+        .replace("NAME", &shell_word(Path::new(&name)))
+        .replace("STYLE", &in_ron(&style_name));
     write_whole(&style, STYLE.as_bytes())?;
     write_whole(path, preset.as_bytes()).inspect_err(|_| {
         // A style without its preset is of no use; the first error is the one to tell.
         let _ = fs::remove_file(&style);
     })?;
-    eprintln!("wrote {} and {}", path.display(), style.display());
-    eprintln!("draw it: inkstrand render {}", path.display());
+    say(format_args!(
+        "wrote {} and {}",
+        path.display(),
+        style.display()
+    ));
+    say(format_args!(
+        "draw it: inkstrand render {}",
+        shell_word(path)
+    ));
     Ok(())
+}
+
+/// The preset's name without `.ron`, or why it is none.
+fn stem(name: &str) -> Result<&str, String> {
+    let others = [
+        (".style.ron", "a hair style"),
+        (".motion.ron", "a script of motion"),
+        (".strands.ron", "strands"),
+    ];
+    for (ending, what) in others {
+        if let Some(stem) = name.strip_suffix(ending) {
+            return Err(format!(
+                "{ending} is the name of {what}; `inkstrand new {}` writes a preset, and its hair style beside it",
+                shell_word(Path::new(&format!("{stem}.ron")))
+            ));
+        }
+    }
+    let stem = name.strip_suffix(".ron").filter(|stem| !stem.is_empty());
+    stem.ok_or_else(|| "a preset's name ends in .ron".to_owned())
+}
+
+/// A name between the quotes of a text in RON.
+fn in_ron(name: &str) -> String {
+    name.replace('\\', r"\\").replace('"', "\\\"")
 }

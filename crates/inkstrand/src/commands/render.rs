@@ -1,16 +1,18 @@
 //! `inkstrand render`: a preset to pictures.
 
-use super::read_preset;
-use super::scene::{check, open, parse};
+use super::progress::bar_from_first_frame;
+use super::scene::{Source, check};
 use crate::Failure;
 use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
 use crate::painter::Painter;
-use crate::whole_file::WholeFile;
+use crate::paths::is_same;
+use crate::say::say;
+use crate::stats::Lines;
+use crate::whole_file::try_to_write;
 use effects::Registry;
-use indicatif::{ProgressBar, ProgressStyle};
-use stage::{Preset, SceneSection, Sections};
-use std::io::{IsTerminal as _, Write as _};
+use stage::{Files, Preset, SceneSection, Sections};
+use std::path::Path;
 
 pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
     // All that runs in parallel runs in here: simulation, effects and rasteriser.
@@ -21,13 +23,12 @@ pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(),
 }
 
 fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
-    let text = read_preset(&options.preset).map_err(Failure::Failed)?;
-    let mut preset = parse(&options.preset, &text, registry)?;
+    let source = Source::read(&options.preset)?;
+    let mut preset = source.parse(registry)?;
     options.scene.apply(&mut preset).map_err(Failure::Usage)?;
     apply(options, &mut preset).map_err(Failure::Usage)?;
     let mut files = options.scene.files(&options.preset);
     files.bake.clone_from(&options.bake);
-    let mut stage = open(&preset, &files, options.quiet)?;
 
     let SceneSection {
         fps,
@@ -35,52 +36,93 @@ fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
         background,
         ..
     } = preset.sections.scene;
-    let transparent = background.is_none();
-    let sequence = options.frames.is_some();
     let output = Output::new(
         options.output.as_deref(),
         &options.preset,
-        sequence,
-        transparent,
+        options.frames.is_some(),
+        background.is_none(),
     )
     .map_err(Failure::Usage)?;
+    check_outputs(options, &output, &preset, &files)?;
+
+    let mut stage = source.open(&preset, &files, options.quiet)?;
+    let (first, last) = options.frames.unwrap_or((0, 0));
+    let time_of = |frame: u32| options.time.unwrap_or(frame as f32 / fps);
+    for time in [first, last].map(time_of) {
+        stage.scene.check_time(time)?;
+    }
     let mut painter = Painter::new(options.backend, samples, options.quiet)?;
 
-    let (first, last) = options.frames.unwrap_or((0, 0));
-    let bar = progress_bar(options.quiet, u64::from(last - first) + 1);
-    let mut stats = match &options.stats {
-        Some(path) => Some(WholeFile::create(path)?),
-        None => None,
-    };
+    let bar = bar_from_first_frame(
+        options.quiet,
+        &mut stage,
+        &preset,
+        time_of(first),
+        u64::from(last - first) + 1,
+    )?;
+    let mut stats = options.stats.as_deref().map(Lines::create).transpose()?;
     for frame in first..=last {
-        let time = options.time.unwrap_or(frame as f32 / fps);
-        let (picture, line) = painter.paint(&mut stage, frame, time)?;
-        let path = output.write(&picture, frame)?;
+        let (picture, line) = painter.paint(&mut stage, frame, time_of(frame))?;
+        output.write(&picture, frame)?;
         if let Some(stats) = &mut stats {
-            // A line as its frame is there, for whoever watches the file grow.
-            writeln!(stats, "{}", serde_json::to_string(&line)?)?;
-            stats.flush()?;
+            stats.push(&line)?;
         }
         bar.inc(1);
-        if !options.quiet && !sequence {
-            eprintln!("wrote {}", path.display());
-        }
     }
     bar.finish_and_clear();
-    if !options.quiet && stage.left_out() > 0 {
-        eprintln!(
+    if options.quiet {
+        return Ok(());
+    }
+    if stage.left_out() > 0 {
+        say(format_args!(
             "hair: {} strands reach too far away to be drawn and are left out",
             stage.left_out()
-        );
+        ));
     }
-    if !options.quiet && sequence {
-        let (from, to) = (output.path(first), output.path(last));
-        eprintln!("wrote {} to {}", from.display(), to.display());
-    }
-    if let Some(stats) = stats {
-        stats.finish()?;
+    let (from, to) = (output.path(first), output.path(last));
+    if first == last {
+        say(format_args!("wrote {}", from.display()));
+    } else {
+        say(format_args!("wrote {} to {}", from.display(), to.display()));
     }
     Ok(())
+}
+
+/// Refuses what cannot be written, and what would be written over by another file or over one that is read.
+fn check_outputs(
+    options: &RenderOptions,
+    output: &Output,
+    preset: &Preset,
+    files: &Files,
+) -> Result<(), Failure> {
+    let (first, last) = options.frames.unwrap_or((0, 0));
+    let stats = options
+        .stats
+        .as_deref()
+        .filter(|path| *path != Path::new("-"));
+    let mut read = preset.files(files);
+    read.push(options.preset.clone());
+    for path in &read {
+        if output.writes(path, first..=last) {
+            let message = format!(
+                "-o: a picture would be written over {}, which is read",
+                path.display()
+            );
+            return Err(Failure::Usage(message));
+        }
+        if stats.is_some_and(|stats| is_same(stats, path)) {
+            let message = format!("--stats: {} is read, and cannot be written", path.display());
+            return Err(Failure::Usage(message));
+        }
+    }
+    if let Some(stats) = stats {
+        if output.writes(stats, first..=last) {
+            let message = format!("--stats: {} is a picture of -o", stats.display());
+            return Err(Failure::Usage(message));
+        }
+        Lines::try_path(stats)?;
+    }
+    Ok(try_to_write(&output.path(first))?)
 }
 
 /// Puts the command line's options in place of the preset's.
@@ -117,16 +159,4 @@ fn apply(options: &RenderOptions, preset: &mut Preset) -> Result<(), String> {
             .map_err(|e| format!("--only: {e}"))?;
     }
     Ok(())
-}
-
-/// A bar for sequences on a terminal; nothing on a pipe.
-pub(super) fn progress_bar(quiet: bool, frames: u64) -> ProgressBar {
-    if quiet || frames < 2 || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(frames);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }

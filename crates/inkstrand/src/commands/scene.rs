@@ -1,34 +1,53 @@
 //! What `render` and `simulate` share: a preset, changed by options, as a scene.
 
-use super::{mistakes, preset_folder};
+use super::{mistakes, preset_folder, read_preset};
 use crate::Failure;
 use crate::cli::SceneOptions;
+use crate::say::say;
 use effects::Registry;
+use effects::preset::PresetErrors;
 use stage::{Files, Preset, Stage};
 use std::path::Path;
 
-/// Reads a preset's text.
-pub(super) fn parse<'r>(
-    path: &Path,
-    text: &str,
-    registry: &'r Registry,
-) -> Result<Preset<'r>, Failure> {
-    Preset::parse(&path.display().to_string(), text, registry)
-        .map_err(|errors| Failure::Mistakes(mistakes(&errors).collect()))
+/// A preset's text, and what messages call it.
+pub(super) struct Source {
+    name: String,
+    text: String,
 }
 
-/// The scene of a preset; what was guessed about its files is said unless `quiet`.
-pub(super) fn open(preset: &Preset, files: &Files, quiet: bool) -> Result<Stage, Failure> {
-    preset
-        .check_files(files)
-        .map_err(|errors| Failure::Mistakes(mistakes(&errors).collect()))?;
-    let stage = Stage::new(preset, files)?;
-    if !quiet {
-        for note in stage.notes() {
-            eprintln!("{note}");
-        }
+impl Source {
+    pub fn read(path: &Path) -> Result<Self, Failure> {
+        Ok(Self {
+            name: path.display().to_string(),
+            text: read_preset(path).map_err(Failure::Failed)?,
+        })
     }
-    Ok(stage)
+
+    pub fn parse<'r>(&self, registry: &'r Registry) -> Result<Preset<'r>, Failure> {
+        Preset::parse(&self.name, &self.text, registry).map_err(failure)
+    }
+
+    /// The scene of the preset, which options may have changed; what was guessed about its files is said unless `quiet`.
+    pub fn open(&self, preset: &Preset, files: &Files, quiet: bool) -> Result<Stage, Failure> {
+        let stage = match Stage::new(preset, files) {
+            Ok(stage) => stage,
+            // In the words of `inkstrand check`, which knows the places.
+            Err(error) => {
+                let checked = preset.check_scene(&self.name, &self.text, files);
+                return Err(checked.err().map_or_else(|| error.into(), failure));
+            }
+        };
+        if !quiet {
+            for note in stage.notes() {
+                say(note);
+            }
+        }
+        Ok(stage)
+    }
+}
+
+fn failure(errors: PresetErrors) -> Failure {
+    Failure::Mistakes(mistakes(&errors).collect())
 }
 
 impl SceneOptions {

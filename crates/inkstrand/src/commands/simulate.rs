@@ -1,35 +1,73 @@
 //! `inkstrand simulate`: a sequence's strands, simulated once.
 
-use super::read_preset;
-use super::render::progress_bar;
-use super::scene::{open, parse};
+use super::progress::bar_from_first_frame;
+use super::scene::Source;
 use crate::Failure;
 use crate::cli::SimulateOptions;
-use crate::whole_file::write_whole;
+use crate::paths::{file_name, is_same};
+use crate::say::say;
+use crate::whole_file::WholeFile;
 use effects::Registry;
-use stage::Bake;
+use stage::{Bake, Files, Preset};
+use std::io::Write as _;
+use std::path::Path;
 
 pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result<(), Failure> {
-    let text = read_preset(&options.preset).map_err(Failure::Failed)?;
-    let mut preset = parse(&options.preset, &text, registry)?;
+    let source = Source::read(&options.preset)?;
+    let mut preset = source.parse(registry)?;
     options.scene.apply(&mut preset).map_err(Failure::Usage)?;
+    // A new one is made in its place.
+    preset.sections.hair.bake = None;
     let files = options.scene.files(&options.preset);
-    let mut stage = open(&preset, &files, options.quiet)?;
+    check_output(&options.output, &options.preset, &preset, &files)?;
+    // From now on its folder takes it.
+    let mut file = WholeFile::create(&options.output)?;
+    let mut stage = source.open(&preset, &files, options.quiet)?;
 
     let fps = preset.sections.scene.fps;
     let (first, last) = options.frames;
-    let bar = progress_bar(options.quiet, u64::from(last - first) + 1);
-    let mut bake = Bake::default();
+    let time_of = |frame: u32| frame as f32 / fps;
+    let frames = u64::from(last - first) + 1;
+    let bar = bar_from_first_frame(options.quiet, &mut stage, &preset, time_of(first), frames)?;
+    let mut bake = Bake::new(&preset, &files, &stage.scene)?;
     for frame in first..=last {
-        let time = frame as f32 / fps;
+        let time = time_of(frame);
         stage.advance_to(time)?;
         stage.record(time, &mut bake);
         bar.inc(1);
     }
     bar.finish_and_clear();
-    write_whole(&options.output, stage.bake_text(bake)?.as_bytes())?;
+    file.write_all(stage.bake_text(bake)?.as_bytes())?;
+    file.finish()?;
     if !options.quiet {
-        eprintln!("wrote {}", options.output.display());
+        say(format_args!("wrote {}", options.output.display()));
+    }
+    Ok(())
+}
+
+/// Refuses a name that `render` would not take for strands, a file that is read, and one that is no bake: it may be
+/// somebody's work.
+fn check_output(
+    output: &Path,
+    preset_file: &Path,
+    preset: &Preset,
+    files: &Files,
+) -> Result<(), Failure> {
+    let shown = output.display();
+    if !file_name(output).ends_with(".strands.ron") {
+        let message = format!("-o {shown}: a bake's name must end in .strands.ron");
+        return Err(Failure::Usage(message));
+    }
+    let mut read = preset.files(files);
+    read.push(preset_file.to_owned());
+    if read.iter().any(|path| is_same(path, output)) {
+        let message = format!("-o {shown}: it is read, and cannot be written");
+        return Err(Failure::Usage(message));
+    }
+    if output.is_file() && !stage::is_bake(output) {
+        return Err(Failure::Failed(format!(
+            "{shown} is there already and does not say that `inkstrand simulate` made it: remove it, or take another name"
+        )));
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::Lap;
 use crate::Failure;
+use crate::say::say;
 use crate::stats::{Bytes, FrameStats, frame_counts};
 use render::gpu::{AdapterKind, GpuError, Offscreen};
 use render::{Frame, Picture};
@@ -56,7 +57,7 @@ impl Card {
 /// Says that the CPU draws in place of the graphics card.
 pub(super) fn tell(is_quiet: bool, error: &GpuError) {
     if !is_quiet {
-        eprintln!("the CPU draws: {error}");
+        say(format_args!("the CPU draws: {error}"));
     }
 }
 

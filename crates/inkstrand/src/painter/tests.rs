@@ -1,5 +1,7 @@
 //! A graphics card that is lost.
 
+#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+
 use super::*;
 use crate::builtin_effects;
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};

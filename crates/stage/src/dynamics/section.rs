@@ -81,7 +81,7 @@ section! {
         curl_radius: f32 = number(0.05, 0.001..=10.0).unit("head heights"),
         /// How far one turn of a curl climbs; below 0 it winds the other way.
         curl_pitch: f32 = number(0.2, -10.0..=10.0).unit("head heights"),
-        /// Time of a step of the simulation; 0 is a frame's.
+        /// Time of a step of the simulation, 0.00001 or more; 0 is a frame's.
         step: f32 = number(0.0, 0.0..=0.1).unit("s"),
         /// Steps within a step, of solver: xpbd, where fewer make hair softer, and of mass_spring, where fewer
         /// make it swing less; 0 is 64 of xpbd's and 4 of mass_spring's.
@@ -92,6 +92,9 @@ section! {
         guides: u32 = whole(600, 1..=100_000),
     }
 }
+
+/// The shortest step, in s: that of the documentation above.
+const SHORTEST_STEP: f32 = 1e-5;
 
 impl DynamicsSection {
     /// Steps within a step, of solvers that take some: `own` where the preset doesn't say.
@@ -105,6 +108,13 @@ impl DynamicsSection {
 
     /// What the preset asks for that its solver cannot do: a parameter, and why.
     pub(crate) fn unsupported(&self) -> Option<(&'static str, String)> {
+        if self.step > 0.0 && self.step < SHORTEST_STEP {
+            let message = format!(
+                "step: expected 0, which is a frame's, or a number from {SHORTEST_STEP} to 0.1, found `{}`",
+                self.step
+            );
+            return Some(("step", message));
+        }
         match self.solver {
             SolverChoice::Xpbd | SolverChoice::MassSpring if cfg!(not(feature = "compare")) => {
                 let solver = self.solver.name();

@@ -75,6 +75,14 @@ impl NamedObject {
     }
 }
 
+/// The files that a preset itself names.
+fn beside(preset: &Path) -> Files {
+    Files {
+        preset_folder: preset.parent().unwrap_or(Path::new("")).to_owned(),
+        ..Files::default()
+    }
+}
+
 /// Whether a preset of objects leaves a section to their presets.
 pub(super) fn is_of_objects(section: &str) -> bool {
     !OF_THE_SCENE.contains(&section)
@@ -107,10 +115,7 @@ impl<'r> Preset<'r> {
             let object = match same {
                 Some((_, object)) => object.in_look(look)?,
                 None => {
-                    let files = Files {
-                        preset_folder: path.parent().unwrap_or(Path::new("")).to_owned(),
-                        ..Files::default()
-                    };
+                    let files = beside(&path);
                     preset.check_files(&files)?;
                     let first = notes.len();
                     let object = Object::load(&preset, &files, look, notes)?;
@@ -124,6 +129,19 @@ impl<'r> Preset<'r> {
             objects.push(object.placed(turn, Vec3::from(at)));
         }
         Ok(objects)
+    }
+
+    /// The presets of the objects, and the files that they name.
+    pub(crate) fn files_of_objects(&self, files: &Files) -> Vec<PathBuf> {
+        let mut paths = Vec::new();
+        for named in &self.objects {
+            let path = named.path(&files.preset_folder);
+            if let Ok(preset) = self.read_object(&path, named) {
+                paths.extend(preset.files(&beside(&path)));
+            }
+            paths.push(path);
+        }
+        paths
     }
 
     /// Reads the preset of an object.

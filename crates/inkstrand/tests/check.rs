@@ -1,0 +1,199 @@
+//! `inkstrand check` judges files of every kind, and never other than `render`.
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use predicates::str::contains;
+use std::fs;
+use tempfile::TempDir;
+
+const STRANDS: &str = "(version: 1, strands: [
+    (size: 30.0, mirror: true, points: [(0.03, 0.1, 0.0), (0.1, 0.1, 0.02), (0.13, -0.1, 0.03)]),
+])";
+
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in [
+        ("small.strands.ron", STRANDS),
+        (
+            "cut.strands.ron",
+            "(version: 1, strands: [\n(points: [(0, 0)])])",
+        ),
+        ("cut.tfx", "TFX"),
+        ("cut.obj", "v 0 0 zero\n"),
+        ("cut.glb", "glTF"),
+        ("nodd.motion.ron", "(version: 1, moves: [(move: nodd)])"),
+        (
+            "shape.motion.ron",
+            "(version: 1, shapes: [(time: 0, hair: \"cut.strands.ron\")])",
+        ),
+        ("bad.style.ron", "(version: 1, zones: 3)"),
+        (
+            "good.style.ron",
+            include_str!("../../../presets/styles/bob.style.ron"),
+        ),
+    ] {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+fn inkstrand(folder: &TempDir, arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("inkstrand").unwrap();
+    command.current_dir(folder.path()).args(arguments);
+    command
+}
+
+/// What a command says of a preset, without what was guessed about its files.
+fn told(folder: &TempDir, command: &str) -> (Option<i32>, String) {
+    let line = match command {
+        "check" => vec!["check", "look.ron"],
+        _ => vec!["render", "look.ron", "-o", "a.png"],
+    };
+    let output = inkstrand(folder, &line).output().unwrap();
+    (
+        output.status.code(),
+        String::from_utf8(output.stderr).unwrap(),
+    )
+}
+
+#[test]
+fn check_and_render_say_the_same() {
+    let folder = folder();
+    let hair = "hair: (file: \"small.strands.ron\"),";
+    let base = "(effect: \"hair.base\")";
+    let distance = "(effect: \"hair.highlight\", params: (kind: distance))";
+    for (sections, layer, found) in [
+        (
+            "hair: (file: \"cut.tfx\"),",
+            base,
+            "look.ron:2:14: file: cut.tfx: ",
+        ),
+        (
+            "hair: (file: \"cut.strands.ron\"),",
+            base,
+            "look.ron:2:14: file: cut.strands.ron: line 2, column 16: ",
+        ),
+        (
+            "hair: (file: \"bad.style.ron\"),",
+            base,
+            "bad.style.ron:1:21: ",
+        ),
+        (
+            "hair: (file: \"good.style.ron\"),",
+            base,
+            "look.ron:2:14: file: good.style.ron: a style needs a head to grow on",
+        ),
+        (
+            "head: (file: \"cut.obj\"), hair: (file: \"cut.tfx\"),",
+            base,
+            "look.ron:2:14: file: cut.obj: ",
+        ),
+        (
+            "hair: (file: \"small.strands.ron\", bake: \"small.strands.ron\"),",
+            base,
+            "look.ron:2:41: bake: small.strands.ron: it is not a bake of this hair: no motion in it",
+        ),
+        (
+            "hair: (file: \"small.strands.ron\"), motion: (file: \"nodd.motion.ron\"),",
+            base,
+            "nodd.motion.ron:1:29: move: there is no `nodd`",
+        ),
+        (
+            "hair: (file: \"small.strands.ron\"), motion: (file: \"shape.motion.ron\"),",
+            base,
+            "look.ron:2:51: file: cut.strands.ron: line 2, column 16: ",
+        ),
+        #[cfg(feature = "gltf")]
+        (
+            "hair: (file: \"small.strands.ron\"), motion: (gltf: \"cut.glb\"),",
+            base,
+            "look.ron:2:51: gltf: cut.glb: ",
+        ),
+        (
+            "hair: (file: \"small.strands.ron\"), light: (yaw: 3),",
+            distance,
+            "look.ron:2:36: layer `hair.highlight` goes by the distance to the light",
+        ),
+        (
+            "hair: (file: \"small.strands.ron\"), dynamics: (step: 0.000001),",
+            base,
+            "look.ron:2:47: step: expected 0, which is a frame's, or a number from 0.00001 to 0.1",
+        ),
+    ] {
+        let text = format!("(version: 1,\n{sections}\nlayers: [{layer}])");
+        fs::write(folder.path().join("look.ron"), text).unwrap();
+        let (code, checked) = told(&folder, "check");
+        assert!(checked.contains(found), "{checked}\nin place of\n{found}");
+        assert_eq!((code, checked), told(&folder, "render"));
+    }
+    // Both mistakes of the one with two.
+    let text = "(version: 1, head: (file: \"cut.obj\"), hair: (file: \"cut.tfx\"), layers: [])";
+    fs::write(folder.path().join("look.ron"), text).unwrap();
+    let (_, checked) = told(&folder, "check");
+    assert!(
+        checked.contains("cut.obj: ")
+            && checked.contains("cut.tfx: ")
+            && checked.contains("2 mistakes"),
+        "{checked}"
+    );
+
+    // As short a step as is said is taken.
+    let text =
+        format!("(version: 1,\n{hair} dynamics: (step: 0.00001, gravity: 2),\nlayers: [{base}])");
+    fs::write(folder.path().join("look.ron"), text).unwrap();
+    assert_eq!(told(&folder, "check"), (Some(0), String::new()));
+    assert_eq!(told(&folder, "render").0, Some(0));
+}
+
+#[test]
+fn files_are_judged_by_their_kind() {
+    let folder = folder();
+    for name in ["small.strands.ron", "good.style.ron"] {
+        inkstrand(&folder, &["check", name])
+            .assert()
+            .success()
+            .stdout("")
+            .stderr("");
+    }
+    inkstrand(
+        &folder,
+        &[
+            "check",
+            "cut.strands.ron",
+            "bad.style.ron",
+            "nodd.motion.ron",
+        ],
+    )
+    .assert()
+    .code(1)
+    .stderr(
+        contains("cut.strands.ron: line 2, column 16: ")
+            .and(contains("bad.style.ron:1:21: "))
+            .and(contains("nodd.motion.ron:1:29: "))
+            .and(contains("3 files, 3 of them with mistakes"))
+            .and(contains("inkstrand: 4 mistakes")),
+    );
+}
+
+#[test]
+fn folders_are_checked_whole() {
+    let folder = folder();
+    inkstrand(&folder, &["check", "."])
+        .assert()
+        .code(1)
+        .stderr(contains("6 files, 3 of them with mistakes"));
+    // Files and folders that are hidden are not looks.
+    let inner = folder.path().join("inner/looks");
+    fs::create_dir_all(&inner).unwrap();
+    fs::create_dir(folder.path().join("inner/.git")).unwrap();
+    fs::write(folder.path().join("inner/.git/a.ron"), "(").unwrap();
+    inkstrand(&folder, &["check", "inner"])
+        .assert()
+        .code(1)
+        .stderr(contains("inner: there is no .ron file in this folder"));
+    fs::write(inner.join("a.ron"), "(version: 1, layers: [])").unwrap();
+    inkstrand(&folder, &["check", "inner"])
+        .assert()
+        .success()
+        .stderr("");
+}

@@ -1,0 +1,251 @@
+//! What moved the hair of a bake: the comment that begins it.
+
+use crate::dynamics::DynamicsSection;
+use crate::files::{Files, StageError};
+use crate::hair::HairModel;
+use crate::load::chosen;
+use crate::preset::Preset;
+use effects::section::Section as _;
+use effects::{Param, ParamKind, Value};
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, BufRead as _, BufReader, Read as _};
+use std::path::Path;
+
+/// How a bake begins.
+const TITLE: &str = "// A bake by `inkstrand simulate`. What moved its hair, each with the value or hash that `render` compares:";
+/// The longest comment that is read: other files may be one line of any length.
+const LONGEST: u64 = 10_000;
+
+/// All that the motion of hair depends on.
+#[derive(Debug, PartialEq)]
+pub(super) struct MovedBy(Vec<Cause>);
+
+/// One thing that it depends on.
+#[derive(Debug, PartialEq)]
+struct Cause {
+    name: String,
+    /// Its value, or a hash where that is long: a word without spaces.
+    value: String,
+    /// What it is for people, where the value is a hash.
+    words: String,
+}
+
+impl MovedBy {
+    /// What moves `hair` in the scene of `preset` and `files`.
+    pub fn of(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Self, StageError> {
+        let sections = &preset.sections;
+        let plain = |name: &str, value: String| Cause {
+            name: name.to_owned(),
+            value,
+            words: String::new(),
+        };
+        let dynamics = DynamicsSection::TABLE.iter().enumerate().map(|(i, param)| {
+            let value = sections.dynamics.get(i);
+            let text = value.map_or("default".to_owned(), |value| shown(param, &value));
+            plain(&format!("dynamics.{}", param.name), text)
+        });
+        let mut causes = vec![
+            hair_cause(preset, files, hair),
+            head_cause(preset, files, hair)?,
+            script_cause(preset, files, hair)?,
+            gltf_cause(preset, files)?,
+            plain("scene.fps", sections.scene.fps.to_string()),
+            plain("seed", preset.seed.to_string()),
+        ];
+        causes.extend(dynamics);
+        Ok(Self(causes))
+    }
+
+    /// What a bake says of itself; none where the file does not begin as one.
+    pub fn read(path: &Path) -> io::Result<Option<Self>> {
+        let mut lines = BufReader::new(File::open(path)?.take(LONGEST)).lines();
+        if !matches!(lines.next(), Some(Ok(title)) if title.trim_end() == TITLE) {
+            return Ok(None);
+        }
+        let mut causes = Vec::new();
+        for line in lines {
+            let line = line?;
+            let Some((name, rest)) = line
+                .strip_prefix("// ")
+                .and_then(|line| line.split_once(": "))
+            else {
+                break;
+            };
+            let (value, words) = rest.split_once(' ').unwrap_or((rest, ""));
+            causes.push(Cause {
+                name: name.to_owned(),
+                value: value.trim_end().to_owned(),
+                words: words.trim_end().to_owned(),
+            });
+        }
+        Ok(Some(Self(causes)))
+    }
+
+    /// In what the motion of a bake differs from this. What one of both does not know, as they are of different
+    /// builds, is left out.
+    pub fn difference(&self, baked: &Self) -> Option<String> {
+        let differs = |own: &Cause| {
+            let baked = baked.0.iter().find(|baked| baked.name == own.name)?;
+            (baked.value != own.value).then(|| own.difference(baked))
+        };
+        let found: Vec<String> = self.0.iter().filter_map(differs).collect();
+        (!found.is_empty()).then(|| found.join(", "))
+    }
+}
+
+impl fmt::Display for MovedBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{TITLE}")?;
+        for Cause { name, value, words } in &self.0 {
+            writeln!(f, "{}", format!("// {name}: {value} {words}").trim_end())?;
+        }
+        Ok(())
+    }
+}
+
+impl Cause {
+    fn difference(&self, baked: &Self) -> String {
+        let name = &self.name;
+        match (self.words.as_str(), baked.words.as_str()) {
+            ("", "") => format!("{name} was {} and is {}", baked.value, self.value),
+            (own, other) if own == other => format!("{name} ({own}) has changed since"),
+            (own, other) => format!("{name} was {other} and is {own}"),
+        }
+    }
+}
+
+fn hair_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Cause {
+    let strands = &hair.file.strands;
+    let mut hash = Hash::new();
+    for (i, info) in hair.infos.iter().enumerate() {
+        hash.number(info.id);
+        hash.number(info.size.to_bits());
+        hash.number(hair.held(i) as u32);
+        hash.number(strands.strand(i).len() as u32);
+    }
+    for point in strands.points() {
+        hash.numbers(point.as_ref());
+    }
+    let own = preset.sections.hair.file.as_ref();
+    let file = chosen(files.hair.as_ref(), own, &files.preset_folder);
+    let name = file.map_or_else(String::new, |path| format!(" of {}", file_name(&path)));
+    hash.cause("hair", format!("{} strands{name}", strands.len()))
+}
+
+fn head_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Cause, StageError> {
+    let section = &preset.sections.head;
+    let mut hash = Hash::new();
+    // Where the file's axes and unit, given or guessed, put it.
+    hash.numbers(hair.head.center.as_ref());
+    hash.numbers(&[hair.head.height_m]);
+    let path = chosen(
+        files.head.as_ref(),
+        section.file.as_ref(),
+        &files.preset_folder,
+    );
+    let words = match path {
+        Some(path) => {
+            hash.file(&path)?;
+            file_name(&path)
+        }
+        None => section.shape.name().to_owned(),
+    };
+    hash.bytes(words.as_bytes());
+    Ok(hash.cause("head", words))
+}
+
+fn script_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Cause, StageError> {
+    let own = preset.sections.motion.file.as_ref();
+    let mut hash = Hash::new();
+    let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) else {
+        return Ok(hash.cause("motion", "none".to_owned()));
+    };
+    hash.file(&path)?;
+    if let Some(shapes) = &hair.shapes {
+        let mut points = hair.file.strands.points().to_vec();
+        for &time in shapes.times() {
+            shapes.sample(time, &mut points);
+            for point in &points {
+                hash.numbers(point.as_ref());
+            }
+        }
+    }
+    Ok(hash.cause("motion", file_name(&path)))
+}
+
+fn gltf_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
+    let section = &preset.sections.motion;
+    let mut hash = Hash::new();
+    let Some(name) = &section.gltf else {
+        return Ok(hash.cause("gltf", "none".to_owned()));
+    };
+    hash.file(&files.preset_folder.join(name))?;
+    let bone = section.bone.as_deref().unwrap_or("head");
+    let animation = section.animation.as_deref().unwrap_or("0");
+    let repeats = if section.repeat { ", repeated" } else { "" };
+    let words = format!("bone {bone}, animation {animation}{repeats}");
+    hash.bytes(words.as_bytes());
+    Ok(hash.cause("gltf", format!("{}, {words}", file_name(Path::new(name)))))
+}
+
+/// A value as a preset writes it.
+fn shown(param: &Param, value: &Value) -> String {
+    match (param.kind, value) {
+        (ParamKind::Choice { names, .. }, Value::Choice(index)) => {
+            names[*index as usize].to_owned()
+        }
+        (_, Value::Number(number)) => number.to_string(),
+        (_, Value::Integer(number)) => number.to_string(),
+        (_, other) => format!("{other:?}").replace(' ', ""),
+    }
+}
+
+fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.replace(char::is_control, "_")
+}
+
+/// FNV-1a, which is the same in every build and on every machine.
+struct Hash(u64);
+
+impl Hash {
+    fn new() -> Self {
+        Self(0xCBF2_9CE4_8422_2325)
+    }
+
+    fn bytes(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x100_0000_01B3);
+        }
+    }
+
+    fn number(&mut self, number: u32) {
+        self.bytes(&number.to_le_bytes());
+    }
+
+    fn numbers(&mut self, numbers: &[f32]) {
+        for number in numbers {
+            self.number(number.to_bits());
+        }
+    }
+
+    /// A file's bytes; ends of lines as any system writes them.
+    fn file(&mut self, path: &Path) -> Result<(), StageError> {
+        let mut bytes = fs::read(path).map_err(|source| StageError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        bytes.retain(|byte| *byte != b'\r');
+        self.bytes(&bytes);
+        Ok(())
+    }
+
+    fn cause(self, name: &str, words: String) -> Cause {
+        Cause {
+            name: name.to_owned(),
+            value: format!("{:016x}", self.0),
+            words,
+        }
+    }
+}
