@@ -276,3 +276,18 @@ fn a_style_in_other_words_is_a_shape() {
     let held = before.iter().zip(&after).filter(|(a, b)| a == b).count();
     assert!(held > 100, "{held}");
 }
+
+#[test]
+fn a_long_script_on_one_line_takes_little_memory() {
+    let keys = |count: usize| {
+        let keys: Vec<String> = (0..count).map(|i| format!("(time: {i})")).collect();
+        format!("(version: 1, shapes: [{}])", keys.join(", "))
+    };
+    // Each remembers its place, of which the line is a part.
+    assert!(scene(&keys(20_000), &strands(0.0, 12), &[]).is_ok());
+    // 36 points each: 2^26 / 36.
+    let message = scene(&keys(1_900_000), &strands(0.0, 12), &[]).err();
+    let message = message.expect("too many");
+    assert!(message.contains("at most 1864135 shapes fit"), "{message}");
+    assert!(message.len() < 500, "{message}");
+}
