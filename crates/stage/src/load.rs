@@ -139,8 +139,8 @@ fn with_styles(error: HairError) -> HairError {
     }
 }
 
-/// Sizes of hair that a head may wear, in head heights: the longest side of the box around it.
-const PLAUSIBLE_SIZES: RangeInclusive<f32> = 0.2..=12.0;
+/// Sizes of hair that a head may wear, in head heights.
+const PLAUSIBLE_SIZES: RangeInclusive<f32> = 0.33..=12.0;
 /// How far from the head's middle that of the roots may be, in head heights.
 const PLAUSIBLE_DISTANCE: f32 = 1.0;
 
@@ -148,10 +148,7 @@ const PLAUSIBLE_DISTANCE: f32 = 1.0;
 fn misfit(strands: &Strands, head: Option<&Mesh>) -> Option<String> {
     // The mesh alone: with roots that don't fit it, the head would be theirs.
     let head = HeadFrame::find(Some(head?), &[]);
-    let points = strands.points();
-    let low = points.iter().copied().reduce(Vec3::min)?;
-    let high = points.iter().copied().reduce(Vec3::max)?;
-    let size = (high - low).max_element();
+    let size = size_of_most(strands.points());
     let roots = strands.roots().sum::<Vec3>() / strands.len() as f32;
     let away = roots.distance(head.center);
     let fits =
@@ -163,6 +160,17 @@ fn misfit(strands: &Strands, head: Option<&Mesh>) -> Option<String> {
             size, away, head.height
         )
     })
+}
+
+/// The longest side of the box around points, without the outer twentieth on each side: strays don't count.
+fn size_of_most(points: &[Vec3]) -> f32 {
+    let twentieth = points.len() / 20;
+    let side = |axis: usize| {
+        let mut places: Vec<f32> = points.iter().map(|point| point[axis]).collect();
+        places.sort_unstable_by(f32::total_cmp);
+        places[places.len() - 1 - twentieth] - places[twentieth]
+    };
+    side(0).max(side(1)).max(side(2))
 }
 
 /// Puts baked motion in place of the hair's own, where there is a bake.
