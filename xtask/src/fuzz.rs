@@ -124,6 +124,7 @@ fn fuzz(plan: &Plan, kinds: &[&str]) -> Outcome {
         next: AtomicU64::new(0),
         read: AtomicU64::new(0),
         failures: Mutex::default(),
+        slowest: Mutex::default(),
         bar: progress(plan),
     };
     let workers = thread::available_parallelism().map_or(1, |n| n.get());
@@ -148,6 +149,10 @@ fn fuzz(plan: &Plan, kinds: &[&str]) -> Outcome {
         run.read.load(Ordering::Relaxed),
         run.start.elapsed().as_secs_f32()
     );
+    if let Ok(slowest) = run.slowest.lock() {
+        let seconds = slowest.0.as_secs_f32();
+        println!("the slowest took {seconds:.1} s: {}", slowest.1);
+    }
     let failures = run.failures.lock().map_or(0, |failures| *failures);
     match failures {
         0 => Ok(()),
@@ -221,6 +226,8 @@ struct Run<'a> {
     next: AtomicU64,
     read: AtomicU64,
     failures: Mutex<usize>,
+    /// The longest time that a file took, and the arguments that make it again.
+    slowest: Mutex<(Duration, String)>,
     bar: ProgressBar,
 }
 
@@ -237,7 +244,10 @@ impl Run<'_> {
             let file = mutate::damaged(&mut Random::new(seed), &self.seeds[kind]);
             let path = scratch.path().join(file_name("input", kind));
             fs::write(&path, &file).map_err(|e| said(&e))?;
-            match target.read(kind, &path) {
+            let start_of_case = Instant::now();
+            let done = target.read(kind, &path);
+            self.note_time(start_of_case.elapsed(), kind, seed);
+            match done {
                 Ok(true) => drop(self.read.fetch_add(1, Ordering::Relaxed)),
                 Ok(false) => {}
                 Err(what) => {
@@ -248,6 +258,14 @@ impl Run<'_> {
             self.bar.inc(1);
         }
         Ok(())
+    }
+
+    fn note_time(&self, time: Duration, kind: &str, seed: u64) {
+        if let Ok(mut slowest) = self.slowest.lock()
+            && time > slowest.0
+        {
+            *slowest = (time, format!("--seed {seed} --cases 1 {kind}"));
+        }
     }
 
     /// The number of the next file, if there is to be one.

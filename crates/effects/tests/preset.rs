@@ -354,6 +354,17 @@ fn little_of_a_long_name_is_repeated() {
 }
 
 #[test]
+fn messages_have_no_characters_that_terminals_obey() {
+    let text = messages("[(\u{1b}[31m\0: \u{7})]");
+    let line_ends = text.matches('\n').count();
+    assert_eq!(
+        text.matches(char::is_control).count(),
+        line_ends,
+        "{text:?}"
+    );
+}
+
+#[test]
 fn any_number_of_missing_commas_is_told() {
     let text = messages(&format!("[({})]", "a: 1 ".repeat(200_000)));
     assert!(text.contains("a comma is missing before `a`"), "{text}");

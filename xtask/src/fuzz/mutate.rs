@@ -31,11 +31,11 @@ impl Form {
 /// The longest file that is made, in bytes.
 const LONGEST: usize = 1 << 22;
 
-/// One of the seeds, damaged in one to six ways.
+/// One of the seeds, damaged in one to eight ways.
 pub fn damaged(random: &mut Random, seeds: &[Vec<u8>]) -> Vec<u8> {
     let mut bytes = seeds[random.below(seeds.len())].clone();
     let form = Form::of(&bytes);
-    for _ in 0..=random.below(6) {
+    for _ in 0..random.power(4) {
         match (form, random.below(3)) {
             (_, 0) => damage_bytes(random, &mut bytes, seeds),
             (Form::Text, _) => damage_text(random, &mut bytes),

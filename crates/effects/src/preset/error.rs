@@ -61,9 +61,11 @@ impl fmt::Display for PresetError {
             column,
             source_line,
         } = &self.place;
-        let message = &self.message;
-        writeln!(f, "{file}:{line}:{column}: {message:.MOST_OF_MESSAGE$}")?;
+        // Files may have characters in them that would change the terminal.
         let visible = |c: char| if c.is_control() { ' ' } else { c };
+        let message = self.message.chars().take(MOST_OF_MESSAGE).map(visible);
+        let message: String = message.collect();
+        writeln!(f, "{file}:{line}:{column}: {message}")?;
         let shown: String = source_line.chars().map(visible).collect();
         let number = line.to_string();
         writeln!(f, " {number} | {}", shown.trim_end())?;
