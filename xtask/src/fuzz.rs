@@ -202,10 +202,19 @@ fn collect(folder: &Path, seeds: &mut Seeds) -> Outcome {
         if file.is_dir() {
             collect(&path, seeds)?;
         } else if let Some(kind) = kind_of(&path).filter(|_| file.len() <= LARGEST_SEED) {
-            seeds.entry(kind).or_default().push(fs::read(&path)?);
+            let file = fs::read(&path)?;
+            if kind != "gltf" || is_animated(&file) {
+                seeds.entry(kind).or_default().push(file);
+            }
         }
     }
     Ok(())
+}
+
+/// Whether a glTF file has animations: others are refused at once.
+fn is_animated(file: &[u8]) -> bool {
+    let name = b"\"animations\"";
+    file.windows(name.len()).any(|bytes| bytes == name)
 }
 
 fn kind_of(path: &Path) -> Option<&'static str> {

@@ -29,7 +29,7 @@ impl Form {
 }
 
 /// The longest file that is made, in bytes.
-const LONGEST: usize = 1 << 22;
+const LONGEST: usize = 1 << 20;
 
 /// One of the seeds, damaged in one to eight ways.
 pub fn damaged(random: &mut Random, seeds: &[Vec<u8>]) -> Vec<u8> {
@@ -180,24 +180,24 @@ fn damage_text(random: &mut Random, bytes: &mut Vec<u8>) {
         let first = bytes[token.start];
         first.is_ascii_digit() || first == b'-'
     };
-    match random.below(8) {
-        0..3 => {
+    match random.below(10) {
+        0..5 => {
             let numbers: Vec<_> = tokens.iter().filter(is_number).collect();
             if !numbers.is_empty() {
                 let number = numbers[random.below(numbers.len())].clone();
                 bytes.splice(number, random.pick(NUMBERS).bytes());
             }
         }
-        3 => drop(bytes.drain(token)),
-        4 => {
+        5 => drop(bytes.drain(token)),
+        6 => {
             let other = tokens[random.below(tokens.len())].clone();
             let other = bytes[other].to_vec();
             bytes.splice(token, other);
         }
-        5 => {
+        7 => {
             bytes.splice(token.start..token.start, random.pick(PIECES).bytes());
         }
-        6 => {
+        8 => {
             // From this token to another, over and over.
             let last = tokens[random.below(tokens.len())].clone();
             let part = token.start.min(last.start)..token.end.max(last.end);
