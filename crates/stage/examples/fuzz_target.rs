@@ -5,8 +5,8 @@
 #![allow(clippy::print_stdout, reason = "a program that another one reads")]
 
 use effects::Registry;
-use hair_io::{BoneMotion, HairError, HairOptions, HeadFrame, MOST_OF_TEXT, SkeletonError};
-use stage::{Preset, check_motion, check_style};
+use hair_io::{BoneMotion, HairError, MOST_OF_TEXT, SkeletonError};
+use stage::{Files, Preset, Stage, check_motion, check_style};
 use std::io;
 use std::path::Path;
 
@@ -30,21 +30,32 @@ fn read(kind: &str, path: &Path, registry: &Registry) -> Result<(), String> {
         "preset" => Preset::parse("look.ron", &text()?, registry)
             .map(drop)
             .map_err(|error| error.to_string()),
-        "style" => check_style(path, &text()?).map_err(|error| error.to_string()),
-        "motion" => check_motion(path, &text()?).map_err(|error| error.to_string()),
-        "strands" | "tfx" => {
-            let hair = hair_io::read_hair(path, &HairOptions::default());
-            let strands = hair.map_err(|error| error.to_string())?.strands;
-            let roots: Vec<_> = strands.roots().collect();
-            assert!(HeadFrame::find(None, &roots).height.is_finite());
-            Ok(())
+        "style" => {
+            check_style(path, &text()?).map_err(|error| error.to_string())?;
+            scene(path, "bust", registry)
         }
+        "motion" => check_motion(path, &text()?).map_err(|error| error.to_string()),
+        // Fitting hair to a head would take seconds.
+        "strands" | "tfx" => scene(path, "none", registry),
         "obj" => hair_io::read_head(path, None, None)
             .map(drop)
             .map_err(|error| error.to_string()),
         "gltf" => bone(path).map_err(|error| error.to_string()),
         other => panic!("no kind of file is called {other}"),
     }
+}
+
+/// A scene of this hair on a head of this shape.
+fn scene(hair: &Path, head: &str, registry: &Registry) -> Result<(), String> {
+    let text = format!("(version: 1, head: (shape: {head}), layers: [(effect: \"hair.base\")])");
+    let preset = Preset::parse("look.ron", &text, registry).expect("it is a preset");
+    let files = Files {
+        hair: Some(hair.to_owned()),
+        ..Files::default()
+    };
+    Stage::new(&preset, &files)
+        .map(drop)
+        .map_err(|error| error.to_string())
 }
 
 /// The motion of a file's head, or of some other bone.
