@@ -2,7 +2,7 @@
 
 use effects::Registry;
 use glam::Vec3;
-use stage::{Files, Preset, Stage};
+use stage::{Files, Preset, Stage, check_motion};
 use std::fs;
 use std::path::Path;
 
@@ -284,10 +284,8 @@ fn a_long_script_on_one_line_takes_little_memory() {
         format!("(version: 1, shapes: [{}])", keys.join(", "))
     };
     // Each remembers its place, of which the line is a part.
-    assert!(scene(&keys(20_000), &strands(0.0, 12), &[]).is_ok());
-    // 36 points each: 2^26 / 36.
-    let message = scene(&keys(1_900_000), &strands(0.0, 12), &[]).err();
-    let message = message.expect("too many");
-    assert!(message.contains("at most 1864135 shapes fit"), "{message}");
-    assert!(message.len() < 500, "{message}");
+    assert!(check_motion(Path::new("a.motion.ron"), &keys(20_000)).is_ok());
+    let wrong = keys(20_000).replace("(time: 10000)", "(time: 10000, hair: \"none.style.ron\")");
+    let errors = check_motion(Path::new("a.motion.ron"), &wrong).unwrap_err();
+    assert!(errors.0[0].place.source_line.len() <= 100);
 }

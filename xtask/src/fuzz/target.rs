@@ -12,7 +12,7 @@ use crate::Outcome;
 /// The memory that the program has, in KiB: of addresses, as `ulimit -v` counts. Inputs have 1 MiB at most.
 const MEMORY_KIB: u64 = 1 << 20;
 /// The time that one file may take: some seconds at most, and more where others use the machine too.
-const TIME: Duration = Duration::from_secs(30);
+const TIME: Duration = Duration::from_secs(60);
 /// The most bytes that all messages about one file may have.
 const LONGEST_MESSAGE: usize = 1 << 16;
 
