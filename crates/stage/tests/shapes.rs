@@ -289,3 +289,25 @@ fn a_long_script_on_one_line_takes_little_memory() {
     let errors = check_motion(Path::new("a.motion.ron"), &wrong).unwrap_err();
     assert!(errors.0[0].place.source_line.len() <= 100);
 }
+
+#[test]
+fn more_shapes_than_memory_holds_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = "(0, 1, 0), ".repeat(100_000);
+    let hair = format!("(version: 1, strands: [(size: 1, points: [{long}])])");
+    let keys: String = (0..700).map(|i| format!("(time: {i}), ")).collect();
+    fs::write(folder.path().join("own.strands.ron"), hair).unwrap();
+    let script = format!("(version: 1, shapes: [{keys}])");
+    fs::write(folder.path().join("a.motion.ron"), script).unwrap();
+    let text = "(version: 1, hair: (file: \"own.strands.ron\"), motion: (file: \"a.motion.ron\"),
+        layers: [(effect: \"hair.base\")])";
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let preset = Preset::parse("look.ron", text, &registry).unwrap();
+    let files = Files {
+        preset_folder: folder.path().to_owned(),
+        ..Files::default()
+    };
+    let message = Stage::new(&preset, &files).err().unwrap().to_string();
+    assert!(message.contains("at most 671 shapes fit"), "{message}");
+}
