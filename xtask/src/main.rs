@@ -12,6 +12,7 @@ mod bench;
 mod count;
 mod figures;
 mod flip;
+mod fuzz;
 mod gallery;
 mod html;
 mod layers;
@@ -93,6 +94,7 @@ fn command() -> Command {
         )
         .subcommand(bench::command())
         .subcommand(stress::command())
+        .subcommand(fuzz::command())
 }
 
 fn run(matches: &ArgMatches) -> Outcome {
@@ -116,6 +118,7 @@ fn run(matches: &ArgMatches) -> Outcome {
         }
         Some(("setup", _)) => setup::run(),
         Some(("stress", args)) => stress::run(args),
+        Some(("fuzz", args)) => fuzz::run(args),
         _ => Err("no task given".into()),
     }
 }

@@ -73,20 +73,8 @@ impl Inkstrand {
     /// # Errors
     /// The program doesn't compile, or cargo doesn't say where it put it.
     pub fn build() -> Outcome<Self> {
-        let mut command = if IS_FROM_TESTS.load(Ordering::Relaxed) {
-            cargo(&[&["test", "--no-run"][..], &WORKSPACE].concat())
-        } else {
-            cargo(&["build", "--package=inkstrand", "--bin=inkstrand"])
-        };
-        command.arg("--message-format=json-render-diagnostics");
-        let output = command.stderr(Stdio::inherit()).output()?;
-        if !output.status.success() {
-            return Err("inkstrand doesn't build".into());
-        }
-        match program_of(&String::from_utf8_lossy(&output.stdout)) {
-            Some(program) => Ok(Self(program)),
-            None => Err("cargo built inkstrand and named no program".into()),
-        }
+        let alone = ["build", "--package=inkstrand", "--bin=inkstrand"];
+        build("inkstrand", "bin", &alone).map(Self)
     }
 
     /// Where it is.
@@ -128,13 +116,39 @@ impl Inkstrand {
     }
 }
 
-/// Where cargo put the program, by its messages: one JSON object a line. Tests of the program are programs too.
-fn program_of(messages: &str) -> Option<PathBuf> {
+/// Builds the program that `cargo xtask fuzz` lets read files, and says where it is.
+///
+/// # Errors
+/// It doesn't compile, or cargo doesn't say where it put it.
+pub fn fuzz_target() -> Outcome<PathBuf> {
+    let alone = ["build", "--package=stage", "--example=fuzz_target"];
+    build("fuzz_target", "example", &alone)
+}
+
+/// Builds a program, with the tests of the workspace or by the arguments for it `alone`. Compiler messages go to our stderr.
+fn build(name: &str, kind: &str, alone: &[&str]) -> Outcome<PathBuf> {
+    let mut command = if IS_FROM_TESTS.load(Ordering::Relaxed) {
+        cargo(&[&["test", "--no-run"][..], &WORKSPACE].concat())
+    } else {
+        cargo(alone)
+    };
+    command.arg("--message-format=json-render-diagnostics");
+    let output = command.stderr(Stdio::inherit()).output()?;
+    if !output.status.success() {
+        return Err(format!("{name} doesn't build").into());
+    }
+    let messages = String::from_utf8_lossy(&output.stdout);
+    program_of(&messages, name, kind)
+        .ok_or_else(|| format!("cargo built {name} and named no program").into())
+}
+
+/// Where cargo put a program, by its messages: one JSON object a line. Tests of the program are programs too.
+fn program_of(messages: &str, name: &str, kind: &str) -> Option<PathBuf> {
     messages
         .lines()
         .filter_map(|line| serde_json::from_str::<Value>(line).ok())
-        .filter(|message| message["target"]["name"] == "inkstrand")
-        .filter(|message| message["target"]["kind"][0] == "bin")
+        .filter(|message| message["target"]["name"] == name)
+        .filter(|message| message["target"]["kind"][0] == kind)
         .filter(|message| message["profile"]["test"] == false)
         .find_map(|message| message["executable"].as_str().map(PathBuf::from))
 }
@@ -194,8 +208,11 @@ mod tests {
             serde_json::json!({"reason": "build-finished", "success": true}),
         ];
         let lines = messages.map(|message| format!("{message}\n")).concat();
-        assert_eq!(program_of(&lines), Some("program".into()));
-        assert_eq!(program_of("no JSON"), None);
+        assert_eq!(
+            program_of(&lines, "inkstrand", "bin"),
+            Some("program".into())
+        );
+        assert_eq!(program_of("no JSON", "inkstrand", "bin"), None);
     }
 
     #[test]

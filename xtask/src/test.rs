@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::program::{Inkstrand, WORKSPACE, cargo, succeed};
 use crate::regress::Backend;
-use crate::{Outcome, count, figures, layers, regress, wasm};
+use crate::{Outcome, count, figures, fuzz, layers, regress, wasm};
 
 /// A step's name, and what it does; its output goes to the terminal.
 type Step = (&'static str, fn() -> Outcome);
@@ -34,6 +34,7 @@ const STEPS: &[Step] = &[
         let tests = ["test", "--no-fail-fast"];
         succeed(cargo(&[&tests[..], &WORKSPACE].concat()))
     }),
+    ("fuzz", fuzz::briefly),
     ("wasm", wasm::check),
     ("figures", figures::run),
     ("regressions", || regress::run("", Backend::Cpu, false)),

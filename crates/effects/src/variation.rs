@@ -29,7 +29,9 @@ impl Variation {
         let options = ron::Options::default()
             .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
         let written: Written = options.from_str(text).map_err(|error| match error.code {
-            ron::Error::NoSuchStructField { found, .. } => format!("there is no `{found}` in it"),
+            ron::Error::NoSuchStructField { found, .. } => {
+                format!("there is no `{found:.40}` in it")
+            }
             _ => "it is no variation".to_owned(),
         })?;
         let curve = match (written.value, written.curve) {

@@ -218,10 +218,10 @@ fn comments_and_raw_texts_are_read_as_ron_reads_them() {
 #[test]
 fn a_file_of_mistakes_is_cut_short_and_read_quickly() {
     let text = format!("[{}]", "(effect: 3),".repeat(100_000));
-    assert_eq!(messages(&text).matches("look.ron:").count(), 100);
+    assert_eq!(messages(&text).matches("look.ron:").count(), 101);
     let fields = (0..100_000).fold(String::new(), |text, i| text + &format!("a{i}: 3,"));
     let text = format!("[(effect: \"test.line\", {fields})]");
-    assert_eq!(messages(&text).matches("look.ron:").count(), 100);
+    assert_eq!(messages(&text).matches("look.ron:").count(), 101);
     for deep in [
         "(".repeat(200_000),
         "([".repeat(100_000) + &"])".repeat(100_000),
@@ -291,4 +291,81 @@ fn ids_are_unique_and_have_a_vendor() {
         Err(RegistryError::Id { id: "line" })
     );
     assert_eq!(registry.iter().count(), 1);
+}
+
+#[test]
+fn of_thousands_of_mistakes_a_hundred_are_shown_and_all_are_counted() {
+    let registry = registry();
+    let list = format!("[{}]", "3,\n".repeat(3000));
+    let mut reader = Reader::new("look.ron", &list);
+    reader.layers(&list, &registry, &[]);
+    let errors = reader.report().unwrap_err().0;
+    assert_eq!(errors.len(), 101);
+    let last = &errors[100];
+    assert_eq!(last.message, "100 of 3000 mistakes are shown, not this one");
+    assert_eq!((last.place.line, last.place.column), (101, 1));
+}
+
+#[test]
+fn places_are_right_in_any_order_and_show_little_of_a_long_line() {
+    let line: String = (0..20_000).map(|i| format!("ä{i} ")).collect();
+    let text = format!("one\n{line}\nthree");
+    let reader = Reader::new("look.ron", &text);
+    let check = |offset: usize| {
+        let place = reader.place(&text[offset..]);
+        let before = &text[..offset];
+        let in_line = before.rsplit('\n').next().unwrap();
+        assert_eq!(place.line, before.matches('\n').count() + 1);
+        assert_eq!(place.column, in_line.chars().count() + 1);
+        let whole = text.lines().nth(place.line - 1).unwrap();
+        let shown: String = whole
+            .chars()
+            .skip(place.column.saturating_sub(60))
+            .take(100)
+            .collect();
+        assert_eq!(place.source_line, shown, "{offset}");
+    };
+    for offset in [5, 70_000, 4, 0, 120_000, 99_000, text.len() - 5, 2] {
+        let offset = (offset..).find(|i| text.is_char_boundary(*i)).unwrap();
+        check(offset);
+    }
+}
+
+#[test]
+fn little_of_a_long_name_is_repeated() {
+    let long = "x".repeat(100_000);
+    for list in [
+        format!("[(effect: \"{long}\")]"),
+        format!("[({long}: 1)]"),
+        format!("[(\"{long}\": 1)]"),
+        format!("[({long} = 1)]"),
+        format!("[({long}: 1, {long}: 2)]"),
+        format!("[(effect: \"test.line\", params: ({long}: 2))]"),
+        format!("[(effect: \"test.line\", params: (width: (value: 1, {long}: 2)))]"),
+        format!(
+            "[(effect: \"test.line\", name: \"{long}\"), (effect: \"test.line\", name: \"{long}\")]"
+        ),
+        long.clone(),
+    ] {
+        let text = messages(&list);
+        let mistakes = text.matches("look.ron:").count();
+        assert!(text.len() < 500 * mistakes, "{text}");
+    }
+}
+
+#[test]
+fn messages_have_no_characters_that_terminals_obey() {
+    let text = messages("[(\u{1b}[31m\0: \u{7})]");
+    let line_ends = text.matches('\n').count();
+    assert_eq!(
+        text.matches(char::is_control).count(),
+        line_ends,
+        "{text:?}"
+    );
+}
+
+#[test]
+fn any_number_of_missing_commas_is_told() {
+    let text = messages(&format!("[({})]", "a: 1 ".repeat(200_000)));
+    assert!(text.contains("a comma is missing before `a`"), "{text}");
 }

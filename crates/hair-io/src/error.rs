@@ -1,9 +1,10 @@
 //! Errors that name the file.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::obj::ObjError;
+use crate::read::ReadError;
 #[cfg(feature = "gltf")]
 use crate::skeleton::SkeletonError;
 use crate::strands_ron::StrandsRonError;
@@ -13,9 +14,12 @@ use crate::tfx::TfxError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum HairError {
-    /// The file system refused.
+    /// It cannot be read at all.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// It cannot be written.
     #[error("{}: {source}", path.display())]
-    Open {
+    Write {
         /// The file.
         path: PathBuf,
         /// Why.
@@ -40,23 +44,15 @@ pub enum HairError {
         source: TfxError,
     },
     /// A strands file with errors.
-    #[error("{}: {source}", path.display())]
+    #[error("{}", in_strands(path, source))]
     StrandsRon {
         /// The file.
         path: PathBuf,
         /// What is wrong in it.
         source: StrandsRonError,
     },
-    /// A text that is not UTF-8.
-    #[error("{}: byte {at}: the text is not UTF-8", path.display())]
-    Text {
-        /// The file.
-        path: PathBuf,
-        /// The first byte that is not.
-        at: usize,
-    },
     /// An OBJ file with errors.
-    #[error("{}: {source}", path.display())]
+    #[error("{}", in_obj(path, source))]
     Obj {
         /// The file.
         path: PathBuf,
@@ -89,4 +85,26 @@ pub enum HairError {
         /// Metres a unit.
         scale: f32,
     },
+}
+
+/// `file:line:column: what`, which editors jump to.
+fn in_strands(path: &Path, error: &StrandsRonError) -> String {
+    let path = path.display();
+    match error {
+        StrandsRonError::At {
+            line,
+            column,
+            problem,
+        } => format!("{path}:{line}:{column}: {problem}"),
+        other => format!("{path}: {other}"),
+    }
+}
+
+/// `file:line: what`.
+fn in_obj(path: &Path, error: &ObjError) -> String {
+    let path = path.display();
+    match error {
+        ObjError::At { line, problem } => format!("{path}:{line}: {problem}"),
+        other => format!("{path}: {other}"),
+    }
 }

@@ -10,6 +10,7 @@ use crate::error::HairError;
 use crate::format::{self, HAIR_FORMATS, HEAD_FORMATS, HairFormat};
 use crate::mesh::Mesh;
 use crate::orient::{self, Axes, Given, Orientation};
+use crate::read::{self, MOST_OF_DATA, read_bytes};
 use crate::skeleton::BoneMotion;
 use crate::{obj, strands_ron, tfx};
 
@@ -66,7 +67,7 @@ pub struct HeadFile {
 ///
 /// When the file cannot be read, is of another format, or has errors.
 pub fn read_hair(path: &Path, options: &HairOptions) -> Result<HairFile, HairError> {
-    let bytes = read_bytes(path)?;
+    let bytes = read_bytes(path, MOST_OF_DATA)?;
     let format = HairFormat::of(path, &bytes).ok_or_else(|| HairError::Format {
         path: path.into(),
         found: format::guess(path, &bytes),
@@ -81,10 +82,7 @@ pub fn read_hair(path: &Path, options: &HairOptions) -> Result<HairFile, HairErr
             (strands, None, true)
         }
         HairFormat::StrandsRon => {
-            let text = String::from_utf8(bytes).map_err(|e| HairError::Text {
-                path: path.into(),
-                at: e.utf8_error().valid_up_to(),
-            })?;
+            let text = read::text(path, bytes)?;
             let (strands, motion) =
                 strands_ron::from_text(&text).map_err(|source| HairError::StrandsRon {
                     path: path.into(),
@@ -125,7 +123,7 @@ pub fn read_hair(path: &Path, options: &HairOptions) -> Result<HairFile, HairErr
 ///
 /// When the file cannot be read, is of another format, or has errors.
 pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<HeadFile, HairError> {
-    let bytes = read_bytes(path)?;
+    let bytes = read_bytes(path, MOST_OF_DATA)?;
     if !format::is_obj(path) {
         return Err(HairError::Format {
             path: path.into(),
@@ -183,7 +181,7 @@ pub fn write_strands(
         .and_then(|()| fs::rename(&part, path))
         .map_err(|source| {
             let _ = fs::remove_file(&part); // the first error is the one to tell
-            HairError::Open {
+            HairError::Write {
                 path: path.into(),
                 source,
             }
@@ -206,7 +204,7 @@ impl BoneMotion {
         }
         #[cfg(feature = "gltf")]
         {
-            let bytes = read_bytes(path)?;
+            let bytes = read_bytes(path, MOST_OF_DATA)?;
             let folder = path.parent().unwrap_or(Path::new(""));
             Self::from_bytes(&bytes, folder, bone, animation).map_err(|source| {
                 HairError::Skeleton {
@@ -216,13 +214,6 @@ impl BoneMotion {
             })
         }
     }
-}
-
-fn read_bytes(path: &Path) -> Result<Vec<u8>, HairError> {
-    fs::read(path).map_err(|source| HairError::Open {
-        path: path.into(),
-        source,
-    })
 }
 
 fn check_finite(path: &Path, orientation: &Orientation, points: &[Vec3]) -> Result<(), HairError> {

@@ -2,7 +2,8 @@
 //!
 //! [`read_hair`] and [`read_head`] choose the reader, settle axes and units ([`orient`]) and say what
 //! they guessed. [`tfx`], [`strands_ron`] and [`obj`] are the formats; [`HeadFrame`] is where the head
-//! is and how large, [`BoneMotion`] how a character's animation moves it.
+//! is and how large, [`BoneMotion`] how a character's animation moves it. [`read_text`] and [`read_bytes`] refuse what is no
+//! file of a sensible size.
 //!
 //! ```
 //! use hair_io::{HairOptions, HeadFrame, read_hair};
@@ -32,6 +33,7 @@ mod mesh;
 mod nearest;
 pub mod obj;
 pub mod orient;
+mod read;
 #[cfg(feature = "gltf")]
 mod skeleton;
 #[cfg(not(feature = "gltf"))]
@@ -45,6 +47,7 @@ pub use error::HairError;
 pub use file::{HairFile, HairOptions, HeadFile, read_hair, read_head, write_strands};
 pub use head::HeadFrame;
 pub use mesh::Mesh;
+pub use read::{MOST_OF_DATA, MOST_OF_TEXT, ReadError, read_bytes, read_text};
 pub use skeleton::BoneMotion;
 #[cfg(feature = "gltf")]
 pub use skeleton::{SkeletonError, TrackError};

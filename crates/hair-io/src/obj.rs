@@ -1,110 +1,229 @@
-//! Heads from Wavefront OBJ files, by crate `tobj`.
+//! Heads from Wavefront OBJ files.
 
-use std::path::Path;
+use std::borrow::Cow;
 
 use glam::Vec3;
-use tobj::{LoadError, LoadOptions};
 
 use crate::mesh::Mesh;
+use crate::read::shown;
 
 /// Why a text is not an OBJ file with a head.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjError {
-    /// A line that cannot be read, or a face of vertices that are not there.
-    #[error("{0}")]
-    Parse(LoadError),
-    /// A face has a corner that is not finite.
-    #[error("group \"{group}\": a face has the corner {corner}, which is not finite")]
-    NotFinite {
-        /// The group the face is in.
-        group: String,
-        /// The corner as the file gives it.
-        corner: Vec3,
+    /// A line is wrong.
+    #[error("line {line}: {problem}")]
+    At {
+        /// The line, 1 first.
+        line: usize,
+        /// What is wrong there.
+        problem: ObjProblem,
     },
     /// Nothing to draw.
     #[error("no triangle with an area was found")]
     NoTriangles,
 }
 
+/// What can be wrong in a line of an OBJ file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ObjProblem {
+    /// A vertex without three numbers.
+    #[error("a vertex is written `v X Y Z`, found `{0}`")]
+    Vertex(
+        /// The line, or the beginning of it.
+        String,
+    ),
+    /// A face without corners.
+    #[error("a face is written `f A B C ...`, found no corner")]
+    NoCorners,
+    /// A corner that is no number.
+    #[error("corner {corner} of the face: the number of a vertex was expected, found `{found}`")]
+    Corner {
+        /// Which corner, 1 first.
+        corner: usize,
+        /// The word in its place, or the beginning of it.
+        found: String,
+    },
+    /// A corner at a vertex that is not there.
+    #[error("corner {corner} of the face: there is no vertex {index}, there are {count}")]
+    NoVertex {
+        /// Which corner, 1 first.
+        corner: usize,
+        /// The number as the file gives it: 1 first, or below 0 from the last before the face.
+        index: i64,
+        /// How many vertices there are; before the face where the number is below 0.
+        count: usize,
+    },
+    /// A face has a corner that is not finite.
+    #[error("corner {corner} of the face is at {position}, which is not finite")]
+    NotFinite {
+        /// Which corner, 1 first.
+        corner: usize,
+        /// Where the file has it.
+        position: Vec3,
+    },
+}
+
 /// Reads the triangles of an OBJ text, in the file's own axes and units, and a note where groups were
 /// left out: beside a group named `body`, those named `helper...` and `joint...` are no skin (the
 /// scaffolding of MakeHuman's base mesh). Polygons become fans. The file's normals, texture
-/// coordinates and materials are not read.
+/// coordinates, lines and materials are not read.
 ///
 /// # Errors
 ///
 /// When a vertex or face cannot be read, a face's vertex is missing or not finite, or there is no
 /// triangle.
 pub fn from_text(text: &str) -> Result<(Mesh, Option<String>), ObjError> {
-    let options = LoadOptions {
-        triangulate: true,
-        ignore_points: true,
-        ignore_lines: true,
-        ..LoadOptions::default()
-    };
-    let no_materials = |_: &Path| Ok(Default::default());
-    let mut models = tobj::load_obj_buf(&mut geometry(text).as_bytes(), &options, no_materials)
-        .map_err(ObjError::Parse)?
-        .0;
+    let Shape {
+        vertices,
+        mut groups,
+    } = Shape::read(text)?;
 
     let mut note = None;
-    if models.iter().any(|m| m.name == "body") {
-        let before = models.len();
-        models.retain(|m| !m.name.starts_with("helper") && !m.name.starts_with("joint"));
-        let left_out = before - models.len();
+    groups.retain(|group| !group.faces.is_empty());
+    if groups.iter().any(|group| group.name == "body") {
+        let before = groups.len();
+        groups.retain(|g| !g.name.starts_with("helper") && !g.name.starts_with("joint"));
+        let left_out = before - groups.len();
         let text = format!("{left_out} helper and joint groups beside \"body\" are not drawn");
         note = (left_out > 0).then_some(text);
     }
 
-    let mut corners = Vec::new();
-    for model in &models {
-        let positions = &model.mesh.positions;
-        let corner = |&i: &u32| Vec3::from_slice(&positions[i as usize * 3..]);
-        for triangle in model.mesh.indices.chunks_exact(3) {
-            let triangle = [0, 1, 2].map(|i| corner(&triangle[i]));
-            if let Some(&corner) = triangle.iter().find(|c| !c.is_finite()) {
-                return Err(ObjError::NotFinite {
-                    group: model.name.clone(),
-                    corner,
-                });
-            }
-            corners.push(triangle);
+    let mut triangles = Vec::new();
+    for face in groups.iter().flat_map(|group| &group.faces) {
+        let corners = face.positions(&vertices)?;
+        for pair in corners[1..].windows(2) {
+            triangles.push([corners[0], pair[0], pair[1]]);
         }
     }
-    let mesh = Mesh::from_corners(corners);
+    let mesh = Mesh::from_corners(triangles);
     if mesh.triangles.is_empty() {
         return Err(ObjError::NoTriangles);
     }
     Ok((mesh, note))
 }
 
-/// The lines that make a shape: positions, faces by their positions alone, names of groups.
-///
-/// What is not used cannot break the reading: `tobj` overflows (a panic in debug builds) where a
-/// texture index is near 2^63, and refuses files for their materials.
-fn geometry(text: &str) -> String {
-    let text = text.replace("\\\r\n", " ").replace("\\\n", " ");
-    let mut kept = String::with_capacity(text.len());
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        let keyword = words.next().unwrap_or_default();
-        let words: Vec<&str> = match keyword {
-            "v" => words.take(3).collect(),
-            "f" => words
-                .map(|corner| corner.split('/').next().unwrap_or_default())
-                .collect(),
-            "g" | "o" => words.collect(),
-            _ => continue,
+/// What of a file makes its shape.
+#[derive(Default)]
+struct Shape {
+    vertices: Vec<Vec3>,
+    groups: Vec<Group>,
+}
+
+/// Faces under one name.
+#[derive(Default)]
+struct Group {
+    name: String,
+    faces: Vec<Face>,
+}
+
+struct Face {
+    line: usize,
+    /// Vertices as the file numbers them: 1 first, or below 0 from the last.
+    corners: Vec<i64>,
+    /// How many vertices come before it.
+    vertices_before: usize,
+}
+
+impl Shape {
+    fn read(text: &str) -> Result<Self, ObjError> {
+        let mut shape = Self {
+            groups: vec![Group::default()],
+            ..Self::default()
         };
-        kept.push_str(keyword);
-        for word in words {
-            kept.push(' ');
-            kept.push_str(word);
+        for (line, text) in logical_lines(text) {
+            let at = |problem| ObjError::At { line, problem };
+            let mut words = text.split_whitespace();
+            match words.next() {
+                Some("v") => shape
+                    .vertices
+                    .push(vertex(words).ok_or_else(|| at(ObjProblem::Vertex(shown(text.trim()))))?),
+                Some("f") => {
+                    let face = Face {
+                        line,
+                        corners: corners(words).map_err(at)?,
+                        vertices_before: shape.vertices.len(),
+                    };
+                    let group = shape.groups.last_mut();
+                    group.expect("there is one from the start").faces.push(face);
+                }
+                Some("g" | "o") => shape.groups.push(Group {
+                    name: words.collect::<Vec<_>>().join(" "),
+                    faces: Vec::new(),
+                }),
+                _ => {}
+            }
         }
-        kept.push('\n');
+        Ok(shape)
     }
-    kept
+}
+
+impl Face {
+    fn positions(&self, vertices: &[Vec3]) -> Result<Vec<Vec3>, ObjError> {
+        let position = |(corner, &index): (usize, &i64)| {
+            let (from, count) = match index {
+                ..0 => (self.vertices_before as i64, self.vertices_before),
+                _ => (-1, vertices.len()),
+            };
+            let found = usize::try_from(from.saturating_add(index)).ok();
+            let corner = corner + 1;
+            match found.and_then(|found| vertices.get(found)) {
+                None => Err(ObjProblem::NoVertex {
+                    corner,
+                    index,
+                    count,
+                }),
+                Some(&position) if !position.is_finite() => {
+                    Err(ObjProblem::NotFinite { corner, position })
+                }
+                Some(&position) => Ok(position),
+            }
+        };
+        let positions = self.corners.iter().enumerate().map(position);
+        positions
+            .collect::<Result<_, _>>()
+            .map_err(|problem| ObjError::At {
+                line: self.line,
+                problem,
+            })
+    }
+}
+
+/// The first three numbers.
+fn vertex<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Vec3> {
+    let mut number = || words.next()?.parse().ok();
+    Some(Vec3::new(number()?, number()?, number()?))
+}
+
+/// The vertices of a face: of `1/2/3` the first number.
+fn corners<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vec<i64>, ObjProblem> {
+    let corner = |(corner, word): (usize, &'a str)| {
+        let index = word.split('/').next().unwrap_or_default();
+        index.parse().map_err(|_| ObjProblem::Corner {
+            corner: corner + 1,
+            found: shown(word),
+        })
+    };
+    let corners: Vec<i64> = words.enumerate().map(corner).collect::<Result<_, _>>()?;
+    if corners.is_empty() {
+        return Err(ObjProblem::NoCorners);
+    }
+    Ok(corners)
+}
+
+/// The lines with their numbers, 1 first, those joined to one that end with a backslash.
+fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
+    let mut lines = text.lines().zip(1..);
+    std::iter::from_fn(move || {
+        let (first, number) = lines.next()?;
+        let mut line = Cow::Borrowed(first);
+        while let Some(begin) = line.strip_suffix('\\') {
+            let next = lines.next().map_or("", |(next, _)| next);
+            line = Cow::Owned(format!("{begin} {next}"));
+        }
+        Some((number, line))
+    })
 }
 
 #[cfg(test)]
@@ -146,36 +265,42 @@ mod tests {
     }
 
     #[test]
-    fn broken_files_are_refused() {
-        let refused = |faces: &str| {
-            from_text(&format!("v 0 0 0\nv 1 0 0\nv 0 nan 0\nv 0 1 0\n{faces}\n")).unwrap_err()
+    fn mistakes_name_their_line_and_corner() {
+        let refused = |lines: &str| {
+            let vertices = "v 0 0 0\nv 1 0 0\nv 0 nan 0\nv 0 1 0\n";
+            from_text(&format!("{vertices}{lines}\n"))
+                .unwrap_err()
+                .to_string()
         };
-        for faces in [
-            "f 1 2 5",
-            "f 0 1 2",
-            "f -5 1 2",
-            "f 1 2 9223372036854775807",
-            "f -9223372036854775808 1 2",
-        ] {
-            assert_eq!(
-                refused(faces),
-                ObjError::Parse(LoadError::FaceVertexOutOfBounds),
-                "{faces}"
-            );
+        let no_vertex = |corner: usize, index: &str| {
+            format!("line 5: corner {corner} of the face: there is no vertex {index}, there are 4")
+        };
+        assert_eq!(refused("f 1 2 5"), no_vertex(3, "5"));
+        assert_eq!(refused("f 0 1 2"), no_vertex(1, "0"));
+        assert_eq!(refused("f -5 1 2"), no_vertex(1, "-5"));
+        for index in ["9223372036854775807", "-9223372036854775808"] {
+            assert_eq!(refused(&format!("f 1 2 {index}")), no_vertex(3, index));
         }
-        for faces in ["f 1 x 2", "f 1 2 99999999999999999999", "f"] {
-            assert!(matches!(refused(faces), ObjError::Parse(_)), "{faces}");
-        }
-        assert!(matches!(refused("f 1 2 3"), ObjError::NotFinite { .. }));
-        assert!(matches!(refused("v 1 2\nf 1 2 4"), ObjError::Parse(_)));
-        assert_eq!(refused("f 1 2 2"), ObjError::NoTriangles);
-        assert!(
-            from_text(
-                "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/9223372036854775807 2/-9223372036854775808/7 3\n"
-            )
-            .is_ok()
+        assert_eq!(
+            refused("# joined \\\n\nf 1 \\\n x/1/2 2"),
+            "line 7: corner 2 of the face: the number of a vertex was expected, found `x/1/2`"
         );
+        assert!(refused("f 1 2 99999999999999999999").contains("found `99999999999999999999`"));
+        assert!(refused("f").ends_with("found no corner"));
+        assert_eq!(
+            refused("\nf 1 2 3"),
+            "line 6: corner 3 of the face is at [0, NaN, 0], which is not finite"
+        );
+        assert_eq!(
+            refused("v 1 2\nf 1 2 4"),
+            "line 5: a vertex is written `v X Y Z`, found `v 1 2`"
+        );
+        assert!(refused(&format!("v {}", "x".repeat(9999))).len() < 300);
+        assert_eq!(refused("f 1 2 2"), ObjError::NoTriangles.to_string());
         assert_eq!(from_text(""), Err(ObjError::NoTriangles));
+        // Texture coordinates and normals are not looked at.
+        let far = "f 1/9223372036854775807 2/-9223372036854775808/7 3\n";
+        assert!(from_text(&format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{far}")).is_ok());
     }
 
     proptest! {

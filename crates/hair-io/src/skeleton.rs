@@ -2,17 +2,20 @@
 //!
 //! Only nodes and animations are read: a bone moves as its chain of parents does.
 
+mod document;
 mod error;
 mod numbers;
 mod track;
+mod uri;
 
+use crate::read::shown;
+use document::{Animation, Document, Node};
 pub use error::{SkeletonError, TrackError};
-use glam::{DAffine3, DQuat, DVec3};
-use gltf::animation::Property;
-use gltf::{Animation, Document};
-use numbers::Buffers;
+use glam::{DAffine3, DMat4, DQuat, DVec3};
+use numbers::{Buffers, part};
+use std::collections::HashMap;
 use std::path::Path;
-use track::Track;
+use track::{Track, Value};
 
 /// The most names that a message lists.
 const MOST_NAMES: usize = 8;
@@ -52,37 +55,27 @@ impl BoneMotion {
         bone: &str,
         animation: Option<&str>,
     ) -> Result<Self, SkeletonError> {
-        let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(bytes)?;
-        let nodes = chain_to(&document, bone)?;
-        let animation = find_animation(&document, animation)?;
+        let (document, binary) = Document::read(bytes)?;
+        let chain = chain_to(&document, bone)?;
+        let (number, animation) = find_animation(&document, animation)?;
+        let joints = chain
+            .iter()
+            .map(|&node| Joint::at_rest(&document.nodes[node]));
         let mut motion = Self {
-            chain: nodes.iter().map(Joint::at_rest).collect(),
+            chain: joints.collect(),
             rest: (DQuat::IDENTITY, DVec3::ZERO),
             length: 0.0,
         };
-        let mut buffers = Buffers::new(blob, folder);
-        for (number, channel) in animation.channels().enumerate() {
-            let target = channel.target();
-            let moved = |node: &gltf::Node| node.index() == target.node().index();
-            let Some(joint) = nodes.iter().position(moved) else {
-                continue;
-            };
-            let joint = &mut motion.chain[joint];
-            let sampler = channel.sampler();
-            let length = match target.property() {
-                Property::Translation => Track::read(&sampler, &mut buffers)
-                    .map(|track| joint.translations.insert(track).length()),
-                Property::Rotation => Track::read(&sampler, &mut buffers)
-                    .map(|track| joint.rotations.insert(track).length()),
-                Property::Scale => Track::read(&sampler, &mut buffers)
-                    .map(|track| joint.scales.insert(track).length()),
-                Property::MorphTargetWeights => Ok(0.0),
-            };
-            let length = length.map_err(|source| SkeletonError::Track {
-                animation: animation.index(),
-                channel: number,
-                source,
-            })?;
+        let joints: HashMap<usize, usize> = chain.into_iter().zip(0..).collect();
+        let mut buffers = Buffers::new(&document, binary, folder);
+        for channel in 0..animation.channels.len() {
+            let length = motion
+                .read_channel(&document, animation, channel, &joints, &mut buffers)
+                .map_err(|source| SkeletonError::Track {
+                    animation: number,
+                    channel,
+                    source,
+                })?;
             motion.length = motion.length.max(length);
         }
         let (rotation, place) = motion.pose(Joint::resting);
@@ -91,6 +84,39 @@ impl BoneMotion {
         }
         motion.rest = (rotation, place);
         Ok(motion)
+    }
+
+    /// Reads what a channel moves of the chain, whose nodes are these `joints` of it. When its last key is, in s.
+    fn read_channel(
+        &mut self,
+        document: &Document,
+        animation: &Animation,
+        channel: usize,
+        joints: &HashMap<usize, usize>,
+        buffers: &mut Buffers,
+    ) -> Result<f64, TrackError> {
+        let channel = &animation.channels[channel];
+        let Some((node, property)) = channel.target.node() else {
+            return Ok(0.0);
+        };
+        part(&document.nodes, "node", node)?;
+        let sampler = part(&animation.samplers, "sampler", channel.sampler)?;
+        let Some(&joint) = joints.get(&node) else {
+            return Ok(0.0);
+        };
+        let joint = &mut self.chain[joint];
+        match property {
+            "translation" => put(&mut joint.translations, "translation", || {
+                Track::read(sampler, buffers)
+            }),
+            "rotation" => put(&mut joint.rotations, "rotation", || {
+                Track::read(sampler, buffers)
+            }),
+            "scale" => put(&mut joint.scales, "scale", || Track::read(sampler, buffers)),
+            // Shapes of a face don't move its bones.
+            "weights" => Ok(0.0),
+            other => Err(TrackError::Property(shown(other))),
+        }
     }
 
     /// When the last key of all that moves the bone is, in s.
@@ -126,12 +152,22 @@ impl BoneMotion {
 }
 
 impl Joint {
-    fn at_rest(node: &gltf::Node) -> Self {
-        let (translation, rotation, scale) = node.transform().decomposed();
+    fn at_rest(node: &Node) -> Self {
+        let (scale, rotation, translation) = match node.matrix {
+            Some(matrix) => {
+                DMat4::from_cols_array(&matrix.map(f64::from)).to_scale_rotation_translation()
+            }
+            None => (
+                node.scale
+                    .map_or(DVec3::ONE, |s| DVec3::from(s.map(f64::from))),
+                (node.rotation).map_or(DQuat::IDENTITY, |r| DQuat::from_array(r.map(f64::from))),
+                (node.translation).map_or(DVec3::ZERO, |t| DVec3::from(t.map(f64::from))),
+            ),
+        };
         Self {
-            translation: DVec3::from(translation.map(f64::from)),
-            rotation: DQuat::from_array(rotation.map(f64::from)).normalize(),
-            scale: DVec3::from(scale.map(f64::from)),
+            translation,
+            rotation: rotation.normalize(),
+            scale,
             translations: None,
             rotations: None,
             scales: None,
@@ -152,69 +188,87 @@ impl Joint {
     }
 }
 
+/// Puts a track in its place, where there is none yet. When its last key is, in s.
+fn put<T: Value>(
+    place: &mut Option<Track<T>>,
+    property: &'static str,
+    read: impl FnOnce() -> Result<Track<T>, TrackError>,
+) -> Result<f64, TrackError> {
+    if place.is_some() {
+        return Err(TrackError::Twice(property));
+    }
+    Ok(place.insert(read()?).length())
+}
+
 /// The nodes from the outermost parent to the bone of this name.
-fn chain_to<'a>(document: &'a Document, bone: &str) -> Result<Vec<gltf::Node<'a>>, SkeletonError> {
-    let nodes: Vec<gltf::Node> = document.nodes().collect();
-    let named =
-        |is: &dyn Fn(&str) -> bool| nodes.iter().position(|node| node.name().is_some_and(is));
+fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, SkeletonError> {
+    let nodes = &document.nodes;
+    let named = |is: &dyn Fn(&str) -> bool| {
+        (nodes.iter()).position(|node| node.name.as_deref().is_some_and(is))
+    };
     let exact = named(&|name| name == bone);
     let Some(found) = exact.or_else(|| named(&|name| name.eq_ignore_ascii_case(bone))) else {
-        let names = nodes.iter().filter_map(gltf::Node::name).map(str::to_owned);
+        let names = nodes.iter().filter_map(|node| node.name.clone());
         return Err(SkeletonError::Bone {
             wanted: bone.to_owned(),
             names: nearest(names.collect(), bone),
         });
     };
     let mut parents = vec![None; nodes.len()];
-    for node in &nodes {
-        for child in node.children() {
-            parents[child.index()] = Some(node.index());
+    for (node, parent) in nodes.iter().enumerate() {
+        for &child in &parent.children {
+            *parents.get_mut(child).ok_or(SkeletonError::Child {
+                node,
+                child,
+                count: nodes.len(),
+            })? = Some(node);
         }
     }
-    let mut chain = vec![nodes[found].clone()];
+    let mut chain = vec![found];
     let mut next = parents[found];
     while let Some(parent) = next {
         if chain.len() > nodes.len() {
             return Err(SkeletonError::Chain(bone.to_owned()));
         }
-        chain.push(nodes[parent].clone());
+        chain.push(parent);
         next = parents[parent];
     }
     chain.reverse();
     Ok(chain)
 }
 
+/// The animation of this name or number, or the first, with its number.
 fn find_animation<'a>(
     document: &'a Document,
     wanted: Option<&str>,
-) -> Result<Animation<'a>, SkeletonError> {
-    let animations: Vec<Animation> = document.animations().collect();
+) -> Result<(usize, &'a Animation), SkeletonError> {
+    let animations = &document.animations;
     let first = animations.first().ok_or(SkeletonError::NoAnimation)?;
     let Some(wanted) = wanted else {
-        return Ok(first.clone());
+        return Ok((0, first));
     };
-    let number = wanted.parse::<usize>().ok();
-    let named = animations.iter().find(|a| a.name() == Some(wanted));
-    let found = named.or_else(|| animations.get(number?));
-    found.cloned().ok_or_else(|| {
-        let name = |a: &Animation| {
-            a.name()
-                .map_or_else(|| a.index().to_string(), str::to_owned)
-        };
+    let named = (animations.iter()).position(|a| a.name.as_deref() == Some(wanted));
+    let number = named.or_else(|| wanted.parse().ok());
+    let found = number.and_then(|number| Some((number, animations.get(number)?)));
+    found.ok_or_else(|| {
+        let names = animations.iter().enumerate();
+        let names = names.map(|(number, a)| a.name.clone().unwrap_or(number.to_string()));
         SkeletonError::Animation {
             wanted: wanted.to_owned(),
-            names: nearest(animations.iter().map(name).collect(), wanted),
+            names: nearest(names.collect(), wanted),
         }
     })
 }
 
 /// Some names, the nearest to `wanted` first.
-fn nearest(mut names: Vec<String>, wanted: &str) -> Vec<String> {
+fn nearest(names: Vec<String>, wanted: &str) -> Vec<String> {
     let wanted = wanted.to_lowercase();
-    let far = |name: &String| -strsim::jaro_winkler(&name.to_lowercase(), &wanted);
-    names.sort_by(|a, b| far(a).total_cmp(&far(b)).then_with(|| a.cmp(b)));
-    names.truncate(MOST_NAMES);
-    names
+    let likeness = |name: &String| strsim::jaro_winkler(&name.to_lowercase(), &wanted);
+    let mut names: Vec<(f64, String)> = names.into_iter().map(|n| (likeness(&n), n)).collect();
+    names.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| a.1.cmp(&b.1)));
+    (names.iter().take(MOST_NAMES))
+        .map(|(_, name)| shown(name))
+        .collect()
 }
 
 #[cfg(test)]

@@ -37,6 +37,8 @@ use ron::extensions::Extensions;
 use ron::value::RawValue;
 use serde::Deserialize;
 
+use crate::read::{place_after, shown};
+
 /// The version of the format that this build reads and writes.
 pub const VERSION: u32 = 1;
 /// The bit that tells a mirror image's id from its original's.
@@ -68,9 +70,9 @@ pub enum StrandsRonError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// Not RON, or not the fields of the format.
+    /// Not RON, or not the fields of the format: what is wrong.
     #[error("{0}")]
-    Syntax(ron::Error),
+    Syntax(String),
     /// There is no version 0.
     #[error("version 0 was found, versions start at 1")]
     Version,
@@ -251,6 +253,14 @@ fn mirror(points: &[Vec3]) -> Vec<Vec3> {
     points.iter().map(|p| Vec3::new(-p.x, p.y, p.z)).collect()
 }
 
+/// What RON says, but for its advice to programmers and for long texts of the file.
+fn syntax_message(error: &ron::Error) -> String {
+    match error {
+        ron::Error::ExceededRecursionLimit => "brackets are nested too deeply here".to_owned(),
+        other => shown(&other.to_string()),
+    }
+}
+
 /// The text, to find places in it.
 struct Source<'a> {
     text: &'a str,
@@ -260,10 +270,7 @@ impl<'a> Source<'a> {
     /// The line and column where `part`, a slice of the text, begins.
     fn place(&self, part: &str) -> (usize, usize) {
         let offset = part.as_ptr() as usize - self.text.as_ptr() as usize;
-        let before = &self.text[..offset];
-        let line = before.matches('\n').count() + 1;
-        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-        (line, column)
+        place_after(&self.text[..offset])
     }
 
     fn at(&self, part: &str, problem: Problem) -> StrandsRonError {
@@ -298,7 +305,7 @@ impl<'a> Source<'a> {
         StrandsRonError::At {
             line,
             column,
-            problem: Problem::Syntax(error.code),
+            problem: Problem::Syntax(syntax_message(&error.code)),
         }
     }
 

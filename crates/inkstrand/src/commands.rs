@@ -20,19 +20,9 @@ pub(crate) use simulate::simulate;
 use ::effects::preset::PresetErrors;
 use std::path::{Path, PathBuf};
 
-/// A preset's text, without the mark that some editors put before it.
-fn read_preset(path: &Path) -> Result<String, String> {
-    let named = |what: &dyn std::fmt::Display| format!("{}: {what}", path.display());
-    let bytes = std::fs::read(path).map_err(|e| named(&e))?;
-    let text = String::from_utf8(bytes).map_err(|e| {
-        let good = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-        let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
-        named(&format!("line {line} is not UTF-8 text"))
-    })?;
-    Ok(match text.strip_prefix('\u{feff}') {
-        Some(text) => text.to_owned(),
-        None => text,
-    })
+/// A text file's whole text.
+fn read_text(path: &Path) -> Result<String, String> {
+    hair_io::read_text(path, hair_io::MOST_OF_TEXT).map_err(|error| error.to_string())
 }
 
 /// The folder that a preset's file names are relative to.

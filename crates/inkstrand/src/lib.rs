@@ -93,7 +93,12 @@ pub fn run(registry: &Registry) -> ExitCode {
             for mistake in &mistakes {
                 say(format_args!("{mistake}\n"));
             }
-            fail(&counted(mistakes.len(), "mistake"));
+            // Of a file with more, 100 are told, and one thing more: how many there are.
+            let count = match mistakes.len() {
+                0..=100 => counted(mistakes.len(), "mistake"),
+                _ => "more than 100 mistakes".to_owned(),
+            };
+            fail(&count);
             ExitCode::FAILURE
         }
         Err(Failure::Failed(message)) => {

@@ -71,7 +71,7 @@ fn check_and_render_say_the_same() {
         (
             "hair: (file: \"cut.strands.ron\"),",
             base,
-            "look.ron:2:14: file: cut.strands.ron: line 2, column 16: ",
+            "look.ron:2:14: file: cut.strands.ron:2:16: ",
         ),
         (
             "hair: (file: \"bad.style.ron\"),",
@@ -101,7 +101,7 @@ fn check_and_render_say_the_same() {
         (
             "hair: (file: \"small.strands.ron\"), motion: (file: \"shape.motion.ron\"),",
             base,
-            "look.ron:2:51: file: cut.strands.ron: line 2, column 16: ",
+            "look.ron:2:51: file: cut.strands.ron:2:16: ",
         ),
         #[cfg(feature = "gltf")]
         (
@@ -167,7 +167,7 @@ fn files_are_judged_by_their_kind() {
     .assert()
     .code(1)
     .stderr(
-        contains("cut.strands.ron: line 2, column 16: ")
+        contains("cut.strands.ron:2:16: ")
             .and(contains("bad.style.ron:1:21: "))
             .and(contains("nodd.motion.ron:1:29: "))
             .and(contains("3 files, 3 of them with mistakes"))

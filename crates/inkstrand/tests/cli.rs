@@ -363,7 +363,7 @@ fn presets_from_any_editor_are_read() {
     inkstrand(folder.path(), &["check", "latin.ron"])
         .assert()
         .code(1)
-        .stderr(contains("latin.ron: line 2 is not UTF-8 text"));
+        .stderr(contains("latin.ron:2:7: this is not UTF-8 text"));
 }
 
 /// The folder of real hair, where there is one.

@@ -88,7 +88,7 @@ pub(crate) fn load(
     };
     let motion = read(&path, &hair.file.strands)?;
     let own = MovedBy::of(preset, files, hair)?;
-    let baked = MovedBy::read(&path).map_err(|source| StageError::Read {
+    let baked = MovedBy::read(&path).map_err(|source| hair_io::ReadError::Open {
         path: path.clone(),
         source,
     })?;

@@ -68,7 +68,7 @@ impl<'r> Preset<'r> {
     pub fn files(&self, files: &Files) -> Vec<PathBuf> {
         let mut paths: Vec<PathBuf> = self.named(files).into_iter().map(|f| f.path).collect();
         if let Some(script) = &self.script_path(files)
-            && let Ok(text) = std::fs::read_to_string(script)
+            && let Ok(text) = hair_io::read_text(script, hair_io::MOST_OF_TEXT)
             && let Ok(parsed) = script::parse("", &text)
         {
             let shapes = parsed.shapes.into_iter().filter_map(|key| key.file);
@@ -141,12 +141,9 @@ impl<'r> Preset<'r> {
         file: &NamedFile,
         check: impl Fn(&Path, &str) -> Result<(), PresetErrors>,
     ) -> Result<(), PresetErrors> {
-        match std::fs::read_to_string(&file.path) {
+        match hair_io::read_text(&file.path, hair_io::MOST_OF_TEXT) {
             Ok(text) => check(&file.path, &text),
-            Err(error) => {
-                let message = format!("`{}` cannot be read: {error}", file.path.display());
-                self.mistake(file, message)
-            }
+            Err(error) => self.mistake(file, error.to_string()),
         }
     }
 

@@ -33,13 +33,8 @@ pub enum StageError {
     #[error("{}: a style needs a head to grow on: --head FILE, or head: (shape: bust) in the preset", .0.display())]
     NoHead(PathBuf),
     /// A style or motion script cannot be read.
-    #[error("{}: {source}", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    Read(#[from] hair_io::ReadError),
     /// A style or motion script has mistakes.
     #[error(transparent)]
     Mistakes(#[from] effects::preset::PresetErrors),

@@ -7,7 +7,9 @@ use crate::preset::{HeadShape, Preset, UpAxis};
 use crate::style;
 use glam::Vec3;
 use hair_io::orient::Axes;
-use hair_io::{HairFile, HairOptions, HeadFrame, Mesh};
+use hair_io::{HairError, HairFile, HairOptions, HeadFrame, Mesh};
+use hair_sim::Strands;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 fn axes(up: UpAxis) -> Option<Axes> {
@@ -88,7 +90,14 @@ pub(crate) fn hair(
 ) -> Result<HairModel, StageError> {
     let own = preset.sections.hair.file.as_ref();
     let path = chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
-    strands(preset, &path, head, notes)
+    let hair = strands(preset, &path, head, notes)?;
+    let (all, guides) = (hair.file.strands.len(), preset.sections.hair.guides);
+    if guides > 0 && (guides as usize) < all {
+        notes.push(format!(
+            "hair: {guides} of the {all} strands are drawn, as guides (hair.guides, --guides)"
+        ));
+    }
+    Ok(hair)
 }
 
 /// All strands of a file or style as the preset reads hair, sorted by id.
@@ -109,18 +118,64 @@ pub(crate) fn strands(
         scale: scale(section.scale),
         offset: None,
     };
-    let mut hair = hair_io::read_hair(path, &HairOptions { given, head })?;
+    let mut hair = hair_io::read_hair(path, &HairOptions { given, head }).map_err(with_styles)?;
     notes.append(&mut hair.notes);
+    if given.scale.is_none() {
+        notes.extend(misfit(&hair.strands, head));
+    }
     Ok(HairModel::read(hair, head))
+}
+
+/// The error of a format that is not read, with styles among those that are.
+fn with_styles(error: HairError) -> HairError {
+    match error {
+        HairError::Format { path, found, .. } => HairError::Format {
+            path,
+            found,
+            reads: "TressFX (.tfx), own strands (.strands.ron) and hair styles (.style.ron)",
+        },
+        other => other,
+    }
+}
+
+/// Sizes of hair that a head may wear, in head heights.
+const PLAUSIBLE_SIZES: RangeInclusive<f32> = 0.33..=12.0;
+/// How far from the head's middle that of the roots may be, in head heights.
+const PLAUSIBLE_DISTANCE: f32 = 1.0;
+
+/// A warning where hair hardly fits the head, which a wrong unit or axis does.
+fn misfit(strands: &Strands, head: Option<&Mesh>) -> Option<String> {
+    // The mesh alone: with roots that don't fit it, the head would be theirs.
+    let head = HeadFrame::find(Some(head?), &[]);
+    let size = size_of_most(strands.points());
+    let roots = strands.roots().sum::<Vec3>() / strands.len() as f32;
+    let away = roots.distance(head.center);
+    let fits =
+        PLAUSIBLE_SIZES.contains(&(size / head.height)) && away <= PLAUSIBLE_DISTANCE * head.height;
+    (!fits).then(|| {
+        format!(
+            "hair: WARNING: it is {:.3} m large, and its roots are {:.3} m from the middle of the head, which is {:.3} m \
+             high: if that is wrong, say metres a unit and the upward axis (hair.scale, hair.up; --set hair.scale=0.01)",
+            size, away, head.height
+        )
+    })
+}
+
+/// The longest side of the box around points, without the outer twentieth on each side: strays don't count.
+fn size_of_most(points: &[Vec3]) -> f32 {
+    let twentieth = points.len() / 20;
+    let side = |axis: usize| {
+        let mut places: Vec<f32> = points.iter().map(|point| point[axis]).collect();
+        places.sort_unstable_by(f32::total_cmp);
+        places[places.len() - 1 - twentieth] - places[twentieth]
+    };
+    side(0).max(side(1)).max(side(2))
 }
 
 /// The hair of a style, grown on the head.
 fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
     let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
-    let text = std::fs::read_to_string(path).map_err(|source| StageError::Read {
-        path: path.to_owned(),
-        source,
-    })?;
+    let text = hair_io::read_text(path, hair_io::MOST_OF_TEXT)?;
     let style = style::parse(&path.display().to_string(), &text)?;
     // The mesh alone: the hair that grows on a head must not change its size.
     let head = head_of(HeadFrame::find(Some(mesh), &[]));

@@ -12,6 +12,9 @@ use hair_io::Mesh;
 use hair_sim::{Motion, Strands};
 use std::path::Path;
 
+/// The most points that all shapes of a script have together: 0.75 GiB of them.
+const MOST_POINTS: usize = 1 << 26;
+
 /// The shapes that `script`, a file in `folder`, wants of all strands of the hair; none where it wants none.
 ///
 /// What a style holds on the head stays there: from it on each strand has the key's shape.
@@ -26,6 +29,16 @@ pub(crate) fn load(
     hair: &HairModel,
     head: Option<&Mesh>,
 ) -> Result<Option<Motion>, StageError> {
+    let points = hair.file.strands.points().len().max(1);
+    if let Some(key) = script.shapes.get(MOST_POINTS / points) {
+        let message = format!(
+            "shapes: of this hair, which has {points} points, at most {} shapes fit into memory, {} were found",
+            MOST_POINTS / points,
+            script.shapes.len()
+        );
+        let place = key.place.clone();
+        return Err(PresetErrors(vec![PresetError { place, message }]).into());
+    }
     let mut samples = Vec::with_capacity(script.shapes.len());
     let mut mistakes = Vec::new();
     for key in &script.shapes {

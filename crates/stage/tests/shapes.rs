@@ -2,7 +2,7 @@
 
 use effects::Registry;
 use glam::Vec3;
-use stage::{Files, Preset, Stage};
+use stage::{Files, Preset, Stage, check_motion};
 use std::fs;
 use std::path::Path;
 
@@ -275,4 +275,39 @@ fn a_style_in_other_words_is_a_shape() {
     // What the head holds stays.
     let held = before.iter().zip(&after).filter(|(a, b)| a == b).count();
     assert!(held > 100, "{held}");
+}
+
+#[test]
+fn a_long_script_on_one_line_takes_little_memory() {
+    let keys = |count: usize| {
+        let keys: Vec<String> = (0..count).map(|i| format!("(time: {i})")).collect();
+        format!("(version: 1, shapes: [{}])", keys.join(", "))
+    };
+    // Each remembers its place, of which the line is a part.
+    assert!(check_motion(Path::new("a.motion.ron"), &keys(20_000)).is_ok());
+    let wrong = keys(20_000).replace("(time: 10000)", "(time: 10000, hair: \"none.style.ron\")");
+    let errors = check_motion(Path::new("a.motion.ron"), &wrong).unwrap_err();
+    assert!(errors.0[0].place.source_line.len() <= 100);
+}
+
+#[test]
+fn more_shapes_than_memory_holds_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = "(0, 1, 0), ".repeat(100_000);
+    let hair = format!("(version: 1, strands: [(size: 1, points: [{long}])])");
+    let keys: String = (0..700).map(|i| format!("(time: {i}), ")).collect();
+    fs::write(folder.path().join("own.strands.ron"), hair).unwrap();
+    let script = format!("(version: 1, shapes: [{keys}])");
+    fs::write(folder.path().join("a.motion.ron"), script).unwrap();
+    let text = "(version: 1, hair: (file: \"own.strands.ron\"), motion: (file: \"a.motion.ron\"),
+        layers: [(effect: \"hair.base\")])";
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let preset = Preset::parse("look.ron", text, &registry).unwrap();
+    let files = Files {
+        preset_folder: folder.path().to_owned(),
+        ..Files::default()
+    };
+    let message = Stage::new(&preset, &files).err().unwrap().to_string();
+    assert!(message.contains("at most 671 shapes fit"), "{message}");
 }

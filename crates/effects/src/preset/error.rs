@@ -11,8 +11,37 @@ pub struct Place {
     pub line: usize,
     /// Column in characters, 1 first.
     pub column: usize,
-    /// The line of the file.
+    /// What a message shows of the line: at most 100 characters of it, from 59 before the column on.
     pub source_line: String,
+}
+
+/// How many characters of a line are shown before the column.
+const SHOWN_BEFORE: usize = 59;
+/// How many are shown at most.
+const SHOWN_OF_LINE: usize = 100;
+/// How many characters a message has at most: it may repeat names of the file, of any length.
+const MOST_OF_MESSAGE: usize = 1000;
+
+impl Place {
+    /// The place at byte `offset` of `text`, in the line that begins at byte `line_start`.
+    pub(super) fn new(
+        file: &str,
+        text: &str,
+        offset: usize,
+        line_start: usize,
+        [line, column]: [usize; 2],
+    ) -> Self {
+        let before = text[line_start..offset].char_indices();
+        let window = before.rev().take(SHOWN_BEFORE).last();
+        let shown = text[window.map_or(offset, |(i, _)| line_start + i)..].lines();
+        let shown = shown.map(|line| line.chars().take(SHOWN_OF_LINE)).next();
+        Self {
+            file: file.to_owned(),
+            line,
+            column,
+            source_line: shown.map_or(String::new(), Iterator::collect),
+        }
+    }
 }
 
 /// A mistake in a preset, at its place.
@@ -32,18 +61,15 @@ impl fmt::Display for PresetError {
             column,
             source_line,
         } = &self.place;
-        writeln!(f, "{file}:{line}:{column}: {}", self.message)?;
-        // A window of the line, so that one very long line does not drown the message.
-        let start = column.saturating_sub(60);
-        let window: String = source_line
-            .chars()
-            .skip(start)
-            .take(100)
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .collect();
+        // Files may have characters in them that would change the terminal.
+        let visible = |c: char| if c.is_control() { ' ' } else { c };
+        let message = self.message.chars().take(MOST_OF_MESSAGE).map(visible);
+        let message: String = message.collect();
+        writeln!(f, "{file}:{line}:{column}: {message}")?;
+        let shown: String = source_line.chars().map(visible).collect();
         let number = line.to_string();
-        writeln!(f, " {number} | {}", window.trim_end())?;
-        let caret = " ".repeat(column.saturating_sub(1 + start));
+        writeln!(f, " {number} | {}", shown.trim_end())?;
+        let caret = " ".repeat(column.saturating_sub(1).min(SHOWN_BEFORE));
         write!(f, " {} | {caret}^", " ".repeat(number.len()))
     }
 }
@@ -81,7 +107,7 @@ pub fn nearest<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
 pub fn suggestion<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.into_iter().collect();
     match nearest(wrong, names.iter().copied()) {
-        Some(name) => format!(", did you mean `{name}`?"),
+        Some(name) => format!(", did you mean `{name:.60}`?"),
         None => format!("; there are: {}", names.join(", ")),
     }
 }

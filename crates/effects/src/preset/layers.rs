@@ -9,6 +9,7 @@ use crate::layer::{Layer, Units};
 use crate::param::{Param, ParamKind, Value, Values};
 use crate::registry::Registry;
 use crate::section;
+use std::collections::HashSet;
 
 section! {
     /// What a layer may say, beside the effect's own parameters.
@@ -96,6 +97,7 @@ impl<'a> Reader<'a> {
         reserved: &[&str],
     ) -> Vec<LayerSpec<'r>> {
         let mut layers: Vec<LayerSpec<'r>> = Vec::new();
+        let mut names = HashSet::new();
         for item in self.list(list, "layers") {
             let Some(layer) = self.layer(item, registry) else {
                 continue;
@@ -105,15 +107,15 @@ impl<'a> Reader<'a> {
                     item,
                     format!(
                         "`{}` is a section's name; give this layer another",
-                        layer.name
+                        shown(&layer.name)
                     ),
                 );
-            } else if layers.iter().any(|other| other.name == layer.name) {
+            } else if !names.insert(layer.name.clone()) {
                 self.error(
                     item,
                     format!(
                         "there is already a layer `{}`; give this one a `name`",
-                        layer.name
+                        shown(&layer.name)
                     ),
                 );
             } else {
@@ -145,7 +147,11 @@ impl<'a> Reader<'a> {
                 return format!("`{name}` belongs to the effect: params: ({name}: {value})");
             }
             let names = LAYER.iter().map(|param| param.name).chain(["params"]);
-            format!("a layer has no `{name}`{}", suggestion(name, names))
+            format!(
+                "a layer has no `{}`{}",
+                shown(name),
+                suggestion(name, names)
+            )
         });
         let effect = effect?;
         let values = match params.first() {
@@ -182,6 +188,7 @@ impl<'a> Reader<'a> {
         let effect = registry.get(&id);
         if effect.is_none() {
             let hint = suggestion(&id, registry.iter().map(AnyEffect::id));
+            let id = shown(&id);
             self.error(field.value, format!("there is no effect `{id}`{hint}"));
         }
         effect

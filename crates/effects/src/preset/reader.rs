@@ -7,6 +7,7 @@ use super::syntax::{self, Kind, Piece, pieces};
 use super::value::{parse_value, shown};
 use crate::param::{Param, Value};
 use crate::section::Section;
+use std::cell::Cell;
 use std::collections::HashSet;
 
 /// How many mistakes of a file are told: a file that is no preset at all has any number.
@@ -17,9 +18,31 @@ pub struct Reader<'a> {
     file: String,
     text: &'a str,
     errors: Vec<PresetError>,
+    /// The first mistake that is one too many to be told, and how many are.
+    untold: Option<(Place, usize)>,
+    /// Where the last place was: most are asked for in the order of the text, and counted from there.
+    last: Cell<Walked>,
     /// Whether brackets match, so that the text has parts.
     whole: bool,
 }
+
+/// How far the text was walked through.
+#[derive(Clone, Copy)]
+struct Walked {
+    /// Bytes of the text.
+    offset: usize,
+    /// Where its line begins.
+    line_start: usize,
+    line: usize,
+    column: usize,
+}
+
+const START: Walked = Walked {
+    offset: 0,
+    line_start: 0,
+    line: 1,
+    column: 1,
+};
 
 /// One `name: value` of a section.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +62,8 @@ impl<'a> Reader<'a> {
             file: file.to_owned(),
             text,
             errors: Vec::new(),
+            untold: None,
+            last: Cell::new(START),
             whole: true,
         };
         if let Err(mistake) = check_brackets(text) {
@@ -58,13 +83,18 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     ///
-    /// All of them (up to a hundred), in the order of the file.
+    /// All of them, in the order of the file; of more than a hundred the first that were found, and how many there are.
     pub fn report(&mut self) -> Result<(), PresetErrors> {
         if self.errors.is_empty() {
             return Ok(());
         }
         let mut errors = std::mem::take(&mut self.errors);
         errors.sort_by_key(|e| (e.place.line, e.place.column));
+        if let Some((place, untold)) = self.untold.take() {
+            let all = errors.len() + untold;
+            let message = format!("{} of {all} mistakes are shown, not this one", errors.len());
+            errors.push(PresetError { place, message });
+        }
         Err(PresetErrors(errors))
     }
 
@@ -74,24 +104,34 @@ impl<'a> Reader<'a> {
             let place = self.place(slice);
             let message = message.into();
             self.errors.push(PresetError { place, message });
+        } else if let Some((_, count)) = &mut self.untold {
+            *count += 1;
+        } else {
+            self.untold = Some((self.place(slice), 1));
         }
     }
 
     /// The place where `slice`, a part of the text, begins.
     #[must_use]
     pub fn place(&self, slice: &str) -> Place {
-        let before = &self.text[..self.offset(slice)];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        Place {
-            file: self.file.clone(),
-            line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-            source_line: self.text[line_start..]
-                .lines()
-                .next()
-                .unwrap_or_default()
-                .to_owned(),
+        let offset = self.offset(slice);
+        let mut walked = self.last.get();
+        if offset < walked.offset {
+            walked = START;
         }
+        let passed = &self.text[walked.offset..offset];
+        let mut in_line = passed;
+        if let Some(end) = passed.rfind('\n') {
+            in_line = &passed[end + 1..];
+            walked.line += passed.matches('\n').count();
+            walked.line_start = offset - in_line.len();
+            walked.column = 1;
+        }
+        walked.column += in_line.chars().count();
+        walked.offset = offset;
+        self.last.set(walked);
+        let position = [walked.line, walked.column];
+        Place::new(&self.file, self.text, offset, walked.line_start, position)
     }
 
     /// Where in the text `slice` begins: a pointer difference, 0 for a slice of something else.
@@ -115,12 +155,18 @@ impl<'a> Reader<'a> {
         };
         let mut fields: Vec<Field<'a>> = Vec::new();
         for item in self.items(inside) {
-            self.field(&item, &mut fields);
+            let mut rest = Some(&item[..]);
+            while let Some(item) = rest {
+                rest = self.field(item, &mut fields);
+            }
         }
         let mut names = HashSet::new();
         for field in &fields {
             if !names.insert(field.name) {
-                self.error(field.name, format!("{what} has `{}` twice", field.name));
+                self.error(
+                    field.name,
+                    format!("{what} has `{}` twice", shown(field.name)),
+                );
             }
         }
         fields
@@ -173,25 +219,31 @@ impl<'a> Reader<'a> {
         items
     }
 
-    /// Reads `name: value`, and what follows where its comma is missing.
-    fn field(&mut self, item: &[Piece<'a>], fields: &mut Vec<Field<'a>>) {
+    /// Reads `name: value`. Returns what follows where its comma is missing.
+    fn field<'p>(
+        &mut self,
+        item: &'p [Piece<'a>],
+        fields: &mut Vec<Field<'a>>,
+    ) -> Option<&'p [Piece<'a>]> {
         let name = item[0];
         if name.kind != Kind::Word {
             let message = match (name.kind, item.get(1)) {
                 (Kind::Text, Some(colon)) if colon.kind == Kind::Colon => {
                     format!(
                         "a name has no quotes: {}",
-                        name.text.trim_matches(['"', '\''])
+                        shown(name.text.trim_matches(['"', '\'']))
                     )
                 }
                 _ => format!("expected `name: value`, found `{}`", shown(name.text)),
             };
-            return self.error(name.text, message);
+            self.error(name.text, message);
+            return None;
         }
         let rest = match item.get(1) {
             Some(colon) if colon.kind == Kind::Colon => &item[2..],
             Some(stray) if stray.text == "=" => {
-                let message = format!("write `{}: value`, with `:` in place of `=`", name.text);
+                let name = shown(name.text);
+                let message = format!("write `{name}: value`, with `:` in place of `=`");
                 self.error(stray.text, message);
                 &item[2..]
             }
@@ -212,11 +264,15 @@ impl<'a> Reader<'a> {
                         shown(name.text)
                     )
                 };
-                return self.error(name.text, message);
+                self.error(name.text, message);
+                return None;
             }
         };
         let (value, rest) = match rest {
-            [] => return self.error(name.text, format!("`{}` has no value", shown(name.text))),
+            [] => {
+                self.error(name.text, format!("`{}` has no value", shown(name.text)));
+                return None;
+            }
             // `Some(1)` and `rgb(1, 2, 3)` are one value, and wrong as one.
             [word, group, rest @ ..] if word.kind == Kind::Word && group.kind == Kind::Group => {
                 (between(word.text, group.text, self.text), rest)
@@ -228,7 +284,7 @@ impl<'a> Reader<'a> {
             value,
         });
         match rest {
-            [] => {}
+            [] => None,
             [next, after, ..]
                 if matches!(next.kind, Kind::Word | Kind::Text) && is_assigned(after) =>
             {
@@ -236,13 +292,11 @@ impl<'a> Reader<'a> {
                     next.text,
                     format!("a comma is missing before `{}`", shown(next.text)),
                 );
-                self.field(rest, fields);
+                Some(rest)
             }
             [stray, after @ ..] if stray.text == ";" => {
                 self.error(stray.text, "write `,` in place of `;`");
-                if !after.is_empty() {
-                    self.field(after, fields);
-                }
+                Some(after).filter(|after| !after.is_empty())
             }
             [next, ..] => {
                 let message = format!(
@@ -252,6 +306,7 @@ impl<'a> Reader<'a> {
                     shown(next.text)
                 );
                 self.error(next.text, message);
+                None
             }
         }
     }

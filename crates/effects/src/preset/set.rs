@@ -1,7 +1,7 @@
 //! Setting single parameters from their texts, as `--set` gives them.
 
 use super::error::suggestion;
-use super::value::parse_value;
+use super::value::{parse_value, shown};
 use crate::param::{Param, Values};
 use crate::section::Section;
 
@@ -53,10 +53,11 @@ impl Values {
 
 /// The message for a name that the table of `what` lacks.
 pub(super) fn unknown(name: &str, table: &[Param], what: &str) -> String {
+    let hint = suggestion(name, table.iter().map(|p| p.name));
+    let name = shown(name);
     if table.is_empty() {
         format!("{what} has no `{name}`; it has no parameters")
     } else {
-        let hint = suggestion(name, table.iter().map(|p| p.name));
         format!("{what} has no `{name}`{hint}")
     }
 }

@@ -1,12 +1,34 @@
 //! What can be wrong with a character.
 
+use std::path::PathBuf;
+
+use crate::read::ReadError;
+
 /// Why a character gives no motion.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SkeletonError {
-    /// It is not glTF.
-    #[error("it is not glTF: {0}")]
-    Gltf(#[from] gltf::Error),
+    /// Its JSON is not that of glTF.
+    #[error("it is not glTF: JSON, line {line}, column {column}: {what}")]
+    Json {
+        /// The line of the JSON, 1 first.
+        line: usize,
+        /// The column of it.
+        column: usize,
+        /// What is wrong there.
+        what: String,
+    },
+    /// A `.glb` whose parts don't fit.
+    #[error("it is not glTF: byte {at}: {what}")]
+    Binary {
+        /// Bytes before the place.
+        at: usize,
+        /// What is wrong there.
+        what: &'static str,
+    },
+    /// A version other than 2.
+    #[error("it is of glTF's version {0}, version 2 is read")]
+    Version(String),
     /// There is no such bone.
     #[error("there is no bone `{wanted}`; the nearest names are: {}", .names.join(", "))]
     Bone {
@@ -29,6 +51,16 @@ pub enum SkeletonError {
     /// No animation can be read from the chain of its parents.
     #[error("the bone `{0}` is its own parent, or of no size")]
     Chain(String),
+    /// A node has a child that is not there.
+    #[error("node {node} has the child {child}, and there are {count} nodes, 0 first")]
+    Child {
+        /// The parent's number.
+        node: usize,
+        /// The child's number as the file gives it.
+        child: usize,
+        /// How many nodes there are.
+        count: usize,
+    },
     /// A track of the animation has mistakes.
     #[error("animation {animation}, channel {channel}: {source}")]
     Track {
@@ -41,17 +73,51 @@ pub enum SkeletonError {
     },
 }
 
-/// What is wrong with a channel's numbers.
+/// What is wrong with a channel.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrackError {
-    /// A buffer that cannot be read.
+    /// A part of the file that is not there.
+    #[error("it needs {part} {index}, and there are {count}, 0 first")]
+    Missing {
+        /// What the part is, such as `accessor`.
+        part: &'static str,
+        /// Its number as the file gives it.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A property that nodes don't have.
+    #[error("nodes have no property `{0}` that could move")]
+    Property(String),
+    /// Two channels move the same.
+    #[error("the {0} of its node is moved by another channel too")]
+    Twice(&'static str),
+    /// A buffer whose numbers cannot be had.
     #[error("buffer {buffer}: {why}")]
     Buffer {
         /// Its number.
         buffer: usize,
         /// Why.
         why: String,
+    },
+    /// A buffer's file that cannot be read.
+    #[error("buffer {buffer}: {source}")]
+    File {
+        /// Its number.
+        buffer: usize,
+        /// Why.
+        source: ReadError,
+    },
+    /// A buffer's file that is not beside the character, or below.
+    #[error("buffer {buffer}: `{uri}` is not in the folder of the file that names it, {}", folder.display())]
+    Elsewhere {
+        /// Its number.
+        buffer: usize,
+        /// What the file names.
+        uri: String,
+        /// The folder that files must be in.
+        folder: PathBuf,
     },
     /// Numbers of another kind.
     #[error("accessor {accessor} is not of {wanted} numbers an element")]
@@ -67,6 +133,9 @@ pub enum TrackError {
     /// An accessor that reaches beyond its buffer.
     #[error("accessor {0} reaches beyond its buffer")]
     Outside(usize),
+    /// An accessor that shares so many numbers with others that they would fill the memory.
+    #[error("accessor {0} is one too many: this build reads {most} numbers a bone", most = super::numbers::MOST_NUMBERS)]
+    TooMany(usize),
     /// NaN or infinity.
     #[error("accessor {0} has numbers that are not finite")]
     NotFinite(usize),

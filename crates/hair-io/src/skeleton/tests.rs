@@ -195,8 +195,148 @@ fn broken_files_are_refused() {
             .to_string()
             .contains("must increase")
     );
-    for text in ["", "{", "glTF\0\0\0\0", "[]"] {
+    for text in ["", "{", "[]", "{\"asset\": {}}"] {
         let error = BoneMotion::from_bytes(text.as_bytes(), Path::new(""), "head", None);
-        assert!(matches!(error, Err(SkeletonError::Gltf(_))), "{text}");
+        assert!(matches!(error, Err(SkeletonError::Json { .. })), "{text}");
     }
+}
+
+#[test]
+fn what_a_channel_names_must_be_there() {
+    let rise = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0];
+    let file = character(&[(0, "translation", "LINEAR", &[0.0, 1.0], &rise)]);
+    let channel = "/animations/0/channels/0";
+    let sampler = "/animations/0/samplers/0";
+    for (path, value, expected) in [
+        ("target/node", json!(3), "node 3, and there are 3"),
+        ("sampler", json!(1), "sampler 1, and there are 1"),
+        ("target/path", json!("pointer"), "no property `pointer`"),
+    ] {
+        let mut file = file.clone();
+        *file.pointer_mut(&format!("{channel}/{path}")).unwrap() = value;
+        let message = read(&file, "head", None).unwrap_err().to_string();
+        assert!(message.contains(expected), "{message}");
+    }
+    for (path, value, expected) in [
+        (&*format!("{sampler}/input"), json!(9), "accessor 9"),
+        (
+            &*format!("{sampler}/interpolation"),
+            json!("X"),
+            "variant `X`",
+        ),
+        ("/accessors/0/bufferView", json!(9), "buffer view 9"),
+        ("/bufferViews/0/buffer", json!(9), "buffer 9"),
+        ("/bufferViews/0/byteLength", json!(usize::MAX), "beyond"),
+        ("/nodes/0/children/0", json!(7), "node 0 has the child 7"),
+    ] {
+        let mut file = file.clone();
+        *file.pointer_mut(path).unwrap() = value;
+        let message = read(&file, "head", None).unwrap_err().to_string();
+        assert!(message.contains(expected), "{path}: {message}");
+    }
+    // All numbers at one place: as many as one likes.
+    let mut many = file.clone();
+    many["bufferViews"][0]["byteStride"] = json!(0);
+    many["accessors"][0]["count"] = json!(usize::MAX);
+    let message = read(&many, "head", None).unwrap_err().to_string();
+    assert!(message.contains("accessor 0 is one too many"), "{message}");
+    let mut twice = file.clone();
+    let channels = twice.pointer_mut("/animations/0/channels").unwrap();
+    *channels = json!([channels[0], channels[0]]);
+    let message = read(&twice, "head", None).unwrap_err().to_string();
+    assert!(message.contains("channel 1: the translation of its node is moved by another"));
+}
+
+#[test]
+fn a_pointer_to_a_node_moves_it() {
+    let rise = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0];
+    let mut file = character(&[(0, "translation", "LINEAR", &[0.0, 1.0], &rise)]);
+    let mut point_to = |pointer: &str| {
+        *file.pointer_mut("/animations/0/channels/0/target").unwrap() = json!({
+            "path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}},
+        });
+        read(&file, "head", None)
+    };
+    let motion = point_to("/nodes/0/translation").unwrap();
+    assert_pose(&motion, 1.0, DQuat::IDENTITY, DVec3::Y);
+    let still = point_to("/materials/7/emissiveFactor").unwrap();
+    assert_pose(&still, 1.0, DQuat::IDENTITY, DVec3::ZERO);
+    assert!(point_to("/nodes/7/translation").is_err());
+}
+
+/// A `.glb` of these chunks.
+fn glb(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
+    let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
+    for (kind, chunk) in chunks {
+        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend_from_slice(*kind);
+        bytes.extend_from_slice(chunk);
+    }
+    let length = bytes.len() as u32;
+    bytes[8..12].copy_from_slice(&length.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn a_binary_file_is_read_by_its_chunks() {
+    let rise = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0];
+    let mut file = character(&[(0, "translation", "LINEAR", &[0.0, 1.0], &rise)]);
+    let uri = file.pointer_mut("/buffers/0/uri").unwrap().take();
+    let data = uri.as_str().unwrap().split_once(',').unwrap().1;
+    let data = base64::engine::general_purpose::STANDARD
+        .decode(data)
+        .unwrap();
+    let json = file.to_string();
+    let read = |bytes: &[u8]| BoneMotion::from_bytes(bytes, Path::new(""), "head", None);
+    let whole = glb(&[
+        (b"JSON", json.as_bytes()),
+        (b"what", b"?"),
+        (b"BIN\0", &data),
+    ]);
+    assert_pose(&read(&whole).unwrap(), 1.0, DQuat::IDENTITY, DVec3::Y);
+    let refused = |bytes: &[u8], expected: &str| {
+        let message = read(bytes).unwrap_err().to_string();
+        assert!(message.contains(expected), "{message}");
+    };
+    refused(&glb(&[(b"JSON", json.as_bytes())]), "no binary part");
+    refused(&glb(&[(b"BIN\0", &data)]), "the first chunk is not JSON");
+    refused(&glb(&[]), "the first chunk is not JSON");
+    for end in 4..whole.len() {
+        assert!(read(&whole[..end]).is_err(), "{end}");
+    }
+    for (at, value, expected) in [
+        (4, 1, "version 1"),
+        (8, 3, "the first chunk is not JSON"),
+        (8, u32::MAX, "shorter than its header says"),
+        (12, u32::MAX, "byte 12: a chunk reaches beyond"),
+    ] {
+        let mut broken = whole.clone();
+        broken[at..at + 4].copy_from_slice(&value.to_le_bytes());
+        refused(&broken, expected);
+    }
+}
+
+#[test]
+fn files_of_buffers_are_beside_the_character() {
+    let rise = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0];
+    let mut file = character(&[(0, "translation", "LINEAR", &[0.0, 1.0], &rise)]);
+    let uri = file["buffers"][0]["uri"].as_str().unwrap().to_owned();
+    let data = base64::engine::general_purpose::STANDARD
+        .decode(uri.split_once(',').unwrap().1)
+        .unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("my girl.bin"), data).unwrap();
+    let mut with_uri = |uri: &str| {
+        file["buffers"][0]["uri"] = json!(uri);
+        BoneMotion::from_bytes(file.to_string().as_bytes(), folder.path(), "head", None)
+    };
+    let motion = with_uri("my%20girl.bin").unwrap();
+    assert_pose(&motion, 1.0, DQuat::IDENTITY, DVec3::Y);
+    for uri in ["../my%20girl.bin", "/dev/zero", "file:///dev/zero"] {
+        let message = with_uri(uri).unwrap_err().to_string();
+        let expected = format!("buffer 0: `{uri}` is not in the folder of the file that names it");
+        assert!(message.contains(&expected), "{message}");
+    }
+    let message = with_uri(&"x/".repeat(9999)).unwrap_err().to_string();
+    assert!(message.contains("buffer 0: "), "{message}");
 }

@@ -1,10 +1,10 @@
 //! One property of a node in time, sampled as the glTF 2.0 specification has it (appendix C), without the
 //! platform's sine.
 
+use super::document::{Interpolation, Sampler};
 use super::error::TrackError;
 use super::numbers::Buffers;
 use glam::{DQuat, DVec3};
-use gltf::animation::{Interpolation, Sampler};
 use std::ops::{Add, Mul};
 
 /// A property in time.
@@ -28,7 +28,7 @@ pub(super) trait Value: Copy + Add<Output = Self> + Mul<f64, Output = Self> {
 
 impl Value for DVec3 {
     fn read(sampler: &Sampler, buffers: &mut Buffers) -> Result<Vec<Self>, TrackError> {
-        let numbers = buffers.numbers::<3>(&sampler.output())?;
+        let numbers = buffers.numbers::<3>(sampler.output)?;
         Ok(numbers.into_iter().map(Self::from).collect())
     }
 
@@ -43,7 +43,7 @@ impl Value for DVec3 {
 
 impl Value for DQuat {
     fn read(sampler: &Sampler, buffers: &mut Buffers) -> Result<Vec<Self>, TrackError> {
-        let numbers = buffers.numbers::<4>(&sampler.output())?;
+        let numbers = buffers.numbers::<4>(sampler.output)?;
         Ok(numbers.into_iter().map(Self::from_array).collect())
     }
 
@@ -79,10 +79,10 @@ impl Value for DQuat {
 
 impl<T: Value> Track<T> {
     pub fn read(sampler: &Sampler, buffers: &mut Buffers) -> Result<Self, TrackError> {
-        let times = buffers.numbers::<1>(&sampler.input())?;
+        let times = buffers.numbers::<1>(sampler.input)?;
         let times: Vec<f64> = times.into_iter().map(|[time]| time).collect();
         let values = T::read(sampler, buffers)?;
-        let kind = sampler.interpolation();
+        let kind = sampler.interpolation;
         let of_a_key = if kind == Interpolation::CubicSpline {
             3
         } else {

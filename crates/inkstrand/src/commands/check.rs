@@ -1,7 +1,7 @@
 //! `inkstrand check`: every mistake of every file, with those of the files that presets name.
 
 use super::progress::bar;
-use super::{mistakes, preset_folder, read_preset};
+use super::{mistakes, preset_folder, read_text};
 use crate::paths::file_name;
 use crate::say::say;
 use crate::{Failure, counted};
@@ -87,7 +87,7 @@ fn mistakes_of(path: &Path, registry: &Registry) -> Vec<String> {
         let wrong = check_hair(path).err();
         return wrong.map(|error| error.to_string()).into_iter().collect();
     }
-    let text = match read_preset(path) {
+    let text = match read_text(path) {
         Ok(text) => text,
         Err(message) => return vec![message],
     };

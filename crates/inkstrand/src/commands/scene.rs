@@ -1,6 +1,6 @@
 //! What `render` and `simulate` share: a preset, changed by options, as a scene.
 
-use super::{mistakes, preset_folder, read_preset};
+use super::{mistakes, preset_folder, read_text};
 use crate::Failure;
 use crate::cli::SceneOptions;
 use crate::say::say;
@@ -19,7 +19,7 @@ impl Source {
     pub fn read(path: &Path) -> Result<Self, Failure> {
         Ok(Self {
             name: path.display().to_string(),
-            text: read_preset(path).map_err(Failure::Failed)?,
+            text: read_text(path).map_err(Failure::Failed)?,
         })
     }
 

@@ -8,7 +8,7 @@ use crate::preset::Preset;
 use effects::section::Section as _;
 use effects::{Param, ParamKind, Value};
 use std::fmt;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _};
 use std::path::Path;
 
@@ -232,10 +232,7 @@ impl Hash {
 
     /// A file's bytes; ends of lines as any system writes them.
     fn file(&mut self, path: &Path) -> Result<(), StageError> {
-        let mut bytes = fs::read(path).map_err(|source| StageError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
+        let mut bytes = hair_io::read_bytes(path, hair_io::MOST_OF_DATA)?;
         bytes.retain(|byte| *byte != b'\r');
         self.bytes(&bytes);
         Ok(())

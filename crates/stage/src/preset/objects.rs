@@ -146,10 +146,7 @@ impl<'r> Preset<'r> {
 
     /// Reads the preset of an object.
     fn read_object(&self, path: &Path, named: &NamedObject) -> Result<Preset<'r>, StageError> {
-        let text = std::fs::read_to_string(path).map_err(|source| StageError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
+        let text = hair_io::read_text(path, hair_io::MOST_OF_TEXT)?;
         let preset = match self.registry {
             Some(registry) => Preset::parse(&path.display().to_string(), &text, registry)?,
             None => return Err(StageError::NoObject),

@@ -19,10 +19,7 @@ pub(crate) fn load(
     let own = preset.sections.motion.file.as_ref();
     let mut script = MotionScript::default();
     if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
-        let text = std::fs::read_to_string(&path).map_err(|source| StageError::Read {
-            path: path.clone(),
-            source,
-        })?;
+        let text = hair_io::read_text(&path, hair_io::MOST_OF_TEXT)?;
         script = parse(&path.display().to_string(), &text)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         hair.shapes = shapes::load(preset, &script, folder, hair, mesh)?;

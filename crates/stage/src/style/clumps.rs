@@ -45,7 +45,7 @@ pub(super) fn edit<'a>(reader: &mut Reader<'a>, item: &'a str, zones: &[Zone]) -
     let name = edit.zone.unwrap_or_default();
     let Some(zone) = zones.iter().find(|zone| zone.name == name) else {
         let hint = suggestion(&name, zones.iter().map(|zone| zone.name.as_str()));
-        reader.error(item, format!("there is no zone `{name}` to edit{hint}"));
+        reader.error(item, format!("there is no zone `{name:.40}` to edit{hint}"));
         return None;
     };
     let clump = edit.clump;
@@ -54,13 +54,13 @@ pub(super) fn edit<'a>(reader: &mut Reader<'a>, item: &'a str, zones: &[Zone]) -
         reader.error(
             item,
             format!(
-                "the zone `{name}` has clumps 0 to {}, no {clump}",
+                "the zone `{name:.40}` has clumps 0 to {}, no {clump}",
                 clumps - 1
             ),
         );
     }
     if edit.mirrored && !zone.mirror {
-        reader.error(item, format!("the zone `{name}` has no mirrored half"));
+        reader.error(item, format!("the zone `{name:.40}` has no mirrored half"));
     }
     Some(Edit {
         zone: name,

@@ -126,7 +126,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
     for item in items(&mut reader, &lists, "zones") {
         let zone = zone::zone(&mut reader, item);
         if style.zones.iter().any(|other| other.name == zone.name) {
-            reader.error(item, format!("there is already a zone `{}`", zone.name));
+            reader.error(item, format!("there is already a zone `{:.40}`", zone.name));
         }
         style.zones.push(zone);
     }
