@@ -19,7 +19,7 @@ use indicatif::ProgressBar;
 use looks::Look;
 use painter::Painter;
 use render::cpu::Rasterizer;
-use scenes::{NamedOrder, PART, Scene};
+use scenes::{NamedOrder, PART, Subject};
 use search::{Continuity, Painters};
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -168,7 +168,7 @@ struct OfLook {
 }
 
 impl OfLook {
-    fn measure(scene: &mut Scene, options: &Options) -> Result<Self, String> {
+    fn measure(scene: &mut Subject, options: &Options) -> Result<Self, String> {
         let seconds = times(scene, options)?;
         let still = match &scene.look {
             Some(look) => Some(changes_of_still(look, &scene.orders, options.threads)?),
@@ -179,7 +179,7 @@ impl OfLook {
 }
 
 /// Median times to rasterise the scene's look at its full size, or the scene.
-fn times(scene: &mut Scene, options: &Options) -> Result<Vec<f64>, String> {
+fn times(scene: &mut Subject, options: &Options) -> Result<Vec<f64>, String> {
     let mut look = match &scene.look {
         Some(look) => Some(look.open(None, 1)?),
         None => None,

@@ -113,14 +113,14 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     Ok(measured)
 }
 
-/// Hair that falls from a head on all sides, in waves that `time` moves. Thinner the more strands there are, as hair that is
+/// MadeHair that falls from a head on all sides, in waves that `time` moves. Thinner the more strands there are, as hair that is
 /// combed into more clumps is.
-struct Hair {
+struct MadeHair {
     particles: Vec<Vec3>,
     strands: Vec<StrandInfo>,
 }
 
-impl Hair {
+impl MadeHair {
     fn new(count: usize) -> Self {
         let size = 200.0 / (count as f32).sqrt();
         let info = |i: usize| StrandInfo {
@@ -181,7 +181,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
         layers()?,
         Varied::new(&Values::defaults(clump::Program::PARAMS)),
     );
-    let mut hair = Hair::new(count);
+    let mut hair = MadeHair::new(count);
     let mut paths = Paths::new();
     let mut times = vec![Times::default(); BEFORE.len() + STAGES.len()];
     let mut error = None;

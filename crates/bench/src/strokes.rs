@@ -18,7 +18,7 @@ use contenders::{
 use indicatif::ProgressBar;
 use reference::compare::{self, Difference};
 use render::Order;
-use scenes::Scene;
+use scenes::TestDrawing;
 use stamping::Stamping;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -55,7 +55,7 @@ impl Options {
 pub struct Measured {
     /// A row a method, knob and scene.
     pub rows: Vec<Row>,
-    /// Scene, method, knob and distance from the reference of each picture.
+    /// TestDrawing, method, knob and distance from the reference of each picture.
     pub differences: Vec<(String, String, usize, Difference)>,
     /// The ratios of times.
     pub targets: Vec<Target>,
@@ -130,7 +130,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
 }
 
 /// Everything that draws a scene.
-fn entries(scene: &Scene, options: &Options) -> Result<Vec<Entry>, String> {
+fn entries(scene: &TestDrawing, options: &Options) -> Result<Vec<Entry>, String> {
     let threads = options.threads;
     let mut entries = Vec::new();
     let mut add = |method: String, knob, order, contender: Box<dyn Contender>| {
@@ -218,7 +218,7 @@ fn effort(options: &Options) -> Effort {
 }
 
 fn times(
-    scene: &Scene,
+    scene: &TestDrawing,
     entries: &mut [Entry],
     effort: Effort,
     progress: &ProgressBar,
@@ -242,7 +242,7 @@ fn times(
 
 /// How far the last picture of each is from the reference in its order.
 fn differences(
-    scene: &Scene,
+    scene: &TestDrawing,
     entries: &[Entry],
     grid: u32,
     progress: &ProgressBar,
@@ -272,7 +272,7 @@ fn differences(
     Ok(differences)
 }
 
-fn comments(scenes: &[Scene], options: &Options) -> Vec<String> {
+fn comments(scenes: &[TestDrawing], options: &Options) -> Vec<String> {
     let packages = ["bench", "vello_cpu", "tiny-skia"];
     let mut comments = results::machine(options.threads, &packages);
     let grid = options.grid();

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use glam::Vec3;
-use hair_sim::{Motion, Strands};
+use hair_sim::{PointCache, Strands};
 
 use crate::error::HairError;
 use crate::format::{self, HAIR_FORMATS, HEAD_FORMATS, HairFormat};
@@ -29,7 +29,7 @@ pub struct HairFile {
     /// The strands.
     pub strands: Strands,
     /// Their played-back motion, of the same points, where the file has one.
-    pub motion: Option<Motion>,
+    pub motion: Option<PointCache>,
     /// Sentences to print: what was guessed or left out.
     pub notes: Vec<String>,
 }
@@ -171,7 +171,7 @@ pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<He
 pub fn write_strands(
     path: &Path,
     strands: &Strands,
-    motion: Option<&Motion>,
+    motion: Option<&PointCache>,
 ) -> Result<(), HairError> {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(format!(".{}.part", std::process::id()));

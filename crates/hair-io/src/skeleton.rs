@@ -24,7 +24,7 @@ const MOST_NAMES: usize = 8;
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoneMotion {
     /// From the outermost parent to the bone.
-    chain: Vec<Joint>,
+    chain: Vec<ChainNode>,
     /// Its turn and its place (m) where nothing moves it.
     rest: (DQuat, DVec3),
     /// In s.
@@ -33,7 +33,7 @@ pub struct BoneMotion {
 
 /// A node of the chain: its place in its parent's space, and what moves it.
 #[derive(Clone, Debug, PartialEq)]
-struct Joint {
+struct ChainNode {
     translation: DVec3,
     rotation: DQuat,
     scale: DVec3,
@@ -60,7 +60,7 @@ impl BoneMotion {
         let (number, animation) = find_animation(&document, animation)?;
         let joints = chain
             .iter()
-            .map(|&node| Joint::at_rest(&document.nodes[node]));
+            .map(|&node| ChainNode::at_rest(&document.nodes[node]));
         let mut motion = Self {
             chain: joints.collect(),
             rest: (DQuat::IDENTITY, DVec3::ZERO),
@@ -78,7 +78,7 @@ impl BoneMotion {
                 })?;
             motion.length = motion.length.max(length);
         }
-        let (rotation, place) = motion.pose(Joint::resting);
+        let (rotation, place) = motion.pose(ChainNode::resting);
         if !(rotation.is_finite() && place.is_finite()) {
             return Err(SkeletonError::Chain(bone.to_owned()));
         }
@@ -143,7 +143,7 @@ impl BoneMotion {
     }
 
     /// The bone's turn and place in the world, its joints being so in their parents' spaces.
-    fn pose(&self, local: impl Fn(&Joint) -> DAffine3) -> (DQuat, DVec3) {
+    fn pose(&self, local: impl Fn(&ChainNode) -> DAffine3) -> (DQuat, DVec3) {
         let world =
             (self.chain.iter()).fold(DAffine3::IDENTITY, |world, joint| world * local(joint));
         let (_, rotation, place) = world.to_scale_rotation_translation();
@@ -151,7 +151,7 @@ impl BoneMotion {
     }
 }
 
-impl Joint {
+impl ChainNode {
     fn at_rest(node: &Node) -> Self {
         let (scale, rotation, translation) = match node.matrix {
             Some(matrix) => {

@@ -32,7 +32,7 @@ use std::collections::HashSet;
 use std::fmt::Write;
 
 use glam::Vec3;
-use hair_sim::{Motion, StrandError, Strands};
+use hair_sim::{PointCache, StrandError, Strands};
 use ron::extensions::Extensions;
 use ron::value::RawValue;
 use serde::Deserialize;
@@ -152,7 +152,7 @@ struct Sample<'a> {
 /// # Errors
 ///
 /// When the text is not of the format, or of a newer version. Errors know their line and column.
-pub fn from_text(text: &str) -> Result<(Strands, Option<Motion>), StrandsRonError> {
+pub fn from_text(text: &str) -> Result<(Strands, Option<PointCache>), StrandsRonError> {
     let source = Source { text };
     let document: Document = options()
         .from_str(text)
@@ -198,7 +198,7 @@ pub fn from_text(text: &str) -> Result<(Strands, Option<Motion>), StrandsRonErro
 ///
 /// When the motion is not of these strands' number of points.
 #[must_use]
-pub fn to_text(strands: &Strands, motion: Option<&Motion>) -> String {
+pub fn to_text(strands: &Strands, motion: Option<&PointCache>) -> String {
     let mut text = format!("(version: {VERSION}, strands: [\n");
     for (index, points) in strands.iter().enumerate() {
         text.push('(');
@@ -338,7 +338,7 @@ impl<'a> Source<'a> {
         samples: &[&'a RawValue],
         strands: &Strands,
         mirrored: &[bool],
-    ) -> Result<Option<Motion>, StrandsRonError> {
+    ) -> Result<Option<PointCache>, StrandsRonError> {
         let mut read: Vec<(f32, Vec<Vec3>)> = Vec::with_capacity(samples.len());
         for raw in samples {
             let sample: Sample = self.parse(raw)?;
@@ -365,7 +365,7 @@ impl<'a> Source<'a> {
             }
             read.push((time, positions));
         }
-        let motion = (!read.is_empty()).then(|| Motion::new(read).expect("checked above"));
+        let motion = (!read.is_empty()).then(|| PointCache::new(read).expect("checked above"));
         Ok(motion)
     }
 

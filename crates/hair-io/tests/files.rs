@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use glam::Vec3;
 use hair_io::orient::{Axes, Given};
 use hair_io::{HairError, HairOptions, read_hair, read_head, write_strands};
-use hair_sim::{Motion, Strands};
+use hair_sim::{PointCache, Strands};
 
 /// A fresh folder for one test.
 fn folder(test: &str) -> PathBuf {
@@ -16,7 +16,7 @@ fn folder(test: &str) -> PathBuf {
     folder
 }
 
-fn moving() -> (Strands, Motion) {
+fn moving() -> (Strands, PointCache) {
     let mut strands = Strands::new();
     for i in 0..5 {
         let root = Vec3::new(i as f32 * 0.01, 1.7, 0.0);
@@ -31,7 +31,7 @@ fn moving() -> (Strands, Motion) {
             strands.points().iter().map(|p| *p + Vec3::X * t).collect(),
         )
     };
-    let motion = Motion::new(vec![sample(0.0), sample(0.5), sample(2.0)]).unwrap();
+    let motion = PointCache::new(vec![sample(0.0), sample(0.5), sample(2.0)]).unwrap();
     (strands, motion)
 }
 

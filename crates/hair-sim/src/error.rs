@@ -23,7 +23,7 @@ pub enum DynamicsError {
     Step(f64),
     /// Numbers of the scene are finite.
     #[error("the scene's {0} is not finite")]
-    Scene(&'static str),
+    Surroundings(&'static str),
     /// A number of [`Mutual`](crate::Mutual) has a range.
     #[error("{name} is {value}, and must be from {least} to {most}")]
     Mutual {
@@ -90,5 +90,5 @@ pub enum Reason {
     Goal,
     /// It had no finite motion.
     #[error("it had no finite motion")]
-    Motion,
+    PointCache,
 }

@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use glam::{DQuat, DVec3, Vec3};
-//! use hair_sim::{DynamicsError, Params, Pose, Roots, Scene, Solver, Strands};
+//! use hair_sim::{DynamicsError, Params, Pose, Roots, Surroundings, Solver, Strands};
 //!
 //! // Three strands of 20 links and 20 cm, root first.
 //! let mut rest = Strands::new();
@@ -25,11 +25,11 @@
 //!         rotation: DQuat::from_rotation_x(0.3 * (8.0 * time).sin()),
 //!         translation: DVec3::ZERO,
 //!     };
-//!     let scene = Scene {
+//!     let surroundings = Surroundings {
 //!         roots: Roots::Head(nod),
-//!         ..Scene::default()
+//!         ..Surroundings::default()
 //!     };
-//!     solver.step(&mut state, &scene, 1.0 / 60.0)?;
+//!     solver.step(&mut state, &surroundings, 1.0 / 60.0)?;
 //! }
 //! for strand in 0..rest.len() {
 //!     let points: Vec<DVec3> = solver.points(&state, strand).collect();
@@ -42,7 +42,7 @@
 //! # Dynamics
 //!
 //! [`Solver::new`] takes strands at rest and what they are made of ([`Params`]); [`Solver::step`] advances their
-//! [`State`] by the frame's own time, with what acts on them in a [`Scene`]: roots, gravity, wind, bodies, goals. Strands act on
+//! [`State`] by the frame's own time, with what acts on them in a [`Surroundings`]: roots, gravity, wind, bodies, goals. Strands act on
 //! each other after [`Solver::interact`]. The state is the caller's and decides all that follows, to the bit; the
 //! solver holds constants and scratch.
 //!
@@ -79,15 +79,15 @@ mod error;
 mod forces;
 mod lanes;
 mod math;
-mod motion;
 mod params;
+mod point_cache;
 mod pose;
 mod rest;
-mod scene;
 mod solver;
 mod stats;
 mod strand_solver;
 mod strands;
+mod surroundings;
 mod threads;
 
 pub use collision::{
@@ -96,11 +96,11 @@ pub use collision::{
 };
 pub use error::{DynamicsError, Fault, Reason};
 pub use forces::{mutual::Mutual, wind::Wind};
-pub use motion::{Motion, MotionError, spline::key_weights};
 pub use params::{GRAVITY, Material, Natural, Params, Profile};
+pub use point_cache::{PointCache, PointCacheError, spline::key_weights};
 pub use pose::Pose;
-pub use scene::{Acceleration, Roots, Scene};
 pub use solver::{Solver, State};
 pub use stats::Stats;
 pub use strand_solver::StrandSolver;
 pub use strands::{StrandError, Strands};
+pub use surroundings::{Acceleration, Roots, Surroundings};

@@ -1,6 +1,6 @@
 //! What a strand is made of, in physical units.
 
-/// Standard gravity in m/s^2, the default of [`Scene`](crate::Scene) and the measure in [`Material::from_gamma`].
+/// Standard gravity in m/s^2, the default of [`Surroundings`](crate::Surroundings) and the measure in [`Material::from_gamma`].
 pub const GRAVITY: f64 = 9.81;
 
 /// The section and substance of a strand.

@@ -42,9 +42,9 @@ use crate::{
     lanes::{LANES, Lane, Quat, Vec3 as LaneVec3, instructions::Instructions},
     params::Params,
     rest::RestStrand,
-    scene::{Acceleration, Roots, Scene},
     stats::Stats,
     strands::Strands,
+    surroundings::{Acceleration, Roots, Surroundings},
     threads::join,
 };
 
@@ -97,7 +97,7 @@ fn follow(
     batches: &[Batch],
     states: &[BatchState],
     courses: &mut [Course],
-    scene: &Scene,
+    surroundings: &Surroundings,
     dt: f64,
 ) {
     // A task for fewer of them costs more than they do.
@@ -107,8 +107,8 @@ fn follow(
         let particles: usize = first.iter().map(Batch::count).sum();
         let (these, those) = courses.split_at_mut(particles * LANES);
         join(
-            || follow(first, &states[..half], these, scene, dt),
-            || follow(second, &states[half..], those, scene, dt),
+            || follow(first, &states[..half], these, surroundings, dt),
+            || follow(second, &states[half..], those, surroundings, dt),
         );
         return;
     }
@@ -116,7 +116,7 @@ fn follow(
     for (batch, state) in batches.iter().zip(states) {
         let (own, others) = left.split_at_mut(batch.count() * LANES);
         left = others;
-        let (root, _) = roots(batch, scene);
+        let (root, _) = roots(batch, surroundings);
         for (k, courses) in own.chunks_exact_mut(LANES).enumerate() {
             let (before, now) = (state.root + state.y[k], root + state.y[k] + state.v[k] * dt);
             for (lane, course) in courses.iter_mut().enumerate() {
@@ -261,7 +261,7 @@ impl Solver {
     /// When a number is out of its range, or the state is not of these strands.
     pub fn interact(&mut self, state: &mut State, mutual: &Mutual) -> Result<(), DynamicsError> {
         self.interaction = None;
-        self.check(state, &Scene::default(), 1.0)?;
+        self.check(state, &Surroundings::default(), 1.0)?;
         if let Some((name, value, least, most)) = mutual.out_of_range() {
             return Err(DynamicsError::Mutual {
                 name,
@@ -303,23 +303,25 @@ impl Solver {
     pub fn step(
         &mut self,
         state: &mut State,
-        scene: &Scene,
+        surroundings: &Surroundings,
         dt: f64,
     ) -> Result<Stats, DynamicsError> {
-        self.check(state, scene, dt)?;
+        self.check(state, surroundings, dt)?;
         let instructions = self.instructions;
-        let gusts = [GAMMA, 1.0].map(|share| scene.wind_at(share).at(state.time + share * dt));
-        let acting = scene.fingerprint();
-        let calm = acting == state.last && self.interaction.is_none() && scene.is_calm();
+        let gusts =
+            [GAMMA, 1.0].map(|share| surroundings.wind_at(share).at(state.time + share * dt));
+        let acting = surroundings.fingerprint();
+        let calm = acting == state.last && self.interaction.is_none() && surroundings.is_calm();
         state.last = acting;
         self.guards.clear();
-        self.guards.extend(scene.colliders.iter().map(Guard::new));
+        self.guards
+            .extend(surroundings.colliders.iter().map(Guard::new));
         if let Some(interaction) = &mut self.interaction {
             follow(
                 &self.batches,
                 &state.batches,
                 &mut interaction.courses,
-                scene,
+                surroundings,
                 dt,
             );
         }
@@ -331,17 +333,17 @@ impl Solver {
             dt
         };
         let step = |index: usize, batch: &Batch, state: &mut BatchState, scratch: &mut Scratch| {
-            let (root, base) = roots(batch, scene);
+            let (root, base) = roots(batch, surroundings);
             let drive = Drive {
                 dt,
                 last_dt,
-                scene,
+                surroundings,
                 guards,
                 gusts: &gusts,
                 first_points,
                 root,
                 base,
-                accelerations: accelerations(batch, scene),
+                accelerations: accelerations(batch, surroundings),
                 calm,
                 others: interaction.map(|all| Others {
                     mutual: &all.mutual,
@@ -373,21 +375,26 @@ impl Solver {
     ///
     /// When the poses or the state are invalid. The state is unchanged then.
     pub fn teleport(&self, state: &mut State, to: Roots) -> Result<(), DynamicsError> {
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: to,
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        self.check(state, &scene, 1.0)?;
+        self.check(state, &surroundings, 1.0)?;
         for (batch, state) in self.batches.iter().zip(&mut state.batches) {
-            let (root, base) = roots(batch, &scene);
+            let (root, base) = roots(batch, &surroundings);
             let (root, base) = whole_poses(state, root, base);
             state.teleport(root, base);
         }
         Ok(())
     }
 
-    fn check(&self, state: &State, scene: &Scene, dt: f64) -> Result<(), DynamicsError> {
-        scene.check(dt, self.len(), self.points.iter().sum())?;
+    fn check(
+        &self,
+        state: &State,
+        surroundings: &Surroundings,
+        dt: f64,
+    ) -> Result<(), DynamicsError> {
+        surroundings.check(dt, self.len(), self.points.iter().sum())?;
         let fits = state.layout == layout(&self.places)
             && state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches))
@@ -513,13 +520,13 @@ fn layout(places: &[(usize, usize)]) -> u64 {
 }
 
 /// Root and frame of the skin of every lane in the world.
-fn roots(batch: &Batch, scene: &Scene) -> (LaneVec3, Quat) {
+fn roots(batch: &Batch, surroundings: &Surroundings) -> (LaneVec3, Quat) {
     let (mut root, mut base) = (batch.root, batch.base);
     for lane in 0..LANES {
         let Some(strand) = batch.strands[lane] else {
             continue;
         };
-        let pose = scene.roots.of(strand);
+        let pose = surroundings.roots.of(strand);
         root.set(
             lane,
             pose.translation + pose.rotation * batch.root.get(lane),
@@ -530,8 +537,8 @@ fn roots(batch: &Batch, scene: &Scene) -> (LaneVec3, Quat) {
 }
 
 /// The accelerations of every lane's root at both ends of the step, where they are known.
-fn accelerations(batch: &Batch, scene: &Scene) -> Option<[LaneVec3; 2]> {
-    let (Roots::Head(_), Some(ends)) = (scene.roots, scene.acceleration) else {
+fn accelerations(batch: &Batch, surroundings: &Surroundings) -> Option<[LaneVec3; 2]> {
+    let (Roots::Head(_), Some(ends)) = (surroundings.roots, surroundings.acceleration) else {
         return None;
     };
     let of_roots = |end: Acceleration| {
@@ -600,7 +607,7 @@ mod tests {
                 before: head(i),
                 now: head(i + 1),
             }];
-            let scene = Scene {
+            let surroundings = Surroundings {
                 roots: Roots::Head(head(i + 1)),
                 gravity: DVec3::new(f64::from(i % 5), -GRAVITY, 0.0),
                 wind: Wind {
@@ -609,10 +616,10 @@ mod tests {
                 },
                 colliders: if everything { &colliders } else { &[] },
                 goal: everything.then_some(&goal[..]),
-                ..Scene::default()
+                ..Surroundings::default()
             };
             let start = Instant::now();
-            let stats = solver.step(&mut state, &scene, 1.0 / 60.0).unwrap();
+            let stats = solver.step(&mut state, &surroundings, 1.0 / 60.0).unwrap();
             shortest = shortest.min(start.elapsed());
             sum = sum.plus(stats);
         }

@@ -4,9 +4,9 @@ use glam::{DQuat, DVec3};
 
 use crate::{
     error::DynamicsError,
-    scene::{Roots, Scene},
     solver::{Solver, State},
     stats::Stats,
+    surroundings::{Roots, Surroundings},
 };
 
 /// A solver of strands: constants and scratch, apart from the state that it advances.
@@ -25,7 +25,7 @@ pub trait StrandSolver {
     fn step(
         &mut self,
         state: &mut Self::State,
-        scene: &Scene,
+        surroundings: &Surroundings,
         dt: f64,
     ) -> Result<Stats, DynamicsError>;
 
@@ -54,8 +54,13 @@ pub trait StrandSolver {
 impl StrandSolver for Solver {
     type State = State;
 
-    fn step(&mut self, state: &mut State, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError> {
-        Self::step(self, state, scene, dt)
+    fn step(
+        &mut self,
+        state: &mut State,
+        surroundings: &Surroundings,
+        dt: f64,
+    ) -> Result<Stats, DynamicsError> {
+        Self::step(self, state, surroundings, dt)
     }
 
     fn teleport(&self, state: &mut State, to: Roots) -> Result<(), DynamicsError> {

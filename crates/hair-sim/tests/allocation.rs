@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
-    Collider, Mutual, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Strands, Wind,
+    Collider, Mutual, Params, Pose, Profile, Roots, Shape, Solver, State, Strands, Surroundings,
+    Wind,
 };
 
 /// The system's allocator, counting.
@@ -100,7 +101,7 @@ fn run(
             before: head(step),
             now: head(step + 1),
         }];
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Head(head(step + 1)),
             wind: Wind {
                 steady: DVec3::new(2.0, 0.0, -3.0),
@@ -109,9 +110,9 @@ fn run(
             },
             colliders: &colliders,
             goal: Some(goal),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        let stats = solver.step(state, &scene, 1.0 / 24.0).unwrap();
+        let stats = solver.step(state, &surroundings, 1.0 / 24.0).unwrap();
         happened.contacts += stats.contacts;
         happened.wind += stats.wind;
         happened.links += stats.links;

@@ -5,8 +5,8 @@
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::compare::{MassSpring, Rod, Xpbd, Zigzag};
 use hair_sim::{
-    Collider, Material, Natural, Params, Pose, Profile, Roots, Scene, Shape, Solver, StrandSolver,
-    Strands, Wind,
+    Collider, Material, Natural, Params, Pose, Profile, Roots, Shape, Solver, StrandSolver,
+    Strands, Surroundings, Wind,
 };
 
 const LENGTH: f64 = 0.2;
@@ -54,11 +54,11 @@ fn mass_spring(params: &Params, substeps: u32) -> (MassSpring, Vec<Zigzag>) {
 fn run<S: StrandSolver>(
     solver: &mut S,
     state: &mut S::State,
-    scene: &Scene,
+    surroundings: &Surroundings,
     steps: usize,
 ) -> Vec<DVec3> {
     for _ in 0..steps {
-        solver.step(state, scene, 1.0 / 24.0).unwrap();
+        solver.step(state, surroundings, 1.0 / 24.0).unwrap();
     }
     points(solver, state)
 }
@@ -76,12 +76,12 @@ fn farthest(a: &[DVec3], b: &[DVec3]) -> f64 {
 #[test]
 fn without_gravity_a_style_stays_as_it_is() {
     fn stays<S: StrandSolver>((mut solver, mut state): (S, S::State)) {
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::ZERO,
-            ..Scene::default()
+            ..Surroundings::default()
         };
         let start = points(&solver, &state);
-        let error = farthest(&run(&mut solver, &mut state, &scene, 48), &start);
+        let error = farthest(&run(&mut solver, &mut state, &surroundings, 48), &start);
         assert!(error < 1e-12, "{error}");
     }
     let styled = Params {
@@ -99,16 +99,16 @@ fn more_substeps_come_nearer_to_the_own_solver() {
         natural: Natural::Styled,
         ..params()
     };
-    let scene = Scene::default();
+    let surroundings = Surroundings::default();
     let (mut own, mut state) = Solver::new(&arch(), &styled).unwrap();
     let mut truth = Vec::new();
     for _ in 0..24 * 16 {
-        own.step(&mut state, &scene, 1.0 / 384.0).unwrap();
+        own.step(&mut state, &surroundings, 1.0 / 384.0).unwrap();
         truth = points(&own, &state);
     }
     let errors = [16, 64, 512].map(|substeps| {
         let (mut solver, mut rods) = xpbd(&styled, substeps);
-        farthest(&run(&mut solver, &mut rods, &scene, 24), &truth) / LENGTH
+        farthest(&run(&mut solver, &mut rods, &surroundings, 24), &truth) / LENGTH
     });
     assert!(errors[1] < errors[0] && errors[2] < errors[1], "{errors:?}");
     assert!(errors[2] < 0.05, "{errors:?}");
@@ -116,7 +116,7 @@ fn more_substeps_come_nearer_to_the_own_solver() {
     // Springs are not rods: an error is left, however fine the steps.
     let errors = [1, 8, 64].map(|substeps| {
         let (mut solver, mut state) = mass_spring(&styled, substeps);
-        farthest(&run(&mut solver, &mut state, &scene, 24), &truth) / LENGTH
+        farthest(&run(&mut solver, &mut state, &surroundings, 24), &truth) / LENGTH
     });
     println!("mass-spring: {errors:.4?}");
     assert!(errors[1] < errors[0] && errors[2] < 0.2, "{errors:?}");
@@ -128,13 +128,16 @@ fn a_balanced_style_hangs_nearly_as_it_was_styled() {
     let errors = [64, 256].map(|substeps| {
         let (mut solver, mut rods) = xpbd(&params(), substeps);
         let start = points(&solver, &rods);
-        farthest(&run(&mut solver, &mut rods, &Scene::default(), 48), &start) / LENGTH
+        farthest(
+            &run(&mut solver, &mut rods, &Surroundings::default(), 48),
+            &start,
+        ) / LENGTH
     });
     assert!(errors[1] < errors[0] && errors[1] < 0.04, "{errors:?}");
 
     let (mut solver, mut state) = mass_spring(&params(), 4);
     let start = points(&solver, &state);
-    let hung = run(&mut solver, &mut state, &Scene::default(), 240);
+    let hung = run(&mut solver, &mut state, &Surroundings::default(), 240);
     let error = farthest(&hung, &start) / LENGTH;
     println!("mass-spring: {error:.1e}");
     assert!(error < 1e-6, "{error}");
@@ -156,21 +159,21 @@ fn all_act<S: StrandSolver>(solver: impl Fn(&Params) -> (S, S::State)) {
         goal: Profile::constant(1e6),
         ..params()
     };
-    let scene = Scene {
+    let surroundings = Surroundings {
         goal: Some(&goal),
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let (mut simulation, mut state) = solver(&pulled);
     let at: Vec<DVec3> = goal[..17].iter().map(|p| p.as_dvec3()).collect();
-    let error = farthest(&run(&mut simulation, &mut state, &scene, 24), &at);
+    let error = farthest(&run(&mut simulation, &mut state, &surroundings, 24), &at);
     assert!(error < 0.005, "{error}");
 
-    let blown = Scene {
+    let blown = Surroundings {
         wind: Wind {
             steady: DVec3::Z * 4.0,
             ..Wind::default()
         },
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let (mut simulation, mut state) = solver(&params());
     let start = points(&simulation, &state);
@@ -190,15 +193,15 @@ fn all_act<S: StrandSolver>(solver: impl Fn(&Params) -> (S, S::State)) {
         thickness: 1e-3,
         ..params()
     };
-    let scene = Scene {
+    let surroundings = Surroundings {
         colliders: &[ball],
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let (mut simulation, mut state) = solver(&limp);
     let mut touched = 0;
     for _ in 0..48 {
         touched += simulation
-            .step(&mut state, &scene, 1.0 / 24.0)
+            .step(&mut state, &surroundings, 1.0 / 24.0)
             .unwrap()
             .contacts;
         for point in simulation.points(&state, 0) {
@@ -216,11 +219,11 @@ fn links_keep_their_length_nearly_and_frames_follow_them() {
 }
 
 fn links_keep_their_length<S: StrandSolver>((mut solver, mut state): (S, S::State), most: f64) {
-    let scene = Scene {
+    let surroundings = Surroundings {
         gravity: DVec3::new(9.0, 3.0, -4.0),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    let points = run(&mut solver, &mut state, &scene, 12);
+    let points = run(&mut solver, &mut state, &surroundings, 12);
     let frames = solver.frames(&state, 0);
     for (link, frame) in points.windows(2).zip(frames) {
         let edge = link[1] - link[0];
@@ -252,18 +255,18 @@ fn a_teleport_carries_all_along_and_bad_scenes_are_refused() {
 
 fn teleports_and_refuses<S: StrandSolver + Clone>(start: (S, S::State)) {
     let (mut solver, mut here) = start.clone();
-    run(&mut solver, &mut here, &Scene::default(), 3);
+    run(&mut solver, &mut here, &Surroundings::default(), 3);
     let mut there = here.clone();
     let pose = Pose {
         rotation: DQuat::from_rotation_y(2.0),
         translation: DVec3::new(5.0, 0.0, -3.0),
     };
     solver.teleport(&mut there, Roots::Head(pose)).unwrap();
-    let moved = Scene {
+    let moved = Surroundings {
         roots: Roots::Head(pose),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    let here = run(&mut solver, &mut here, &Scene::default(), 12);
+    let here = run(&mut solver, &mut here, &Surroundings::default(), 12);
     let there = run(&mut solver, &mut there, &moved, 12);
     let carried: Vec<DVec3> = here
         .iter()
@@ -273,33 +276,33 @@ fn teleports_and_refuses<S: StrandSolver + Clone>(start: (S, S::State)) {
     assert!(error < 1e-9, "{error}");
 
     let (mut solver, mut state) = start;
-    let mut refused = |scene: Scene, expected: &str| {
+    let mut refused = |surroundings: Surroundings, expected: &str| {
         let error = solver
-            .step(&mut state, &scene, 0.1)
+            .step(&mut state, &surroundings, 0.1)
             .unwrap_err()
             .to_string();
         assert!(error.contains(expected), "{error}");
     };
     let goal = Some(&[Vec3::ZERO][..]);
     refused(
-        Scene {
+        Surroundings {
             goal,
-            ..Scene::default()
+            ..Surroundings::default()
         },
         "goals for 1 points; the strands have 34",
     );
     refused(
-        Scene {
+        Surroundings {
             roots: Roots::Each(&[pose]),
-            ..Scene::default()
+            ..Surroundings::default()
         },
         "1 poses for 2 strands",
     );
     let gravity = DVec3::NAN;
     refused(
-        Scene {
+        Surroundings {
             gravity,
-            ..Scene::default()
+            ..Surroundings::default()
         },
         "gravity is not finite",
     );
@@ -320,11 +323,11 @@ fn follow<S: StrandSolver>((mut solver, mut state): (S, S::State)) {
         rotation: DQuat::IDENTITY,
         translation: DVec3::Y,
     };
-    let scene = Scene {
+    let surroundings = Surroundings {
         roots: Roots::Head(pose),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    let stats = solver.step(&mut state, &scene, 0.1).unwrap();
+    let stats = solver.step(&mut state, &surroundings, 0.1).unwrap();
     assert!(stats.set_aside > 0, "{stats:?}");
     for (strand, points) in [1, 4].into_iter().enumerate() {
         let found: Vec<DVec3> = solver.points(&state, strand).collect();
@@ -371,15 +374,15 @@ fn springs_of_odd_strands_stay_finite() {
                 rotation: DQuat::from_rotation_y(f64::from(i)),
                 translation: DVec3::Y * f64::from(i % 5),
             };
-            let scene = Scene {
+            let surroundings = Surroundings {
                 roots: Roots::Head(pose),
                 wind: Wind {
                     gust: 100.0,
                     ..Wind::default()
                 },
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            let stats = solver.step(&mut state, &scene, 0.1).unwrap();
+            let stats = solver.step(&mut state, &surroundings, 0.1).unwrap();
             for strand in 0..odd.len() {
                 let mut points = solver.points(&state, strand);
                 assert!(points.all(|p| p.is_finite()), "{gamma}: {stats:?}");

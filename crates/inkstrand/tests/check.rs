@@ -86,7 +86,7 @@ fn check_and_render_say_the_same() {
         (
             "head: (file: \"cut.obj\"), hair: (file: \"cut.tfx\"),",
             base,
-            "look.ron:2:14: file: cut.obj: ",
+            "look.ron:2:14: file: cut.obj:1: a vertex",
         ),
         (
             "hair: (file: \"small.strands.ron\", bake: \"small.strands.ron\"),",
@@ -131,7 +131,7 @@ fn check_and_render_say_the_same() {
     fs::write(folder.path().join("look.ron"), text).unwrap();
     let (_, checked) = told(&folder, "check");
     assert!(
-        checked.contains("cut.obj: ")
+        checked.contains("cut.obj:1: ")
             && checked.contains("cut.tfx: ")
             && checked.contains("2 mistakes"),
         "{checked}"

@@ -37,22 +37,22 @@
 //!
 //! Every sample asks every stroke near it the three questions of `segment`: does a disc of the
 //! sweep cover me, how near is the nearest disc that does, and which axis point lends its colour.
-//! `scene` puts the answers in order. Nothing is shared with the rasterisers but the data types,
+//! `candidates` puts the answers in order. Nothing is shared with the rasterisers but the data types,
 //! so that agreement means something.
 //!
 //! Where the conventions leave a choice among exact equals: of axis points equally near the first
 //! along the strand lends its colour, of surfaces equally near the first triangle is seen, and a
 //! stroke exactly as deep as a surface is in front of it.
 
+mod candidates;
 pub mod compare;
-mod scene;
 mod segment;
 mod triangle;
 
+use candidates::Candidates;
 use glam::DVec2;
 use rayon::prelude::*;
 use render::{Drawing, Picture};
-use scene::Scene;
 
 /// The reference picture with `grid` x `grid` samples in each pixel, at the centres of a regular
 /// grid. 16 is the reference of every measured error; a transparent picture where `grid` is 0.
@@ -77,7 +77,7 @@ pub fn picture(drawing: &Drawing, grid: u32) -> Picture {
 /// If the drawing's lists are shorter than its runs and triangles say.
 pub fn picture_at(drawing: &Drawing, positions: &[DVec2]) -> Picture {
     let [width, height] = drawing.size;
-    let scene = Scene::new(drawing);
+    let scene = Candidates::new(drawing);
     let pixels = (0..height)
         .into_par_iter()
         .flat_map_iter(|y| row(&scene, width, y, positions))
@@ -90,7 +90,7 @@ pub fn picture_at(drawing: &Drawing, positions: &[DVec2]) -> Picture {
 }
 
 /// The pixels of row `y`, from the left.
-fn row(scene: &Scene, width: u32, y: u32, positions: &[DVec2]) -> Vec<[f32; 4]> {
+fn row(scene: &Candidates, width: u32, y: u32, positions: &[DVec2]) -> Vec<[f32; 4]> {
     let upper_left = DVec2::new(0.0, f64::from(y));
     let scene = scene.within(upper_left, DVec2::new(f64::from(width), f64::from(y) + 1.0));
     (0..width)
@@ -99,7 +99,7 @@ fn row(scene: &Scene, width: u32, y: u32, positions: &[DVec2]) -> Vec<[f32; 4]> 
 }
 
 /// The mean of the samples of the pixel whose upper left corner is `corner`.
-fn pixel(scene: &Scene, corner: DVec2, positions: &[DVec2]) -> [f32; 4] {
+fn pixel(scene: &Candidates, corner: DVec2, positions: &[DVec2]) -> [f32; 4] {
     let scene = scene.within(corner, corner + 1.0);
     let mut sum = [0.0; 4];
     for position in positions {

@@ -33,14 +33,14 @@ impl Depth {
 
 /// The disc and colour at one joint.
 #[derive(Clone, Copy, Debug)]
-struct Joint {
+struct ColoredDisc {
     center: DVec2,
     radius: f64,
     depth: Depth,
     color: [f64; 3],
 }
 
-impl Joint {
+impl ColoredDisc {
     fn new(disc: &Disc, color: [f32; 3]) -> Self {
         Self {
             center: disc.center.as_dvec2(),
@@ -62,8 +62,8 @@ impl Joint {
 /// The discs from one joint (t = 0) to the next (t = 1), everything linear in t.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment {
-    from: Joint,
-    to: Joint,
+    from: ColoredDisc,
+    to: ColoredDisc,
     brush: Brush,
 }
 
@@ -73,8 +73,8 @@ impl Segment {
     pub fn new(discs: [&Disc; 2], colors: [[f32; 3]; 2], brush: Brush) -> Self {
         let is_somewhere_else = discs[0].center != discs[1].center;
         Self {
-            from: Joint::new(discs[0], colors[0]),
-            to: Joint::new(discs[1], colors[1]),
+            from: ColoredDisc::new(discs[0], colors[0]),
+            to: ColoredDisc::new(discs[1], colors[1]),
             brush: if is_somewhere_else {
                 brush
             } else {
@@ -120,8 +120,8 @@ impl Segment {
         (self.brush == Brush::Semicircle).then(|| p.dot(d) / d.length_squared())
     }
 
-    fn disc(&self, t: f64) -> Joint {
-        Joint {
+    fn disc(&self, t: f64) -> ColoredDisc {
+        ColoredDisc {
             center: self.from.center.lerp(self.to.center, t),
             radius: mix(self.from.radius, self.to.radius, t),
             ..self.from

@@ -37,7 +37,7 @@ use rayon::prelude::*;
 use segment::{Segments, Stroke};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-use strand::{Part, Scene, StrandPlanes};
+use strand::{Part, StrandPlanes, TileContext};
 use surface::Triangle;
 use tile::{Sums, Target};
 
@@ -261,7 +261,7 @@ impl Worker {
         self.sums.clear();
         let background = frame.drawing.background;
         let segments_of_tile = self.segments_of_tiles.bin(tile);
-        let mut scene = Scene {
+        let mut scene = TileContext {
             order: frame.drawing.order,
             edge_depth_m: frame.drawing.edge_depth_m,
             strokes: frame.strokes,

@@ -9,7 +9,7 @@ use crate::preset::Preset;
 use crate::scene::Scene;
 use glam::Vec3;
 use hair_io::{HairOptions, orient};
-use hair_sim::{Motion, Strands};
+use hair_sim::{PointCache, Strands};
 use moved_by::MovedBy;
 use render::StrandInfo;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ impl Bake {
         for (i, info) in infos.iter().enumerate() {
             sized.push(info.id, strands.strand(i), Some(info.size))?;
         }
-        let motion = Motion::new(self.samples).map_err(StageError::Bake)?;
+        let motion = PointCache::new(self.samples).map_err(StageError::Bake)?;
         let header = self.moved_by.map(|moved_by| moved_by.to_string());
         let strands = hair_io::strands_ron::to_text(&sized, Some(&motion));
         Ok(header.unwrap_or_default() + &strands)
@@ -109,7 +109,7 @@ pub(crate) fn load(
 }
 
 /// Reads a bake of these strands.
-fn read(path: &Path, own: &Strands) -> Result<Motion, StageError> {
+fn read(path: &Path, own: &Strands) -> Result<PointCache, StageError> {
     let given = orient::Given {
         up: Some(orient::Axes::Y),
         scale: Some(1.0),

@@ -120,10 +120,10 @@ pub enum StageError {
     },
     /// Frames that make no motion.
     #[error("bake: {0}")]
-    Bake(hair_sim::MotionError),
+    Bake(hair_sim::PointCacheError),
     /// Key shapes that make no motion.
     #[error("shapes: {0}")]
-    Shapes(hair_sim::MotionError),
+    Shapes(hair_sim::PointCacheError),
     /// The camera cannot look like that.
     #[error(transparent)]
     Camera(#[from] stroke_path::CameraError),

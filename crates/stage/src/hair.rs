@@ -7,7 +7,7 @@ use crate::reach::reach_m;
 use glam::Vec3;
 use groom::{Guides, Tie};
 use hair_io::{HairFile, HeadFrame, Mesh};
-use hair_sim::{Motion, Strands};
+use hair_sim::{PointCache, Strands};
 use render::{Head, StrandInfo};
 use std::path::PathBuf;
 
@@ -22,7 +22,7 @@ pub struct HairModel {
     /// How many points from its root each strand keeps on the head.
     pub(crate) held: Vec<u32>,
     /// The shapes that a script wants of it at times.
-    pub(crate) shapes: Option<Motion>,
+    pub(crate) shapes: Option<PointCache>,
     /// The bake that its file's motion is of.
     pub(crate) bake: Option<PathBuf>,
     /// The ties that gather it.

@@ -9,7 +9,7 @@ use crate::script::{KeyShape, MotionScript};
 use effects::preset::{PresetError, PresetErrors};
 use glam::Vec3;
 use hair_io::Mesh;
-use hair_sim::{Motion, Strands};
+use hair_sim::{PointCache, Strands};
 use std::path::Path;
 
 /// The most points that all shapes of a script have together: 0.75 GiB of them.
@@ -28,7 +28,7 @@ pub(crate) fn load(
     folder: &Path,
     hair: &HairModel,
     head: Option<&Mesh>,
-) -> Result<Option<Motion>, StageError> {
+) -> Result<Option<PointCache>, StageError> {
     let points = hair.file.strands.points().len().max(1);
     if let Some(key) = script.shapes.get(MOST_POINTS / points) {
         let message = format!(
@@ -60,7 +60,7 @@ pub(crate) fn load(
     if samples.is_empty() {
         return Ok(None);
     }
-    Ok(Some(Motion::new(samples).map_err(StageError::Shapes)?))
+    Ok(Some(PointCache::new(samples).map_err(StageError::Shapes)?))
 }
 
 /// The points of one shape, or what is wrong with its file's name or strands.

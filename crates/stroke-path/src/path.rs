@@ -69,12 +69,12 @@ pub struct Paths {
     /// Pieces so far, less one for each strand.
     cut: usize,
     /// The strand in work, before clipping.
-    whole: Vec<Joint>,
+    whole: Vec<WorldJoint>,
 }
 
 /// What is known of a joint before it is projected.
 #[derive(Clone, Copy, Debug)]
-struct Joint {
+struct WorldJoint {
     position: Vec3,
     view: Vec3,
     u: f32,
@@ -176,7 +176,7 @@ impl Paths {
         }
         self.find_directions();
         let (runs, joints) = (self.runs.len(), self.len());
-        let mut finite = self.whole.iter().all(Joint::is_finite);
+        let mut finite = self.whole.iter().all(WorldJoint::is_finite);
         if finite {
             for number in 0..=cuts.len() {
                 let before = number.checked_sub(1).map(|i| &cuts[i]);
@@ -209,7 +209,7 @@ impl Paths {
         for (j, position) in positions.enumerate() {
             let before = self.whole.last();
             let arc_length = before.map_or(0.0, |b| b.arc_length + b.position.distance(position));
-            self.whole.push(Joint {
+            self.whole.push(WorldJoint {
                 position,
                 view: camera.view_from_world(position),
                 u: (j as f64 / last.max(1) as f64) as f32,
@@ -329,7 +329,7 @@ impl Paths {
     }
 
     /// Projects a joint of the run from joint `start` on, and appends it.
-    fn push_joint(&mut self, joint: &Joint, start: usize, camera: &Camera) {
+    fn push_joint(&mut self, joint: &WorldJoint, start: usize, camera: &Camera) {
         let across = joint.across(camera);
         let previous = self.across[start..].last().copied().unwrap_or(Vec2::X);
         self.across.push(across.unwrap_or(previous));
@@ -365,7 +365,7 @@ fn thinned(near_distances: f32) -> f32 {
     (t * t * (3.0 - 2.0 * t)).max(1e-3)
 }
 
-impl Joint {
+impl WorldJoint {
     fn is_finite(&self) -> bool {
         self.position.is_finite() && self.view.is_finite() && self.arc_length.is_finite()
     }

@@ -29,7 +29,7 @@ const QUICK: [&str; 4] = [
 pub const PART: u32 = 2;
 
 /// Something that is looked at, and when.
-pub struct Scene {
+pub struct Subject {
     /// In the table: look and motion.
     pub name: String,
     /// Whose figures are held to something, and to what.
@@ -44,7 +44,7 @@ pub struct Scene {
     pub orders: Vec<NamedOrder>,
 }
 
-impl Scene {
+impl Subject {
     /// The name of its look.
     #[must_use]
     pub fn look_name(&self) -> Option<&String> {
@@ -63,7 +63,7 @@ pub fn scenes(
     data: Option<&Path>,
     quick: bool,
     only: &str,
-) -> Result<Vec<Scene>, String> {
+) -> Result<Vec<Subject>, String> {
     let mut scenes = Vec::new();
     let mut orders = ORDERS.to_vec();
     if quick {
@@ -73,7 +73,7 @@ pub fn scenes(
     let start: Vec<_> = std::iter::once(0..TICKS / if quick { 8 } else { 2 }).collect();
     for (name, kind, open) in Strands::ALL {
         if wanted(name) {
-            scenes.push(Scene {
+            scenes.push(Subject {
                 name: name.to_owned(),
                 kind,
                 windows: start.clone(),
@@ -91,7 +91,7 @@ pub fn scenes(
             let name = format!("{}-{}", look.name, motion.name());
             let is_quick = !only.is_empty() || QUICK.contains(&name.as_str());
             if wanted(&name) && (!quick || is_quick) {
-                scenes.push(Scene {
+                scenes.push(Subject {
                     name,
                     kind: Kind::Hair,
                     windows: motion.windows(quick),

@@ -6,7 +6,7 @@
 
 use super::animation::Tick;
 use super::painter::Painter;
-use super::scenes::Scene;
+use super::scenes::Subject;
 use super::tiles::{HairTiles, TILE, corner, difference};
 use glam::Vec2;
 use render::Picture;
@@ -125,7 +125,7 @@ pub struct Motion(pub [f64; 2]);
 ///
 /// When a frame can't be made or drawn.
 pub fn measure(
-    scene: &mut Scene,
+    scene: &mut Subject,
     painters: &mut Painters,
     effort: Effort,
     mut done: impl FnMut(),
@@ -148,12 +148,12 @@ pub fn measure(
 
 /// How often [`measure`] calls `done`.
 #[must_use]
-pub fn length(scene: &Scene) -> usize {
+pub fn length(scene: &Subject) -> usize {
     2 * starts(scene).len()
 }
 
 /// The first ticks of all intervals of 1/384 s.
-fn starts(scene: &Scene) -> Vec<Tick> {
+fn starts(scene: &Subject) -> Vec<Tick> {
     let windows = scene.windows.iter().cloned();
     windows
         .flat_map(|window| window.step_by(LONG as usize))
@@ -172,7 +172,7 @@ struct Glance {
 }
 
 fn glance(
-    scene: &mut Scene,
+    scene: &mut Subject,
     painters: &mut Painters,
     done: &mut impl FnMut(),
 ) -> Result<(Vec<Glance>, Motion), String> {
@@ -208,7 +208,7 @@ struct Moment {
 }
 
 impl Moment {
-    fn new(scene: &mut Scene, painters: &mut Painters, tick: Tick) -> Result<Self, String> {
+    fn new(scene: &mut Subject, painters: &mut Painters, tick: Tick) -> Result<Self, String> {
         let mut frame = scene.animation.at(tick)?;
         let mut pictures = Vec::new();
         for (_, order) in &scene.orders {
@@ -330,7 +330,7 @@ struct Pictures {
 
 /// Draws what is wanted of an interval.
 fn refine(
-    scene: &mut Scene,
+    scene: &mut Subject,
     painters: &mut Painters,
     start: Tick,
     wanted: &[Wanted],
@@ -447,7 +447,7 @@ mod tests {
     /// What an order's pictures of a scene of strands show in a time.
     fn measured(name: &str, window: std::ops::Range<Tick>, order: Order) -> Continuity {
         let (_, kind, open) = Strands::ALL.iter().find(|of| of.0 == name).unwrap();
-        let mut scene = Scene {
+        let mut scene = Subject {
             name: name.to_owned(),
             kind: *kind,
             windows: vec![window.clone()],

@@ -3,7 +3,7 @@
 use super::NamedOrder;
 use super::animation::{TICKS, Tick};
 use super::painter::Painter;
-use super::scenes::Scene;
+use super::scenes::Subject;
 use glam::Vec2;
 use render::{Frame, Order, Picture};
 
@@ -22,7 +22,7 @@ const REACH: f32 = 256.0;
 /// # Errors
 ///
 /// When a frame can't be made or drawn.
-pub fn measure(scene: &mut Scene, threads: usize) -> Result<Vec<[Option<f64>; 2]>, String> {
+pub fn measure(scene: &mut Subject, threads: usize) -> Result<Vec<[Option<f64>; 2]>, String> {
     let mut motion_painter = Painter::new(1, threads)?;
     let mut painters = Vec::new();
     for samples in SAMPLES {

@@ -2,7 +2,7 @@
 
 use super::rods::{Rods, Strand};
 use glam::DVec3;
-use hair_sim::{Pose, Scene, compare};
+use hair_sim::{Pose, Surroundings, compare};
 
 /// One strand.
 #[derive(Clone, Debug)]
@@ -18,13 +18,13 @@ impl Truss {
     /// Kinetic energy and that of weight and springs without altitudes, per linear density, in m^3/s^2.
     #[must_use]
     pub fn energy(&self) -> f64 {
-        self.0.energy(Scene::default().gravity)
+        self.0.energy(Surroundings::default().gravity)
     }
 }
 
 impl Strand for Truss {
     fn step(&mut self, dt: f64, head: Pose) {
-        self.0.step(&Scene::default(), head, dt, 1);
+        self.0.step(&Surroundings::default(), head, dt, 1);
     }
 
     fn points(&self) -> Vec<DVec3> {

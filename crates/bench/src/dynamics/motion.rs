@@ -9,8 +9,8 @@ use crate::results::Row;
 use crate::timing::{Effort, shortest};
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
-    Collider, Mutual, Natural, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Stats,
-    Strands, Wind,
+    Collider, Mutual, Natural, Params, Pose, Profile, Roots, Shape, Solver, State, Stats, Strands,
+    Surroundings, Wind,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::rc::Rc;
@@ -166,7 +166,7 @@ impl Moving for Full {
             before,
             now,
         }];
-        let scene = Scene {
+        let scene = Surroundings {
             roots: Roots::Head(now),
             wind: Wind {
                 steady: DVec3::new(0.0, 0.0, -3.0),
@@ -174,7 +174,7 @@ impl Moving for Full {
                 ..Wind::default()
             },
             colliders: &colliders,
-            ..Scene::default()
+            ..Surroundings::default()
         };
         let stats = self.solver.step(&mut self.state, &scene, DT);
         let stats = stats.map_err(|error| error.to_string())?;

@@ -2,7 +2,7 @@
 
 use super::rods::{Rods, Simulation};
 use glam::DVec3;
-use hair_sim::{Pose, Roots, Scene, Solver, State, Strands};
+use hair_sim::{Pose, Roots, Solver, State, Strands, Surroundings};
 
 /// `hair_sim` as the suite's rods ask for it.
 #[derive(Clone)]
@@ -32,9 +32,9 @@ impl Own {
 
 impl Simulation for Own {
     fn step(&mut self, dt: f64, head: Pose) -> Result<(), String> {
-        let scene = Scene {
+        let scene = Surroundings {
             roots: Roots::Head(head),
-            ..Scene::default()
+            ..Surroundings::default()
         };
         let stats = self.solver.step(&mut self.state, &scene, dt);
         stats.map(|_| ()).map_err(|error| error.to_string())

@@ -2,7 +2,7 @@
 
 use super::rods::{Rods, Strand};
 use glam::DVec3;
-use hair_sim::{Pose, Scene, compare};
+use hair_sim::{Pose, Surroundings, compare};
 
 /// One strand.
 #[derive(Clone, Debug)]
@@ -25,13 +25,14 @@ impl Rod {
     /// Kinetic energy and that of weight and bending, per linear density, in m^3/s^2.
     #[must_use]
     pub fn energy(&self) -> f64 {
-        self.rod.energy(Scene::default().gravity)
+        self.rod.energy(Surroundings::default().gravity)
     }
 }
 
 impl Strand for Rod {
     fn step(&mut self, dt: f64, head: Pose) {
-        self.rod.step(&Scene::default(), head, dt, 1, self.sweeps);
+        self.rod
+            .step(&Surroundings::default(), head, dt, 1, self.sweeps);
     }
 
     fn points(&self) -> Vec<DVec3> {

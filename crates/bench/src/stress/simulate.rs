@@ -3,8 +3,8 @@
 use super::case::{Body, Broken, Case, Frame};
 use glam::{DVec3, Vec3};
 use hair_sim::{
-    Collider, DynamicsError, GRAVITY, Params, Pose, Reason, Roots, Scene, Shape, SignedDistance,
-    Solver, State, Stats, Strands, Wind,
+    Collider, DynamicsError, GRAVITY, Params, Pose, Reason, Roots, Shape, SignedDistance, Solver,
+    State, Stats, Strands, Surroundings, Wind,
 };
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
@@ -157,7 +157,7 @@ impl<'a> Run<'a> {
                 now,
             })
             .collect();
-        let scene = Scene {
+        let scene = Surroundings {
             roots: each.as_deref().map_or(Roots::Head(frame.head), Roots::Each),
             acceleration: self.case.acceleration(index),
             gravity: frame.gravity,
@@ -198,7 +198,7 @@ impl<'a> Run<'a> {
     }
 
     /// A scene that can't be is refused and changes nothing.
-    fn refuse(&mut self, index: usize, scene: &Scene, dt: f64) -> Result<(), String> {
+    fn refuse(&mut self, index: usize, scene: &Surroundings, dt: f64) -> Result<(), String> {
         let nan = DVec3::new(0.0, f64::NAN, 0.0);
         let (mut bad, mut bad_dt) = (*scene, dt);
         let body = [Collider::fixed(
@@ -231,7 +231,7 @@ impl<'a> Run<'a> {
         }
         match self.solver.step(&mut self.state, &bad, bad_dt) {
             Err(
-                DynamicsError::Scene(_)
+                DynamicsError::Surroundings(_)
                 | DynamicsError::Step(_)
                 | DynamicsError::Goal { .. }
                 | DynamicsError::Poses { .. },

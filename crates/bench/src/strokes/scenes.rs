@@ -21,7 +21,7 @@ const SCALE: f64 = 720.0;
 const SOURCE_STAMPS: usize = 10;
 
 /// A drawing and what the suite must know of it.
-pub struct Scene {
+pub struct TestDrawing {
     /// In the table.
     pub name: &'static str,
     /// Strokes without surfaces and background, in the order by strands.
@@ -32,7 +32,7 @@ pub struct Scene {
     pub is_apart: bool,
 }
 
-impl Scene {
+impl TestDrawing {
     /// Segments of all strokes, empty ones too, and those that cover anything.
     #[must_use]
     pub fn segments(&self) -> [usize; 2] {
@@ -59,7 +59,7 @@ impl Scene {
 /// # Errors
 ///
 /// When the preset cannot be read; all that is wrong with it.
-pub fn all(root: &Path) -> Result<Vec<Scene>, String> {
+pub fn all(root: &Path) -> Result<Vec<TestDrawing>, String> {
     Ok(vec![
         ponytails(),
         twin_tails(root)?,
@@ -73,7 +73,7 @@ pub fn all(root: &Path) -> Result<Vec<Scene>, String> {
 /// # Errors
 ///
 /// When the preset or a file of it cannot be read.
-pub fn twin_tails(root: &Path) -> Result<Scene, String> {
+pub fn twin_tails(root: &Path) -> Result<TestDrawing, String> {
     let folder = root.join("tests/yardsticks");
     let path = folder.join("twin-tails.ron");
     let name = path.display().to_string();
@@ -95,7 +95,7 @@ pub fn twin_tails(root: &Path) -> Result<Scene, String> {
     drawing.background = None;
     // Resampled between particles: the source's stamps are shared out among more joints.
     let subdivision = preset.sections.path.subdivision as usize;
-    Ok(Scene {
+    Ok(TestDrawing {
         name: "twin-tails",
         drawing,
         source_stamps: SOURCE_STAMPS.div_ceil(subdivision.max(1)),
@@ -107,8 +107,8 @@ pub fn twin_tails(root: &Path) -> Result<Scene, String> {
 /// bands of shade and one of light in four feathers each. 15,960 segments, some of them empty;
 /// colours run along them.
 #[must_use]
-pub fn ponytails() -> Scene {
-    let strand = |id: u32| -> Vec<Joint> {
+pub fn ponytails() -> TestDrawing {
+    let strand = |id: u32| -> Vec<ClumpPoint> {
         let side = if id.is_multiple_of(2) { -1.0 } else { 1.0 };
         let spread = [hash(id, 0) - 0.5, hash(id, 1) - 0.5, hash(id, 2) - 0.5];
         let swing = TAU * hash(id, 3);
@@ -123,11 +123,11 @@ pub fn ponytails() -> Scene {
                     0.4 + 0.14 * u * (1.0 - u) + 0.03 * spread[1] - length * u * u.sqrt(),
                     0.1 * spread[2] + 0.12 * u * spread[1] + wave,
                 );
-                Joint::new(point, 0.011 * profile(u), u)
+                ClumpPoint::new(point, 0.011 * profile(u), u)
             })
             .collect()
     };
-    let diffuse = |joint: &Joint, color: [f32; 3]| {
+    let diffuse = |joint: &ClumpPoint, color: [f32; 3]| {
         let gray = 0.7 + 0.3 * (5.0 * joint.u).sin() as f32;
         color.map(|channel| gray * channel)
     };
@@ -167,7 +167,7 @@ pub fn ponytails() -> Scene {
             color: &|_| [0.9, 1.0, 1.0],
         },
     ];
-    Scene {
+    TestDrawing {
         name: "ponytails",
         drawing: drawing((0..84).map(|id| (id, strand(id))), &layers),
         source_stamps: SOURCE_STAMPS,
@@ -177,16 +177,16 @@ pub fn ponytails() -> Scene {
 
 /// Strands side by side that don't touch: silhouette, base and a light on it, one colour a stroke.
 #[must_use]
-pub fn curtain() -> Scene {
+pub fn curtain() -> TestDrawing {
     const STRANDS: u32 = 60;
-    let strand = |id: u32| -> Vec<Joint> {
+    let strand = |id: u32| -> Vec<ClumpPoint> {
         let x = 1.24 * ((f64::from(id) + 0.5) / f64::from(STRANDS) - 0.5);
         (0..24)
             .map(|joint| {
                 let u = f64::from(joint) / 23.0;
                 let wave = 0.03 * (4.0 * u).sin();
                 let point = DVec3::new(x + wave, 0.46 - 0.92 * u, 0.0);
-                Joint::new(point, 0.007 * profile(u), u)
+                ClumpPoint::new(point, 0.007 * profile(u), u)
             })
             .collect()
     };
@@ -213,7 +213,7 @@ pub fn curtain() -> Scene {
             color: &|_| [1.0, 0.9, 0.8],
         },
     ];
-    Scene {
+    TestDrawing {
         name: "curtain",
         drawing: drawing((0..STRANDS).map(|id| (id, strand(id))), &layers),
         source_stamps: SOURCE_STAMPS,
@@ -223,8 +223,8 @@ pub fn curtain() -> Scene {
 
 /// 600 hairs that cross, 1.5 pixels wide at the root and nothing at the tip.
 #[must_use]
-pub fn fine_hairs() -> Scene {
-    let strand = |id: u32| -> Vec<Joint> {
+pub fn fine_hairs() -> TestDrawing {
+    let strand = |id: u32| -> Vec<ClumpPoint> {
         let [x, lean, z] = [hash(id, 0) - 0.5, hash(id, 1) - 0.5, hash(id, 2) - 0.5];
         let swing = TAU * hash(id, 3);
         (0..16)
@@ -236,7 +236,7 @@ pub fn fine_hairs() -> Scene {
                     0.42 - 0.8 * u * (0.7 + 0.3 * hash(id, 4)),
                     0.3 * z + wave,
                 );
-                Joint::new(point, 0.001 * (1.0 - u), u)
+                ClumpPoint::new(point, 0.001 * (1.0 - u), u)
             })
             .collect()
     };
@@ -247,7 +247,7 @@ pub fn fine_hairs() -> Scene {
         disc: &|joint, _| joint.disc(joint.radius, 0.0, 0.0),
         color: &|joint| [0.8, 0.5, 0.1].map(|channel: f32| channel * (1.0 - 0.6 * joint.u as f32)),
     }];
-    Scene {
+    TestDrawing {
         name: "fine-hairs",
         drawing: drawing((0..600).map(|id| (id, strand(id))), &layers),
         source_stamps: SOURCE_STAMPS,
@@ -275,7 +275,7 @@ fn hash(a: u32, b: u32) -> f64 {
 }
 
 /// A joint of a made strand; metres, y up, z to the eye.
-struct Joint {
+struct ClumpPoint {
     point: DVec3,
     /// Of the clump.
     radius: f64,
@@ -288,11 +288,11 @@ struct LayerOf<'a> {
     name: &'static str,
     rank: i32,
     instances: usize,
-    disc: &'a dyn Fn(&Joint, usize) -> Disc,
-    color: &'a dyn Fn(&Joint) -> [f32; 3],
+    disc: &'a dyn Fn(&ClumpPoint, usize) -> Disc,
+    color: &'a dyn Fn(&ClumpPoint) -> [f32; 3],
 }
 
-impl Joint {
+impl ClumpPoint {
     fn new(point: DVec3, radius: f64, u: f64) -> Self {
         Self { point, radius, u }
     }
@@ -318,7 +318,7 @@ impl Joint {
     }
 }
 
-fn drawing(strands: impl Iterator<Item = (u32, Vec<Joint>)>, layers: &[LayerOf]) -> Drawing {
+fn drawing(strands: impl Iterator<Item = (u32, Vec<ClumpPoint>)>, layers: &[LayerOf]) -> Drawing {
     let mut runs = Vec::new();
     let mut joints = Vec::new();
     for (strand, of_strand) in strands {

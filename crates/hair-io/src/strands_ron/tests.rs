@@ -205,7 +205,7 @@ proptest! {
     ) {
         let moved = |t: f32| strands.points().iter().map(|p| (*p * 0.5 + shift * 0.25 * t / 1000.0) + 0.0).collect();
         let samples: Vec<_> = times.iter().map(|&t| (t as f32 / 24.0, moved(t as f32))).collect();
-        let motion = Motion::new(samples).ok();
+        let motion = PointCache::new(samples).ok();
         let text = to_text(&strands, motion.as_ref());
         prop_assert_eq!(from_text(&text).unwrap(), (strands, motion));
     }

@@ -7,9 +7,9 @@ use crate::{
     lanes,
     params::Params,
     pose::Pose,
-    scene::{Roots, Scene},
     stats::Stats,
     strands::Strands,
+    surroundings::{Roots, Surroundings},
     threads::join,
 };
 use glam::{DVec3, Vec3};
@@ -47,13 +47,13 @@ pub(super) fn strands<S: Strand>(
 /// Steps every strand, each with the pose of its head at the end. `points` are those of all strands.
 pub(super) fn step<S: Strand>(
     state: &mut [S],
-    scene: &Scene,
+    surroundings: &Surroundings,
     points: usize,
     dt: f64,
     step: impl Fn(&mut S, Pose) -> Stats + Sync,
 ) -> Result<Stats, DynamicsError> {
-    scene.check(dt, state.len(), points)?;
-    let one = |index: usize, strand: &mut S| step(strand, scene.roots.of(index));
+    surroundings.check(dt, state.len(), points)?;
+    let one = |index: usize, strand: &mut S| step(strand, surroundings.roots.of(index));
     Ok(step_all(state, 0, &one))
 }
 
@@ -84,11 +84,11 @@ pub(super) fn teleport<S: Strand>(
     to: Roots,
     points: usize,
 ) -> Result<(), DynamicsError> {
-    let scene = Scene {
+    let surroundings = Surroundings {
         roots: to,
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    scene.check(1.0, state.len(), points)?;
+    surroundings.check(1.0, state.len(), points)?;
     for (index, strand) in state.iter_mut().enumerate() {
         strand.teleport(to.of(index));
     }

@@ -19,10 +19,10 @@ use crate::{
     params::{GRAVITY, Natural, Params},
     pose::Pose,
     rest::{RestLink, RestStrand},
-    scene::{Roots, Scene},
     stats::Stats,
     strand_solver::StrandSolver,
     strands::Strands,
+    surroundings::{Roots, Surroundings},
 };
 use glam::{DQuat, DVec3, Vec3};
 
@@ -67,12 +67,12 @@ impl StrandSolver for MassSpring {
     fn step(
         &mut self,
         state: &mut Vec<Zigzag>,
-        scene: &Scene,
+        surroundings: &Surroundings,
         dt: f64,
     ) -> Result<Stats, DynamicsError> {
         let substeps = self.substeps;
-        apart::step(state, scene, self.points, dt, |strand, head| {
-            strand.step(scene, head, dt, substeps)
+        apart::step(state, surroundings, self.points, dt, |strand, head| {
+            strand.step(surroundings, head, dt, substeps)
         })
     }
 
@@ -137,7 +137,13 @@ impl Zigzag {
     }
 
     /// Advances it by `dt` seconds, at whose end the head is at `head`, in `substeps`.
-    pub fn step(&mut self, scene: &Scene, head: Pose, dt: f64, substeps: u32) -> Stats {
+    pub fn step(
+        &mut self,
+        surroundings: &Surroundings,
+        head: Pose,
+        dt: f64,
+        substeps: u32,
+    ) -> Stats {
         let before = self.head;
         let set_aside = Stats {
             set_aside: 1,
@@ -151,9 +157,9 @@ impl Zigzag {
             return set_aside;
         }
         // In the middle of the step.
-        let gusts = scene.wind_at(0.5).at(self.time + 0.5 * dt);
+        let gusts = surroundings.wind_at(0.5).at(self.time + 0.5 * dt);
         self.time += dt;
-        let goals = self.goals_at(scene, head);
+        let goals = self.goals_at(surroundings, head);
         let felt = gusts.blows && self.drag > 0.0;
         let mut stats = Stats {
             strands: 1,
@@ -162,9 +168,9 @@ impl Zigzag {
         };
         for substep in 1..=substeps {
             let acting = Acting {
-                gravity: scene.gravity,
+                gravity: surroundings.gravity,
                 gusts: gusts.blows.then_some(&gusts),
-                colliders: scene.colliders,
+                colliders: surroundings.colliders,
                 share: f64::from(substep) / f64::from(substeps),
             };
             let now = if substep == substeps {
@@ -185,8 +191,8 @@ impl Zigzag {
     }
 
     /// Where the goals of the strand's particles are at the end of a step, root first.
-    fn goals_at(&self, scene: &Scene, head: Pose) -> Vec<DVec3> {
-        let place = |k: usize| match scene.goal {
+    fn goals_at(&self, surroundings: &Surroundings, head: Pose) -> Vec<DVec3> {
+        let place = |k: usize| match surroundings.goal {
             Some(goal) => goal[self.first_point + k].as_dvec3(),
             None => self.styled[2 * k + HELD - 1],
         };

@@ -10,10 +10,10 @@ use crate::{
     params::Params,
     pose::Pose,
     rest::RestStrand,
-    scene::{Roots, Scene},
     stats::Stats,
     strand_solver::StrandSolver,
     strands::Strands,
+    surroundings::{Roots, Surroundings},
 };
 use glam::{DQuat, DVec3, Vec3};
 
@@ -64,12 +64,12 @@ impl StrandSolver for Xpbd {
     fn step(
         &mut self,
         state: &mut Vec<Rod>,
-        scene: &Scene,
+        surroundings: &Surroundings,
         dt: f64,
     ) -> Result<Stats, DynamicsError> {
         let (substeps, sweeps) = (self.substeps, self.sweeps);
-        apart::step(state, scene, self.points, dt, |rod, head| {
-            rod.step(scene, head, dt, substeps, sweeps)
+        apart::step(state, surroundings, self.points, dt, |rod, head| {
+            rod.step(surroundings, head, dt, substeps, sweeps)
         })
     }
 
@@ -155,7 +155,7 @@ impl Rod {
     /// Advances it by `dt` seconds, at whose end the head is at `head`, in `substeps` of `sweeps`.
     pub fn step(
         &mut self,
-        scene: &Scene,
+        surroundings: &Surroundings,
         head: Pose,
         dt: f64,
         substeps: u32,
@@ -176,9 +176,9 @@ impl Rod {
             };
         }
         // In the middle of the step.
-        let gusts = scene.wind_at(0.5).at(self.time + 0.5 * dt);
+        let gusts = surroundings.wind_at(0.5).at(self.time + 0.5 * dt);
         self.time += dt;
-        let goals = self.goals_at(scene, head);
+        let goals = self.goals_at(surroundings, head);
         let mut stats = Stats {
             strands: 1,
             wind: if gusts.blows && self.drag > 0.0 {
@@ -192,9 +192,9 @@ impl Rod {
         for substep in 1..=substeps {
             let share = f64::from(substep) / f64::from(substeps);
             let acting = Acting {
-                gravity: scene.gravity,
+                gravity: surroundings.gravity,
                 gusts: (gusts.blows).then_some(&gusts),
-                colliders: scene.colliders,
+                colliders: surroundings.colliders,
                 share,
             };
             let now = if substep == substeps {
@@ -220,8 +220,8 @@ impl Rod {
     }
 
     /// Where the goals are at the end of a step.
-    fn goals_at(&self, scene: &Scene, head: Pose) -> Vec<DVec3> {
-        let place = |i: usize| match scene.goal {
+    fn goals_at(&self, surroundings: &Surroundings, head: Pose) -> Vec<DVec3> {
+        let place = |i: usize| match surroundings.goal {
             Some(goal) => goal[self.first_point + i].as_dvec3(),
             None => self.styled[i],
         };

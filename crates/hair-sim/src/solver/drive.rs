@@ -10,8 +10,8 @@ use crate::{
         wind::Gusts,
     },
     lanes::{LANES, Lane, Mask, Number, Quat, Vec3},
-    scene::Scene,
     stats::Stats,
+    surroundings::Surroundings,
 };
 
 use super::{
@@ -28,7 +28,7 @@ pub(crate) struct Drive<'a> {
     pub dt: f64,
     /// The length of the last step, or this one's before there was any, in s.
     pub last_dt: f64,
-    pub scene: &'a Scene<'a>,
+    pub surroundings: &'a Surroundings<'a>,
     /// Of its colliders.
     pub guards: &'a [Guard],
     /// The air at the middle stage and at the end.
@@ -92,7 +92,7 @@ impl RootMotion {
             }
             None => (velocity, velocity),
         };
-        let gravity = Vec3::splat(drive.scene.gravity);
+        let gravity = Vec3::splat(drive.surroundings.gravity);
         let turn_end = base.times(state.base.conjugate());
         let sign = (turn_end.w.lt(Lane::ZERO)).pick(Lane::splat(-1.0), Lane::ONE);
         // Along the chord: second order in the angle, and no sine.
@@ -175,12 +175,12 @@ pub(crate) fn prepare<T: Number>(
         stats.wind = active.count() * batch.count();
     }
     loads.touched.clear();
-    if !drive.scene.colliders.is_empty() {
+    if !drive.surroundings.colliders.is_empty() {
         if !state.skin_known {
-            contact::settle_in(batch, state, drive.scene.colliders);
+            contact::settle_in(batch, state, drive.surroundings.colliders);
             state.skin_known = true;
         }
-        let bodies = (drive.scene.colliders, drive.guards);
+        let bodies = (drive.surroundings.colliders, drive.guards);
         let (contacts, touched) = (&mut loads.contacts, &mut loads.touched);
         stats.contacts = contact::detect::<T>(
             batch,
@@ -198,7 +198,7 @@ pub(crate) fn prepare<T: Number>(
 fn pull_to_goals(batch: &Batch, state: &mut BatchState, loads: &mut Loads, drive: &Drive) {
     let known = !state.goal.is_empty();
     let turn = drive
-        .scene
+        .surroundings
         .acceleration
         .map(|ends| (ends[0].turn + ends[1].turn) * 0.5);
     if !known {
@@ -210,8 +210,8 @@ fn pull_to_goals(batch: &Batch, state: &mut BatchState, loads: &mut Loads, drive
             let Some(strand) = batch.strands[lane] else {
                 continue;
             };
-            let pose = drive.scene.roots.of(strand);
-            let goal = match drive.scene.goal {
+            let pose = drive.surroundings.roots.of(strand);
+            let goal = match drive.surroundings.goal {
                 Some(goal) if k < batch.counts[lane] => {
                     let at: Point = goal[drive.first_points[strand] + k + 1];
                     at.as_dvec3() - batch.root.get(lane)

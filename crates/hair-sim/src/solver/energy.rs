@@ -99,7 +99,7 @@ fn undriven(
         return Mask::NONE;
     }
     // A root at rest may be about to move.
-    let gravity = Vec3::splat(drive.scene.gravity);
+    let gravity = Vec3::splat(drive.surroundings.gravity);
     let moves = root.turn_end.v.length_squared()
         + root.velocity.length_squared()
         + state.root_velocity.length_squared()

@@ -91,14 +91,17 @@ impl Flight {
 /// How far momentum and angular momentum have come from what they were after a quarter of a second, of what they were.
 fn errors(steps_per_second: u32) -> [f64; 2] {
     let mut flight = Flight::new();
-    let scene = Scene {
+    let surroundings = Surroundings {
         gravity: DVec3::ZERO,
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let (linear, angular) = flight.momentum();
     for _ in 0..steps_per_second / 4 {
         let dt = 1.0 / f64::from(steps_per_second);
-        let stats = flight.solver.step(&mut flight.state, &scene, dt).unwrap();
+        let stats = flight
+            .solver
+            .step(&mut flight.state, &surroundings, dt)
+            .unwrap();
         assert_eq!(stats.fallbacks, 0);
     }
     let (linear_now, angular_now) = flight.momentum();

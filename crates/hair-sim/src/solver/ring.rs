@@ -81,12 +81,14 @@ impl Ring {
     fn step(&mut self, twist: f64, push: f64, dt: f64) {
         let handle = DVec3::new(1.0, twist.cos(), twist.sin()) * self.link_m;
         *self.goal.last_mut().unwrap() = handle.as_vec3();
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::Z * push,
             goal: Some(&self.goal),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        self.solver.step(&mut self.state, &scene, dt).unwrap();
+        self.solver
+            .step(&mut self.state, &surroundings, dt)
+            .unwrap();
     }
 
     /// The farthest from the plane through the clamp's tangent and the ring's middle, in radii.

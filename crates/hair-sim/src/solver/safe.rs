@@ -175,7 +175,7 @@ fn take(
             state.restart[lane] = true;
         }
         if bad.get(lane) {
-            state.set_aside[lane] = Some(Reason::Motion);
+            state.set_aside[lane] = Some(Reason::PointCache);
         }
     }
 }

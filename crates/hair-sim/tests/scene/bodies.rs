@@ -1,5 +1,5 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Collider, Params, Pose, Scene, Shape, SignedDistance, Solver, State};
+use hair_sim::{Collider, Params, Pose, Shape, SignedDistance, Solver, State, Surroundings};
 
 use crate::{after, among, farthest, params, run, shape, straight};
 
@@ -32,11 +32,11 @@ fn hair_lies_on_a_ball() {
         let rest = straight(Vec3::new(0.0, 0.102, 0.0), Vec3::new(1.0, 0.0, 0.0));
         let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
         let colliders = [collider];
-        let scene = among(&colliders);
+        let surroundings = among(&colliders);
         let (mut contacts, mut deepest) = (0, 0.0_f64);
         for _ in 0..240 {
             contacts += solver
-                .step(&mut state, &scene, 1.0 / 24.0)
+                .step(&mut state, &surroundings, 1.0 / 24.0)
                 .unwrap()
                 .contacts;
             deepest = deepest.max(depth(&solver, &state, DVec3::ZERO));
@@ -69,7 +69,13 @@ fn a_body_that_goes_lets_hair_go_at_once() {
         ..lies[0]
     }];
     run(&mut solver, &mut beside, &among(&goes), 1.0 / 60.0, 1);
-    run(&mut solver, &mut alone, &Scene::default(), 1.0 / 60.0, 1);
+    run(
+        &mut solver,
+        &mut alone,
+        &Surroundings::default(),
+        1.0 / 60.0,
+        1,
+    );
     let top = |shape: Vec<DVec3>| shape[1..5].to_vec();
     let apart = farthest(&top(shape(&solver, &beside)), &top(shape(&solver, &alone)));
     assert!(apart < 1e-5, "{apart}");
@@ -123,8 +129,8 @@ fn a_fast_ball_does_not_pass_through() {
             before: place(i),
             now: place(i + 1),
         }];
-        let scene = among(&colliders);
-        solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        let surroundings = among(&colliders);
+        solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
         // All that the ball swept is in front of it, or was pushed over it.
         let center = place(i + 1).translation;
         let points = shape(&solver, &state);
@@ -151,11 +157,11 @@ fn friction_holds_what_slides_without_it() {
         let rest = straight(Vec3::new(0.0, 0.003, 0.0), Vec3::Z);
         let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
         let colliders = [Collider::fixed(large, Pose::IDENTITY)];
-        let mut scene = among(&colliders);
-        run(&mut solver, &mut state, &scene, 1.0 / 60.0, 60);
+        let mut surroundings = among(&colliders);
+        run(&mut solver, &mut state, &surroundings, 1.0 / 60.0, 60);
         let before = shape(&solver, &state);
-        scene.gravity.x = 2.0;
-        run(&mut solver, &mut state, &scene, 1.0 / 60.0, 60);
+        surroundings.gravity.x = 2.0;
+        run(&mut solver, &mut state, &surroundings, 1.0 / 60.0, 60);
         farthest(&before, &shape(&solver, &state))
     };
     let (smooth, rough) = (slide(0.0), slide(1.0));
@@ -175,8 +181,8 @@ fn a_style_that_starts_inside_a_body_stays_where_it_is() {
     let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
     let before = shape(&solver, &state);
     let colliders = [Collider::fixed(BALL, Pose::IDENTITY)];
-    let scene = among(&colliders);
-    run(&mut solver, &mut state, &scene, 1.0 / 24.0, 240);
+    let surroundings = among(&colliders);
+    run(&mut solver, &mut state, &surroundings, 1.0 / 24.0, 240);
     let moved = farthest(&before, &shape(&solver, &state));
     assert!(moved < 1e-9, "{moved}");
 }

@@ -1,5 +1,5 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Params, Pose, Profile, Roots, Scene, Solver};
+use hair_sim::{Params, Pose, Profile, Roots, Solver, Surroundings};
 
 use crate::{after, farthest, params, shape, straight};
 
@@ -28,12 +28,12 @@ fn stiff_goals_are_keyframes() {
             rotation: DQuat::from_rotation_y(f64::from(i) * 0.03),
             translation: DVec3::new(0.0, 0.01 * f64::from(i), 0.0),
         };
-        let scene = Scene {
+        let surroundings = Surroundings {
             goal: Some(&goal),
             roots: Roots::Head(pose),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
         let expected: Vec<DVec3> = (goal.iter())
             .map(|p| pose.rotation * p.as_dvec3() + pose.translation)
             .collect();
@@ -44,14 +44,14 @@ fn stiff_goals_are_keyframes() {
     let before = shape(&solver, &state);
     let p = params(20.0);
     let (mut free, _) = Solver::new(&straight(Vec3::ZERO, Vec3::X), &p).unwrap();
-    let scene = Scene {
+    let surroundings = Surroundings {
         roots: Roots::Head(Pose {
             rotation: DQuat::from_rotation_y(1.44),
             translation: DVec3::new(0.0, 0.48, 0.0),
         }),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    free.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+    free.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
     let moved = shape(&free, &state)[20] - before[20];
     assert!((0.005..0.05).contains(&moved.length()), "{moved}");
 }
@@ -67,13 +67,13 @@ fn where_goals_hold_the_strand_does_not_hang_on_the_step() {
         },
         ..params(50.0)
     };
-    let scene = Scene {
+    let surroundings = Surroundings {
         goal: Some(&goal),
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let [coarse, fine] = [1.0 / 24.0, 1.0 / 240.0].map(|dt: f64| {
         let steps = (40.0 / dt) as usize;
-        after(&straight(Vec3::ZERO, Vec3::X), &p, &scene, dt, steps)
+        after(&straight(Vec3::ZERO, Vec3::X), &p, &surroundings, dt, steps)
     });
     let error = farthest(&coarse, &fine);
     assert!(error < 1e-6, "{error}");
@@ -86,10 +86,10 @@ fn where_goals_hold_the_strand_does_not_hang_on_the_step() {
 fn goals_are_counted() {
     let (mut solver, mut state) =
         Solver::new(&straight(Vec3::ZERO, Vec3::X), &params(1.0)).unwrap();
-    let scene = Scene {
+    let surroundings = Surroundings {
         goal: Some(&[Vec3::ZERO]),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    let error = solver.step(&mut state, &scene, 0.1).unwrap_err();
+    let error = solver.step(&mut state, &surroundings, 0.1).unwrap_err();
     assert_eq!(error.to_string(), "goals for 1 points; the strands have 21");
 }

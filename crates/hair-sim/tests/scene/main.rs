@@ -10,7 +10,7 @@ mod sleep;
 mod wind;
 
 use glam::{DVec3, Vec3};
-use hair_sim::{Collider, Material, Natural, Params, Scene, Solver, State, Strands, Wind};
+use hair_sim::{Collider, Material, Natural, Params, Solver, State, Strands, Surroundings, Wind};
 
 /// Metres.
 const LENGTH: f64 = 0.2;
@@ -37,33 +37,39 @@ fn shape(solver: &Solver, state: &State) -> Vec<DVec3> {
     solver.points(state, 0).collect()
 }
 
-fn run(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64, steps: usize) {
+fn run(solver: &mut Solver, state: &mut State, surroundings: &Surroundings, dt: f64, steps: usize) {
     for _ in 0..steps {
-        let stats = solver.step(state, scene, dt).unwrap();
+        let stats = solver.step(state, surroundings, dt).unwrap();
         assert_eq!(stats.set_aside, 0);
     }
 }
 
 /// The shape of the first of `strands` after `steps` in a scene.
-fn after(strands: &Strands, params: &Params, scene: &Scene, dt: f64, steps: usize) -> Vec<DVec3> {
+fn after(
+    strands: &Strands,
+    params: &Params,
+    surroundings: &Surroundings,
+    dt: f64,
+    steps: usize,
+) -> Vec<DVec3> {
     let (mut solver, mut state) = Solver::new(strands, params).unwrap();
-    run(&mut solver, &mut state, scene, dt, steps);
+    run(&mut solver, &mut state, surroundings, dt, steps);
     shape(&solver, &state)
 }
 
 /// These bodies, and nothing else that is out of the ordinary.
-fn among<'a>(colliders: &'a [Collider<'a>]) -> Scene<'a> {
-    Scene {
+fn among<'a>(colliders: &'a [Collider<'a>]) -> Surroundings<'a> {
+    Surroundings {
         colliders,
-        ..Scene::default()
+        ..Surroundings::default()
     }
 }
 
 /// This wind, and nothing else that is out of the ordinary.
-fn in_wind(wind: Wind) -> Scene<'static> {
-    Scene {
+fn in_wind(wind: Wind) -> Surroundings<'static> {
+    Surroundings {
         wind,
-        ..Scene::default()
+        ..Surroundings::default()
     }
 }
 

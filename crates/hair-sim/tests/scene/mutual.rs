@@ -1,5 +1,7 @@
 use glam::{DVec3, Vec3};
-use hair_sim::{Acceleration, Mutual, Params, Pose, Roots, Scene, Solver, State, Strands, Wind};
+use hair_sim::{
+    Acceleration, Mutual, Params, Pose, Roots, Solver, State, Strands, Surroundings, Wind,
+};
 
 use crate::params;
 
@@ -33,7 +35,7 @@ fn hair_at_rest_stays_at_rest() {
     let mut links = 0;
     for _ in 0..240 {
         links = solver
-            .step(&mut state, &Scene::default(), 1.0 / 24.0)
+            .step(&mut state, &Surroundings::default(), 1.0 / 24.0)
             .unwrap()
             .links;
     }
@@ -65,12 +67,12 @@ fn links_do_not_hold_back_what_moves_together() {
         for step in 0..3 * rate / 2 {
             let ends = [step, step + 1];
             let around = |s: i32| [s - 1, s, s + 1].map(pose);
-            let scene = Scene {
+            let surroundings = Surroundings {
                 roots: Roots::Head(pose(step + 1)),
                 acceleration: Some(ends.map(|s| Acceleration::between(around(s), dt))),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            solver.step(&mut state, &scene, dt).unwrap();
+            solver.step(&mut state, &surroundings, dt).unwrap();
             shapes.extend(solver.points(&state, 3));
         }
         shapes
@@ -104,15 +106,20 @@ fn links_hold_neighbours_together_until_they_break() {
         let mut most = 0.0_f64;
         let mut links = Vec::new();
         for _ in 0..96 {
-            let scene = Scene {
+            let surroundings = Surroundings {
                 wind: Wind {
                     gust: 4.0,
                     size: 0.03,
                     ..Wind::default()
                 },
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            links.push(solver.step(&mut state, &scene, 1.0 / 24.0).unwrap().links);
+            links.push(
+                solver
+                    .step(&mut state, &surroundings, 1.0 / 24.0)
+                    .unwrap()
+                    .links,
+            );
             for s in 0..7 {
                 most = most.max((spread(&solver, &state, s, s + 1) - 0.006).abs());
             }
@@ -152,14 +159,14 @@ fn repulsion_keeps_strands_apart() {
             ..Mutual::default()
         };
         solver.interact(&mut state, &mutual).unwrap();
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::new(-1.5, -9.81, 0.0),
-            ..Scene::default()
+            ..Surroundings::default()
         };
         let mut pushed = 0;
         for _ in 0..480 {
             pushed += solver
-                .step(&mut state, &scene, 1.0 / 60.0)
+                .step(&mut state, &surroundings, 1.0 / 60.0)
                 .unwrap()
                 .repulsions;
         }

@@ -1,5 +1,5 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Acceleration, GRAVITY, Params, Pose, Profile, Roots, Scene, Solver};
+use hair_sim::{Acceleration, GRAVITY, Params, Pose, Profile, Roots, Solver, Surroundings};
 
 use crate::{LENGTH, farthest, params, run, shape, straight};
 
@@ -21,11 +21,11 @@ fn an_even_acceleration_is_as_another_gravity() {
     let (mut solver, start) = Solver::new(&rest, &p).unwrap();
     let push = DVec3::new(3.0, 0.0, -2.0);
     let mut still = start.clone();
-    let scene = Scene {
+    let surroundings = Surroundings {
         gravity: DVec3::new(0.0, -GRAVITY, 0.0) - push,
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    run(&mut solver, &mut still, &scene, 0.02, 2000);
+    run(&mut solver, &mut still, &surroundings, 0.02, 2000);
     // In even steps, and in long and short ones by turns.
     for steps in [[0.02, 0.02], [0.03, 0.01]] {
         let mut moving = start.clone();
@@ -34,11 +34,11 @@ fn an_even_acceleration_is_as_another_gravity() {
             let dt = steps[i % 2];
             t += dt;
             place = push * (0.5 * t * t);
-            let scene = Scene {
+            let surroundings = Surroundings {
                 roots: Roots::Head(at(DQuat::IDENTITY, place)),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            solver.step(&mut moving, &scene, dt).unwrap();
+            solver.step(&mut moving, &surroundings, dt).unwrap();
         }
         let moved: Vec<DVec3> = shape(&solver, &moving).iter().map(|p| *p - place).collect();
         let error = farthest(&moved, &shape(&solver, &still));
@@ -54,11 +54,11 @@ fn a_stiff_strand_turns_with_the_head() {
     for i in 0..48 {
         let angle = f64::from(i + 1) * 0.08;
         rotation = DQuat::from_rotation_y(angle) * DQuat::from_rotation_x(0.3 * angle);
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Head(at(rotation, DVec3::ZERO)),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        let stats = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        let stats = solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
         assert_eq!(stats.fallbacks, 0, "frame {i}");
     }
     let expected: Vec<DVec3> = (rest.strand(0).iter())
@@ -72,16 +72,28 @@ fn a_stiff_strand_turns_with_the_head() {
 fn a_teleport_changes_nothing_but_the_place() {
     let rest = straight(Vec3::ZERO, Vec3::X);
     let (mut solver, mut here) = Solver::new(&rest, &params(50.0)).unwrap();
-    run(&mut solver, &mut here, &Scene::default(), 1.0 / 24.0, 5);
+    run(
+        &mut solver,
+        &mut here,
+        &Surroundings::default(),
+        1.0 / 24.0,
+        5,
+    );
     let mut there = here.clone();
     let pose = at(DQuat::IDENTITY, DVec3::new(100.0, -20.0, 3.0));
     solver.teleport(&mut there, Roots::Head(pose)).unwrap();
-    run(&mut solver, &mut here, &Scene::default(), 1.0 / 24.0, 20);
-    let scene = Scene {
+    run(
+        &mut solver,
+        &mut here,
+        &Surroundings::default(),
+        1.0 / 24.0,
+        20,
+    );
+    let surroundings = Surroundings {
         roots: Roots::Head(pose),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    run(&mut solver, &mut there, &scene, 1.0 / 24.0, 20);
+    run(&mut solver, &mut there, &surroundings, 1.0 / 24.0, 20);
     let moved: Vec<DVec3> = shape(&solver, &here)
         .iter()
         .map(|p| *p + pose.translation)
@@ -100,14 +112,14 @@ fn a_turned_world_is_the_same_world() {
         DVec3::ONE,
     );
     solver.teleport(&mut there, Roots::Head(pose)).unwrap();
-    let turned = Scene {
+    let turned = Surroundings {
         roots: Roots::Head(pose),
-        gravity: pose.rotation * Scene::default().gravity,
-        ..Scene::default()
+        gravity: pose.rotation * Surroundings::default().gravity,
+        ..Surroundings::default()
     };
     for _ in 0..48 {
         solver
-            .step(&mut here, &Scene::default(), 1.0 / 24.0)
+            .step(&mut here, &Surroundings::default(), 1.0 / 24.0)
             .unwrap();
         solver.step(&mut there, &turned, 1.0 / 24.0).unwrap();
     }
@@ -137,12 +149,12 @@ fn spun(params: &Params, rate: u32, known: bool) -> Vec<DVec3> {
     for step in 0..rate as i32 {
         let ends = [step, step + 1];
         let accelerations = ends.map(|s| Acceleration::between([s - 1, s, s + 1].map(pose), dt));
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Head(pose(step + 1)),
             acceleration: known.then_some(accelerations),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        solver.step(&mut state, &scene, dt).unwrap();
+        solver.step(&mut state, &surroundings, dt).unwrap();
         if (step + 1) % (rate as i32 / 24) == 0 {
             shapes.extend(shape(&solver, &state));
         }
@@ -203,20 +215,22 @@ fn roots_may_move_one_by_one() {
         .unwrap();
     let (mut solver, mut state) = Solver::new(&rest, &params(1.0)).unwrap();
     let poses = [Pose::IDENTITY, at(DQuat::IDENTITY, DVec3::Y)];
-    let scene = Scene {
+    let surroundings = Surroundings {
         roots: Roots::Each(&poses),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+    solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
     assert_eq!(
         solver.points(&state, 1).next().unwrap(),
         DVec3::new(0.0, 1.0, 1.0)
     );
     assert_eq!(solver.points(&state, 0).next().unwrap(), DVec3::ZERO);
-    let scene = Scene {
+    let surroundings = Surroundings {
         roots: Roots::Each(&poses[..1]),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    let error = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap_err();
+    let error = solver
+        .step(&mut state, &surroundings, 1.0 / 24.0)
+        .unwrap_err();
     assert_eq!(error.to_string(), "1 poses for 2 strands");
 }

@@ -1,5 +1,5 @@
 use glam::{DVec3, Vec3};
-use hair_sim::{GRAVITY, Params, Scene, Solver, Wind};
+use hair_sim::{GRAVITY, Params, Solver, Surroundings, Wind};
 
 use crate::{LENGTH, after, farthest, in_wind, params, shape, straight};
 
@@ -18,9 +18,9 @@ fn steady_wind_on_round_particles_is_as_another_gravity() {
         ..Wind::default()
     });
     let blown = after(&rest, &p, &wind, 0.05, 2000);
-    let gravity = Scene {
+    let gravity = Surroundings {
         gravity: DVec3::new(0.0, -GRAVITY, 0.0) + steady * 3.0,
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let pulled = after(&rest, &p, &gravity, 0.05, 2000);
     let error = farthest(&blown, &pulled);
@@ -54,14 +54,17 @@ fn gusts_move_hair_and_other_seeds_move_it_otherwise() {
     let (mut solver, start) = Solver::new(&straight(Vec3::ZERO, Vec3::X), &params(20.0)).unwrap();
     let blow = |solver: &mut Solver, seed: u64, gust: f64| {
         let mut state = start.clone();
-        let scene = in_wind(Wind {
+        let surroundings = in_wind(Wind {
             gust,
             seed,
             ..Wind::default()
         });
         let mut felt = 0;
         for _ in 0..48 {
-            felt += solver.step(&mut state, &scene, 1.0 / 24.0).unwrap().wind;
+            felt += solver
+                .step(&mut state, &surroundings, 1.0 / 24.0)
+                .unwrap()
+                .wind;
         }
         assert_eq!(felt > 0, gust > 0.0);
         shape(solver, &state)
@@ -100,12 +103,12 @@ fn is_of_second_order(name: &str, wind: impl Fn(f64) -> Wind) {
         for step in 0..2 * rate {
             let [before, now] =
                 [step, step + 1].map(|step| wind(f64::from(step) / f64::from(rate)));
-            let scene = Scene {
+            let surroundings = Surroundings {
                 wind_before: Some(before),
                 ..in_wind(now)
             };
             solver
-                .step(&mut state, &scene, 1.0 / f64::from(rate))
+                .step(&mut state, &surroundings, 1.0 / f64::from(rate))
                 .unwrap();
             if (step + 1) % (rate / 24) == 0 {
                 shapes.extend(shape(&solver, &state));

@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 use hair_sim::{
-    Collider, Material, Mutual, Params, Pose, Profile, Roots, Scene, Shape, Solver, State, Strands,
-    Wind,
+    Collider, Material, Mutual, Params, Pose, Profile, Roots, Shape, Solver, State, Strands,
+    Surroundings, Wind,
 };
 
 use crate::{strand, style};
@@ -45,7 +45,7 @@ fn run(solver: &mut Solver, state: &mut State, from: usize, frames: usize) {
             before: pose(i),
             now: pose(i + 1),
         }];
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Head(pose(i + 1)),
             wind: Wind {
                 steady: DVec3::new(2.0, 0.0, 1.0),
@@ -53,9 +53,9 @@ fn run(solver: &mut Solver, state: &mut State, from: usize, frames: usize) {
                 ..Wind::default()
             },
             colliders: &colliders,
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        solver.step(state, &scene, 1.0 / 24.0).unwrap();
+        solver.step(state, &surroundings, 1.0 / 24.0).unwrap();
     }
 }
 
@@ -140,13 +140,13 @@ fn the_order_of_strands_does_not_matter_where_most_fails() {
                 before: pose(i),
                 now: pose(i + 1),
             }];
-            let scene = Scene {
+            let surroundings = Surroundings {
                 // Now and then it is gone.
                 colliders: if i % 7 < 5 { &colliders } else { &[] },
-                ..Scene::default()
+                ..Surroundings::default()
             };
             let dt = [1.0 / 24.0, 0.005, 0.1][i % 3];
-            let stats = solver.step(&mut state, &scene, dt).unwrap();
+            let stats = solver.step(&mut state, &surroundings, dt).unwrap();
             contacts += stats.contacts;
             fallbacks += stats.fallbacks;
         }

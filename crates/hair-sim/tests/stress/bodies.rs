@@ -1,7 +1,7 @@
 //! Row 5: strands in the same place, and bodies that begin inside, swallow and race.
 
 use glam::{DQuat, DVec3};
-use hair_sim::{Collider, Material, Mutual, Params, Pose, Scene, Shape, Solver, Strands};
+use hair_sim::{Collider, Material, Mutual, Params, Pose, Shape, Solver, Strands, Surroundings};
 
 use crate::{check, step, strand, style};
 
@@ -17,11 +17,11 @@ fn strands_in_the_same_place_move_as_one() {
     }
     let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
     for i in 0..96 {
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::new(f64::from(i % 7) * 5.0, -9.81, 0.0),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+        step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
         check(&solver, &state, &rest, "coincident");
     }
     let first: Vec<DVec3> = solver.points(&state, 0).collect();
@@ -47,11 +47,14 @@ fn strands_in_the_same_place_that_act_on_each_other_come_to_no_harm() {
     solver.interact(&mut state, &mutual).unwrap();
     let mut links = 0;
     for i in 0..96 {
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::new(f64::from(i % 7) * 5.0, -9.81, 0.0),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        links += solver.step(&mut state, &scene, 1.0 / 24.0).unwrap().links;
+        links += solver
+            .step(&mut state, &surroundings, 1.0 / 24.0)
+            .unwrap()
+            .links;
         assert_eq!(solver.faults(&state), []);
         check(&solver, &state, &rest, "coincident, acting");
     }
@@ -69,12 +72,12 @@ fn a_body_around_the_roots() {
         let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
         let colliders = [Collider::fixed(ball(DVec3::ZERO, 0.13), Pose::IDENTITY)];
         for i in 0..96 {
-            let scene = Scene {
+            let surroundings = Surroundings {
                 colliders: &colliders,
                 gravity: DVec3::new(f64::from(i % 7) * 5.0, -9.81, 0.0),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+            step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
             check(&solver, &state, &rest, "roots inside");
         }
     }
@@ -95,11 +98,11 @@ fn a_body_that_swallows_the_strands_lets_them_out() {
             ball(DVec3::new(0.05, 0.0, 0.0), radius),
             Pose::IDENTITY,
         )];
-        let scene = Scene {
+        let surroundings = Surroundings {
             colliders: &colliders,
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+        step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
         check(&solver, &state, &rest, "swallowed");
     }
 }
@@ -124,11 +127,11 @@ fn a_body_at_20_m_a_second() {
                 before: place(i),
                 now: place(i + 1),
             }];
-            let scene = Scene {
+            let surroundings = Surroundings {
                 colliders: &colliders,
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            let stats = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+            let stats = solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
             contacts += stats.contacts;
             fallbacks += stats.fallbacks;
             check(&solver, &state, &rest, "fast body");

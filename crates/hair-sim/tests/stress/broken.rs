@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
-    Collider, DynamicsError, Mutual, Params, Pose, Profile, Reason, Roots, Scene, Shape, Solver,
-    State, Strands, Wind,
+    Collider, DynamicsError, Mutual, Params, Pose, Profile, Reason, Roots, Shape, Solver, State,
+    Strands, Surroundings, Wind,
 };
 
 use crate::{check, strand, style};
@@ -36,15 +36,15 @@ fn broken_segments_are_repaired_or_named() {
         "strand 14 is set aside: it folds back on itself at point 5"
     );
     for i in 0..96 {
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::new(f64::from(i % 7) * 5.0, -9.81, 0.0),
             roots: Roots::Head(Pose {
                 rotation: DQuat::from_rotation_y(f64::from(i) * 0.1),
                 translation: DVec3::ZERO,
             }),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        let stats = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        let stats = solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
         assert_eq!(stats.set_aside, 2);
         check(&solver, &state, &rest, "segments");
     }
@@ -67,12 +67,12 @@ fn a_rest_shape_without_numbers_is_named_and_disturbs_no_other() {
     bad.points_mut()[range.start + 3].y = f32::NAN;
     let run = |rest: &Strands| {
         let (mut solver, mut state) = Solver::new(rest, &Params::default()).unwrap();
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::new(3.0, -9.81, 0.0),
-            ..Scene::default()
+            ..Surroundings::default()
         };
         for _ in 0..48 {
-            solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+            solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
         }
         (bits(&solver, &state, 6), solver.faults(&state))
     };
@@ -103,12 +103,12 @@ fn strands_that_act_on_a_broken_one_come_to_no_harm() {
             poses[9].rotation = DQuat::from_xyzw(0.0, f64::NAN, 0.0, 1.0);
             poses[12].rotation = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
         }
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Each(&poses),
             gravity: DVec3::new(3.0, -9.81, 0.0),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        let stats = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        let stats = solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
         assert!(stats.links > 0);
         for s in 0..20 {
             assert!(solver.points(&state, s).all(|p| p.is_finite()), "{s}");
@@ -134,24 +134,24 @@ fn what_holds_for_one_strand_is_not_asked_of_its_neighbours() {
     let (mut solver, mut state) = Solver::with(&rest, params).unwrap();
     let mut goals = rest.points().to_vec();
     goals[rest.point_range(3).start + 2].z = f32::NAN;
-    let scene = Scene {
+    let surroundings = Surroundings {
         goal: Some(&goals),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+    solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
     assert_eq!(solver.faults(&state), []);
     // A strand of one point alone follows its root.
     let mut rest = Strands::new();
     rest.push(4, &[Vec3::X], None).unwrap();
     let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
-    let scene = Scene {
+    let surroundings = Surroundings {
         roots: Roots::Head(Pose {
             rotation: DQuat::IDENTITY,
             translation: DVec3::Y,
         }),
-        ..Scene::default()
+        ..Surroundings::default()
     };
-    solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+    solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
     assert_eq!(
         solver.points(&state, 0).next(),
         Some(DVec3::new(1.0, 1.0, 0.0))
@@ -174,13 +174,13 @@ fn a_root_or_goal_without_numbers_is_named_and_disturbs_no_other() {
                 poses[6].translation.x = root;
                 goals[rest.point_range(6).start + 2].z = goal;
             }
-            let scene = Scene {
+            let surroundings = Surroundings {
                 roots: Roots::Each(&poses),
                 goal: Some(&goals),
                 gravity: DVec3::new(3.0, -9.81, 0.0),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+            solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
         }
         check(&solver, &state, &rest, "others");
         let reasons: Vec<Reason> = solver.faults(&state).iter().map(|f| f.reason).collect();
@@ -198,12 +198,12 @@ fn a_scene_without_numbers_is_refused_and_changes_nothing() {
     let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
     let before = state.clone();
     let nan = DVec3::splat(f64::NAN);
-    let head = |rotation, translation| Scene {
+    let head = |rotation, translation| Surroundings {
         roots: Roots::Head(Pose {
             rotation,
             translation,
         }),
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let ball = [Collider::fixed(
         Shape::Sphere {
@@ -214,19 +214,19 @@ fn a_scene_without_numbers_is_refused_and_changes_nothing() {
     )];
     let scenes = [
         (
-            Scene {
+            Surroundings {
                 gravity: nan,
-                ..Scene::default()
+                ..Surroundings::default()
             },
             "gravity",
         ),
         (
-            Scene {
+            Surroundings {
                 wind: Wind {
                     steady: nan,
                     ..Wind::default()
                 },
-                ..Scene::default()
+                ..Surroundings::default()
             },
             "wind",
         ),
@@ -236,19 +236,21 @@ fn a_scene_without_numbers_is_refused_and_changes_nothing() {
             "head",
         ),
         (
-            Scene {
+            Surroundings {
                 colliders: &ball,
-                ..Scene::default()
+                ..Surroundings::default()
             },
             "collider",
         ),
     ];
-    for (scene, name) in scenes {
-        let error = solver.step(&mut state, &scene, 0.1).unwrap_err();
-        assert_eq!(error, DynamicsError::Scene(name));
+    for (surroundings, name) in scenes {
+        let error = solver.step(&mut state, &surroundings, 0.1).unwrap_err();
+        assert_eq!(error, DynamicsError::Surroundings(name));
     }
     for dt in [0.0, 1e-20, -1.0, f64::NAN, f64::INFINITY] {
-        let error = solver.step(&mut state, &Scene::default(), dt).unwrap_err();
+        let error = solver
+            .step(&mut state, &Surroundings::default(), dt)
+            .unwrap_err();
         assert!(matches!(error, DynamicsError::Step(_)));
     }
     assert_eq!(state, before);
@@ -259,7 +261,9 @@ fn a_scene_without_numbers_is_refused_and_changes_nothing() {
     let error = Solver::new(&rest, &bad).unwrap_err().to_string();
     assert_eq!(error, "strand 0: drag is -1, and must be from 0 to 10000");
     let (_, mut other) = Solver::new(&style(2, 6, 0.2), &Params::default()).unwrap();
-    let error = solver.step(&mut other, &Scene::default(), 0.1).unwrap_err();
+    let error = solver
+        .step(&mut other, &Surroundings::default(), 0.1)
+        .unwrap_err();
     assert_eq!(error, DynamicsError::State);
 }
 
@@ -293,10 +297,10 @@ fn a_state_can_be_saved_whatever_is_set_aside() {
     let mut poses = [Pose::IDENTITY; 7];
     for i in 0..10 {
         poses[4].translation.x = if i == 3 { f64::NAN } else { 0.0 };
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Each(&poses),
             gravity: DVec3::new(3.0, -9.81, f64::from(i / 4)),
-            ..Scene::default()
+            ..Surroundings::default()
         };
         if i == 6 {
             poses[5].rotation = DQuat::from_xyzw(0.0, f64::NAN, 0.0, 1.0);
@@ -305,7 +309,7 @@ fn a_state_can_be_saved_whatever_is_set_aside() {
             assert_eq!(restored(&state), state, "after a teleport");
             continue;
         }
-        solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
         assert_eq!(restored(&state), state, "step {i}");
     }
     let named: Vec<u32> = solver.faults(&state).iter().map(|f| f.id).collect();

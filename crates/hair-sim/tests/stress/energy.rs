@@ -1,7 +1,9 @@
 //! Row 8: no energy from nowhere, however hard a strand was driven before.
 
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Collider, GRAVITY, Material, Params, Pose, Roots, Scene, Shape, Solver, Strands};
+use hair_sim::{
+    Collider, GRAVITY, Material, Params, Pose, Roots, Shape, Solver, Strands, Surroundings,
+};
 
 use crate::{check, step, strand};
 
@@ -26,15 +28,16 @@ fn rests(
     head: Pose,
     what: &str,
 ) -> f64 {
-    let scene = Scene {
+    let surroundings = Surroundings {
         roots: Roots::Head(head),
-        ..Scene::default()
+        ..Surroundings::default()
     };
     // A root that stops is braked in the step after.
     for dt in [0.005, 0.005] {
-        step(solver, &mut state, &scene, dt);
+        step(solver, &mut state, &surroundings, dt);
     }
-    let energy = |state: &_, solver: &Solver, s: usize| solver.energy(state, s, scene.gravity);
+    let energy =
+        |state: &_, solver: &Solver, s: usize| solver.energy(state, s, surroundings.gravity);
     let mut least: Vec<(f64, f64)> = vec![(f64::INFINITY, 0.0); rest.len()];
     for i in 0..48 {
         for (s, least) in least.iter_mut().enumerate() {
@@ -53,7 +56,7 @@ fn rests(
         step(
             solver,
             &mut state,
-            &scene,
+            &surroundings,
             [0.005, 0.09, 0.04, 0.85, 0.02][i % 5],
         );
         check(solver, &state, rest, what);
@@ -85,12 +88,12 @@ fn strands_that_are_driven_no_more_gain_no_energy() {
                     center: DVec3::new(0.1 * i as f64 - 0.6, 0.0, 0.1),
                     radius: 0.1,
                 };
-                let scene = Scene {
+                let surroundings = Surroundings {
                     roots: Roots::Head(spun(i)),
                     colliders: &[Collider::fixed(ball, Pose::IDENTITY)],
-                    ..Scene::default()
+                    ..Surroundings::default()
                 };
-                step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+                step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
             }
             rests(&mut solver, state, &rest, spun(11), &what);
         }
@@ -115,21 +118,21 @@ fn a_joint_near_half_a_turn_comes_to_rest() {
             ..Params::default()
         };
         let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::NEG_Y * (100.0 * GRAVITY),
-            ..Scene::default()
+            ..Surroundings::default()
         };
         let energies = |solver: &Solver, state: &_| -> Vec<f64> {
             (0..3)
-                .map(|s| solver.energy(state, s, scene.gravity))
+                .map(|s| solver.energy(state, s, surroundings.gravity))
                 .collect()
         };
         for _ in 0..480 {
-            step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+            step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
         }
         let before = energies(&solver, &state);
         for dt in [0.01, 0.99, 0.005, 0.2, 0.99, 0.01] {
-            step(&mut solver, &mut state, &scene, dt);
+            step(&mut solver, &mut state, &surroundings, dt);
             let after = energies(&solver, &state);
             for (s, (before, after)) in before.iter().zip(&after).enumerate() {
                 let change = (before - after).abs();

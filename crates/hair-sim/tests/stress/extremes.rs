@@ -1,7 +1,7 @@
 //! Rows 1 and 3: any step, any stiffness, any length, any number of particles.
 
 use glam::{DVec3, Vec3};
-use hair_sim::{GRAVITY, Material, Natural, Params, Profile, Scene, Solver, Strands};
+use hair_sim::{GRAVITY, Material, Natural, Params, Profile, Solver, Strands, Surroundings};
 
 use crate::{check, step, strand};
 
@@ -27,19 +27,19 @@ fn any_step_with_any_stiffness_and_drag() {
                 };
                 let what = format!("gamma 1e{exponent}, step {dt:.4}, drag {drag}");
                 let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
-                let scene = Scene::default();
+                let surroundings = Surroundings::default();
                 let start: Vec<f64> = (0..4)
-                    .map(|s| solver.energy(&state, s, scene.gravity))
+                    .map(|s| solver.energy(&state, s, surroundings.gravity))
                     .collect();
                 let scale = GRAVITY * 0.3 * 0.3;
                 let steps = ((2.0 / dt) as usize).clamp(40, 240);
                 let mut worst = 0.0_f64;
                 for _ in 0..steps {
-                    fallbacks += step(&mut solver, &mut state, &scene, dt);
+                    fallbacks += step(&mut solver, &mut state, &surroundings, dt);
                     steps_taken += 4;
                     check(&solver, &state, &rest, &what);
                     for (s, start) in start.iter().enumerate() {
-                        let gain = (solver.energy(&state, s, scene.gravity) - start) / scale;
+                        let gain = (solver.energy(&state, s, surroundings.gravity) - start) / scale;
                         if gain > worst {
                             worst = gain;
                         }
@@ -88,7 +88,12 @@ fn stiffness_that_varies_a_million_times_along_a_strand() {
             };
             let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
             for _ in 0..240 {
-                step(&mut solver, &mut state, &Scene::default(), 1.0 / 24.0);
+                step(
+                    &mut solver,
+                    &mut state,
+                    &Surroundings::default(),
+                    1.0 / 24.0,
+                );
                 check(&solver, &state, &rest, "varied");
             }
         }
@@ -114,11 +119,11 @@ fn a_micrometre_and_a_metre_in_one_scene() {
         };
         let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
         for i in 0..120 {
-            let scene = Scene {
+            let surroundings = Surroundings {
                 gravity: DVec3::new(5.0 * f64::from(i % 24), -GRAVITY, 0.0),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+            step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
             check(&solver, &state, &rest, "lengths");
         }
     }
@@ -135,11 +140,11 @@ fn any_number_of_particles() {
     }
     let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
     for i in 0..96 {
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::new(10.0 * f64::from(i % 5), -GRAVITY, 0.0),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+        step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
         check(&solver, &state, &rest, "counts");
     }
     assert_eq!(solver.points(&state, 0).len(), 1);
@@ -147,7 +152,7 @@ fn any_number_of_particles() {
 
     let (mut none, mut state) = Solver::new(&Strands::new(), &Params::default()).unwrap();
     assert_eq!(
-        none.step(&mut state, &Scene::default(), 0.1)
+        none.step(&mut state, &Surroundings::default(), 0.1)
             .unwrap()
             .strands,
         0

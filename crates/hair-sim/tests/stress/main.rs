@@ -13,7 +13,7 @@ mod roots;
 mod winds;
 
 use glam::{DVec3, Vec3};
-use hair_sim::{Scene, Solver, State, Strands};
+use hair_sim::{Solver, State, Strands, Surroundings};
 
 /// Strands that grow from a ball, with curls.
 fn style(count: u32, links: usize, length: f32) -> Strands {
@@ -62,8 +62,8 @@ fn check(solver: &Solver, state: &State, rest: &Strands, what: &str) {
 }
 
 /// Steps, and asserts that nothing is set aside.
-fn step(solver: &mut Solver, state: &mut State, scene: &Scene, dt: f64) -> usize {
-    let stats = solver.step(state, scene, dt).unwrap();
+fn step(solver: &mut Solver, state: &mut State, surroundings: &Surroundings, dt: f64) -> usize {
+    let stats = solver.step(state, surroundings, dt).unwrap();
     assert_eq!(stats.set_aside, 0, "{:?}", solver.faults(state));
     stats.fallbacks
 }

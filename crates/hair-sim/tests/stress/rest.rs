@@ -1,7 +1,7 @@
 //! Row 8: hours at rest, energy, and a rest that does not hang on the step.
 
 use glam::{DVec3, Vec3};
-use hair_sim::{GRAVITY, Material, Natural, Params, Scene, Solver, Strands};
+use hair_sim::{GRAVITY, Material, Natural, Params, Solver, Strands, Surroundings};
 
 use crate::{check, step, style};
 
@@ -17,7 +17,7 @@ fn an_hour_at_rest() {
         let before: Vec<DVec3> = (0..8).flat_map(|s| solver.points(&state, s)).collect();
         for _ in 0..3600 * 24 {
             solver
-                .step(&mut state, &Scene::default(), 1.0 / 24.0)
+                .step(&mut state, &Surroundings::default(), 1.0 / 24.0)
                 .unwrap();
         }
         let after = (0..8).flat_map(|s| solver.points(&state, s));
@@ -48,12 +48,17 @@ fn the_energy_of_an_undamped_strand_stays() {
             ..Params::default()
         };
         let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
-        let scene = Scene::default();
+        let surroundings = Surroundings::default();
         let scale = GRAVITY * 0.3 * 0.3;
         let (mut least, mut most) = (0.0_f64, 0.0_f64);
         for _ in 0..steps * 30 {
-            step(&mut solver, &mut state, &scene, 1.0 / f64::from(steps));
-            let energy = solver.energy(&state, 0, scene.gravity) / scale;
+            step(
+                &mut solver,
+                &mut state,
+                &surroundings,
+                1.0 / f64::from(steps),
+            );
+            let energy = solver.energy(&state, 0, surroundings.gravity) / scale;
             (least, most) = (least.min(energy), most.max(energy));
         }
         check(&solver, &state, &rest, "energy");
@@ -80,7 +85,7 @@ fn the_rest_does_not_hang_on_the_step() {
                 step(
                     &mut solver,
                     &mut state,
-                    &Scene::default(),
+                    &Surroundings::default(),
                     1.0 / steps as f64,
                 );
             }

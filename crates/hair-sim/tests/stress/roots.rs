@@ -1,7 +1,7 @@
 //! Row 2: roots that jump, flip, spin, start and stop.
 
 use glam::{DQuat, DVec3};
-use hair_sim::{Material, Params, Pose, Roots, Scene, Solver};
+use hair_sim::{Material, Params, Pose, Roots, Solver, Surroundings};
 
 use crate::{check, step, style};
 
@@ -15,11 +15,11 @@ fn run(name: &str, pose: impl Fn(usize) -> Pose, frames: usize) {
         let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
         let mut fallbacks = 0;
         for frame in 0..frames {
-            let scene = Scene {
+            let surroundings = Surroundings {
                 roots: Roots::Head(pose(frame)),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            fallbacks += step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+            fallbacks += step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
             check(&solver, &state, &rest, name);
         }
         println!(
@@ -28,15 +28,15 @@ fn run(name: &str, pose: impl Fn(usize) -> Pose, frames: usize) {
         );
         // Then it comes to rest: nothing is left that turns by itself.
         let last = pose(frames - 1);
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Head(last),
-            ..Scene::default()
+            ..Surroundings::default()
         };
         for _ in 0..480 {
-            step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+            step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
         }
         let before: Vec<DVec3> = (0..16).flat_map(|s| solver.points(&state, s)).collect();
-        step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+        step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
         let after = (0..16).flat_map(|s| solver.points(&state, s));
         let speed = before
             .iter()

@@ -1,7 +1,7 @@
 //! Row 6: storms that turn every frame, and gravity gone mad.
 
 use glam::DVec3;
-use hair_sim::{GRAVITY, Material, Params, Scene, Solver, Wind};
+use hair_sim::{GRAVITY, Material, Params, Solver, Surroundings, Wind};
 
 use crate::{check, step, style};
 
@@ -17,15 +17,15 @@ fn gusts_of_100_m_a_second_that_turn_every_frame() {
         let mut fallbacks = 0;
         for i in 0..120 {
             let t = f64::from(i) * 2.4;
-            let scene = Scene {
+            let surroundings = Surroundings {
                 wind: Wind {
                     steady: DVec3::new(t.cos(), (1.7 * t).sin(), t.sin()) * 100.0,
                     gust: 50.0,
                     ..Wind::default()
                 },
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            fallbacks += step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+            fallbacks += step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
             check(&solver, &state, &rest, "storm");
         }
         println!("gamma {gamma}: {fallbacks} fallbacks in {} steps", 120 * 16);
@@ -49,11 +49,11 @@ fn gravity_that_flips_stops_and_grows_a_hundred_times() {
                 6..9 => 0.0,
                 _ => 100.0,
             };
-            let scene = Scene {
+            let surroundings = Surroundings {
                 gravity: DVec3::new(0.0, -GRAVITY * factor, 0.0),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            fallbacks += step(&mut solver, &mut state, &scene, 1.0 / 24.0);
+            fallbacks += step(&mut solver, &mut state, &surroundings, 1.0 / 24.0);
             check(&solver, &state, &rest, "gravity");
         }
         println!("gamma {gamma}: {fallbacks} fallbacks in {} steps", 144 * 16);

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use glam::{DVec3, Vec3};
 use hair_sim::{
-    Collider, Mutual, Params, Pose, Scene, Shape, SignedDistance, Solver, Strands, Wind,
+    Collider, Mutual, Params, Pose, Shape, SignedDistance, Solver, Strands, Surroundings, Wind,
 };
 
 fn strands(count: u32, n: usize) -> Strands {
@@ -71,18 +71,18 @@ fn measure(count: u32, n: usize, dt: f64, steps: usize, everything: bool) -> f64
         let (mut contacts, mut wind, mut links, mut repulsions) = (0, 0, 0, 0);
         let start = Instant::now();
         for _ in 0..steps {
-            let mut scene = Scene {
+            let mut surroundings = Surroundings {
                 wind: Wind {
                     steady: DVec3::new(1.0, 0.0, 0.5),
                     gust: 1.5,
                     ..Wind::default()
                 },
-                ..Scene::default()
+                ..Surroundings::default()
             };
             if everything {
-                scene.colliders = &colliders;
+                surroundings.colliders = &colliders;
             }
-            let s = solver.step(&mut state, &scene, dt).unwrap();
+            let s = solver.step(&mut state, &surroundings, dt).unwrap();
             iterations += s.iterations;
             fallbacks += s.fallbacks;
             contacts += s.contacts;

@@ -1,7 +1,7 @@
 //! A level strand that is let go: accuracy in time and space.
 
 use glam::DVec3;
-use hair_sim::{Natural, Params, Scene, Solver};
+use hair_sim::{Natural, Params, Solver, Surroundings};
 
 use crate::{NEARLY_STRAIGHT, bare, level, tip};
 
@@ -33,7 +33,11 @@ fn damped_drop(gamma: f64, natural: Natural, damping: f64, n: usize, steps: usiz
     for _ in 0..24 {
         for _ in 0..steps {
             let stats = solver
-                .step(&mut state, &Scene::default(), 1.0 / (24 * steps) as f64)
+                .step(
+                    &mut state,
+                    &Surroundings::default(),
+                    1.0 / (24 * steps) as f64,
+                )
                 .unwrap();
             assert_eq!(stats.fallbacks, 0);
         }

@@ -9,7 +9,7 @@ mod statics;
 mod vibration;
 
 use glam::{DVec3, Vec3};
-use hair_sim::{Material, Natural, Params, Scene, Solver, State, Strands};
+use hair_sim::{Material, Natural, Params, Solver, State, Strands, Surroundings};
 
 /// Metres: the length of the strands of these tests.
 const LENGTH: f64 = 0.3;
@@ -55,10 +55,10 @@ fn tip(solver: &Solver, state: &State) -> DVec3 {
 }
 
 /// Steps until nothing moves any more, by heavy damping; fails if that takes too long.
-fn settle(solver: &mut Solver, state: &mut State, scene: &Scene) {
+fn settle(solver: &mut Solver, state: &mut State, surroundings: &Surroundings) {
     let mut before: Vec<DVec3> = solver.points(state, 0).collect();
     for _ in 0..4000 {
-        solver.step(state, scene, 0.25).unwrap();
+        solver.step(state, surroundings, 0.25).unwrap();
         let now: Vec<DVec3> = solver.points(state, 0).collect();
         let moved = (before.iter().zip(&now)).map(|(a, b)| (*a - *b).length());
         if moved.fold(0.0, f64::max) < 1e-9 * LENGTH {

@@ -1,7 +1,7 @@
 //! The start: a style does not move by itself.
 
 use glam::{DVec3, Vec3};
-use hair_sim::{GRAVITY, Material, Params, Scene, Solver, Strands};
+use hair_sim::{GRAVITY, Material, Params, Solver, Strands, Surroundings};
 
 /// Curled strands of all kinds of stiffness that grow from a ball.
 fn style(n: usize) -> Strands {
@@ -42,12 +42,16 @@ fn a_style_starts_without_a_jolt_and_stays() {
             }
             most
         };
-        solver.step(&mut state, &Scene::default(), dt).unwrap();
+        solver
+            .step(&mut state, &Surroundings::default(), dt)
+            .unwrap();
         let acceleration = moved(&solver, &state) * 2.0 / (dt * dt) / GRAVITY;
         assert!(acceleration <= 1e-6, "gamma {gamma}: {acceleration} g");
         // Ten minutes.
         for _ in 0..24 * 600 {
-            solver.step(&mut state, &Scene::default(), dt).unwrap();
+            solver
+                .step(&mut state, &Surroundings::default(), dt)
+                .unwrap();
         }
         let drift = moved(&solver, &state) / 0.2;
         println!("gamma {gamma}: first acceleration {acceleration:.1e} g, drift {drift:.1e} L");
@@ -60,15 +64,15 @@ fn links_never_stretch() {
     let rest = style(20);
     let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
     for frame in 0..200 {
-        let scene = Scene {
+        let surroundings = Surroundings {
             gravity: DVec3::new(
                 f64::from(frame % 7) * 30.0,
                 -GRAVITY,
                 f64::from(frame % 3) * 50.0,
             ),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+        solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
     }
     for s in 0..rest.len() {
         let points: Vec<DVec3> = solver.points(&state, s).collect();

@@ -1,7 +1,7 @@
 //! Shapes at rest.
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
-use hair_sim::{GRAVITY, Material, Natural, Params, Pose, Roots, Scene, Solver};
+use hair_sim::{GRAVITY, Material, Natural, Params, Pose, Roots, Solver, Surroundings};
 
 use crate::{LENGTH, NEARLY_STRAIGHT, along, bare, level, settle, tip};
 
@@ -22,7 +22,7 @@ fn cantilever(gamma: f64, natural: Natural, n: usize) -> DVec3 {
         ..bare(gamma)
     };
     let (mut solver, mut state) = Solver::new(&level(n), &params).unwrap();
-    settle(&mut solver, &mut state, &Scene::default());
+    settle(&mut solver, &mut state, &Surroundings::default());
     tip(&solver, &state)
 }
 
@@ -94,19 +94,19 @@ fn out_of_plane(phi: f64, gamma: f64, steps: usize) -> f64 {
     let n = 100;
     // The planar shape first, then a push.
     let (mut solver, mut state) = Solver::new(&along(n, Vec3::NEG_Y), &params).unwrap();
-    let mut scene = Scene::default();
+    let mut surroundings = Surroundings::default();
     for _ in 0..400 {
-        solver.step(&mut state, &scene, 0.1).unwrap();
+        solver.step(&mut state, &surroundings, 0.1).unwrap();
     }
     let frame = solver.frames(&state, 0).next().unwrap();
     let across = frame * DVec3::X;
-    scene.gravity += across * 1e-3 * GRAVITY;
+    surroundings.gravity += across * 1e-3 * GRAVITY;
     for _ in 0..10 {
-        solver.step(&mut state, &scene, 0.05).unwrap();
+        solver.step(&mut state, &surroundings, 0.05).unwrap();
     }
-    scene = Scene::default();
+    surroundings = Surroundings::default();
     for _ in 0..steps {
-        solver.step(&mut state, &scene, 0.1).unwrap();
+        solver.step(&mut state, &surroundings, 0.1).unwrap();
     }
     (solver.points(&state, 0))
         .map(|p| (p.dot(across) / LENGTH).abs())
@@ -144,12 +144,12 @@ fn a_helix_hangs_as_the_reference() {
             translation: DVec3::ZERO,
         };
         solver.teleport(&mut state, Roots::Head(pose)).unwrap();
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Head(pose),
             gravity: DVec3::new(0.0, 0.0, -GRAVITY),
-            ..Scene::default()
+            ..Surroundings::default()
         };
-        settle(&mut solver, &mut state, &scene);
+        settle(&mut solver, &mut state, &surroundings);
         let points: Vec<DVec3> = solver.points(&state, 0).map(|p| p / LENGTH).collect();
         let worst = rows
             .iter()

@@ -1,7 +1,7 @@
 //! Small vibrations.
 
 use glam::{DVec3, Vec3};
-use hair_sim::{GRAVITY, Params, Scene, Solver};
+use hair_sim::{GRAVITY, Params, Solver, Surroundings};
 
 use crate::{LENGTH, along, bare, settle, tip};
 
@@ -15,16 +15,16 @@ fn frequency(gamma: f64, gravity: f64, expected: f64) -> f64 {
     };
     // Pushed aside a little, and let go.
     let push = gravity.max(GRAVITY / gamma) * 1e-3;
-    let pushed = Scene {
+    let pushed = Surroundings {
         gravity: DVec3::new(push, -gravity, 0.0),
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let (mut solver, mut state) = Solver::new(&strand, &slow).unwrap();
     settle(&mut solver, &mut state, &pushed);
     let (mut solver, _) = Solver::new(&strand, &bare(gamma)).unwrap();
-    let free = Scene {
+    let free = Surroundings {
         gravity: DVec3::new(0.0, -gravity, 0.0),
-        ..Scene::default()
+        ..Surroundings::default()
     };
     let (periods, samples) = (20, 250);
     let dt = std::f64::consts::TAU / expected / f64::from(samples);

@@ -296,12 +296,12 @@ fn is_clump(drawing: &Drawing, strokes: &[Stroke], run: &Run) -> bool {
     })
 }
 
-type Joint = (Disc, [f32; 3]);
+type ColoredDisc = (Disc, [f32; 3]);
 
 impl Segment {
     /// The part of the segment between two joints that may be seen in a picture of that size, if
     /// any. Its strand and stroke are left at 0.
-    fn new(a: Joint, b: Joint, size: [u32; 2], brush: Brush) -> Option<Self> {
+    fn new(a: ColoredDisc, b: ColoredDisc, size: [u32; 2], brush: Brush) -> Option<Self> {
         // A pixel more than the picture makes up for rounding.
         let min = DVec2::splat(-1.0);
         let max = DVec2::new(f64::from(size[0]), f64::from(size[1])) + 1.0;
@@ -358,7 +358,7 @@ fn circle(disc: &Disc) -> Circle {
 }
 
 /// What runs linearly between two joints, at `u` of the way. The ends stay bit for bit.
-fn between(a: Joint, b: Joint, u: f64) -> Joint {
+fn between(a: ColoredDisc, b: ColoredDisc, u: f64) -> ColoredDisc {
     if u == 0.0 {
         return a;
     }

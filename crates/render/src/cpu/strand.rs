@@ -19,7 +19,7 @@ use std::ops::Range;
 const SAME_DEPTH: f32 = 1e-6;
 
 /// What stays the same from strand to strand.
-pub(super) struct Scene<'a> {
+pub(super) struct TileContext<'a> {
     pub(super) order: Order,
     pub(super) edge_depth_m: f32,
     pub(super) strokes: &'a [Stroke],
@@ -79,7 +79,13 @@ impl StrandPlanes {
 
     /// Draws a strand of the tile with those segments.
     #[inline(always)]
-    pub(super) fn draw(&mut self, scene: &Scene, tile: &[u32], part: &Part, target: &mut Target) {
+    pub(super) fn draw(
+        &mut self,
+        scene: &TileContext,
+        tile: &[u32],
+        part: &Part,
+        target: &mut Target,
+    ) {
         let strand = &tile[part.segments.clone()];
         let open = scene.open(part, target);
         if is_empty(&open) {
@@ -97,7 +103,7 @@ impl StrandPlanes {
 
     /// Finds which of the open samples each stroke covers, and leaves out those that cover none.
     #[inline(always)]
-    fn place(&mut self, scene: &Scene, strand: &[u32], open: &Mask) {
+    fn place(&mut self, scene: &TileContext, strand: &[u32], open: &Mask) {
         self.placed.clear();
         self.strokes.clear();
         let number = |i: u32| scene.segments[i as usize].stroke;
@@ -129,7 +135,7 @@ impl StrandPlanes {
 
     /// Adds the strokes that are the clump and its sides, whose segments these are.
     #[inline(always)]
-    fn place_base(&mut self, scene: &Scene, segments: Range<usize>, open: &Mask) {
+    fn place_base(&mut self, scene: &TileContext, segments: Range<usize>, open: &Mask) {
         let drawn_as = |placed: &Placed| scene.segments[placed.segment as usize].drawn_as;
         let mut first = segments.start;
         while first < segments.end {
@@ -158,7 +164,7 @@ impl StrandPlanes {
     /// Within the clump at the clump's depth, outside it strokes of negative rank at their own; then
     /// all of it against what is there.
     #[inline(always)]
-    fn draw_as_one(&mut self, scene: &Scene, priority: u32, target: &mut Target) {
+    fn draw_as_one(&mut self, scene: &TileContext, priority: u32, target: &mut Target) {
         let (clump, strokes) = match self.strokes.split_first_mut() {
             Some((clump, strokes)) if clump.number == 0 => (Some(clump), strokes),
             _ => (None, &mut self.strokes[..]),
@@ -231,7 +237,7 @@ impl StrandPlanes {
 
     /// Each stroke by itself against what is there.
     #[inline(always)]
-    fn draw_each(&mut self, scene: &Scene, target: &mut Target) {
+    fn draw_each(&mut self, scene: &TileContext, target: &mut Target) {
         for stroke in &mut self.strokes {
             let placed = &self.placed[stroke.segments.clone()];
             self.depths.clear(&stroke.samples);
@@ -254,7 +260,7 @@ impl StrandPlanes {
 /// all along.
 #[inline(always)]
 fn measure(
-    scene: &Scene,
+    scene: &TileContext,
     placed: &[Placed],
     mut samples: Mask,
     by_depth: &mut Vec<Near>,
@@ -298,7 +304,7 @@ fn measure(
 /// Takes the samples, which the segments cover, as much deeper as they are far from the stroke's middle.
 #[inline(always)]
 fn round(
-    scene: &Scene,
+    scene: &TileContext,
     placed: &[Placed],
     samples: &Mask,
     is_outline: bool,
@@ -353,7 +359,13 @@ fn composite(depths: &Depths, samples: &mut Mask, priority: u32, target: &mut Ta
 
 /// Gives the samples, which the stroke covers, its colour.
 #[inline(always)]
-fn shade(scene: &Scene, placed: &[Placed], samples: &Mask, ratio: &mut Plane, target: &mut Target) {
+fn shade(
+    scene: &TileContext,
+    placed: &[Placed],
+    samples: &Mask,
+    ratio: &mut Plane,
+    target: &mut Target,
+) {
     if is_empty(samples) {
         return;
     }
@@ -406,7 +418,7 @@ pub(super) struct Part {
     columns: u32,
 }
 
-impl Scene<'_> {
+impl TileContext<'_> {
     /// Replaces `parts` by the strands of a tile, in the order in which they are best drawn.
     #[inline(always)]
     pub(super) fn strands(&self, tile: &[u32], parts: &mut Vec<Part>) {

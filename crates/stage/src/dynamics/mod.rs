@@ -23,8 +23,8 @@ use hair_io::Mesh;
 #[cfg(feature = "compare")]
 use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
-    Acceleration, DynamicsError, GRAVITY, Motion, Params, Pose, Roots, Scene, Solver, Stats,
-    Strands, Wind,
+    Acceleration, DynamicsError, GRAVITY, Params, PointCache, Pose, Roots, Solver, Stats, Strands,
+    Surroundings, Wind,
 };
 use render::Head;
 use running::{Run, Running};
@@ -56,7 +56,7 @@ pub(crate) struct Dynamics {
     strands: Box<dyn Running>,
     guides: Vec<Part>,
     /// The shapes that pull at all points of the scene; where they have these at a time, and the guides' points.
-    shapes: Option<Motion>,
+    shapes: Option<PointCache>,
     shape: Vec<Vec3>,
     goal: Vec<Vec3>,
     carried: Carried,
@@ -311,7 +311,7 @@ impl Dynamics {
         &mut self,
         end: f64,
         script: &MotionScript,
-        step: impl Fn(&mut (dyn Running + 'static), &Scene, f64) -> Result<Stats, DynamicsError>,
+        step: impl Fn(&mut (dyn Running + 'static), &Surroundings, f64) -> Result<Stats, DynamicsError>,
     ) -> Result<Stats, StageError> {
         let begin = self.time_of(self.done);
         let [before, now] = [begin, end].map(|time| self.pose_at(time, script));
@@ -332,7 +332,7 @@ impl Dynamics {
                 [-self.step, self.step].map(|by| self.pose_at(time + by, script));
             Acceleration::between([earlier, pose, later], self.step)
         });
-        let scene = Scene {
+        let scene = Surroundings {
             roots: Roots::Head(now),
             acceleration: Some(accelerations),
             gravity: self.gravity,

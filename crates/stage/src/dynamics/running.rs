@@ -1,16 +1,16 @@
 //! A solver with its strands, whichever it is.
 
 use glam::{DQuat, DVec3};
-use hair_sim::{DynamicsError, Roots, Scene, Stats, StrandSolver};
+use hair_sim::{DynamicsError, Roots, Stats, StrandSolver, Surroundings};
 
 /// Strands in motion.
 pub(super) trait Running: Send {
     /// Puts all back to the start, on roots there.
     fn restart(&mut self, roots: Roots) -> Result<(), DynamicsError>;
     /// Advances by `dt` seconds.
-    fn step(&mut self, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError>;
+    fn step(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError>;
     /// Shows where a step of `dt` seconds would bring the strands, until the next step goes on from where they are.
-    fn look_ahead(&mut self, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError>;
+    fn look_ahead(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError>;
     /// Shows the strands where they are.
     fn look_back(&mut self);
     /// The points of a strand, m.
@@ -59,12 +59,12 @@ where
         self.solver.teleport(&mut self.state, roots)
     }
 
-    fn step(&mut self, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError> {
+    fn step(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError> {
         self.is_ahead = false;
         self.solver.step(&mut self.state, scene, dt)
     }
 
-    fn look_ahead(&mut self, scene: &Scene, dt: f64) -> Result<Stats, DynamicsError> {
+    fn look_ahead(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError> {
         self.is_ahead = true;
         self.ahead.clone_from(&self.state);
         self.solver.step(&mut self.ahead, scene, dt)

@@ -12,12 +12,12 @@ use crate::{
     },
 };
 
-use sweep::{Elimination, Joint, ascend, descend, half_turn, joints};
+use sweep::{Elimination, JointMoment, ascend, descend, half_turn, joints};
 
 /// Scratch of a Newton step.
 #[derive(Clone, Debug)]
 pub(crate) struct Scratch {
-    joints: Vec<Joint>,
+    joints: Vec<JointMoment>,
     eliminations: Vec<Elimination>,
     /// How the links are to turn.
     pub turns: Vec<Vec3>,
@@ -26,7 +26,7 @@ pub(crate) struct Scratch {
 impl Scratch {
     pub(crate) fn new(count: usize) -> Self {
         Self {
-            joints: vec![Joint::<Lane>::zero(); count],
+            joints: vec![JointMoment::<Lane>::zero(); count],
             eliminations: vec![Elimination::<Lane>::zero(); count],
             turns: vec![Vec3::ZERO; count],
         }

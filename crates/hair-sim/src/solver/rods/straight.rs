@@ -366,7 +366,7 @@ fn ascend<T: Number>(links: &[Link], chain: &Chain, model: &Model, scratch: &mut
         } else {
             Vec2::zero()
         };
-        let joint = Joint::new(bend, past, links[k].bend.load(), &elastic);
+        let joint = JointMoment::new(bend, past, links[k].bend.load(), &elastic);
         if damps {
             let moment = spin.pass(bend.turn, past, joint.damping);
             beyond.d_linear = beyond.d_linear + moment;
@@ -384,13 +384,13 @@ fn ascend<T: Number>(links: &[Link], chain: &Chain, model: &Model, scratch: &mut
 }
 
 /// Moment on a joint, its stiffness, and stiffness against a change from the past, all times h^2.
-struct Joint<T> {
+struct JointMoment<T> {
     moment: Vec2<T>,
     stiffness: T,
     damping: T,
 }
 
-impl<T: Number> Joint<T> {
+impl<T: Number> JointMoment<T> {
     #[inline(always)]
     fn new(bend: Bend<T>, past: Vec2<T>, stiffness: T, elastic: &Elastic<T>) -> Self {
         let stretch = elastic.damping + T::splat(1.0);
@@ -441,7 +441,7 @@ fn eliminate<T: Number>(
     y: Vec3<T>,
     link: Directed<T>,
     node: Node<T>,
-    joint: Joint<T>,
+    joint: JointMoment<T>,
 ) -> (Beyond<T>, Elimination<T>) {
     // The particle at the link's end.
     let gradient = node.n.apply(y) - node.b;
@@ -468,7 +468,7 @@ fn eliminate<T: Number>(
 
     // The joint's spring, between the link before and this one. Cofactors in place of the inverse: only the last product of each
     // result waits for the quotient.
-    let Joint {
+    let JointMoment {
         moment, stiffness, ..
     } = joint;
     let cofactors = Sym2 {

@@ -32,13 +32,13 @@ use crate::{
 
 /// Moment on a joint and its stiffness, in world axes, both times h^2.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Joint<T = Lane> {
+pub(crate) struct JointMoment<T = Lane> {
     moment: Vec3<T>,
     stiffness: Sym3<T>,
 }
-stored!(Joint { moment, stiffness });
+stored!(JointMoment { moment, stiffness });
 
-impl<T: Number> Joint<T> {
+impl<T: Number> JointMoment<T> {
     pub(crate) fn zero() -> Self {
         Self {
             moment: Vec3::zero(),
@@ -85,7 +85,7 @@ pub(crate) fn joints<T: Number>(
     links: &[Link],
     model: &Model,
     chain: &Chain,
-    out: &mut [Joint],
+    out: &mut [JointMoment],
 ) -> Lane {
     let count = links.len();
     let (frames, tangents) = (&chain.frames[..count], &chain.tangents[..count]);
@@ -93,7 +93,7 @@ pub(crate) fn joints<T: Number>(
     let mut sharpest = T::splat(1.0);
     for k in 0..count {
         let before = if k == 0 { model.base } else { &frames[k - 1] };
-        let (joint, sharp): (Joint<T>, T) = joint(
+        let (joint, sharp): (JointMoment<T>, T) = joint(
             &links[k].load(),
             past[k].load(),
             before.load(),
@@ -116,7 +116,7 @@ fn joint<T: Number>(
     after: Quat<T>,
     t: Vec3<T>,
     elastic: &Elastic<T>,
-) -> (Joint<T>, T) {
+) -> (JointMoment<T>, T) {
     let one = T::splat(1.0);
     let stretch = elastic.damping + one;
     let turn = after.times(before.conjugate());
@@ -134,7 +134,7 @@ fn joint<T: Number>(
     let sharp = c.length_squared() + one;
     let round = bend * sharp * stretch;
     let stiffness = Sym3::outer(round, c, round) + Sym3::outer(T::splat(0.0), g, more * stretch);
-    (Joint { moment, stiffness }, sharp)
+    (JointMoment { moment, stiffness }, sharp)
 }
 
 /// The quadratic of what lies beyond a joint (see the module), and the sum of forces there.
@@ -154,7 +154,7 @@ pub(crate) fn ascend<T: Number>(
     links: &[Link],
     nodes: &[Node],
     chain: &Chain,
-    joints: &[Joint],
+    joints: &[JointMoment],
     out: &mut [Elimination],
 ) {
     let count = links.len();
@@ -187,7 +187,7 @@ fn eliminate<T: Number>(
     t: Vec3<T>,
     r: Vec3<T>,
     node: Node<T>,
-    joint: Joint<T>,
+    joint: JointMoment<T>,
 ) -> (Beyond<T>, Elimination<T>) {
     // The particle at the link's end.
     let gradient = node.n.apply(y) - node.b;
@@ -216,7 +216,7 @@ fn eliminate<T: Number>(
     let own_linear = beyond.d_linear + r.cross(a_linear);
 
     // The joint's spring, between the link before and this one.
-    let Joint { moment, stiffness } = joint;
+    let JointMoment { moment, stiffness } = joint;
     let inverse = (own + stiffness).inverse().rows();
     let shift = inverse.times(w); // of W^T, whose rows are W's columns
     let before = inverse.times(stiffness.rows());

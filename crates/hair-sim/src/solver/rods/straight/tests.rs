@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::{
-    Collider, Material, Mutual, Natural, Params, Pose, Roots, Scene, Shape, Solver, Strands, Wind,
-    rest::RestStrand,
+    Collider, Material, Mutual, Natural, Params, Pose, Roots, Shape, Solver, Strands, Surroundings,
+    Wind, rest::RestStrand,
 };
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec3 as Point};
 use proptest::prelude::*;
@@ -202,7 +202,7 @@ fn apart(params: &Params, mutual: Option<Mutual>, ball: bool, rate: u32) -> f64 
             before: head(step),
             now: head(step + 1),
         }];
-        let scene = Scene {
+        let surroundings = Surroundings {
             roots: Roots::Head(head(step + 1)),
             colliders: if ball { &colliders } else { &[] },
             wind: Wind {
@@ -210,10 +210,10 @@ fn apart(params: &Params, mutual: Option<Mutual>, ball: bool, rate: u32) -> f64 
                 gust: 3.0,
                 ..Wind::default()
             },
-            ..Scene::default()
+            ..Surroundings::default()
         };
         for (solver, state) in &mut runs {
-            let stats = solver.step(state, &scene, dt).unwrap();
+            let stats = solver.step(state, &surroundings, dt).unwrap();
             assert_eq!((stats.strands, stats.set_aside), (6, 0));
             contacts += stats.contacts;
         }
@@ -320,14 +320,14 @@ fn longer_strands_beside_it_do_not_change_a_strand() {
         for step in 0..120 {
             // A root that turns to and fro, so that links beyond the end would lag behind.
             let turn = DQuat::from_rotation_z((0.4 * f64::from(step)).sin());
-            let scene = Scene {
+            let surroundings = Surroundings {
                 roots: Roots::Head(Pose {
                     rotation: turn,
                     translation: DVec3::ZERO,
                 }),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            solver.step(&mut state, &scene, 1.0 / 60.0).unwrap();
+            solver.step(&mut state, &surroundings, 1.0 / 60.0).unwrap();
             path.extend(solver.points(&state, 0));
         }
         path
@@ -358,14 +358,14 @@ fn what_is_left_of_other_batches_decides_nothing() {
                 }
             }
             // A head that is thrown about, so that the safe integrator is needed.
-            let scene = Scene {
+            let surroundings = Surroundings {
                 roots: Roots::Head(Pose {
                     rotation: DQuat::from_rotation_x(f64::from(step % 3) * 2.0),
                     translation: DVec3::ZERO,
                 }),
-                ..Scene::default()
+                ..Surroundings::default()
             };
-            let stats = solver.step(&mut state, &scene, 1.0 / 24.0).unwrap();
+            let stats = solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
             assert_eq!(stats.set_aside, 0);
             fallbacks += stats.fallbacks;
             path.extend((0..6).flat_map(|s| solver.points(&state, s).collect::<Vec<_>>()));
@@ -381,7 +381,7 @@ fn what_is_left_of_other_batches_decides_nothing() {
 fn a_state_without_frames_is_refused_where_they_are_needed() {
     let (_, mut state) = Solver::new(&strands(), &straight(10.0)).unwrap();
     let (mut solver, _) = Solver::new(&strands(), &Params::default()).unwrap();
-    let refused = solver.step(&mut state, &Scene::default(), 1.0 / 24.0);
+    let refused = solver.step(&mut state, &Surroundings::default(), 1.0 / 24.0);
     assert_eq!(refused, Err(crate::DynamicsError::State));
     // Five of the six are straight as they are styled, so they stand in other places.
     let styled = Params {
@@ -389,6 +389,6 @@ fn a_state_without_frames_is_refused_where_they_are_needed() {
         ..straight(10.0)
     };
     let (mut solver, _) = Solver::new(&strands(), &styled).unwrap();
-    let refused = solver.step(&mut state, &Scene::default(), 1.0 / 24.0);
+    let refused = solver.step(&mut state, &Surroundings::default(), 1.0 / 24.0);
     assert_eq!(refused, Err(crate::DynamicsError::State));
 }

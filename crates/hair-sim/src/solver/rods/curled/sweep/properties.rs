@@ -256,7 +256,7 @@ impl Stage {
     /// The turn of every link in one sweep, and the largest.
     fn sweep(&self) -> (Vec<Vec3>, Lane) {
         let (links, model) = (&self.batch.links, self.model());
-        let mut ready = vec![Joint::<Lane>::zero(); links.len()];
+        let mut ready = vec![JointMoment::<Lane>::zero(); links.len()];
         let mut eliminations = vec![Elimination::<Lane>::zero(); links.len()];
         let mut turns = vec![Vec3::ZERO; links.len()];
         joints::<Lane>(links, &model, &self.chain, &mut ready);

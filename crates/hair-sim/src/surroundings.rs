@@ -59,7 +59,7 @@ impl Acceleration {
 
 /// What acts on the strands in a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
+pub struct Surroundings<'a> {
     /// Where the roots are at the end of the step.
     pub roots: Roots<'a>,
     /// The head's acceleration when the step starts and when it ends. Where it is not given, it is the change of the
@@ -78,7 +78,7 @@ pub struct Scene<'a> {
     pub goal: Option<&'a [Vec3]>,
 }
 
-impl Default for Scene<'_> {
+impl Default for Surroundings<'_> {
     fn default() -> Self {
         Self {
             roots: Roots::Head(Pose::IDENTITY),
@@ -92,7 +92,7 @@ impl Default for Scene<'_> {
     }
 }
 
-impl Scene<'_> {
+impl Surroundings<'_> {
     /// Whether a step of `dt` seconds of so many strands, with so many points in all, can be made in it.
     pub(crate) fn check(
         &self,
@@ -104,17 +104,17 @@ impl Scene<'_> {
             return Err(DynamicsError::Step(dt));
         }
         if !self.gravity.is_finite() {
-            return Err(DynamicsError::Scene("gravity"));
+            return Err(DynamicsError::Surroundings("gravity"));
         }
         let finite = |a: &Acceleration| a.turn.is_finite() && a.shift.is_finite();
         if !self.acceleration.iter().flatten().all(finite) {
-            return Err(DynamicsError::Scene("acceleration"));
+            return Err(DynamicsError::Surroundings("acceleration"));
         }
         if !(self.wind.is_finite() && self.wind_before.is_none_or(|wind| wind.is_finite())) {
-            return Err(DynamicsError::Scene("wind"));
+            return Err(DynamicsError::Surroundings("wind"));
         }
         if !self.colliders.iter().all(Collider::is_finite) {
-            return Err(DynamicsError::Scene("collider"));
+            return Err(DynamicsError::Surroundings("collider"));
         }
         if let Some(found) = self.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
             return Err(DynamicsError::Goal {
@@ -126,7 +126,7 @@ impl Scene<'_> {
             Roots::Head(pose)
                 if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
             {
-                Err(DynamicsError::Scene("head"))
+                Err(DynamicsError::Surroundings("head"))
             }
             Roots::Each(poses) if poses.len() != strands => Err(DynamicsError::Poses {
                 found: poses.len(),

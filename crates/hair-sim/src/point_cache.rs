@@ -8,7 +8,7 @@ use spline::key_weights;
 
 /// Positions of all points of some [`Strands`](crate::Strands) at increasing times.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub struct PointCache {
     times: Vec<f32>,
     samples: Vec<Vec<Vec3>>,
 }
@@ -16,7 +16,7 @@ pub struct Motion {
 /// Why time samples make no motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum MotionError {
+pub enum PointCacheError {
     /// There must be at least one sample.
     #[error("the motion has no time samples")]
     Empty,
@@ -48,32 +48,32 @@ pub enum MotionError {
     },
 }
 
-impl Motion {
+impl PointCache {
     /// A motion from `(time in seconds, positions in metres)`.
     ///
     /// # Errors
     ///
     /// When there are no samples, times do not increase, or points are missing or not finite.
-    pub fn new(samples: Vec<(f32, Vec<Vec3>)>) -> Result<Self, MotionError> {
-        let expected = samples.first().ok_or(MotionError::Empty)?.1.len();
+    pub fn new(samples: Vec<(f32, Vec<Vec3>)>) -> Result<Self, PointCacheError> {
+        let expected = samples.first().ok_or(PointCacheError::Empty)?.1.len();
         let mut last = f32::NEG_INFINITY;
         for (i, (time, points)) in samples.iter().enumerate() {
             if !time.is_finite() || *time <= last {
-                return Err(MotionError::Order {
+                return Err(PointCacheError::Order {
                     sample: i,
                     time: *time,
                 });
             }
             last = *time;
             if points.len() != expected {
-                return Err(MotionError::Count {
+                return Err(PointCacheError::Count {
                     sample: i,
                     expected,
                     found: points.len(),
                 });
             }
             if let Some(point) = points.iter().position(|p| !p.is_finite()) {
-                return Err(MotionError::NotFinite { sample: i, point });
+                return Err(PointCacheError::NotFinite { sample: i, point });
             }
         }
         let (times, samples) = samples.into_iter().unzip();
@@ -146,8 +146,8 @@ impl Motion {
 mod tests {
     use super::*;
 
-    fn motion() -> Motion {
-        Motion::new(vec![
+    fn motion() -> PointCache {
+        PointCache::new(vec![
             (0.0, vec![Vec3::ZERO, Vec3::X]),
             (2.0, vec![Vec3::Y, Vec3::X * 3.0]),
         ])
@@ -167,36 +167,36 @@ mod tests {
 
     #[test]
     fn broken_samples_are_refused() {
-        assert_eq!(Motion::new(vec![]), Err(MotionError::Empty));
+        assert_eq!(PointCache::new(vec![]), Err(PointCacheError::Empty));
         let twice = vec![(1.0, vec![Vec3::ZERO]), (1.0, vec![Vec3::ZERO])];
         assert!(matches!(
-            Motion::new(twice),
-            Err(MotionError::Order { sample: 1, .. })
+            PointCache::new(twice),
+            Err(PointCacheError::Order { sample: 1, .. })
         ));
         let short = vec![(0.0, vec![Vec3::ZERO]), (1.0, vec![])];
         assert!(matches!(
-            Motion::new(short),
-            Err(MotionError::Count { sample: 1, .. })
+            PointCache::new(short),
+            Err(PointCacheError::Count { sample: 1, .. })
         ));
         let nan = vec![(0.0, vec![Vec3::NAN])];
         assert!(matches!(
-            Motion::new(nan),
-            Err(MotionError::NotFinite { .. })
+            PointCache::new(nan),
+            Err(PointCacheError::NotFinite { .. })
         ));
-        assert!(Motion::new(vec![(f32::NAN, vec![])]).is_err());
+        assert!(PointCache::new(vec![(f32::NAN, vec![])]).is_err());
     }
 
     #[test]
     fn shapes_are_joined_smoothly() {
         let shape = |x: f32| vec![Vec3::ZERO, Vec3::new(x, -1.0, 0.0)];
-        let motion = Motion::new(vec![(0.0, shape(0.0)), (1.0, shape(1.0))]).unwrap();
+        let motion = PointCache::new(vec![(0.0, shape(0.0)), (1.0, shape(1.0))]).unwrap();
         let mut points = [Vec3::ZERO; 2];
         motion.sample_smooth(0.25, &mut points);
         // It starts slowly: 3 t^2 - 2 t^3.
         assert_eq!(points, [Vec3::ZERO, Vec3::new(0.15625, -1.0, 0.0)]);
         motion.sample_smooth(7.0, &mut points);
         assert_eq!(points[1].x, 1.0);
-        let still = Motion::new(vec![(5.0, shape(3.0))]).unwrap();
+        let still = PointCache::new(vec![(5.0, shape(3.0))]).unwrap();
         still.sample_smooth(0.0, &mut points);
         assert_eq!(points[1].x, 3.0);
     }

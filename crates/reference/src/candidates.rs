@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// What may cover the samples of one part of the screen.
 #[derive(Debug)]
-pub struct Scene {
+pub struct Candidates {
     /// By rising id.
     strands: Vec<Strand>,
     triangles: Vec<Triangle>,
@@ -41,7 +41,7 @@ struct Precedence {
     instance: usize,
 }
 
-impl Scene {
+impl Candidates {
     /// The whole drawing.
     pub fn new(drawing: &Drawing) -> Self {
         let strands = drawing.runs.chunk_by(|a, b| a.strand == b.strand);
