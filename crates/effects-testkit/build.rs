@@ -1,5 +1,6 @@
-//! Translates the effect that the kit's own tests spoil.
+//! Translates the effects of the kit's own tests.
 
 fn main() {
     effects_build::effect("tests/good.wgsl");
+    effects_build::effect("tests/kinds.wgsl");
 }

@@ -136,6 +136,10 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         let value = match p.kind {
             Kind::Number { .. } => quote!(values.number(#name)),
             Kind::Integer { .. } => quote!(values.integer(#name).unsigned_abs()),
+            Kind::Signed { .. } => quote!(values.integer(#name)),
+            Kind::Flag { .. } => quote!(values.flag(#name)),
+            Kind::Pair { .. } => quote!(::effects::wgsl::vec2(values.pair(#name))),
+            Kind::Triple { .. } => quote!(::effects::wgsl::vec3(values.triple(#name))),
             Kind::Choice { .. } => quote!(values.choice(#name)),
             Kind::Color { .. } => quote!(::effects::wgsl::vec3(values.color(#name))),
             Kind::OptionalColor { .. } => {
@@ -178,7 +182,14 @@ fn table_row(param: &Param) -> TokenStream {
         } => {
             quote!(Number { min: #min, max: #max, default: #default, varies: #varies })
         }
-        Kind::Integer { min, max, default } => {
+        Kind::Flag { default } => quote!(Flag { default: #default }),
+        Kind::Pair { min, max, default } => {
+            quote!(Pair { min: #min, max: #max, default: [#(#default),*] })
+        }
+        Kind::Triple { min, max, default } => {
+            quote!(Triple { min: #min, max: #max, default: [#(#default),*] })
+        }
+        Kind::Integer { min, max, default } | Kind::Signed { min, max, default } => {
             quote!(Integer { min: #min, max: #max, default: #default })
         }
         Kind::Choice { names, default } => {

@@ -7,8 +7,9 @@
 //! ```
 //!
 //! A `vec3<f32>` is a colour (`@default "RRGGBB"`), a `vec4<f32>` a colour or none (`@default none`),
-//! whose last component is 1 where there is one. A `u32` is a whole number or, with `@choices a b c`,
-//! one of these names. An `f32` may vary along a strand and from strand to strand, but for those marked
+//! whose last component is 1 where there is one. A `vec2<f32>`, and a `vec3<f32>` with a range, are numbers
+//! (`@range -1..1 @default 0 1`). A `bool` is `true` or `false`. A `u32` is a whole number or, with `@choices a b c`,
+//! one of these names; an `i32` is one whose range begins below 0. An `f32` may vary along a strand and from strand to strand, but for those marked
 //! `@constant`, which the effect's Rust reads.
 
 use crate::check::named_type;
@@ -36,6 +37,25 @@ pub(crate) enum Kind {
         min: i32,
         max: i32,
         default: i32,
+    },
+    /// An `i32`, whose range begins below 0.
+    Signed {
+        min: i32,
+        max: i32,
+        default: i32,
+    },
+    Flag {
+        default: bool,
+    },
+    Pair {
+        min: f32,
+        max: f32,
+        default: [f32; 2],
+    },
+    Triple {
+        min: f32,
+        max: f32,
+        default: [f32; 3],
     },
     Choice {
         names: Vec<String>,
@@ -181,6 +201,35 @@ fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, St
                 Kind::Integer { min, max, default }
             }
         },
+        TypeInner::Scalar(Scalar::I32) => {
+            let (min, max) = range(notes)?;
+            if min >= 0 {
+                return Err("an i32's range begins below 0; use a u32".to_owned());
+            }
+            let default = within(default, min, max)?;
+            Kind::Signed { min, max, default }
+        }
+        TypeInner::Scalar(Scalar::BOOL) => Kind::Flag {
+            default: default
+                .parse()
+                .map_err(|_| format!("@default {default}: it is true or false"))?,
+        },
+        TypeInner::Vector {
+            size: VectorSize::Bi,
+            scalar: Scalar::F32,
+        } => {
+            let (min, max) = range(notes)?;
+            let default = numbers(default, min, max)?;
+            Kind::Pair { min, max, default }
+        }
+        TypeInner::Vector {
+            size: VectorSize::Tri,
+            scalar: Scalar::F32,
+        } if notes.get("range").is_some() => {
+            let (min, max) = range(notes)?;
+            let default = numbers(default, min, max)?;
+            Kind::Triple { min, max, default }
+        }
         TypeInner::Vector {
             size: VectorSize::Tri,
             scalar: Scalar::F32,
@@ -198,8 +247,8 @@ fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, St
         },
         _ => {
             return Err(
-                "a parameter is an f32, a u32, a vec3<f32> (a colour) or a vec4<f32> (a colour or \
-                 none)"
+                "a parameter is an f32, a u32, an i32, a bool, a vec2<f32>, a vec3<f32> (a colour, or with \
+                 @range three numbers) or a vec4<f32> (a colour or none)"
                     .to_owned(),
             );
         }
@@ -232,6 +281,16 @@ fn range<T: std::str::FromStr + PartialOrd>(notes: &Annotations) -> Result<(T, T
         Some((min, max)) if min <= max => Ok((min, max)),
         _ => Err(format!("@range {text}: a range is `MIN..MAX`")),
     }
+}
+
+/// As many numbers in a range, with blanks between them.
+fn numbers<const N: usize>(text: &str, min: f32, max: f32) -> Result<[f32; N], String> {
+    let numbers = text.split_whitespace();
+    let numbers = numbers.map(|number| within(number, min, max));
+    let numbers: Vec<f32> = numbers.collect::<Result<_, _>>()?;
+    numbers
+        .try_into()
+        .map_err(|_| format!("@default {text}: {N} numbers are needed, with blanks between them"))
 }
 
 fn within<T: std::str::FromStr + PartialOrd>(text: &str, min: T, max: T) -> Result<T, String> {

@@ -39,8 +39,9 @@ pub(crate) fn error(source: &Source, span: Option<Span>, message: &str, text: &s
     match start {
         Some(start) if start < author.len() => source.error(span.unwrap_or_default(), text),
         Some(_) => {
-            let end = author.trim_end().len().max(1) as u32;
-            source.error(Span::new(end - 1, end), message)
+            let last = author.trim_end().char_indices().next_back();
+            let at = last.map_or(0, |(at, _)| at as u32);
+            source.error(Span::new(at, at), message)
         }
         None => without_place(source, author, message),
     }
@@ -73,19 +74,23 @@ fn without_place(source: &Source, author: &str, message: &str) -> BuildError {
     }
 }
 
-/// The first bracket that is opened and never closed.
+/// A bracket that is opened and never closed, the innermost at its place. One that is closed without being opened is naga's to tell.
 fn unclosed(author: &str) -> Option<usize> {
-    let mut open = Vec::new();
+    let mut open: Vec<(usize, char)> = Vec::new();
     for (at, character) in without_comments(author).char_indices() {
         match character {
-            '(' | '[' | '{' => open.push(at),
-            ')' | ']' | '}' => {
-                open.pop();
-            }
+            '(' => open.push((at, ')')),
+            '[' => open.push((at, ']')),
+            '{' => open.push((at, '}')),
+            ')' | ']' | '}' => match open.pop() {
+                Some((at, closing)) if closing != character => return Some(at),
+                Some(_) => {}
+                None => return None,
+            },
             _ => {}
         }
     }
-    open.pop()
+    open.pop().map(|(at, _)| at)
 }
 
 /// The same text with blanks in place of comments, byte for byte.
@@ -131,5 +136,7 @@ mod tests {
         assert_eq!(code.find('b'), text.find("b }"));
         assert_eq!(unclosed(text), None);
         assert_eq!(unclosed("f() { if (x) { }"), Some(4));
+        assert_eq!(unclosed("f() { a[1; }"), Some(7));
+        assert_eq!(unclosed("f() } {"), None);
     }
 }

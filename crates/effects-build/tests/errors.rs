@@ -62,6 +62,40 @@ fn unknown_inputs_are_named_with_what_there_is() {
     assert_error(&source, &["src/mine.wgsl:1:1", "//! inputs:"]);
 }
 
+#[test]
+fn parameters_of_all_kinds_need_their_keys() {
+    let with = |declaration: &str| {
+        with_radius("1.0").replace("@range 0..1 @default 0.5\n    width: f32", declaration)
+    };
+    for (declaration, message) in [
+        (
+            "@range 0..3 @default 1\n    width: i32",
+            "begins below 0; use a u32",
+        ),
+        (
+            "@default yes\n    width: bool",
+            "@default yes: it is true or false",
+        ),
+        (
+            "@range 0..1 @default 0.5\n    width: vec2<f32>",
+            "2 numbers are needed",
+        ),
+        (
+            "@range 0..1 @default 0 0 2\n    width: vec3<f32>",
+            "@default 2: not a number in its range",
+        ),
+        (
+            "@default 1\n    width: mat2x2<f32>",
+            "a parameter is an f32, a u32, an i32, a bool",
+        ),
+    ] {
+        assert_error(
+            &with(declaration),
+            &["src/mine.wgsl:8:5: Params.width: ", message],
+        );
+    }
+}
+
 /// naga names no place for these, or one in text that the author never wrote.
 #[test]
 fn mistakes_are_told_in_the_authors_text() {
@@ -78,6 +112,12 @@ fn mistakes_are_told_in_the_authors_text() {
     assert_error(&open, &["src/mine.wgsl:2:", "`{` is never closed"]);
     let open = with_radius("1.0").replace("width: f32,\n}", "width: f32,");
     assert_error(&open, &["src/mine.wgsl:5:15: this `{` is never closed"]);
+    let ends_oddly = with_radius("1.0") + "const X = 1 // gr\u{f6}\u{df}\u{e9}";
+    assert!(
+        error(&ends_oddly).starts_with("src/mine.wgsl:"),
+        "{}",
+        error(&ends_oddly)
+    );
     for spoilt in [&both, &twice, &open] {
         assert!(!error(spoilt).contains("mine.wgsl:1:1"));
     }
@@ -177,8 +217,8 @@ fn parameters_need_words_range_and_default() {
         &["src/mine.wgsl:8:5: Params.width: its comment needs"],
     );
     assert_error(
-        &params("/// W.\n/// @default 1\nw: vec2<f32>,"),
-        &["an f32, a u32, a vec3<f32> (a colour) or a vec4<f32>"],
+        &params("/// W.\n/// @default 1\nw: vec2<u32>,"),
+        &["an f32, a u32, an i32, a bool, a vec2<f32>"],
     );
 }
 

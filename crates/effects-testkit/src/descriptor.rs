@@ -99,10 +99,16 @@ fn default_is_allowed(kind: &ParamKind) -> Result<(), String> {
         ParamKind::Choice { .. } | ParamKind::Color { .. } | ParamKind::OptionalColor { .. } => {
             Ok(())
         }
-        ParamKind::Flag { .. }
-        | ParamKind::Text
-        | ParamKind::Triple { .. }
-        | ParamKind::Size { .. } => Err("an effect has no parameters of this kind".to_owned()),
+        ParamKind::Flag { .. } => Ok(()),
+        ParamKind::Pair { min, max, default } => default
+            .iter()
+            .try_for_each(|number| in_range((*number).into(), min.into(), max.into())),
+        ParamKind::Triple { min, max, default } => default
+            .iter()
+            .try_for_each(|number| in_range((*number).into(), min.into(), max.into())),
+        ParamKind::Text | ParamKind::Size { .. } => {
+            Err("an effect has no parameters of this kind".to_owned())
+        }
     }
 }
 

@@ -104,12 +104,23 @@ pub(crate) fn extreme_values(kind: &ParamKind) -> Vec<Value> {
         ParamKind::Choice { names, .. } => (0..names.len() as u32).map(Value::Choice).collect(),
         ParamKind::Color { .. } => vec![black, white],
         ParamKind::OptionalColor { .. } => vec![Value::Color(None), black, white],
+        ParamKind::Flag { .. } => vec![Value::Flag(false), Value::Flag(true)],
+        ParamKind::Pair { min, max, .. } => [[min; 2], [max; 2], [min, max], zero_within(min, max)]
+            .map(Value::Pair)
+            .to_vec(),
+        ParamKind::Triple { min, max, .. } => {
+            [[min; 3], [max; 3], [min, max, min], zero_within(min, max)]
+                .map(Value::Triple)
+                .to_vec()
+        }
         // No effect has these: they are for sections of presets.
-        ParamKind::Flag { .. }
-        | ParamKind::Text
-        | ParamKind::Triple { .. }
-        | ParamKind::Size { .. } => Vec::new(),
+        ParamKind::Text | ParamKind::Size { .. } => Vec::new(),
     }
+}
+
+/// Zeros, which have no direction, or what of a range is nearest to them.
+fn zero_within<const N: usize>(min: f32, max: f32) -> [f32; N] {
+    [0.0_f32.clamp(min, max); N]
 }
 
 /// A value as a preset has it.
@@ -120,6 +131,9 @@ pub(crate) fn text(value: &Value, kind: &ParamKind) -> String {
         (Value::Choice(index), ParamKind::Choice { names, .. }) => {
             names[*index as usize].to_owned()
         }
+        (Value::Flag(flag), _) => flag.to_string(),
+        (Value::Pair([x, y]), _) => format!("({x}, {y})"),
+        (Value::Triple([x, y, z]), _) => format!("({x}, {y}, {z})"),
         (Value::Color(None), _) => "none".to_owned(),
         (Value::Color(Some(color)), _) => match color {
             [0.0, 0.0, 0.0] => "000000".to_owned(),

@@ -80,7 +80,11 @@ fn params(module: &naga::Module, values: &Values) -> Result<Value, String> {
         }
         Ok(match values.value(name) {
             Setting::Number(number) => Value::F32(*number),
+            Setting::Integer(number) if is_signed(module, name) => Value::I32(*number),
             Setting::Integer(number) => Value::U32(number.unsigned_abs()),
+            Setting::Flag(flag) => Value::Bool(*flag),
+            Setting::Pair(pair) => Value::list(*pair),
+            Setting::Triple(triple) => Value::list(*triple),
             Setting::Choice(index) => Value::U32(*index),
             Setting::Color(color) if is_four(module, name) => {
                 let present = color.map_or(0.0, |_| 1.0);
@@ -95,12 +99,21 @@ fn params(module: &naga::Module, values: &Values) -> Result<Value, String> {
 
 /// Whether a parameter is a `vec4`: a colour, or none.
 fn is_four(module: &naga::Module, name: &str) -> bool {
-    let members = members(module, "Params");
-    let member = members.iter().find(|m| m.name.as_deref() == Some(name));
     let size = naga::VectorSize::Quad;
-    member.is_some_and(
-        |m| matches!(module.types[m.ty].inner, TypeInner::Vector { size: s, .. } if s == size),
-    )
+    matches!(type_of(module, name), Some(TypeInner::Vector { size: s, .. }) if *s == size)
+}
+
+/// Whether a parameter is an `i32`.
+fn is_signed(module: &naga::Module, name: &str) -> bool {
+    let scalar = naga::Scalar::I32;
+    matches!(type_of(module, name), Some(TypeInner::Scalar(s)) if *s == scalar)
+}
+
+/// The type of a parameter.
+fn type_of<'m>(module: &'m naga::Module, name: &str) -> Option<&'m TypeInner> {
+    let members = members(module, "Params");
+    let member = members.iter().find(|m| m.name.as_deref() == Some(name))?;
+    Some(&module.types[member.ty].inner)
 }
 
 fn members<'m>(module: &'m naga::Module, name: &str) -> &'m [naga::StructMember] {

@@ -31,7 +31,7 @@ pub enum ParamKind {
         /// Whether it may vary along a strand and from strand to strand.
         varies: bool,
     },
-    /// A whole number in a range.
+    /// A whole number in a range; of an effect an `i32` where the range begins below 0, else a `u32`.
     Integer {
         /// Least value.
         min: i32,
@@ -73,6 +73,15 @@ pub enum ParamKind {
         /// Value where the preset says nothing.
         default: [f32; 3],
     },
+    /// Two numbers `(x, y)`, each in the range.
+    Pair {
+        /// Least value.
+        min: f32,
+        /// Largest value.
+        max: f32,
+        /// Value where the preset says nothing.
+        default: [f32; 2],
+    },
     /// Width and height `(w, h)`, whole numbers in the range.
     Size {
         /// Least value.
@@ -103,6 +112,8 @@ pub enum Value {
     Text(Option<String>),
     /// For [`ParamKind::Triple`].
     Triple([f32; 3]),
+    /// For [`ParamKind::Pair`].
+    Pair([f32; 2]),
     /// For [`ParamKind::Size`].
     Size([u32; 2]),
 }
@@ -120,6 +131,7 @@ impl ParamKind {
             Self::OptionalColor { default } => Value::Color(default.and_then(parse_hex)),
             Self::Text => Value::Text(None),
             Self::Triple { default, .. } => Value::Triple(default),
+            Self::Pair { default, .. } => Value::Pair(default),
             Self::Size { default, .. } => Value::Size(default),
         }
     }
@@ -145,6 +157,9 @@ impl ParamKind {
             (Self::Triple { min, max, .. }, Value::Triple(triple)) => {
                 triple.iter().all(|number| (*min..=*max).contains(number))
             }
+            (Self::Pair { min, max, .. }, Value::Pair(pair)) => {
+                pair.iter().all(|number| (*min..=*max).contains(number))
+            }
             (Self::Size { min, max, .. }, Value::Size(size)) => {
                 size.iter().all(|number| (*min..=*max).contains(number))
             }
@@ -166,6 +181,9 @@ impl ParamKind {
             Self::Text => "a text in double quotes".to_owned(),
             Self::Triple { min, max, .. } => {
                 format!("three numbers (x, y, z), each from {min} to {max}")
+            }
+            Self::Pair { min, max, .. } => {
+                format!("two numbers (x, y), each from {min} to {max}")
             }
             Self::Size { min, max, .. } => {
                 format!("width and height (w, h), whole numbers from {min} to {max}")
@@ -217,6 +235,33 @@ impl Values {
         match self.value(name) {
             Value::Integer(value) => *value,
             other => panic!("`{name}` is {other:?}, not a whole number"),
+        }
+    }
+
+    /// Whether a flag is set.
+    #[must_use]
+    pub fn flag(&self, name: &str) -> bool {
+        match self.value(name) {
+            Value::Flag(value) => *value,
+            other => panic!("`{name}` is {other:?}, not a flag"),
+        }
+    }
+
+    /// Two numbers.
+    #[must_use]
+    pub fn pair(&self, name: &str) -> [f32; 2] {
+        match self.value(name) {
+            Value::Pair(value) => *value,
+            other => panic!("`{name}` is {other:?}, not two numbers"),
+        }
+    }
+
+    /// Three numbers.
+    #[must_use]
+    pub fn triple(&self, name: &str) -> [f32; 3] {
+        match self.value(name) {
+            Value::Triple(value) => *value,
+            other => panic!("`{name}` is {other:?}, not three numbers"),
         }
     }
 

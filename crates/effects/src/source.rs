@@ -14,8 +14,8 @@ pub struct ProgramSource<'a> {
     pub inputs: &'static [Input],
     /// The fields of `struct Params`, in their order.
     pub params: &'static [Param],
-    /// The parameters in their order, as 32-bit words: a number and a whole number take one, a colour three,
-    /// a colour or none four. A number that varies has in its place where among these words its table
+    /// The parameters in their order, as 32-bit words: a number, a whole number, a flag (0 or 1) and a choice take one, two and
+    /// three numbers as many, a colour three, a colour or none four. A number that varies has in its place where among these words its table
     /// begins: its seed, the share by which strands differ, its least and its greatest value, the number of
     /// places along the strand, then each place with its value.
     pub words: &'a [u32],
@@ -37,11 +37,15 @@ pub(crate) fn words(params: &[Param], values: &Values, varying: &[Varying]) -> V
         let bits = |numbers: &[f32]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         words.extend(match param.kind {
             ParamKind::Number { .. } => bits(&[values.number(param.name)]),
-            ParamKind::Integer { .. } => vec![values.integer(param.name).unsigned_abs()],
+            ParamKind::Integer { .. } => vec![values.integer(param.name) as u32],
+            ParamKind::Flag { .. } => vec![u32::from(values.flag(param.name))],
+            ParamKind::Pair { .. } => bits(&values.pair(param.name)),
+            ParamKind::Triple { .. } => bits(&values.triple(param.name)),
             ParamKind::Choice { .. } => vec![values.choice(param.name)],
             ParamKind::Color { .. } => bits(&values.color(param.name)),
-            // Programs have no others.
-            _ => {
+            // Programs have none.
+            ParamKind::Text | ParamKind::Size { .. } => Vec::new(),
+            ParamKind::OptionalColor { .. } => {
                 let color = color_or_none(values.optional_color(param.name));
                 bits(&[color.x, color.y, color.z, color.w])
             }

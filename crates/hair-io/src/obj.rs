@@ -217,12 +217,19 @@ fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = text.lines().zip(1..);
     std::iter::from_fn(move || {
         let (first, number) = lines.next()?;
-        let mut line = Cow::Borrowed(first);
-        while let Some(begin) = line.strip_suffix('\\') {
-            let next = lines.next().map_or("", |(next, _)| next);
-            line = Cow::Owned(format!("{begin} {next}"));
+        let Some(begin) = first.strip_suffix('\\') else {
+            return Some((number, Cow::Borrowed(first)));
+        };
+        let mut joined = begin.to_owned();
+        for (next, _) in lines.by_ref() {
+            joined.push(' ');
+            let begin = next.strip_suffix('\\');
+            joined.push_str(begin.unwrap_or(next));
+            if begin.is_none() {
+                break;
+            }
         }
-        Some((number, line))
+        Some((number, Cow::Owned(joined)))
     })
 }
 
@@ -262,6 +269,13 @@ mod tests {
         let (mesh, note) =
             from_text(&format!("{vertices}{}", groups.replace("body", "skin"))).unwrap();
         assert_eq!((mesh.triangles.len(), note), (3, None));
+    }
+
+    #[test]
+    fn a_line_of_a_million_lines_takes_no_time() {
+        let long = "\\\n".repeat(1_000_000) + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n\\\n3\n";
+        let (mesh, _) = from_text(&long).unwrap();
+        assert_eq!(mesh.triangles.len(), 1);
     }
 
     #[test]

@@ -146,7 +146,7 @@ pub(crate) fn shown(text: &str) -> String {
         .take(MOST_SHOWN)
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect();
-    if shown.len() < text.len() {
+    if text.chars().nth(MOST_SHOWN).is_some() {
         shown.push_str("...");
     }
     shown

@@ -80,7 +80,7 @@ impl BoneMotion {
         }
         let (rotation, place) = motion.pose(ChainNode::resting);
         if !(rotation.is_finite() && place.is_finite()) {
-            return Err(SkeletonError::Chain(bone.to_owned()));
+            return Err(SkeletonError::Chain(shown(bone)));
         }
         motion.rest = (rotation, place);
         Ok(motion)
@@ -210,7 +210,7 @@ fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, SkeletonError
     let Some(found) = exact.or_else(|| named(&|name| name.eq_ignore_ascii_case(bone))) else {
         let names = nodes.iter().filter_map(|node| node.name.clone());
         return Err(SkeletonError::Bone {
-            wanted: bone.to_owned(),
+            wanted: shown(bone),
             names: nearest(names.collect(), bone),
         });
     };
@@ -228,7 +228,7 @@ fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, SkeletonError
     let mut next = parents[found];
     while let Some(parent) = next {
         if chain.len() > nodes.len() {
-            return Err(SkeletonError::Chain(bone.to_owned()));
+            return Err(SkeletonError::Chain(shown(bone)));
         }
         chain.push(parent);
         next = parents[parent];

@@ -73,6 +73,7 @@ Types and their defaults in JSON, and how a preset writes them:
   color             \"3FC1C0\"        \"3FC1C0\"
   color or none     \"none\"          none, or \"3FC1C0\"
   text              null            \"hair.tfx\"
+  two numbers       [0, 0]          (0, 0)
   three numbers     [0, 0, 0]       (0, 0, 0)
   size              [960, 720]      (960, 720)
 A default of null means that there is none, or for a layer that it is the effect's own.";

@@ -20,6 +20,10 @@ pub(crate) fn start_without_noise() {
     }
     let mut arguments = args_os();
     if let (Ok(program), Some(own_name)) = (current_exe(), arguments.next()) {
+        // Started by a loader (`ld-linux.so ./inkstrand`), the process's program is the loader, which would take our arguments for its.
+        if program.file_name() != Path::new(&own_name).file_name() {
+            return;
+        }
         // It returns only where it fails.
         let _ = std::process::Command::new(program)
             .arg0(own_name)

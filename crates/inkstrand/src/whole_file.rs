@@ -77,8 +77,12 @@ impl WholeFile {
         let Some(part) = &self.part else {
             return Ok(());
         };
-        let _parts = parts();
-        fs::rename(part, &self.path).map_err(|e| named(&self.path, &e))
+        let mut parts = parts();
+        fs::rename(part, &self.path).map_err(|e| named(&self.path, &e))?;
+        // Its name is free for others from now on, and not ours to remove.
+        parts.own.retain(|own| own != part);
+        self.part = None;
+        Ok(())
     }
 }
 

@@ -129,6 +129,11 @@ fn assert_is_table(schema: &Value, table: &[Param]) {
                 close("max", max);
                 "three numbers"
             }
+            ParamKind::Pair { min, max, .. } => {
+                close("min", min);
+                close("max", max);
+                "two numbers"
+            }
             ParamKind::Size { min, max, .. } => {
                 assert_eq!((&value["min"], &value["max"]), (&json!(min), &json!(max)));
                 "size"

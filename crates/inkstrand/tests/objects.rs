@@ -93,6 +93,20 @@ fn mistakes_of_their_presets_have_their_places() {
             "{text}"
         );
     }
+    // Hair that is none, which its own preset names.
+    fs::write(folder.path().join("cut.tfx"), "cut").unwrap();
+    fs::write(
+        folder.path().join("c.ron"),
+        "(version: 1, hair: (file: \"cut.tfx\"), layers: [])",
+    )
+    .unwrap();
+    for command in ["check", "render"] {
+        let text = error(inkstrand(&folder, &[command, "pair.ron"]));
+        assert!(
+            text.contains("pair.ron:5:5: ") && text.contains("cut.tfx: "),
+            "{text}"
+        );
+    }
     // One that names objects itself.
     fs::copy(folder.path().join("pair.ron"), folder.path().join("c.ron")).unwrap();
     for command in ["check", "render"] {

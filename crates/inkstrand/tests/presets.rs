@@ -75,6 +75,9 @@ fn default(kind: &ParamKind) -> String {
         ParamKind::Triple {
             default: [x, y, z], ..
         } => format!("({x}, {y}, {z})"),
+        ParamKind::Pair {
+            default: [x, y], ..
+        } => format!("({x}, {y})"),
         ParamKind::Size {
             default: [w, h], ..
         } => format!("({w}, {h})"),
@@ -267,6 +270,12 @@ fn is_legal(kind: &ParamKind, text: &str) -> bool {
         ParamKind::Text => quoted.is_some_and(|text| !text.is_empty()),
         ParamKind::Triple { min, max, .. } => numbers(text).is_some_and(|numbers| {
             numbers.len() == 3
+                && numbers
+                    .iter()
+                    .all(|x| (f64::from(min)..=f64::from(max)).contains(x))
+        }),
+        ParamKind::Pair { min, max, .. } => numbers(text).is_some_and(|numbers| {
+            numbers.len() == 2
                 && numbers
                     .iter()
                     .all(|x| (f64::from(min)..=f64::from(max)).contains(x))

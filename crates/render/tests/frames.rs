@@ -142,8 +142,10 @@ fn a_head_measures_its_own_hair_alone() {
 fn joints_belong_to_one_object() {
     let split = |first: Range<usize>, second: Range<usize>| {
         refused(|scene| {
-            scene.joints[0].0 = first;
-            scene.joints[1].0 = second;
+            for (object, joints) in scene.joints.iter_mut().zip([first, second]) {
+                object.1.fill(joints.clone());
+                object.0 = joints;
+            }
         })
     };
     for (first, second) in [
@@ -200,10 +202,47 @@ fn strands_and_paths_are_whole() {
     }
     let error = refused(|scene| scene.paths.runs[1].overlap = 3);
     assert!(matches!(error, FrameError::Run { run: 1, .. }));
+    // A joint behind the last run, pieces out of order.
+    let error = refused(|scene| scene.paths.runs.truncate(3));
+    assert_eq!(
+        error.to_string(),
+        "the paths have 8 joints, but 6 in the list `runs`"
+    );
+    let error = refused(|scene| scene.paths.runs[1].piece = 9);
+    assert!(matches!(error, FrameError::Piece { run: 2, .. }), "{error}");
     let error = refused(|scene| scene.normals = vec![Vec3::Y; 7]);
     assert!(matches!(
         error,
         FrameError::MaterialNormals { normals: 7, .. }
+    ));
+}
+
+#[test]
+fn strands_are_whole_in_their_ranges() {
+    // The second object would begin with a strand's second piece.
+    let error = refused(|scene| scene.paths.runs[2].overlap = 1);
+    assert!(matches!(error, FrameError::ObjectJoints { .. }), "{error}");
+    let error = refused(|scene| {
+        scene.paths.runs[1].overlap = 1;
+        scene.joints[0].1[0] = 2..4;
+    });
+    assert!(matches!(error, FrameError::LayerJoints { .. }), "{error}");
+    // No object has these joints.
+    let mut scene = Scene::new();
+    scene.joints[1].0 = 4..4;
+    scene.joints[1].1.fill(4..4);
+    let mut evaluator = Evaluator::default();
+    let error = evaluator.evaluate(&scene.frame(), &mut Drawing::default());
+    assert!(matches!(error, Err(FrameError::ObjectJoints { .. })));
+    let scene = Scene::new();
+    let nobody = Frame {
+        objects: Vec::new(),
+        ..scene.frame()
+    };
+    let error = evaluator.evaluate(&nobody, &mut Drawing::default());
+    assert!(matches!(
+        error,
+        Err(FrameError::ObjectJoints { object: 0, .. })
     ));
 }
 

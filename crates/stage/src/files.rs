@@ -76,7 +76,7 @@ pub enum StageError {
     OfObjects,
     /// A bake is of one head of hair.
     #[error(
-        "the preset names {0} objects: simulate each one's own preset, which then names its bake"
+        "the preset names objects ({0}): simulate each one's own preset, which then names its bake"
     )]
     BakeOfObjects(usize),
     /// An effect made paths that are none.

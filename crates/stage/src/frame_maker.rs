@@ -94,7 +94,7 @@ impl FrameMaker {
                 None => objects.push(ObjectFrame::new(object)),
             }
             let frame = &mut objects[index];
-            let motion = motion.of(index);
+            let motion = motion.of(index, object);
             let own_camera = object.placement().own_camera(&camera);
             frame.push_strands(motion, &own_camera, strands, paths)?;
             frame.push_made_paths(motion, &own_camera, strands, paths)?;
@@ -111,7 +111,9 @@ impl FrameMaker {
             let look = object.look();
             render::Object {
                 joints: frame.joints.clone(),
-                head: object.placement().head(motion.of(index).head(object)),
+                head: object
+                    .placement()
+                    .head(motion.of(index, object).head(object)),
                 clump: &look.clump,
                 seed: look.seed,
                 layers: &look.layers,

@@ -121,15 +121,19 @@ impl Motion {
     pub fn head(&self, scene: &Scene) -> Head {
         let heads = scene.objects().iter().enumerate();
         mean_head(heads.map(|(index, object)| {
-            let own = self.of(index).head(object);
+            let own = self.of(index, object).head(object);
             object.placement().head(own)
         }))
     }
 
-    /// The motion of the object of that index; one that has not begun where there is none.
-    pub(crate) fn of(&self, index: usize) -> &ObjectMotion {
+    /// The motion of the object of that index; one that has not begun where what stood there moved in another way.
+    pub(crate) fn of(&self, index: usize, object: &Object) -> &ObjectMotion {
         const STILL: &ObjectMotion = &ObjectMotion::new();
-        self.objects.get(index).unwrap_or(STILL)
+        let is_of = |motion: &&ObjectMotion| {
+            let of = motion.of.as_ref();
+            of.is_some_and(|(of, _)| of.moves_as(object))
+        };
+        self.objects.get(index).filter(is_of).unwrap_or(STILL)
     }
 }
 
@@ -196,6 +200,7 @@ impl ObjectMotion {
                 )?)
             }
         };
+        dynamics.stand(object.placement());
         dynamics.advance_to(time, script, is_seen, &mut self.points)
     }
 
@@ -220,11 +225,9 @@ impl ObjectMotion {
     /// The points of the object's strands, as they stand; at rest where no motion of it has begun.
     pub(crate) fn points<'a>(&'a self, object: &'a Object) -> &'a [Vec3] {
         let at_rest = object.hair().file.strands.points();
-        match &self.of {
-            Some((of, _)) if of.moves_as(object) && self.points.len() == at_rest.len() => {
-                &self.points
-            }
-            _ => at_rest,
+        match self.points.len() == at_rest.len() {
+            true => &self.points,
+            false => at_rest,
         }
     }
 }

@@ -118,19 +118,13 @@ impl Object {
     }
 
     /// The same, turned by degrees to its left about the world's upward axis through 0, and then moved by `shift_m` (metres). Head and
-    /// hair move as they did in front of it; winds blow as they did in the world.
+    /// hair move as they did in front of it, and go on where the place changes; winds blow as they did in the world.
     #[must_use]
     pub fn placed(&self, turn_degrees: f32, shift_m: Vec3) -> Self {
-        let placement = Placement::new(turn_degrees, shift_m);
-        let mut object = Self {
-            placement,
+        Self {
+            placement: Placement::new(turn_degrees, shift_m),
             ..self.clone()
-        };
-        for wind in &mut Arc::make_mut(&mut object.script).winds {
-            let in_world = self.placement.direction(wind.direction);
-            wind.direction = placement.own_direction(in_world);
         }
-        object
     }
 
     /// The hair.

@@ -42,14 +42,12 @@ impl Placement {
         }
     }
 
-    /// A direction of the object's, in the world.
-    pub fn direction(&self, direction: DVec3) -> DVec3 {
-        self.rotation.as_dquat() * direction
-    }
-
     /// A direction of the world, as the object has it.
     pub fn own_direction(&self, direction: DVec3) -> DVec3 {
-        self.rotation.as_dquat().inverse() * direction
+        match self.is_none() {
+            true => direction,
+            false => self.rotation.as_dquat().inverse() * direction,
+        }
     }
 
     /// The camera, as the object has it.

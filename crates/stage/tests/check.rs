@@ -57,7 +57,7 @@ fn scripts_styles_and_bakes_are_opened() {
         (
             hair,
             "latin.motion.ron",
-            "look.ron:3:16: file: `latin.motion.ron` cannot be read",
+            "look.ron:3:16: file: latin.motion.ron:1:",
         ),
         (
             "file: \"bob.style.ron\"",

@@ -7,6 +7,7 @@ use render::{Drawing, Frame, Picture};
 use stage::{Files, Preset, Stage, StageError};
 use std::fs;
 use std::path::Path;
+use tempfile::TempDir;
 
 const SCENE: &str =
     "scene: (size: (96, 72), samples: 4), camera: (distance: 7, pitch: 10), light: (yaw: 30),";
@@ -36,6 +37,35 @@ fn of_objects(registry: &Registry, objects: &str) -> Result<Stage, StageError> {
         registry,
         &format!("(version: 1, {SCENE} objects: [{objects}])"),
     )
+}
+
+/// A folder with a preset of hair in the wind on a head that nods: `own.ron`.
+fn moving() -> (TempDir, Files) {
+    let folder = tempfile::tempdir().unwrap();
+    let presets = fs::canonicalize(files().preset_folder).unwrap();
+    fs::write(
+        folder.path().join("a.motion.ron"),
+        "(version: 1, moves: [(move: lift, angle: -30)], winds: [(speed: 9, yaw: 90)])",
+    )
+    .unwrap();
+    let style = presets.join("styles/bob.style.ron");
+    let own = format!(
+        "(version: 1, hair: (file: {:?}), head: (shape: bust), motion: (file: \"a.motion.ron\"), \
+         layers: [(effect: \"hair.base\")])",
+        style.display().to_string()
+    );
+    fs::write(folder.path().join("own.ron"), own).unwrap();
+    let files = Files {
+        preset_folder: folder.path().to_owned(),
+        ..Files::default()
+    };
+    (folder, files)
+}
+
+fn of(registry: &Registry, files: &Files, objects: &str) -> Stage {
+    let text = format!("(version: 1, {SCENE} objects: [{objects}])");
+    let preset = Preset::parse("pair.ron", &text, registry).unwrap();
+    Stage::new(&preset, files).unwrap()
 }
 
 fn refused(objects: &str) -> String {
@@ -142,28 +172,13 @@ fn each_half_shows_one_of_two() {
 #[test]
 fn placed_objects_move_as_they_did() {
     let registry = registry();
-    let folder = tempfile::tempdir().unwrap();
-    let presets = fs::canonicalize(files().preset_folder).unwrap();
-    fs::write(
-        folder.path().join("a.motion.ron"),
-        "(version: 1, moves: [(move: lift, angle: -30)], winds: [(speed: 9, yaw: 90)])",
-    )
-    .unwrap();
-    let style = presets.join("styles/bob.style.ron");
-    let own = format!(
-        "(version: 1, hair: (file: {:?}), head: (shape: bust), motion: (file: \"a.motion.ron\"), \
-         layers: [(effect: \"hair.base\")])",
-        style.display().to_string()
-    );
-    fs::write(folder.path().join("own.ron"), own).unwrap();
-    let files = Files {
-        preset_folder: folder.path().to_owned(),
-        ..Files::default()
-    };
+    let (_folder, files) = moving();
     let stage = |turn: f32| {
-        let text = format!("(version: 1, {SCENE} objects: [(preset: \"own.ron\", turn: {turn})])");
-        let preset = Preset::parse("pair.ron", &text, &registry).unwrap();
-        let mut stage = Stage::new(&preset, &files).unwrap();
+        let mut stage = of(
+            &registry,
+            &files,
+            &format!("(preset: \"own.ron\", turn: {turn})"),
+        );
         stage.advance_to(1.0).unwrap();
         stage
     };
@@ -186,6 +201,40 @@ fn placed_objects_move_as_they_did() {
     );
 }
 
+/// A live program moves a character: its hair goes on, and isn't simulated from the start each time.
+#[test]
+fn another_place_is_no_other_motion() {
+    let registry = registry();
+    let (_folder, files) = moving();
+    let mut stage = of(&registry, &files, "(preset: \"own.ron\")");
+    stage.advance_to(0.5).unwrap();
+    let first = stage.steps_taken();
+    let placed = stage.scene.objects()[0].placed(20.0, Vec3::X);
+    stage.scene = stage.scene.with_object(0, placed).unwrap();
+    stage.advance_to(0.55).unwrap();
+    let then = stage.steps_taken();
+    assert!(
+        first > 5 && then > first && then <= first + 2,
+        "{first}, {then}"
+    );
+}
+
+/// What stood at an index before says nothing of what stands there now.
+#[test]
+fn another_object_begins_anew() {
+    let registry = registry();
+    let (_folder, files) = moving();
+    let mut stage = of(&registry, &files, "(preset: \"own.ron\")");
+    stage.advance_to(1.0).unwrap();
+    let mut still = of_objects(&registry, "(preset: \"manga-ink.ron\", at: (1, 0, 0))").unwrap();
+    let at_rest = still.frame().unwrap().objects[0].head.center;
+    let other = still.scene.objects()[0].clone();
+    let nodding = stage.frame().unwrap().objects[0].head.center;
+    assert!(nodding.distance(at_rest - Vec3::X) > 0.01, "{nodding}");
+    stage.scene = stage.scene.with_object(0, other).unwrap();
+    assert_eq!(stage.frame().unwrap().objects[0].head.center, at_rest);
+}
+
 #[test]
 fn mistakes_have_their_place() {
     let nothing = "objects: the list is empty, so nothing would be drawn";
@@ -206,6 +255,8 @@ fn mistakes_have_their_place() {
     );
     let error = refused("(preset: \"short-ash.ron\"), (preset: \"flat-tails-red.ron\")");
     assert!(error.contains("different brushes"), "{error}");
+    let crowd = "(preset: \"short-ash.ron\"), ".repeat(1001);
+    assert!(refused(&crowd).contains("there are 1001, and at most 1000 are drawn"));
     // A section that its objects' presets say.
     let text = "(version: 1, clump: (size: 3), layers: [], objects: [(preset: \"short-ash.ron\")])";
     let error = stage(&registry(), text).err().unwrap().to_string();

@@ -212,6 +212,9 @@ fn defaults_are_within_their_own_ranges() {
             ParamKind::Triple { min, max, default } => {
                 default.iter().all(|x| (min..=max).contains(x))
             }
+            ParamKind::Pair { min, max, default } => {
+                default.iter().all(|x| (min..=max).contains(x))
+            }
             ParamKind::Size { min, max, default } => {
                 default.iter().all(|x| (min..=max).contains(x))
             }

@@ -76,6 +76,11 @@ fn read(text: &str, kind: &ParamKind) -> Option<Value> {
             let legal = triple.iter().all(|x| *x >= min && *x <= max);
             legal.then_some(Value::Triple(triple))
         }
+        ParamKind::Pair { min, max, .. } => {
+            let pair = ron::from_str::<[f32; 2]>(text).ok()?;
+            let legal = pair.iter().all(|x| *x >= min && *x <= max);
+            legal.then_some(Value::Pair(pair))
+        }
         ParamKind::Size { min, max, .. } => {
             let size = ron::from_str::<[u32; 2]>(text).ok()?;
             let legal = size.iter().all(|x| *x >= min && *x <= max);
@@ -91,7 +96,7 @@ pub(super) fn shown(text: &str) -> String {
         .take(40)
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect();
-    if shown.len() < text.len() {
+    if text.chars().nth(40).is_some() {
         shown.push_str("...");
     }
     shown
@@ -147,7 +152,7 @@ fn hint(text: &str, kind: &ParamKind) -> Option<String> {
         }
         ParamKind::Text if text.starts_with(['(', '[', '{']) => None,
         ParamKind::Text => Some(format!("write \"{}\"", shown(bare))),
-        ParamKind::Triple { .. } | ParamKind::Size { .. } => {
+        ParamKind::Triple { .. } | ParamKind::Pair { .. } | ParamKind::Size { .. } => {
             if text.starts_with(['[', '{']) {
                 return Some("write it in ( )".to_owned());
             }

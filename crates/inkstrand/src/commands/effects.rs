@@ -186,6 +186,9 @@ fn default(param: &Param) -> String {
         ParamKind::Triple {
             default: [x, y, z], ..
         } => format!("({x}, {y}, {z})"),
+        ParamKind::Pair {
+            default: [x, y], ..
+        } => format!("({x}, {y})"),
         ParamKind::Size {
             default: [w, h], ..
         } => format!("({w}, {h})"),

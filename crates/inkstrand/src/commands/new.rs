@@ -24,9 +24,13 @@ pub(crate) fn new(path: &Path) -> Result<(), Failure> {
             return Err(Failure::Failed(message));
         }
     }
-    let preset = PRESET
-        .replace("NAME", &shell_word(Path::new(&name)))
-        .replace("STYLE", &in_ron(&style_name));
+    // Each name goes in once, whatever words are in it.
+    let (name, style_in_ron) = (shell_word(Path::new(&name)), in_ron(&style_name));
+    let parts = PRESET.split("NAME");
+    let parts: Vec<String> = parts
+        .map(|part| part.replace("STYLE", &style_in_ron))
+        .collect();
+    let preset = parts.join(&name);
     write_whole(&style, STYLE.as_bytes())?;
     write_whole(path, preset.as_bytes()).inspect_err(|_| {
         // A style without its preset is of no use; the first error is the one to tell.

@@ -117,6 +117,10 @@ fn parameter(param: &Param) -> Value {
             range(number(min), number(max));
             ("three numbers", json!(default.map(number)))
         }
+        ParamKind::Pair { min, max, default } => {
+            range(number(min), number(max));
+            ("two numbers", json!(default.map(number)))
+        }
         ParamKind::Size { min, max, default } => {
             range(json!(min), json!(max));
             ("size", json!(default))

@@ -28,8 +28,8 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
     let (first, last) = options.frames;
     let time_of = |frame: u32| frame as f32 / fps;
     let frames = u64::from(last - first) + 1;
-    let bar = bar_from_first_frame(options.quiet, &mut stage, &preset, time_of(first), frames)?;
     let mut bake = Bake::new(&preset, &files, &stage.scene)?;
+    let bar = bar_from_first_frame(options.quiet, &mut stage, &preset, time_of(first), frames)?;
     for frame in first..=last {
         let time = time_of(frame);
         stage.advance_to(time)?;

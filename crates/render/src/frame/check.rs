@@ -2,8 +2,9 @@
 
 use super::{Frame, Light, Object};
 use crate::check::{DrawError, check_picture, check_surfaces};
-use effects::{Input, Layer};
+use effects::{Input, Layer, clump};
 use std::ops::Range;
+use stroke_path::PathRun;
 
 /// Why a frame can't be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -12,7 +13,7 @@ pub enum FrameError {
     /// What a drawing must be too.
     #[error(transparent)]
     Draw(#[from] DrawError),
-    /// A list of the paths has another length than the others.
+    /// A list of the paths has another length than the others, or its runs have.
     #[error("the paths have {joints} joints, but {length} in the list `{list}`")]
     Paths {
         /// Which list.
@@ -21,6 +22,30 @@ pub enum FrameError {
         length: usize,
         /// How many joints there are.
         joints: usize,
+    },
+    /// Runs are in the order of their pieces.
+    #[error(
+        "run {run} is of piece {piece}, and the run before is of piece {before}: pieces must not decrease"
+    )]
+    Piece {
+        /// Index of the run.
+        run: usize,
+        /// Its piece.
+        piece: usize,
+        /// That of the run before.
+        before: usize,
+    },
+    /// Two layers make paths on the same joints.
+    #[error(
+        "object {object}: the layers \"{layer}\" and \"{other}\" have the same joints for paths of their own"
+    )]
+    OwnPaths {
+        /// Index of the object.
+        object: usize,
+        /// The later layer's name.
+        layer: String,
+        /// The earlier one's.
+        other: String,
     },
     /// A run's joints don't follow those of the run before, are none, or share more than there are.
     #[error(
@@ -147,15 +172,20 @@ impl Frame<'_> {
         self.check_strands()?;
         let mut before = 0;
         for (index, object) in self.objects.iter().enumerate() {
-            let is_last = index + 1 == self.objects.len();
-            self.check_object(index, object, before, is_last)?;
+            self.check_object(index, object, before)?;
             before = object.joints.end;
         }
-        // A clump reads them where its parameters say so, and they alone know.
-        let reads = |layer: &Layer| layer.program.inputs().has(Input::MaterialNormal);
-        let mut layers = self.objects.iter().flat_map(|object| object.layers);
-        let reads_normals = layers.any(reads);
         let (normals, joints) = (self.material_normals.len(), self.paths.len());
+        if before != joints {
+            return Err(FrameError::ObjectJoints {
+                object: self.objects.len(),
+                start: before,
+                end: before,
+                before,
+                joints,
+            });
+        }
+        let reads_normals = self.objects.iter().any(Object::reads_material_normals);
         if normals != joints && (normals > 0 || reads_normals) {
             return Err(FrameError::MaterialNormals { normals, joints });
         }
@@ -182,7 +212,7 @@ impl Frame<'_> {
                 joints,
             });
         }
-        let (mut before, mut length_before) = (0, 0);
+        let (mut before, mut length_before, mut piece_before) = (0, 0, 0);
         for (index, run) in paths.runs.iter().enumerate() {
             let Range { start, end } = run.joints;
             let length = end.saturating_sub(start);
@@ -197,7 +227,21 @@ impl Frame<'_> {
                     overlap: run.overlap,
                 });
             }
-            (before, length_before) = (end, length);
+            if run.piece < piece_before {
+                return Err(FrameError::Piece {
+                    run: index,
+                    piece: run.piece,
+                    before: piece_before,
+                });
+            }
+            (before, length_before, piece_before) = (end, length, run.piece);
+        }
+        if before != joints {
+            return Err(FrameError::Paths {
+                list: "runs",
+                length: before,
+                joints,
+            });
         }
         Ok(())
     }
@@ -225,16 +269,10 @@ impl Frame<'_> {
         Ok(())
     }
 
-    fn check_object(
-        &self,
-        index: usize,
-        object: &Object,
-        before: usize,
-        is_last: bool,
-    ) -> Result<(), FrameError> {
+    fn check_object(&self, index: usize, object: &Object, before: usize) -> Result<(), FrameError> {
         let Range { start, end } = object.joints;
         let joints = self.paths.len();
-        let is_in_turn = start == before && start <= end && (!is_last || end == joints);
+        let is_in_turn = start == before && start <= end;
         if !is_in_turn || !self.is_whole(&object.joints) {
             return Err(FrameError::ObjectJoints {
                 object: index,
@@ -270,16 +308,44 @@ impl Frame<'_> {
                 });
             }
         }
+        self.check_own_paths(index, object)
+    }
+
+    fn check_own_paths(&self, index: usize, object: &Object) -> Result<(), FrameError> {
+        let layers = object.layers.iter().zip(object.layer_joints);
+        let own: Vec<_> = layers
+            .filter(|(layer, _)| layer.program.has_own_paths())
+            .collect();
+        for (i, (layer, joints)) in own.iter().enumerate() {
+            let shares = |(_, others): &&(&Layer, &Range<usize>)| {
+                joints.start.max(others.start) < joints.end.min(others.end)
+            };
+            if let Some((other, _)) = own[..i].iter().find(shares) {
+                return Err(FrameError::OwnPaths {
+                    object: index,
+                    layer: layer.name.clone(),
+                    other: other.name.clone(),
+                });
+            }
+        }
         Ok(())
     }
 
-    /// Whether no run has joints in a range and others outside of it. Runs are in order, one after the other.
+    /// Whether no strand has joints in a range and others outside of it. Runs are in order, one after the other.
     fn is_whole(&self, joints: &Range<usize>) -> bool {
         let is_between = |joint: usize| {
             let runs = &self.paths.runs;
             let at = runs.partition_point(|run| run.joints.end <= joint);
-            runs.get(at).is_none_or(|run| run.joints.start >= joint)
+            let begins = |run: &PathRun| run.joints.start >= joint && run.overlap == 0;
+            runs.get(at).is_none_or(begins)
         };
         is_between(joints.start) && is_between(joints.end)
+    }
+}
+
+impl Object<'_> {
+    fn reads_material_normals(&self) -> bool {
+        let reads = |layer: &Layer| layer.program.inputs().has(Input::MaterialNormal);
+        self.clump.base().normal == clump::Params::NORMAL_MATERIAL || self.layers.iter().any(reads)
     }
 }

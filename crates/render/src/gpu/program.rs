@@ -101,18 +101,32 @@ fn gather(source: &ProgramSource, layout: &JointLayout) -> String {
                 params.push(format!("gpu_word({at}u)"));
                 1
             }
+            ParamKind::Integer { min, .. } if min < 0 => {
+                params.push(format!("bitcast<i32>(gpu_words[{at}u])"));
+                1
+            }
             ParamKind::Integer { .. } | ParamKind::Choice { .. } => {
                 params.push(format!("gpu_words[{at}u]"));
                 1
             }
-            ParamKind::Color { .. } => {
+            ParamKind::Flag { .. } => {
+                params.push(format!("gpu_words[{at}u] != 0u"));
+                1
+            }
+            ParamKind::Pair { .. } => {
+                params.push(vector(2, at));
+                2
+            }
+            ParamKind::Color { .. } | ParamKind::Triple { .. } => {
                 params.push(vector(3, at));
                 3
             }
-            _ => {
+            ParamKind::OptionalColor { .. } => {
                 params.push(vector(4, at));
                 4
             }
+            // Programs have none.
+            ParamKind::Text | ParamKind::Size { .. } => 0,
         };
         at += words;
     }

@@ -184,8 +184,9 @@ fn gltf_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
     let bone = section.bone.as_deref().unwrap_or("head");
     let animation = section.animation.as_deref().unwrap_or("0");
     let repeats = if section.repeat { ", repeated" } else { "" };
+    hash.bytes(format!("bone {bone}, animation {animation}{repeats}").as_bytes());
+    let [bone, animation] = [bone, animation].map(in_comment);
     let words = format!("bone {bone}, animation {animation}{repeats}");
-    hash.bytes(words.as_bytes());
     Ok(hash.cause("gltf", format!("{}, {words}", file_name(Path::new(name)))))
 }
 
@@ -202,8 +203,13 @@ fn shown(param: &Param, value: &Value) -> String {
 }
 
 fn file_name(path: &Path) -> String {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    name.replace(char::is_control, "_")
+    in_comment(&path.file_name().unwrap_or_default().to_string_lossy())
+}
+
+/// A name on one line, and not too much of it: the values are what is compared.
+fn in_comment(name: &str) -> String {
+    let visible = |c: char| if c.is_control() { '_' } else { c };
+    name.chars().take(200).map(visible).collect()
 }
 
 /// FNV-1a, which is the same in every build and on every machine.

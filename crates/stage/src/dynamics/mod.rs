@@ -14,6 +14,7 @@ pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::neck::rigid;
+use crate::placement::Placement;
 use crate::script::MotionScript;
 use bodies::Bodies;
 use carried::Carried;
@@ -62,6 +63,7 @@ pub(crate) struct Dynamics {
     carried: Carried,
     bodies: Bodies,
     head: Head,
+    placement: Placement,
     gravity: DVec3,
     seed: u64,
     /// Seconds of one step.
@@ -165,6 +167,7 @@ impl Dynamics {
             bodies: Bodies::new(mesh, hair.head),
             strands,
             head: hair.head,
+            placement: Placement::default(),
             gravity: DVec3::new(0.0, -GRAVITY * f64::from(section.gravity), 0.0),
             seed: u64::from(seed),
             warm_up: (f64::from(section.warm_up) / step).round() as i64,
@@ -175,6 +178,11 @@ impl Dynamics {
             taken: 0,
             stats: Stats::default(),
         })
+    }
+
+    /// Takes on where the head stands in the world: winds come from there.
+    pub fn stand(&mut self, placement: Placement) {
+        self.placement = placement;
     }
 
     /// What happened in the last step.
@@ -319,7 +327,7 @@ impl Dynamics {
         let [wind_before, wind] = [begin, end].map(|time| {
             let (steady, gust) = script.wind_at(time);
             Wind {
-                steady,
+                steady: self.placement.own_direction(steady),
                 gust,
                 size: 2.0 * f64::from(self.head.height_m),
                 seed: self.seed,

@@ -10,6 +10,9 @@ use glam::Vec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// The most objects of a picture: more are a mistake, or somebody's attack.
+const MOST_OBJECTS: usize = 1000;
+
 /// The sections that a preset of objects says itself; the others are said by the objects' own presets.
 const OF_THE_SCENE: [&str; 3] = ["scene", "camera", "light"];
 
@@ -41,6 +44,14 @@ impl NamedObject {
     /// Reads the list `objects` of a preset.
     pub(super) fn read_list<'a>(reader: &mut Reader<'a>, list: &'a str) -> Vec<Self> {
         let items = reader.list(list, "objects");
+        if items.len() > MOST_OBJECTS {
+            let message = format!(
+                "objects: there are {}, and at most {MOST_OBJECTS} are drawn",
+                items.len()
+            );
+            reader.error(list, message);
+            return Vec::new();
+        }
         if items.is_empty() && list.starts_with('[') {
             reader.error(
                 list,
@@ -75,6 +86,23 @@ impl NamedObject {
     }
 }
 
+/// A preset that objects name, read once.
+struct Loaded<'r> {
+    path: PathBuf,
+    preset: Preset<'r>,
+    object: Object,
+}
+
+impl Loaded<'_> {
+    /// The same with variations of another seed. A bake that it has is of its own.
+    fn with_seed(&mut self, seed: u32) -> Result<Object, StageError> {
+        let own = std::mem::replace(&mut self.preset.seed, seed);
+        let look = Look::new(&self.preset);
+        self.preset.seed = own;
+        self.object.with_look(look?)
+    }
+}
+
 /// The files that a preset itself names.
 fn beside(preset: &Path) -> Files {
     Files {
@@ -101,34 +129,48 @@ impl<'r> Preset<'r> {
         notes: &mut Vec<String>,
     ) -> Result<Vec<Object>, StageError> {
         self.check_is_left_to_objects(files)?;
-        let mut loaded: Vec<(PathBuf, Object)> = Vec::new();
+        let mut loaded: Vec<Loaded> = Vec::new();
         let mut objects = Vec::new();
         for named in &self.objects {
-            let ObjectSection { at, turn, seed, .. } = named.section;
             let path = named.path(&files.preset_folder);
-            let mut preset = self.read_object(&path, named)?;
-            if seed != 0 {
-                preset.seed = seed;
-            }
-            let look = Arc::new(Look::new(&preset)?);
-            let same = loaded.iter().find(|(of, _)| *of == path);
-            let object = match same {
-                Some((_, object)) => object.in_look(look)?,
+            let known = loaded.iter().position(|loaded| loaded.path == path);
+            let index = match known {
+                Some(index) => index,
                 None => {
-                    let files = beside(&path);
-                    preset.check_files(&files)?;
-                    let first = notes.len();
-                    let object = Object::load(&preset, &files, look, notes)?;
-                    for note in &mut notes[first..] {
-                        *note = format!("{}: {note}", path.display());
-                    }
-                    loaded.push((path, object.clone()));
-                    object
+                    loaded.push(self.load_object(path, named, notes)?);
+                    loaded.len() - 1
                 }
+            };
+            let ObjectSection { at, turn, seed, .. } = named.section;
+            let object = match seed {
+                0 => loaded[index].object.clone(),
+                seed => loaded[index].with_seed(seed)?,
             };
             objects.push(object.placed(turn, Vec3::from(at)));
         }
         Ok(objects)
+    }
+
+    fn load_object(
+        &self,
+        path: PathBuf,
+        named: &NamedObject,
+        notes: &mut Vec<String>,
+    ) -> Result<Loaded<'r>, StageError> {
+        let preset = self.read_object(&path, named)?;
+        let files = beside(&path);
+        preset.check_files(&files)?;
+        let first = notes.len();
+        let look = Arc::new(Look::new(&preset)?);
+        let object = Object::load(&preset, &files, look, notes)?;
+        for note in &mut notes[first..] {
+            *note = format!("{}: {note}", path.display());
+        }
+        Ok(Loaded {
+            path,
+            preset,
+            object,
+        })
     }
 
     /// The presets of the objects, and the files that they name.
@@ -136,6 +178,9 @@ impl<'r> Preset<'r> {
         let mut paths = Vec::new();
         for named in &self.objects {
             let path = named.path(&files.preset_folder);
+            if paths.contains(&path) {
+                continue;
+            }
             if let Ok(preset) = self.read_object(&path, named) {
                 paths.extend(preset.files(&beside(&path)));
             }
