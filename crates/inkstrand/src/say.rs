@@ -78,7 +78,7 @@ mod tests {
 
     /// Run by the test below, in a process of its own.
     #[test]
-    #[ignore = "it panics"]
+    #[ignore = "it panics: `a_panic_is_told_as_a_bug` runs it"]
     fn a_bug() {
         own_up_to_bugs();
         panic!("one and one is three");
