@@ -60,6 +60,14 @@ pub fn command() -> Command {
     };
     Command::new("fuzz")
         .about("Damages files of all kinds, which readers must refuse without a panic, in bounded memory and time")
+        .arg(
+            Arg::new("hours")
+                .long("hours")
+                .value_name("N")
+                .help("For how many hours, such as 0.5")
+                .value_parser(hours)
+                .conflicts_with_all(["seconds", "cases"]),
+        )
         .arg(number("seconds", "N", "For how long [default: 60]").conflicts_with("cases"))
         .arg(number("cases", "N", "How many files"))
         .arg(number("seed", "S", "The seed of the first file, 1 more for each other [default: by the clock]"))
@@ -72,6 +80,14 @@ pub fn command() -> Command {
         )
 }
 
+/// Hours as seconds.
+fn hours(text: &str) -> Result<u64, String> {
+    match text.parse::<f64>() {
+        Ok(hours) if (0.0..=10_000.0).contains(&hours) => Ok((hours * 3600.0).ceil() as u64),
+        _ => Err("expected hours from 0 to 10000".to_owned()),
+    }
+}
+
 /// Damages files as the command line says.
 ///
 /// # Errors
@@ -80,7 +96,8 @@ pub fn run(args: &ArgMatches) -> Outcome {
     let number = |name| args.get_one::<u64>(name).copied();
     let now = SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs();
     let plan = Plan {
-        seconds: number("seconds").or(number("cases").is_none().then_some(60)),
+        seconds: (number("hours").or(number("seconds")))
+            .or(number("cases").is_none().then_some(60)),
         cases: number("cases"),
         seed: number("seed").unwrap_or(now),
     };
@@ -319,8 +336,16 @@ mod tests {
         let line = ["fuzz", "--seed", "17", "--cases", "1", "gltf"];
         let matches = command().try_get_matches_from(line).unwrap();
         assert_eq!(matches.get_one::<u64>("seed"), Some(&17));
-        let both = ["fuzz", "--cases", "1", "--seconds", "1"];
-        assert!(command().try_get_matches_from(both).is_err());
+        for both in [["--cases", "--seconds"], ["--hours", "--seconds"]] {
+            let both = ["fuzz", both[0], "1", both[1], "1"];
+            assert!(command().try_get_matches_from(both).is_err());
+        }
+        let long = command().try_get_matches_from(["fuzz", "--hours", "0.5"]);
+        assert_eq!(long.unwrap().get_one::<u64>("hours"), Some(&1800));
+        for wrong in ["nan", "-1", "1h", "1e9"] {
+            let line = ["fuzz".to_owned(), format!("--hours={wrong}")];
+            assert!(command().try_get_matches_from(line).is_err(), "{wrong}");
+        }
         assert!(command().try_get_matches_from(["fuzz", "png"]).is_err());
     }
 
