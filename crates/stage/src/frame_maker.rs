@@ -1,6 +1,5 @@
 //! Frames of a scene in motion. What a frame needs is kept and reused.
 
-use crate::dynamics::Dynamics;
 use crate::files::StageError;
 use crate::head;
 use crate::material::Material;
@@ -328,12 +327,11 @@ impl ObjectFrame {
         let strands = || (0..rest.len()).map(|strand| rest.point_range(strand));
         let (rotation, _) = rigid(motion.pose(), hair.head);
         material.turn(rest.points(), strands(), hair.head.center, rotation);
-        let is_simulated = Dynamics::moves(&self.of.look().sections.dynamics, self.of.script());
         match motion.dynamics() {
             _ if hair.file.motion.is_some() => {
                 material.follow(rest.points(), points, strands(), rotation);
             }
-            _ if hair.shapes.is_some() && !is_simulated => {
+            None if hair.shapes.is_some() => {
                 material.follow(rest.points(), points, strands(), rotation);
             }
             Some(dynamics) => {

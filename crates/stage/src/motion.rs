@@ -3,6 +3,7 @@
 use crate::bake::Bake;
 use crate::dynamics::Dynamics;
 use crate::files::StageError;
+use crate::hand::{Driver, Hand};
 use crate::neck::{Neck, rigid};
 use crate::object::Object;
 use crate::reach::may_see;
@@ -44,7 +45,7 @@ impl Motion {
     ///
     /// When the simulation refuses the scene's numbers.
     pub fn advance_to(&mut self, scene: &Scene, time: f32) -> Result<(), StageError> {
-        self.advance(scene, f64::from(time), None)
+        self.advance(scene, f64::from(time), None, None)
     }
 
     /// As [`Self::advance_to`], for live programs: while this camera cannot see the hair, wherever it may be, and the head is calm, hair
@@ -61,7 +62,21 @@ impl Motion {
         time: f32,
         camera: &Camera,
     ) -> Result<(), StageError> {
-        self.advance(scene, f64::from(time), Some(camera))
+        self.advance(scene, f64::from(time), Some(camera), None)
+    }
+
+    /// As [`Self::advance_to`], with a hand that moves all heads and blows beside the scene's scripts.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::advance_to`].
+    pub fn advance_by_hand(
+        &mut self,
+        scene: &Scene,
+        time: f32,
+        hand: &Hand,
+    ) -> Result<(), StageError> {
+        self.advance(scene, f64::from(time), None, Some(hand))
     }
 
     /// To `time` (seconds); without a camera hair is seen.
@@ -70,13 +85,14 @@ impl Motion {
         scene: &Scene,
         time: f64,
         camera: Option<&Camera>,
+        hand: Option<&Hand>,
     ) -> Result<(), StageError> {
         let objects = scene.objects();
         self.time_s = time as f32;
         self.objects
             .resize_with(objects.len(), ObjectMotion::default);
         for (object, motion) in objects.iter().zip(&mut self.objects) {
-            motion.advance(object, scene.fps(), time, camera)?;
+            motion.advance(object, scene.fps(), time, camera, hand)?;
         }
         Ok(())
     }
@@ -153,6 +169,7 @@ impl ObjectMotion {
         fps: f32,
         time: f64,
         camera: Option<&Camera>,
+        hand: Option<&Hand>,
     ) -> Result<(), StageError> {
         let is_same = |(of, at): &(Object, f32)| of.moves_as(object) && *at == fps;
         if !self.of.as_ref().is_some_and(is_same) {
@@ -160,15 +177,16 @@ impl ObjectMotion {
             self.of = Some((object.clone(), fps));
         }
         let (hair, script, look) = (object.hair(), object.script(), object.look());
+        let driver = Driver { script, hand };
         let at_rest = hair.file.strands.points();
         self.points.resize(at_rest.len(), Vec3::ZERO);
-        self.pose = script.head_at(time);
+        self.pose = driver.head_at(time);
         if let Some(motion) = &hair.file.motion {
             motion.sample(time as f32, &mut self.points);
             return Ok(());
         }
         let section = &look.sections.dynamics;
-        let is_simulated = Dynamics::moves(section, script);
+        let is_simulated = Dynamics::moves(section, driver);
         match &hair.shapes {
             // Without dynamics hair is where its keys have it.
             Some(shapes) if !is_simulated => {
@@ -181,6 +199,7 @@ impl ObjectMotion {
             *point = (rotation * point.as_dvec3() + translation).as_vec3();
         }
         if !is_simulated {
+            self.dynamics = None;
             return Ok(());
         }
         let center = object.placement().point(self.head(object).center);
@@ -201,7 +220,7 @@ impl ObjectMotion {
             }
         };
         dynamics.stand(object.placement());
-        dynamics.advance_to(time, script, is_seen, &mut self.points)
+        dynamics.advance_to(time, driver, is_seen, &mut self.points)
     }
 
     /// Its head where it is now.

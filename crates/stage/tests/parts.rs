@@ -5,7 +5,7 @@ use glam::Vec3;
 use hair_sim::Strands;
 use render::Frame;
 use stage::{
-    Files, FrameMaker, HairModel, HeadModel, Look, Motion, Preset, Scene, Sections, Stage,
+    Files, FrameMaker, HairModel, Hand, HeadModel, Look, Motion, Preset, Scene, Sections, Stage,
     StageError,
 };
 use std::path::Path;
@@ -163,4 +163,42 @@ fn what_cannot_be_a_scene_is_refused() {
         error.to_string(),
         "camera.fov: expected a number from 1 to 150"
     );
+}
+
+#[test]
+fn a_hand_moves_head_and_hair_beside_the_script() {
+    let registry = registry();
+    let still = PRESET.replace("motion: (file: \"presets/motions/head-turn.motion.ron\"),", "");
+    for text in [PRESET, &still] {
+        let preset = Preset::parse("look.ron", text, &registry).unwrap();
+        let scene = Scene::load(&preset, &files()).unwrap();
+        let at = |hand: &Hand, times: &[f32]| {
+            let (mut motion, mut frames) = (Motion::new(), FrameMaker::new());
+            for time in times {
+                motion.advance_by_hand(&scene, *time, hand).unwrap();
+            }
+            content(&frames.frame(&scene, &motion).unwrap())
+        };
+        let without = shown(&scene, &mut Motion::new(), &mut FrameMaker::new(), 0.5);
+        assert!(at(&Hand::new(), &[0.5]) == without);
+
+        let mut hand = Hand::new();
+        for step in 0..=8 {
+            let turn = Vec3::new(5.0 * step as f32, 0.0, 0.0);
+            hand.hold(step as f32 / 24.0, turn, Vec3::ZERO, Vec3::ZERO);
+        }
+        let held = at(&hand, &[0.5]);
+        let apart = |(points, ..): &(Vec<Vec3>, _, _), others: &[Vec3]| {
+            let pairs = points.iter().zip(others);
+            pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
+        };
+        assert!(apart(&held, &without.0) > 0.02, "hair follows the head");
+        assert!(apart(&held, &at(&hand, &[0.1, 0.2, 0.3, 0.4, 0.5]).0) == 0.0, "times looked at change nothing");
+
+        // A wind alone moves hair, and the head stays.
+        let mut blow = Hand::new();
+        blow.hold(0.0, Vec3::ZERO, Vec3::ZERO, Vec3::new(-9.0, 0.0, 0.0));
+        let calm = shown(&scene, &mut Motion::new(), &mut FrameMaker::new(), 1.0);
+        assert!(apart(&at(&blow, &[1.0]), &calm.0) > 0.005, "hair blows");
+    }
 }

@@ -15,7 +15,7 @@ use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::neck::rigid;
 use crate::placement::Placement;
-use crate::script::MotionScript;
+use crate::hand::Driver;
 use bodies::Bodies;
 use carried::Carried;
 use feel::Feel;
@@ -191,9 +191,9 @@ impl Dynamics {
     }
 
     /// Whether hair moves in a scene: a script drives it, or it is not at rest by itself.
-    pub fn moves(section: &DynamicsSection, script: &MotionScript) -> bool {
+    pub fn moves(section: &DynamicsSection, driver: Driver) -> bool {
         let is_at_rest = section.shape == ShapeChoice::Styled && section.gravity == 1.0;
-        section.solver != SolverChoice::None && !(script.is_still() && is_at_rest)
+        section.solver != SolverChoice::None && !(driver.is_still() && is_at_rest)
     }
 
     /// How many steps have been taken, long ones counted as one.
@@ -201,7 +201,7 @@ impl Dynamics {
         self.taken
     }
 
-    /// Steps to `time` (seconds) of a script, and writes the points of what moves. A time between two steps is shown by a shorter
+    /// Steps to `time` (seconds) of a driver, and writes the points of what moves. A time between two steps is shown by a shorter
     /// step of its own, from which nothing goes on: the motion is the same whatever times are looked at. Hair that is not seen comes
     /// after in long steps; as soon as it is seen, one step takes it to where it should be.
     ///
@@ -211,7 +211,7 @@ impl Dynamics {
     pub fn advance_to(
         &mut self,
         time: f64,
-        script: &MotionScript,
+        driver: Driver,
         is_seen: bool,
         points: &mut [Vec3],
     ) -> Result<(), StageError> {
@@ -222,25 +222,25 @@ impl Dynamics {
         if wanted < self.done || self.done == 0 {
             self.done = 0;
             self.owed = 0;
-            let first = Roots::Head(self.pose_at(self.time_of(0), script));
+            let first = Roots::Head(self.pose_at(self.time_of(0), driver));
             self.strands.restart(first)?;
         }
         if is_seen {
             let owed = self.owed.min(wanted - self.done);
             if owed > 0 {
-                self.step(owed, script)?;
+                self.step(owed, driver)?;
             }
             self.owed = 0;
             while self.done < wanted {
-                self.step(1, script)?;
+                self.step(1, driver)?;
             }
         } else {
             while self.done < wanted {
-                let is_calm = self.is_calm(script);
+                let is_calm = self.is_calm(driver);
                 if is_calm && wanted - self.done < UNSEEN_STEPS {
                     break;
                 }
-                self.step(if is_calm { UNSEEN_STEPS } else { 1 }, script)?;
+                self.step(if is_calm { UNSEEN_STEPS } else { 1 }, driver)?;
             }
             self.owed = wanted - self.done;
         }
@@ -248,7 +248,7 @@ impl Dynamics {
         let mut shown = self.time_of(self.done);
         if is_seen && time > shown + slack {
             shown = time;
-            self.stats = self.drive(time, script, |strands, scene, dt| {
+            self.stats = self.drive(time, driver, |strands, scene, dt| {
                 strands.look_ahead(scene, dt)
             })?;
         }
@@ -257,7 +257,7 @@ impl Dynamics {
             // All hair is where the head's pose has put it.
             return Ok(());
         }
-        let pose = self.pose_at(shown, script);
+        let pose = self.pose_at(shown, driver);
         for part in &self.guides {
             let moved = self.strands.points(part.strand);
             for (point, moved) in points[part.points.clone()].iter_mut().zip(moved) {
@@ -271,10 +271,10 @@ impl Dynamics {
     }
 
     /// Whether the head's motion is even from the last step to the end of a long one.
-    fn is_calm(&self, script: &MotionScript) -> bool {
+    fn is_calm(&self, driver: Driver) -> bool {
         let height_m = f64::from(self.head.height_m);
         let places = |steps: i64| {
-            let pose = self.pose_at(self.time_of(steps), script);
+            let pose = self.pose_at(self.time_of(steps), driver);
             let center = self.head.center.as_dvec3();
             [DVec3::X, DVec3::Z]
                 .map(|side| pose.rotation * (center + side * height_m) + pose.translation)
@@ -289,9 +289,9 @@ impl Dynamics {
     }
 
     /// Takes so many steps as one.
-    fn step(&mut self, steps: i64, script: &MotionScript) -> Result<(), StageError> {
+    fn step(&mut self, steps: i64, driver: Driver) -> Result<(), StageError> {
         let end = self.time_of(self.done + steps);
-        self.stats = self.drive(end, script, |strands, scene, dt| strands.step(scene, dt))?;
+        self.stats = self.drive(end, driver, |strands, scene, dt| strands.step(scene, dt))?;
         self.done += steps;
         self.taken += 1;
         Ok(())
@@ -318,14 +318,14 @@ impl Dynamics {
     fn drive(
         &mut self,
         end: f64,
-        script: &MotionScript,
+        driver: Driver,
         step: impl Fn(&mut (dyn Running + 'static), &Surroundings, f64) -> Result<Stats, DynamicsError>,
     ) -> Result<Stats, StageError> {
         let begin = self.time_of(self.done);
-        let [before, now] = [begin, end].map(|time| self.pose_at(time, script));
-        let shoulders = [begin, end].map(|time| self.shoulders_at(time, script));
+        let [before, now] = [begin, end].map(|time| self.pose_at(time, driver));
+        let shoulders = [begin, end].map(|time| self.shoulders_at(time, driver));
         let [wind_before, wind] = [begin, end].map(|time| {
-            let (steady, gust) = script.wind_at(time);
+            let (steady, gust) = driver.wind_at(time);
             Wind {
                 steady: self.placement.own_direction(steady),
                 gust,
@@ -333,11 +333,11 @@ impl Dynamics {
                 seed: self.seed,
             }
         });
-        self.aim(script.within(end));
+        self.aim(driver.script.within(end));
         // Over whole steps, so that what jumps in a script is felt whole, however it lies between the steps.
         let accelerations = [(begin, before), (end, now)].map(|(time, pose)| {
             let [earlier, later] =
-                [-self.step, self.step].map(|by| self.pose_at(time + by, script));
+                [-self.step, self.step].map(|by| self.pose_at(time + by, driver));
             Acceleration::between([earlier, pose, later], self.step)
         });
         let scene = Surroundings {
@@ -367,8 +367,8 @@ impl Dynamics {
         (steps - self.warm_up) as f64 * self.step
     }
 
-    fn pose_at(&self, time: f64, script: &MotionScript) -> Pose {
-        let (rotation, translation) = rigid(script.head_at(time), self.head);
+    fn pose_at(&self, time: f64, driver: Driver) -> Pose {
+        let (rotation, translation) = rigid(driver.head_at(time), self.head);
         Pose {
             rotation,
             translation,
@@ -376,8 +376,8 @@ impl Dynamics {
     }
 
     /// Where the shoulders are: they follow the head's shift, not its turns.
-    fn shoulders_at(&self, time: f64, script: &MotionScript) -> Pose {
-        let shift = script.head_at(time).shift;
+    fn shoulders_at(&self, time: f64, driver: Driver) -> Pose {
+        let shift = driver.head_at(time).shift;
         Pose {
             rotation: DQuat::IDENTITY,
             translation: shift * f64::from(self.head.height_m),
