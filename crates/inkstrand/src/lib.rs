@@ -18,6 +18,7 @@
 
 mod cli;
 mod commands;
+mod embed;
 mod output;
 mod painter;
 mod paths;
@@ -25,6 +26,9 @@ mod quiet_drivers;
 mod say;
 mod stats;
 mod whole_file;
+
+pub use commands::Progress;
+pub use embed::{render_with, shell_word, write_new_look};
 
 use clap::{CommandFactory as _, Parser as _};
 use cli::{Arguments, Backend, Command};
@@ -79,7 +83,7 @@ pub fn run(registry: &Registry) -> ExitCode {
             if options.backend != Backend::Cpu {
                 quiet_drivers::start_without_noise();
             }
-            commands::render(options, registry)
+            commands::render(options, registry, None).map(drop)
         }
         Command::Check { files } => commands::check(files, registry),
         Command::Effects { name, json } => commands::effects(name.as_deref(), *json, registry),

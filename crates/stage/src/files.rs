@@ -50,7 +50,7 @@ pub enum StageError {
     NoHead(PathBuf),
     /// A style or motion script cannot be read.
     #[error(transparent)]
-    Read(#[from] hair_io::ReadError),
+    Read(#[from] ReadError),
     /// A style or motion script has mistakes.
     #[error(transparent)]
     Mistakes(#[from] effects::preset::PresetErrors),
