@@ -38,6 +38,8 @@ pub struct Documents {
     open: BTreeMap<Which, Document>,
     recovery: Recovery,
     wake: Arc<dyn Fn() + Send + Sync>,
+    /// Which text was changed last.
+    last_changed: Which,
     /// Why the style or script that the preset names is not open.
     pub troubles: BTreeMap<Which, String>,
 }
@@ -57,6 +59,7 @@ impl Documents {
             open: BTreeMap::new(),
             recovery,
             wake,
+            last_changed: Which::Preset,
             troubles: BTreeMap::new(),
         };
         let preset = documents.read(preset)?;
@@ -133,11 +136,35 @@ impl Documents {
         for edit in edits {
             let text = edit.apply(document.text()).map_err(|error| error.to_string())?;
             document.edit(text, gesture);
+            self.last_changed = which;
         }
         if which == Which::Preset {
             self.follow_names();
         }
         Ok(())
+    }
+
+    /// A text was written by hand.
+    pub fn write(&mut self, which: Which, text: String, gesture: Option<u64>) {
+        if let Some(document) = self.open.get_mut(&which) {
+            document.edit(text, gesture);
+            self.last_changed = which;
+        }
+        if which == Which::Preset {
+            self.follow_names();
+        }
+    }
+
+    /// Takes the last change back, or makes it again: of the text that was changed last, then of the others. Whether there was one.
+    pub fn undo(&mut self, again: bool) -> bool {
+        let others = Which::ALL.into_iter().filter(|which| *which != self.last_changed);
+        let order: Vec<Which> = [self.last_changed].into_iter().chain(others).collect();
+        let done = order.into_iter().find(|which| {
+            let document = self.open.get_mut(which);
+            document.is_some_and(|document| if again { document.redo() } else { document.undo() })
+        });
+        self.last_changed = done.unwrap_or(self.last_changed);
+        done.is_some()
     }
 
     /// Opens the style and script that the preset names now. One with changes that are not saved stays open until they are.
@@ -202,6 +229,60 @@ impl Documents {
     pub fn save(&mut self) -> Vec<SaveError> {
         let changed = self.open.values_mut().filter(|document| document.is_changed());
         changed.filter_map(|document| document.save().err()).collect()
+    }
+
+    /// Writes the preset under another name, which is its own from then on. Its style and script are those that it named before: their names
+    /// are relative to its folder, so it stays there.
+    ///
+    /// # Errors
+    ///
+    /// When the name is in another folder, or there is such a file, or it cannot be written.
+    pub fn save_preset_as(&mut self, path: &Path) -> Result<(), String> {
+        if path.parent() != self.preset().path().parent() {
+            return Err(format!(
+                "the files that a preset names are relative to it: save it in {}",
+                self.folder().display()
+            ));
+        }
+        let preset = self.open.get_mut(&Which::Preset);
+        let saved = preset.map(|preset| preset.save_as(path).map_err(|error| error.to_string()));
+        saved.unwrap_or(Ok(()))
+    }
+
+    /// Ends a conflict: keeps what is here, or takes what is on the disk.
+    pub fn resolve(&mut self, which: Which, keeps_mine: bool) {
+        if let Some(document) = self.open.get_mut(&which) {
+            match keeps_mine {
+                true => document.keep_mine(),
+                false => document.take_theirs(),
+            }
+        }
+        self.follow_names();
+    }
+
+    /// The names of texts of which a copy was found that a crash has left.
+    #[must_use]
+    pub fn recovered(&self) -> Vec<String> {
+        let texts = self.open.values().filter(|document| document.recovered().is_some());
+        texts.map(|document| document.path().display().to_string()).collect()
+    }
+
+    /// Takes the copies on; undo takes them back.
+    pub fn accept_recovered(&mut self) {
+        self.open.values_mut().for_each(Document::accept_recovered);
+        self.follow_names();
+    }
+
+    /// Throws the copies away.
+    pub fn discard_recovered(&mut self) {
+        self.open.values_mut().for_each(Document::discard_recovered);
+    }
+
+    /// Throws all changes away, with the copies that would outlive a crash.
+    pub fn forget_changes(&mut self) {
+        for document in self.open.values_mut() {
+            document.take_theirs();
+        }
     }
 
     /// Keeps copies that outlive a crash.

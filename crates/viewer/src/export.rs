@@ -97,7 +97,7 @@ impl Running {
     pub fn start(
         arguments: Vec<String>,
         registry: Arc<Registry>,
-        wake: impl Fn() + Send + 'static,
+        wake: impl Fn() + Send + Sync + 'static,
     ) -> Self {
         let running = Self {
             done: Arc::default(),

@@ -41,9 +41,9 @@ pub enum Tool {
 
 /// A picture on the screen.
 pub struct Shown {
-    /// What was drawn, without its pixels.
+    /// What was drawn.
     pub drawn: Drawn,
-    /// Its pixels.
+    /// Its pixels, where the window draws from.
     pub texture: TextureHandle,
 }
 
@@ -174,6 +174,54 @@ impl Studio {
         }
     }
 
+    /// Opens a preset at once, or asks first what becomes of changes.
+    pub fn ask_to_open(&mut self, path: &Path) {
+        if self.documents.as_ref().is_some_and(Documents::is_changed) {
+            self.prompt = Some(Prompt::Unsaved(Some(path.to_owned())));
+        } else {
+            self.open(path);
+        }
+    }
+
+    /// Takes on a file that was dropped on the window: a preset is opened, hair, head or motion become those of the preset.
+    pub fn take_file(&mut self, path: &Path) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
+        let (section, param) = if ends(&[".style.ron", ".strands.ron", ".tfx"]) {
+            ("hair", "file")
+        } else if ends(&[".obj"]) {
+            ("head", "file")
+        } else if ends(&[".motion.ron"]) {
+            ("motion", "file")
+        } else if ends(&[".glb", ".gltf", ".vrm"]) {
+            ("motion", "gltf")
+        } else if ends(&[".png", ".jpg", ".jpeg"]) {
+            let shown = self.show_reference(path);
+            return shown.unwrap_or_else(|error| self.tell(error));
+        } else if ends(&[".ron"]) {
+            return self.ask_to_open(path);
+        } else {
+            return self.tell(format!(
+                "{}: presets (.ron), hair (.style.ron, .strands.ron, .tfx), heads (.obj), motion (.motion.ron, .glb, .gltf, .vrm) and \
+                 pictures (.png, .jpg) can be dropped here",
+                path.display()
+            ));
+        };
+        let Some(documents) = &self.documents else {
+            return self.tell("open a preset first: files of hair, heads and motion become a part of it");
+        };
+        let file = relative_to(path, &documents.folder());
+        self.set(section, param, &Value::Text(Some(file)), &ParamKind::Text);
+        self.tell(format!("{section}.{param} is {} now", path.display()));
+    }
+
+    /// Writes one of the texts.
+    pub fn write(&mut self, which: Which, text: String, gesture: Option<u64>) {
+        if let Some(documents) = &mut self.documents {
+            documents.write(which, text, gesture);
+        }
+    }
+
     /// Shows a sentence for a while.
     pub fn tell(&mut self, sentence: impl Into<String>) {
         self.told = Some((sentence.into(), Instant::now()));
@@ -220,7 +268,7 @@ impl Studio {
             self.tell("this is the preset's view already");
             return;
         };
-        let section = &stage::CameraSection::TABLE;
+        let section = CameraSection::TABLE;
         let rounded = |number: f32| (1000.0 * number).round() / 1000.0;
         let values = [
             ("yaw", Value::Number(rounded(own.yaw))),
@@ -309,6 +357,45 @@ impl Studio {
         }
     }
 
+    /// Shows a picture to draw after.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be read.
+    pub fn show_reference(&mut self, path: &Path) -> Result<(), String> {
+        self.reference = Some(Reference::open(path, &self.ctx)?);
+        Ok(())
+    }
+
+    /// Compares with another preset.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be read.
+    pub fn compare_with(&mut self, path: &Path) -> Result<(), String> {
+        let compare = Compare::with_preset(path).map_err(|error| error.to_string())?;
+        self.compare = Some(compare);
+        Ok(())
+    }
+
+    /// What an export hangs on beside the files; nothing where no preset is open.
+    #[must_use]
+    pub fn export_state(&self) -> Option<crate::export::State> {
+        let documents = self.documents.as_ref()?;
+        let all = self.shown[0].as_ref().map(|shown| &shown.drawn.facts.layers);
+        let all = all.map_or(&[][..], Vec::as_slice);
+        let shown: Vec<String> = (all.iter())
+            .filter(|layer| self.layers.is_shown(layer))
+            .cloned()
+            .collect();
+        Some(crate::export::State {
+            preset: documents.preset().path().to_owned(),
+            view: self.view.own().cloned(),
+            time_s: self.transport.shown_s(),
+            only: if shown.len() == all.len() { Vec::new() } else { shown },
+        })
+    }
+
     /// The look as it is edited.
     #[must_use]
     pub fn look(&self) -> Option<Look> {
@@ -357,7 +444,7 @@ impl Studio {
 
     /// What happens after: the picture that is wanted now is wished for.
     pub fn after_frame(&mut self) {
-        let (Some(look), [1.., 1..]) = (self.look(), self.picture_px) else {
+        let Some(look) = self.look().filter(|_| self.picture_px != [0, 0]) else {
             return;
         };
         let mut looks = vec![look];
@@ -388,10 +475,6 @@ impl Studio {
     fn show(&mut self, index: usize, drawn: Drawn) {
         let size = drawn.size_px.map(|side| side as usize);
         let image = ColorImage::from_rgba_unmultiplied(size, &drawn.pixels);
-        let drawn = Drawn {
-            pixels: Vec::new(),
-            ..drawn
-        };
         if let Some(shown) = &mut self.shown[index] {
             shown.texture.set(image, TextureOptions::LINEAR);
             shown.drawn = drawn;
@@ -401,6 +484,12 @@ impl Studio {
                 .load_texture(format!("picture {index}"), image, TextureOptions::LINEAR);
             self.shown[index] = Some(Shown { drawn, texture });
         }
+    }
+
+    /// The pixels of a picture: rows from above, red, green, blue, alpha, sRGB, straight.
+    #[must_use]
+    pub fn pixels(&self, index: usize) -> Option<&[u8]> {
+        Some(&self.shown[index].as_ref()?.drawn.pixels)
     }
 
     /// Reads what of the texts the window itself needs.
@@ -422,5 +511,32 @@ impl Studio {
         self.track = script.map_or_else(MotionTrack::default, |script| MotionTrack::read(script.text()));
         let end = self.track.end_s(SETTLING_S);
         self.transport.follow(self.sections.scene.fps, end);
+    }
+}
+
+/// A path as a preset in `folder` names it: relative where both are in one tree, with `/` on every system.
+fn relative_to(path: &Path, folder: &Path) -> String {
+    let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let (path, folder) = (whole(path), whole(folder));
+    let common = path.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    if common <= 1 {
+        return path.display().to_string().replace('\\', "/");
+    }
+    let up = folder.components().skip(common).map(|_| "..".to_owned());
+    let down = path.components().skip(common);
+    let down = down.map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_named_relative_to_the_preset() {
+        let named = |path: &str| relative_to(Path::new(path), Path::new("/a/looks"));
+        assert_eq!(named("/a/looks/bob.style.ron"), "bob.style.ron");
+        assert_eq!(named("/a/hair/x.tfx"), "../hair/x.tfx");
+        assert_eq!(named("/b/x.tfx"), "/b/x.tfx");
     }
 }

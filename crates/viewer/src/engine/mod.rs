@@ -6,7 +6,7 @@ mod slot;
 mod thumbnail;
 
 pub use painter::Backend;
-pub use thumbnail::{Thumbnail, Thumbnails};
+pub use thumbnail::{SIZE_PX as THUMBNAIL_SIZE_PX, Thumbnail, Thumbnails};
 
 use crate::layers_shown::LayersShown;
 use effects::Registry;

@@ -12,6 +12,8 @@ const MOVING_SAMPLES: u32 = 4;
 const SCALES: [f64; 7] = [1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3];
 /// How far below the budget a larger picture must be, before it is taken again.
 const HEADROOM: f64 = 0.8;
+/// The least time that pixels get, in parts of what strokes take.
+const LEAST_FOR_PIXELS: f64 = 0.5;
 /// How much of what is known comes from the last frame.
 const NEWS: f64 = 0.25;
 
@@ -44,10 +46,12 @@ impl Quality {
         let few = samples.min(MOVING_SAMPLES);
         if !is_moving {
             // What is wanted at once, where that takes no longer than anybody notices.
-            let is_quick = self.expected_ms(size_px, samples, 1.0) <= ROUGH_MS;
+            let is_quick = self.base_ms + self.expected_ms(size_px, samples, 1.0) <= ROUGH_MS;
             return (size_px, if is_quick { samples } else { few });
         }
-        let budget = BUDGET_MS / pictures.max(1) as f64;
+        // Where strokes alone take too long, fewer pixels help little, and the picture is kept readable.
+        let budget = BUDGET_MS / pictures.max(1) as f64 - self.base_ms;
+        let budget = budget.max(LEAST_FOR_PIXELS * self.base_ms);
         let fits = |scale: usize, budget: f64| {
             self.expected_ms(size_px, few, SCALES[scale]) <= budget
         };
@@ -64,9 +68,10 @@ impl Quality {
         )
     }
 
+    /// What the pixels are expected to take.
     fn expected_ms(&self, [width, height]: [u32; 2], samples: u32, scale: f64) -> f64 {
         let pixels = f64::from(width) * f64::from(height) * scale * scale;
-        self.base_ms + self.sample_ms * pixels * f64::from(samples) * 1e-6
+        self.sample_ms * pixels * f64::from(samples) * 1e-6
     }
 
     /// Takes on what a picture took.
@@ -108,8 +113,9 @@ mod tests {
         let (_, size) = settled(3.0, 10.0);
         let took = 3.0 + 10.0 * f64::from(size[0] * size[1] * MOVING_SAMPLES) * 1e-6;
         assert!(took <= BUDGET_MS && size[0] < SIZE[0], "{size:?}: {took}");
-        // One that can't keep up whatever the size draws the smallest.
-        assert_eq!(settled(40.0, 10.0).1[0], 288);
+        // One that can't keep up whatever the size draws what takes half as long as the strokes.
+        assert_eq!(settled(40.0, 10.0).1, [816, 612]);
+        assert_eq!(settled(13.0, 90.0).1, [288, 216]);
     }
 
     #[test]
