@@ -25,7 +25,6 @@ mod paths;
 mod quiet_drivers;
 mod say;
 mod stats;
-mod whole_file;
 
 pub use commands::Progress;
 pub use embed::{render_with, shell_word, write_new_look};
@@ -77,7 +76,7 @@ pub fn run(registry: &Registry) -> ExitCode {
         Ok(arguments) => arguments,
         Err(answer) => return give(&answer),
     };
-    whole_file::leave_no_parts();
+    leave_no_parts_when_interrupted();
     let done = match &arguments.command {
         Command::Render(options) => {
             if options.backend != Backend::Cpu {
@@ -114,6 +113,17 @@ pub fn run(registry: &Registry) -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// From now on an interrupt removes what is unfinished and ends the process with 130.
+fn leave_no_parts_when_interrupted() {
+    let set = ctrlc::set_handler(|| {
+        // Held until the end of the process.
+        let _no_parts = hair_io::remove_parts();
+        std::process::exit(130);
+    });
+    // It fails where the program that calls us has a handler of its own, which is then in charge.
+    drop(set);
 }
 
 /// Gives the answer to a command line that starts no work: help, the version, or what is wrong with it.

@@ -1,7 +1,7 @@
 //! Picture files: their names and their bytes.
 
 use crate::paths::place;
-use crate::whole_file::write_whole;
+use hair_io::write_whole;
 use render::Picture;
 use std::ffi::{OsStr, OsString};
 use std::io;

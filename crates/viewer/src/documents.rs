@@ -71,7 +71,7 @@ impl Documents {
     fn read(&self, path: &Path) -> Result<Document, OpenError> {
         let mut document = Document::open(path, &self.recovery)?;
         let wake = self.wake.clone();
-        document.on_change(Box::new(move || wake()));
+        document.on_change(Some(Box::new(move || wake())));
         Ok(document)
     }
 
@@ -278,11 +278,9 @@ impl Documents {
         self.open.values_mut().for_each(Document::discard_recovered);
     }
 
-    /// Throws all changes away, with the copies that would outlive a crash.
-    pub fn forget_changes(&mut self) {
-        for document in self.open.values_mut() {
-            document.take_theirs();
-        }
+    /// Throws all changes away, with the copies that would outlive a crash, and closes the texts.
+    pub fn close(self) {
+        self.open.into_values().for_each(Document::close);
     }
 
     /// Keeps copies that outlive a crash.

@@ -198,21 +198,22 @@ fn ask_recover(ui: &mut Ui, studio: &mut Studio) -> Answer {
     let Some(documents) = &mut studio.documents else {
         return Answer::Closes;
     };
-    let mut answer = Answer::Stays;
     for name in documents.recovered() {
         ui.label(RichText::new(name).strong());
     }
     ui.horizontal(|ui| {
         if ui.button("Take the copy").clicked() {
             documents.accept_recovered();
-            answer = Answer::Closes;
         }
         if ui.button("Throw it away").clicked() {
             documents.discard_recovered();
-            answer = Answer::Closes;
         }
     });
-    answer
+    // There may be older ones.
+    match documents.recovered().is_empty() {
+        true => Answer::Closes,
+        false => Answer::Stays,
+    }
 }
 
 fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answer {
@@ -230,8 +231,8 @@ fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answe
             goes_on = !studio.documents.as_ref().is_some_and(Documents::is_changed);
         }
         if ui.button("Throw away").clicked() {
-            if let Some(documents) = &mut studio.documents {
-                documents.forget_changes();
+            if let Some(documents) = studio.documents.take() {
+                documents.close();
             }
             goes_on = true;
         }
@@ -291,7 +292,7 @@ impl Export {
     }
 
     fn ask(&mut self, ui: &mut Ui, studio: &mut Studio) -> Answer {
-        ui.heading("Export");
+        ui.heading("Draw into files");
         let Some(state) = studio.export_state() else {
             return Answer::Closes;
         };

@@ -3,7 +3,9 @@
 use crate::documents::Documents;
 use crate::engine::{Drawn, Problem};
 use crate::studio::Studio;
+use document::Conflict;
 use eframe::egui::{RichText, ScrollArea, Ui};
+use std::sync::Arc;
 
 /// The most mistakes that are shown.
 const MOST_SHOWN: usize = 20;
@@ -57,7 +59,7 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
         ui.columns(2, |columns| {
             for (ui, (title, text)) in columns.iter_mut().zip([
                 ("Mine", Some(document.text())),
-                ("On the disk", conflict.on_disk()),
+                ("On the disk", on_disk(conflict)),
             ]) {
                 ui.strong(title);
                 ScrollArea::vertical().id_salt((title, which.name())).max_height(160.0).show(ui, |ui| {
@@ -71,6 +73,14 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
     }
     if let Some((which, keeps_mine)) = chosen {
         documents.resolve(which, keeps_mine);
+    }
+}
+
+/// What the disk has; nothing where the file is deleted.
+fn on_disk(conflict: &Conflict) -> Option<&Arc<str>> {
+    match conflict {
+        Conflict::Changed { on_disk } => Some(on_disk),
+        _ => None,
     }
 }
 

@@ -450,7 +450,7 @@ impl Studio {
         let mut looks = vec![look];
         looks.extend(self.compare.as_ref().map(|compare| compare.look.clone()));
         let is_moving = self.transport.is_playing || self.is_dragging;
-        self.engine.wish(Wish {
+        let is_new = self.engine.wish(Wish {
             looks,
             camera: Some(self.camera()),
             size_px: self.picture_px,
@@ -460,6 +460,7 @@ impl Studio {
             hand: self.grip.hand().clone(),
             backend: self.backend,
         });
+        self.is_sharp &= !is_new;
         if self.transport.is_playing {
             let due = Duration::from_secs_f32(self.transport.next_frame_in_s());
             self.ctx.request_repaint_after(due);

@@ -24,7 +24,7 @@ fn press(harness: &mut Harness<App>, modifiers: Modifiers, key: Key) {
 }
 
 fn picture(harness: &Harness<App>) -> Rect {
-    harness.get_by_label("Picture").rect()
+    harness.get_by_label("The picture").rect()
 }
 
 /// Drags on the picture, in parts of its size from its middle, and lets go.

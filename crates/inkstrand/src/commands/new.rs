@@ -3,7 +3,7 @@
 use crate::Failure;
 use crate::paths::file_name;
 use crate::say::{say, shell_word};
-use crate::whole_file::write_whole;
+use hair_io::write_whole;
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -9,8 +9,8 @@ use crate::painter::Painter;
 use crate::paths::is_same;
 use crate::say::say;
 use crate::stats::Lines;
-use crate::whole_file::try_to_write;
 use effects::Registry;
+use hair_io::try_to_write;
 use stage::{Files, Preset, SceneSection, Sections};
 use std::path::Path;
 

@@ -146,9 +146,11 @@ pub enum Problem {
 
 /// The thread's end that the window has.
 pub struct Engine {
-    wishes: Sender<Wish>,
-    answers: Arc<Mutex<Option<Answer>>>,
+    wishes: Sender<(u64, Wish)>,
+    answers: Arc<Mutex<Option<(u64, Answer)>>>,
     last: Option<Wish>,
+    /// How many wishes there were.
+    number: u64,
 }
 
 impl Engine {
@@ -159,8 +161,8 @@ impl Engine {
         let answers = Arc::new(Mutex::new(None));
         let shared = answers.clone();
         std::thread::spawn(move || {
-            let answer = |answer: Answer| {
-                *shared.lock().unwrap_or_else(PoisonError::into_inner) = Some(answer);
+            let answer = |number: u64, answer: Answer| {
+                *shared.lock().unwrap_or_else(PoisonError::into_inner) = Some((number, answer));
                 wake();
             };
             Drawer::new(&registry).serve(&received, answer);
@@ -169,22 +171,28 @@ impl Engine {
             wishes,
             answers,
             last: None,
+            number: 0,
         }
     }
 
-    /// Wishes for something to be seen; the same wish again is none.
-    pub fn wish(&mut self, wish: Wish) {
-        if self.last.as_ref() != Some(&wish) {
+    /// Wishes for something to be seen; the same wish again is none. Whether it is another one.
+    pub fn wish(&mut self, wish: Wish) -> bool {
+        let is_new = self.last.as_ref() != Some(&wish);
+        if is_new {
             // The thread ends with the window alone.
-            let _ = self.wishes.send(wish.clone());
+            let _ = self.wishes.send((self.number + 1, wish.clone()));
+            self.number += 1;
             self.last = Some(wish);
         }
+        is_new
     }
 
-    /// The newest answer, if it was not taken yet.
+    /// The newest answer, if it was not taken yet. What is no answer to the newest wish is not final.
     pub fn answer(&mut self) -> Option<Answer> {
         let mut answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
-        answers.take()
+        let (number, mut answer) = answers.take()?;
+        answer.is_final &= number == self.number;
+        Some(answer)
     }
 }
 
@@ -208,23 +216,23 @@ impl<'r> Drawer<'r> {
 
     /// Draws the newest of the wishes until nobody wishes any more. At rest a picture is drawn roughly first, then sharp, unless
     /// another wish comes between.
-    fn serve(&mut self, wishes: &Receiver<Wish>, answer: impl Fn(Answer)) {
+    fn serve(&mut self, wishes: &Receiver<(u64, Wish)>, answer: impl Fn(u64, Answer)) {
         let mut next = wishes.recv().ok();
-        while let Some(mut wish) = next.take() {
+        while let Some((mut number, mut wish)) = next.take() {
             while let Ok(newer) = wishes.try_recv() {
-                wish = newer;
+                (number, wish) = newer;
             }
             let mut first = self.draw(&wish, true);
             first.is_final &= !wish.is_moving;
             let is_final = first.is_final || wish.is_moving;
-            answer(first);
+            answer(number, first);
             if !is_final {
                 match wishes.try_recv() {
                     Ok(newer) => {
                         next = Some(newer);
                         continue;
                     }
-                    Err(TryRecvError::Empty) => answer(self.draw(&wish, false)),
+                    Err(TryRecvError::Empty) => answer(number, self.draw(&wish, false)),
                     Err(TryRecvError::Disconnected) => return,
                 }
             }

@@ -23,7 +23,7 @@ const KEY_POINTS: f32 = 12.0;
 pub(super) fn picture(ui: &mut Ui, studio: &mut Studio) {
     ui.horizontal_wrapped(|ui| tools(ui, studio));
     let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-    let response = response.accessible_name("Picture");
+    let response = response.accessible_name("The picture");
     let rect = fitted(area, studio.sections.scene.size);
     let scale = ui.pixels_per_point();
     let most = MOST_PX / (scale * rect.width().max(rect.height())).max(MOST_PX);
