@@ -85,31 +85,156 @@ const PLAIN: Modifiers = Modifiers::NONE;
 
 /// All actions.
 pub const ALL: &[Entry] = &[
-    entry(Action::New, "New look...", Some((COMMAND, Key::N)), "Writes a preset to start from, with a hair style"),
-    entry(Action::Open, "Open...", Some((COMMAND, Key::O)), "Opens another preset"),
-    entry(Action::Save, "Save", Some((COMMAND, Key::S)), "Writes preset, style and script"),
-    entry(Action::SaveAs, "Save preset as...", Some((COMMAND_SHIFT, Key::S)), "Writes the preset under another name"),
-    entry(Action::Export, "Export...", Some((COMMAND, Key::E)), "Draws a picture or a sequence into files"),
-    entry(Action::Quit, "Quit", Some((COMMAND, Key::Q)), "Ends the viewer"),
-    entry(Action::Undo, "Undo", Some((COMMAND, Key::Z)), "Takes the last change back"),
-    entry(Action::Redo, "Redo", Some((COMMAND_SHIFT, Key::Z)), "Makes the change again"),
-    entry(Action::Search, "Search parameters", Some((COMMAND, Key::F)), "Finds parameters by name or meaning"),
-    entry(Action::KeepState, "Compare with this state", Some((COMMAND, Key::K)), "Keeps the look as it is now, beside what it becomes"),
-    entry(Action::Play, "Play or pause", Some((PLAIN, Key::Space)), "Lets time run"),
-    entry(Action::StepBack, "A frame back", Some((PLAIN, Key::Comma)), "Shows the frame before"),
-    entry(Action::StepOn, "A frame on", Some((PLAIN, Key::Period)), "Shows the next frame"),
-    entry(Action::Rewind, "To the beginning", Some((PLAIN, Key::Home)), "Goes to frame 0, with hair at rest and no hand on the head"),
-    entry(Action::Look(NamedView::Front), "Front", Some((PLAIN, Key::Num1)), "Looks at the face"),
-    entry(Action::Look(NamedView::ThreeQuarter), "Three-quarter", Some((PLAIN, Key::Num2)), "Looks between face and side"),
-    entry(Action::Look(NamedView::Profile), "Profile", Some((PLAIN, Key::Num3)), "Looks at the side"),
-    entry(Action::Look(NamedView::Back), "Back", Some((PLAIN, Key::Num4)), "Looks from behind"),
-    entry(Action::Look(NamedView::Above), "Above", Some((PLAIN, Key::Num5)), "Looks from above"),
-    entry(Action::PresetView, "The preset's view", Some((PLAIN, Key::Num0)), "Looks from where the preset says"),
-    entry(Action::KeepView, "Write this view into the preset", Some((PLAIN, Key::K)), "Makes the view the preset's own"),
-    entry(Action::Focus, "Look at the head", Some((PLAIN, Key::F)), "Brings the head into the middle"),
-    entry(Action::ZoomIn, "Nearer", Some((PLAIN, Key::Plus)), "Comes nearer"),
-    entry(Action::ZoomOut, "Farther", Some((PLAIN, Key::Minus)), "Goes farther away"),
-    entry(Action::Help, "Shortcuts", Some((PLAIN, Key::F1)), "Lists all shortcuts"),
+    entry(
+        Action::New,
+        "New look...",
+        Some((COMMAND, Key::N)),
+        "Writes a preset to start from, with a hair style",
+    ),
+    entry(
+        Action::Open,
+        "Open...",
+        Some((COMMAND, Key::O)),
+        "Opens another preset",
+    ),
+    entry(
+        Action::Save,
+        "Save",
+        Some((COMMAND, Key::S)),
+        "Writes preset, style and script",
+    ),
+    entry(
+        Action::SaveAs,
+        "Save preset as...",
+        Some((COMMAND_SHIFT, Key::S)),
+        "Writes the preset under another name",
+    ),
+    entry(
+        Action::Export,
+        "Export...",
+        Some((COMMAND, Key::E)),
+        "Draws a picture or a sequence into files",
+    ),
+    entry(
+        Action::Quit,
+        "Quit",
+        Some((COMMAND, Key::Q)),
+        "Ends the viewer",
+    ),
+    entry(
+        Action::Undo,
+        "Undo",
+        Some((COMMAND, Key::Z)),
+        "Takes the last change back",
+    ),
+    entry(
+        Action::Redo,
+        "Redo",
+        Some((COMMAND_SHIFT, Key::Z)),
+        "Makes the change again",
+    ),
+    entry(
+        Action::Search,
+        "Search parameters",
+        Some((COMMAND, Key::F)),
+        "Finds parameters by name or meaning",
+    ),
+    entry(
+        Action::KeepState,
+        "Compare with this state",
+        Some((COMMAND, Key::K)),
+        "Keeps the look as it is now, beside what it becomes",
+    ),
+    entry(
+        Action::Play,
+        "Play or pause",
+        Some((PLAIN, Key::Space)),
+        "Lets time run",
+    ),
+    entry(
+        Action::StepBack,
+        "A frame back",
+        Some((PLAIN, Key::Comma)),
+        "Shows the frame before",
+    ),
+    entry(
+        Action::StepOn,
+        "A frame on",
+        Some((PLAIN, Key::Period)),
+        "Shows the next frame",
+    ),
+    entry(
+        Action::Rewind,
+        "To the beginning",
+        Some((PLAIN, Key::Home)),
+        "Goes to frame 0, with hair at rest and no hand on the head",
+    ),
+    entry(
+        Action::Look(NamedView::Front),
+        "Front",
+        Some((PLAIN, Key::Num1)),
+        "Looks at the face",
+    ),
+    entry(
+        Action::Look(NamedView::ThreeQuarter),
+        "Three-quarter",
+        Some((PLAIN, Key::Num2)),
+        "Looks between face and side",
+    ),
+    entry(
+        Action::Look(NamedView::Profile),
+        "Profile",
+        Some((PLAIN, Key::Num3)),
+        "Looks at the side",
+    ),
+    entry(
+        Action::Look(NamedView::Back),
+        "Back",
+        Some((PLAIN, Key::Num4)),
+        "Looks from behind",
+    ),
+    entry(
+        Action::Look(NamedView::Above),
+        "Above",
+        Some((PLAIN, Key::Num5)),
+        "Looks from above",
+    ),
+    entry(
+        Action::PresetView,
+        "The preset's view",
+        Some((PLAIN, Key::Num0)),
+        "Looks from where the preset says",
+    ),
+    entry(
+        Action::KeepView,
+        "Write this view into the preset",
+        Some((PLAIN, Key::K)),
+        "Makes the view the preset's own",
+    ),
+    entry(
+        Action::Focus,
+        "Look at the head",
+        Some((PLAIN, Key::F)),
+        "Brings the head into the middle",
+    ),
+    entry(
+        Action::ZoomIn,
+        "Nearer",
+        Some((PLAIN, Key::Plus)),
+        "Comes nearer",
+    ),
+    entry(
+        Action::ZoomOut,
+        "Farther",
+        Some((PLAIN, Key::Minus)),
+        "Goes farther away",
+    ),
+    entry(
+        Action::Help,
+        "Shortcuts",
+        Some((PLAIN, Key::F1)),
+        "Lists all shortcuts",
+    ),
 ];
 
 impl Action {
@@ -145,7 +270,11 @@ pub fn pressed(ctx: &Context) -> Vec<Action> {
                 free && input.consume_shortcut(&KeyboardShortcut::new(modifiers, key))
             })
         };
-        entries.iter().filter(is_pressed).map(|entry| entry.action).collect()
+        entries
+            .iter()
+            .filter(is_pressed)
+            .map(|entry| entry.action)
+            .collect()
     })
 }
 
@@ -156,7 +285,11 @@ mod tests {
     #[test]
     fn each_key_does_one_thing() {
         for (index, entry) in ALL.iter().enumerate() {
-            assert!(ALL[..index].iter().all(|other| other.key != entry.key), "{}", entry.name);
+            assert!(
+                ALL[..index].iter().all(|other| other.key != entry.key),
+                "{}",
+                entry.name
+            );
             assert_eq!(entry.action.entry().name, entry.name);
         }
     }

@@ -8,8 +8,8 @@ use crate::prompt::Prompt;
 use crate::studio::Studio;
 use crate::{menu, status};
 use document::Recovery;
-use eframe::egui::{CentralPanel, Context, Panel, Ui, ViewportCommand};
 use effects::Registry;
+use eframe::egui::{CentralPanel, Context, Panel, Ui, ViewportCommand};
 use egui_tiles::Tree;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -43,7 +43,8 @@ impl App {
 
     /// Brings a pane to the front.
     pub fn show_pane(&mut self, wanted: Pane) {
-        self.panes.make_active(|_, tile| matches!(tile, egui_tiles::Tile::Pane(pane) if *pane == wanted));
+        self.panes
+            .make_active(|_, tile| matches!(tile, egui_tiles::Tile::Pane(pane) if *pane == wanted));
     }
 
     /// Files that were dropped on the window.
@@ -60,7 +61,11 @@ impl App {
     /// Asks before the window closes with changes that are not saved.
     fn ask_before_closing(&mut self, ctx: &Context) {
         let is_asked = ctx.input(|input| input.viewport().close_requested());
-        let is_changed = self.studio.documents.as_ref().is_some_and(Documents::is_changed);
+        let is_changed = self
+            .studio
+            .documents
+            .as_ref()
+            .is_some_and(Documents::is_changed);
         if is_asked && is_changed && !self.studio.may_close {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.studio.prompt = Some(Prompt::Unsaved(None));

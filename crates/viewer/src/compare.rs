@@ -39,7 +39,11 @@ impl Compare {
                 text: text.into(),
                 ..Look::default()
             },
-            name: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            name: path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
             split: 0.5,
         })
     }

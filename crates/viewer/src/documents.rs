@@ -134,7 +134,9 @@ impl Documents {
             return Ok(());
         };
         for edit in edits {
-            let text = edit.apply(document.text()).map_err(|error| error.to_string())?;
+            let text = edit
+                .apply(document.text())
+                .map_err(|error| error.to_string())?;
             document.edit(text, gesture);
             self.last_changed = which;
         }
@@ -157,11 +159,19 @@ impl Documents {
 
     /// Takes the last change back, or makes it again: of the text that was changed last, then of the others. Whether there was one.
     pub fn undo(&mut self, again: bool) -> bool {
-        let others = Which::ALL.into_iter().filter(|which| *which != self.last_changed);
+        let others = Which::ALL
+            .into_iter()
+            .filter(|which| *which != self.last_changed);
         let order: Vec<Which> = [self.last_changed].into_iter().chain(others).collect();
         let done = order.into_iter().find(|which| {
             let document = self.open.get_mut(which);
-            document.is_some_and(|document| if again { document.redo() } else { document.undo() })
+            document.is_some_and(|document| {
+                if again {
+                    document.redo()
+                } else {
+                    document.undo()
+                }
+            })
         });
         self.last_changed = done.unwrap_or(self.last_changed);
         done.is_some()
@@ -203,7 +213,9 @@ impl Documents {
         let mut told = Vec::new();
         let mut reloaded = false;
         for document in self.open.values_mut() {
-            let Some(change) = document.poll() else { continue };
+            let Some(change) = document.poll() else {
+                continue;
+            };
             let name = document.name();
             told.push(match change {
                 DiskChange::Reloaded => {
@@ -227,8 +239,13 @@ impl Documents {
 
     /// Writes all that is not saved. What could be written is; the errors of the others.
     pub fn save(&mut self) -> Vec<SaveError> {
-        let changed = self.open.values_mut().filter(|document| document.is_changed());
-        changed.filter_map(|document| document.save().err()).collect()
+        let changed = self
+            .open
+            .values_mut()
+            .filter(|document| document.is_changed());
+        changed
+            .filter_map(|document| document.save().err())
+            .collect()
     }
 
     /// Writes the preset under another name, which is its own from then on. Its style and script are those that it named before: their names
@@ -263,8 +280,13 @@ impl Documents {
     /// The names of texts of which a copy was found that a crash has left.
     #[must_use]
     pub fn recovered(&self) -> Vec<String> {
-        let texts = self.open.values().filter(|document| document.recovered().is_some());
-        texts.map(|document| document.path().display().to_string()).collect()
+        let texts = self
+            .open
+            .values()
+            .filter(|document| document.recovered().is_some());
+        texts
+            .map(|document| document.path().display().to_string())
+            .collect()
     }
 
     /// Takes the copies on; undo takes them back.

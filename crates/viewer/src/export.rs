@@ -133,6 +133,9 @@ impl Running {
     /// What was written, or why not; nothing while it is under way.
     #[must_use]
     pub fn result(&self) -> Option<Result<String, String>> {
-        self.result.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.result
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
     }
 }

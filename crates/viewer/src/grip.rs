@@ -133,7 +133,11 @@ mod tests {
             let way = if step % 7 < 3 { 1e4 } else { -1e4 };
             grip.drag(Vec2::splat(way));
             grip.advance_to(step as f32 * STEP, STEP);
-            assert!(grip.turn.abs().cmple(1.3 * MOST_DEGREES).all(), "{}", grip.turn);
+            assert!(
+                grip.turn.abs().cmple(1.3 * MOST_DEGREES).all(),
+                "{}",
+                grip.turn
+            );
         }
     }
 

@@ -42,8 +42,8 @@ use app::App;
 use clap::Parser as _;
 use cli::Arguments;
 use document::Recovery;
-use eframe::egui::ViewportBuilder;
 use effects::Registry;
+use eframe::egui::ViewportBuilder;
 use std::process::ExitCode;
 
 /// The window at first, points.

@@ -64,7 +64,13 @@ mod tests {
         for fixed_to in [FixedTo::World, FixedTo::Camera] {
             for (yaw, pitch) in [(0.0, 0.0), (30.0, 10.0), (180.0, -20.0), (-90.0, 80.0)] {
                 let camera = seen_from(yaw, pitch);
-                for pointed in [(0.0, 0.0), (0.3, -0.2), (-0.5, 0.1), (0.1, 0.8), (-0.6, -0.6)] {
+                for pointed in [
+                    (0.0, 0.0),
+                    (0.3, -0.2),
+                    (-0.5, 0.1),
+                    (0.1, 0.8),
+                    (-0.6, -0.6),
+                ] {
                     let pointed = Vec2::from(pointed);
                     let [yaw, pitch] = angles(pointed, fixed_to, &camera);
                     let light = LightSection {
@@ -90,9 +96,21 @@ mod tests {
             ..LightSection::default()
         };
         let near = |a: Vec2, b: [f32; 2]| a.distance(b.into()) < 1e-5;
-        assert!(near(place(&light(90.0, 0.0), &seen_from(0.0, 0.0)), [SIDE, 0.0]));
-        assert!(near(place(&light(0.0, 90.0), &seen_from(0.0, 0.0)), [0.0, -SIDE]));
-        assert!(near(place(&light(90.0, 0.0), &seen_from(180.0, 0.0)), [-SIDE, 0.0]));
-        assert!(near(place(&light(90.0, 0.0), &seen_from(90.0, 0.0)), [0.0, 0.0]));
+        assert!(near(
+            place(&light(90.0, 0.0), &seen_from(0.0, 0.0)),
+            [SIDE, 0.0]
+        ));
+        assert!(near(
+            place(&light(0.0, 90.0), &seen_from(0.0, 0.0)),
+            [0.0, -SIDE]
+        ));
+        assert!(near(
+            place(&light(90.0, 0.0), &seen_from(180.0, 0.0)),
+            [-SIDE, 0.0]
+        ));
+        assert!(near(
+            place(&light(90.0, 0.0), &seen_from(90.0, 0.0)),
+            [0.0, 0.0]
+        ));
     }
 }

@@ -39,7 +39,8 @@ pub fn bar(ui: &mut Ui, studio: &mut Studio) {
                     Backend::Cpu => "The CPU",
                     Backend::Gpu => "A graphics card, or a driver that draws in software",
                 };
-                ui.radio_value(&mut studio.backend, backend, backend.name()).on_hover_text(about);
+                ui.radio_value(&mut studio.backend, backend, backend.name())
+                    .on_hover_text(about);
             }
         });
         ui.menu_button("Help", |ui| item(ui, studio, Action::Help));

@@ -75,10 +75,13 @@ impl MotionTrack {
         if self.period_s > 0.0 {
             return self.period_s;
         }
-        let ends = self.spans.iter().map(|span| match span.length_s < FOREVER_S {
-            true => span.start_s + span.length_s,
-            false => span.start_s + 1.0,
-        });
+        let ends = self
+            .spans
+            .iter()
+            .map(|span| match span.length_s < FOREVER_S {
+                true => span.start_s + span.length_s,
+                false => span.start_s + 1.0,
+            });
         match ends.reduce(f32::max) {
             Some(end) => end + settling_s,
             None => 0.0,

@@ -23,7 +23,11 @@ impl PathField {
     /// A field with a name in a folder; of the folder's files those with one of the endings are offered.
     #[must_use]
     pub fn new(folder: &Path, name: &str, endings: &'static [&'static str]) -> Self {
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let folder = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
         Self {
             text: folder.join(name).display().to_string(),
             endings,
@@ -62,19 +66,26 @@ impl PathField {
         }
         let mut chosen = None;
         let entries = self.listed.iter().flat_map(|(.., entries)| entries);
-        ScrollArea::vertical().max_height(220.0).auto_shrink([false, true]).show(ui, |ui| {
-            if folder.parent().is_some() && ui.selectable_label(false, "../").clicked() {
-                chosen = Some((folder.join(".."), true));
-            }
-            for (name, is_folder) in entries {
-                let shown = if *is_folder { format!("{name}/") } else { name.clone() };
-                let entry = ui.selectable_label(false, shown);
-                if entry.clicked() {
-                    chosen = Some((folder.join(name), *is_folder));
+        ScrollArea::vertical()
+            .max_height(220.0)
+            .auto_shrink([false, true])
+            .show(ui, |ui| {
+                if folder.parent().is_some() && ui.selectable_label(false, "../").clicked() {
+                    chosen = Some((folder.join(".."), true));
                 }
-                is_done |= !is_folder && entry.double_clicked();
-            }
-        });
+                for (name, is_folder) in entries {
+                    let shown = if *is_folder {
+                        format!("{name}/")
+                    } else {
+                        name.clone()
+                    };
+                    let entry = ui.selectable_label(false, shown);
+                    if entry.clicked() {
+                        chosen = Some((folder.join(name), *is_folder));
+                    }
+                    is_done |= !is_folder && entry.double_clicked();
+                }
+            });
         if let Some((path, is_folder)) = chosen {
             self.text = path.display().to_string();
             if is_folder {
@@ -88,13 +99,19 @@ impl PathField {
 
 /// Folders and files of these endings in a folder, hidden ones left out: folders first, then by name.
 fn list(folder: &Path, endings: &[&str]) -> Vec<(String, bool)> {
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut found: Vec<(String, bool)> = entries
         .filter_map(|entry| {
             let name = entry.file_name().to_string_lossy().into_owned();
             let is_folder = entry.path().is_dir();
-            let ending = Path::new(&name).extension().map(|e| e.to_string_lossy().to_lowercase());
+            let ending = Path::new(&name)
+                .extension()
+                .map(|e| e.to_string_lossy().to_lowercase());
             let fits = ending.is_some_and(|ending| endings.contains(&ending.as_str()));
             (!name.starts_with('.') && (is_folder || fits)).then_some((name, is_folder))
         })

@@ -100,7 +100,7 @@ impl Prompt {
     /// Shows the window; what is asked next, if anything.
     pub fn show(mut self, ui: &mut Ui, studio: &mut Studio) -> Option<Self> {
         let mut answer = Answer::Stays;
-        let modal = Modal::new(Id::unique("prompt")).show(ui.ctx(), |ui| {
+        let modal = Modal::new(Id::unique(("prompt", self.name()))).show(ui.ctx(), |ui| {
             ui.set_max_width(560.0);
             answer = self.ask(ui, studio);
         });
@@ -112,6 +112,21 @@ impl Prompt {
             Answer::Stays => Some(self),
             Answer::Closes => None,
             Answer::Becomes(next) => Some(next),
+        }
+    }
+
+    /// Tells the windows apart, which have sizes of their own.
+    fn name(&self) -> &'static str {
+        match self {
+            Self::NewLook(_) => "new",
+            Self::Open(_) => "open",
+            Self::SaveAs(_) => "save as",
+            Self::Reference(_) => "reference",
+            Self::Compare(_) => "compare",
+            Self::Export(_) => "export",
+            Self::Recover => "recover",
+            Self::Unsaved(_) => "unsaved",
+            Self::Shortcuts => "shortcuts",
         }
     }
 
@@ -135,14 +150,18 @@ impl Prompt {
                 studio.tell(format!("wrote {}", path.display()));
                 Ok(Answer::Closes)
             }),
-            Self::Reference(field) => ask_path(ui, "A picture to draw after", "Show", field, |path| {
-                studio.show_reference(path)?;
-                Ok(Answer::Closes)
-            }),
-            Self::Compare(field) => ask_path(ui, "A preset to compare with", "Compare", field, |path| {
-                studio.compare_with(path)?;
-                Ok(Answer::Closes)
-            }),
+            Self::Reference(field) => {
+                ask_path(ui, "A picture to draw after", "Show", field, |path| {
+                    studio.show_reference(path)?;
+                    Ok(Answer::Closes)
+                })
+            }
+            Self::Compare(field) => {
+                ask_path(ui, "A preset to compare with", "Compare", field, |path| {
+                    studio.compare_with(path)?;
+                    Ok(Answer::Closes)
+                })
+            }
             Self::Export(export) => export.ask(ui, studio),
             Self::Recover => ask_recover(ui, studio),
             Self::Unsaved(next) => ask_unsaved(ui, studio, next.take()),
@@ -255,30 +274,51 @@ fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answe
 
 fn show_shortcuts(ui: &mut Ui) -> Answer {
     ui.heading("Shortcuts");
-    egui::ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
-        egui::Grid::new("shortcuts").num_columns(3).striped(true).show(ui, |ui| {
-            for entry in actions::ALL {
-                ui.label(RichText::new(entry.key_text(ui.ctx())).monospace());
-                ui.label(entry.name);
-                ui.weak(entry.about);
-                ui.end_row();
-            }
-            for (key, name, about) in [
-                ("drag", "Turn the view", "On the picture, with the view tool"),
-                ("Shift+drag", "Move the view", "Or the middle or right button"),
-                ("wheel", "Nearer, farther", "Also a pinch"),
-                ("L+drag", "Move the light", "Or with the light tool"),
-                ("H+drag", "Turn the head", "Or with the head tool: let go, and it swings back"),
-                ("double click", "Look at the head", "On the picture"),
-                ("arrows", "Turn the view", "While the picture has the keyboard (Tab)"),
-            ] {
-                ui.label(RichText::new(key).monospace());
-                ui.label(name);
-                ui.weak(about);
-                ui.end_row();
-            }
+    egui::ScrollArea::vertical()
+        .max_height(420.0)
+        .show(ui, |ui| {
+            egui::Grid::new("shortcuts")
+                .num_columns(3)
+                .striped(true)
+                .show(ui, |ui| {
+                    for entry in actions::ALL {
+                        ui.label(RichText::new(entry.key_text(ui.ctx())).monospace());
+                        ui.label(entry.name);
+                        ui.weak(entry.about);
+                        ui.end_row();
+                    }
+                    for (key, name, about) in [
+                        (
+                            "drag",
+                            "Turn the view",
+                            "On the picture, with the view tool",
+                        ),
+                        (
+                            "Shift+drag",
+                            "Move the view",
+                            "Or the middle or right button",
+                        ),
+                        ("wheel", "Nearer, farther", "Also a pinch"),
+                        ("L+drag", "Move the light", "Or with the light tool"),
+                        (
+                            "H+drag",
+                            "Turn the head",
+                            "Or with the head tool: let go, and it swings back",
+                        ),
+                        ("double click", "Look at the head", "On the picture"),
+                        (
+                            "arrows",
+                            "Turn the view",
+                            "While the picture has the keyboard (Tab)",
+                        ),
+                    ] {
+                        ui.label(RichText::new(key).monospace());
+                        ui.label(name);
+                        ui.weak(about);
+                        ui.end_row();
+                    }
+                });
         });
-    });
     let is_closed = ui.button("Close").clicked();
     match is_closed || ui.input(|input| input.key_pressed(Key::Escape)) {
         true => Answer::Closes,
@@ -288,7 +328,9 @@ fn show_shortcuts(ui: &mut Ui) -> Answer {
 
 impl Export {
     fn is_busy(&self) -> bool {
-        self.running.as_ref().is_some_and(|running| running.result().is_none())
+        self.running
+            .as_ref()
+            .is_some_and(|running| running.result().is_none())
     }
 
     fn ask(&mut self, ui: &mut Ui, studio: &mut Studio) -> Answer {
@@ -321,7 +363,11 @@ impl Export {
         let is_changed = studio.documents.as_ref().is_some_and(Documents::is_changed);
         let mut answer = Answer::Stays;
         ui.horizontal(|ui| {
-            let verb = if is_changed { "Save and export" } else { "Export" };
+            let verb = if is_changed {
+                "Save and export"
+            } else {
+                "Export"
+            };
             if ui.add_enabled(!is_busy, egui::Button::new(verb)).clicked() {
                 self.start(ui, studio, &state);
             }
@@ -353,7 +399,8 @@ impl Export {
                 ui.label("Frames");
                 ui.horizontal(|ui| {
                     let [first, last] = &mut self.frames;
-                    ui.add(egui::DragValue::new(first)).accessible_name("First frame");
+                    ui.add(egui::DragValue::new(first))
+                        .accessible_name("First frame");
                     ui.label("to");
                     *last = (*last).max(*first);
                     ui.add(egui::DragValue::new(last).range(*first..=999_999))
@@ -371,7 +418,8 @@ impl Export {
                 } else {
                     let [width, height] = settings.size_px.get_or_insert(own);
                     for (side, name) in [(width, "Width"), (height, "Height")] {
-                        ui.add(egui::DragValue::new(side).range(1..=16_384)).accessible_name(name);
+                        ui.add(egui::DragValue::new(side).range(1..=16_384))
+                            .accessible_name(name);
                     }
                 }
             });
@@ -385,7 +433,8 @@ impl Export {
                     settings.samples = None;
                 } else {
                     let samples = settings.samples.get_or_insert(own);
-                    ui.add(egui::DragValue::new(samples).range(1..=256)).accessible_name("Samples");
+                    ui.add(egui::DragValue::new(samples).range(1..=256))
+                        .accessible_name("Samples");
                 }
             });
             ui.end_row();

@@ -34,8 +34,11 @@ impl Reference {
             .map_err(|error| named(&error))?;
         reader.limits(image::Limits::default());
         let mut picture = reader.decode().map_err(|error| named(&error))?;
-        if picture.width().max(picture.height()) > MOST_PIXELS {
-            picture = picture.thumbnail(MOST_PIXELS, MOST_PIXELS);
+        let most = ctx
+            .input(|input| input.max_texture_side)
+            .min(MOST_PIXELS as usize) as u32;
+        if picture.width().max(picture.height()) > most {
+            picture = picture.thumbnail(most, most);
         }
         let pixels = picture.to_rgba8();
         let size = [pixels.width() as usize, pixels.height() as usize];

@@ -14,25 +14,34 @@ const MOST_SHOWN: usize = 20;
 #[must_use]
 pub fn has_problems(studio: &Studio) -> bool {
     let texts = studio.documents.iter().flat_map(Documents::all);
-    !studio.problems.is_empty() || texts.into_iter().any(|(_, document)| document.conflict().is_some())
+    !studio.problems.is_empty()
+        || texts
+            .into_iter()
+            .any(|(_, document)| document.conflict().is_some())
 }
 
 /// Shows what is wrong, each with its line.
 pub fn problems(ui: &mut Ui, studio: &mut Studio) {
     conflicts(ui, studio);
     let color = ui.visuals().error_fg_color;
-    ScrollArea::vertical().max_height(140.0).id_salt("problems").show(ui, |ui| {
-        for problem in studio.problems.iter().take(MOST_SHOWN) {
-            let text = RichText::new(problem.to_string()).color(color);
-            ui.label(match problem {
-                Problem::Mistake(_) => text.monospace(),
-                Problem::Failed(_) => text,
-            });
-        }
-        if studio.problems.len() > MOST_SHOWN {
-            ui.colored_label(color, format!("and {} more", studio.problems.len() - MOST_SHOWN));
-        }
-    });
+    ScrollArea::vertical()
+        .max_height(140.0)
+        .id_salt("problems")
+        .show(ui, |ui| {
+            for problem in studio.problems.iter().take(MOST_SHOWN) {
+                let text = RichText::new(problem.to_string()).color(color);
+                ui.label(match problem {
+                    Problem::Mistake(_) => text.monospace(),
+                    Problem::Failed(_) => text,
+                });
+            }
+            if studio.problems.len() > MOST_SHOWN {
+                ui.colored_label(
+                    color,
+                    format!("and {} more", studio.problems.len() - MOST_SHOWN),
+                );
+            }
+        });
     if !studio.problems.is_empty() && studio.shown[0].is_some() {
         ui.weak("The picture shows the last look without mistakes.");
     }
@@ -45,10 +54,15 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
     };
     let mut chosen = None;
     for (which, document) in documents.all() {
-        let Some(conflict) = document.conflict() else { continue };
+        let Some(conflict) = document.conflict() else {
+            continue;
+        };
         ui.horizontal_wrapped(|ui| {
             let color = ui.visuals().warn_fg_color;
-            ui.colored_label(color, format!("{} was changed here and on the disk.", document.name()));
+            ui.colored_label(
+                color,
+                format!("{} was changed here and on the disk.", document.name()),
+            );
             if ui.button("Keep mine").clicked() {
                 chosen = Some((which, true));
             }
@@ -62,12 +76,13 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
                 ("On the disk", on_disk(conflict)),
             ]) {
                 ui.strong(title);
-                ScrollArea::vertical().id_salt((title, which.name())).max_height(160.0).show(ui, |ui| {
-                    match text {
+                ScrollArea::vertical()
+                    .id_salt((title, which.name()))
+                    .max_height(160.0)
+                    .show(ui, |ui| match text {
                         Some(text) => ui.monospace(&**text),
                         None => ui.weak("it is no more there"),
-                    }
-                });
+                    });
             }
         });
     }
@@ -97,7 +112,11 @@ pub fn status(ui: &mut Ui, studio: &Studio) {
             for note in &shown.drawn.facts.notes {
                 ui.weak(note);
             }
-        } else if studio.documents.as_ref().is_some_and(|d: &Documents| !d.preset().text().is_empty()) {
+        } else if studio
+            .documents
+            .as_ref()
+            .is_some_and(|d: &Documents| !d.preset().text().is_empty())
+        {
             ui.spinner();
         }
     });

@@ -13,10 +13,10 @@ use crate::reference::Reference;
 use crate::transport::{SETTLING_S, Transport};
 use crate::view::View;
 use document::Recovery;
-use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use effects::Registry;
 use effects::preset::edit::written;
 use effects::{ParamKind, Value};
+use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use stage::CameraSection;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -111,7 +111,12 @@ pub struct Studio {
 
 impl Studio {
     /// A studio with no preset.
-    pub fn new(registry: Arc<Registry>, ctx: &Context, backend: Backend, recovery: fn() -> Recovery) -> Self {
+    pub fn new(
+        registry: Arc<Registry>,
+        ctx: &Context,
+        backend: Backend,
+        recovery: fn() -> Recovery,
+    ) -> Self {
         let waker = ctx.clone();
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(move || waker.request_repaint());
         let [for_engine, for_thumbnails] = [wake.clone(), wake.clone()];
@@ -158,7 +163,9 @@ impl Studio {
                 if let Some(folder) = path.parent() {
                     folder.clone_into(&mut self.folder);
                 }
-                let has_copy = documents.all().any(|(_, document)| document.recovered().is_some());
+                let has_copy = documents
+                    .all()
+                    .any(|(_, document)| document.recovered().is_some());
                 self.documents = Some(documents);
                 self.layers = LayersShown::default();
                 self.view.follow_preset();
@@ -185,7 +192,11 @@ impl Studio {
 
     /// Takes on a file that was dropped on the window: a preset is opened, hair, head or motion become those of the preset.
     pub fn take_file(&mut self, path: &Path) {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .to_lowercase();
         let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
         let (section, param) = if ends(&[".style.ron", ".strands.ron", ".tfx"]) {
             ("hair", "file")
@@ -208,7 +219,8 @@ impl Studio {
             ));
         };
         let Some(documents) = &self.documents else {
-            return self.tell("open a preset first: files of hair, heads and motion become a part of it");
+            return self
+                .tell("open a preset first: files of hair, heads and motion become a part of it");
         };
         let file = relative_to(path, &documents.folder());
         self.set(section, param, &Value::Text(Some(file)), &ParamKind::Text);
@@ -303,7 +315,9 @@ impl Studio {
             Action::Save => self.save(),
             Action::SaveAs => self.prompt = self.documents.as_ref().map(Prompt::save_as),
             Action::Export => self.prompt = self.documents.as_ref().map(Prompt::export),
-            Action::Quit => self.ctx.send_viewport_cmd(eframe::egui::ViewportCommand::Close),
+            Action::Quit => self
+                .ctx
+                .send_viewport_cmd(eframe::egui::ViewportCommand::Close),
             Action::Undo | Action::Redo => self.undo(action),
             Action::Search => self.focuses_search = true,
             Action::KeepState => self.keep_state(),
@@ -382,7 +396,9 @@ impl Studio {
     #[must_use]
     pub fn export_state(&self) -> Option<crate::export::State> {
         let documents = self.documents.as_ref()?;
-        let all = self.shown[0].as_ref().map(|shown| &shown.drawn.facts.layers);
+        let all = self.shown[0]
+            .as_ref()
+            .map(|shown| &shown.drawn.facts.layers);
         let all = all.map_or(&[][..], Vec::as_slice);
         let shown: Vec<String> = (all.iter())
             .filter(|layer| self.layers.is_shown(layer))
@@ -392,7 +408,11 @@ impl Studio {
             preset: documents.preset().path().to_owned(),
             view: self.view.own().cloned(),
             time_s: self.transport.shown_s(),
-            only: if shown.len() == all.len() { Vec::new() } else { shown },
+            only: if shown.len() == all.len() {
+                Vec::new()
+            } else {
+                shown
+            },
         })
     }
 
@@ -432,10 +452,6 @@ impl Studio {
                     self.show(index, drawn);
                 }
             }
-        }
-        if self.grip.is_at_work() && !self.transport.is_playing {
-            // A hand on the head lets time run until hair has settled.
-            self.transport.is_playing = true;
         }
         self.transport.tick(passed_s);
         let step_s = 1.0 / self.transport.fps();
@@ -480,9 +496,9 @@ impl Studio {
             shown.texture.set(image, TextureOptions::LINEAR);
             shown.drawn = drawn;
         } else {
-            let texture = self
-                .ctx
-                .load_texture(format!("picture {index}"), image, TextureOptions::LINEAR);
+            let texture =
+                self.ctx
+                    .load_texture(format!("picture {index}"), image, TextureOptions::LINEAR);
             self.shown[index] = Some(Shown { drawn, texture });
         }
     }
@@ -498,7 +514,11 @@ impl Studio {
         let Some(documents) = &self.documents else {
             return;
         };
-        let version = |which| documents.get(which).map_or(0, |document| document.version());
+        let version = |which| {
+            documents
+                .get(which)
+                .map_or(0, |document| document.version())
+        };
         let versions = [Which::Preset, Which::Motion].map(version);
         if self.read == Some(versions) {
             return;
@@ -509,7 +529,9 @@ impl Studio {
             self.sections = read.sections;
         }
         let script = documents.get(Which::Motion);
-        self.track = script.map_or_else(MotionTrack::default, |script| MotionTrack::read(script.text()));
+        self.track = script.map_or_else(MotionTrack::default, |script| {
+            MotionTrack::read(script.text())
+        });
         let end = self.track.end_s(SETTLING_S);
         self.transport.follow(self.sections.scene.fps, end);
     }
@@ -519,7 +541,11 @@ impl Studio {
 fn relative_to(path: &Path, folder: &Path) -> String {
     let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let (path, folder) = (whole(path), whole(folder));
-    let common = path.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
+    let common = path
+        .components()
+        .zip(folder.components())
+        .take_while(|(a, b)| a == b)
+        .count();
     if common <= 1 {
         return path.display().to_string().replace('\\', "/");
     }

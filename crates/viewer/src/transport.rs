@@ -103,7 +103,11 @@ impl Transport {
     /// Goes to a time, seconds.
     pub fn seek(&mut self, time_s: f32) {
         if time_s.is_finite() {
-            let last = if self.end_s > 0.0 { self.end_s } else { f32::MAX };
+            let last = if self.end_s > 0.0 {
+                self.end_s
+            } else {
+                f32::MAX
+            };
             self.time_s = f64::from(time_s.clamp(0.0, last));
         }
     }

@@ -164,7 +164,10 @@ mod tests {
         // Seen from its left side (+X), what is right is behind (-Z): a drag to the right shows more of the face (+Z).
         view.pan(&preset, [0.5, 0.0]);
         let target = view.camera(&preset).target;
-        assert!(target[2] > 0.5 && target[0].abs() < 1e-6 && target[1] == 0.0, "{target:?}");
+        assert!(
+            target[2] > 0.5 && target[0].abs() < 1e-6 && target[1] == 0.0,
+            "{target:?}"
+        );
         view.pan(&preset, [0.0, 0.25]);
         assert!(view.camera(&preset).target[1] > 0.2);
     }

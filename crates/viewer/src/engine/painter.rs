@@ -84,7 +84,10 @@ impl Painter {
             match card.as_mut().map(|card| (card.draw(frame, samples), card)) {
                 Some((Ok(picture), card)) => {
                     let whole = started.elapsed().as_secs_f64() * 1e3;
-                    let effects_ms = card.stats().milliseconds.map_or(0.0, |[strokes, ..]| strokes);
+                    let effects_ms = card
+                        .stats()
+                        .milliseconds
+                        .map_or(0.0, |[strokes, ..]| strokes);
                     return Ok(Painted {
                         picture,
                         effects_ms,

@@ -52,11 +52,12 @@ impl Quality {
         // Where strokes alone take too long, fewer pixels help little, and the picture is kept readable.
         let budget = BUDGET_MS / pictures.max(1) as f64 - self.base_ms;
         let budget = budget.max(LEAST_FOR_PIXELS * self.base_ms);
-        let fits = |scale: usize, budget: f64| {
-            self.expected_ms(size_px, few, SCALES[scale]) <= budget
-        };
+        let fits =
+            |scale: usize, budget: f64| self.expected_ms(size_px, few, SCALES[scale]) <= budget;
         let last = SCALES.len() - 1;
-        let wanted = (0..=last).find(|&scale| fits(scale, budget)).unwrap_or(last);
+        let wanted = (0..=last)
+            .find(|&scale| fits(scale, budget))
+            .unwrap_or(last);
         let larger = wanted < self.scale && !fits(wanted, budget * HEADROOM);
         if !larger {
             self.scale = wanted;

@@ -74,8 +74,14 @@ impl<'r> Slot<'r> {
             texts: look.texts.clone(),
             ..Files::default()
         };
-        let layers = preset.layers.iter().map(|layer| layer.name.clone()).collect();
-        preset.layers.retain(|layer| look.layers.is_shown(&layer.name));
+        let layers = preset
+            .layers
+            .iter()
+            .map(|layer| layer.name.clone())
+            .collect();
+        preset
+            .layers
+            .retain(|layer| look.layers.is_shown(&layer.name));
         let from = From::of(&preset, &files, look);
         let made = match self.loaded.take() {
             Some(loaded) if loaded.from == from => stage::Look::new(&preset)
@@ -192,7 +198,10 @@ impl From {
                 .filter(|(path, _)| named.contains(path))
                 .map(|(path, text)| (path.clone(), text.clone()))
                 .collect(),
-            files: named.into_iter().map(|path| (path.clone(), stamp(&path))).collect(),
+            files: named
+                .into_iter()
+                .map(|path| (path.clone(), stamp(&path)))
+                .collect(),
         }
     }
 }

@@ -12,7 +12,9 @@ use crate::edit::Edit;
 use crate::panels;
 use crate::studio::Studio;
 use eframe::egui::{Id, ScrollArea, Ui, WidgetText};
-use egui_tiles::{Behavior, Linear, LinearDir, SimplificationOptions, TileId, Tiles, Tree, UiResponse};
+use egui_tiles::{
+    Behavior, Linear, LinearDir, SimplificationOptions, TileId, Tiles, Tree, UiResponse,
+};
 
 /// A pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +56,14 @@ impl Pane {
 pub fn first_tree() -> Tree<Pane> {
     let mut tiles = Tiles::default();
     let picture = tiles.insert_pane(Pane::Picture);
-    let beside = [Pane::Layers, Pane::Look, Pane::Style, Pane::Motion, Pane::Text, Pane::Presets];
+    let beside = [
+        Pane::Layers,
+        Pane::Look,
+        Pane::Style,
+        Pane::Motion,
+        Pane::Text,
+        Pane::Presets,
+    ];
     let tabs: Vec<TileId> = beside.map(|pane| tiles.insert_pane(pane)).into();
     let tabs = tiles.insert_tab_tile(tabs);
     let mut both = Linear::new(LinearDir::Horizontal, vec![picture, tabs]);
@@ -121,12 +130,22 @@ fn parameters(ui: &mut Ui, studio: &mut Studio, pane: Pane) {
     let text = document.text().clone();
     let (search, registry) = (studio.search.clone(), studio.registry.clone());
     let mut edits: Vec<Edit> = Vec::new();
-    ScrollArea::vertical().auto_shrink([false, false]).id_salt(pane.name()).show(ui, |ui| match pane {
-        Pane::Layers => panels::layers(ui, &text, &registry, &mut studio.layers, &search, &mut edits),
-        Pane::Look => panels::look(ui, &text, &search, &mut edits),
-        Pane::Style => panels::style(ui, &text, &search, &mut edits),
-        _ => panels::motion_script(ui, &text, &search, &mut edits),
-    });
+    ScrollArea::vertical()
+        .auto_shrink([false, false])
+        .id_salt(pane.name())
+        .show(ui, |ui| match pane {
+            Pane::Layers => panels::layers(
+                ui,
+                &text,
+                &registry,
+                &mut studio.layers,
+                &search,
+                &mut edits,
+            ),
+            Pane::Look => panels::look(ui, &text, &search, &mut edits),
+            Pane::Style => panels::style(ui, &text, &search, &mut edits),
+            _ => panels::motion_script(ui, &text, &search, &mut edits),
+        });
     studio.change(which, &edits);
 }
 

@@ -7,12 +7,12 @@ use crate::light;
 use crate::prompt::Prompt;
 use crate::studio::{Shown, Studio, Tool};
 use crate::view::NamedView;
-use eframe::egui::{
-    Align2, Color32, CursorIcon, FontId, Key, Painter, PointerButton, Pos2, Rect, Response, Sense, Slider,
-    Stroke, Ui, pos2, vec2,
-};
 use effects::preset::edit::written;
 use effects::{ParamKind, Value};
+use eframe::egui::{
+    Align2, Color32, CursorIcon, FontId, Key, Painter, PointerButton, Pos2, Rect, Response, Sense,
+    Slider, Stroke, Ui, pos2, vec2,
+};
 
 /// The largest side of a picture that is drawn for the window, pixels.
 const MOST_PX: f32 = 4096.0;
@@ -26,8 +26,10 @@ pub(super) fn picture(ui: &mut Ui, studio: &mut Studio) {
     let response = response.accessible_name("The picture");
     let rect = fitted(area, studio.sections.scene.size);
     let scale = ui.pixels_per_point();
-    let most = MOST_PX / (scale * rect.width().max(rect.height())).max(MOST_PX);
-    studio.picture_px = [rect.width(), rect.height()].map(|side| (side * scale * most).round().max(1.0) as u32);
+    let most_px = ui.input(|input| input.max_texture_side as f32).min(MOST_PX);
+    let most = most_px / (scale * rect.width().max(rect.height())).max(most_px);
+    studio.picture_px =
+        [rect.width(), rect.height()].map(|side| (side * scale * most).round().max(1.0) as u32);
     let painter = ui.painter_at(area);
     painter.rect_filled(area, 0.0, ui.visuals().extreme_bg_color);
     paint(&painter, rect, studio);
@@ -36,7 +38,9 @@ pub(super) fn picture(ui: &mut Ui, studio: &mut Studio) {
         return;
     }
     act(ui, &response, rect, studio);
-    if studio.tool == Tool::Light || ui.input(|input| input.key_down(Key::L)) && !ui.ctx().egui_wants_keyboard_input() {
+    if studio.tool == Tool::Light
+        || ui.input(|input| input.key_down(Key::L)) && !ui.ctx().egui_wants_keyboard_input()
+    {
         paint_light(&painter, rect, studio);
     }
 }
@@ -44,16 +48,32 @@ pub(super) fn picture(ui: &mut Ui, studio: &mut Studio) {
 /// The tools above the picture.
 fn tools(ui: &mut Ui, studio: &mut Studio) {
     for (tool, name, about) in [
-        (Tool::View, "View", "Drag turns the view; Shift moves it; the wheel comes nearer"),
-        (Tool::Light, "Light", "Drag puts the light where the pointer is; also with L held"),
-        (Tool::Head, "Head", "Drag turns the head, and hair follows; also with H held"),
+        (
+            Tool::View,
+            "View",
+            "Drag turns the view; Shift moves it; the wheel comes nearer",
+        ),
+        (
+            Tool::Light,
+            "Light",
+            "Drag puts the light where the pointer is; also with L held",
+        ),
+        (
+            Tool::Head,
+            "Head",
+            "Drag turns the head, and hair follows; also with H held",
+        ),
     ] {
-        ui.selectable_value(&mut studio.tool, tool, name).on_hover_text(about);
+        ui.selectable_value(&mut studio.tool, tool, name)
+            .on_hover_text(about);
     }
     ui.separator();
     ui.menu_button("Look from", |ui| {
         let views = NamedView::ALL.map(Action::Look);
-        for action in views.into_iter().chain([Action::PresetView, Action::Focus, Action::KeepView]) {
+        for action in views
+            .into_iter()
+            .chain([Action::PresetView, Action::Focus, Action::KeepView])
+        {
             crate::menu::item(ui, studio, action);
         }
     });
@@ -63,7 +83,10 @@ fn tools(ui: &mut Ui, studio: &mut Studio) {
             studio.prompt = Some(Prompt::compare(&studio.folder));
             ui.close();
         }
-        if ui.add_enabled(studio.compare.is_some(), eframe::egui::Button::new("End")).clicked() {
+        if ui
+            .add_enabled(studio.compare.is_some(), eframe::egui::Button::new("End"))
+            .clicked()
+        {
             studio.compare = None;
             ui.close();
         }
@@ -75,7 +98,11 @@ fn tools(ui: &mut Ui, studio: &mut Studio) {
         }
         let mut is_gone = false;
         if let Some(reference) = &mut studio.reference {
-            let file = reference.path.file_name().unwrap_or_default().to_string_lossy();
+            let file = reference
+                .path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy();
             ui.weak(file);
             let opacity = Slider::new(&mut reference.opacity, 0.0..=1.0).text("opacity");
             ui.add(opacity);
@@ -101,7 +128,11 @@ fn paint(painter: &Painter, rect: Rect, studio: &Studio) {
     if studio.sections.scene.background.is_none() {
         paint_checks(painter, rect);
     }
-    if let Some(reference) = studio.reference.as_ref().filter(|reference| !reference.is_over) {
+    if let Some(reference) = studio
+        .reference
+        .as_ref()
+        .filter(|reference| !reference.is_over)
+    {
         paint_reference(painter, rect, reference);
     }
     let split = match (&studio.compare, other) {
@@ -109,18 +140,28 @@ fn paint(painter: &Painter, rect: Rect, studio: &Studio) {
         _ => rect.left(),
     };
     let (left, right) = rect.split_left_right_at_x(split);
-    let under = studio.reference.as_ref().filter(|reference| !reference.is_over);
-    let tint = Color32::WHITE.gamma_multiply(under.map_or(1.0, |reference| 1.0 - 0.999 * reference.opacity));
+    let under = studio
+        .reference
+        .as_ref()
+        .filter(|reference| !reference.is_over);
+    let tint = Color32::WHITE
+        .gamma_multiply(under.map_or(1.0, |reference| 1.0 - 0.999 * reference.opacity));
     let show = |part: Rect, shown: &Option<Shown>| {
         if let Some(shown) = shown {
             let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            painter.with_clip_rect(part).image(shown.texture.id(), rect, all, tint);
+            painter
+                .with_clip_rect(part)
+                .image(shown.texture.id(), rect, all, tint);
         }
     };
     show(right, own);
     if split > rect.left() {
         show(left, other);
-        painter.vline(split, rect.y_range(), Stroke::new(2.0, Color32::from_rgb(230, 70, 100)));
+        painter.vline(
+            split,
+            rect.y_range(),
+            Stroke::new(2.0, Color32::from_rgb(230, 70, 100)),
+        );
         let name = studio.compare.as_ref().map_or("", |compare| &compare.name);
         let font = FontId::proportional(13.0);
         let ground = |at: Pos2, align: Align2, text: &str| {
@@ -132,7 +173,11 @@ fn paint(painter: &Painter, rect: Rect, studio: &Studio) {
         ground(pos2(split - 8.0, rect.top() + 8.0), Align2::RIGHT_TOP, name);
         ground(pos2(split + 8.0, rect.top() + 8.0), Align2::LEFT_TOP, "now");
     }
-    if let Some(reference) = studio.reference.as_ref().filter(|reference| reference.is_over) {
+    if let Some(reference) = studio
+        .reference
+        .as_ref()
+        .filter(|reference| reference.is_over)
+    {
         paint_reference(painter, rect, reference);
     }
 }
@@ -142,8 +187,17 @@ fn paint_reference(painter: &Painter, rect: Rect, reference: &crate::reference::
     let scale = (rect.width() / size.x).min(rect.height() / size.y);
     let place = Rect::from_center_size(rect.center(), size * scale);
     let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    let opacity = if reference.is_over { reference.opacity } else { 1.0 };
-    painter.image(reference.texture.id(), place, all, Color32::WHITE.gamma_multiply(opacity));
+    let opacity = if reference.is_over {
+        reference.opacity
+    } else {
+        1.0
+    };
+    painter.image(
+        reference.texture.id(),
+        place,
+        all,
+        Color32::WHITE.gamma_multiply(opacity),
+    );
 }
 
 /// Checks behind a transparent picture.
@@ -154,7 +208,11 @@ fn paint_checks(painter: &Painter, rect: Rect) {
     for row in 0..(rect.height() / SIDE).ceil() as u32 {
         for column in (row % 2..(rect.width() / SIDE).ceil() as u32).step_by(2) {
             let corner = rect.min + SIDE * vec2(column as f32, row as f32);
-            painter.rect_filled(Rect::from_min_size(corner, vec2(SIDE, SIDE)), 0.0, Color32::from_gray(175));
+            painter.rect_filled(
+                Rect::from_min_size(corner, vec2(SIDE, SIDE)),
+                0.0,
+                Color32::from_gray(175),
+            );
         }
     }
 }
@@ -163,17 +221,28 @@ fn paint_checks(painter: &Painter, rect: Rect) {
 fn hint(ui: &Ui, painter: &Painter, area: Rect) {
     let text = "Begin with File, New look... or drop a preset here.\n\n\
         Drag turns the view, the wheel comes nearer, F1 lists all keys.";
-    painter.text(area.center(), Align2::CENTER_CENTER, text, FontId::proportional(16.0), ui.visuals().weak_text_color());
+    painter.text(
+        area.center(),
+        Align2::CENTER_CENTER,
+        text,
+        FontId::proportional(16.0),
+        ui.visuals().weak_text_color(),
+    );
 }
 
 /// What pointer and keys do.
 fn act(ui: &Ui, response: &Response, rect: Rect, studio: &mut Studio) {
     let (shift, holds_light, holds_head) = ui.input(|input| {
-        (input.modifiers.shift, input.key_down(Key::L), input.key_down(Key::H))
+        (
+            input.modifiers.shift,
+            input.key_down(Key::L),
+            input.key_down(Key::H),
+        )
     });
     let delta = response.drag_delta();
     let preset = studio.sections.camera.clone();
-    let pans = response.dragged_by(PointerButton::Middle) || response.dragged_by(PointerButton::Secondary);
+    let pans =
+        response.dragged_by(PointerButton::Middle) || response.dragged_by(PointerButton::Secondary);
     let by_primary = response.dragged_by(PointerButton::Primary);
     studio.is_dragging |= response.dragged();
     let pan = delta / rect.height();
@@ -188,6 +257,8 @@ fn act(ui: &Ui, response: &Response, rect: Rect, studio: &mut Studio) {
             drag_light(rect, at, studio);
         }
     } else if by_primary && (studio.tool == Tool::Head || holds_head) {
+        // Who takes hold of the head lets time run, so that hair follows.
+        studio.transport.is_playing |= response.drag_started_by(PointerButton::Primary);
         studio.grip.drag(glam::Vec2::new(delta.x, delta.y));
     } else if by_primary {
         studio.view.orbit(&preset, [delta.x, delta.y]);
@@ -211,7 +282,12 @@ fn act(ui: &Ui, response: &Response, rect: Rect, studio: &mut Studio) {
     }
     if response.has_focus() {
         keys(ui, studio, &preset);
-        ui.painter().rect_stroke(rect, 0.0, ui.visuals().selection.stroke, eframe::egui::StrokeKind::Inside);
+        ui.painter().rect_stroke(
+            rect,
+            0.0,
+            ui.visuals().selection.stroke,
+            eframe::egui::StrokeKind::Inside,
+        );
     }
     let cursor = match studio.tool {
         _ if is_on_split(response, rect, studio) => CursorIcon::ResizeHorizontal,
@@ -254,7 +330,9 @@ fn keys(ui: &Ui, studio: &mut Studio, preset: &stage::CameraSection) {
     ];
     for (key, way) in arrows {
         if ui.input(|input| input.key_pressed(key)) {
-            studio.view.orbit(preset, way.map(|part| -KEY_POINTS * part));
+            studio
+                .view
+                .orbit(preset, way.map(|part| -KEY_POINTS * part));
         }
     }
     // Arrows turn the view, and don't go to the next widget.
@@ -287,7 +365,8 @@ fn drag_light(rect: Rect, at: Pos2, studio: &mut Studio) {
         varies: false,
     };
     let place = Place::top().field("light");
-    let set = |name: &str, degrees| Edit::Set(place.field(name), written(&Value::Number(degrees), &kind));
+    let set =
+        |name: &str, degrees| Edit::Set(place.field(name), written(&Value::Number(degrees), &kind));
     let edits = [set("yaw", angles[0]), set("pitch", angles[1])];
     studio.change(Which::Preset, &edits);
 }
@@ -299,8 +378,15 @@ fn paint_light(painter: &Painter, rect: Rect, studio: &Studio) {
     let at = rect.center() + half * vec2(place.x, place.y);
     let gold = Color32::from_rgb(250, 190, 40);
     let dark = Color32::from_rgb(90, 60, 0);
-    painter.line_segment([rect.center(), at], Stroke::new(1.0, gold.gamma_multiply(0.5)));
-    painter.circle_stroke(rect.center(), 0.5 * half, Stroke::new(1.0, gold.gamma_multiply(0.35)));
+    painter.line_segment(
+        [rect.center(), at],
+        Stroke::new(1.0, gold.gamma_multiply(0.5)),
+    );
+    painter.circle_stroke(
+        rect.center(),
+        0.5 * half,
+        Stroke::new(1.0, gold.gamma_multiply(0.35)),
+    );
     if place.length() <= 0.5 {
         painter.circle(at, 9.0, gold, Stroke::new(1.5, dark));
     } else {

@@ -3,7 +3,9 @@
 use crate::documents::Which;
 use crate::engine::Problem;
 use crate::studio::Studio;
-use eframe::egui::{Color32, FontId, RichText, ScrollArea, TextEdit, TextFormat, Ui, text::LayoutJob};
+use eframe::egui::{
+    Color32, FontId, RichText, ScrollArea, TextEdit, TextFormat, Ui, text::LayoutJob,
+};
 
 /// Shows one of the texts, to be written in.
 pub(super) fn text(ui: &mut Ui, studio: &mut Studio) {
@@ -37,7 +39,11 @@ pub(super) fn text(ui: &mut Ui, studio: &mut Studio) {
         })
         .collect();
     for (_, message) in &mistakes {
-        ui.label(RichText::new(message).monospace().color(ui.visuals().error_fg_color));
+        ui.label(
+            RichText::new(message)
+                .monospace()
+                .color(ui.visuals().error_fg_color),
+        );
     }
     let mut text = document.text().to_string();
     let lines: Vec<usize> = mistakes.iter().map(|(line, _)| *line).collect();
@@ -45,16 +51,18 @@ pub(super) fn text(ui: &mut Ui, studio: &mut Studio) {
     let mut layouter = |ui: &Ui, text: &dyn eframe::egui::TextBuffer, _: f32| {
         ui.fonts_mut(|fonts| fonts.layout_job(highlighted(text.as_str(), &lines, &colors)))
     };
-    let response = ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
-        ui.add(
-            TextEdit::multiline(&mut text)
-                .code_editor()
-                .desired_width(f32::INFINITY)
-                .desired_rows(30)
-                .layouter(&mut layouter),
-        )
-        .accessible_name(format!("{} text", which.name()))
-    });
+    let response = ScrollArea::both()
+        .auto_shrink([false, false])
+        .show(ui, |ui| {
+            ui.add(
+                TextEdit::multiline(&mut text)
+                    .code_editor()
+                    .desired_width(f32::INFINITY)
+                    .desired_rows(30)
+                    .layouter(&mut layouter),
+            )
+            .accessible_name(format!("{} text", which.name()))
+        });
     if response.inner.changed() {
         // What is typed until the field is left is undone by the field letter by letter, and by us as one step a second.
         let second = ui.input(|input| input.time) as u64;
@@ -114,7 +122,11 @@ fn parts<'t>(line: &'t str, colors: &Colors) -> Vec<(&'t str, Color32)> {
     for (at, character) in line.char_indices() {
         if character == '"' {
             let end = if is_quoted { at + 1 } else { at };
-            let color = if is_quoted { colors.quoted } else { colors.plain };
+            let color = if is_quoted {
+                colors.quoted
+            } else {
+                colors.plain
+            };
             parts.push((&line[start..end], color));
             start = end;
             is_quoted = !is_quoted;
@@ -124,6 +136,13 @@ fn parts<'t>(line: &'t str, colors: &Colors) -> Vec<(&'t str, Color32)> {
             return parts;
         }
     }
-    parts.push((&line[start..], if is_quoted { colors.quoted } else { colors.plain }));
+    parts.push((
+        &line[start..],
+        if is_quoted {
+            colors.quoted
+        } else {
+            colors.plain
+        },
+    ));
     parts
 }

@@ -5,7 +5,8 @@ use crate::grip::STRONGEST_WIND;
 use crate::studio::Studio;
 use crate::transport::SPEEDS;
 use eframe::egui::{
-    Align2, Button, Color32, ComboBox, FontId, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
+    Align2, Button, Color32, ComboBox, FontId, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, pos2,
+    vec2,
 };
 
 /// Height of a row of moves on the line, points.
@@ -55,7 +56,11 @@ fn buttons(ui: &mut Ui, studio: &mut Studio) {
         .accessible_name("Speed")
         .on_hover_text("How fast time runs");
     ui.checkbox(&mut transport.is_looping, "loop");
-    ui.label(format!("frame {}  {:.2} s", transport.frame(), transport.shown_s()));
+    ui.label(format!(
+        "frame {}  {:.2} s",
+        transport.frame(),
+        transport.shown_s()
+    ));
 }
 
 fn line(ui: &mut Ui, studio: &mut Studio) {
@@ -64,9 +69,14 @@ fn line(ui: &mut Ui, studio: &mut Studio) {
     let response = response.accessible_name("Time line");
     let span = studio.transport.span_s().max(1e-3);
     let x = |time_s: f32| rect.left() + rect.width() * (time_s / span).clamp(0.0, 1.0);
-    if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked()) {
+    if let Some(at) = response
+        .interact_pointer_pos()
+        .filter(|_| response.dragged() || response.clicked())
+    {
         studio.transport.is_playing = false;
-        studio.transport.seek(span * (at.x - rect.left()) / rect.width());
+        studio
+            .transport
+            .seek(span * (at.x - rect.left()) / rect.width());
         studio.is_dragging |= response.dragged();
     }
     let painter = ui.painter_at(rect);
@@ -78,22 +88,40 @@ fn line(ui: &mut Ui, studio: &mut Studio) {
         let (from, to) = (x(span.start_s), x(span.start_s + span.length_s));
         let bar = Rect::from_min_max(pos2(from, top), pos2(to.max(from + 3.0), top + ROW - 2.0));
         painter.rect_filled(bar, 2.0, color(span.list));
-        painter
-            .with_clip_rect(bar.intersect(rect))
-            .text(bar.left_center() + vec2(3.0, 0.0), Align2::LEFT_CENTER, &span.name, font.clone(), Color32::BLACK);
+        painter.with_clip_rect(bar.intersect(rect)).text(
+            bar.left_center() + vec2(3.0, 0.0),
+            Align2::LEFT_CENTER,
+            &span.name,
+            font.clone(),
+            Color32::BLACK,
+        );
     }
     let mut second = 1.0;
     while second < span && span <= 120.0 {
-        painter.vline(x(second), rect.y_range(), Stroke::new(0.5, visuals.weak_text_color()));
+        painter.vline(
+            x(second),
+            rect.y_range(),
+            Stroke::new(0.5, visuals.weak_text_color()),
+        );
         second += 1.0;
     }
-    painter.vline(x(studio.transport.shown_s()), rect.y_range(), Stroke::new(2.0, Color32::from_rgb(230, 70, 100)));
+    painter.vline(
+        x(studio.transport.shown_s()),
+        rect.y_range(),
+        Stroke::new(2.0, Color32::from_rgb(230, 70, 100)),
+    );
     let told = studio.track.spans.iter().find(|span| {
-        let at = response.hover_pos().map_or(-1.0, |at| span_at(rect, at, studio.transport.span_s()));
-        at >= span.start_s && at <= span.start_s + span.length_s.max(0.02 * studio.transport.span_s())
+        let at = response
+            .hover_pos()
+            .map_or(-1.0, |at| span_at(rect, at, studio.transport.span_s()));
+        at >= span.start_s
+            && at <= span.start_s + span.length_s.max(0.02 * studio.transport.span_s())
     });
     if let Some(span) = told {
-        let text = format!("{} {} of {}, from {} s on", span.name, span.index, span.list, span.start_s);
+        let text = format!(
+            "{} {} of {}, from {} s on",
+            span.name, span.index, span.list, span.start_s
+        );
         response.on_hover_text_at_pointer(text);
     }
 }
@@ -118,10 +146,14 @@ fn dial(ui: &mut Ui, studio: &mut Studio) {
         "Wind, seen from above with the face below: drag to where it blows; a double click ends it. It is not a part of the preset.",
     );
     let radius = 0.5 * DIAL - 3.0;
-    if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+    if let Some(at) = response
+        .interact_pointer_pos()
+        .filter(|_| response.dragged())
+    {
         let away = (at - rect.center()) / radius;
         let wind = glam::Vec2::new(away.x, away.y).clamp_length_max(1.0);
         studio.grip.wind = STRONGEST_WIND * wind;
+        studio.transport.is_playing |= response.drag_started();
         studio.is_dragging = true;
     }
     if response.double_clicked() {
@@ -129,10 +161,22 @@ fn dial(ui: &mut Ui, studio: &mut Studio) {
     }
     let painter = ui.painter_at(rect);
     let visuals = ui.visuals();
-    painter.circle(rect.center(), radius, visuals.extreme_bg_color, Stroke::new(1.0, visuals.weak_text_color()));
-    painter.circle_stroke(rect.center(), 0.25 * radius, Stroke::new(1.0, visuals.weak_text_color()));
+    painter.circle(
+        rect.center(),
+        radius,
+        visuals.extreme_bg_color,
+        Stroke::new(1.0, visuals.weak_text_color()),
+    );
+    painter.circle_stroke(
+        rect.center(),
+        0.25 * radius,
+        Stroke::new(1.0, visuals.weak_text_color()),
+    );
     painter.line_segment(
-        [rect.center() + vec2(0.0, 0.25 * radius), rect.center() + vec2(0.0, 0.38 * radius)],
+        [
+            rect.center() + vec2(0.0, 0.25 * radius),
+            rect.center() + vec2(0.0, 0.38 * radius),
+        ],
         Stroke::new(2.0, visuals.weak_text_color()),
     );
     let wind = studio.grip.wind / STRONGEST_WIND * radius;

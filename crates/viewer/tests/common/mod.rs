@@ -30,7 +30,8 @@ pub const LOOK: &str = r#"// A bob for tests.
 "#;
 
 /// A script in which the head turns for half a second.
-pub const SCRIPT: &str = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.5, angle: 40)])\n";
+pub const SCRIPT: &str =
+    "(version: 1, moves: [(move: turn, start: 0.1, length: 0.5, angle: 40)])\n";
 
 /// How long anything may take on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -114,5 +115,13 @@ pub fn wait_for_picture(harness: &mut Harness<App>) {
 
 /// The preset's text as it is edited.
 pub fn text(harness: &Harness<App>) -> String {
-    harness.state().studio.documents.as_ref().unwrap().preset().text().to_string()
+    harness
+        .state()
+        .studio
+        .documents
+        .as_ref()
+        .unwrap()
+        .preset()
+        .text()
+        .to_string()
 }
