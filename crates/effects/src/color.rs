@@ -32,6 +32,21 @@ pub fn parse_hex(text: &str) -> Option<[f32; 3]> {
     Some([channel(0)?, channel(2)?, channel(4)?])
 }
 
+/// `RRGGBB` of a linear colour, the nearest that there is; of one brighter than white that of white. What [`parse_hex`]
+/// gives is written as it was.
+#[must_use]
+pub fn to_hex(linear: [f32; 3]) -> String {
+    let bytes = linear.map(nearest_byte);
+    format!("{:02X}{:02X}{:02X}", bytes[0], bytes[1], bytes[2])
+}
+
+/// The byte whose sRGB value is nearest: the number of limits between two bytes that are below.
+fn nearest_byte(linear: f32) -> u8 {
+    let is_below =
+        |byte: &u8| linear_from_srgb((f64::from(*byte) + 0.5) / 255.0) < f64::from(linear);
+    (0..255).take_while(is_below).count() as u8
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -55,5 +70,17 @@ mod tests {
         for bad in ["", "FFF", "GGGGGG", "FFFFFFF", "é2345", "+12345"] {
             assert_eq!(parse_hex(bad), None, "{bad}");
         }
+    }
+
+    #[test]
+    fn hex_of_hex_is_the_same() {
+        for byte in 0..=255_u8 {
+            let hex = format!("{byte:02X}{:02X}{:02X}", 255 - byte, byte / 2);
+            assert_eq!(to_hex(parse_hex(&hex).unwrap()), hex);
+        }
+        assert_eq!(to_hex([-1.0, 1.5, f32::NAN]), "00FF00");
+        // A little beside a byte's light it is still that byte.
+        let gray = parse_hex("808080").unwrap()[0];
+        assert_eq!(to_hex([gray * 0.999, gray * 1.001, gray]), "808080");
     }
 }

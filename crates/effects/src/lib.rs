@@ -52,7 +52,7 @@ mod variation;
 mod varied;
 pub mod wgsl;
 
-pub use color::{linear_from_srgb, parse_hex};
+pub use color::{linear_from_srgb, parse_hex, to_hex};
 pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, StrokeEffect};
 pub use joints::{Input, InputSet, Joints};
 pub use layer::{Layer, Units};

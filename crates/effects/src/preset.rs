@@ -4,6 +4,7 @@
 //! from the text's own slices, so that every error has the file's line and column.
 
 mod brackets;
+pub mod edit;
 mod error;
 mod layers;
 mod reader;

@@ -68,7 +68,7 @@ pub(super) fn skip_blank(mut text: &str) -> Result<&str, Mistake<'_>> {
         if text.starts_with("//") {
             text = text.split_once('\n').map_or("", |(_, rest)| rest);
         } else if text.starts_with("/*") {
-            text = after_block(text)?;
+            text = skip_block(text)?;
         } else {
             return Ok(text);
         }
@@ -76,7 +76,7 @@ pub(super) fn skip_blank(mut text: &str) -> Result<&str, Mistake<'_>> {
 }
 
 /// The text after a block comment, which may have others in it.
-fn after_block(text: &str) -> Result<&str, Mistake<'_>> {
+pub(super) fn skip_block(text: &str) -> Result<&str, Mistake<'_>> {
     let mut depth = 0;
     let mut rest = text;
     while let Some(i) = rest.find(['/', '*']) {
