@@ -41,11 +41,11 @@ impl Place {
     /// The same for [`effects::preset::edit`].
     #[must_use]
     pub fn steps(&self) -> Vec<Step<'_>> {
-        let step = |step: &'_ PlaceStep| match step {
+        let steps = self.0.iter().map(|step| match step {
             PlaceStep::Field(name) => Step::Field(name),
             PlaceStep::Item(index) => Step::Item(*index),
-        };
-        self.0.iter().map(step).collect()
+        });
+        steps.collect()
     }
 }
 

@@ -1,1 +1,5 @@
 //! x
+pub mod controls;
+pub mod edit;
+pub mod layers_shown;
+pub mod panels;
