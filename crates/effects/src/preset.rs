@@ -16,3 +16,4 @@ pub use error::{Place, PresetError, PresetErrors, nearest, suggestion};
 pub use layers::{LAYER, LayerSpec, OF_THE_EFFECT};
 pub use reader::{Field, Reader};
 pub use set::{SetError, set_text};
+pub use value::read_value;

@@ -5,6 +5,26 @@ use crate::color::parse_hex;
 use crate::param::{ParamKind, Value};
 use crate::variation::Variation;
 
+/// The value that `text`, as it stands in a preset, gives a parameter of this kind.
+///
+/// # Errors
+///
+/// What is wrong with the text, and what would be right.
+///
+/// ```
+/// use effects::{ParamKind, Value, preset::read_value};
+///
+/// let kind = ParamKind::Pair { min: -9.0, max: 9.0, default: [0.0; 2] };
+/// assert_eq!(read_value("(1, 2.5)", &kind), Ok(Value::Pair([1.0, 2.5])));
+/// assert_eq!(
+///     read_value("(1, 20)", &kind),
+///     Err("expected two numbers (x, y), each from -9 to 9, found `(1, 20)`".to_owned())
+/// );
+/// ```
+pub fn read_value(text: &str, kind: &ParamKind) -> Result<Value, String> {
+    parse_value(text, kind)
+}
+
 /// The value that `text` gives a parameter of this kind.
 pub(crate) fn parse_value(text: &str, kind: &ParamKind) -> Result<Value, String> {
     read(text, kind).ok_or_else(|| match names_of(kind) {

@@ -1,0 +1,130 @@
+//! The sections of a preset: hair, head, picture, camera, light, motion, dynamics, path and clump, and the objects of a
+//! preset that has some.
+
+use super::fold::fold;
+use super::items::{Change, List};
+use crate::controls::{Form, Search};
+use crate::edit::{Edit, Place};
+use effects::Param;
+use effects::preset::edit;
+use eframe::egui::{RichText, Ui};
+use stage::{ObjectSection, Preset, Sections};
+
+/// The name of what stands in a preset beside its sections: its version and seed.
+pub const PRESET: &str = "preset";
+
+/// What the preset's own fields are about.
+const PRESET_DOC: &str = "What stands in a preset beside its sections and layers.";
+
+/// The sections that a preset of objects says itself; the others are said by its objects' presets.
+const OF_THE_SCENE: [&str; 3] = ["scene", "camera", "light"];
+
+/// All of a preset's text but its layers, each section as a part to open.
+pub fn look(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
+    let names = Sections::ALL.iter().map(|(name, ..)| *name);
+    for name in std::iter::once(PRESET).chain(names) {
+        section(ui, text, name, search, edits);
+    }
+    objects(ui, text, search, edits);
+}
+
+/// A section of the preset `text`, one of [`Sections::ALL`] or [`PRESET`], as a part to open; nothing where a search finds
+/// nothing in it, or there is none of that name.
+pub fn section(ui: &mut Ui, text: &str, name: &str, search: &str, edits: &mut Vec<Edit>) {
+    let Some((doc, table)) = schema(name) else {
+        return;
+    };
+    let search = Search::new(search);
+    let (section, place) = match name {
+        PRESET => (edit::get(text, &[]), Place::top()),
+        _ => {
+            let place = Place::top().field(name);
+            (edit::get(text, &place.steps()), place)
+        }
+    };
+    let mut form = Form::new(name, table, section, place).about(doc);
+    if name == PRESET {
+        let sections = Sections::ALL.iter().map(|(name, ..)| *name);
+        let others: Vec<&str> = sections.chain(["layers", "objects"]).collect();
+        form = form.without(&others).needed(&["version"]);
+    }
+    if search.is_active() && !form.matches(&search) {
+        return;
+    }
+    let has_objects = edit::get(text, &Place::top().field("objects").steps()).is_some();
+    let is_elsewhere = has_objects && name != PRESET && !OF_THE_SCENE.contains(&name);
+    fold(ui, name, false, &search, |ui| {
+        about(ui, doc);
+        if is_elsewhere && section.is_none() {
+            ui.weak("This preset names objects, whose own presets say this.");
+        } else {
+            form.show(ui, &search, edits);
+        }
+    });
+}
+
+/// What a part is about, at its beginning.
+pub(super) fn about(ui: &mut Ui, doc: &str) {
+    ui.label(RichText::new(doc).small().weak());
+}
+
+fn schema(name: &str) -> Option<(&'static str, &'static [Param])> {
+    if name == PRESET {
+        return Some((PRESET_DOC, Preset::TOP));
+    }
+    let mut sections = Sections::ALL.iter();
+    let section = sections.find(|(section, ..)| *section == name);
+    section.map(|(_, doc, table)| (*doc, *table))
+}
+
+/// The objects of a preset that names some; nothing of one that describes its own.
+pub fn objects(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
+    let place = Place::top().field("objects");
+    if edit::get(text, &place.steps()).is_none() {
+        return;
+    }
+    let search = Search::new(search);
+    let items = edit::items(text, &place.steps());
+    let form = |index: usize, owner| {
+        let place = place.item(index);
+        Form::new(owner, ObjectSection::TABLE, Some(items[index]), place)
+            .about(ObjectSection::DOC)
+            .needed(&["preset"])
+    };
+    let owners: Vec<String> = (1..=items.len())
+        .map(|number| format!("object {number}"))
+        .collect();
+    let title = |item: &&str| {
+        let preset = edit::get(item, &[edit::Step::Field("preset")]);
+        preset.unwrap_or("?").trim_matches('"').to_owned()
+    };
+    let list = List {
+        noun: "object",
+        titles: items.iter().map(title).collect(),
+        found: (0..items.len())
+            .map(|index| form(index, &owners[index]).matches(&search))
+            .collect(),
+        is_movable: true,
+        // A picture of none would be empty.
+        may_remove: items.len() > 1,
+    };
+    if !list.found.contains(&true) {
+        return;
+    }
+    fold(ui, "objects", true, &search, |ui| {
+        about(ui, ObjectSection::DOC);
+        let change = list.show(
+            ui,
+            &search,
+            |_, _| {},
+            |ui, index| form(index, &owners[index]).show(ui, &search, edits),
+        );
+        edits.extend(change.map(|change| match change {
+            Change::Remove(index) => Edit::Remove(place.item(index)),
+            Change::Move(from, to) => Edit::Move(place.clone(), from, to),
+            Change::Duplicate(index) => {
+                Edit::Insert(place.clone(), index + 1, items[index].to_owned())
+            }
+        }));
+    });
+}

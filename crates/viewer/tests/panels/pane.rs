@@ -1,0 +1,132 @@
+//! A pane that shows a text and does what it asks for.
+
+use effects::Registry;
+use eframe::egui::accesskit::Toggled;
+use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::{Harness, Node};
+use viewer::edit::Edit;
+use viewer::layers_shown::LayersShown;
+use viewer::panels;
+
+/// Which pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Layers,
+    Look,
+    Style,
+    Motion,
+}
+
+/// What is shown, and what was asked for.
+pub struct Pane {
+    pub kind: Kind,
+    pub registry: Registry,
+    pub text: String,
+    pub search: String,
+    pub shown: LayersShown,
+    /// All edits so far.
+    pub edits: Vec<Edit>,
+    /// Edits that the text didn't allow.
+    pub refused: Vec<String>,
+}
+
+impl Pane {
+    pub fn new(kind: Kind, text: &str) -> Self {
+        Self {
+            kind,
+            registry: inkstrand::builtin_effects(),
+            text: text.to_owned(),
+            search: String::new(),
+            shown: LayersShown::default(),
+            edits: Vec::new(),
+            refused: Vec::new(),
+        }
+    }
+
+    /// Shows the pane at that width, as high as it gets.
+    pub fn harness<'a>(self, width: f32) -> Harness<'a, Self> {
+        Harness::builder()
+            .with_size([width, 20_000.0])
+            .build_ui_state(Self::frame, self)
+    }
+
+    fn frame(ui: &mut eframe::egui::Ui, pane: &mut Self) {
+        let mut edits = Vec::new();
+        let (text, search) = (pane.text.clone(), pane.search.clone());
+        match pane.kind {
+            Kind::Layers => {
+                let Self {
+                    registry, shown, ..
+                } = pane;
+                panels::layers(ui, &text, registry, shown, &search, &mut edits);
+            }
+            Kind::Look => panels::look(ui, &text, &search, &mut edits),
+            Kind::Style => panels::style(ui, &text, &search, &mut edits),
+            Kind::Motion => panels::motion_script(ui, &text, &search, &mut edits),
+        }
+        for edit in edits {
+            match edit.apply(&pane.text) {
+                Ok(text) => pane.text = text,
+                Err(error) => pane.refused.push(format!("{edit:?}: {error}")),
+            }
+            pane.edits.push(edit);
+        }
+    }
+}
+
+/// Names of all nodes that have one.
+pub fn names(harness: &Harness<Pane>) -> Vec<String> {
+    let nodes = harness.root().children_recursive();
+    nodes
+        .filter_map(|node| node.accesskit_node().label())
+        .collect()
+}
+
+/// Opens all parts, also those within parts.
+pub fn open_all(harness: &mut Harness<Pane>) {
+    for _ in 0..3 {
+        let closed: Vec<String> = names(harness)
+            .into_iter()
+            .filter(|name| name.starts_with("open "))
+            .collect();
+        for name in closed {
+            if node(harness, &name).accesskit_node().toggled() == Some(Toggled::False) {
+                click(harness, &name);
+            }
+        }
+    }
+}
+
+/// What has that name.
+pub fn node<'t>(harness: &'t Harness<Pane>, name: &'t str) -> Node<'t> {
+    let names = names(harness);
+    assert!(
+        names.iter().any(|known| known == name),
+        "no {name} in {names:#?}"
+    );
+    harness.get_by_label(name)
+}
+
+/// Clicks what has that name.
+pub fn click(harness: &mut Harness<Pane>, name: &str) {
+    node(harness, name).click_accesskit();
+    harness.run();
+}
+
+/// Types a text into the field of that name, in place of what is there, and presses Enter.
+pub fn type_into(harness: &mut Harness<Pane>, name: &str, text: &str) {
+    use eframe::egui::{Key, Modifiers};
+    node(harness, name).focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    node(harness, name).type_text(text);
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+}
+
+/// Sets a number as assistive technology does.
+pub fn set_number(harness: &mut Harness<Pane>, name: &str, number: f64) {
+    node(harness, name).set_value_accesskit(number);
+    harness.run();
+}
