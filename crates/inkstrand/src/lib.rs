@@ -28,6 +28,8 @@ mod stats;
 
 pub use commands::Progress;
 pub use embed::{render_with, shell_word, write_new_look};
+pub use quiet_drivers::start_without_noise;
+pub use say::own_up_to_bugs;
 
 use clap::{CommandFactory as _, Parser as _};
 use cli::{Arguments, Backend, Command};

@@ -51,13 +51,16 @@ const SIZE: [f32; 2] = [1280.0, 800.0];
 /// The smallest that its panes are usable in.
 const LEAST_SIZE: [f32; 2] = [480.0, 360.0];
 
-/// Runs the viewer with these effects on the process's arguments, until its window is closed: 0 done, 1 there is no window, 2 wrong usage.
+/// Runs the viewer with these effects on the process's arguments, until its window is closed: 0 done, 1 there is no window, 2 wrong usage. To be called
+/// first: it may start anew in its own process, so that drivers keep quiet.
 #[must_use]
 pub fn run(registry: Registry) -> ExitCode {
+    inkstrand::own_up_to_bugs();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(answer) => answer.exit(),
     };
+    inkstrand::start_without_noise();
     let options = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("inkstrand")
