@@ -39,7 +39,7 @@ const BUILD_TOOL: &str = "effects-build";
 const FOR_TESTS: &[&str] = &["effects-testkit", "reference"];
 
 /// What a crate of effects may use behind a feature.
-const FOR_PROGRAMS: &[&str] = &["inkstrand"];
+const FOR_PROGRAMS: &[&str] = &["inkstrand", "viewer"];
 
 /// Families of libraries, and the only crates that may depend on one of them, tests included.
 const GUARDED: &[Guard] = &[
