@@ -73,7 +73,7 @@ pub fn builtin_effects() -> Registry {
 /// exits with 130. To be called first: before it draws, the program may start anew in its own process.
 #[must_use]
 pub fn run(registry: &Registry) -> ExitCode {
-    say::own_up_to_bugs();
+    own_up_to_bugs();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(answer) => return give(&answer),
@@ -82,7 +82,7 @@ pub fn run(registry: &Registry) -> ExitCode {
     let done = match &arguments.command {
         Command::Render(options) => {
             if options.backend != Backend::Cpu {
-                quiet_drivers::start_without_noise();
+                start_without_noise();
             }
             commands::render(options, registry, None).map(drop)
         }

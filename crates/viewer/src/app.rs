@@ -29,7 +29,7 @@ impl App {
         registry: Registry,
         preset: Option<&Path>,
         backend: Backend,
-        recovery: fn() -> Recovery,
+        recovery: Recovery,
     ) -> Self {
         let mut studio = Studio::new(Arc::new(registry), ctx, backend, recovery);
         if let Some(preset) = preset {

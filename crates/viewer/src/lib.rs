@@ -61,6 +61,12 @@ pub fn run(registry: Registry) -> ExitCode {
         Err(answer) => answer.exit(),
     };
     inkstrand::start_without_noise();
+    if let Some(preset) = &arguments.preset
+        && let Err(error) = hair_io::read_text(preset, hair_io::MOST_OF_TEXT)
+    {
+        inkstrand::fail(&error);
+        return ExitCode::FAILURE;
+    }
     let options = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("inkstrand")
@@ -79,7 +85,7 @@ pub fn run(registry: Registry) -> ExitCode {
                 registry,
                 arguments.preset.as_deref(),
                 arguments.backend.into(),
-                Recovery::default,
+                Recovery::default(),
             )))
         }),
     );
@@ -98,6 +104,10 @@ fn explained(error: &eframe::Error) -> String {
         eframe::Error::Wgpu(why) => format!(
             "no graphics driver can draw a window here ({why}): install your card's, or Debian's `mesa-vulkan-drivers`, which draws in software"
         ),
+        eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => {
+            "there is no screen to open a window on: on Linux, DISPLAY or WAYLAND_DISPLAY name one"
+                .to_owned()
+        }
         other => format!("there can be no window here: {other}"),
     }
 }

@@ -55,7 +55,7 @@ pub struct Studio {
     /// Small pictures of presets.
     pub thumbnails: Thumbnails,
     ctx: Context,
-    recovery: fn() -> Recovery,
+    recovery: Recovery,
     /// The texts that are open; nothing before a preset is.
     pub documents: Option<Documents>,
     /// The folder whose presets are offered.
@@ -115,7 +115,7 @@ impl Studio {
         registry: Arc<Registry>,
         ctx: &Context,
         backend: Backend,
-        recovery: fn() -> Recovery,
+        recovery: Recovery,
     ) -> Self {
         let waker = ctx.clone();
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(move || waker.request_repaint());
@@ -157,7 +157,7 @@ impl Studio {
 
     /// Opens a preset in place of the one that is open. What is not saved is asked for before.
     pub fn open(&mut self, path: &Path) {
-        match Documents::open(path, (self.recovery)(), self.wake.clone()) {
+        match Documents::open(path, self.recovery.clone(), self.wake.clone()) {
             Ok(documents) => {
                 self.tell(format!("opened {}", path.display()));
                 if let Some(folder) = path.parent() {

@@ -31,6 +31,7 @@ struct Screen {
     viewer: Child,
     x: RustConnection,
     root: Window,
+    display: String,
 }
 
 impl Drop for Screen {
@@ -86,6 +87,7 @@ impl Screen {
             viewer,
             x,
             root,
+            display,
         })
     }
 
@@ -235,4 +237,49 @@ fn a_look_is_lit_and_saved_in_a_window() {
     screen.hold(CONTROL, || screen.hold(u32::from('q'), || {}));
     let ended = screen.viewer.wait().unwrap();
     assert!(ended.success(), "{ended}");
+}
+
+/// The program without what it needs: what it says, and that it fails.
+fn refused(arrange: impl FnOnce(&mut Command) -> &mut Command) -> String {
+    let mut viewer = Command::new(env!("CARGO_BIN_EXE_viewer"));
+    let ended = arrange(
+        viewer
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET"),
+    )
+    .output()
+    .unwrap();
+    assert_eq!(ended.status.code(), Some(1));
+    String::from_utf8(ended.stderr).unwrap()
+}
+
+#[test]
+fn without_a_screen_or_a_preset_it_says_so() {
+    let told = refused(|viewer| viewer.env_remove("DISPLAY"));
+    assert!(
+        told.contains("there is no screen") && told.lines().count() == 1,
+        "{told}"
+    );
+    let told = refused(|viewer| viewer.arg("no-such-look.ron"));
+    assert!(
+        told.contains("no-such-look.ron") && told.lines().count() == 1,
+        "{told}"
+    );
+}
+
+#[test]
+fn without_a_driver_it_names_one() {
+    let looks = Looks::new();
+    let Some(screen) = Screen::open(&looks) else {
+        return;
+    };
+    let told = refused(|viewer| {
+        viewer
+            .env("DISPLAY", &screen.display)
+            .env("VK_DRIVER_FILES", "/dev/null")
+    });
+    assert!(
+        told.contains("mesa-vulkan-drivers") && told.lines().count() == 1,
+        "{told}"
+    );
 }

@@ -453,3 +453,74 @@ fn every_pane_is_shown_in_windows_of_any_size() {
         harness.get_by_label("Turn the head");
     }
 }
+
+#[test]
+fn changes_outlive_a_crash() {
+    let looks = Looks::new();
+    let copies = looks.path("copies");
+    let size = Vec2::new(1280.0, 800.0);
+    let open = || {
+        let recovery = document::Recovery::in_folder(&copies);
+        common::recovering(Some(looks.path("look.ron")), size, recovery)
+    };
+    let mut harness = open();
+    wait_for_picture(&mut harness);
+    harness.state_mut().studio.tool = Tool::Light;
+    drag(&mut harness, [0.0, 0.0], [0.2, 0.1]);
+    let changed = text(&harness);
+    let is_kept = || std::fs::read_dir(&copies).is_ok_and(|mut entries| entries.next().is_some());
+    wait_for(&mut harness, "the copy", |_| is_kept());
+    // It ends without a word.
+    drop(harness);
+    assert_eq!(looks.read("look.ron"), LOOK);
+
+    let mut harness = open();
+    harness.run_steps(3);
+    click(&mut harness, "Take the copy");
+    assert_eq!(text(&harness), changed);
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(text(&harness), LOOK);
+}
+
+#[test]
+fn a_file_that_both_changed_shows_both() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    harness.state_mut().studio.tool = Tool::Light;
+    drag(&mut harness, [0.0, 0.0], [0.2, 0.1]);
+    let mine = text(&harness);
+    let theirs = LOOK.replace("1.5", "3.5");
+    std::fs::write(looks.path("look.ron"), &theirs).unwrap();
+    wait_for_label(&mut harness, "was changed here and on the disk.");
+    harness.get_by_label_contains("width: 3.5");
+    // Saving before one is chosen loses nobody's change.
+    press(&mut harness, COMMAND, Key::S);
+    assert_eq!(looks.read("look.ron"), theirs);
+    click(&mut harness, "Keep mine");
+    press(&mut harness, COMMAND, Key::S);
+    assert_eq!(looks.read("look.ron"), mine);
+}
+
+#[test]
+fn layers_are_switched_off_for_the_eye_alone() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let before = harness.state().studio.pixels(0).unwrap().to_vec();
+    harness
+        .state_mut()
+        .studio
+        .layers
+        .hidden
+        .insert("hair.base".to_owned());
+    wait_for_picture(&mut harness);
+    assert!(harness.state().studio.pixels(0).unwrap() != before);
+    assert_eq!(
+        text(&harness),
+        LOOK,
+        "what is looked at is not the preset's"
+    );
+    let only = harness.state().studio.export_state().unwrap().only;
+    assert_eq!(only, ["hair.silhouette"]);
+}

@@ -74,6 +74,15 @@ pub fn viewer_of(preset: Option<PathBuf>) -> Harness<'static, App> {
 
 /// The same in a window of another size, points.
 pub fn sized(preset: Option<PathBuf>, size: Vec2) -> Harness<'static, App> {
+    recovering(preset, size, Recovery::none())
+}
+
+/// The same, with copies that outlive a crash.
+pub fn recovering(
+    preset: Option<PathBuf>,
+    size: Vec2,
+    recovery: Recovery,
+) -> Harness<'static, App> {
     Harness::builder()
         .with_size(size)
         .with_step_dt(1.0 / 60.0)
@@ -83,7 +92,7 @@ pub fn sized(preset: Option<PathBuf>, size: Vec2) -> Harness<'static, App> {
                 inkstrand::builtin_effects(),
                 preset.as_deref(),
                 Backend::Cpu,
-                Recovery::none,
+                recovery,
             )
         })
 }
