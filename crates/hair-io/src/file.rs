@@ -1,6 +1,6 @@
 //! Files: choosing the reader, settling axes and units, and writing.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use hair_sim::{PointCache, Strands};
@@ -196,15 +196,40 @@ impl BoneMotion {
         }
         #[cfg(feature = "gltf")]
         {
-            let bytes = read_bytes(path, MOST_OF_DATA)?;
-            let folder = path.parent().unwrap_or(Path::new(""));
-            Self::from_bytes(&bytes, folder, bone, animation).map_err(|source| {
-                HairError::Skeleton {
-                    path: path.into(),
-                    source: Box::new(source),
-                }
+            Self::of_file(path, |bytes, folder| {
+                Self::from_bytes(bytes, folder, bone, animation)
             })
         }
+    }
+
+    /// The files beside a glTF 2.0 file that hold the numbers of its animations, each once; they need not be there.
+    ///
+    /// # Errors
+    ///
+    /// When the file cannot be read; always, where this crate is built without its feature `gltf`.
+    pub fn files(path: &Path) -> Result<Vec<PathBuf>, HairError> {
+        #[cfg(not(feature = "gltf"))]
+        {
+            Err(HairError::WithoutGltf(path.into()))
+        }
+        #[cfg(feature = "gltf")]
+        {
+            Self::of_file(path, Self::files_of_bytes)
+        }
+    }
+
+    /// What is read of a file's bytes and of its folder.
+    #[cfg(feature = "gltf")]
+    fn of_file<T>(
+        path: &Path,
+        read: impl FnOnce(&[u8], &Path) -> Result<T, crate::SkeletonError>,
+    ) -> Result<T, HairError> {
+        let bytes = read_bytes(path, MOST_OF_DATA)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        read(&bytes, folder).map_err(|source| HairError::Skeleton {
+            path: path.into(),
+            source: Box::new(source),
+        })
     }
 }
 

@@ -63,7 +63,7 @@ impl<'r> Preset<'r> {
     }
 
     /// The files that a scene is read from: those of the preset, but where the caller gives others, and those that its script
-    /// names.
+    /// and its character name.
     #[must_use]
     pub fn files(&self, files: &Files) -> Vec<PathBuf> {
         let mut paths: Vec<PathBuf> = self.named(files).into_iter().map(|f| f.path).collect();
@@ -73,6 +73,10 @@ impl<'r> Preset<'r> {
         {
             let shapes = parsed.shapes.into_iter().filter_map(|key| key.file);
             paths.extend(shapes.map(|name| script.with_file_name(name)));
+        }
+        if let Some(character) = &self.sections.motion.gltf {
+            let character = files.preset_folder.join(character);
+            paths.extend(BoneMotion::files(&character).into_iter().flatten());
         }
         paths.extend(self.files_of_objects(files));
         paths
@@ -223,7 +227,7 @@ pub fn check_motion(path: &Path, text: &str) -> Result<(), PresetErrors> {
         let place = key.place.clone();
         Some(PresetError { place, message })
     });
-    Found(mistakes.collect()).all()
+    PresetErrors::report(mistakes.collect())
 }
 
 /// Looks for all that is wrong with a style.

@@ -111,21 +111,21 @@ fn check_outputs(
         .filter(|path| *path != Path::new("-"));
     let mut read = preset.files(files);
     read.push(options.preset.clone());
-    for path in &read {
-        if output.writes(path, first..=last) {
-            let message = format!(
-                "-o: a picture would be written over {}, which is read",
-                path.display()
-            );
-            return Err(Failure::Usage(message));
-        }
-        if stats.is_some_and(|stats| is_same(stats, path)) {
-            let message = format!("--stats: {} is read, and cannot be written", path.display());
-            return Err(Failure::Usage(message));
-        }
+    if let Some(path) = output.writes_over(&read, first..=last) {
+        let message = format!(
+            "-o: a picture would be written over {}, which is read",
+            path.display()
+        );
+        return Err(Failure::Usage(message));
+    }
+    if let Some(stats) = stats
+        && let Some(path) = read.iter().find(|path| is_same(stats, path))
+    {
+        let message = format!("--stats: {} is read, and cannot be written", path.display());
+        return Err(Failure::Usage(message));
     }
     if let Some(stats) = stats {
-        if output.writes(stats, first..=last) {
+        if (output.writes_over(&[stats.to_owned()], first..=last)).is_some() {
             let message = format!("--stats: {} is a picture of -o", stats.display());
             return Err(Failure::Usage(message));
         }
