@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 const VARIABLE: &str = "INKSTRAND_PICTURES";
 
 /// How much a picture may differ from what its command draws, in 1/255 on average: a card rounds otherwise than the CPU.
-const LIKENESS: f64 = 1.0;
+const LIKENESS: f64 = 0.1;
 
 /// Largest size and bytes of a picture, and bytes of all of a folder.
 const LARGEST: (u32, u32) = (480, 360);
