@@ -207,7 +207,7 @@ fn control(ui: &mut Ui, row: &Row, shown: &Shown, value: &Value, width: f32) -> 
                 None => None,
             };
             let otherwise = default.unwrap_or("808080");
-            let (response, new) = optional_color(ui, row, hex.as_deref(), otherwise);
+            let (response, new) = optional_color(ui, row, hex.as_deref(), otherwise, width);
             let new = new.map(|new| match new {
                 Chosen::None => Asked::Text("none".to_owned()),
                 Chosen::Color(hex) => written_text(&hex),
