@@ -96,10 +96,12 @@ impl<'a> Form<'a> {
             let written = field.map(|(_, value)| *value);
             self.row(ui, &Shown { param, written }, edits);
         }
-        for (name, value) in fields {
+        for (i, (name, value)) in fields.iter().enumerate() {
             let is_known =
-                self.elsewhere.contains(&name) || self.table.iter().any(|param| param.name == name);
-            if !is_known && search.matches(&[name, self.owner]) {
+                self.elsewhere.contains(name) || self.table.iter().any(|param| param.name == *name);
+            // A place leads to the first of that name.
+            let is_again = fields[..i].iter().any(|(before, _)| before == name);
+            if !is_known && !is_again && search.matches(&[name, self.owner]) {
                 let names = self.table.iter().map(|param| param.name);
                 let message = format!("there is no `{name:.40}` here{}", suggestion(name, names));
                 let place = self.place.field(name);
