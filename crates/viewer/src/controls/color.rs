@@ -5,12 +5,18 @@ use super::text::text_line;
 use eframe::egui::{Checkbox, Response, Ui};
 
 /// Width of a field for six digits.
-const DIGITS: f32 = 62.0;
+const DIGITS: f32 = 48.0;
+/// Width of a colour's button.
+const BUTTON: f32 = 26.0;
+/// The least width that the word `none` has room in.
+const ROOM_FOR_NONE: f32 = 150.0;
 
 /// A button with a colour's picker, and its digits beside it. Gives the digits that were chosen.
 pub(super) fn color(ui: &mut Ui, row: &Row, hex: &str) -> (Response, Option<String>) {
     let before = bytes(hex).unwrap_or_default();
     let mut picked = before;
+    ui.spacing_mut().item_spacing.x = 4.0;
+    ui.spacing_mut().interact_size.x = BUTTON;
     let button = ui.color_edit_button_srgb(&mut picked);
     let button = button.accessible_name(&row.name);
     let mut chosen = (picked != before).then(|| digits(picked));
@@ -38,6 +44,7 @@ pub(super) fn optional_color(
     row: &Row,
     hex: Option<&str>,
     otherwise: &str,
+    width: f32,
 ) -> (Response, Option<Chosen>) {
     let last = row.id.with("last colour");
     let mut chosen = None;
@@ -49,8 +56,12 @@ pub(super) fn optional_color(
         chosen = picked.map(Chosen::Color);
     }
     let mut is_none = hex.is_none();
-    let response = ui.add(Checkbox::new(&mut is_none, "none"));
-    let response = response.accessible_name(row.part("none"));
+    let has_room = is_none || width >= ROOM_FOR_NONE;
+    let word = if has_room { "none" } else { "" };
+    let response = ui.add(Checkbox::new(&mut is_none, word));
+    let response = response
+        .on_hover_text("No colour")
+        .accessible_name(row.part("none"));
     if is_none != hex.is_none() {
         chosen = Some(if is_none {
             Chosen::None

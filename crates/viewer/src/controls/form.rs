@@ -96,10 +96,12 @@ impl<'a> Form<'a> {
             let written = field.map(|(_, value)| *value);
             self.row(ui, &Shown { param, written }, edits);
         }
-        for (name, value) in fields {
+        for (i, (name, value)) in fields.iter().enumerate() {
             let is_known =
-                self.elsewhere.contains(&name) || self.table.iter().any(|param| param.name == name);
-            if !is_known && search.matches(&[name, self.owner]) {
+                self.elsewhere.contains(name) || self.table.iter().any(|param| param.name == *name);
+            // A place leads to the first of that name.
+            let is_again = fields[..i].iter().any(|(before, _)| before == name);
+            if !is_known && !is_again && search.matches(&[name, self.owner]) {
                 let names = self.table.iter().map(|param| param.name);
                 let message = format!("there is no `{name:.40}` here{}", suggestion(name, names));
                 let place = self.place.field(name);
@@ -207,7 +209,7 @@ fn control(ui: &mut Ui, row: &Row, shown: &Shown, value: &Value, width: f32) -> 
                 None => None,
             };
             let otherwise = default.unwrap_or("808080");
-            let (response, new) = optional_color(ui, row, hex.as_deref(), otherwise);
+            let (response, new) = optional_color(ui, row, hex.as_deref(), otherwise, width);
             let new = new.map(|new| match new {
                 Chosen::None => Asked::Text("none".to_owned()),
                 Chosen::Color(hex) => written_text(&hex),

@@ -47,13 +47,25 @@ pub(super) fn fold(
     search: &Search,
     contents: impl FnOnce(&mut Ui),
 ) {
+    fold_named(ui, name, name, at_first, search, contents);
+}
+
+/// The same where its title is shorter than its name.
+pub(super) fn fold_named(
+    ui: &mut Ui,
+    shown: &str,
+    name: &str,
+    at_first: bool,
+    search: &Search,
+    contents: impl FnOnce(&mut Ui),
+) {
     let id = ui.make_persistent_id(("fold", name));
     let mut open = is_open(ui, id, at_first, search);
     let clicked = ui.horizontal(|ui| {
         let by_triangle = triangle(ui, &format!("open {name}"), open);
         let width = ui.available_width();
-        let by_title = title(ui, RichText::new(name).strong(), width, Sense::CLICK).clicked();
-        by_triangle || by_title
+        let by_title = title(ui, RichText::new(shown).strong(), width, Sense::CLICK);
+        by_triangle || by_title.accessible_name(name).clicked()
     });
     if clicked.inner && !search.is_active() {
         open = !open;

@@ -45,7 +45,7 @@ pub fn layers(
     let layers: Vec<Found> = items
         .iter()
         .enumerate()
-        .map(|(index, item)| Found::read(item, place.item(index), registry))
+        .map(|(index, item)| Found::read(item, index, place.item(index), registry))
         .collect();
     forget_gone(shown, &layers);
 
@@ -160,16 +160,15 @@ fn quoted(text: &str) -> String {
 }
 
 impl<'a> Found<'a> {
-    fn read(item: &'a str, place: Place, registry: &'a Registry) -> Self {
+    fn read(item: &'a str, index: usize, place: Place, registry: &'a Registry) -> Self {
         let id = text_of(item, "effect").unwrap_or_default();
         let effect = registry.get(&id);
         let name = text_of(item, "name").unwrap_or_else(|| id.clone());
         Self {
             item,
-            name: if name.is_empty() {
-                "?".to_owned()
-            } else {
-                name
+            name: match name.is_empty() {
+                true => format!("number {}", index + 1),
+                false => name,
             },
             own: effect.map_or_else(|| LAYER.to_vec(), own_fields),
             id,

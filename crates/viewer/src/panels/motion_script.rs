@@ -140,12 +140,10 @@ fn timed_list(
             edits.push(parts.add(text, &format!("(time: {time})")));
         }
         Some(Asked::Of(Change::Duplicate(index))) => {
-            let time = match times.get(index + 1) {
-                Some(next) => rounded(0.5 * (times[index] + next)),
-                None => rounded(times[index] + 0.5),
-            };
-            let copy = with(items[index], "time", &time.to_string());
-            edits.push(Edit::Insert(place, index + 1, copy));
+            edits.extend(time_after(&times, index).map(|time| {
+                let copy = with(items[index], "time", &time.to_string());
+                Edit::Insert(place, index + 1, copy)
+            }));
         }
         Some(Asked::Of(Change::Remove(index))) => {
             edits.push(Edit::Remove(place.item(index)));
@@ -157,6 +155,17 @@ fn timed_list(
         // Their order is that of their times.
         Some(Asked::Of(Change::Move(..))) => {}
     }
+}
+
+/// A time after that of an item and before that of the next one, if there is one.
+fn time_after(times: &[f32], index: usize) -> Option<f32> {
+    let time = times[index];
+    let Some(next) = times.get(index + 1) else {
+        return Some(rounded(time + 0.5));
+    };
+    let middle = 0.5 * (time + next);
+    let is_between = |middle: &f32| *middle > time && middle < next;
+    [rounded(middle), middle].into_iter().find(is_between)
 }
 
 /// Milliseconds are enough for a key.
@@ -172,8 +181,15 @@ fn table_between(table: &[Param], item: &str, times: &[f32], index: usize) -> Ve
     let between = |param: &Param| {
         let mut param = *param;
         if let (ParamKind::Number { min, max, .. }, "time") = (&mut param.kind, param.name) {
-            *min = before.map_or(*min, |before| before.max(*min));
-            *max = after.map_or(*max, |after| after.max(*min));
+            let range = (
+                before.map_or(*min, |before| before.max(*min)),
+                after.map_or(*max, |after| after.min(*max)),
+            );
+            // Where neighbours leave no room, it stays where it is.
+            (*min, *max) = match range.0 <= range.1 {
+                true => range,
+                false => (times[index], times[index]),
+            };
         }
         param
     };

@@ -1,6 +1,6 @@
 //! Places on the head: as text, as points on a map of the head, and as numbers.
 
-use super::fold::fold;
+use super::fold::fold_named;
 use crate::controls::{
     Cells, Icon, NumberField, Row, Search, cell_text, drag_value, icon_button, text_line,
 };
@@ -256,9 +256,10 @@ pub(super) fn places(
     let mut change = map(ui, owner, &shown);
     for field in shown.iter().filter(|field| !field.points().is_empty()) {
         ui.push_id(field.field.name, |ui| {
-            let name = format!("points of {}", field.field.name);
+            let shown = format!("points of {}", field.field.name);
+            let name = format!("points of {owner} {}", field.field.name);
             // A search finds fields, not their numbers.
-            fold(ui, &name, false, &Search::default(), |ui| {
+            fold_named(ui, &shown, &name, false, &Search::default(), |ui| {
                 let asked = numbers(ui, owner, field);
                 change = change.take().or(asked);
             });

@@ -87,7 +87,12 @@ fn zone_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: &
     let parts = Parts {
         part,
         noun: "zone",
-        titles: names.clone(),
+        titles: (names.iter().enumerate())
+            .map(|(index, name)| match name.is_empty() {
+                true => format!("number {}", index + 1),
+                false => name.clone(),
+            })
+            .collect(),
         fields: &places_of(part),
         needed: &["name"],
         is_movable: true,

@@ -47,6 +47,7 @@ impl Pane {
     pub fn harness<'a>(self, width: f32) -> Harness<'a, Self> {
         Harness::builder()
             .with_size([width, 20_000.0])
+            .with_step_dt(0.05)
             .build_ui_state(Self::frame, self)
     }
 
@@ -95,6 +96,15 @@ pub fn open_all(harness: &mut Harness<Pane>) {
             }
         }
     }
+}
+
+/// Whether a text is to be read somewhere.
+pub fn shows(harness: &Harness<Pane>, part: &str) -> bool {
+    let mut texts = harness.root().children_recursive().flat_map(|node| {
+        let node = node.accesskit_node();
+        [node.label(), node.value()].into_iter().flatten()
+    });
+    texts.any(|text| text.contains(part))
 }
 
 /// What has that name.
