@@ -1,7 +1,7 @@
 //! Picture files: their names and their bytes.
 
-use crate::paths::{folder_of, place};
-use hair_io::write_whole;
+use crate::paths::place;
+use hair_io::{folder_of, write_whole};
 use render::Picture;
 use std::collections::HashSet;
 use std::ffi::{OsStr, OsString};
