@@ -123,7 +123,9 @@ impl<'r> Preset<'r> {
         let path = &file.path;
         let opened: Result<(), StageError> = match (file.section, file.param) {
             ("motion", "file") => return self.check_text(files, file, check_motion),
-            ("hair", "file") if load::is_style(path) => return self.check_text(files, file, check_style),
+            ("hair", "file") if load::is_style(path) => {
+                return self.check_text(files, file, check_style);
+            }
             ("hair", _) => check_hair(path),
             ("head", _) => hair_io::read_head(path, None, None)
                 .map(drop)

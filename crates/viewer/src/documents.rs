@@ -119,6 +119,12 @@ impl Documents {
         self.open.values().any(Document::is_changed)
     }
 
+    /// Whether the system tells when a file changes on the disk; else somebody has to look.
+    #[must_use]
+    pub fn is_watched(&self) -> bool {
+        self.open.values().all(Document::is_watched)
+    }
+
     /// Makes the changes, one after the other. Those of one `gesture` are one step of undo.
     ///
     /// # Errors

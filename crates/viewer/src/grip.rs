@@ -143,8 +143,10 @@ mod tests {
 
     #[test]
     fn going_back_in_time_begins_anew() {
-        let mut grip = Grip::default();
-        grip.wind = Vec2::new(5.0, 0.0);
+        let mut grip = Grip {
+            wind: Vec2::new(5.0, 0.0),
+            ..Grip::default()
+        };
         grip.advance_to(3.0, STEP);
         grip.advance_to(3.5, STEP);
         grip.advance_to(0.0, STEP);

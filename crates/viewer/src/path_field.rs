@@ -15,8 +15,21 @@ pub struct PathField {
     endings: &'static [&'static str],
     /// What is wrong with the path.
     pub error: Option<String>,
-    listed: Option<(PathBuf, Instant, Vec<(String, bool)>)>,
+    listed: Option<Listing>,
     has_focus: bool,
+}
+
+/// What was in a folder when it was last looked at.
+struct Listing {
+    folder: PathBuf,
+    at: Instant,
+    entries: Vec<Entry>,
+}
+
+/// A file or folder.
+struct Entry {
+    name: String,
+    is_folder: bool,
 }
 
 impl PathField {
@@ -60,12 +73,16 @@ impl PathField {
             true => path,
             false => path.parent().unwrap_or(Path::new("")).to_owned(),
         };
-        let is_known = |(of, at, _): &(PathBuf, Instant, _)| *of == folder && at.elapsed() < STALE;
+        let is_known = |listing: &Listing| listing.folder == folder && listing.at.elapsed() < STALE;
         if !self.listed.as_ref().is_some_and(is_known) {
-            self.listed = Some((folder.clone(), Instant::now(), list(&folder, self.endings)));
+            self.listed = Some(Listing {
+                entries: list(&folder, self.endings),
+                folder: folder.clone(),
+                at: Instant::now(),
+            });
         }
         let mut chosen = None;
-        let entries = self.listed.iter().flat_map(|(.., entries)| entries);
+        let entries = self.listed.iter().flat_map(|listing| &listing.entries);
         ScrollArea::vertical()
             .max_height(220.0)
             .auto_shrink([false, true])
@@ -73,13 +90,9 @@ impl PathField {
                 if folder.parent().is_some() && ui.selectable_label(false, "../").clicked() {
                     chosen = Some((folder.join(".."), true));
                 }
-                for (name, is_folder) in entries {
-                    let shown = if *is_folder {
-                        format!("{name}/")
-                    } else {
-                        name.clone()
-                    };
-                    let entry = ui.selectable_label(false, shown);
+                for Entry { name, is_folder } in entries {
+                    let slash = if *is_folder { "/" } else { "" };
+                    let entry = ui.selectable_label(false, format!("{name}{slash}"));
                     if entry.clicked() {
                         chosen = Some((folder.join(name), *is_folder));
                     }
@@ -98,25 +111,27 @@ impl PathField {
 }
 
 /// Folders and files of these endings in a folder, hidden ones left out: folders first, then by name.
-fn list(folder: &Path, endings: &[&str]) -> Vec<(String, bool)> {
+fn list(folder: &Path, endings: &[&str]) -> Vec<Entry> {
+    let here = Path::new(".");
     let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
+        here
     } else {
         folder
     };
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut found: Vec<(String, bool)> = entries
-        .filter_map(|entry| {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            let is_folder = entry.path().is_dir();
-            let ending = Path::new(&name)
-                .extension()
-                .map(|e| e.to_string_lossy().to_lowercase());
+    let mut found: Vec<Entry> = entries
+        .map(|entry| Entry {
+            name: entry.file_name().to_string_lossy().into_owned(),
+            is_folder: entry.path().is_dir(),
+        })
+        .filter(|entry| {
+            let ending = Path::new(&entry.name).extension();
+            let ending = ending.map(|ending| ending.to_string_lossy().to_lowercase());
             let fits = ending.is_some_and(|ending| endings.contains(&ending.as_str()));
-            (!name.starts_with('.') && (is_folder || fits)).then_some((name, is_folder))
+            !entry.name.starts_with('.') && (entry.is_folder || fits)
         })
         .collect();
-    found.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+    found.sort_by(|a, b| b.is_folder.cmp(&a.is_folder).then(a.name.cmp(&b.name)));
     found.truncate(MOST_SHOWN);
     found
 }

@@ -483,7 +483,9 @@ impl Studio {
         } else if self.is_dragging {
             self.ctx.request_repaint();
         }
-        if self.documents.as_ref().is_some_and(Documents::is_changed) {
+        // Copies that outlive a crash, and files that nobody watches.
+        let wants_care = |documents: &Documents| documents.is_changed() || !documents.is_watched();
+        if self.documents.as_ref().is_some_and(wants_care) {
             self.ctx.request_repaint_after(HOUSEKEEPING);
         }
         self.is_dragging = false;
