@@ -17,7 +17,7 @@ use slot::Slot;
 use stage::{CameraSection, Hand};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
@@ -227,13 +227,13 @@ impl<'r> Drawer<'r> {
             let is_final = first.is_final || wish.is_moving;
             answer(number, first);
             if !is_final {
-                match wishes.try_recv() {
+                match wishes.recv_timeout(self.quality.patience(wish.size_px)) {
                     Ok(newer) => {
                         next = Some(newer);
                         continue;
                     }
-                    Err(TryRecvError::Empty) => answer(number, self.draw(&wish, false)),
-                    Err(TryRecvError::Disconnected) => return,
+                    Err(RecvTimeoutError::Timeout) => answer(number, self.draw(&wish, false)),
+                    Err(RecvTimeoutError::Disconnected) => return,
                 }
             }
             next = wishes.recv().ok();

@@ -1,11 +1,18 @@
 //! How large and how sharp a picture may be while something moves, so that there are sixty a second.
 
 use super::Times;
+use std::time::Duration;
 
 /// Milliseconds that drawing may take while something moves: a sixtieth of a second, less what the window needs.
 const BUDGET_MS: f64 = 13.0;
 /// The same at rest, before the sharp picture: what nobody waits for.
 const ROUGH_MS: f64 = 60.0;
+/// Milliseconds of a sharp picture that keep whoever goes on working waiting.
+const LONG_MS: f64 = 300.0;
+/// How long such a picture waits for him to do so.
+const PATIENCE: Duration = Duration::from_millis(500);
+/// Samples a pixel of a sharp picture, as most presets have them.
+const SHARP_SAMPLES: u32 = 16;
 /// Samples a pixel while something moves.
 const MOVING_SAMPLES: u32 = 4;
 /// Sides of pictures get smaller in these steps, so that they don't change with every frame.
@@ -67,6 +74,15 @@ impl Quality {
             size_px.map(|side| ((f64::from(side) * scale).round() as u32).max(1)),
             few,
         )
+    }
+
+    /// How long nothing must be wished for before a sharp picture of this size is begun: one that takes long would keep the next wish waiting.
+    pub fn patience(&self, size_px: [u32; 2]) -> Duration {
+        let sharp_ms = self.base_ms + self.expected_ms(size_px, SHARP_SAMPLES, 1.0);
+        match sharp_ms > LONG_MS {
+            true => PATIENCE,
+            false => Duration::ZERO,
+        }
     }
 
     /// What the pixels are expected to take.
@@ -139,6 +155,12 @@ mod tests {
         }
         sizes.dedup();
         assert_eq!(sizes.len(), 1, "{sizes:?}");
+    }
+
+    #[test]
+    fn a_sharp_picture_that_takes_long_is_begun_when_nothing_happens() {
+        assert_eq!(settled(3.0, 10.0).0.patience(SIZE), Duration::ZERO);
+        assert_eq!(settled(3.0, 90.0).0.patience(SIZE), PATIENCE);
     }
 
     #[test]
