@@ -21,7 +21,11 @@ pub struct Form<'a> {
     place: Place,
     elsewhere: Vec<&'a str>,
     needed: &'a [&'a str],
+    refusal: Option<Refusal<'a>>,
 }
+
+/// Why a parameter, by its name, can't have a text.
+type Refusal<'a> = Box<dyn Fn(&str, &str) -> Option<String> + 'a>;
 
 /// A parameter, and what the text says of it.
 struct Shown<'a> {
@@ -42,6 +46,7 @@ impl<'a> Form<'a> {
             place,
             elsewhere: Vec::new(),
             needed: &[],
+            refusal: None,
         }
     }
 
@@ -62,6 +67,16 @@ impl<'a> Form<'a> {
     #[must_use]
     pub fn needed(self, needed: &'a [&'a str]) -> Self {
         Self { needed, ..self }
+    }
+
+    /// Asks `refusal`, with a parameter's name and the text that it is to have, why it can't have that: what its schema
+    /// doesn't know, such as that names are unique.
+    #[must_use]
+    pub fn refusing(self, refusal: impl Fn(&str, &str) -> Option<String> + 'a) -> Self {
+        Self {
+            refusal: Some(Box::new(refusal)),
+            ..self
+        }
     }
 
     /// Whether a search finds one of its parameters.
@@ -143,13 +158,33 @@ impl<'a> Form<'a> {
                 }
             });
             let below = variation_below(ui, &row, param, &value);
-            line.inner.or(below)
+            let asked = line.inner.or(below)?;
+            match self.why_not(param.name, &asked) {
+                Some(message) => {
+                    row.note(ui, message);
+                    None
+                }
+                None => Some(asked),
+            }
         });
         let place = self.place.field(param.name);
         match asked {
             Some(Asked::Text(text)) => edits.push(Edit::Set(place, text)),
             Some(Asked::Default) if written.is_some() => edits.push(Edit::Remove(place)),
             _ => {}
+        }
+    }
+
+    fn why_not(&self, name: &str, asked: &Asked) -> Option<String> {
+        match asked {
+            Asked::Default if self.needed.contains(&name) => {
+                Some("it can't be left out".to_owned())
+            }
+            Asked::Default => None,
+            Asked::Text(text) => self
+                .refusal
+                .as_ref()
+                .and_then(|refusal| refusal(name, text)),
         }
     }
 }
