@@ -144,7 +144,7 @@ impl<'a> Form<'a> {
                 let visuals = ui.visuals();
                 let color = match written {
                     Some(_) => visuals.strong_text_color(),
-                    None => visuals.weak_text_color(),
+                    None => visuals.text_color(),
                 };
                 cell_text(ui, param.name, cells.name, color)
                     .on_hover_ui(|ui| drop(ui.label(help::help(param))));
@@ -333,8 +333,9 @@ fn field_of(param: &Param) -> NumberField<'_> {
 /// A number that may vary: the number, or its curve in little, and a button that opens how it varies.
 fn varying(ui: &mut Ui, row: &Row, param: &Param, value: &Value, width: f32) -> Option<Value> {
     let variation = curve::variation_of(value)?;
-    let button = 18.0;
-    let room = width - button - ui.spacing().item_spacing.x;
+    let button = 20.0;
+    ui.spacing_mut().item_spacing.x = 4.0;
+    let room = width - button - 4.0;
     let mut is_open = is_variation_open(ui, row);
     let mut chosen = None;
     if curve::is_constant(&variation) {
@@ -350,6 +351,7 @@ fn varying(ui: &mut Ui, row: &Row, param: &Param, value: &Value, width: f32) -> 
     } else if curve::sketch(ui, row, &variation, room) {
         is_open = !is_open;
     }
+    ui.spacing_mut().button_padding.x = 4.0;
     let varies = matches!(value, Value::Varying(_));
     let tilde = RichText::new("~").strong();
     let toggle = Button::selectable(is_open || varies, tilde).min_size([button, 0.0].into());
