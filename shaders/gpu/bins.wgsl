@@ -37,7 +37,11 @@ fn tiles_of_chunk(index: u32) -> Tiles {
     let first = tables[2u * chunk.strokes];
     let count = tables[2u * chunk.strokes + 1u];
     for (var s = 0u; s < count; s++) {
-        let disc = tables[tables[first + s] + STROKE_FIRST_DISC] + chunk.first_joint;
+        let stroke = tables[first + s];
+        if (stroke == NO_STROKE) {
+            continue;
+        }
+        let disc = tables[stroke + STROKE_FIRST_DISC] + chunk.first_joint;
         for (var j = 0u; j <= chunk.segments; j++) {
             let center = discs[disc + j].center;
             let radius = discs[disc + j].radius;
@@ -59,7 +63,11 @@ fn nearest_of_chunk(index: u32) -> f32 {
     let count = tables[2u * chunk.strokes + 1u];
     var nearest = 0.0;
     for (var s = 0u; s < count; s++) {
-        let disc = tables[tables[first + s] + STROKE_FIRST_DISC] + chunk.first_joint;
+        let stroke = tables[first + s];
+        if (stroke == NO_STROKE) {
+            continue;
+        }
+        let disc = tables[stroke + STROKE_FIRST_DISC] + chunk.first_joint;
         for (var j = 0u; j <= chunk.segments; j++) {
             nearest = max(nearest, discs[disc + j].inv_depth);
         }

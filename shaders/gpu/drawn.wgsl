@@ -9,7 +9,7 @@ struct Chunk {
     first_joint: u32,
     /// Segments between joints; 0 for a single disc.
     segments: u32,
-    /// Which list of strokes it has.
+    /// Which list of strokes it has. Chunks of a strand have as many strokes each, and the same one at a place.
     strokes: u32,
 }
 
@@ -29,6 +29,9 @@ struct Triangle {
 const STROKE_FIRST_DISC: u32 = 0u;
 const STROKE_NUMBER: u32 = 1u;
 const STROKE_IS_CLIPPED: u32 = 2u;
+
+/// In place of a stroke's record: a stroke that draws on other runs of the strand, and not on this chunk's.
+const NO_STROKE: u32 = 0u;
 
 /// A surface's record in the tables: colour where the tone is 0 or more, colour below, margin.
 const SURFACE_WORDS: u32 = 7u;

@@ -84,6 +84,9 @@ struct Found {
 fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>) -> Found {
     var found: Found;
     let stroke = tables[tables[2u * chunk.strokes] + in_list];
+    if (stroke == NO_STROKE) {
+        return found;
+    }
     let number = tables[stroke + STROKE_NUMBER];
     if (ORDER == SHIFTED && number == 0u) {
         return found;

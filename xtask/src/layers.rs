@@ -14,6 +14,7 @@ const TABLE: &[Row] = &[
     Row(1, "hair-io", Only(&["hair-sim"]), &[]),
     Row(1, "groom", Only(&["hair-sim", "portable-math"]), &[]),
     Row(1, "effects", Only(&["stroke-path"]), &[BUILD_TOOL]),
+    Row(2, "document", Only(&["hair-io"]), &[]),
     Row(2, "effects-builtin", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "effects-testkit", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "render", Only(&["effects", "stroke-path"]), &[]),
@@ -38,7 +39,7 @@ const BUILD_TOOL: &str = "effects-build";
 const FOR_TESTS: &[&str] = &["effects-testkit", "reference"];
 
 /// What a crate of effects may use behind a feature.
-const FOR_PROGRAMS: &[&str] = &["inkstrand"];
+const FOR_PROGRAMS: &[&str] = &["inkstrand", "viewer"];
 
 /// Families of libraries, and the only crates that may depend on one of them, tests included.
 const GUARDED: &[Guard] = &[

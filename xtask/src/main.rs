@@ -18,6 +18,7 @@ mod html;
 mod layers;
 mod looks;
 mod picture;
+mod pictures;
 mod program;
 mod regress;
 mod setup;
@@ -92,6 +93,9 @@ fn command() -> Command {
                         .value_name("S"),
                 ),
         )
+        .subcommand(Command::new("pictures").about(
+            "Draws the pictures of docs/styling.md and docs/gallery.md again, by the pages' own commands",
+        ))
         .subcommand(bench::command())
         .subcommand(stress::command())
         .subcommand(fuzz::command())
@@ -116,6 +120,7 @@ fn run(matches: &ArgMatches) -> Outcome {
         Some(("gallery", args)) => {
             gallery::run(args.get_one::<String>("filter").map_or("", String::as_str))
         }
+        Some(("pictures", _)) => pictures::run(),
         Some(("setup", _)) => setup::run(),
         Some(("stress", args)) => stress::run(args),
         Some(("fuzz", args)) => fuzz::run(args),

@@ -23,7 +23,7 @@ pub fn cargo(args: &[&str]) -> Command {
 }
 
 /// Every crate, and the program of the example effect.
-pub const WORKSPACE: [&str; 2] = ["--workspace", "--features=effect-backlight/program"];
+pub const WORKSPACE: [&str; 2] = ["--workspace", "--features=effect-backlight/viewer"];
 
 /// True on the machines that test the project by themselves: `CI=true`.
 pub fn on_ci() -> bool {

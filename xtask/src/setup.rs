@@ -1,5 +1,6 @@
 //! Installs what the tests need and the machine lacks: cargo's own tools, the web's target, a Vulkan driver
-//! that needs no GPU, for the tests of the GPU backend, and valgrind, which counts instructions.
+//! that needs no GPU, for the tests of the GPU backend, valgrind, which counts instructions, and Xvfb, a screen
+//! that nobody sees, for the viewer's window.
 
 use std::env;
 use std::ffi::OsStr;
@@ -20,7 +21,7 @@ struct Needed {
     elsewhere: &'static str,
 }
 
-const NEEDED: [Needed; 2] = [
+const NEEDED: [Needed; 3] = [
     Needed {
         name: "Vulkan driver",
         is_there: has_vulkan_driver,
@@ -34,6 +35,12 @@ const NEEDED: [Needed; 2] = [
         is_there: has_valgrind,
         packages: &["valgrind"],
         elsewhere: "Only `cargo xtask bench count` needs it. Install your system's",
+    },
+    Needed {
+        name: "Xvfb",
+        is_there: || succeeds(Command::new("Xvfb").arg("-help")),
+        packages: &["xvfb"],
+        elsewhere: "Only the viewer's test of a real window needs it, on Linux. Install your system's",
     },
 ];
 

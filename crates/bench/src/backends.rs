@@ -1,5 +1,6 @@
 //! Both backends under one clock, for the suites `frame` and `scale`.
 
+use crate::BenchError;
 use crate::results::Row;
 use render::cpu::{Evaluator, Rasterizer};
 use render::gpu::{AdapterKind, GpuError, Offscreen};
@@ -48,7 +49,7 @@ impl Backends {
     /// # Errors
     ///
     /// When a card is there and can't be used, or there is no such number of samples.
-    pub fn new(samples: u32, threads: usize, card: Card) -> Result<Self, String> {
+    pub fn new(samples: u32, threads: usize, card: Card) -> Result<Self, BenchError> {
         let kind = match card {
             Card::Hardware => AdapterKind::Hardware,
             Card::Any => AdapterKind::Any,
@@ -56,7 +57,7 @@ impl Backends {
         let card = match Offscreen::open(kind) {
             Ok(card) => Some(card),
             Err(GpuError::NoAdapter { .. }) => None,
-            Err(error) => return Err(error.to_string()),
+            Err(error) => return Err(error.to_string().into()),
         };
         Ok(Self {
             samples,
@@ -82,7 +83,7 @@ impl Backends {
     /// # Errors
     ///
     /// When the frame can't be drawn.
-    pub fn on_cpu(&mut self, frame: &Frame) -> Result<(Picture, CpuTimes), String> {
+    pub fn on_cpu(&mut self, frame: &Frame) -> Result<(Picture, CpuTimes), BenchError> {
         let start = Instant::now();
         self.evaluator
             .evaluate(frame, &mut self.drawing)
@@ -101,7 +102,7 @@ impl Backends {
     /// # Errors
     ///
     /// When the frame can't be drawn.
-    pub fn on_card(&mut self, frame: &Frame) -> Result<Option<(Picture, CardTimes)>, String> {
+    pub fn on_card(&mut self, frame: &Frame) -> Result<Option<(Picture, CardTimes)>, BenchError> {
         let Some(card) = &mut self.card else {
             return Ok(None);
         };

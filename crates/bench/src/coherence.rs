@@ -11,6 +11,7 @@ pub mod targets;
 pub mod tiles;
 pub mod warp;
 
+use crate::BenchError;
 use crate::results::{self, Row};
 use crate::targets::Target;
 use crate::timing::{Effort, medians};
@@ -90,11 +91,11 @@ pub struct Figures {
 /// # Errors
 ///
 /// When a look cannot be read or drawn, or a file cannot be written.
-pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
+pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchError> {
     let data = options.data.as_deref();
     let mut scenes = scenes::scenes(&options.root, data, options.quick, &options.only)?;
     if scenes.is_empty() {
-        return Err(format!("no scene's name holds `{}`", options.only));
+        return Err(format!("no scene's name holds `{}`", options.only).into());
     }
     progress.set_length(scenes.iter().map(search::length).sum::<usize>() as u64);
     let mut painters = Painters::new(options.threads)?;
@@ -168,7 +169,7 @@ struct OfLook {
 }
 
 impl OfLook {
-    fn measure(scene: &mut Subject, options: &Options) -> Result<Self, String> {
+    fn measure(scene: &mut Subject, options: &Options) -> Result<Self, BenchError> {
         let seconds = times(scene, options)?;
         let still = match &scene.look {
             Some(look) => Some(changes_of_still(look, &scene.orders, options.threads)?),
@@ -179,7 +180,7 @@ impl OfLook {
 }
 
 /// Median times to rasterise the scene's look at its full size, or the scene.
-fn times(scene: &mut Subject, options: &Options) -> Result<Vec<f64>, String> {
+fn times(scene: &mut Subject, options: &Options) -> Result<Vec<f64>, BenchError> {
     let mut look = match &scene.look {
         Some(look) => Some(look.open(None, 1)?),
         None => None,
@@ -203,7 +204,7 @@ fn times(scene: &mut Subject, options: &Options) -> Result<Vec<f64>, String> {
         rounds: 8,
         each: Duration::from_millis(if options.quick { 600 } else { 2000 }),
     };
-    medians(&mut runs, effort, || ())
+    Ok(medians(&mut runs, effort, || ())?)
 }
 
 /// For each order how many pixels of a look differ in pictures of the same moment, and of later ones at which
@@ -212,7 +213,7 @@ fn changes_of_still(
     look: &Look,
     orders: &[NamedOrder],
     threads: usize,
-) -> Result<Vec<usize>, String> {
+) -> Result<Vec<usize>, BenchError> {
     let mut look = look.open(None, PART)?;
     let mut changes = Vec::new();
     for (_, order) in orders {

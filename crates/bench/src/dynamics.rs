@@ -14,6 +14,7 @@ pub mod stored;
 pub mod targets;
 pub mod xpbd;
 
+use crate::BenchError;
 use crate::plot;
 use crate::results::{self, Row};
 use crate::targets::Target;
@@ -57,7 +58,7 @@ pub struct Measured {
 /// # Errors
 ///
 /// When a solver refuses a scene, a counter isn't what it must be, a peer fails, or a file cannot be read or written.
-pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
+pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchError> {
     let scenes = scenes(options.quick);
     progress.set_length(scenes.len() as u64 + names::GAMMAS.len() as u64 * 3 + 2);
     let data = options.data.as_deref();
@@ -104,7 +105,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
     Ok(measured)
 }
 
-fn truth_of(truths: &[(f64, Truth)], gamma: f64) -> Result<&Truth, String> {
+fn truth_of(truths: &[(f64, Truth)], gamma: f64) -> Result<&Truth, BenchError> {
     let found = truths.iter().find(|truth| truth.0 == gamma);
     Ok(&found.ok_or("a fall without a reference")?.1)
 }
@@ -150,7 +151,7 @@ fn fall(
     count: usize,
     truth: &[glam::DVec2],
     options: &Options,
-) -> Result<Vec<Row>, String> {
+) -> Result<Vec<Row>, BenchError> {
     let mut entries = falls::entries(gamma, count, options.quick)?;
     let mut runs: Vec<_> = entries
         .iter_mut()
@@ -194,7 +195,7 @@ fn comments(options: &Options, truths: &[(f64, Truth)]) -> Vec<String> {
     comments
 }
 
-fn write(measured: &Measured, out: &Path) -> Result<(), String> {
+fn write(measured: &Measured, out: &Path) -> Result<(), BenchError> {
     let save = |name, text: &str| results::save(out, name, text);
     save(
         "dynamics.csv",

@@ -1,6 +1,7 @@
 //! Suite `frame`: what a whole frame of each yardstick takes, by stages, on both backends. Camera and hair move, so that
 //! nothing can be reused.
 
+use crate::BenchError;
 use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
@@ -47,7 +48,7 @@ pub struct Measured {
 /// # Errors
 ///
 /// When a preset cannot be read, nothing can be drawn, or a file cannot be written.
-pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
+pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchError> {
     let mut presets = presets(&options.root)?;
     if options.quick {
         presets.truncate(3);
@@ -109,7 +110,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
 const YARDSTICKS: &str = "tests/yardsticks";
 
 /// Their presets, by name.
-fn presets(root: &Path) -> Result<Vec<PathBuf>, String> {
+fn presets(root: &Path) -> Result<Vec<PathBuf>, BenchError> {
     let folder = root.join(YARDSTICKS);
     let entries = std::fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
@@ -119,7 +120,7 @@ fn presets(root: &Path) -> Result<Vec<PathBuf>, String> {
 }
 
 /// A look whose head nods and shakes.
-fn open(path: &Path, root: &Path) -> Result<Stage, String> {
+fn open(path: &Path, root: &Path) -> Result<Stage, BenchError> {
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|error| format!("{name}: {error}"))?;
     let mut registry = Registry::new();
@@ -134,7 +135,7 @@ fn open(path: &Path, root: &Path) -> Result<Stage, String> {
         preset_folder: root.join(YARDSTICKS),
         ..Files::default()
     };
-    Stage::new(&preset, &files).map_err(|error| error.to_string())
+    Stage::new(&preset, &files).map_err(|error| error.to_string().into())
 }
 
 /// What comes before drawing, on both backends.
@@ -145,7 +146,7 @@ fn look(
     stage: &mut Stage,
     backends: &mut Backends,
     frames: u32,
-) -> Result<Vec<Row>, String> {
+) -> Result<Vec<Row>, BenchError> {
     let mut times = vec![Times::default(); BEFORE.len() + STAGES.len()];
     let mut error = None;
     for number in 0..WARM_UP + frames {

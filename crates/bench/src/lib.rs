@@ -4,6 +4,7 @@
 pub mod backends;
 pub mod coherence;
 pub mod dynamics;
+mod error;
 pub mod frame;
 pub mod plot;
 pub mod results;
@@ -12,3 +13,5 @@ pub mod stress;
 pub mod strokes;
 pub mod targets;
 pub mod timing;
+
+pub use error::BenchError;

@@ -5,6 +5,7 @@
     reason = "a program for the terminal"
 )]
 
+use bench::BenchError;
 use bench::backends::Card;
 use bench::dynamics::{self, peers::Peers, stored};
 use bench::targets::{Target, report};
@@ -156,7 +157,7 @@ impl Options {
     }
 }
 
-fn strokes(options: &Options) -> Result<ExitCode, String> {
+fn strokes(options: &Options) -> Result<ExitCode, BenchError> {
     let suite = strokes::Options {
         root: root(),
         out: options.out.clone(),
@@ -173,12 +174,12 @@ fn strokes(options: &Options) -> Result<ExitCode, String> {
     Ok(exit_code(&measured.targets, options.check))
 }
 
-fn peers() -> Result<Peers, String> {
+fn peers() -> Result<Peers, BenchError> {
     let python = std::env::var_os("INKSTRAND_PYTHON");
     Peers::new(&root(), python.unwrap_or_else(|| "python3".into()).into())
 }
 
-fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, String> {
+fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, BenchError> {
     let common = &options.common;
     let suite = dynamics::Options {
         out: common.out.clone(),
@@ -213,7 +214,7 @@ fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, String> {
     Ok(exit_code(&all, common.check))
 }
 
-fn coherence(options: &CoherenceOptions) -> Result<ExitCode, String> {
+fn coherence(options: &CoherenceOptions) -> Result<ExitCode, BenchError> {
     let common = &options.common;
     let suite = coherence::Options {
         root: root(),
@@ -234,7 +235,7 @@ fn coherence(options: &CoherenceOptions) -> Result<ExitCode, String> {
     Ok(exit_code(&measured.targets, common.check))
 }
 
-fn frame(options: &CardOptions) -> Result<ExitCode, String> {
+fn frame(options: &CardOptions) -> Result<ExitCode, BenchError> {
     let common = &options.common;
     let suite = frame::Options {
         root: root(),
@@ -254,7 +255,7 @@ fn frame(options: &CardOptions) -> Result<ExitCode, String> {
     Ok(exit_code(&measured.targets, common.check))
 }
 
-fn scale(options: &CardOptions) -> Result<ExitCode, String> {
+fn scale(options: &CardOptions) -> Result<ExitCode, BenchError> {
     let common = &options.common;
     let suite = scale::Options {
         out: common.out.clone(),
@@ -282,7 +283,7 @@ fn scale(options: &CardOptions) -> Result<ExitCode, String> {
 }
 
 /// Failures are told at once, each with the command that runs its scene again.
-fn stress(options: &StressOptions) -> Result<ExitCode, String> {
+fn stress(options: &StressOptions) -> Result<ExitCode, BenchError> {
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
     let clock = now.map_or(0, |now| now.as_secs());
     let which = match options.seed {
@@ -311,7 +312,9 @@ fn stress(options: &StressOptions) -> Result<ExitCode, String> {
 }
 
 /// Runs a suite under a bar, which is gone afterwards.
-fn with_progress<T>(run: impl FnOnce(&ProgressBar) -> Result<T, String>) -> Result<T, String> {
+fn with_progress<T>(
+    run: impl FnOnce(&ProgressBar) -> Result<T, BenchError>,
+) -> Result<T, BenchError> {
     let progress = progress();
     let result = run(&progress);
     progress.finish_and_clear();

@@ -1,5 +1,6 @@
 //! Time against error, a panel a scene.
 
+use crate::BenchError;
 use crate::results::Row;
 use plotters::coord::combinators::IntoLogRange as _;
 use plotters::prelude::*;
@@ -13,7 +14,7 @@ const PANEL: (u32, u32) = (760, 520);
 /// # Errors
 ///
 /// When the plot cannot be drawn.
-pub fn time_against_error(rows: &[Row], errors: &str) -> Result<String, String> {
+pub fn time_against_error(rows: &[Row], errors: &str) -> Result<String, BenchError> {
     let mut scenes: Vec<&str> = Vec::new();
     let mut methods: Vec<&str> = Vec::new();
     for row in rows.iter().filter(|row| has_place(row)) {

@@ -1,5 +1,6 @@
 //! Rows of measurements, and the files they are written to.
 
+use crate::BenchError;
 use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
@@ -70,9 +71,9 @@ pub fn write(path: &Path, text: &str) -> io::Result<()> {
 /// # Errors
 ///
 /// As [`write()`], in words.
-pub fn save(out: &Path, name: &str, text: &str) -> Result<(), String> {
+pub fn save(out: &Path, name: &str, text: &str) -> Result<(), BenchError> {
     let path = out.join(name);
-    write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
+    write(&path, text).map_err(|error| format!("{}: {error}", path.display()).into())
 }
 
 /// The rows as a table to read.

@@ -1,5 +1,6 @@
 //! Suite `scale`: frame time by stages, and memory, for 72 to 100,000 strands of 16 points on both backends.
 
+use crate::BenchError;
 use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
@@ -55,7 +56,7 @@ pub struct Measured {
 /// # Errors
 ///
 /// When nothing can be drawn, or a file cannot be written.
-pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
+pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchError> {
     let counts = if options.quick {
         &COUNTS[..3]
     } else {
@@ -156,7 +157,7 @@ impl MadeHair {
     }
 }
 
-fn layers() -> Result<Vec<Layer>, String> {
+fn layers() -> Result<Vec<Layer>, BenchError> {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
     let mut reader = Reader::new("scale", LAYERS);
@@ -168,7 +169,7 @@ fn layers() -> Result<Vec<Layer>, String> {
 /// What comes before drawing, on both backends.
 const BEFORE: [&str; 1] = ["paths"];
 
-fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row>, String> {
+fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row>, BenchError> {
     let view = OrbitView {
         target: Vec3::new(0.0, -0.05, 0.0),
         yaw_degrees: 20.0,

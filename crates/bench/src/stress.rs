@@ -9,6 +9,7 @@
 pub mod case;
 pub mod simulate;
 
+use crate::BenchError;
 use case::Case;
 use glam::Vec3;
 use hair_sim::SignedDistance;
@@ -67,7 +68,7 @@ pub fn run(
     goes_on: bool,
     progress: &ProgressBar,
     mut failed: impl FnMut(u64, &str),
-) -> Result<Summary, String> {
+) -> Result<Summary, BenchError> {
     let bench = Bench::new()?;
     let start = Instant::now();
     let (first, time) = match which {
@@ -86,6 +87,7 @@ pub fn run(
                 summary.set_aside += trace.set_aside;
             }
             Err(error) => {
+                let error = error.to_string();
                 failed(seed, &error);
                 summary.failures.push((seed, error));
             }
@@ -107,7 +109,7 @@ struct Bench {
 }
 
 impl Bench {
-    fn new() -> Result<Self, String> {
+    fn new() -> Result<Self, BenchError> {
         let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
         let pools: Result<_, _> = (1..=8).map(pool).collect();
         Ok(Self {
@@ -117,7 +119,7 @@ impl Bench {
     }
 
     /// Runs the scene of a seed in all its ways.
-    fn scene(&self, seed: u64) -> Result<Trace, String> {
+    fn scene(&self, seed: u64) -> Result<Trace, BenchError> {
         let case = catch(|| Ok(Case::new(seed)))?;
         let in_order: Vec<usize> = (0..case.rest.len()).collect();
         let run = |what: &str, threads: usize, is_saved, order: &[usize], has_faults| {
@@ -158,28 +160,28 @@ fn compare(
     one: &Trace,
     other: &Trace,
     asked: impl Fn(usize) -> bool,
-) -> Result<(), String> {
+) -> Result<(), BenchError> {
     for (frame, (one, other)) in one.bits.iter().zip(&other.bits).enumerate() {
         let differs = (0..one.len()).find(|&s| asked(s) && one[s] != other[s]);
         if let Some(strand) = differs {
             let id = case.rest.id(strand);
-            return Err(format!("{what}: strand {id} differs from frame {frame} on"));
+            return Err(format!("{what}: strand {id} differs from frame {frame} on").into());
         }
     }
     Ok(())
 }
 
 /// A panic is a failure as any other.
-fn catch<T>(run: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
+fn catch<T>(run: impl FnOnce() -> Result<T, BenchError>) -> Result<T, BenchError> {
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-        Err(format!("a panic: {}", text.unwrap_or("without a word")))
+        Err(format!("a panic: {}", text.unwrap_or("without a word")).into())
     })
 }
 
 /// A box with a dent, of triangles.
-fn mesh() -> Result<SignedDistance, String> {
+fn mesh() -> Result<SignedDistance, BenchError> {
     let mut points: Vec<Vec3> = Vec::new();
     for i in 0..8 {
         let side = |bit: u32| if i & bit == 0 { -0.08 } else { 0.08 };
@@ -194,7 +196,7 @@ fn mesh() -> Result<SignedDistance, String> {
     wall([0, 2, 3, 1]);
     wall([4, 5, 7, 6]);
     triangles.extend([[2, 6, 8], [6, 7, 8], [7, 3, 8], [3, 2, 8]]);
-    SignedDistance::new(&points, &triangles, 0.01).map_err(|error| error.to_string())
+    SignedDistance::new(&points, &triangles, 0.01).map_err(|error| error.to_string().into())
 }
 
 #[cfg(test)]
@@ -223,8 +225,8 @@ mod tests {
 
     #[test]
     fn a_panic_is_a_failure() {
-        let failed = catch(|| -> Result<(), String> { panic!("of {}", "ours") });
-        assert_eq!(failed.unwrap_err(), "a panic: of ours");
+        let failed = catch(|| -> Result<(), BenchError> { panic!("of {}", "ours") });
+        assert_eq!(failed.unwrap_err().to_string(), "a panic: of ours");
     }
 
     #[test]
@@ -239,7 +241,8 @@ mod tests {
         compare(&case, "again", &trace(5), &trace(5), |_| true).unwrap();
         let error = compare(&case, "again", &trace(5), &trace(6), |_| true).unwrap_err();
         let id = case.rest.id(0);
-        assert_eq!(error, format!("again: strand {id} differs from frame 1 on"));
+        let expected = format!("again: strand {id} differs from frame 1 on");
+        assert_eq!(error.to_string(), expected);
         compare(&case, "again", &trace(5), &trace(6), |_| false).unwrap();
     }
 }

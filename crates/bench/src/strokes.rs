@@ -8,6 +8,7 @@ pub mod scenes;
 pub mod stamping;
 pub mod targets;
 
+use crate::BenchError;
 use crate::plot;
 use crate::results::{self, Row};
 use crate::targets::Target;
@@ -76,7 +77,7 @@ struct Entry {
 /// # Errors
 ///
 /// When a preset cannot be read, nothing can be drawn, or a file cannot be written.
-pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String> {
+pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchError> {
     let mut scenes = scenes::all(&options.root)?;
     if options.quick {
         scenes.truncate(2);
@@ -130,7 +131,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, String
 }
 
 /// Everything that draws a scene.
-fn entries(scene: &TestDrawing, options: &Options) -> Result<Vec<Entry>, String> {
+fn entries(scene: &TestDrawing, options: &Options) -> Result<Vec<Entry>, BenchError> {
     let threads = options.threads;
     let mut entries = Vec::new();
     let mut add = |method: String, knob, order, contender: Box<dyn Contender>| {
@@ -222,7 +223,7 @@ fn times(
     entries: &mut [Entry],
     effort: Effort,
     progress: &ProgressBar,
-) -> Result<Vec<f64>, String> {
+) -> Result<Vec<f64>, BenchError> {
     let rounded = in_order(&scene.drawing, Order::Rounded);
     let shifted = in_order(&scene.drawing, Order::Shifted);
     let mut runs: Vec<_> = entries
@@ -246,7 +247,7 @@ fn differences(
     entries: &[Entry],
     grid: u32,
     progress: &ProgressBar,
-) -> Result<Vec<Option<Difference>>, String> {
+) -> Result<Vec<Option<Difference>>, BenchError> {
     let reference = |order| reference::picture(&in_order(&scene.drawing, order), grid);
     let rounded = reference(Order::Rounded);
     let shifted = reference(Order::Shifted);
@@ -306,7 +307,7 @@ fn comments(scenes: &[TestDrawing], options: &Options) -> Vec<String> {
     comments
 }
 
-fn write(measured: &Measured, out: &Path) -> Result<(), String> {
+fn write(measured: &Measured, out: &Path) -> Result<(), BenchError> {
     let save = |name, text: &str| results::save(out, name, text);
     let lines = measured.differences.iter().map(|row| {
         let (scene, method, knob, of) = row;

@@ -18,11 +18,11 @@ pub enum HairError {
     #[error(transparent)]
     Read(#[from] ReadError),
     /// It cannot be written.
-    #[error("{}: {source}", path.display())]
+    #[error("{source}")]
     Write {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Why; it begins with the file's name.
         source: io::Error,
     },
     /// A format that is not read.

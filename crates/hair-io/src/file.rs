@@ -1,7 +1,6 @@
 //! Files: choosing the reader, settling axes and units, and writing.
 
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use hair_sim::{PointCache, Strands};
@@ -10,8 +9,9 @@ use crate::error::HairError;
 use crate::format::{self, HAIR_FORMATS, HEAD_FORMATS, HairFormat};
 use crate::mesh::Mesh;
 use crate::orient::{self, Axes, Given, Orientation};
-use crate::read::{self, MOST_OF_DATA, read_bytes};
+use crate::read::{MOST_OF_DATA, decode_text, read_bytes};
 use crate::skeleton::BoneMotion;
+use crate::whole_file::write_whole;
 use crate::{obj, strands_ron, tfx};
 
 /// How to read a hair file.
@@ -82,7 +82,7 @@ pub fn read_hair(path: &Path, options: &HairOptions) -> Result<HairFile, HairErr
             (strands, None, true)
         }
         HairFormat::StrandsRon => {
-            let text = read::text(path, bytes)?;
+            let text = decode_text(path, bytes)?;
             let (strands, motion) =
                 strands_ron::from_text(&text).map_err(|source| HairError::StrandsRon {
                     path: path.into(),
@@ -173,19 +173,11 @@ pub fn write_strands(
     strands: &Strands,
     motion: Option<&PointCache>,
 ) -> Result<(), HairError> {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
     let text = strands_ron::to_text(strands, motion);
-    fs::write(&part, text)
-        .and_then(|()| fs::rename(&part, path))
-        .map_err(|source| {
-            let _ = fs::remove_file(&part); // the first error is the one to tell
-            HairError::Write {
-                path: path.into(),
-                source,
-            }
-        })
+    write_whole(path, text.as_bytes()).map_err(|source| HairError::Write {
+        path: path.into(),
+        source,
+    })
 }
 
 impl BoneMotion {
@@ -204,15 +196,40 @@ impl BoneMotion {
         }
         #[cfg(feature = "gltf")]
         {
-            let bytes = read_bytes(path, MOST_OF_DATA)?;
-            let folder = path.parent().unwrap_or(Path::new(""));
-            Self::from_bytes(&bytes, folder, bone, animation).map_err(|source| {
-                HairError::Skeleton {
-                    path: path.into(),
-                    source: Box::new(source),
-                }
+            Self::of_file(path, |bytes, folder| {
+                Self::from_bytes(bytes, folder, bone, animation)
             })
         }
+    }
+
+    /// The files beside a glTF 2.0 file that hold the numbers of its animations, each once; they need not be there.
+    ///
+    /// # Errors
+    ///
+    /// When the file cannot be read; always, where this crate is built without its feature `gltf`.
+    pub fn files(path: &Path) -> Result<Vec<PathBuf>, HairError> {
+        #[cfg(not(feature = "gltf"))]
+        {
+            Err(HairError::WithoutGltf(path.into()))
+        }
+        #[cfg(feature = "gltf")]
+        {
+            Self::of_file(path, Self::files_of_bytes)
+        }
+    }
+
+    /// What is read of a file's bytes and of its folder.
+    #[cfg(feature = "gltf")]
+    fn of_file<T>(
+        path: &Path,
+        read: impl FnOnce(&[u8], &Path) -> Result<T, crate::SkeletonError>,
+    ) -> Result<T, HairError> {
+        let bytes = read_bytes(path, MOST_OF_DATA)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        read(&bytes, folder).map_err(|source| HairError::Skeleton {
+            path: path.into(),
+            source: Box::new(source),
+        })
     }
 }
 

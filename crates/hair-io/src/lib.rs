@@ -3,7 +3,7 @@
 //! [`read_hair`] and [`read_head`] choose the reader, settle axes and units ([`orient`]) and say what
 //! they guessed. [`tfx`], [`strands_ron`] and [`obj`] are the formats; [`HeadFrame`] is where the head
 //! is and how large, [`BoneMotion`] how a character's animation moves it. [`read_text`] and [`read_bytes`] refuse what is no
-//! file of a sensible size.
+//! file of a sensible size, and [`WholeFile`] leaves no half-written one.
 //!
 //! ```
 //! use hair_io::{HairOptions, HeadFrame, read_hair};
@@ -42,12 +42,16 @@ mod skeleton;
 mod sphere;
 pub mod strands_ron;
 pub mod tfx;
+mod whole_file;
 
 pub use error::HairError;
 pub use file::{HairFile, HairOptions, HeadFile, read_hair, read_head, write_strands};
 pub use head::HeadFrame;
 pub use mesh::Mesh;
-pub use read::{MOST_OF_DATA, MOST_OF_TEXT, ReadError, read_bytes, read_text};
+pub use read::{MOST_OF_DATA, MOST_OF_TEXT, ReadError, decode_text, read_bytes, read_text};
 pub use skeleton::BoneMotion;
 #[cfg(feature = "gltf")]
 pub use skeleton::{SkeletonError, TrackError};
+pub use whole_file::{
+    NoParts, WholeFile, folder_of, named, remove_parts, try_to_write, write_whole,
+};

@@ -105,11 +105,15 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, ReadError> {
 ///
 /// As of [`read_bytes`], and when it is not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> Result<String, ReadError> {
-    text(path, read_bytes(path, most)?)
+    decode_text(path, read_bytes(path, most)?)
 }
 
-/// The text that the bytes of the file `path` are.
-pub(crate) fn text(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
+/// The text that the bytes of the file `path` are, without the mark that some editors put before it.
+///
+/// # Errors
+///
+/// When they are not UTF-8.
+pub fn decode_text(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
     let marked = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let before = String::from_utf8_lossy(&error.as_bytes()[..at]);

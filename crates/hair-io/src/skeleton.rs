@@ -14,7 +14,7 @@ pub use error::{SkeletonError, TrackError};
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use numbers::{Buffers, part};
 use std::collections::HashMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use track::{Track, Value};
 
 /// The most names that a message lists.
@@ -84,6 +84,16 @@ impl BoneMotion {
         }
         motion.rest = (rotation, place);
         Ok(motion)
+    }
+
+    /// The files, in `folder` or below, that hold the numbers of a file's animations, each once.
+    ///
+    /// # Errors
+    ///
+    /// When the bytes are not glTF.
+    pub fn files_of_bytes(bytes: &[u8], folder: &Path) -> Result<Vec<PathBuf>, SkeletonError> {
+        let (document, _) = Document::read(bytes)?;
+        Ok(Buffers::files(&document, folder))
     }
 
     /// Reads what a channel moves of the chain, whose nodes are these `joints` of it. When its last key is, in s.

@@ -13,7 +13,8 @@ mod simulate;
 pub(crate) use check::check;
 pub(crate) use completions::completions;
 pub(crate) use effects::effects;
-pub(crate) use new::new;
+pub(crate) use new::{new, write_new_look};
+pub use progress::Progress;
 pub(crate) use render::render;
 pub(crate) use simulate::simulate;
 

@@ -18,13 +18,18 @@
 
 mod cli;
 mod commands;
+mod embed;
 mod output;
 mod painter;
 mod paths;
 mod quiet_drivers;
 mod say;
 mod stats;
-mod whole_file;
+
+pub use commands::Progress;
+pub use embed::{render_with, shell_word, write_new_look};
+pub use quiet_drivers::start_without_noise;
+pub use say::own_up_to_bugs;
 
 use clap::{CommandFactory as _, Parser as _};
 use cli::{Arguments, Backend, Command};
@@ -68,18 +73,18 @@ pub fn builtin_effects() -> Registry {
 /// exits with 130. To be called first: before it draws, the program may start anew in its own process.
 #[must_use]
 pub fn run(registry: &Registry) -> ExitCode {
-    say::own_up_to_bugs();
+    own_up_to_bugs();
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(answer) => return give(&answer),
     };
-    whole_file::leave_no_parts();
+    leave_no_parts_when_interrupted();
     let done = match &arguments.command {
         Command::Render(options) => {
             if options.backend != Backend::Cpu {
-                quiet_drivers::start_without_noise();
+                start_without_noise();
             }
-            commands::render(options, registry)
+            commands::render(options, registry, None).map(drop)
         }
         Command::Check { files } => commands::check(files, registry),
         Command::Effects { name, json } => commands::effects(name.as_deref(), *json, registry),
@@ -110,6 +115,17 @@ pub fn run(registry: &Registry) -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// From now on an interrupt removes what is unfinished and ends the process with 130.
+fn leave_no_parts_when_interrupted() {
+    let set = ctrlc::set_handler(|| {
+        // Held until the end of the process.
+        let _no_parts = hair_io::remove_parts();
+        std::process::exit(130);
+    });
+    // It fails where the program that calls us has a handler of its own, which is then in charge.
+    drop(set);
 }
 
 /// Gives the answer to a command line that starts no work: help, the version, or what is wrong with it.

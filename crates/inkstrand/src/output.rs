@@ -1,9 +1,11 @@
 //! Picture files: their names and their bytes.
 
 use crate::paths::place;
-use crate::whole_file::write_whole;
+use hair_io::{folder_of, write_whole};
 use render::Picture;
+use std::collections::HashSet;
 use std::ffi::{OsStr, OsString};
+use std::fs::{self, DirEntry};
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -58,16 +60,52 @@ impl Output {
         }
     }
 
-    /// Whether the picture of one of these frames is written at `path`.
-    pub fn writes(&self, path: &Path, frames: RangeInclusive<u32>) -> bool {
-        let path = place(path);
-        let Name::Numbered(before, _, after) = &self.name else {
-            return place(&self.path(*frames.start())) == path;
+    /// The first of `paths` that the picture of one of these frames would be written over.
+    pub fn writes_over<'a>(
+        &self,
+        paths: &'a [PathBuf],
+        frames: RangeInclusive<u32>,
+    ) -> Option<&'a PathBuf> {
+        // A picture is written where a link of its name leads.
+        let links = self.links(&frames);
+        let is_picture = |path: &&PathBuf| {
+            let path = place(path);
+            let frame = match self.name {
+                Name::One(_) => Some(*frames.start()),
+                Name::Numbered(..) => path.file_name().and_then(|name| self.frame(name)),
+            };
+            let is_named = frame
+                .is_some_and(|frame| frames.contains(&frame) && place(&self.path(frame)) == path);
+            is_named || links.contains(&path)
         };
-        let name = path.file_name().and_then(OsStr::to_str);
-        let number = name.and_then(|name| name.strip_prefix(before)?.strip_suffix(after));
-        let frame = number.and_then(|digits| digits.parse().ok());
-        frame.is_some_and(|frame| frames.contains(&frame) && place(&self.path(frame)) == path)
+        paths.iter().find(is_picture)
+    }
+
+    /// Where links of the names of these frames' pictures lead.
+    fn links(&self, frames: &RangeInclusive<u32>) -> HashSet<PathBuf> {
+        let entries = match self.name {
+            Name::One(_) => None,
+            Name::Numbered(..) => fs::read_dir(folder_of(&self.beside)).ok(),
+        };
+        // A folder that cannot be read is told where the first picture is tried.
+        let entries = entries.into_iter().flatten().flatten();
+        let is_link = |entry: &DirEntry| {
+            let frame = self.frame(&entry.file_name());
+            frame.is_some_and(|frame| frames.contains(&frame))
+                && entry.file_type().is_ok_and(|kind| kind.is_symlink())
+        };
+        let links = entries.filter(is_link);
+        links.map(|entry| place(&entry.path())).collect()
+    }
+
+    /// The frame whose picture has this name, where names are numbered.
+    fn frame(&self, name: &OsStr) -> Option<u32> {
+        let Name::Numbered(before, _, after) = &self.name else {
+            return None;
+        };
+        let digits = name.to_str()?.strip_prefix(before)?.strip_suffix(after)?;
+        let frame = digits.parse().ok()?;
+        (self.path(frame).file_name() == Some(name)).then_some(frame)
     }
 
     /// Writes a picture as PNG: sRGB, straight alpha where it is transparent.
@@ -215,7 +253,33 @@ mod tests {
             ("a_13.png", false),
             ("a_.png", false),
         ] {
-            assert_eq!(output.writes(&path(name), 5..=12), is_written, "{name}");
+            let paths = [path(name)];
+            let found = output.writes_over(&paths, 5..=12);
+            assert_eq!(found.is_some(), is_written, "{name}");
         }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_sequence_writes_where_links_lead() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("sub")).unwrap();
+        let read = [path("first.ron"), path("sub/second.ron")];
+        for file in &read {
+            fs::write(file, "read").unwrap();
+        }
+        let pattern = path("a_##.png");
+        let output = output(Some(pattern.to_str().unwrap()), "look.ron", true);
+        for beside in ["a_13.png", "a_007.png", "b_07.png"] {
+            std::os::unix::fs::symlink(&read[0], path(beside)).unwrap();
+        }
+        assert_eq!(output.writes_over(&read, 5..=12), None);
+        std::os::unix::fs::symlink("sub/second.ron", path("a_07.png")).unwrap();
+        assert_eq!(output.writes_over(&read, 5..=12), Some(&read[1]));
+        assert_eq!(output.writes_over(&read, 8..=12), None);
+        // What is read may be named by the link itself.
+        let link = [path("a_07.png")];
+        assert_eq!(output.writes_over(&link, 5..=12), Some(&link[0]));
     }
 }

@@ -1,5 +1,6 @@
 //! Files that a command reads and writes, held against each other before any work: none is lost to another.
 
+use hair_io::folder_of;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -29,14 +30,6 @@ fn has_both_names(path: &Path, other: &Path) -> bool {
 #[cfg(not(unix))]
 fn has_both_names(_path: &Path, _other: &Path) -> bool {
     false
-}
-
-/// The folder of a file, `.` where its path is a mere name.
-pub(crate) fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
 }
 
 /// The last part of a path as text.

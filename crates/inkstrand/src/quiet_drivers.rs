@@ -8,7 +8,7 @@
 /// changed safely only for a program that is about to start. Under /dev/null no socket can be, nor be put by another:
 /// the layer finds no desktop, as before, and says nothing. Where starting fails, the noise is all that comes of it.
 #[cfg(all(feature = "gpu", target_os = "linux"))]
-pub(crate) fn start_without_noise() {
+pub fn start_without_noise() {
     use std::env::{args_os, current_exe, var_os};
     use std::os::unix::process::CommandExt as _;
     use std::path::Path;
@@ -35,4 +35,4 @@ pub(crate) fn start_without_noise() {
 
 /// Elsewhere drivers have nothing to say.
 #[cfg(not(all(feature = "gpu", target_os = "linux")))]
-pub(crate) fn start_without_noise() {}
+pub fn start_without_noise() {}

@@ -32,7 +32,7 @@ pub(crate) fn heard(written: io::Result<()>) -> io::Result<()> {
 }
 
 /// From now on a panic, which is always a mistake in the program and never one of its user, says so.
-pub(crate) fn own_up_to_bugs() {
+pub fn own_up_to_bugs() {
     std::panic::set_hook(Box::new(|bug| {
         let thread = std::thread::current();
         let name = thread.name().unwrap_or("without a name");

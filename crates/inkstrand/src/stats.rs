@@ -1,7 +1,7 @@
 //! `--stats`: one line of JSON a frame.
 
 use crate::say;
-use crate::whole_file::{named, try_to_write};
+use hair_io::{named, try_to_write};
 use render::{Drawing, LayerStrokes};
 use serde::Serialize;
 use std::collections::BTreeMap;

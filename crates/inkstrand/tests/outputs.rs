@@ -127,6 +127,8 @@ fn two_files_of_one_path_are_refused() {
     fs::write(folder.path().join("look.png"), "(version: 1)").unwrap();
     #[cfg(unix)]
     fs::hard_link(folder.path().join("small.ron"), folder.path().join("name")).unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("small.strands.ron", folder.path().join("shot.0003.png")).unwrap();
     let before = contents(folder.path());
     let twice = "is a picture of -o";
     let lines: &[(&[&str], &str)] = &[
@@ -156,6 +158,11 @@ fn two_files_of_one_path_are_refused() {
                 "small.0009.png",
             ],
             twice,
+        ),
+        #[cfg(unix)]
+        (
+            &["render", "small.ron", "-o", "shot.png", "--frames", "0-9"],
+            "written over small.strands.ron, which is read",
         ),
         (
             &["render", "small.ron", "--stats", "sub/../small.ron"],

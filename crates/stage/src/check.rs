@@ -63,16 +63,20 @@ impl<'r> Preset<'r> {
     }
 
     /// The files that a scene is read from: those of the preset, but where the caller gives others, and those that its script
-    /// names.
+    /// and its character name.
     #[must_use]
     pub fn files(&self, files: &Files) -> Vec<PathBuf> {
         let mut paths: Vec<PathBuf> = self.named(files).into_iter().map(|f| f.path).collect();
         if let Some(script) = &self.script_path(files)
-            && let Ok(text) = hair_io::read_text(script, hair_io::MOST_OF_TEXT)
+            && let Ok(text) = files.read_text(script)
             && let Ok(parsed) = script::parse("", &text)
         {
             let shapes = parsed.shapes.into_iter().filter_map(|key| key.file);
             paths.extend(shapes.map(|name| script.with_file_name(name)));
+        }
+        if let Some(character) = &self.sections.motion.gltf {
+            let character = files.preset_folder.join(character);
+            paths.extend(BoneMotion::files(&character).into_iter().flatten());
         }
         paths.extend(self.files_of_objects(files));
         paths
@@ -109,17 +113,19 @@ impl<'r> Preset<'r> {
         found.add(self.check_files(files));
         for file in self.named(files) {
             if !file.is_given && file.path.is_file() {
-                found.add(self.check_file(&file));
+                found.add(self.check_file(files, &file));
             }
         }
         found.all()
     }
 
-    fn check_file(&self, file: &NamedFile) -> Result<(), PresetErrors> {
+    fn check_file(&self, files: &Files, file: &NamedFile) -> Result<(), PresetErrors> {
         let path = &file.path;
         let opened: Result<(), StageError> = match (file.section, file.param) {
-            ("motion", "file") => return self.check_text(file, check_motion),
-            ("hair", "file") if load::is_style(path) => return self.check_text(file, check_style),
+            ("motion", "file") => return self.check_text(files, file, check_motion),
+            ("hair", "file") if load::is_style(path) => {
+                return self.check_text(files, file, check_style);
+            }
             ("hair", _) => check_hair(path),
             ("head", _) => hair_io::read_head(path, None, None)
                 .map(drop)
@@ -138,10 +144,11 @@ impl<'r> Preset<'r> {
     /// Checks a file's text; one that cannot be read is a mistake where the preset names it.
     fn check_text(
         &self,
+        files: &Files,
         file: &NamedFile,
         check: impl Fn(&Path, &str) -> Result<(), PresetErrors>,
     ) -> Result<(), PresetErrors> {
-        match hair_io::read_text(&file.path, hair_io::MOST_OF_TEXT) {
+        match files.read_text(&file.path) {
             Ok(text) => check(&file.path, &text),
             Err(error) => self.mistake(file, error.to_string()),
         }
@@ -222,7 +229,7 @@ pub fn check_motion(path: &Path, text: &str) -> Result<(), PresetErrors> {
         let place = key.place.clone();
         Some(PresetError { place, message })
     });
-    Found(mistakes.collect()).all()
+    PresetErrors::report(mistakes.collect())
 }
 
 /// Looks for all that is wrong with a style.

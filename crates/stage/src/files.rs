@@ -1,6 +1,9 @@
 //! What the caller gives a scene beside the preset, and why there is none.
 
-use std::path::PathBuf;
+use hair_io::{MOST_OF_TEXT, ReadError};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Files that the caller gives in place of the preset's.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +18,19 @@ pub struct Files {
     pub bake: Option<PathBuf>,
     /// A motion script, relative to the current folder.
     pub motion: Option<PathBuf>,
+    /// Texts in place of those that styles and motion scripts have on the disk: what an editor has not saved yet. Paths are as a scene
+    /// reads them: the folder of what names the file, and the name.
+    pub texts: BTreeMap<PathBuf, Arc<str>>,
+}
+
+impl Files {
+    /// The text of a style or script.
+    pub(crate) fn read_text(&self, path: &Path) -> Result<Arc<str>, ReadError> {
+        match self.texts.get(path) {
+            Some(text) => Ok(text.clone()),
+            None => Ok(hair_io::read_text(path, MOST_OF_TEXT)?.into()),
+        }
+    }
 }
 
 /// Why there is no frame.
@@ -34,7 +50,7 @@ pub enum StageError {
     NoHead(PathBuf),
     /// A style or motion script cannot be read.
     #[error(transparent)]
-    Read(#[from] hair_io::ReadError),
+    Read(#[from] ReadError),
     /// A style or motion script has mistakes.
     #[error(transparent)]
     Mistakes(#[from] effects::preset::PresetErrors),

@@ -142,9 +142,7 @@ impl Driver<'_> {
     /// The steady wind and the speed of gusts at `time`: m/s.
     pub fn wind_at(&self, time: f64) -> (DVec3, f64) {
         let (steady, gusts) = self.script.wind_at(time);
-        let blown = self
-            .hand
-            .map_or(DVec3::ZERO, |hand| hand.at(time).wind);
+        let blown = self.hand.map_or(DVec3::ZERO, |hand| hand.at(time).wind);
         (steady + blown, gusts)
     }
 }
@@ -166,7 +164,10 @@ mod tests {
         let hand = turned(&[(1.0, 3.0), (2.0, 10.0), (2.5, 15.0)]);
         let at = |time| hand.at(time).turn.x;
         assert_eq!([at(0.0), at(1.0), at(1.5), at(2.0)], [3.0, 3.0, 6.5, 10.0]);
-        assert_eq!([at(2.5), at(2.75), at(3.0), at(9.0)], [15.0, 17.5, 20.0, 20.0]);
+        assert_eq!(
+            [at(2.5), at(2.75), at(3.0), at(9.0)],
+            [15.0, 17.5, 20.0, 20.0]
+        );
     }
 
     #[test]

@@ -90,7 +90,7 @@ pub(crate) fn hair(
 ) -> Result<HairModel, StageError> {
     let own = preset.sections.hair.file.as_ref();
     let path = chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
-    let hair = strands(preset, &path, head, notes)?;
+    let hair = strands(preset, files, &path, head, notes)?;
     let (all, guides) = (hair.file.strands.len(), preset.sections.hair.guides);
     if guides > 0 && (guides as usize) < all {
         notes.push(format!(
@@ -103,13 +103,14 @@ pub(crate) fn hair(
 /// All strands of a file or style as the preset reads hair, sorted by id.
 pub(crate) fn strands(
     preset: &Preset,
+    files: &Files,
     path: &Path,
     head: Option<&Mesh>,
     notes: &mut Vec<String>,
 ) -> Result<HairModel, StageError> {
     let section = &preset.sections.hair;
     if is_style(path) {
-        let mut hair = grow(path, head)?;
+        let mut hair = grow(files, path, head)?;
         notes.append(&mut hair.file.notes);
         return Ok(hair);
     }
@@ -173,9 +174,9 @@ fn size_of_most(points: &[Vec3]) -> f32 {
 }
 
 /// The hair of a style, grown on the head.
-fn grow(path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
+fn grow(files: &Files, path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
     let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
-    let text = hair_io::read_text(path, hair_io::MOST_OF_TEXT)?;
+    let text = files.read_text(path)?;
     let style = style::parse(&path.display().to_string(), &text)?;
     // The mesh alone: the hair that grows on a head must not change its size.
     let head = head_of(HeadFrame::find(Some(mesh), &[]));

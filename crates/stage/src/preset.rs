@@ -190,12 +190,7 @@ impl<'r> Preset<'r> {
         let mut errors: Vec<PresetError> = self.named.iter().filter_map(missing_file).collect();
         let objects = self.objects.iter();
         errors.extend(objects.filter_map(|object| object.missing(&files.preset_folder)));
-        errors.sort_by_key(|e| (e.place.line, e.place.column));
-        if errors.is_empty() {
-            Ok(())
-        } else {
-            Err(PresetErrors(errors))
-        }
+        PresetErrors::report(errors)
     }
 
     /// Where the file names the file of this section and parameter.

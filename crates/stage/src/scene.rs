@@ -214,6 +214,15 @@ impl Scene {
     ///
     /// When its values make none.
     pub fn own_camera(&self) -> Result<Camera, StageError> {
+        self.camera_of_size(self.look.sections.scene.size)
+    }
+
+    /// The scene's own camera, for a picture of another size (pixels).
+    ///
+    /// # Errors
+    ///
+    /// When its values make none.
+    pub fn camera_of_size(&self, size_px: [u32; 2]) -> Result<Camera, StageError> {
         let (head, section) = (self.head(), &self.camera);
         let view = OrbitView {
             target: head.center + Vec3::from(section.target) * head.height_m,
@@ -222,8 +231,7 @@ impl Scene {
             distance_m: section.distance * head.height_m,
             vertical_fov_degrees: section.fov,
         };
-        let size = self.look.sections.scene.size;
-        Ok(Camera::orbit(view, size, self.near_m())?)
+        Ok(Camera::orbit(view, size_px, self.near_m())?)
     }
 
     /// What all strokes are made of.

@@ -1,7 +1,7 @@
 //! Key shapes: hair in the shapes that a motion script wants of it.
 
 use crate::bake::difference;
-use crate::files::StageError;
+use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::load;
 use crate::preset::{Preset, missing};
@@ -24,6 +24,7 @@ const MOST_POINTS: usize = 1 << 26;
 /// When a file cannot be read, or is not of the same strands.
 pub(crate) fn load(
     preset: &Preset,
+    files: &Files,
     script: &MotionScript,
     folder: &Path,
     hair: &HairModel,
@@ -44,7 +45,7 @@ pub(crate) fn load(
     for key in &script.shapes {
         let shape = match &key.file {
             None => Ok(hair.file.strands.points().to_vec()),
-            Some(name) => read(preset, key, name, folder, hair, head)?,
+            Some(name) => read(preset, files, key, name, folder, hair, head)?,
         };
         match shape {
             Ok(points) => samples.push((key.time as f32, hung(hair, points))),
@@ -66,6 +67,7 @@ pub(crate) fn load(
 /// The points of one shape, or what is wrong with its file's name or strands.
 fn read(
     preset: &Preset,
+    files: &Files,
     key: &KeyShape,
     name: &str,
     folder: &Path,
@@ -75,7 +77,7 @@ fn read(
     if let Some(message) = missing(folder, "hair", name) {
         return Ok(Err(message));
     }
-    let other = load::strands(preset, &folder.join(name), head, &mut Vec::new())?.file;
+    let other = load::strands(preset, files, &folder.join(name), head, &mut Vec::new())?.file;
     if let Some(what) = difference(&hair.file.strands, &other.strands) {
         return Ok(Err(format!(
             "hair: `{name}` is not of the same strands: {what}"

@@ -2,7 +2,7 @@
 
 use effects::Registry;
 use glam::Vec3;
-use stage::{Files, Preset, Stage};
+use stage::{Bake, Files, Preset, Stage};
 use std::fs;
 use std::path::Path;
 
@@ -54,8 +54,17 @@ fn character(folder: &Path) {
 fn scene(motion: &str) -> Result<Stage, String> {
     let folder = tempfile::tempdir().unwrap();
     character(folder.path());
+    scene_in(folder.path(), motion, |_, _, stage| stage)
+}
+
+/// A scene of the files in a folder, and what is made of it, its preset and its files.
+fn scene_in<T>(
+    folder: &Path,
+    motion: &str,
+    make: impl FnOnce(&Preset, &Files, Stage) -> T,
+) -> Result<T, String> {
     let bob = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets/styles/bob.style.ron");
-    fs::copy(bob, folder.path().join("bob.style.ron")).unwrap();
+    fs::copy(bob, folder.join("bob.style.ron")).unwrap();
     let text = format!(
         "(version: 1, hair: (file: \"bob.style.ron\"), head: (shape: bust),\n motion: ({motion}),
         dynamics: (solver: none), layers: [(effect: \"hair.base\")])"
@@ -64,11 +73,13 @@ fn scene(motion: &str) -> Result<Stage, String> {
     effects_builtin::register(&mut registry).unwrap();
     let preset = Preset::parse("look.ron", &text, &registry).map_err(|e| e.to_string())?;
     let files = Files {
-        preset_folder: folder.path().to_owned(),
+        preset_folder: folder.to_owned(),
+        bake: (folder.join("bake.strands.ron").exists()).then(|| folder.join("bake.strands.ron")),
         ..Files::default()
     };
     preset.check_files(&files).map_err(|e| e.to_string())?;
-    Stage::new(&preset, &files).map_err(|e| e.to_string())
+    let stage = Stage::new(&preset, &files).map_err(|e| e.to_string())?;
+    Ok(make(&preset, &files, stage))
 }
 
 /// Middle of the head, height, and means of the strands.
@@ -134,4 +145,40 @@ fn what_is_not_there_is_named() {
         "gltf: \"walker.gltf\", animation: 0",
         "animation: expected a text in double quotes",
     );
+}
+
+#[test]
+fn a_bake_knows_the_files_of_the_characters_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    character(folder);
+    let motion = "gltf: \"walker.gltf\"";
+    let (files, bake) = scene_in(folder, motion, |preset, files, mut stage| {
+        let mut bake = Bake::new(preset, files, &stage.scene).unwrap();
+        for time in [0.0, 1.0] {
+            stage.advance_to(time).unwrap();
+            stage.record(time, &mut bake);
+        }
+        (preset.files(files), stage.bake_text(bake).unwrap())
+    })
+    .unwrap();
+    assert!(files.contains(&folder.join("walker.bin")), "{files:?}");
+    fs::write(folder.join("bake.strands.ron"), &bake).unwrap();
+    scene_in(folder, motion, |_, _, _| ()).unwrap();
+
+    let mut numbers = fs::read(folder.join("walker.bin")).unwrap();
+    numbers[3] ^= 1;
+    fs::write(folder.join("walker.bin"), &numbers).unwrap();
+    let refused = scene_in(folder, motion, |_, _, _| ()).unwrap_err();
+    let said = "gltf.buffers (walker.bin) has changed since";
+    assert!(refused.contains(said), "{refused}");
+
+    // Bakes of older builds don't know them.
+    let older = bake.lines().filter(|line| !line.contains("gltf.buffers"));
+    fs::write(
+        folder.join("bake.strands.ron"),
+        older.collect::<Vec<_>>().join("\n"),
+    )
+    .unwrap();
+    scene_in(folder, motion, |_, _, _| ()).unwrap();
 }

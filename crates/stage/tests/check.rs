@@ -105,3 +105,34 @@ fn scripts_styles_and_bakes_are_opened() {
             .contains("the style has no `fringe`")
     );
 }
+
+#[test]
+fn of_files_that_are_not_there_a_hundred_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    fs::write(folder.join("hair.strands.ron"), STRANDS).unwrap();
+    let list = |item: &dyn Fn(usize) -> String| (0..300).map(item).collect::<String>();
+    let shape = |i: usize| format!("    (time: {i}, hair: \"none{i}.strands.ron\"),\n");
+    let script = format!("(version: 1, shapes: [\n{}])", list(&shape));
+    fs::write(folder.join("many.motion.ron"), script).unwrap();
+    let of_script = mistakes(folder, "file: \"hair.strands.ron\"", "many.motion.ron");
+
+    let object = |i: usize| format!("    (preset: \"none{i}.ron\"),\n");
+    let text = format!("(version: 1, objects: [\n{}])", list(&object));
+    let registry = Registry::new();
+    let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    let found = preset.check_files(&Files::default()).unwrap_err();
+    for (found, file) in [
+        (of_script, "many.motion.ron"),
+        (found.to_string(), "look.ron"),
+    ] {
+        let told = found.matches("there is no").count();
+        assert_eq!(told, 100, "{file}");
+        assert!(found.contains(&format!("{file}:101:")), "{file}");
+        let rest = found.split(&format!("{file}:102:")).nth(1).unwrap();
+        assert!(
+            rest.contains(": 100 of 300 mistakes are shown, not this one"),
+            "{rest}"
+        );
+    }
+}

@@ -148,16 +148,15 @@ fn a_bake_gives_nearly_those_of_its_simulation() {
     assert!(like > 0.9, "{like}");
 }
 
-#[test]
-fn paths_that_layers_make_have_them_of_their_strand() {
+/// A bob whose layer of fine hair makes paths of its own, with an undercoat or without.
+fn fine_bob(undercoat: bool) -> Stage {
     let folder = tempfile::tempdir().unwrap();
     let text = "(version: 1, head: (shape: bust), hair: (file: \"h.style.ron\"), clump: (normal: material),
         layers: [(effect: \"hair.base\"), (effect: \"hair.fine\")])";
-    fs::copy(
-        presets().join("styles/bob.style.ron"),
-        folder.path().join("h.style.ron"),
-    )
-    .unwrap();
+    let style = fs::read_to_string(presets().join("styles/bob.style.ron")).unwrap();
+    let said = format!("version: 1, undercoat: {undercoat},");
+    let style = style.replace("version: 1,", &said);
+    fs::write(folder.path().join("h.style.ron"), style).unwrap();
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     let preset = Preset::parse("look.ron", text, &registry).unwrap();
@@ -165,12 +164,52 @@ fn paths_that_layers_make_have_them_of_their_strand() {
         preset_folder: folder.path().to_owned(),
         ..Files::default()
     };
-    let mut stage = Stage::new(&preset, &files).unwrap();
-    let strands = stage.strand_count();
-    let (normals, tangents, ..) = joints(&mut stage, 0.0);
-    let frame = stage.frame().unwrap();
-    assert!(frame.strands.len() > strands && normals.len() == frame.paths.len());
-    for (normal, tangent) in normals.iter().zip(&tangents) {
-        assert!((normal.length() - 1.0).abs() < 1e-4 && normal.dot(*tangent).abs() < 1e-4);
+    Stage::new(&preset, &files).unwrap()
+}
+
+#[test]
+fn paths_that_layers_make_have_them_of_their_strand() {
+    assert!(fine_bob(true).strand_count() > fine_bob(false).strand_count());
+    for undercoat in [true, false] {
+        let mut stage = fine_bob(undercoat);
+        let strands = stage.strand_count();
+        let (normals, tangents, ..) = joints(&mut stage, 0.0);
+        let frame = stage.frame().unwrap();
+        assert!(frame.strands.len() > strands && normals.len() == frame.paths.len());
+        for (normal, tangent) in normals.iter().zip(&tangents) {
+            assert!((normal.length() - 1.0).abs() < 1e-4 && normal.dot(*tangent).abs() < 1e-4);
+        }
+
+        // A made path has its strand's mean, and lies along it.
+        let (of_hair, made) = frame.strands.split_at(strands);
+        let runs = |strand: usize| {
+            frame
+                .paths
+                .runs
+                .iter()
+                .filter(move |run| run.strand == strand)
+        };
+        let mut likeness = Vec::new();
+        for (path, info) in (strands..).zip(made) {
+            let parent = of_hair
+                .iter()
+                .position(|hair| hair.mean == info.mean)
+                .unwrap();
+            let own = || runs(parent).flat_map(|run| run.joints.clone());
+            for joint in runs(path).flat_map(|run| run.joints.clone()) {
+                let u = frame.paths.u[joint];
+                let away = |joint: &usize| (frame.paths.u[*joint] - u).abs();
+                let beside = own().min_by(|a, b| away(a).total_cmp(&away(b)));
+                likeness.extend(beside.map(|beside| normals[beside].dot(normals[joint])));
+            }
+        }
+        let mean = likeness.iter().sum::<f32>() / likeness.len() as f32;
+        let unlike = likeness.iter().filter(|likeness| **likeness < 0.5).count();
+        assert!(mean > 0.9, "{mean}");
+        assert!(
+            unlike < likeness.len() / 20,
+            "{unlike} of {}",
+            likeness.len()
+        );
     }
 }

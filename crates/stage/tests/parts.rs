@@ -168,7 +168,10 @@ fn what_cannot_be_a_scene_is_refused() {
 #[test]
 fn a_hand_moves_head_and_hair_beside_the_script() {
     let registry = registry();
-    let still = PRESET.replace("motion: (file: \"presets/motions/head-turn.motion.ron\"),", "");
+    let still = PRESET.replace(
+        "motion: (file: \"presets/motions/head-turn.motion.ron\"),",
+        "",
+    );
     for text in [PRESET, &still] {
         let preset = Preset::parse("look.ron", text, &registry).unwrap();
         let scene = Scene::load(&preset, &files()).unwrap();
@@ -193,7 +196,10 @@ fn a_hand_moves_head_and_hair_beside_the_script() {
             pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
         };
         assert!(apart(&held, &without.0) > 0.02, "hair follows the head");
-        assert!(apart(&held, &at(&hand, &[0.1, 0.2, 0.3, 0.4, 0.5]).0) == 0.0, "times looked at change nothing");
+        assert!(
+            apart(&held, &at(&hand, &[0.1, 0.2, 0.3, 0.4, 0.5]).0) == 0.0,
+            "times looked at change nothing"
+        );
 
         // A wind alone moves hair, and the head stays.
         let mut blow = Hand::new();

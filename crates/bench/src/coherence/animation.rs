@@ -4,6 +4,7 @@
 //! one tick, so that every picture shows a moment of one continuous motion: what jumps then jumps in
 //! the drawing.
 
+use crate::BenchError;
 use render::Frame;
 
 /// Number of a moment; moments are 1/[`TICKS`] s apart.
@@ -19,7 +20,7 @@ pub trait Animation {
     /// # Errors
     ///
     /// When there is no such frame.
-    fn at(&mut self, tick: Tick) -> Result<Frame<'_>, String>;
+    fn at(&mut self, tick: Tick) -> Result<Frame<'_>, BenchError>;
 }
 
 /// A moment in seconds.

@@ -1,6 +1,7 @@
 //! Looks of `presets` on a turning camera, a shaking head and in wind; and real hair.
 
 use super::animation::{Animation, TICKS, Tick, seconds};
+use crate::BenchError;
 use effects::Registry;
 use render::Frame;
 use stage::{Files, Preset, Stage};
@@ -83,7 +84,7 @@ pub struct Look {
 /// # Errors
 ///
 /// When the folder cannot be read.
-pub fn looks(root: &Path) -> Result<Vec<Look>, String> {
+pub fn looks(root: &Path) -> Result<Vec<Look>, BenchError> {
     let folder = root.join("presets");
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut looks = Vec::new();
@@ -132,7 +133,7 @@ impl Look {
     /// # Errors
     ///
     /// When a file of it cannot be read.
-    pub fn open(&self, motion: Option<Motion>, part: u32) -> Result<MovingLook, String> {
+    pub fn open(&self, motion: Option<Motion>, part: u32) -> Result<MovingLook, BenchError> {
         let name = self.preset.display().to_string();
         let text =
             std::fs::read_to_string(&self.preset).map_err(|error| format!("{name}: {error}"))?;
@@ -175,11 +176,11 @@ impl MovingLook {
 }
 
 impl Animation for MovingLook {
-    fn at(&mut self, tick: Tick) -> Result<Frame<'_>, String> {
+    fn at(&mut self, tick: Tick) -> Result<Frame<'_>, BenchError> {
         self.stage.scene.camera.yaw = self.yaw(tick) as f32;
         self.stage
             .advance_to(seconds(tick) as f32)
             .and_then(|()| self.stage.frame())
-            .map_err(|error| error.to_string())
+            .map_err(|error| error.to_string().into())
     }
 }

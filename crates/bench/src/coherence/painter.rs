@@ -1,5 +1,6 @@
 //! Frames to pictures, in each order, and to what colours say in place of how hair looks.
 
+use crate::BenchError;
 use glam::Vec2;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{Drawing, Frame, Order, Picture};
@@ -19,7 +20,7 @@ impl Painter {
     /// # Errors
     ///
     /// When there is no such number of samples or threads.
-    pub fn new(samples: u32, threads: usize) -> Result<Self, String> {
+    pub fn new(samples: u32, threads: usize) -> Result<Self, BenchError> {
         let rasterizer = Rasterizer::new(samples, Some(threads));
         Ok(Self {
             evaluator: Evaluator::default(),
@@ -34,7 +35,7 @@ impl Painter {
     /// # Errors
     ///
     /// When it makes none.
-    pub fn strokes(&mut self, frame: &mut Frame, order: Order) -> Result<&mut Drawing, String> {
+    pub fn strokes(&mut self, frame: &mut Frame, order: Order) -> Result<&mut Drawing, BenchError> {
         frame.order = order;
         let made = self.evaluator.evaluate(frame, &mut self.drawing);
         made.map_err(|error| error.to_string())?;
@@ -46,7 +47,7 @@ impl Painter {
     /// # Errors
     ///
     /// When it can't be drawn.
-    pub fn picture(&mut self, frame: &mut Frame, order: Order) -> Result<Picture, String> {
+    pub fn picture(&mut self, frame: &mut Frame, order: Order) -> Result<Picture, BenchError> {
         self.strokes(frame, order)?;
         self.draw()
     }
@@ -57,7 +58,7 @@ impl Painter {
     /// # Errors
     ///
     /// When it can't be drawn.
-    pub fn part(&mut self, corner: [i32; 2], size: u32) -> Result<Picture, String> {
+    pub fn part(&mut self, corner: [i32; 2], size: u32) -> Result<Picture, BenchError> {
         let corner = Vec2::new(corner[0] as f32, corner[1] as f32);
         let part = &mut self.part;
         part.clone_from(&self.drawing);
@@ -72,7 +73,7 @@ impl Painter {
             vertex.position -= corner;
         }
         let drawn = self.rasterizer.draw(part);
-        drawn.map_err(|error| error.to_string())
+        drawn.map_err(|error| error.to_string().into())
     }
 
     /// The frame with hair in the colours that `color` gives to joints, all else black.
@@ -85,7 +86,7 @@ impl Painter {
         frame: &mut Frame,
         order: Order,
         color: impl Fn(usize) -> [f32; 3],
-    ) -> Result<Picture, String> {
+    ) -> Result<Picture, BenchError> {
         let drawing = self.strokes(frame, order)?;
         for layer in &mut drawing.layers {
             let joints = layer.joints.clone();
@@ -106,14 +107,14 @@ impl Painter {
     /// # Errors
     ///
     /// When the frame can't be drawn.
-    pub fn hair(&mut self, frame: &mut Frame) -> Result<Vec<bool>, String> {
+    pub fn hair(&mut self, frame: &mut Frame) -> Result<Vec<bool>, BenchError> {
         let picture = self.recolored(frame, Order::default(), |_| [1.0; 3])?;
         Ok(picture.pixels.iter().map(|pixel| pixel[0] > 0.0).collect())
     }
 
-    fn draw(&mut self) -> Result<Picture, String> {
+    fn draw(&mut self) -> Result<Picture, BenchError> {
         self.rasterizer
             .draw(&self.drawing)
-            .map_err(|error| error.to_string())
+            .map_err(|error| error.to_string().into())
     }
 }

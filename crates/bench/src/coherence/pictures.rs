@@ -2,6 +2,7 @@
 
 use super::search::{AROUND, Worst};
 use super::tiles::TILE;
+use crate::BenchError;
 use render::Picture;
 use std::path::Path;
 
@@ -17,8 +18,9 @@ const FRAME: [f32; 4] = [1.0, 0.0, 0.0, 1.0];
 /// # Errors
 ///
 /// When the file can't be written.
-pub fn write(path: &Path, worst: &Worst) -> Result<(), String> {
-    let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+pub fn write(path: &Path, worst: &Worst) -> Result<(), BenchError> {
+    let failed =
+        |error: &dyn std::fmt::Display| BenchError::from(format!("{}: {error}", path.display()));
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|error| failed(&error))?;
     }

@@ -3,6 +3,7 @@
 use super::animation::{Animation, Kind, TICKS, Tick};
 use super::looks::{Look, MOTIONS, looks, sintel};
 use super::strands::Strands;
+use crate::BenchError;
 use render::Order;
 use std::ops::Range;
 use std::path::Path;
@@ -63,7 +64,7 @@ pub fn scenes(
     data: Option<&Path>,
     quick: bool,
     only: &str,
-) -> Result<Vec<Subject>, String> {
+) -> Result<Vec<Subject>, BenchError> {
     let mut scenes = Vec::new();
     let mut orders = ORDERS.to_vec();
     if quick {

@@ -8,6 +8,7 @@ use super::animation::Tick;
 use super::painter::Painter;
 use super::scenes::Subject;
 use super::tiles::{HairTiles, TILE, corner, difference};
+use crate::BenchError;
 use glam::Vec2;
 use render::Picture;
 use std::collections::{BTreeMap, BTreeSet};
@@ -49,7 +50,7 @@ impl Painters {
     /// # Errors
     ///
     /// When there is no such number of threads.
-    pub fn new(threads: usize) -> Result<Self, String> {
+    pub fn new(threads: usize) -> Result<Self, BenchError> {
         Ok(Self {
             hair: Painter::new(1, threads)?,
             few: Painter::new(FEW, threads)?,
@@ -129,7 +130,7 @@ pub fn measure(
     painters: &mut Painters,
     effort: Effort,
     mut done: impl FnMut(),
-) -> Result<(Vec<Continuity>, Motion), String> {
+) -> Result<(Vec<Continuity>, Motion), BenchError> {
     let starts = starts(scene);
     let (glances, motion) = glance(scene, painters, &mut done)?;
     let plans: Vec<Plan> = glances.iter().map(|of| of.plan(effort)).collect();
@@ -175,7 +176,7 @@ fn glance(
     scene: &mut Subject,
     painters: &mut Painters,
     done: &mut impl FnMut(),
-) -> Result<(Vec<Glance>, Motion), String> {
+) -> Result<(Vec<Glance>, Motion), BenchError> {
     let mut glances: Vec<Glance> = scene.orders.iter().map(|_| Glance::default()).collect();
     let mut motion = Motion::default();
     for window in scene.windows.clone() {
@@ -208,7 +209,7 @@ struct Moment {
 }
 
 impl Moment {
-    fn new(scene: &mut Subject, painters: &mut Painters, tick: Tick) -> Result<Self, String> {
+    fn new(scene: &mut Subject, painters: &mut Painters, tick: Tick) -> Result<Self, BenchError> {
         let mut frame = scene.animation.at(tick)?;
         let mut pictures = Vec::new();
         for (_, order) in &scene.orders {
@@ -335,7 +336,7 @@ fn refine(
     start: Tick,
     wanted: &[Wanted],
     found: &mut [Found],
-) -> Result<(), String> {
+) -> Result<(), BenchError> {
     let mut pictures: Vec<Pictures> = scene.orders.iter().map(|_| Pictures::default()).collect();
     let mut size = [0; 2];
     let mut hair = Vec::new();

@@ -2,6 +2,7 @@
 //! is tried on.
 
 use super::animation::{Animation, Kind, TICKS, Tick, seconds};
+use crate::BenchError;
 use effects::{Layer, Registry, Varied, clump};
 use glam::{DVec3, Vec3};
 use render::{Brush, Frame, Head, Light, Object, Order, StrandInfo};
@@ -71,7 +72,7 @@ struct Style {
 }
 
 /// Opens a scene of strands.
-type Open = fn() -> Result<Strands, String>;
+type Open = fn() -> Result<Strands, BenchError>;
 
 /// A strand at a time.
 fn particles(motion: Motion, strand: usize, time: f64) -> Vec<Vec3> {
@@ -95,8 +96,8 @@ impl Strands {
         ("curl", Kind::Hair, || Self::new(1, curl, None)),
     ];
 
-    fn new(count: u32, motion: Motion, change: Option<Tick>) -> Result<Self, String> {
-        let change = change.map(|tick| Ok::<_, String>((tick, Style::parse(OTHER_STYLE)?)));
+    fn new(count: u32, motion: Motion, change: Option<Tick>) -> Result<Self, BenchError> {
+        let change = change.map(|tick| Ok::<_, BenchError>((tick, Style::parse(OTHER_STYLE)?)));
         let camera = Camera::orbit(VIEW, [480, 360], 0.01).map_err(|error| error.to_string())?;
         let info = |id| StrandInfo {
             id,
@@ -122,7 +123,7 @@ impl Strands {
 }
 
 impl Style {
-    fn parse(text: &str) -> Result<Self, String> {
+    fn parse(text: &str) -> Result<Self, BenchError> {
         let mut registry = Registry::new();
         effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
         let preset =
@@ -135,7 +136,7 @@ impl Style {
 }
 
 impl Animation for Strands {
-    fn at(&mut self, tick: Tick) -> Result<Frame<'_>, String> {
+    fn at(&mut self, tick: Tick) -> Result<Frame<'_>, BenchError> {
         let time = seconds(tick);
         self.paths.clear();
         for (i, info) in self.infos.iter_mut().enumerate() {

@@ -4,6 +4,7 @@ use super::NamedOrder;
 use super::animation::{TICKS, Tick};
 use super::painter::Painter;
 use super::scenes::Subject;
+use crate::BenchError;
 use glam::Vec2;
 use render::{Frame, Order, Picture};
 
@@ -22,7 +23,7 @@ const REACH: f32 = 256.0;
 /// # Errors
 ///
 /// When a frame can't be made or drawn.
-pub fn measure(scene: &mut Subject, threads: usize) -> Result<Vec<[Option<f64>; 2]>, String> {
+pub fn measure(scene: &mut Subject, threads: usize) -> Result<Vec<[Option<f64>; 2]>, BenchError> {
     let mut motion_painter = Painter::new(1, threads)?;
     let mut painters = Vec::new();
     for samples in SAMPLES {
@@ -75,7 +76,7 @@ impl Shown {
         orders: &[NamedOrder],
         centers: &mut Painter,
         painters: &mut [Painter],
-    ) -> Result<Self, String> {
+    ) -> Result<Self, BenchError> {
         let drawing = centers.strokes(frame, Order::default())?;
         let centers = drawing.clump.iter().map(|disc| disc.center).collect();
         let mut pictures = Vec::new();
@@ -96,7 +97,7 @@ fn motion(
     before: &Shown,
     after: &Shown,
     painter: &mut Painter,
-) -> Result<Vec<Option<Vec2>>, String> {
+) -> Result<Vec<Option<Vec2>>, BenchError> {
     // Colours can hold 0 to 1.
     let color = |joint: usize| {
         let moved = after.centers[joint] - before.centers[joint];

@@ -6,6 +6,7 @@ use super::reference;
 use super::rods::{Apart, GRAVITY, NEARLY_STRAIGHT, Rods, Simulation};
 use super::xpbd::Rod;
 use super::{names, npz};
+use crate::BenchError;
 use glam::{DVec2, DVec3};
 use hair_sim::Pose;
 use std::path::Path;
@@ -27,7 +28,7 @@ pub struct Truth {
 /// # Errors
 ///
 /// When the folder's file is broken.
-pub fn truth(gamma: f64, links: usize, data: Option<&Path>) -> Result<Truth, String> {
+pub fn truth(gamma: f64, links: usize, data: Option<&Path>) -> Result<Truth, BenchError> {
     let frame = (GRAVITY / Rods::level(1, 1, gamma).length).sqrt() / FRAMES as f64;
     let path = reference::drop(gamma, links, frame, FRAMES);
     let refined = format!("chains of {links} and {} links, extrapolated", 2 * links);
@@ -39,7 +40,7 @@ pub fn truth(gamma: f64, links: usize, data: Option<&Path>) -> Result<Truth, Str
         });
     };
     let spectral = std::fs::read(&file)
-        .map_err(|error| error.to_string())
+        .map_err(|error| BenchError::from(error.to_string()))
         .and_then(|archive| tips(&npz::read(&archive, "P")?))
         .map_err(|error| format!("{}: {error}", file.display()))?;
     let apart = error(&level_off(&path), &spectral);
@@ -54,12 +55,12 @@ fn level_off(path: &[DVec2]) -> Vec<DVec3> {
 }
 
 /// Of positions (frame, place along the strand, x and drop) in lengths those of the tip.
-fn tips(positions: &npz::Array) -> Result<Vec<DVec2>, String> {
+fn tips(positions: &npz::Array) -> Result<Vec<DVec2>, BenchError> {
     let [frames, places, 2] = positions.shape[..] else {
-        return Err(format!("positions of the shape {:?}", positions.shape));
+        return Err(format!("positions of the shape {:?}", positions.shape).into());
     };
     if frames != FRAMES + 1 || places == 0 {
-        return Err(format!("{frames} frames of {places} places"));
+        return Err(format!("{frames} frames of {places} places").into());
     }
     let tips = positions.values.chunks_exact(2 * places);
     Ok(tips
@@ -88,7 +89,7 @@ pub trait Fall {
     /// # Errors
     ///
     /// When the solver refuses a step.
-    fn fall(&mut self) -> Result<(), String>;
+    fn fall(&mut self) -> Result<(), BenchError>;
 
     /// How far the last fall was from the truth.
     fn error(&self, truth: &[DVec2]) -> f64;
@@ -103,7 +104,7 @@ struct Falling<S> {
 }
 
 impl<S: Simulation + Clone> Fall for Falling<S> {
-    fn fall(&mut self) -> Result<(), String> {
+    fn fall(&mut self) -> Result<(), BenchError> {
         let mut now = self.start.clone();
         let dt = 1.0 / (FRAMES * self.steps) as f64;
         self.path.clear();
@@ -158,7 +159,7 @@ fn entry<S: Simulation + Clone + 'static>(
 /// # Errors
 ///
 /// When our solver refuses the strands.
-pub fn entries(gamma: f64, count: usize, quick: bool) -> Result<Vec<Entry>, String> {
+pub fn entries(gamma: f64, count: usize, quick: bool) -> Result<Vec<Entry>, BenchError> {
     let mut entries = Vec::new();
     let elements: &[usize] = if count == 1 { &[10, 20, 40] } else { &[20] };
     for &elements in elements {
@@ -209,7 +210,7 @@ fn knobs<'a>(few: bool, coarse: &'a [usize], fine: &'a [usize]) -> impl Iterator
 /// # Errors
 ///
 /// When our solver refuses the strand.
-pub fn slope_in_time(gamma: f64) -> Result<f64, String> {
+pub fn slope_in_time(gamma: f64) -> Result<f64, BenchError> {
     let rods = Rods::level(1, 20, gamma);
     let own = Own::new(&rods)?;
     let path = |steps| {

@@ -5,6 +5,7 @@ use super::names;
 use super::own::Own;
 use super::rods::{Apart, NEARLY_STRAIGHT, Rods, Simulation};
 use super::xpbd::Rod;
+use crate::BenchError;
 use crate::results::Row;
 use crate::timing::{Effort, shortest};
 use glam::{DQuat, DVec3, Vec3};
@@ -59,7 +60,7 @@ trait Moving {
     /// # Errors
     ///
     /// When the solver refuses a step, or a counter isn't what it must be.
-    fn step(&mut self) -> Result<(), String>;
+    fn step(&mut self) -> Result<(), BenchError>;
 
     /// The share of strands' steps until now that needed the safe integrator, where there is one.
     fn fallback_share(&self) -> Option<f64> {
@@ -83,7 +84,7 @@ impl<S: Simulation + Send + 'static> Bare<S> {
 }
 
 impl<S: Simulation> Moving for Bare<S> {
-    fn step(&mut self) -> Result<(), String> {
+    fn step(&mut self) -> Result<(), BenchError> {
         self.steps += 1;
         self.simulation.step(DT, head(self.steps))
     }
@@ -100,7 +101,7 @@ struct Full {
 }
 
 impl Full {
-    fn new(strands: usize, links: usize, params: &Params) -> Result<Self, String> {
+    fn new(strands: usize, links: usize, params: &Params) -> Result<Self, BenchError> {
         let mut rest = Strands::new();
         for (id, out) in directions(strands).enumerate() {
             let points: Vec<Vec3> = (0..=links)
@@ -137,7 +138,7 @@ impl Full {
     }
 
     /// What was asked for must have happened.
-    fn check(&self, stats: &Stats) -> Result<(), String> {
+    fn check(&self, stats: &Stats) -> Result<(), BenchError> {
         let is_all = stats.strands == self.strands
             && stats.set_aside + stats.asleep == 0
             && stats.wind >= self.strands * self.links
@@ -149,12 +150,13 @@ impl Full {
         Err(format!(
             "{} x {}, step {}: strands, wind, contacts or links are missing: {stats:?}",
             self.strands, self.links, self.steps
-        ))
+        )
+        .into())
     }
 }
 
 impl Moving for Full {
-    fn step(&mut self) -> Result<(), String> {
+    fn step(&mut self) -> Result<(), BenchError> {
         let (before, now) = (head(self.steps), head(self.steps + 1));
         self.steps += 1;
         let ball = Shape::Sphere {
@@ -204,7 +206,7 @@ struct Entry {
 }
 
 impl Entry {
-    fn steps(&mut self, count: usize) -> Result<(), String> {
+    fn steps(&mut self, count: usize) -> Result<(), BenchError> {
         let moving = &mut self.moving;
         self.pool
             .install(|| (0..count).try_for_each(|_| moving.step()))
@@ -218,7 +220,7 @@ impl Entry {
 /// # Errors
 ///
 /// When a step is refused or a counter is not what it must be.
-pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, String> {
+pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, BenchError> {
     let mut entries: Vec<Entry> = Vec::new();
     let mut counts = vec![1, threads];
     counts.dedup();

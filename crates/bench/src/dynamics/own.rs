@@ -1,6 +1,7 @@
 //! Our own solver behind this suite's trait.
 
 use super::rods::{Rods, Simulation};
+use crate::BenchError;
 use glam::DVec3;
 use hair_sim::{Pose, Roots, Solver, State, Strands, Surroundings};
 
@@ -17,7 +18,7 @@ impl Own {
     /// # Errors
     ///
     /// When the solver refuses them.
-    pub fn new(rods: &Rods) -> Result<Self, String> {
+    pub fn new(rods: &Rods) -> Result<Self, BenchError> {
         let mut strands = Strands::new();
         for strand in 0..rods.roots.len() {
             strands
@@ -31,13 +32,13 @@ impl Own {
 }
 
 impl Simulation for Own {
-    fn step(&mut self, dt: f64, head: Pose) -> Result<(), String> {
+    fn step(&mut self, dt: f64, head: Pose) -> Result<(), BenchError> {
         let scene = Surroundings {
             roots: Roots::Head(head),
             ..Surroundings::default()
         };
         let stats = self.solver.step(&mut self.state, &scene, dt);
-        stats.map(|_| ()).map_err(|error| error.to_string())
+        stats.map(|_| ()).map_err(|error| error.to_string().into())
     }
 
     fn points(&self, strand: usize) -> Vec<DVec3> {

@@ -2,6 +2,7 @@
 
 use super::falls::{self, Truth};
 use super::names::MANY;
+use crate::BenchError;
 use crate::results::Row;
 use glam::DVec3;
 use serde_json::Value;
@@ -51,7 +52,7 @@ impl Peers {
     /// # Errors
     ///
     /// When there is no such Python, or it lacks one of the programs: how to install them.
-    pub fn new(root: &Path, python: PathBuf) -> Result<Self, String> {
+    pub fn new(root: &Path, python: PathBuf) -> Result<Self, BenchError> {
         let peers = Self {
             scripts: root.join("crates/bench/peers"),
             python,
@@ -61,6 +62,7 @@ impl Peers {
                 .run(&["-c", &format!("import numpy, {}", peer.module)])
                 .map_err(|error| {
                     // A traceback ends with its reason.
+                    let error = error.to_string();
                     let reason = error.lines().last().unwrap_or_default();
                     format!("{} can't be run: {reason}\n{}", peer.name, peers.install())
                 })?;
@@ -81,7 +83,7 @@ impl Peers {
     /// # Errors
     ///
     /// When a script fails.
-    pub fn rows(&self, quick: bool, truth: &Truth) -> Result<Vec<Row>, String> {
+    pub fn rows(&self, quick: bool, truth: &Truth) -> Result<Vec<Row>, BenchError> {
         let steps = if quick { QUICK_STEPS } else { STEPS };
         let mut rows = Vec::new();
         for peer in &PEERS {
@@ -100,7 +102,7 @@ impl Peers {
         strands: usize,
         steps: &[usize],
         truth: &Truth,
-    ) -> Result<Vec<Row>, String> {
+    ) -> Result<Vec<Row>, BenchError> {
         let script = self.scripts.join(peer.script).display().to_string();
         let numbers = [
             ("--elements", ELEMENTS.to_string()),
@@ -120,7 +122,7 @@ impl Peers {
     }
 
     /// What Python printed.
-    fn run(&self, arguments: &[&str]) -> Result<String, String> {
+    fn run(&self, arguments: &[&str]) -> Result<String, BenchError> {
         let python = self.python.display();
         let output = Command::new(&self.python)
             .args(arguments)
@@ -131,13 +133,13 @@ impl Peers {
             return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
         }
         let text = String::from_utf8_lossy(&output.stderr);
-        Err(format!("{python}: {}: {}", output.status, text.trim_end()))
+        Err(format!("{python}: {}: {}", output.status, text.trim_end()).into())
     }
 }
 
 /// The row of a script's line (`crates/bench/peers/falling.py` says what is in it), or none of a motion that went wrong:
 /// its time says nothing.
-fn row(scene: &str, line: &str, truth: &Truth) -> Result<Option<Row>, String> {
+fn row(scene: &str, line: &str, truth: &Truth) -> Result<Option<Row>, BenchError> {
     let invalid = || format!("a line that can't be read: {line}");
     let value: Value = serde_json::from_str(line).map_err(|_| invalid())?;
     let tips = value.get("tips").ok_or_else(invalid)?;
@@ -203,7 +205,8 @@ mod tests {
     #[test]
     fn without_the_programs_it_says_how_to_install_them() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let error = Peers::new(&root, "no-such-python".into()).unwrap_err();
+        let error = Peers::new(&root, "no-such-python".into());
+        let error = error.unwrap_err().to_string();
         assert!(error.starts_with("MuJoCo can't be run: no-such-python"));
         assert!(error.contains("pip install -r"), "{error}");
         assert!(root.join("crates/bench/peers/requirements.txt").exists());

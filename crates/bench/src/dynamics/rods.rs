@@ -1,5 +1,6 @@
 //! What every solver of this suite is given, and what it must do.
 
+use crate::BenchError;
 use glam::{DVec3, Vec3};
 use hair_sim::{Material, Natural, Params, Pose};
 use rayon::prelude::*;
@@ -101,7 +102,7 @@ pub trait Simulation: Send {
     /// # Errors
     ///
     /// What the solver says of a step that it refuses.
-    fn step(&mut self, dt: f64, head: Pose) -> Result<(), String>;
+    fn step(&mut self, dt: f64, head: Pose) -> Result<(), BenchError>;
 
     /// The points of a strand in the world, root first, in m.
     fn points(&self, strand: usize) -> Vec<DVec3>;
@@ -121,7 +122,7 @@ pub trait Strand: Send {
 pub struct Apart<S>(pub Vec<S>);
 
 impl<S: Strand> Simulation for Apart<S> {
-    fn step(&mut self, dt: f64, head: Pose) -> Result<(), String> {
+    fn step(&mut self, dt: f64, head: Pose) -> Result<(), BenchError> {
         match &mut self.0[..] {
             [one] => one.step(dt, head),
             many => many
@@ -138,7 +139,7 @@ impl<S: Strand> Simulation for Apart<S> {
 }
 
 impl Simulation for Box<dyn Simulation> {
-    fn step(&mut self, dt: f64, head: Pose) -> Result<(), String> {
+    fn step(&mut self, dt: f64, head: Pose) -> Result<(), BenchError> {
         (**self).step(dt, head)
     }
 

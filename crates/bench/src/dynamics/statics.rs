@@ -6,6 +6,7 @@ use super::own::Own;
 use super::reference;
 use super::rods::{Apart, Rods, Simulation};
 use super::xpbd::Rod;
+use crate::BenchError;
 use crate::results::Row;
 use hair_sim::Pose;
 use std::time::Instant;
@@ -19,7 +20,7 @@ const SECONDS: f64 = 10.0;
 /// # Errors
 ///
 /// When our solver refuses a strand or a step.
-pub fn rows(mut done: impl FnMut()) -> Result<Vec<Row>, String> {
+pub fn rows(mut done: impl FnMut()) -> Result<Vec<Row>, BenchError> {
     let mut rows = Vec::new();
     for gamma in GAMMAS {
         let truth = reference::cantilever(gamma);

@@ -1,6 +1,7 @@
 //! Our figures as they were, so that worse ones are seen: errors, and times over those of a yardstick.
 
 use super::names::{CANTILEVER, OWN, XPBD_STEPS};
+use crate::BenchError;
 use crate::results::{Row, table};
 use crate::targets::{Found, Limit, Target};
 
@@ -26,7 +27,7 @@ fn yardstick(rows: &[Row]) -> Option<f64> {
 /// # Errors
 ///
 /// When the run has no yardstick.
-pub fn file(rows: &[Row]) -> Result<String, String> {
+pub fn file(rows: &[Row]) -> Result<String, BenchError> {
     let yardstick = yardstick(rows).ok_or("there is nothing to measure times by")?;
     let lines = rows
         .iter()
@@ -55,11 +56,11 @@ pub fn file(rows: &[Row]) -> Result<String, String> {
 /// # Errors
 ///
 /// When the stored file is broken or the run has no yardstick.
-pub fn against(rows: &[Row]) -> Result<Vec<Target>, String> {
+pub fn against(rows: &[Row]) -> Result<Vec<Target>, BenchError> {
     compare(rows, STORED)
 }
 
-fn compare(rows: &[Row], stored: &str) -> Result<Vec<Target>, String> {
+fn compare(rows: &[Row], stored: &str) -> Result<Vec<Target>, BenchError> {
     let yardstick = yardstick(rows).ok_or("there is nothing to measure times by")?;
     let mut targets = Vec::new();
     let lines = stored.lines().filter(|line| !line.starts_with('#'));
@@ -67,7 +68,7 @@ fn compare(rows: &[Row], stored: &str) -> Result<Vec<Target>, String> {
         let broken = || format!("broken line of stored figures: {line}");
         let parts: Vec<&str> = line.split(',').collect();
         let [scene, method, knob, time, error] = parts[..] else {
-            return Err(broken());
+            return Err(broken().into());
         };
         let knob: usize = knob.parse().map_err(|_| broken())?;
         let is_it = |row: &&Row| row.scene == scene && row.method == method && row.knob == knob;

@@ -1,6 +1,7 @@
 //! A case's way from start to end, and what must hold in every step.
 
 use super::case::{Body, Broken, Case, Frame};
+use crate::BenchError;
 use glam::{DVec3, Vec3};
 use hair_sim::{
     Collider, DynamicsError, GRAVITY, Params, Pose, Reason, Roots, Shape, SignedDistance, Solver,
@@ -55,7 +56,7 @@ struct Run<'a> {
 /// # Errors
 ///
 /// What doesn't hold.
-pub fn simulate(case: &Case, how: &How) -> Result<Trace, String> {
+pub fn simulate(case: &Case, how: &How) -> Result<Trace, BenchError> {
     let mut run = Run::new(case, how)?;
     let mut trace = Trace {
         bits: Vec::with_capacity(case.frames.len()),
@@ -64,7 +65,7 @@ pub fn simulate(case: &Case, how: &How) -> Result<Trace, String> {
         set_aside: 0,
     };
     for (index, frame) in case.frames.iter().enumerate() {
-        let at = |error: String| format!("frame {index}: {error}");
+        let at = |error: BenchError| format!("frame {index}: {error}");
         if how.is_saved && index == case.saved {
             run.save_and_restore().map_err(at)?;
         }
@@ -79,7 +80,7 @@ pub fn simulate(case: &Case, how: &How) -> Result<Trace, String> {
 }
 
 impl<'a> Run<'a> {
-    fn new(case: &'a Case, how: &'a How) -> Result<Self, String> {
+    fn new(case: &'a Case, how: &'a How) -> Result<Self, BenchError> {
         let mut rest = case.rest.select(how.order);
         if how.has_faults {
             break_rest(&mut rest, case, how.order);
@@ -90,7 +91,7 @@ impl<'a> Run<'a> {
             let place = (0..rest.len()).find(|s| rest.id(*s) == fault.id);
             let place = place.ok_or_else(|| format!("{fault}: there is no such strand"))?;
             if !is_deserved(rest.strand(place), fault.reason) {
-                return Err(format!("at the start: {fault}"));
+                return Err(format!("at the start: {fault}").into());
             }
             aside[place] = true;
         }
@@ -106,10 +107,9 @@ impl<'a> Run<'a> {
                 .iter()
                 .filter(|f| how.has_faults && f.strand == strand);
             if faults.clone().any(|f| broken(f.what)) && !aside[place] {
-                return Err(format!(
-                    "strand {} is broken and nobody says so",
-                    rest.id(place)
-                ));
+                return Err(
+                    format!("strand {} is broken and nobody says so", rest.id(place)).into(),
+                );
             }
         }
         Ok(Self {
@@ -124,7 +124,7 @@ impl<'a> Run<'a> {
     }
 
     /// Goes on with another solver and a state that was text in between.
-    fn save_and_restore(&mut self) -> Result<(), String> {
+    fn save_and_restore(&mut self) -> Result<(), BenchError> {
         let saved = serde_json::to_string(&self.state).map_err(|error| error.to_string())?;
         let restored = serde_json::from_str(&saved);
         self.state = restored.map_err(|error| format!("the saved state can't be read: {error}"))?;
@@ -137,7 +137,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn step(&mut self, index: usize, frame: &Frame) -> Result<Stats, String> {
+    fn step(&mut self, index: usize, frame: &Frame) -> Result<Stats, BenchError> {
         let mut each = frame.each.as_ref().map(|poses| {
             let of = |&strand: &usize| poses[strand];
             self.how.order.iter().map(of).collect::<Vec<Pose>>()
@@ -174,7 +174,7 @@ impl<'a> Run<'a> {
             done.map_err(|error| error.to_string())?;
         }
         let stats = self.solver.step(&mut self.state, &scene, frame.dt);
-        stats.map_err(|error| error.to_string())
+        stats.map_err(|error| error.to_string().into())
     }
 
     /// Breaks the numbers of this frame that are to be broken.
@@ -198,7 +198,7 @@ impl<'a> Run<'a> {
     }
 
     /// A scene that can't be is refused and changes nothing.
-    fn refuse(&mut self, index: usize, scene: &Surroundings, dt: f64) -> Result<(), String> {
+    fn refuse(&mut self, index: usize, scene: &Surroundings, dt: f64) -> Result<(), BenchError> {
         let nan = DVec3::new(0.0, f64::NAN, 0.0);
         let (mut bad, mut bad_dt) = (*scene, dt);
         let body = [Collider::fixed(
@@ -236,21 +236,21 @@ impl<'a> Run<'a> {
                 | DynamicsError::Goal { .. }
                 | DynamicsError::Poses { .. },
             ) if self.state == before => Ok(()),
-            other => Err(format!(
-                "a broken scene was not refused as it must be: {other:?}"
-            )),
+            other => Err(format!("a broken scene was not refused as it must be: {other:?}").into()),
         }
     }
 
     /// What must hold after every step.
-    fn check(&mut self, index: usize, frame: &Frame) -> Result<(), String> {
+    fn check(&mut self, index: usize, frame: &Frame) -> Result<(), BenchError> {
         let faults = self.solver.faults(&self.state);
         for place in 0..self.rest.len() {
             let id = self.rest.id(place);
             let fault = faults.iter().find(|f| f.id == id);
             match (fault, self.aside[place]) {
-                (Some(fault), false) => return Err(fault.to_string()),
-                (None, true) => return Err(format!("strand {id} is broken and nobody says so")),
+                (Some(fault), false) => return Err(fault.to_string().into()),
+                (None, true) => {
+                    return Err(format!("strand {id} is broken and nobody says so").into());
+                }
                 _ => {}
             }
             self.check_shape(place, frame)
@@ -263,21 +263,21 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn check_shape(&self, place: usize, frame: &Frame) -> Result<(), String> {
+    fn check_shape(&self, place: usize, frame: &Frame) -> Result<(), BenchError> {
         let points: Vec<DVec3> = self.solver.points(&self.state, place).collect();
         if !points.iter().all(|p| p.is_finite()) {
-            return Err("is not finite".to_owned());
+            return Err("is not finite".into());
         }
         if !self
             .solver
             .velocities(&self.state, place)
             .all(|v| v.is_finite())
         {
-            return Err("has no finite velocity".to_owned());
+            return Err("has no finite velocity".into());
         }
         let mut frames = self.solver.frames(&self.state, place);
         if !frames.all(|f| (f.length() - 1.0).abs() < 1e-9) {
-            return Err("has a frame that is not a rotation".to_owned());
+            return Err("has a frame that is not a rotation".into());
         }
         if self.aside[place] {
             return Ok(());
@@ -294,21 +294,21 @@ impl<'a> Run<'a> {
         };
         let root = head.rotation * styled[0] + head.translation;
         if (points[0] - root).length() > 1e-12 * (1.0 + root.length()) {
-            return Err(format!("left its root at {root}: it is at {}", points[0]));
+            return Err(format!("left its root at {root}: it is at {}", points[0]).into());
         }
         let total: f64 = styled.windows(2).map(|w| w[0].distance(w[1])).sum();
         for (now, styled) in points.windows(2).zip(styled.windows(2)) {
             let length = styled[0].distance(styled[1]);
             let error = (now[0].distance(now[1]) - length).abs();
             if error > STRETCH * length + 1e-13 * (total + points[0].length()) {
-                return Err(format!("stretches: a link of {length:e} m by {error:e} m"));
+                return Err(format!("stretches: a link of {length:e} m by {error:e} m").into());
             }
         }
         Ok(())
     }
 
     /// Where nothing drives a strand its energy doesn't rise.
-    fn check_energy(&mut self, place: usize, index: usize) -> Result<(), String> {
+    fn check_energy(&mut self, place: usize, index: usize) -> Result<(), BenchError> {
         let frame = &self.case.frames[index];
         let strand = self.how.order[place];
         let params = &self.case.params[strand];
@@ -340,9 +340,7 @@ impl<'a> Run<'a> {
             return Ok(());
         }
         let gain = (energy - ceiling) / scale;
-        Err(format!(
-            "gains energy that nothing gives it: {gain:.1e} of its own"
-        ))
+        Err(format!("gains energy that nothing gives it: {gain:.1e} of its own").into())
     }
 
     /// A hash a strand, by its place in the case.
@@ -379,9 +377,9 @@ fn drives(case: &Case, params: &Params, before: &Frame, now: &Frame, strand: usi
         || now.teleports
 }
 
-fn make(rest: &Strands, case: &Case, how: &How) -> Result<(Solver, State), String> {
+fn make(rest: &Strands, case: &Case, how: &How) -> Result<(Solver, State), BenchError> {
     let made = Solver::with(rest, |place| case.params[how.order[place]]);
-    made.map_err(|error| error.to_string())
+    made.map_err(|error| error.to_string().into())
 }
 
 /// Breaks the shapes at rest that are to be broken.

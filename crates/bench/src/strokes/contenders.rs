@@ -5,6 +5,7 @@
 
 use super::order::painters_order;
 use super::outline::{self, Pen};
+use crate::BenchError;
 use glam::DVec2;
 use render::cpu::Rasterizer;
 use render::gpu::{AdapterKind, GpuError, Offscreen};
@@ -21,7 +22,7 @@ pub trait Contender {
     /// # Errors
     ///
     /// When it cannot draw that.
-    fn draw(&mut self, drawing: &Drawing) -> Result<(), String>;
+    fn draw(&mut self, drawing: &Drawing) -> Result<(), BenchError>;
 
     /// What it drew last: linear, premultiplied. Not timed.
     fn picture(&self) -> Option<Picture>;
@@ -53,7 +54,7 @@ impl Sweep {
     /// # Errors
     ///
     /// When there are no such numbers.
-    pub fn new(samples: u32, threads: usize) -> Result<Self, String> {
+    pub fn new(samples: u32, threads: usize) -> Result<Self, BenchError> {
         Ok(Self {
             rasterizer: Rasterizer::new(samples, Some(threads)).map_err(|e| e.to_string())?,
             picture: None,
@@ -62,7 +63,7 @@ impl Sweep {
 }
 
 impl Contender for Sweep {
-    fn draw(&mut self, drawing: &Drawing) -> Result<(), String> {
+    fn draw(&mut self, drawing: &Drawing) -> Result<(), BenchError> {
         self.picture = Some(self.rasterizer.draw(drawing).map_err(|e| e.to_string())?);
         Ok(())
     }
@@ -85,7 +86,7 @@ impl Card {
     /// # Errors
     ///
     /// When there is one that can't be used.
-    pub fn new(samples: u32) -> Result<Option<Self>, String> {
+    pub fn new(samples: u32) -> Result<Option<Self>, BenchError> {
         match Offscreen::open(AdapterKind::Hardware) {
             Ok(card) => Ok(Some(Self {
                 card,
@@ -93,13 +94,13 @@ impl Card {
                 picture: None,
             })),
             Err(GpuError::NoAdapter { .. }) => Ok(None),
-            Err(error) => Err(error.to_string()),
+            Err(error) => Err(error.to_string().into()),
         }
     }
 }
 
 impl Contender for Card {
-    fn draw(&mut self, drawing: &Drawing) -> Result<(), String> {
+    fn draw(&mut self, drawing: &Drawing) -> Result<(), BenchError> {
         let drawn = self.card.draw_strokes(drawing, self.samples);
         self.picture = Some(drawn.map_err(|error| error.to_string())?);
         Ok(())
@@ -144,7 +145,7 @@ impl Vello {
 }
 
 impl Contender for Vello {
-    fn draw(&mut self, drawing: &Drawing) -> Result<(), String> {
+    fn draw(&mut self, drawing: &Drawing) -> Result<(), BenchError> {
         let Self { context, path, .. } = self;
         context.reset();
         for_each_figure(drawing, self.outlines, path, |path, [r, g, b]| {
@@ -176,7 +177,7 @@ impl TinySkia {
     /// # Errors
     ///
     /// When there is no such size.
-    pub fn new([width, height]: [u16; 2], outlines: Outlines) -> Result<Self, String> {
+    pub fn new([width, height]: [u16; 2], outlines: Outlines) -> Result<Self, BenchError> {
         let pixmap = tiny_skia::Pixmap::new(width.into(), height.into());
         Ok(Self {
             outlines,
@@ -187,7 +188,7 @@ impl TinySkia {
 }
 
 impl Contender for TinySkia {
-    fn draw(&mut self, drawing: &Drawing) -> Result<(), String> {
+    fn draw(&mut self, drawing: &Drawing) -> Result<(), BenchError> {
         let Self { pixmap, path, .. } = self;
         pixmap.fill(tiny_skia::Color::TRANSPARENT);
         let mut paint = tiny_skia::Paint {
@@ -245,7 +246,7 @@ impl PathsAlone {
 }
 
 impl Contender for PathsAlone {
-    fn draw(&mut self, drawing: &Drawing) -> Result<(), String> {
+    fn draw(&mut self, drawing: &Drawing) -> Result<(), BenchError> {
         match self.library {
             Library::Vello => {
                 for_each_figure(drawing, self.outlines, &mut BezPath::new(), |path, _| {

@@ -1,5 +1,6 @@
 //! What the suite draws: strokes alone, on nothing, in 960 x 720 pixels.
 
+use crate::BenchError;
 use effects::Registry;
 use glam::{DVec3, Vec2};
 use render::cpu::Evaluator;
@@ -59,7 +60,7 @@ impl TestDrawing {
 /// # Errors
 ///
 /// When the preset cannot be read; all that is wrong with it.
-pub fn all(root: &Path) -> Result<Vec<TestDrawing>, String> {
+pub fn all(root: &Path) -> Result<Vec<TestDrawing>, BenchError> {
     Ok(vec![
         ponytails(),
         twin_tails(root)?,
@@ -73,7 +74,7 @@ pub fn all(root: &Path) -> Result<Vec<TestDrawing>, String> {
 /// # Errors
 ///
 /// When the preset or a file of it cannot be read.
-pub fn twin_tails(root: &Path) -> Result<TestDrawing, String> {
+pub fn twin_tails(root: &Path) -> Result<TestDrawing, BenchError> {
     let folder = root.join("tests/yardsticks");
     let path = folder.join("twin-tails.ron");
     let name = path.display().to_string();

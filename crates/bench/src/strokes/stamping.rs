@@ -1,6 +1,7 @@
 //! The source's own way: a stroke is stamped disc by disc, each tested for depth.
 
 use super::contenders::Contender;
+use crate::BenchError;
 use render::cpu::Stamper;
 use render::{Drawing, Picture};
 
@@ -17,7 +18,7 @@ impl Stamping {
     /// # Errors
     ///
     /// When there are no such numbers.
-    pub fn new(per_interval: usize, samples: u32, threads: usize) -> Result<Self, String> {
+    pub fn new(per_interval: usize, samples: u32, threads: usize) -> Result<Self, BenchError> {
         Ok(Self {
             per_interval,
             stamper: Stamper::new(samples, Some(threads)).map_err(|e| e.to_string())?,
@@ -27,7 +28,7 @@ impl Stamping {
 }
 
 impl Contender for Stamping {
-    fn draw(&mut self, drawing: &Drawing) -> Result<(), String> {
+    fn draw(&mut self, drawing: &Drawing) -> Result<(), BenchError> {
         let picture = self.stamper.draw(drawing, self.per_interval);
         self.picture = Some(picture.map_err(|e| e.to_string())?);
         Ok(())

@@ -15,6 +15,8 @@ pub struct Place {
     pub source_line: String,
 }
 
+/// How many mistakes of a file are told: a file that is no preset at all has any number.
+pub(super) const MOST_ERRORS: usize = 100;
 /// How many characters of a line are shown before the column.
 const SHOWN_BEFORE: usize = 59;
 /// How many are shown at most.
@@ -53,6 +55,14 @@ pub struct PresetError {
     pub message: String,
 }
 
+impl PresetError {
+    /// Stands at the first mistake that is not told, behind those that are.
+    pub(super) fn untold(place: Place, told: usize, all: usize) -> Self {
+        let message = format!("{told} of {all} mistakes are shown, not this one");
+        Self { place, message }
+    }
+}
+
 impl fmt::Display for PresetError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Place {
@@ -77,6 +87,27 @@ impl fmt::Display for PresetError {
 /// All mistakes of a preset.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PresetErrors(pub Vec<PresetError>);
+
+impl PresetErrors {
+    /// Mistakes that were found beside a [`Reader`](super::Reader), as it would report them: by their places; of more than a
+    /// hundred the first, and how many there are. None where there are none.
+    ///
+    /// # Errors
+    ///
+    /// These mistakes.
+    pub fn report(mut errors: Vec<PresetError>) -> Result<(), Self> {
+        errors.sort_by_key(|e| (e.place.line, e.place.column));
+        let all = errors.len();
+        let untold = errors.get(MOST_ERRORS).map(|error| error.place.clone());
+        errors.truncate(MOST_ERRORS);
+        errors.extend(untold.map(|place| PresetError::untold(place, MOST_ERRORS, all)));
+        if errors.is_empty() {
+            Ok(())
+        } else {
+            Err(Self(errors))
+        }
+    }
+}
 
 impl fmt::Display for PresetErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,7 +1,7 @@
 //! Reading sections of a preset from its text.
 
 use super::brackets::check_brackets;
-use super::error::{Place, PresetError, PresetErrors};
+use super::error::{MOST_ERRORS, Place, PresetError, PresetErrors};
 use super::set::unknown;
 use super::syntax::{self, Kind, Piece, pieces};
 use super::value::{parse_value, shown};
@@ -9,9 +9,6 @@ use crate::param::{Param, Value};
 use crate::section::Section;
 use std::cell::Cell;
 use std::collections::HashSet;
-
-/// How many mistakes of a file are told: a file that is no preset at all has any number.
-const MOST_ERRORS: usize = 100;
 
 /// A preset's text, and the mistakes found in it so far.
 pub struct Reader<'a> {
@@ -92,8 +89,7 @@ impl<'a> Reader<'a> {
         errors.sort_by_key(|e| (e.place.line, e.place.column));
         if let Some((place, untold)) = self.untold.take() {
             let all = errors.len() + untold;
-            let message = format!("{} of {all} mistakes are shown, not this one", errors.len());
-            errors.push(PresetError { place, message });
+            errors.push(PresetError::untold(place, errors.len(), all));
         }
         Err(PresetErrors(errors))
     }

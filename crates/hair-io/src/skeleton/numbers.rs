@@ -7,8 +7,8 @@ use crate::read::{MOST_OF_DATA, read_bytes, shown};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::borrow::Cow;
-use std::collections::HashMap;
-use std::path::Path;
+use std::collections::{BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
 
 /// The most numbers that are read: a small file can name the same ones for thousands of bones.
 pub(super) const MOST_NUMBERS: usize = 1 << 26;
@@ -32,6 +32,24 @@ impl<'a> Buffers<'a> {
             read: HashMap::new(),
             left: MOST_NUMBERS,
         }
+    }
+
+    /// The files that the animations' numbers are in, each once.
+    pub fn files(document: &Document, folder: &Path) -> Vec<PathBuf> {
+        let samplers = document.animations.iter().flat_map(|a| &a.samplers);
+        let accessors = samplers.flat_map(|sampler| [sampler.input, sampler.output]);
+        let buffers = accessors.filter_map(|accessor| {
+            let view = document.accessors.get(accessor)?.buffer_view?;
+            Some(document.buffer_views.get(view)?.buffer)
+        });
+        let buffers: BTreeSet<usize> = buffers.collect();
+        let mut files: Vec<PathBuf> = Vec::new();
+        for buffer in buffers {
+            let uri = document.buffers.get(buffer).and_then(|b| b.uri.as_ref());
+            let file = uri.and_then(|uri| uri::file_in(folder, uri));
+            files.extend(file.filter(|file| !files.contains(file)));
+        }
+        files
     }
 
     fn bytes(&mut self, buffer: usize) -> Result<&[u8], TrackError> {

@@ -1,6 +1,6 @@
 //! `inkstrand check`: every mistake of every file, with those of the files that presets name.
 
-use super::progress::bar;
+use super::progress::Bar;
 use super::{mistakes, preset_folder, read_text};
 use crate::paths::file_name;
 use crate::say::say;
@@ -25,15 +25,15 @@ pub(crate) fn check(paths: &[PathBuf], registry: &Registry) -> Result<(), Failur
         }
     }
 
-    let bar = bar(false, files.len() as u64, "files");
+    let mut bar = Bar::new(false, files.len() as u64, "files", None);
     let mut wrong = 0;
     for file in &files {
         let mistakes = mistakes_of(file, registry);
         wrong += usize::from(!mistakes.is_empty());
         found.extend(mistakes);
-        bar.inc(1);
+        bar.inc()?;
     }
-    bar.finish_and_clear();
+    bar.finish();
 
     let checked = counted(files.len(), "file");
     if !found.is_empty() {

@@ -3,17 +3,32 @@
 use crate::Failure;
 use crate::paths::file_name;
 use crate::say::{say, shell_word};
-use crate::whole_file::write_whole;
+use hair_io::write_whole;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The preset; NAME and STYLE stand for the files' names.
 const PRESET: &str = include_str!("starter.ron");
 /// The style: a short cut that inkstrand ships.
 const STYLE: &str = include_str!("../../../../presets/styles/bob.style.ron");
 
-/// Writes the starter preset at `path` and its style beside it. Neither may be there already.
+/// Writes the starter preset at `path` and its style beside it, and tells so. Neither may be there already.
 pub(crate) fn new(path: &Path) -> Result<(), Failure> {
+    let style = write_new_look(path)?;
+    say(format_args!(
+        "wrote {} and {}",
+        path.display(),
+        style.display()
+    ));
+    say(format_args!(
+        "draw it: inkstrand render {}",
+        shell_word(path)
+    ));
+    Ok(())
+}
+
+/// Writes the starter preset at `path` and its style beside it. Neither may be there already. The style's path.
+pub(crate) fn write_new_look(path: &Path) -> Result<PathBuf, Failure> {
     let name = file_name(path);
     let stem = stem(&name).map_err(|e| Failure::Usage(format!("{}: {e}", path.display())))?;
     let style_name = format!("{stem}.style.ron");
@@ -36,16 +51,7 @@ pub(crate) fn new(path: &Path) -> Result<(), Failure> {
         // A style without its preset is of no use; the first error is the one to tell.
         let _ = fs::remove_file(&style);
     })?;
-    say(format_args!(
-        "wrote {} and {}",
-        path.display(),
-        style.display()
-    ));
-    say(format_args!(
-        "draw it: inkstrand render {}",
-        shell_word(path)
-    ));
-    Ok(())
+    Ok(style)
 }
 
 /// The preset's name without `.ron`, or why it is none.

@@ -1,6 +1,6 @@
 //! `inkstrand render`: a preset to pictures.
 
-use super::progress::bar_from_first_frame;
+use super::progress::{Bar, Watch};
 use super::scene::{Source, check};
 use crate::Failure;
 use crate::cli::{Background, Numbers, RenderOptions};
@@ -9,20 +9,29 @@ use crate::painter::Painter;
 use crate::paths::is_same;
 use crate::say::say;
 use crate::stats::Lines;
-use crate::whole_file::try_to_write;
 use effects::Registry;
+use hair_io::try_to_write;
 use stage::{Files, Preset, SceneSection, Sections};
 use std::path::Path;
 
-pub(crate) fn render(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
+/// Draws, and tells what was written. Who watches is told of each frame, and may end it.
+pub(crate) fn render(
+    options: &RenderOptions,
+    registry: &Registry,
+    watch: Option<Watch>,
+) -> Result<String, Failure> {
     // All that runs in parallel runs in here: simulation, effects and rasteriser.
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads.unwrap_or(0) as usize) // 0 is rayon's own choice
         .build()?;
-    pool.install(|| draw(options, registry))
+    pool.install(|| draw(options, registry, watch))
 }
 
-fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
+fn draw(
+    options: &RenderOptions,
+    registry: &Registry,
+    watch: Option<Watch>,
+) -> Result<String, Failure> {
     let source = Source::read(&options.preset)?;
     let mut preset = source.parse(registry)?;
     options.scene.apply(&mut preset).map_err(Failure::Usage)?;
@@ -53,12 +62,13 @@ fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
     }
     let mut painter = Painter::new(options.backend, samples, options.quiet)?;
 
-    let bar = bar_from_first_frame(
+    let mut bar = Bar::from_first_frame(
         options.quiet,
         &mut stage,
         &preset,
         time_of(first),
         u64::from(last - first) + 1,
+        watch,
     )?;
     let mut stats = options.stats.as_deref().map(Lines::create).transpose()?;
     for frame in first..=last {
@@ -67,25 +77,24 @@ fn draw(options: &RenderOptions, registry: &Registry) -> Result<(), Failure> {
         if let Some(stats) = &mut stats {
             stats.push(&line)?;
         }
-        bar.inc(1);
+        bar.inc()?;
     }
-    bar.finish_and_clear();
-    if options.quiet {
-        return Ok(());
-    }
-    if stage.left_out() > 0 {
+    bar.finish();
+    if !options.quiet && stage.left_out() > 0 {
         say(format_args!(
             "hair: {} strands reach too far away to be drawn and are left out",
             stage.left_out()
         ));
     }
     let (from, to) = (output.path(first), output.path(last));
-    if first == last {
-        say(format_args!("wrote {}", from.display()));
-    } else {
-        say(format_args!("wrote {} to {}", from.display(), to.display()));
+    let mut written = format!("wrote {}", from.display());
+    if first != last {
+        written += &format!(" to {}", to.display());
     }
-    Ok(())
+    if !options.quiet {
+        say(&written);
+    }
+    Ok(written)
 }
 
 /// Refuses what cannot be written, and what would be written over by another file or over one that is read.
@@ -102,21 +111,21 @@ fn check_outputs(
         .filter(|path| *path != Path::new("-"));
     let mut read = preset.files(files);
     read.push(options.preset.clone());
-    for path in &read {
-        if output.writes(path, first..=last) {
-            let message = format!(
-                "-o: a picture would be written over {}, which is read",
-                path.display()
-            );
-            return Err(Failure::Usage(message));
-        }
-        if stats.is_some_and(|stats| is_same(stats, path)) {
-            let message = format!("--stats: {} is read, and cannot be written", path.display());
-            return Err(Failure::Usage(message));
-        }
+    if let Some(path) = output.writes_over(&read, first..=last) {
+        let message = format!(
+            "-o: a picture would be written over {}, which is read",
+            path.display()
+        );
+        return Err(Failure::Usage(message));
+    }
+    if let Some(stats) = stats
+        && let Some(path) = read.iter().find(|path| is_same(stats, path))
+    {
+        let message = format!("--stats: {} is read, and cannot be written", path.display());
+        return Err(Failure::Usage(message));
     }
     if let Some(stats) = stats {
-        if output.writes(stats, first..=last) {
+        if (output.writes_over(&[stats.to_owned()], first..=last)).is_some() {
             let message = format!("--stats: {} is a picture of -o", stats.display());
             return Err(Failure::Usage(message));
         }

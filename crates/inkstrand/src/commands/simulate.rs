@@ -1,13 +1,13 @@
 //! `inkstrand simulate`: a sequence's strands, simulated once.
 
-use super::progress::bar_from_first_frame;
+use super::progress::Bar;
 use super::scene::Source;
 use crate::Failure;
 use crate::cli::SimulateOptions;
 use crate::paths::{file_name, is_same};
 use crate::say::say;
-use crate::whole_file::WholeFile;
 use effects::Registry;
+use hair_io::WholeFile;
 use stage::{Bake, Files, Preset};
 use std::io::Write as _;
 use std::path::Path;
@@ -29,14 +29,21 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
     let time_of = |frame: u32| frame as f32 / fps;
     let frames = u64::from(last - first) + 1;
     let mut bake = Bake::new(&preset, &files, &stage.scene)?;
-    let bar = bar_from_first_frame(options.quiet, &mut stage, &preset, time_of(first), frames)?;
+    let mut bar = Bar::from_first_frame(
+        options.quiet,
+        &mut stage,
+        &preset,
+        time_of(first),
+        frames,
+        None,
+    )?;
     for frame in first..=last {
         let time = time_of(frame);
         stage.advance_to(time)?;
         stage.record(time, &mut bake);
-        bar.inc(1);
+        bar.inc()?;
     }
-    bar.finish_and_clear();
+    bar.finish();
     file.write_all(stage.bake_text(bake)?.as_bytes())?;
     file.finish()?;
     if !options.quiet {

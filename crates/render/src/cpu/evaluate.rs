@@ -101,7 +101,7 @@ impl Evaluator {
         drawn: &Range<usize>,
         (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
     ) -> LayerStrokes {
-        self.fill_unit(frame, object.head, layer.units);
+        self.fill_unit(frame, object.head, drawn, layer.units);
         let joints = drawn.len();
         let instances = layer.program.instances();
         let length = joints * instances as usize;
@@ -292,15 +292,16 @@ impl Evaluator {
         seen_lengths(frame.paths, &mut self.seen_length);
     }
 
-    /// The size of a pixel at 720 lines, for layers whose widths are pixels.
-    fn fill_unit(&mut self, frame: &Frame, head: Head, units: Units) {
-        self.joints.unit.clear();
+    /// The size of a pixel at 720 lines, for layers whose widths are pixels, on the joints `drawn`.
+    fn fill_unit(&mut self, frame: &Frame, head: Head, drawn: &Range<usize>, units: Units) {
+        let unit = &mut self.joints.unit;
+        unit.clear();
         if units == Units::Pixels {
             let pixel_px = frame.camera.size_px()[1] as f32 / 720.0;
             let unit_m = head.unit_m();
-            let scales = frame.paths.px_per_metre.iter();
-            let sizes = scales.map(|scale| pixel_px / (scale * unit_m));
-            self.joints.unit.extend(sizes);
+            let scales = frame.paths.px_per_metre[drawn.clone()].iter();
+            unit.resize(drawn.start, 1.0); // which nobody reads
+            unit.extend(scales.map(|scale| pixel_px / (scale * unit_m)));
         }
     }
 }

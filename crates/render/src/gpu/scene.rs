@@ -9,6 +9,8 @@ use std::ops::Range;
 
 /// Words of a stroke's record in the tables.
 const STROKE_WORDS: usize = 3;
+/// Stands where a list has no stroke's record: the tables begin with the lists.
+const NO_STROKE: u32 = 0;
 
 /// A frame taken apart. Keeps its lists from frame to frame.
 #[derive(Default)]
@@ -58,6 +60,31 @@ struct Placed {
     instances: u32,
     joints: Range<usize>,
     first_disc: usize,
+}
+
+/// Where a layer draws, for a run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Drawn {
+    Here,
+    /// On other runs of the strand alone. Strokes that go on from run to run have one place in all their lists, by which the card
+    /// finds them where strokes are drawn one after the other ([`Order::Shifted`](crate::Order::Shifted)).
+    Beside,
+    Nowhere,
+}
+
+impl Drawn {
+    /// Where a layer on whole runs, the joints `of_layer`, draws for the run `joints` of the strand `whole`.
+    fn on(joints: &Range<usize>, whole: &Range<usize>, of_layer: &Range<usize>) -> Self {
+        let shares =
+            |joints: &Range<usize>| joints.start.max(of_layer.start) < joints.end.min(of_layer.end);
+        if shares(joints) {
+            Self::Here
+        } else if shares(whole) {
+            Self::Beside
+        } else {
+            Self::Nowhere
+        }
+    }
 }
 
 impl SceneWords {
@@ -208,33 +235,44 @@ impl SceneWords {
     ) {
         let clump_discs = CLUMP_DISCS as usize;
         // Runs that the same layers draw on share a list.
-        let mut lists: Vec<Vec<bool>> = Vec::new();
+        let mut lists: Vec<Vec<Drawn>> = Vec::new();
         let mut last = None;
         self.chunks.clear();
-        for (strand, joints) in runs {
-            let draws = |p: &Placed| p.joints.start <= joints.start && joints.end <= p.joints.end;
-            let is_as = |list: &Vec<bool>| placed.iter().map(draws).eq(list.iter().copied());
-            let list = match last {
-                Some(list) if is_as(&lists[list]) => list,
-                _ => lists.iter().position(is_as).unwrap_or_else(|| {
-                    lists.push(placed.iter().map(draws).collect());
-                    lists.len() - 1
-                }),
-            };
-            last = Some(list);
-            let segments = joints.len() - 1;
-            for first in (0..segments.max(1)).step_by(CHUNK) {
-                self.chunks.extend([
-                    strand,
-                    (joints.start + first) as u32,
-                    (segments - first).min(CHUNK) as u32,
-                    list as u32,
-                ]);
+        let mut runs = runs.peekable();
+        let mut of_strand = Vec::new();
+        while let Some((strand, first)) = runs.next() {
+            of_strand.clear();
+            of_strand.push(first);
+            while let Some((_, joints)) = runs.next_if(|(next, _)| *next == strand) {
+                of_strand.push(joints);
+            }
+            let whole = of_strand[0].start..of_strand[of_strand.len() - 1].end;
+            for joints in &of_strand {
+                let drawn = |p: &Placed| Drawn::on(joints, &whole, &p.joints);
+                let is_as = |list: &Vec<Drawn>| placed.iter().map(drawn).eq(list.iter().copied());
+                let list = match last {
+                    Some(list) if is_as(&lists[list]) => list,
+                    _ => lists.iter().position(is_as).unwrap_or_else(|| {
+                        lists.push(placed.iter().map(drawn).collect());
+                        lists.len() - 1
+                    }),
+                };
+                last = Some(list);
+                let segments = joints.len() - 1;
+                for first in (0..segments.max(1)).step_by(CHUNK) {
+                    self.chunks.extend([
+                        strand,
+                        (joints.start + first) as u32,
+                        (segments - first).min(CHUNK) as u32,
+                        list as u32,
+                    ]);
+                }
             }
         }
 
-        let strokes_in = |list: &[bool]| -> usize {
-            let drawn = placed.iter().zip(list).filter(|(_, is_drawn)| **is_drawn);
+        let strokes_in = |list: &[Drawn]| -> usize {
+            let drawn = placed.iter().zip(list);
+            let drawn = drawn.filter(|(_, drawn)| **drawn != Drawn::Nowhere);
             clump_discs + drawn.map(|(p, _)| p.instances as usize).sum::<usize>()
         };
         let counts: Vec<usize> = lists.iter().map(|list| strokes_in(list)).collect();
@@ -249,11 +287,13 @@ impl SceneWords {
         for list in &lists {
             self.tables.extend((0..clump_discs).map(record));
             let mut number = clump_discs;
-            for (p, is_drawn) in placed.iter().zip(list) {
+            for (p, drawn) in placed.iter().zip(list) {
                 let numbers = number..number + p.instances as usize;
                 number = numbers.end;
-                if *is_drawn {
-                    self.tables.extend(numbers.map(record));
+                match drawn {
+                    Drawn::Here => self.tables.extend(numbers.map(record)),
+                    Drawn::Beside => self.tables.extend(numbers.map(|_| NO_STROKE)),
+                    Drawn::Nowhere => {}
                 }
             }
         }

@@ -7,6 +7,7 @@ use crate::load::chosen;
 use crate::preset::Preset;
 use effects::section::Section as _;
 use effects::{Param, ParamKind, Value};
+use hair_io::BoneMotion;
 use std::fmt;
 use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _};
@@ -53,6 +54,7 @@ impl MovedBy {
             plain("scene.fps", sections.scene.fps.to_string()),
             plain("seed", preset.seed.to_string()),
         ];
+        causes.extend(buffers_cause(preset, files));
         causes.extend(dynamics);
         Ok(Self(causes))
     }
@@ -188,6 +190,19 @@ fn gltf_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
     let [bone, animation] = [bone, animation].map(in_comment);
     let words = format!("bone {bone}, animation {animation}{repeats}");
     Ok(hash.cause("gltf", format!("{}, {words}", file_name(Path::new(name)))))
+}
+
+/// The files that hold the numbers of the character, where it has them beside it.
+fn buffers_cause(preset: &Preset, files: &Files) -> Option<Cause> {
+    let name = preset.sections.motion.gltf.as_ref()?;
+    // Who reads the motion tells what is wrong with the files that it needs.
+    let buffers = BoneMotion::files(&files.preset_folder.join(name)).ok()?;
+    let mut hash = Hash::new();
+    for buffer in &buffers {
+        let _ = hash.file(buffer);
+    }
+    let names: Vec<String> = buffers.iter().map(|path| file_name(path)).collect();
+    (!names.is_empty()).then(|| hash.cause("gltf.buffers", in_comment(&names.join(", "))))
 }
 
 /// A value as a preset writes it.

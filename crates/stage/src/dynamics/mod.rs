@@ -13,9 +13,9 @@ pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 
 use crate::files::StageError;
 use crate::hair::HairModel;
+use crate::hand::Driver;
 use crate::neck::rigid;
 use crate::placement::Placement;
-use crate::hand::Driver;
 use bodies::Bodies;
 use carried::Carried;
 use feel::Feel;

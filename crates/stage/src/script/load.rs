@@ -19,10 +19,10 @@ pub(crate) fn load(
     let own = preset.sections.motion.file.as_ref();
     let mut script = MotionScript::default();
     if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
-        let text = hair_io::read_text(&path, hair_io::MOST_OF_TEXT)?;
+        let text = files.read_text(&path)?;
         script = parse(&path.display().to_string(), &text)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        hair.shapes = shapes::load(preset, &script, folder, hair, mesh)?;
+        hair.shapes = shapes::load(preset, files, &script, folder, hair, mesh)?;
     }
     let section = &preset.sections.motion;
     if let Some(name) = &section.gltf {

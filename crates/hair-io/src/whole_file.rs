@@ -1,6 +1,5 @@
 //! Files that are whole or not there: written beside their place, then renamed.
 
-use crate::paths::folder_of;
 use std::collections::HashSet;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -25,22 +24,22 @@ fn parts() -> MutexGuard<'static, Parts> {
     PARTS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// From now on an interrupt removes what is unfinished and ends the process with 130.
-pub(crate) fn leave_no_parts() {
-    let set = ctrlc::set_handler(|| {
-        // Held until the end of the process: nothing is created or renamed after this.
-        let parts = parts();
-        for part in &parts.own {
-            let _ = fs::remove_file(part); // nobody is left to tell
-        }
-        std::process::exit(130);
-    });
-    // It fails where the program that calls us has a handler of its own, which is then in charge.
-    drop(set);
+/// Removes all unfinished files of this process, which is about to end. As long as the answer is held, no [`WholeFile`] is begun
+/// or put in its place.
+#[must_use = "once it is dropped, files are begun again"]
+pub fn remove_parts() -> NoParts {
+    let parts = parts();
+    for part in &parts.own {
+        let _ = fs::remove_file(part); // nobody is left to tell
+    }
+    NoParts(parts)
 }
 
+/// What [`remove_parts`] gives.
+pub struct NoParts(#[expect(dead_code, reason = "held, not read")] MutexGuard<'static, Parts>);
+
 /// A file under way. Dropped before [`WholeFile::finish`] it leaves nothing.
-pub(crate) struct WholeFile {
+pub struct WholeFile {
     path: PathBuf,
     /// Where it is until it is whole.
     part: Option<PathBuf>,
@@ -49,8 +48,12 @@ pub(crate) struct WholeFile {
 }
 
 impl WholeFile {
-    /// A file that will be at `path`, or where a link there points. What is there but no file (a
-    /// pipe, a device) is written to as it is.
+    /// A file that will be at `path`, or where a link there points, with the permissions of the one that is there. What is
+    /// there but no file (a pipe, a device) is written to as it is.
+    ///
+    /// # Errors
+    ///
+    /// When nothing can be written there. Like all errors of a whole file it begins with the file's name.
     pub fn create(path: &Path) -> io::Result<Self> {
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         let made = match fs::metadata(&path) {
@@ -59,9 +62,11 @@ impl WholeFile {
                 .write(true)
                 .open(&path)
                 .map(|file| (None, file)),
-            _ => parts()
-                .create(folder_of(&path))
-                .map(|(part, file)| (Some(part), file)),
+            there => parts().create(folder_of(&path)).map(|(part, file)| {
+                // Before there is anything to read in it. Not all file systems have permissions.
+                let _ = there.map(|there| file.set_permissions(there.permissions()));
+                (Some(part), file)
+            }),
         };
         let (part, file) = made.map_err(|e| named(&path, &e))?;
         Ok(Self {
@@ -71,7 +76,25 @@ impl WholeFile {
         })
     }
 
+    /// Waits until what was written is on the disk, so that even a loss of power leaves the old file or the new one.
+    ///
+    /// # Errors
+    ///
+    /// When it cannot be written.
+    pub fn sync(&mut self) -> io::Result<()> {
+        self.flush()?;
+        match self.part {
+            Some(_) => self.writer.get_ref().sync_all(),
+            None => Ok(()),
+        }
+        .map_err(|e| named(&self.path, &e))
+    }
+
     /// Puts the file in its place, where it takes that of an older one.
+    ///
+    /// # Errors
+    ///
+    /// When it cannot be written or renamed.
     pub fn finish(mut self) -> io::Result<()> {
         self.flush()?;
         let Some(part) = &self.part else {
@@ -158,7 +181,11 @@ impl Parts {
 }
 
 /// Tells before the work whether a file can be written at `path`.
-pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
+///
+/// # Errors
+///
+/// As of [`WholeFile::create`].
+pub fn try_to_write(path: &Path) -> io::Result<()> {
     // Who reads a pipe would take its closing for the end.
     if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
         return Ok(());
@@ -167,15 +194,29 @@ pub(crate) fn try_to_write(path: &Path) -> io::Result<()> {
 }
 
 /// The error, beginning with the file's name.
-pub(crate) fn named(path: &Path, error: &io::Error) -> io::Error {
+#[must_use]
+pub fn named(path: &Path, error: &io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("{}: {error}", path.display()))
 }
 
-/// Writes a whole file at once. Errors begin with its name.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Writes a whole file at once.
+///
+/// # Errors
+///
+/// When it cannot be written; they begin with its name.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = WholeFile::create(path)?;
     file.write_all(bytes)?;
     file.finish()
+}
+
+/// The folder of a file, `.` where its path is a mere name.
+#[must_use]
+pub fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
 }
 
 #[cfg(test)]
@@ -219,6 +260,26 @@ mod tests {
         assert_eq!(names(), ["a.txt"]);
         let is_left = |part: &PathBuf| part.starts_with(folder.path());
         assert!(!parts().own.iter().any(is_left));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn permissions_stay() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        fs::write(&path, "old").unwrap();
+        for mode in [0o600, 0o640, 0o755] {
+            fs::set_permissions(&path, fs::Permissions::from_mode(mode)).unwrap();
+            let mut file = WholeFile::create(&path).unwrap();
+            file.write_all(b"new").unwrap();
+            file.sync().unwrap();
+            file.finish().unwrap();
+            assert_eq!(
+                fs::metadata(&path).unwrap().permissions().mode() & 0o777,
+                mode
+            );
+        }
     }
 
     #[test]

@@ -1,0 +1,114 @@
+//! The pictures of the pages: held to what their commands draw, or drawn again.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+/// Where this is set to `draw`, pictures are written in place of being compared: `cargo xtask pictures`.
+const VARIABLE: &str = "INKSTRAND_PICTURES";
+
+/// How much a picture may differ from what its command draws, in 1/255 on average: a card rounds otherwise than the CPU.
+const LIKENESS: f64 = 0.1;
+
+/// Largest size and bytes of a picture, and bytes of all of a folder.
+const LARGEST: (u32, u32) = (480, 360);
+const MOST_BYTES: usize = 40_000;
+const MOST_OF_ALL: usize = 600_000;
+
+struct Picture {
+    size: (u32, u32),
+    bytes: Vec<u8>,
+}
+
+/// Reads a picture without transparency.
+fn read(path: &Path) -> Picture {
+    let file = fs::File::open(path)
+        .unwrap_or_else(|error| panic!("{}: {error}: cargo xtask pictures", path.display()));
+    let mut reader = png::Decoder::new(BufReader::new(file)).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut bytes).unwrap();
+    assert_eq!(info.color_type, png::ColorType::Rgb, "{}", path.display());
+    Picture {
+        size: (info.width, info.height),
+        bytes,
+    }
+}
+
+/// As small as flat colours become: rows as they are, not their differences.
+fn write(path: &Path, picture: &Picture) {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.size.0, picture.size.1);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(png::Compression::High);
+    encoder.set_filter(png::Filter::NoFilter);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&picture.bytes).unwrap();
+    writer.finish().unwrap();
+    fs::write(path, bytes).unwrap();
+}
+
+/// A folder of pictures that a page shows.
+pub struct Shown {
+    folder: PathBuf,
+    names: BTreeSet<String>,
+    draws: bool,
+}
+
+impl Shown {
+    pub fn new(folder: PathBuf) -> Self {
+        let draws = std::env::var_os(VARIABLE).is_some_and(|value| value == "draw");
+        if draws {
+            fs::create_dir_all(&folder).unwrap();
+        }
+        Self {
+            folder,
+            names: BTreeSet::new(),
+            draws,
+        }
+    }
+
+    /// Holds the page's picture of this name to the one that was drawn, or writes it.
+    pub fn hold(&mut self, name: &str, drawn: &Path) {
+        let path = self.folder.join(name);
+        let drawn = read(drawn);
+        self.names.insert(name.to_owned());
+        if self.draws {
+            write(&path, &drawn);
+        }
+        let kept = read(&path);
+        assert_eq!(kept.size, drawn.size, "{name}: cargo xtask pictures");
+        let pairs = kept.bytes.iter().zip(&drawn.bytes);
+        let sum: f64 = pairs.map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+        let mean = sum / drawn.bytes.len() as f64;
+        assert!(
+            mean <= LIKENESS,
+            "{name} is not what its command draws, by {mean} of 255: cargo xtask pictures"
+        );
+    }
+
+    /// Holds that the folder has the pictures that were shown, and no others, all of them small.
+    pub fn finish(self) {
+        let mut sum = 0;
+        for entry in fs::read_dir(&self.folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            if !self.names.contains(&name) {
+                assert!(self.draws, "no page shows {name}: cargo xtask pictures");
+                fs::remove_file(&path).unwrap();
+                continue;
+            }
+            let size = read(&path).size;
+            assert!(
+                size.0 <= LARGEST.0 && size.1 <= LARGEST.1,
+                "{name}: {size:?}"
+            );
+            let bytes = fs::metadata(&path).unwrap().len() as usize;
+            assert!(bytes <= MOST_BYTES, "{name} has {bytes} bytes");
+            sum += bytes;
+        }
+        assert!(sum <= MOST_OF_ALL, "{sum} bytes of pictures");
+    }
+}

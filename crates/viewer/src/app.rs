@@ -1,0 +1,106 @@
+//! The window: bar, panes, time, what is wrong.
+
+use crate::actions;
+use crate::documents::Documents;
+use crate::engine::Backend;
+use crate::panes::{self, Pane, Panes};
+use crate::prompt::Prompt;
+use crate::studio::Studio;
+use crate::{menu, status};
+use document::Recovery;
+use effects::Registry;
+use eframe::egui::{CentralPanel, Context, Panel, Ui, ViewportCommand};
+use egui_tiles::Tree;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The viewer as [`eframe`] runs it.
+pub struct App {
+    /// All but the panes.
+    pub studio: Studio,
+    panes: Tree<Pane>,
+}
+
+impl App {
+    /// A viewer of a preset, or of none, with these effects. `recovery` says where copies are kept that outlive a crash.
+    #[must_use]
+    pub fn new(
+        ctx: &Context,
+        registry: Registry,
+        preset: Option<&Path>,
+        backend: Backend,
+        recovery: Recovery,
+    ) -> Self {
+        let mut studio = Studio::new(Arc::new(registry), ctx, backend, recovery);
+        if let Some(preset) = preset {
+            studio.open(preset);
+        }
+        Self {
+            studio,
+            panes: panes::first_tree(),
+        }
+    }
+
+    /// Brings a pane to the front.
+    pub fn show_pane(&mut self, wanted: Pane) {
+        self.panes
+            .make_active(|_, tile| matches!(tile, egui_tiles::Tile::Pane(pane) if *pane == wanted));
+    }
+
+    /// Files that were dropped on the window.
+    fn take_dropped(&mut self, ctx: &Context) {
+        let dropped: Vec<PathBuf> = ctx.input(|input| {
+            let files = input.raw.dropped_files.iter();
+            files.map(|file| file.path().to_owned()).collect()
+        });
+        for path in dropped {
+            self.studio.take_file(&path);
+        }
+    }
+
+    /// Asks before the window closes with changes that are not saved.
+    fn ask_before_closing(&mut self, ctx: &Context) {
+        let is_asked = ctx.input(|input| input.viewport().close_requested());
+        let is_changed = self
+            .studio
+            .documents
+            .as_ref()
+            .is_some_and(Documents::is_changed);
+        if is_asked && is_changed && !self.studio.may_close {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.studio.prompt = Some(Prompt::Unsaved(None));
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        self.ask_before_closing(&ctx);
+        let passed_s = ctx.input(|input| input.stable_dt);
+        self.studio.before_frame(passed_s);
+        if self.studio.prompt.is_none() {
+            for action in actions::pressed(&ctx) {
+                self.studio.act(action);
+            }
+            if self.studio.focuses_search {
+                self.show_pane(Pane::Look);
+            }
+        }
+        self.take_dropped(&ctx);
+        Panel::top("menu").show(ui, |ui| menu::bar(ui, &mut self.studio));
+        Panel::bottom("status").show(ui, |ui| status::status(ui, &self.studio));
+        if status::has_problems(&self.studio) {
+            Panel::bottom("problems").show(ui, |ui| status::problems(ui, &mut self.studio));
+        }
+        Panel::bottom("time").show(ui, |ui| panes::timeline(ui, &mut self.studio));
+        CentralPanel::no_frame().show(ui, |ui| self.panes.ui(&mut Panes(&mut self.studio), ui));
+        if let Some(prompt) = self.studio.prompt.take() {
+            let next = prompt.show(ui, &mut self.studio);
+            if self.studio.prompt.is_none() {
+                self.studio.prompt = next;
+            }
+        }
+        self.studio.after_frame();
+    }
+}

@@ -1,0 +1,211 @@
+//! One look as a scene in motion: what an edit leaves alone is not made again.
+
+use super::painter::Painter;
+use super::{Drawn, Facts, Look, Problem, Times, Wish};
+use effects::Registry;
+use effects::preset::PresetErrors;
+use stage::{CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections, StageError};
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Instant, SystemTime};
+
+/// A look, and the scene that it made when it was last good.
+pub(super) struct Slot<'r> {
+    registry: &'r Registry,
+    /// The look that was last followed, good or not, and what was wrong with it.
+    look: Look,
+    problems: Vec<Problem>,
+    loaded: Option<Loaded>,
+    motion: Motion,
+    frames: FrameMaker,
+}
+
+/// A scene, and what it was loaded from.
+struct Loaded {
+    scene: Scene,
+    from: From,
+    facts: Arc<Facts>,
+}
+
+/// What hair, head and script of a scene hang on. Where it is the same, another look needs no file.
+#[derive(PartialEq)]
+struct From {
+    sections: Sections,
+    has_objects: bool,
+    texts: Vec<(PathBuf, Arc<str>)>,
+    files: Vec<(PathBuf, Option<(u64, SystemTime)>)>,
+}
+
+impl<'r> Slot<'r> {
+    pub fn new(registry: &'r Registry) -> Self {
+        Self {
+            registry,
+            look: Look::default(),
+            problems: Vec::new(),
+            loaded: None,
+            motion: Motion::new(),
+            frames: FrameMaker::new(),
+        }
+    }
+
+    /// What is known of the scene; nothing before the first good look.
+    pub fn facts(&self) -> Option<Arc<Facts>> {
+        self.loaded.as_ref().map(|loaded| loaded.facts.clone())
+    }
+
+    /// Takes on a look. One with mistakes changes nothing, and they are told.
+    pub fn follow(&mut self, look: &Look) -> Vec<Problem> {
+        if *look != self.look {
+            self.problems = match self.take_on(look) {
+                Ok(()) => Vec::new(),
+                Err(problems) => problems,
+            };
+            self.look = look.clone();
+        }
+        self.problems.clone()
+    }
+
+    fn take_on(&mut self, look: &Look) -> Result<(), Vec<Problem>> {
+        let mut preset =
+            Preset::parse(&look.name, &look.text, self.registry).map_err(|e| mistakes(&e))?;
+        let files = Files {
+            preset_folder: look.folder.clone(),
+            texts: look.texts.clone(),
+            ..Files::default()
+        };
+        let layers = preset
+            .layers
+            .iter()
+            .map(|layer| layer.name.clone())
+            .collect();
+        preset
+            .layers
+            .retain(|layer| look.layers.is_shown(&layer.name));
+        let from = From::of(&preset, &files, look);
+        let made = match self.loaded.take() {
+            Some(loaded) if loaded.from == from => stage::Look::new(&preset)
+                .and_then(|own| loaded.scene.with_look(own))
+                .map_err(|error| (error, Some(loaded))),
+            loaded => Scene::load(&preset, &files).map_err(|error| (error, loaded)),
+        };
+        let scene = match made {
+            Ok(scene) => scene,
+            Err((error, loaded)) => {
+                self.loaded = loaded;
+                return Err(self.explained(error, &preset, look, &files));
+            }
+        };
+        let section = &preset.sections.scene;
+        let facts = Arc::new(Facts {
+            size_px: section.size,
+            fps: section.fps,
+            samples: section.samples,
+            camera: preset.sections.camera.clone(),
+            strands: scene.strand_count(),
+            notes: scene.notes().to_vec(),
+            files: from.files.iter().map(|(path, _)| path.clone()).collect(),
+            layers,
+        });
+        self.loaded = Some(Loaded { scene, from, facts });
+        Ok(())
+    }
+
+    /// In the words of `inkstrand check`, which knows the places.
+    fn explained(
+        &self,
+        error: StageError,
+        preset: &Preset,
+        look: &Look,
+        files: &Files,
+    ) -> Vec<Problem> {
+        match preset.check_scene(&look.name, &look.text, files) {
+            Err(errors) => mistakes(&errors),
+            Ok(()) => vec![Problem::Failed(error.to_string())],
+        }
+    }
+
+    /// Draws the scene as it is wished for, seen by that camera.
+    pub fn draw(
+        &mut self,
+        wish: &Wish,
+        camera: &CameraSection,
+        size_px: [u32; 2],
+        samples: u32,
+        painter: &mut Painter,
+    ) -> Result<Drawn, Problem> {
+        let failed = |error: StageError| Problem::Failed(error.to_string());
+        let Some(loaded) = &mut self.loaded else {
+            return Err(Problem::Failed("there is nothing to draw yet".to_owned()));
+        };
+        loaded.scene.camera = camera.clone();
+        let scene = &loaded.scene;
+        let mut times = Times::default();
+        let started = Instant::now();
+        self.motion
+            .advance_by_hand(scene, wish.time_s, &wish.hand)
+            .map_err(failed)?;
+        times.simulate = started.elapsed().as_secs_f64() * 1e3;
+
+        let started = Instant::now();
+        let camera = scene.camera_of_size(size_px).map_err(failed)?;
+        let frame = self
+            .frames
+            .frame_seen_by(scene, &self.motion, camera)
+            .map_err(failed)?;
+        times.paths = started.elapsed().as_secs_f64() * 1e3;
+        let layers = frame.objects.iter().flat_map(|object| object.layers);
+        let instances: usize = layers.map(|layer| layer.program.instances() as usize).sum();
+        let links: usize = (frame.paths.runs.iter())
+            .map(|run| run.joints.len().saturating_sub(1))
+            .sum();
+        let painted = painter.paint(&frame, wish.backend, samples)?;
+        times.painted(&painted);
+        Ok(Drawn {
+            pixels: painted.picture.to_srgb8(),
+            size_px,
+            samples,
+            times,
+            segments: links * instances,
+            strands: loaded.facts.strands - self.frames.culled().min(loaded.facts.strands),
+            backend: painted.backend,
+            facts: loaded.facts.clone(),
+        })
+    }
+}
+
+impl From {
+    fn of(preset: &Preset, files: &Files, look: &Look) -> Self {
+        let stamp = |path: &PathBuf| {
+            let about = fs::metadata(path).ok()?;
+            Some((about.len(), about.modified().ok()?))
+        };
+        let named = preset.files(files);
+        let all = &preset.sections;
+        Self {
+            // What else is in a preset is the look's, which is made anew; a bake is held against all that moves hair.
+            sections: Sections {
+                hair: all.hair.clone(),
+                head: all.head.clone(),
+                motion: all.motion.clone(),
+                ..match all.hair.bake {
+                    Some(_) => all.clone(),
+                    None => Sections::default(),
+                }
+            },
+            has_objects: !preset.objects.is_empty(),
+            texts: (look.texts.iter())
+                .filter(|(path, _)| named.contains(path))
+                .map(|(path, text)| (path.clone(), text.clone()))
+                .collect(),
+            files: named
+                .into_iter()
+                .map(|path| (path.clone(), stamp(&path)))
+                .collect(),
+        }
+    }
+}
+
+fn mistakes(errors: &PresetErrors) -> Vec<Problem> {
+    errors.0.iter().cloned().map(Problem::Mistake).collect()
+}

@@ -1,0 +1,285 @@
+//! The program in a real window: Xvfb, a driver that draws in software, a mouse and a keyboard.
+//!
+//! Where there is no Xvfb it says SKIPPED, and fails where `CI=true`.
+
+#![cfg(target_os = "linux")]
+#![allow(clippy::print_stderr, reason = "what is skipped is said")]
+
+mod common;
+
+use common::{LOOK, Looks};
+use std::io::{BufRead as _, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use x11rb::connection::Connection as _;
+use x11rb::protocol::xproto::{
+    BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ConnectionExt as _, ImageFormat, InputFocus,
+    KEY_PRESS_EVENT, KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, Window,
+};
+use x11rb::protocol::xtest::ConnectionExt as _;
+use x11rb::rust_connection::RustConnection;
+
+const SIZE: [u16; 2] = [1280, 800];
+const PATIENCE: Duration = Duration::from_secs(90);
+
+/// X's names of keys: those of Latin 1 are their characters.
+const CONTROL: u32 = 0xffe3;
+
+/// A screen that nobody sees, and the viewer on it. Both end with it.
+struct Screen {
+    server: Child,
+    viewer: Child,
+    x: RustConnection,
+    root: Window,
+    display: String,
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        for process in [&mut self.viewer, &mut self.server] {
+            // It may have ended by itself.
+            let _ = process.kill();
+            let _ = process.wait();
+        }
+    }
+}
+
+impl Screen {
+    /// A screen with the viewer of a preset on it; nothing where there is no Xvfb.
+    fn open(looks: &Looks) -> Option<Self> {
+        let [width, height] = SIZE;
+        let server = Command::new("Xvfb")
+            .args([
+                "-displayfd",
+                "1",
+                "-screen",
+                "0",
+                &format!("{width}x{height}x24"),
+                "-nolisten",
+                "tcp",
+            ])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn();
+        let mut server = match server {
+            Ok(server) => server,
+            Err(error) if std::env::var_os("CI").is_none_or(|ci| ci != "true") => {
+                eprintln!("SKIPPED: there is no Xvfb ({error}); `cargo xtask setup` installs it");
+                return None;
+            }
+            Err(error) => panic!("Xvfb: {error}"),
+        };
+        let mut number = String::new();
+        let output = server.stdout.take().unwrap();
+        BufReader::new(output).read_line(&mut number).unwrap();
+        let display = format!(":{}", number.trim());
+        let (x, screen) = x11rb::connect(Some(&display)).unwrap();
+        let root = x.setup().roots[screen].root;
+        let viewer = Command::new(env!("CARGO_BIN_EXE_viewer"))
+            .arg(looks.path("look.ron"))
+            .env("DISPLAY", &display)
+            .env_remove("WAYLAND_DISPLAY")
+            .env("XDG_STATE_HOME", looks.path("state"))
+            .spawn()
+            .unwrap();
+        Some(Self {
+            server,
+            viewer,
+            x,
+            root,
+            display,
+        })
+    }
+
+    /// The viewer's window, once it is there; it gets the keyboard.
+    fn focus(&mut self) {
+        self.wait_for("the window", |screen| {
+            let windows = screen
+                .x
+                .query_tree(screen.root)
+                .unwrap()
+                .reply()
+                .unwrap()
+                .children;
+            let shown = windows.into_iter().find(|window| {
+                let size = screen.x.get_geometry(*window).unwrap().reply();
+                size.is_ok_and(|size| size.width > 400)
+            });
+            let Some(window) = shown else { return false };
+            // It may be shown only now.
+            let focused = screen
+                .x
+                .set_input_focus(InputFocus::PARENT, window, x11rb::CURRENT_TIME);
+            focused.unwrap().check().is_ok()
+        });
+    }
+
+    fn wait_for(&mut self, what: &str, is_so: impl Fn(&Self) -> bool) {
+        let started = Instant::now();
+        while !is_so(self) {
+            if let Some(ended) = self.viewer.try_wait().unwrap() {
+                panic!("the viewer ended while {what} was waited for: {ended}");
+            }
+            if started.elapsed() > PATIENCE {
+                let file = self.keep_picture();
+                panic!("waited in vain for {what}; {file} shows the screen");
+            }
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    }
+
+    /// An event of mouse or keyboard.
+    fn send(&self, kind: u8, detail: u8, [x, y]: [i16; 2]) {
+        let sent = self.x.xtest_fake_input(kind, detail, 0, self.root, x, y, 0);
+        sent.unwrap().check().unwrap();
+        std::thread::sleep(Duration::from_millis(40));
+    }
+
+    /// The key of a keysym.
+    fn key(&self, keysym: u32) -> u8 {
+        let setup = self.x.setup();
+        let (first, last) = (setup.min_keycode, setup.max_keycode);
+        let map = self
+            .x
+            .get_keyboard_mapping(first, last - first + 1)
+            .unwrap()
+            .reply()
+            .unwrap();
+        let per_key = usize::from(map.keysyms_per_keycode);
+        let found = map
+            .keysyms
+            .chunks(per_key)
+            .position(|keysyms| keysyms.contains(&keysym));
+        first + u8::try_from(found.unwrap()).unwrap()
+    }
+
+    fn hold(&self, keysym: u32, presses: impl FnOnce()) {
+        self.send(KEY_PRESS_EVENT, self.key(keysym), [0, 0]);
+        presses();
+        self.send(KEY_RELEASE_EVENT, self.key(keysym), [0, 0]);
+    }
+
+    fn drag(&self, from: [i16; 2], to: [i16; 2]) {
+        self.send(MOTION_NOTIFY_EVENT, 0, from);
+        self.send(BUTTON_PRESS_EVENT, 1, from);
+        for step in 1..=5_i16 {
+            let between = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * step / 5);
+            self.send(MOTION_NOTIFY_EVENT, 0, between);
+        }
+        self.send(BUTTON_RELEASE_EVENT, 1, to);
+    }
+
+    /// What is on the screen: rows from above, red, green, blue.
+    fn picture(&self) -> image::RgbImage {
+        let [width, height] = SIZE;
+        let all = u32::MAX;
+        let got = self
+            .x
+            .get_image(ImageFormat::Z_PIXMAP, self.root, 0, 0, width, height, all);
+        let data = got.unwrap().reply().unwrap().data;
+        let pixels = data
+            .chunks_exact(4)
+            .flat_map(|bgrx| [bgrx[2], bgrx[1], bgrx[0]])
+            .collect();
+        image::RgbImage::from_raw(width.into(), height.into(), pixels).unwrap()
+    }
+
+    /// Writes what is on the screen into the folder of the tests; the file's name.
+    fn keep_picture(&self) -> String {
+        let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("window.png");
+        self.picture().save(&file).unwrap();
+        file.display().to_string()
+    }
+
+    /// How many pixels of the left half, where the picture is, have about this colour.
+    fn count(&self, color: [u8; 3]) -> usize {
+        let picture = self.picture();
+        let half = picture.width() / 2;
+        let is_near =
+            |pixel: &image::Rgb<u8>| pixel.0.iter().zip(color).all(|(a, b)| a.abs_diff(b) <= 6);
+        picture
+            .enumerate_pixels()
+            .filter(|(x, _, pixel)| *x < half && is_near(pixel))
+            .count()
+    }
+}
+
+/// The skin's colours in the light and in the shadow, as the look has them.
+const LIT_SKIN: [u8; 3] = [0xF8, 0xDC, 0xC8];
+const DARK_SKIN: [u8; 3] = [0xE3, 0xB4, 0x9C];
+
+#[test]
+fn a_look_is_lit_and_saved_in_a_window() {
+    let looks = Looks::new();
+    let Some(mut screen) = Screen::open(&looks) else {
+        return;
+    };
+    screen.focus();
+    screen.wait_for("the head", |screen| screen.count(LIT_SKIN) > 3_000);
+    let dark = screen.count(DARK_SKIN);
+    // With L held, light is dragged to where it comes from behind. A window that is slow, drawn in software on a busy machine, may take
+    // press and release for one moment: then it is dragged there again.
+    screen.wait_for("shadow on the face", |screen| {
+        screen.hold(u32::from('l'), || screen.drag([400, 400], [60, 360]));
+        std::thread::sleep(Duration::from_secs(2));
+        screen.count(DARK_SKIN) > dark + 2_000
+    });
+    screen.hold(CONTROL, || screen.hold(u32::from('s'), || {}));
+    screen.wait_for("the saved preset", |_| looks.read("look.ron") != LOOK);
+    let saved = looks.read("look.ron");
+    let line = saved.lines().find(|line| line.contains("light:")).unwrap();
+    assert_eq!(
+        saved.replace(line, "    light: (yaw: 40, pitch: 45),"),
+        LOOK
+    );
+
+    screen.keep_picture();
+    screen.hold(CONTROL, || screen.hold(u32::from('q'), || {}));
+    let ended = screen.viewer.wait().unwrap();
+    assert!(ended.success(), "{ended}");
+}
+
+/// The program without what it needs: what it says, and that it fails.
+fn refused(arrange: impl FnOnce(&mut Command) -> &mut Command) -> String {
+    let mut viewer = Command::new(env!("CARGO_BIN_EXE_viewer"));
+    let ended = arrange(
+        viewer
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("WAYLAND_SOCKET"),
+    )
+    .output()
+    .unwrap();
+    assert_eq!(ended.status.code(), Some(1));
+    String::from_utf8(ended.stderr).unwrap()
+}
+
+#[test]
+fn without_a_screen_or_a_preset_it_says_so() {
+    let told = refused(|viewer| viewer.env_remove("DISPLAY"));
+    assert!(
+        told.contains("there is no screen") && told.lines().count() == 1,
+        "{told}"
+    );
+    let told = refused(|viewer| viewer.arg("no-such-look.ron"));
+    assert!(
+        told.contains("no-such-look.ron") && told.lines().count() == 1,
+        "{told}"
+    );
+}
+
+#[test]
+fn without_a_driver_it_names_one() {
+    let looks = Looks::new();
+    let Some(screen) = Screen::open(&looks) else {
+        return;
+    };
+    let told = refused(|viewer| {
+        viewer
+            .env("DISPLAY", &screen.display)
+            .env("VK_DRIVER_FILES", "/dev/null")
+    });
+    assert!(
+        told.contains("mesa-vulkan-drivers") && told.lines().count() == 1,
+        "{told}"
+    );
+}
