@@ -5,11 +5,11 @@ use super::text::text_line;
 use eframe::egui::{Checkbox, Response, Ui};
 
 /// Width of a field for six digits.
-const DIGITS: f32 = 48.0;
+const DIGITS: f32 = 64.0;
 /// Width of a colour's button.
 const BUTTON: f32 = 26.0;
 /// The least width that the word `none` has room in.
-const ROOM_FOR_NONE: f32 = 150.0;
+const ROOM_FOR_NONE: f32 = 160.0;
 
 /// A button with a colour's picker, and its digits beside it. Gives the digits that were chosen.
 pub(super) fn color(ui: &mut Ui, row: &Row, hex: &str) -> (Response, Option<String>) {

@@ -246,7 +246,7 @@ fn paint(ui: &Ui, axes: &Axes, curve: &[(f32, f32)]) {
         painter.vline(x, axes.rect.y_range(), grid);
     }
     let font = FontId::proportional(9.0);
-    let weak = visuals.weak_text_color();
+    let weak = visuals.text_color();
     let corner = axes.rect.left_top();
     let high = (axes.high as f32).to_string();
     painter.text(

@@ -21,7 +21,11 @@ pub struct Form<'a> {
     place: Place,
     elsewhere: Vec<&'a str>,
     needed: &'a [&'a str],
+    refusal: Option<Refusal<'a>>,
 }
+
+/// Why a parameter, by its name, can't have a text.
+type Refusal<'a> = Box<dyn Fn(&str, &str) -> Option<String> + 'a>;
 
 /// A parameter, and what the text says of it.
 struct Shown<'a> {
@@ -42,6 +46,7 @@ impl<'a> Form<'a> {
             place,
             elsewhere: Vec::new(),
             needed: &[],
+            refusal: None,
         }
     }
 
@@ -62,6 +67,16 @@ impl<'a> Form<'a> {
     #[must_use]
     pub fn needed(self, needed: &'a [&'a str]) -> Self {
         Self { needed, ..self }
+    }
+
+    /// Asks `refusal`, with a parameter's name and the text that it is to have, why it can't have that: what its schema
+    /// doesn't know, such as that names are unique.
+    #[must_use]
+    pub fn refusing(self, refusal: impl Fn(&str, &str) -> Option<String> + 'a) -> Self {
+        Self {
+            refusal: Some(Box::new(refusal)),
+            ..self
+        }
     }
 
     /// Whether a search finds one of its parameters.
@@ -129,7 +144,7 @@ impl<'a> Form<'a> {
                 let visuals = ui.visuals();
                 let color = match written {
                     Some(_) => visuals.strong_text_color(),
-                    None => visuals.weak_text_color(),
+                    None => visuals.text_color(),
                 };
                 cell_text(ui, param.name, cells.name, color)
                     .on_hover_ui(|ui| drop(ui.label(help::help(param))));
@@ -143,13 +158,33 @@ impl<'a> Form<'a> {
                 }
             });
             let below = variation_below(ui, &row, param, &value);
-            line.inner.or(below)
+            let asked = line.inner.or(below)?;
+            match self.why_not(param.name, &asked) {
+                Some(message) => {
+                    row.note(ui, message);
+                    None
+                }
+                None => Some(asked),
+            }
         });
         let place = self.place.field(param.name);
         match asked {
             Some(Asked::Text(text)) => edits.push(Edit::Set(place, text)),
             Some(Asked::Default) if written.is_some() => edits.push(Edit::Remove(place)),
             _ => {}
+        }
+    }
+
+    fn why_not(&self, name: &str, asked: &Asked) -> Option<String> {
+        match asked {
+            Asked::Default if self.needed.contains(&name) => {
+                Some("it can't be left out".to_owned())
+            }
+            Asked::Default => None,
+            Asked::Text(text) => self
+                .refusal
+                .as_ref()
+                .and_then(|refusal| refusal(name, text)),
         }
     }
 }
@@ -298,8 +333,9 @@ fn field_of(param: &Param) -> NumberField<'_> {
 /// A number that may vary: the number, or its curve in little, and a button that opens how it varies.
 fn varying(ui: &mut Ui, row: &Row, param: &Param, value: &Value, width: f32) -> Option<Value> {
     let variation = curve::variation_of(value)?;
-    let button = 18.0;
-    let room = width - button - ui.spacing().item_spacing.x;
+    let button = 20.0;
+    ui.spacing_mut().item_spacing.x = 4.0;
+    let room = width - button - 4.0;
     let mut is_open = is_variation_open(ui, row);
     let mut chosen = None;
     if curve::is_constant(&variation) {
@@ -315,6 +351,7 @@ fn varying(ui: &mut Ui, row: &Row, param: &Param, value: &Value, width: f32) -> 
     } else if curve::sketch(ui, row, &variation, room) {
         is_open = !is_open;
     }
+    ui.spacing_mut().button_padding.x = 4.0;
     let varies = matches!(value, Value::Varying(_));
     let tilde = RichText::new("~").strong();
     let toggle = Button::selectable(is_open || varies, tilde).min_size([button, 0.0].into());

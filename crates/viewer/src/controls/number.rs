@@ -7,10 +7,11 @@ use eframe::egui::emath::round_to_decimals;
 use eframe::egui::{DragValue, Id, Response, Slider, SliderClamping, Ui, vec2};
 use std::cell::RefCell;
 
-/// Width of a number's field.
-const FIELD: f32 = 78.0;
+/// Width of a number's field, and of one that has a word for its unit.
+const FIELD: f32 = 54.0;
+const FIELD_WITH_UNIT: f32 = 88.0;
 /// The least width of a slider that is of use.
-const LEAST_SLIDER: f32 = 28.0;
+const LEAST_SLIDER: f32 = 20.0;
 
 /// A number as its schema has it.
 #[derive(Clone, Copy)]
@@ -153,8 +154,18 @@ pub(super) fn number(
     width: f32,
 ) -> (Response, Option<f64>) {
     let reach = steady(ui, row.id.with("reach"), || field.reach(value));
-    let gap = ui.spacing().item_spacing.x;
-    let room = width - FIELD - gap;
+    let gap = 4.0;
+    ui.spacing_mut().item_spacing.x = gap;
+    let field_width = match short_unit(field.unit).chars().count() {
+        0..=3 => FIELD,
+        _ => FIELD_WITH_UNIT,
+    };
+    let [min, max] = field.range;
+    let room = if min < max {
+        width - field_width - gap
+    } else {
+        0.0
+    };
     let mut slid = value;
     let mut is_sliding = false;
     if room >= LEAST_SLIDER {
@@ -169,14 +180,13 @@ pub(super) fn number(
         let response = ui.add(slider).accessible_name(row.part("slider"));
         is_sliding = response.dragged();
         slid = if response.changed() {
-            let [min, max] = field.range;
             field.rounded(reach, slid).clamp(min, max)
         } else {
             value
         };
     }
     let speed = field.speed(reach, value);
-    let (response, typed) = drag_value(ui, row, "", field, value, speed, FIELD);
+    let (response, typed) = drag_value(ui, row, "", field, value, speed, field_width);
     hold_steady(
         ui,
         row.id.with("reach"),
@@ -235,13 +245,16 @@ pub(crate) fn drag_value(
         *typed.borrow_mut() = Some((text.to_owned(), number));
         number
     };
+    // A long number needs the room.
+    let is_short = (value as f32).to_string().len() <= 6;
+    let suffix = if is_short { unit } else { "" };
     let mut new = value;
     let drag_value = DragValue::new(&mut new)
         .speed(speed)
         .range(min..=max)
         .update_while_editing(false)
         .min_size(vec2(width, ui.spacing().interact_size.y))
-        .suffix(unit)
+        .suffix(suffix)
         .custom_formatter(|number, _| (number as f32).to_string())
         .custom_parser(parse);
     let response = ui.add(drag_value).accessible_name(name);

@@ -72,7 +72,7 @@ impl Cells {
     pub fn of(ui: &Ui) -> Self {
         let all = ui.available_width();
         let gap = ui.spacing().item_spacing.x;
-        let name = (0.36 * all).clamp(64.0, 190.0);
+        let name = (0.34 * all).clamp(64.0, 190.0);
         let control = (all - name - ICON - 2.0 * gap).max(40.0);
         Self { name, control }
     }

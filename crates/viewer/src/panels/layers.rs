@@ -108,7 +108,7 @@ fn rename(names: &mut BTreeSet<String>, old: &str, new: &str) {
 
 /// The buttons that switch a layer off and that show it alone.
 fn switches(ui: &mut Ui, name: &str, shown: &mut LayersShown) {
-    let weak = ui.visuals().weak_text_color();
+    let weak = ui.visuals().text_color();
     let strong = ui.visuals().strong_text_color();
     let is_hidden = shown.hidden.contains(name);
     let is_alone = shown.solo.contains(name);
@@ -268,7 +268,10 @@ impl<'a> Found<'a> {
             let cells = Cells::of(ui);
             let has_own = edit::get(self.item, &[Step::Field("name")]).is_some();
             let typed = ui.horizontal(|ui| {
-                let color = ui.visuals().weak_text_color();
+                let color = match has_own {
+                    true => ui.visuals().strong_text_color(),
+                    false => ui.visuals().text_color(),
+                };
                 cell_text(ui, "name", cells.name, color).on_hover_text(
                     "A name of its own, unique in the preset; the effect's id by default.",
                 );

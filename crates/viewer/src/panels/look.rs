@@ -65,7 +65,7 @@ pub fn section(ui: &mut Ui, text: &str, name: &str, search: &str, edits: &mut Ve
 
 /// What a part is about, at its beginning.
 pub(super) fn about(ui: &mut Ui, doc: &str) {
-    ui.label(RichText::new(doc).small().weak());
+    ui.label(RichText::new(doc).small());
 }
 
 fn schema(name: &str) -> Option<(&'static str, &'static [Param])> {

@@ -24,6 +24,8 @@ pub(super) struct Parts<'a> {
     pub fields: &'a [PlaceField],
     /// Fields that an item must have.
     pub needed: &'a [&'a str],
+    /// Why a field of an item, by its number and name, can't have a text.
+    pub refusal: &'a dyn Fn(usize, &str, &str) -> Option<String>,
     /// Whether the items' order is its user's to choose.
     pub is_movable: bool,
     /// Whether items may go.
@@ -69,6 +71,7 @@ impl Parts<'_> {
                 .about(self.part.doc)
                 .without(&names)
                 .needed(self.needed)
+                .refusing(move |field, text| (self.refusal)(index, field, text))
         };
         let finds = |index: usize| {
             form(index).matches(search) || places::matches(self.fields, &owners[index], search)

@@ -278,7 +278,7 @@ fn text_row(ui: &mut Ui, owner: &str, shown: &Shown, edits: &mut Vec<Edit>) {
         let color = match (&shown.points, shown.text) {
             (Err(_), _) => wrong,
             (_, Some(_)) => visuals.strong_text_color(),
-            _ => visuals.weak_text_color(),
+            _ => visuals.text_color(),
         };
         ui.horizontal(|ui| {
             cell_text(ui, field.name, cells.name, color).on_hover_text(field.doc);
@@ -466,13 +466,13 @@ fn paint_head(ui: &Ui, map: &Map) {
     for latitude in [45.0, 0.0, -45.0] {
         painter.hline(map.rect.x_range(), map.at(0.0, latitude).y, grid);
     }
-    let weak = visuals.weak_text_color();
+    let weak = visuals.text_color();
     let names = [(-90.0, "right ear"), (0.0, "face"), (90.0, "left ear")];
     for (longitude, name) in names {
-        let at = map.at(longitude, -90.0);
+        let at = map.at(longitude, -90.0) + vec2(3.0, 0.0);
         painter.text(
             at,
-            Align2::CENTER_BOTTOM,
+            Align2::LEFT_BOTTOM,
             name,
             FontId::proportional(9.0),
             weak,

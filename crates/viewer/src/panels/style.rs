@@ -8,6 +8,7 @@ use super::places::{self, PlaceField, Written};
 use crate::controls::{Form, Search};
 use crate::edit::{Edit, Place};
 use effects::Param;
+use effects::preset::suggestion;
 use eframe::egui::Ui;
 use stage::{FilePart, STYLE_PARTS};
 
@@ -84,6 +85,14 @@ fn top_fields(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: 
 fn zone_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: &mut Vec<Edit>) {
     let items = items_of(text, part.name);
     let names: Vec<String> = items.iter().map(|item| name_of(item)).collect();
+    let is_taken = |index: usize, field: &str, text: &str| {
+        let mut others = names
+            .iter()
+            .enumerate()
+            .filter(|(other, _)| *other != index);
+        let is_it = field == "name" && others.any(|(_, name)| quoted(name) == text);
+        is_it.then(|| format!("there is already a zone {text:.60}"))
+    };
     let parts = Parts {
         part,
         noun: "zone",
@@ -95,6 +104,7 @@ fn zone_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: &
             .collect(),
         fields: &places_of(part),
         needed: &["name"],
+        refusal: &is_taken,
         is_movable: true,
         // A style must have some hair.
         may_remove: items.len() > 1 || !items_of(text, "strands").is_empty(),
@@ -170,12 +180,19 @@ fn edit_list(
         format!("{}: {zone} {clump}", index + 1)
     };
     let zones_there = items_of(text, zones.name);
+    let is_no_zone = |_: usize, field: &str, text: &str| {
+        let names: Vec<String> = zones_there.iter().map(|zone| name_of(zone)).collect();
+        let is_known = field != "zone" || names.iter().any(|name| quoted(name) == text);
+        let hint = || suggestion(text.trim_matches('"'), names.iter().map(String::as_str));
+        (!is_known).then(|| format!("there is no zone {text:.60}{}", hint()))
+    };
     let parts = Parts {
         part,
         noun: "edit",
         titles: items.iter().enumerate().map(title).collect(),
         fields: &[],
         needed: &["zone"],
+        refusal: &is_no_zone,
         is_movable: true,
         may_remove: true,
         may_add: !zones_there.is_empty(),
@@ -234,6 +251,7 @@ fn strand_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits:
         titles: (1..=items.len()).map(|number| number.to_string()).collect(),
         fields: &fields,
         needed: &[],
+        refusal: &|_, _, _| None,
         is_movable: true,
         may_remove: items.len() > 1 || !items_of(text, "zones").is_empty(),
         may_add: true,

@@ -1,6 +1,6 @@
 //! Hair styles and motion scripts: lists of parts, and places on the head.
 
-use crate::pane::{Kind, Pane, click, names, node, open_all, type_into};
+use crate::pane::{Kind, Pane, click, names, node, open_all, shows, type_into};
 use egui_kittest::Harness;
 use std::path::Path;
 
@@ -103,6 +103,22 @@ fn edits_follow_the_name_of_their_zone_and_have_its_clumps() {
     says(&harness, "clump: 1,");
     click(&mut harness, "add edit");
     says(&harness, ", (zone: \"bangs\", clump: 0)]");
+}
+
+#[test]
+fn names_of_zones_are_unique_and_those_of_edits_are_there() {
+    let mut harness = shown(Kind::Style, STYLE);
+    type_into(&mut harness, "zone fringe name", "tail");
+    assert!(shows(&harness, "there is already a zone \"tail\""));
+    type_into(&mut harness, "edit 2: tail 0 zone", "tial");
+    assert!(shows(
+        &harness,
+        "there is no zone \"tial\", did you mean `tail`?"
+    ));
+    node(&harness, "zone fringe name").set_text_value_accesskit("");
+    harness.run();
+    assert!(shows(&harness, "it can't be left out"));
+    assert_eq!(harness.state().text, STYLE);
 }
 
 #[test]

@@ -99,7 +99,7 @@ const LOOK: &str = r#"(
 )"#;
 
 /// Mistakes that need two parameters to be made: each by itself is right.
-const BETWEEN: [&str; 8] = [
+const BETWEEN: [&str; 7] = [
     "it is a frame's",
     "solver:",
     "leave it out",
@@ -107,7 +107,6 @@ const BETWEEN: [&str; 8] = [
     "a zone needs `tips`",
     "has clumps 0 to",
     "has no mirrored half",
-    "there is no zone",
 ];
 
 fn is_between(errors: &effects::preset::PresetErrors) -> bool {

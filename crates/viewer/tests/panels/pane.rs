@@ -51,7 +51,7 @@ impl Pane {
             .build_ui_state(Self::frame, self)
     }
 
-    fn frame(ui: &mut eframe::egui::Ui, pane: &mut Self) {
+    pub fn frame(ui: &mut eframe::egui::Ui, pane: &mut Self) {
         let mut edits = Vec::new();
         let (text, search) = (pane.text.clone(), pane.search.clone());
         match pane.kind {
