@@ -21,7 +21,7 @@ const TABLE: &[Row] = &[
     Row(3, "reference", Only(&["render"]), &[]),
     Row(3, "stage", AllBelow, &[]),
     Row(4, "inkstrand", AllBelow, &[]),
-    Row(4, "viewer", AllBelow, &[]),
+    Row(5, "viewer", AllBelow, &[]),
     Row(4, "bench", AllBelow, &[]),
     // A third party's effects, under `examples/`: its code has the boundary for effects alone, the
     // program that shows it is behind a feature, with all of inkstrand.
