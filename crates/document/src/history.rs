@@ -35,6 +35,11 @@ impl History {
         }
     }
 
+    /// The next edit is a step of its own.
+    pub fn end_gesture(&mut self) {
+        self.gesture = None;
+    }
+
     pub fn undo(&mut self, now: &Arc<str>) -> Option<Arc<str>> {
         self.gesture = None;
         let text = self.undo.pop_back()?;

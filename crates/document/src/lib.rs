@@ -169,9 +169,14 @@ impl Document {
         self.version
     }
 
-    /// Whether the text is another one than was last read or saved.
+    /// Whether the text is another one than was last read or saved, or its file is no longer there.
     #[must_use]
     pub fn is_changed(&self) -> bool {
+        self.conflict == Some(Conflict::Deleted) || self.was_edited()
+    }
+
+    /// Whether the text is another one than was last read or saved.
+    fn was_edited(&self) -> bool {
         let is_same = |base: &Arc<str>| Arc::ptr_eq(base, &self.text) || *base == self.text;
         !self.base.as_ref().is_some_and(is_same)
     }
@@ -245,7 +250,7 @@ impl Document {
             let had_conflict = self.conflict.take().is_some();
             return (had_conflict || was_lost).then_some(DiskChange::Back);
         }
-        if !self.is_changed() {
+        if !self.was_edited() {
             self.conflict = None;
             self.take_over(text, marked);
             return Some(DiskChange::Reloaded);
@@ -378,6 +383,7 @@ impl Document {
         self.base = Some(self.text.clone());
         self.conflict = None;
         self.copy = None;
+        self.history.end_gesture();
     }
 
     /// Keeps a recovery copy of unsaved changes, where the text is another one than that of the last call, and removes it
@@ -453,7 +459,7 @@ impl Document {
 
 impl Drop for Document {
     fn drop(&mut self) {
-        if let Some(copy) = self.copy.take() {
+        if let Some(copy) = self.copy.take().filter(|_| self.is_changed()) {
             copy.leave();
         }
     }

@@ -256,17 +256,20 @@ impl Entry {
     }
 }
 
-/// The actions whose keys were pressed. Keys without Ctrl are a text's where one is written.
+/// The actions whose keys were pressed. Keys without Ctrl are a text's where one is written, and Space presses a button that has the keyboard.
 #[must_use]
-pub fn pressed(ctx: &Context) -> Vec<Action> {
-    let writes = ctx.egui_wants_keyboard_input();
+pub fn pressed(ctx: &Context, is_picture_focused: bool) -> Vec<Action> {
+    let writes = ctx.text_edit_focused();
+    let is_on_button = ctx.egui_wants_keyboard_input() && !is_picture_focused;
     ctx.input_mut(|input| {
         // Those with more modifiers first: Ctrl+Shift+S is no Ctrl+S.
         let mut entries: Vec<&Entry> = ALL.iter().collect();
         entries.sort_by_key(|entry| !entry.key.is_some_and(|(modifiers, _)| modifiers.shift));
         let is_pressed = |entry: &&&Entry| {
             entry.key.is_some_and(|(modifiers, key)| {
-                let free = modifiers.command || key == Key::F1 || !writes;
+                let free = modifiers.command
+                    || key == Key::F1
+                    || !(writes || key == Key::Space && is_on_button);
                 free && input.consume_shortcut(&KeyboardShortcut::new(modifiers, key))
             })
         };

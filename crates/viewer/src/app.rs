@@ -53,6 +53,10 @@ impl App {
             let files = input.raw.dropped_files.iter();
             files.map(|file| file.path().to_owned()).collect()
         });
+        if !dropped.is_empty() && self.studio.prompt.is_some() {
+            self.studio.tell("close the window that is open first");
+            return;
+        }
         for path in dropped {
             self.studio.take_file(&path);
         }
@@ -61,6 +65,12 @@ impl App {
     /// Asks before the window closes with changes that are not saved.
     fn ask_before_closing(&mut self, ctx: &Context) {
         let is_asked = ctx.input(|input| input.viewport().close_requested());
+        // What is typed and not taken yet is a change, too.
+        if is_asked && !self.studio.may_close && self.studio.leave_field() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            ctx.send_viewport_cmd(ViewportCommand::Close);
+            return;
+        }
         let is_changed = self
             .studio
             .documents
@@ -77,10 +87,9 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
         self.ask_before_closing(&ctx);
-        let passed_s = ctx.input(|input| input.stable_dt);
-        self.studio.before_frame(passed_s);
+        self.studio.before_frame();
         if self.studio.prompt.is_none() {
-            for action in actions::pressed(&ctx) {
+            for action in actions::pressed(&ctx, self.studio.is_picture_focused) {
                 self.studio.act(action);
             }
             if self.studio.focuses_search {

@@ -1,7 +1,7 @@
 //! The texts that are edited: the preset, and the style and script that it names.
 
 use crate::edit::{Edit, Place};
-use document::{DiskChange, Document, OpenError, Recovery, SaveError};
+use document::{Conflict, DiskChange, Document, OpenError, Recovery, SaveError};
 use effects::preset::edit;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -33,13 +33,24 @@ impl Which {
     }
 }
 
+/// The most steps of undo that are kept, as a text keeps them.
+const MOST_STEPS: usize = 3000;
+
+/// A step of undo.
+#[derive(Clone, Copy, PartialEq)]
+struct Step {
+    which: Which,
+    gesture: Option<u64>,
+}
+
 /// The texts that are open.
 pub struct Documents {
     open: BTreeMap<Which, Document>,
     recovery: Recovery,
     wake: Arc<dyn Fn() + Send + Sync>,
-    /// Which text was changed last.
-    last_changed: Which,
+    /// The texts of the steps that can be taken back, the last one last, and of those that were.
+    undo: Vec<Step>,
+    redo: Vec<Which>,
     /// Why the style or script that the preset names is not open.
     pub troubles: BTreeMap<Which, String>,
 }
@@ -59,7 +70,8 @@ impl Documents {
             open: BTreeMap::new(),
             recovery,
             wake,
-            last_changed: Which::Preset,
+            undo: Vec::new(),
+            redo: Vec::new(),
             troubles: BTreeMap::new(),
         };
         let preset = documents.read(preset)?;
@@ -136,15 +148,15 @@ impl Documents {
         edits: &[Edit],
         gesture: Option<u64>,
     ) -> Result<(), String> {
-        let Some(document) = self.open.get_mut(&which) else {
-            return Ok(());
-        };
         for edit in edits {
+            let Some(document) = self.open.get_mut(&which) else {
+                return Ok(());
+            };
             let text = edit
                 .apply(document.text())
                 .map_err(|error| error.to_string())?;
             document.edit(text, gesture);
-            self.last_changed = which;
+            self.note(which, gesture);
         }
         if which == Which::Preset {
             self.follow_names();
@@ -156,31 +168,50 @@ impl Documents {
     pub fn write(&mut self, which: Which, text: String, gesture: Option<u64>) {
         if let Some(document) = self.open.get_mut(&which) {
             document.edit(text, gesture);
-            self.last_changed = which;
+            self.note(which, gesture);
         }
         if which == Which::Preset {
             self.follow_names();
         }
     }
 
-    /// Takes the last change back, or makes it again: of the text that was changed last, then of the others. Whether there was one.
-    pub fn undo(&mut self, again: bool) -> bool {
-        let others = Which::ALL
-            .into_iter()
-            .filter(|which| *which != self.last_changed);
-        let order: Vec<Which> = [self.last_changed].into_iter().chain(others).collect();
-        let done = order.into_iter().find(|which| {
-            let document = self.open.get_mut(which);
-            document.is_some_and(|document| {
-                if again {
-                    document.redo()
-                } else {
-                    document.undo()
-                }
-            })
-        });
-        self.last_changed = done.unwrap_or(self.last_changed);
+    /// Notes a step of undo, where it is another one than the last.
+    fn note(&mut self, which: Which, gesture: Option<u64>) {
+        let step = Step { which, gesture };
+        if gesture.is_none() || self.undo.last() != Some(&step) {
+            self.undo.push(step);
+        }
+        if self.undo.len() > MOST_STEPS {
+            self.undo.remove(0);
+        }
+        self.redo.clear();
+    }
+
+    /// Takes the last change of any of the texts back. Whether there was one.
+    pub fn undo(&mut self) -> bool {
+        while let Some(Step { which, .. }) = self.undo.pop() {
+            if self.open.get_mut(&which).is_some_and(Document::undo) {
+                self.redo.push(which);
+                return true;
+            }
+        }
+        // What was taken from the disk.
+        let mut texts = self.open.iter_mut();
+        let done = texts.find_map(|(which, document)| document.undo().then_some(*which));
+        self.redo.extend(done);
         done.is_some()
+    }
+
+    /// Makes the change again that was taken back last. Whether there was one.
+    pub fn redo(&mut self) -> bool {
+        let Some(which) = self.redo.pop() else {
+            return false;
+        };
+        self.undo.push(Step {
+            which,
+            gesture: None,
+        });
+        self.open.get_mut(&which).is_some_and(Document::redo)
     }
 
     /// Opens the style and script that the preset names now. One with changes that are not saved stays open until they are.
@@ -237,21 +268,34 @@ impl Documents {
                 _ => continue,
             });
         }
-        if reloaded || !self.troubles.is_empty() {
+        if reloaded {
             self.follow_names();
         }
         told
     }
 
-    /// Writes all that is not saved. What could be written is; the errors of the others.
+    /// Writes all that is not saved, also what is no more on the disk. What could be written is; the errors of the others.
     pub fn save(&mut self) -> Vec<SaveError> {
         let changed = self
             .open
             .values_mut()
             .filter(|document| document.is_changed());
-        changed
-            .filter_map(|document| document.save().err())
-            .collect()
+        let saved = changed.map(|document| {
+            if document.conflict() == Some(&Conflict::Deleted) {
+                document.keep_mine();
+            }
+            document.save()
+        });
+        let errors = saved.filter_map(Result::err).collect();
+        self.follow_names();
+        errors
+    }
+
+    /// Looks again for the style and script that could not be opened.
+    pub fn look_again(&mut self) {
+        if !self.troubles.is_empty() {
+            self.follow_names();
+        }
     }
 
     /// Writes the preset under another name, which is its own from then on. Its style and script are those that it named before: their names
@@ -261,7 +305,8 @@ impl Documents {
     ///
     /// When the name is in another folder, or there is such a file, or it cannot be written.
     pub fn save_preset_as(&mut self, path: &Path) -> Result<(), String> {
-        if path.parent() != self.preset().path().parent() {
+        let whole = |path: &Path| std::fs::canonicalize(path.parent().unwrap_or(path)).ok();
+        if whole(path) != whole(self.preset().path()) {
             return Err(format!(
                 "the files that a preset names are relative to it: save it in {}",
                 self.folder().display()
@@ -283,27 +328,26 @@ impl Documents {
         self.follow_names();
     }
 
-    /// The names of texts of which a copy was found that a crash has left.
+    /// Why copies that would outlive a crash cannot be kept.
     #[must_use]
-    pub fn recovered(&self) -> Vec<String> {
-        let texts = self
-            .open
-            .values()
-            .filter(|document| document.recovered().is_some());
-        texts
-            .map(|document| document.path().display().to_string())
-            .collect()
+    pub fn recovery_error(&self) -> Option<&str> {
+        self.open.values().find_map(Document::recovery_error)
     }
 
-    /// Takes the copies on; undo takes them back.
-    pub fn accept_recovered(&mut self) {
-        self.open.values_mut().for_each(Document::accept_recovered);
+    /// Takes on the copy of a text that a crash has left, as a step of undo.
+    pub fn accept_recovered(&mut self, which: Which) {
+        if let Some(document) = self.open.get_mut(&which) {
+            document.accept_recovered();
+            self.note(which, None);
+        }
         self.follow_names();
     }
 
-    /// Throws the copies away.
-    pub fn discard_recovered(&mut self) {
-        self.open.values_mut().for_each(Document::discard_recovered);
+    /// Throws the copy of a text away.
+    pub fn discard_recovered(&mut self, which: Which) {
+        if let Some(document) = self.open.get_mut(&which) {
+            document.discard_recovered();
+        }
     }
 
     /// Throws all changes away, with the copies that would outlive a crash, and closes the texts.

@@ -2,6 +2,7 @@
 
 use crate::engine::Backend;
 use effects::Registry;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -83,6 +84,12 @@ impl Settings {
     }
 }
 
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.cancel();
+    }
+}
+
 /// An export under way, or done.
 pub struct Running {
     /// Frames that are done, and all there are.
@@ -107,12 +114,16 @@ impl Running {
         let (done, is_cancelled) = (running.done.clone(), running.is_cancelled.clone());
         let result = running.result.clone();
         std::thread::spawn(move || {
-            let found = inkstrand::render_with(&arguments, &registry, &mut |progress| {
-                done[0].store(progress.done, Ordering::Relaxed);
-                done[1].store(progress.all, Ordering::Relaxed);
-                wake();
-                !is_cancelled.load(Ordering::Relaxed)
-            });
+            let drawn = catch_unwind(AssertUnwindSafe(|| {
+                inkstrand::render_with(&arguments, &registry, &mut |progress| {
+                    done[0].store(progress.done, Ordering::Relaxed);
+                    done[1].store(progress.all, Ordering::Relaxed);
+                    wake();
+                    !is_cancelled.load(Ordering::Relaxed)
+                })
+            }));
+            // An effect of somebody's may have a bug, which is told where the window was started.
+            let found = drawn.unwrap_or_else(|_| Err("drawing failed by a bug".to_owned()));
             *result.lock().unwrap_or_else(PoisonError::into_inner) = Some(found);
             wake();
         });

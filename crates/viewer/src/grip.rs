@@ -26,7 +26,7 @@ pub struct Grip {
     /// Where wind blows to, seen from above: towards the character's left, and forwards; m/s.
     pub wind: Vec2,
     /// The scene's time up to which the hand has said what it does.
-    until_s: Option<f32>,
+    until_s: Option<f64>,
     hand: Hand,
 }
 
@@ -61,8 +61,10 @@ impl Grip {
 
     /// Says what it does up to `time_s`, in frames of `step_s` seconds. A time before what was said begins anew.
     pub fn advance_to(&mut self, time_s: f32, step_s: f32) {
+        let time = f64::from(time_s);
+        let step = f64::from(step_s.max(1e-4));
         let until = match self.until_s {
-            Some(until) if time_s >= until => until,
+            Some(until) if time >= until => until,
             _ => {
                 if !self.is_at_work() && self.hand.is_idle() {
                     return;
@@ -75,11 +77,11 @@ impl Grip {
             }
         };
         // After a jump forward, the last second alone is worth its steps.
-        let mut time = until.max(time_s - 1.0);
-        while time + 0.5 * step_s < time_s {
-            time += step_s;
-            self.swing(step_s);
-            self.hold(time.min(time_s));
+        let mut at = until.max(time - 1.0);
+        while at + 0.5 * step < time {
+            at = (at + step).min(time);
+            self.swing(step as f32);
+            self.hold(at as f32);
         }
     }
 
@@ -92,7 +94,7 @@ impl Grip {
         let turn = Vec3::new(self.turn.x, self.turn.y, 0.0);
         let wind = Vec3::new(self.wind.x, 0.0, self.wind.y);
         self.hand.hold(time_s, turn, Vec3::ZERO, wind);
-        self.until_s = Some(time_s);
+        self.until_s = Some(f64::from(time_s));
     }
 
     /// A spring without overshoot, by its exact solution: any step is stable.

@@ -12,6 +12,13 @@ pub struct LayersShown {
 }
 
 impl LayersShown {
+    /// Forgets the layers that a preset with these no more has.
+    pub fn forget_others(&mut self, names: &BTreeSet<&str>) {
+        for known in [&mut self.hidden, &mut self.solo] {
+            known.retain(|name| names.contains(name.as_str()));
+        }
+    }
+
     /// Whether the layer of that name is drawn.
     #[must_use]
     pub fn is_shown(&self, layer: &str) -> bool {

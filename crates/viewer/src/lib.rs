@@ -37,6 +37,7 @@ pub mod status;
 pub mod studio;
 pub mod transport;
 pub mod view;
+pub mod watched_files;
 
 use app::App;
 use clap::Parser as _;

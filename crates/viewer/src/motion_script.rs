@@ -5,6 +5,8 @@ use effects::preset::edit;
 
 /// Longer than any sequence: a move or wind without an end.
 const FOREVER_S: f32 = 1e5;
+/// The latest end of a time line, seconds: hair is simulated from the beginning to wherever it is looked at.
+const LATEST_END_S: f32 = 600.0;
 
 /// Something that a script does for a while.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +75,7 @@ impl MotionTrack {
     #[must_use]
     pub fn end_s(&self, settling_s: f32) -> f32 {
         if self.period_s > 0.0 {
-            return self.period_s;
+            return self.period_s.min(LATEST_END_S);
         }
         let ends = self
             .spans
@@ -83,7 +85,7 @@ impl MotionTrack {
                 false => span.start_s + 1.0,
             });
         match ends.reduce(f32::max) {
-            Some(end) => end + settling_s,
+            Some(end) => (end + settling_s).min(LATEST_END_S),
             None => 0.0,
         }
     }
@@ -119,5 +121,7 @@ mod tests {
         assert_eq!(track.end_s(2.0), 6.0);
         assert_eq!(MotionTrack::read("(version: 1, period: 3)").end_s(2.0), 3.0);
         assert_eq!(MotionTrack::read("(version: 1").end_s(2.0), 0.0);
+        let far = MotionTrack::read("(version: 1, moves: [(start: 600000)])");
+        assert_eq!(far.end_s(2.0), LATEST_END_S);
     }
 }

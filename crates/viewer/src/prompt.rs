@@ -8,6 +8,7 @@ use crate::path_field::PathField;
 use crate::studio::Studio;
 use eframe::egui::{self, Id, Key, Modal, ProgressBar, RichText, Ui};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 /// What is asked.
 pub enum Prompt {
@@ -80,7 +81,7 @@ impl Prompt {
 
     /// Asks what is drawn into files.
     #[must_use]
-    pub fn export(documents: &Documents) -> Self {
+    pub fn export(documents: &Documents, backend: Backend) -> Self {
         let path = documents.preset().path().with_extension("png");
         Self::Export(Box::new(Export {
             settings: Settings {
@@ -88,7 +89,7 @@ impl Prompt {
                 frames: None,
                 size_px: None,
                 samples: None,
-                backend: Backend::Auto,
+                backend,
                 is_transparent: false,
             },
             is_sequence: false,
@@ -213,25 +214,63 @@ fn ask_path(
 
 fn ask_recover(ui: &mut Ui, studio: &mut Studio) -> Answer {
     ui.heading("Changes were not saved");
-    ui.label("The viewer ended before these texts were saved, and kept a copy:");
+    ui.label("The viewer ended before these texts were saved, and kept copies:");
     let Some(documents) = &mut studio.documents else {
         return Answer::Closes;
     };
-    for name in documents.recovered() {
-        ui.label(RichText::new(name).strong());
+    let mut taken = None;
+    let mut thrown = None;
+    for (which, document) in documents.all() {
+        let Some(copy) = document.recovered() else {
+            continue;
+        };
+        ui.separator();
+        ui.strong(document.path().display().to_string());
+        ui.label(match copy.is_older_than_file {
+            true => format!(
+                "a copy of {}: the file was written after that",
+                ago(copy.when)
+            ),
+            false => format!("a copy of {}", ago(copy.when)),
+        });
+        ui.horizontal(|ui| {
+            if ui.button("Take the copy").clicked() {
+                taken = Some(which);
+            }
+            if ui.button("Throw it away").clicked() {
+                thrown = Some(which);
+            }
+        });
     }
-    ui.horizontal(|ui| {
-        if ui.button("Take the copy").clicked() {
-            documents.accept_recovered();
-        }
-        if ui.button("Throw it away").clicked() {
-            documents.discard_recovered();
-        }
-    });
-    // There may be older ones.
-    match documents.recovered().is_empty() {
+    ui.separator();
+    let is_later = ui
+        .button("Later")
+        .on_hover_text("The copies stay, and are offered when the preset is opened again")
+        .clicked();
+    if let Some(which) = taken {
+        documents.accept_recovered(which);
+    }
+    if let Some(which) = thrown {
+        documents.discard_recovered(which);
+    }
+    // Older copies of what was taken are no more wanted now.
+    let left = documents
+        .all()
+        .any(|(which, document)| taken != Some(which) && document.recovered().is_some());
+    match is_later || !left {
         true => Answer::Closes,
         false => Answer::Stays,
+    }
+}
+
+/// How long ago that was, in words.
+fn ago(when: SystemTime) -> String {
+    let seconds = when.elapsed().map_or(0, |passed| passed.as_secs());
+    match seconds {
+        0..120 => "a minute ago".to_owned(),
+        120..7200 => format!("{} minutes ago", seconds / 60),
+        7200..172_800 => format!("{} hours ago", seconds / 3600),
+        _ => format!("{} days ago", seconds / 86_400),
     }
 }
 
@@ -243,6 +282,7 @@ fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answe
         }
     }
     let mut goes_on = false;
+    let mut is_thrown = false;
     let mut answer = Answer::Becomes(Prompt::Unsaved(next.clone()));
     ui.horizontal(|ui| {
         if ui.button("Save").clicked() {
@@ -250,9 +290,7 @@ fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answe
             goes_on = !studio.documents.as_ref().is_some_and(Documents::is_changed);
         }
         if ui.button("Throw away").clicked() {
-            if let Some(documents) = studio.documents.take() {
-                documents.close();
-            }
+            is_thrown = true;
             goes_on = true;
         }
         if ui.button("Cancel").clicked() {
@@ -263,8 +301,15 @@ fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answe
         return answer;
     }
     match next {
-        Some(path) => open_or_ask(studio, &path),
+        // Only when the other is open nothing is left of this one.
+        Some(path) => match studio.open(&path) {
+            true => studio.prompt.take().map_or(Answer::Closes, Answer::Becomes),
+            false => Answer::Closes,
+        },
         None => {
+            if let Some(documents) = studio.documents.take().filter(|_| is_thrown) {
+                documents.close();
+            }
             studio.may_close = true;
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
             Answer::Closes
@@ -336,10 +381,18 @@ impl Export {
     fn ask(&mut self, ui: &mut Ui, studio: &mut Studio) -> Answer {
         ui.heading("Draw into files");
         let Some(state) = studio.export_state() else {
-            return Answer::Closes;
+            ui.label("No layer is shown, so there is nothing to draw.");
+            return match ui.button("Close").clicked() {
+                true => Answer::Closes,
+                false => Answer::Stays,
+            };
         };
         let is_busy = self.is_busy();
         ui.add_enabled_ui(!is_busy, |ui| self.settings(ui, studio));
+        if !self.is_sequence && Path::new(&self.settings.output).exists() && self.running.is_none()
+        {
+            ui.weak("There is such a file: it will be written over.");
+        }
         let line = self.settings.command_line(&state);
         ui.label("The same from a shell:");
         ui.horizontal_wrapped(|ui| {
@@ -348,6 +401,9 @@ impl Export {
                 ui.ctx().copy_text(line);
             }
         });
+        if !studio.grip.hand().is_idle() {
+            ui.weak("The hand on the head and the dial's wind are not in it: what files have moves the hair.");
+        }
         if let Some(running) = &self.running {
             let [done, all] = running.progress();
             match running.result() {

@@ -22,12 +22,13 @@ pub fn has_problems(studio: &Studio) -> bool {
 
 /// Shows what is wrong, each with its line.
 pub fn problems(ui: &mut Ui, studio: &mut Studio) {
-    conflicts(ui, studio);
     let color = ui.visuals().error_fg_color;
+    let share = 0.3 * ui.ctx().content_rect().height();
     ScrollArea::vertical()
-        .max_height(140.0)
+        .max_height(share)
         .id_salt("problems")
         .show(ui, |ui| {
+            conflicts(ui, studio);
             for problem in studio.problems.iter().take(MOST_SHOWN) {
                 let text = RichText::new(problem.to_string()).color(color);
                 ui.label(match problem {
@@ -66,7 +67,8 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
             if ui.button("Keep mine").clicked() {
                 chosen = Some((which, true));
             }
-            if ui.button("Take the disk's").clicked() {
+            let is_there = on_disk(conflict).is_some();
+            if is_there && ui.button("Take the disk's").clicked() {
                 chosen = Some((which, false));
             }
         });
@@ -112,12 +114,8 @@ pub fn status(ui: &mut Ui, studio: &Studio) {
             for note in &shown.drawn.facts.notes {
                 ui.weak(note);
             }
-        } else if studio
-            .documents
-            .as_ref()
-            .is_some_and(|d: &Documents| !d.preset().text().is_empty())
-        {
-            ui.spinner();
+        } else if studio.documents.is_some() && studio.problems.is_empty() {
+            ui.weak("drawing ...");
         }
     });
 }

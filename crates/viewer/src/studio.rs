@@ -12,12 +12,14 @@ use crate::prompt::Prompt;
 use crate::reference::Reference;
 use crate::transport::{SETTLING_S, Transport};
 use crate::view::View;
+use crate::watched_files::WatchedFiles;
 use document::Recovery;
 use effects::Registry;
 use effects::preset::edit::written;
 use effects::{ParamKind, Value};
-use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use eframe::egui::{ColorImage, Context, InputState, TextureHandle, TextureOptions};
 use stage::CameraSection;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -97,13 +99,25 @@ pub struct Studio {
     /// Counts changes of files on the disk.
     files_changed: u64,
     /// Which text the track and sections were read from.
-    read: Option<[u64; 2]>,
+    read: Option<[Option<(PathBuf, u64)>; 2]>,
     /// Which files are looked after, and what they were.
     last_housekeeping: Instant,
     /// Where the picture was, pixels; 0 before it was anywhere.
     pub picture_px: [u32; 2],
     /// Something moves that is not time: the view, the light, a parameter.
     pub is_dragging: bool,
+    /// Whether the picture has the keyboard.
+    pub is_picture_focused: bool,
+    /// How many presets were opened and compared with: another one shows nothing of the one before.
+    opened: u64,
+    /// When time last passed, seconds of the window's clock.
+    last_tick: Option<f64>,
+    /// Files of the looks that nobody else watches: hair, heads, characters.
+    files: WatchedFiles,
+    /// An action that waits until what is typed has been taken.
+    pending: Option<Action>,
+    /// How often a button of the pointer was pressed: each press is a gesture of its own.
+    presses: u64,
     /// Whether the window may close with changes that are not saved.
     pub may_close: bool,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -150,16 +164,34 @@ impl Studio {
             last_housekeeping: Instant::now(),
             picture_px: [0, 0],
             is_dragging: false,
+            presses: 0,
+            is_picture_focused: false,
+            opened: 0,
+            last_tick: None,
+            files: WatchedFiles::new(wake.clone()),
+            pending: None,
             may_close: false,
             wake,
         }
     }
 
-    /// Opens a preset in place of the one that is open. What is not saved is asked for before.
-    pub fn open(&mut self, path: &Path) {
+    /// Opens a preset in place of the one that is open, whose changes are gone. Whether it could.
+    pub fn open(&mut self, path: &Path) -> bool {
+        // A bare name is of this folder, which can be listed and be a part of other paths.
+        let path = match path.parent() {
+            Some(folder) if folder.as_os_str().is_empty() => &Path::new(".").join(path),
+            _ => path,
+        };
         match Documents::open(path, self.recovery.clone(), self.wake.clone()) {
             Ok(documents) => {
                 self.tell(format!("opened {}", path.display()));
+                if let Some(before) = self.documents.take() {
+                    before.close();
+                }
+                self.shown = [None, None];
+                self.problems.clear();
+                self.sections = stage::Sections::default();
+                self.opened += 1;
                 if let Some(folder) = path.parent() {
                     folder.clone_into(&mut self.folder);
                 }
@@ -176,8 +208,12 @@ impl Studio {
                 if has_copy {
                     self.prompt = Some(Prompt::Recover);
                 }
+                true
             }
-            Err(error) => self.tell(error.to_string()),
+            Err(error) => {
+                self.tell(error.to_string());
+                false
+            }
         }
     }
 
@@ -252,7 +288,8 @@ impl Studio {
         if edits.is_empty() {
             return;
         }
-        let gesture = self.ctx.dragged_id().map(|id| id.value());
+        let is_held = |input: &InputState| input.pointer.any_down() || input.pointer.any_released();
+        let gesture = self.ctx.input(is_held).then_some(self.presses);
         self.is_dragging |= gesture.is_some();
         let Some(documents) = &mut self.documents else {
             return;
@@ -307,14 +344,26 @@ impl Studio {
         self.tell("the view is the preset's now");
     }
 
-    /// Does what a menu or key asks for.
+    /// Does what a menu or key asks for. What is typed into a field and not taken yet is taken before anything is saved, or left.
     pub fn act(&mut self, action: Action) {
+        let leaves = match action {
+            Action::Save | Action::SaveAs | Action::Export => true,
+            Action::Quit | Action::Open | Action::New => true,
+            _ => false,
+        };
+        if leaves && self.pending.is_none() && self.leave_field() {
+            self.pending = Some(action);
+            return;
+        }
         match action {
             Action::New => self.prompt = Some(Prompt::new_look(&self.folder)),
             Action::Open => self.prompt = Some(Prompt::open(&self.folder)),
             Action::Save => self.save(),
             Action::SaveAs => self.prompt = self.documents.as_ref().map(Prompt::save_as),
-            Action::Export => self.prompt = self.documents.as_ref().map(Prompt::export),
+            Action::Export => {
+                let backend = self.backend;
+                self.prompt = (self.documents.as_ref()).map(|texts| Prompt::export(texts, backend));
+            }
             Action::Quit => self
                 .ctx
                 .send_viewport_cmd(eframe::egui::ViewportCommand::Close),
@@ -338,12 +387,30 @@ impl Studio {
         }
     }
 
+    /// Takes the keyboard from the field that has it. Whether one had.
+    pub fn leave_field(&self) -> bool {
+        let has_field = self.ctx.text_edit_focused();
+        if has_field {
+            self.ctx.memory_mut(|memory| {
+                if let Some(id) = memory.focused() {
+                    memory.surrender_focus(id);
+                }
+            });
+            self.ctx.request_repaint();
+        }
+        has_field
+    }
+
     /// Undoes or redoes in the text that changed last.
     fn undo(&mut self, action: Action) {
         let Some(documents) = &mut self.documents else {
             return;
         };
-        if !documents.undo(action == Action::Redo) {
+        let is_done = match action {
+            Action::Redo => documents.redo(),
+            _ => documents.undo(),
+        };
+        if !is_done {
             self.tell("there is nothing to take back or make again");
         }
         if let Some(documents) = &mut self.documents {
@@ -366,9 +433,21 @@ impl Studio {
 
     fn keep_state(&mut self) {
         if let Some(look) = self.look() {
-            self.compare = Some(Compare::with_state(look));
+            self.start_compare(Compare::with_state(look));
             self.tell("the left side keeps this state, the right side is what it becomes");
         }
+    }
+
+    fn start_compare(&mut self, compare: Compare) {
+        self.end_compare();
+        self.opened += 1;
+        self.compare = Some(compare);
+    }
+
+    /// Shows one look alone again.
+    pub fn end_compare(&mut self) {
+        self.compare = None;
+        self.shown[1] = None;
     }
 
     /// Shows a picture to draw after.
@@ -388,7 +467,7 @@ impl Studio {
     /// Why it cannot be read.
     pub fn compare_with(&mut self, path: &Path) -> Result<(), String> {
         let compare = Compare::with_preset(path).map_err(|error| error.to_string())?;
-        self.compare = Some(compare);
+        self.start_compare(compare);
         Ok(())
     }
 
@@ -404,6 +483,9 @@ impl Studio {
             .filter(|layer| self.layers.is_shown(layer))
             .cloned()
             .collect();
+        if shown.is_empty() && !all.is_empty() {
+            return None;
+        }
         Some(crate::export::State {
             preset: documents.preset().path().to_owned(),
             view: self.view.own().cloned(),
@@ -431,12 +513,30 @@ impl Studio {
     }
 
     /// What happens before a frame of the window is made: time passes, pictures and changed files come in.
-    pub fn before_frame(&mut self, passed_s: f32) {
+    pub fn before_frame(&mut self) {
+        if let Some(action) = self.pending {
+            self.act(action);
+            self.pending = None;
+        }
+        // The window's own clock: what it calls the time of a frame is a guess where nothing was asked for.
+        let now_s = self.ctx.input(|input| input.time);
+        let before_s = self.last_tick.replace(now_s).unwrap_or(now_s);
+        let passed_s = (now_s - before_s) as f32;
+        self.presses += u64::from(self.ctx.input(|input| input.pointer.any_pressed()));
         if self.last_housekeeping.elapsed() >= HOUSEKEEPING {
             self.last_housekeeping = Instant::now();
             if let Some(documents) = &mut self.documents {
                 documents.keep_recovery_copies();
+                documents.look_again();
+                if let Some(error) = documents.recovery_error().map(str::to_owned) {
+                    self.tell(format!(
+                        "no copy is kept that would outlive a crash: {error}"
+                    ));
+                }
             }
+        }
+        if self.files.has_changed() {
+            self.files_changed += 1;
         }
         let told = self.documents.as_mut().map(Documents::poll);
         for sentence in told.into_iter().flatten() {
@@ -468,6 +568,7 @@ impl Studio {
         let is_moving = self.transport.is_playing || self.is_dragging;
         let is_new = self.engine.wish(Wish {
             looks,
+            opened: self.opened,
             camera: Some(self.camera()),
             size_px: self.picture_px,
             is_moving,
@@ -484,7 +585,9 @@ impl Studio {
             self.ctx.request_repaint();
         }
         // Copies that outlive a crash, and files that nobody watches.
-        let wants_care = |documents: &Documents| documents.is_changed() || !documents.is_watched();
+        let wants_care = |documents: &Documents| {
+            documents.is_changed() || !documents.is_watched() || !documents.troubles.is_empty()
+        };
         if self.documents.as_ref().is_some_and(wants_care) {
             self.ctx.request_repaint_after(HOUSEKEEPING);
         }
@@ -492,6 +595,9 @@ impl Studio {
     }
 
     fn show(&mut self, index: usize, drawn: Drawn) {
+        if index == 0 {
+            self.files.watch(&drawn.facts.files);
+        }
         let size = drawn.size_px.map(|side| side as usize);
         let image = ColorImage::from_rgba_unmultiplied(size, &drawn.pixels);
         if let Some(shown) = &mut self.shown[index] {
@@ -517,17 +623,28 @@ impl Studio {
             return;
         };
         let version = |which| {
-            documents
-                .get(which)
-                .map_or(0, |document| document.version())
+            let document = documents.get(which)?;
+            Some((document.path().to_owned(), document.version()))
         };
         let versions = [Which::Preset, Which::Motion].map(version);
-        if self.read == Some(versions) {
+        if self.read.as_ref() == Some(&versions) {
             return;
         }
         self.read = Some(versions);
         let preset = documents.preset();
         if let Ok(read) = stage::Preset::parse(&preset.name(), preset.text(), &self.registry) {
+            let names: BTreeSet<&str> = read
+                .layers
+                .iter()
+                .map(|layer| layer.name.as_str())
+                .collect();
+            self.layers.forget_others(&names);
+            // Motion that begins anew is simulated from the beginning: where no script says what is when, that is now.
+            let [own, new] =
+                [&self.sections, &read.sections].map(|s| (&s.hair, &s.head, &s.dynamics));
+            if own != new && self.track.end_s(SETTLING_S) == 0.0 {
+                self.transport.seek(0.0);
+            }
             self.sections = read.sections;
         }
         let script = documents.get(Which::Motion);

@@ -6,8 +6,10 @@ pub const SPEEDS: [f32; 5] = [0.1, 0.25, 0.5, 1.0, 2.0];
 const SHORTEST_SPAN_S: f32 = 4.0;
 /// How long hair is given to settle after the last move, seconds.
 pub const SETTLING_S: f32 = 2.0;
-/// The longest that a frame of the window lets pass: a slow machine shows time slowly.
+/// The longest that a frame of the window lets pass, beyond what it was told to wait: a slow machine shows time slowly.
 const LONGEST_TICK_S: f32 = 0.1;
+/// Where time starts again in a scene without an end, seconds: hair is simulated from the beginning to wherever it is looked at.
+const LONGEST_S: f64 = 600.0;
 
 /// The time of the scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,10 +82,16 @@ impl Transport {
             return false;
         }
         let before = self.frame();
-        self.time_s += f64::from(passed_s.clamp(0.0, LONGEST_TICK_S) * self.speed);
-        let end = f64::from(self.end_s);
-        if end > 0.0 && self.time_s >= end {
-            if self.is_looping {
+        let longest = LONGEST_TICK_S + self.next_frame_in_s();
+        self.time_s += f64::from(passed_s.clamp(0.0, longest) * self.speed);
+        let has_end = self.end_s > 0.0;
+        let end = if has_end {
+            f64::from(self.end_s)
+        } else {
+            LONGEST_S
+        };
+        if self.time_s >= end {
+            if self.is_looping || !has_end {
                 self.time_s %= end;
             } else {
                 self.time_s = end;
@@ -106,7 +114,7 @@ impl Transport {
             let last = if self.end_s > 0.0 {
                 self.end_s
             } else {
-                f32::MAX
+                LONGEST_S as f32
             };
             self.time_s = f64::from(time_s.clamp(0.0, last));
         }
@@ -170,9 +178,9 @@ mod tests {
             ..Transport::default()
         };
         transport.tick(100.0);
-        assert!(transport.shown_s() <= LONGEST_TICK_S);
+        assert!(transport.shown_s() <= LONGEST_TICK_S + 1.0 / 24.0);
         assert!((0.0..0.05).contains(&transport.next_frame_in_s()));
         transport.seek(f32::NAN);
-        assert!(transport.shown_s() <= LONGEST_TICK_S);
+        assert!(transport.shown_s() <= LONGEST_TICK_S + 1.0 / 24.0);
     }
 }

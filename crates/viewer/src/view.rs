@@ -61,7 +61,7 @@ impl NamedView {
 /// The view that is looked from: the preset's own, or another.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
-    /// Where it is not the preset's.
+    /// Where it is not the preset's. Its field of view is the preset's in any case.
     own: Option<CameraSection>,
 }
 
@@ -80,11 +80,17 @@ impl View {
     /// The camera, of a preset with this one.
     #[must_use]
     pub fn camera(&self, preset: &CameraSection) -> CameraSection {
-        self.own.clone().unwrap_or_else(|| preset.clone())
+        let own = self.own.clone().unwrap_or_else(|| preset.clone());
+        CameraSection {
+            fov: preset.fov,
+            ..own
+        }
     }
 
     fn change(&mut self, preset: &CameraSection) -> &mut CameraSection {
-        self.own.get_or_insert_with(|| preset.clone())
+        let own = self.own.get_or_insert_with(|| preset.clone());
+        own.fov = preset.fov;
+        own
     }
 
     /// Goes round the head by a drag of so many points to the right and down.

@@ -79,7 +79,11 @@ fn the_light_is_dragged_taken_back_and_saved() {
     assert_ne!(changed, LOOK);
     assert!(line.contains("pitch: -"), "light from below: {line}");
 
-    // A drag is one step.
+    // A drag is one step, and the next drag of the same is another.
+    drag(&mut harness, [0.2, 0.1], [-0.2, 0.1]);
+    assert_ne!(text(&harness), changed);
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(text(&harness), changed);
     press(&mut harness, COMMAND, Key::Z);
     assert_eq!(text(&harness), LOOK);
     press(
@@ -503,6 +507,22 @@ fn a_file_that_both_changed_shows_both() {
 }
 
 #[test]
+fn at_rest_the_window_sleeps() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    // It fails where frames go on being asked for.
+    let frames = harness.try_run().expect("the window sleeps");
+    assert!(frames < 20, "{frames}");
+    // While time runs it doesn't.
+    press(&mut harness, Modifiers::NONE, Key::Space);
+    assert!(harness.state().studio.transport.is_playing);
+    let before = harness.state().studio.transport.frame();
+    harness.run_steps(30);
+    assert!(harness.state().studio.transport.frame() > before);
+}
+
+#[test]
 fn layers_are_switched_off_for_the_eye_alone() {
     let looks = Looks::new();
     let mut harness = viewer(&looks);
@@ -523,4 +543,162 @@ fn layers_are_switched_off_for_the_eye_alone() {
     );
     let only = harness.state().studio.export_state().unwrap().only;
     assert_eq!(only, ["hair.silhouette"]);
+}
+
+#[test]
+fn a_file_deleted_while_open_is_written_again() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    std::fs::remove_file(looks.path("look.ron")).unwrap();
+    wait_for_label(&mut harness, "is no more on the disk");
+    let studio = &harness.state().studio;
+    assert!(
+        studio.documents.as_ref().unwrap().is_changed(),
+        "quitting asks"
+    );
+    press(&mut harness, COMMAND, Key::S);
+    assert_eq!(looks.read("look.ron"), LOOK);
+    assert!(
+        !harness
+            .state()
+            .studio
+            .documents
+            .as_ref()
+            .unwrap()
+            .is_changed()
+    );
+}
+
+#[test]
+fn changes_of_different_texts_are_taken_back_in_their_order() {
+    use viewer::documents::Which::{Motion, Preset};
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    harness.run_steps(3);
+    let write = |harness: &mut Harness<App>, which, text: &str| {
+        harness
+            .state_mut()
+            .studio
+            .write(which, text.to_owned(), None);
+        harness.step();
+    };
+    let [first, third] = ["1.6", "1.7"].map(|width| LOOK.replace("1.5", width));
+    let second = common::SCRIPT.replace("40", "50");
+    write(&mut harness, Preset, &first);
+    write(&mut harness, Motion, &second);
+    write(&mut harness, Preset, &third);
+    let texts = |harness: &Harness<App>| {
+        let documents = harness.state().studio.documents.as_ref().unwrap();
+        [Preset, Motion].map(|which| documents.get(which).unwrap().text().to_string())
+    };
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(texts(&harness), [first.clone(), second]);
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(texts(&harness), [first, common::SCRIPT.to_owned()]);
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(
+        texts(&harness),
+        [LOOK.to_owned(), common::SCRIPT.to_owned()]
+    );
+    for _ in 0..3 {
+        press(
+            &mut harness,
+            Modifiers {
+                shift: true,
+                ..COMMAND
+            },
+            Key::Z,
+        );
+    }
+    assert_eq!(texts(&harness)[0], third);
+}
+
+#[test]
+fn what_is_typed_is_taken_before_it_is_saved() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    harness.state_mut().show_pane(Pane::Look);
+    harness.state_mut().studio.search = "background".to_owned();
+    harness.run_steps(3);
+    let field = harness.get_by_label("scene background hex");
+    field.focus();
+    harness.run_steps(2);
+    press(&mut harness, COMMAND, Key::A);
+    harness
+        .get_by_label("scene background hex")
+        .type_text("123456");
+    harness.run_steps(2);
+    press(&mut harness, COMMAND, Key::S);
+    harness.run_steps(4);
+    assert!(
+        looks.read("look.ron").contains("123456"),
+        "{}",
+        looks.read("look.ron")
+    );
+}
+
+#[test]
+fn a_preset_with_mistakes_shows_nothing_of_the_one_before() {
+    let looks = Looks::new();
+    std::fs::write(
+        looks.path("broken.ron"),
+        LOOK.replace("hair.base", "hair.bass"),
+    )
+    .unwrap();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    harness.state_mut().studio.open(&looks.path("broken.ron"));
+    wait_for(&mut harness, "the mistake", |app| {
+        !app.studio.problems.is_empty()
+    });
+    assert!(harness.state().studio.shown[0].is_none());
+    // Nor does a comparison with it.
+    harness.state_mut().studio.open(&looks.path("look.ron"));
+    wait_for_picture(&mut harness);
+    harness
+        .state_mut()
+        .studio
+        .compare_with(&looks.path("broken.ron"))
+        .unwrap();
+    wait_for(&mut harness, "the other's mistake", |app| {
+        !app.studio.problems.is_empty()
+    });
+    assert!(harness.state().studio.shown[1].is_none());
+}
+
+#[test]
+fn nothing_is_exported_where_nothing_is_shown() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let hidden = ["hair.base", "hair.silhouette"].map(String::from);
+    harness.state_mut().studio.layers.hidden.extend(hidden);
+    wait_for_picture(&mut harness);
+    press(&mut harness, COMMAND, Key::E);
+    harness.get_by_label_contains("nothing to draw");
+}
+
+#[test]
+fn files_that_the_preset_names_are_watched() {
+    let looks = Looks::new();
+    let strands = "(version: 1, strands: [(size: 14, mirror: true, points: [(0.02, 1.619, 0), (0.058, 1.6, 0), (0.083, 1.55, 0.01)])])";
+    std::fs::write(looks.path("few.strands.ron"), strands).unwrap();
+    std::fs::write(
+        looks.path("look.ron"),
+        LOOK.replace("bob.style.ron", "few.strands.ron"),
+    )
+    .unwrap();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let before = harness.state().studio.pixels(0).unwrap().to_vec();
+    std::fs::write(
+        looks.path("few.strands.ron"),
+        strands.replace("0.083", "0.12"),
+    )
+    .unwrap();
+    wait_for(&mut harness, "other hair", |app| {
+        app.studio.is_sharp && app.studio.pixels(0).is_some_and(|pixels| pixels != before)
+    });
 }

@@ -16,6 +16,7 @@ use quality::Quality;
 use slot::Slot;
 use stage::{CameraSection, Hand};
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -43,6 +44,8 @@ pub struct Look {
 pub struct Wish {
     /// The look; where there are two, the second is to be compared with it, in the same view.
     pub looks: Vec<Look>,
+    /// Another number for each preset that is opened or compared with: what was drawn of another one is not shown in its place.
+    pub opened: u64,
     /// From where it is seen; the first look's own camera where there is none.
     pub camera: Option<CameraSection>,
     /// Width and height, pixels.
@@ -202,6 +205,8 @@ struct Drawer<'r> {
     registry: &'r Registry,
     painter: Painter,
     quality: Quality,
+    /// [`Wish::opened`] of what the slots hold.
+    opened: u64,
 }
 
 impl<'r> Drawer<'r> {
@@ -211,6 +216,7 @@ impl<'r> Drawer<'r> {
             registry,
             painter: Painter::new(),
             quality: Quality::new(),
+            opened: 0,
         }
     }
 
@@ -240,14 +246,31 @@ impl<'r> Drawer<'r> {
         }
     }
 
+    /// Draws what is wished for; where an effect has a bug, that is told, and all is made anew for the next wish.
     fn draw(&mut self, wish: &Wish, is_rough: bool) -> Answer {
+        let drawn = catch_unwind(AssertUnwindSafe(|| self.draw_looks(wish, is_rough)));
+        drawn.unwrap_or_else(|_| {
+            *self = Self::new(self.registry);
+            let message = "drawing failed by a bug, which is told where the viewer was started";
+            Answer {
+                pictures: Vec::new(),
+                problems: vec![Problem::Failed(message.to_owned())],
+                is_final: true,
+            }
+        })
+    }
+
+    fn draw_looks(&mut self, wish: &Wish, is_rough: bool) -> Answer {
         let mut answer = Answer {
             is_final: true,
             ..Answer::default()
         };
+        if self.opened != wish.opened {
+            self.opened = wish.opened;
+            self.slots.clear();
+        }
         self.slots
             .resize_with(wish.looks.len(), || Slot::new(self.registry));
-        self.slots.truncate(wish.looks.len());
         let mut camera = wish.camera.clone();
         for (look, slot) in wish.looks.iter().zip(&mut self.slots) {
             let started = Instant::now();
@@ -280,7 +303,7 @@ impl<'r> Drawer<'r> {
                 }
             }
         }
-        answer.problems.extend(self.painter.take_problem());
+        answer.problems.extend(self.painter.problem());
         answer
     }
 }

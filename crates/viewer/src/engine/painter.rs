@@ -40,7 +40,7 @@ pub(super) struct Painter {
     evaluator: Evaluator,
     rasterizer: Option<(u32, Rasterizer)>,
     drawing: Drawing,
-    /// Why the CPU draws in place of a graphics card, once.
+    /// Why the CPU draws in place of a graphics card.
     problem: Option<Problem>,
 }
 
@@ -63,9 +63,9 @@ impl Painter {
         }
     }
 
-    /// What is to be told of the backend.
-    pub fn take_problem(&mut self) -> Option<Problem> {
-        self.problem.take()
+    /// Why the CPU draws in place of the graphics card that is asked for.
+    pub fn problem(&self) -> Option<Problem> {
+        self.problem.clone()
     }
 
     /// Draws a frame. Where a graphics card fails the CPU draws, from then on until another backend is asked for.
@@ -76,6 +76,7 @@ impl Painter {
         samples: u32,
     ) -> Result<Painted, Problem> {
         if self.card.as_ref().is_none_or(|(of, _)| *of != backend) {
+            self.problem = None;
             let card = self.open(backend);
             self.card = Some((backend, card));
         }

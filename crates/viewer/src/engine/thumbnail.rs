@@ -6,9 +6,12 @@ use super::{Look, Wish};
 use effects::Registry;
 use stage::Hand;
 use std::collections::BTreeMap;
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
 
 /// Width and height of thumbnails, pixels.
 pub const SIZE_PX: [u32; 2] = [160, 120];
@@ -26,25 +29,32 @@ pub enum Thumbnail {
     Failed(String),
 }
 
+/// Size and time of a file: where they are others, so is the picture.
+type Stamp = Option<(u64, SystemTime)>;
+
 /// Small pictures, and the thread that draws them.
 pub struct Thumbnails {
-    wanted: Sender<PathBuf>,
-    drawn: Arc<Mutex<BTreeMap<PathBuf, Thumbnail>>>,
+    wanted: Sender<(PathBuf, Stamp)>,
+    drawn: Arc<Mutex<BTreeMap<PathBuf, (Stamp, Thumbnail)>>>,
 }
 
 impl Thumbnails {
     /// Starts the thread. `wake` is called from it whenever there is another picture.
     #[must_use]
     pub fn start(registry: Arc<Registry>, wake: impl Fn() + Send + 'static) -> Self {
-        let (wanted, received): (_, Receiver<PathBuf>) = channel();
+        let (wanted, received): (_, Receiver<(PathBuf, Stamp)>) = channel();
         let drawn = Arc::new(Mutex::new(BTreeMap::new()));
         let shared = drawn.clone();
         std::thread::spawn(move || {
             let mut painter = Painter::new();
-            while let Ok(path) = received.recv() {
-                let thumbnail = draw(&path, &registry, &mut painter);
+            while let Ok((path, stamp)) = received.recv() {
+                let drawn = catch_unwind(AssertUnwindSafe(|| draw(&path, &registry, &mut painter)));
+                let thumbnail = drawn.unwrap_or_else(|_| {
+                    painter = Painter::new();
+                    Thumbnail::Failed("drawing it failed by a bug".to_owned())
+                });
                 let mut drawn = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                drawn.insert(path, thumbnail);
+                drawn.insert(path, (stamp, thumbnail));
                 drop(drawn);
                 wake();
             }
@@ -52,22 +62,20 @@ impl Thumbnails {
         Self { wanted, drawn }
     }
 
-    /// The thumbnail of a preset, which is drawn from now on where it is not yet.
+    /// The thumbnail of a preset, which is drawn from now on where it is not yet, or has changed since.
     pub fn of(&self, path: &Path) -> Thumbnail {
+        let about = fs::metadata(path).ok();
+        let stamp = about.and_then(|about| Some((about.len(), about.modified().ok()?)));
         let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(thumbnail) = drawn.get(path) {
-            return thumbnail.clone();
+        match drawn.get_mut(path) {
+            Some((of, thumbnail)) if *of == stamp => return thumbnail.clone(),
+            // The old picture is shown until there is the new one.
+            Some((of, _)) => *of = stamp,
+            None => _ = drawn.insert(path.to_owned(), (stamp, Thumbnail::Waiting)),
         }
-        drawn.insert(path.to_owned(), Thumbnail::Waiting);
         // The thread ends with the window alone.
-        let _ = self.wanted.send(path.to_owned());
-        Thumbnail::Waiting
-    }
-
-    /// Forgets the thumbnail of a preset, so that it is drawn anew: the file has changed.
-    pub fn forget(&self, path: &Path) {
-        let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
-        drawn.remove(path);
+        let _ = self.wanted.send((path.to_owned(), stamp));
+        drawn[path].1.clone()
     }
 }
 
@@ -91,6 +99,7 @@ fn draw(path: &Path, registry: &Registry, painter: &mut Painter) -> Thumbnail {
     };
     let wish = Wish {
         looks: vec![look],
+        opened: 0,
         camera: None,
         size_px: SIZE_PX,
         is_moving: false,

@@ -39,7 +39,7 @@ pub(super) fn picture(ui: &mut Ui, studio: &mut Studio) {
     }
     act(ui, &response, rect, studio);
     if studio.tool == Tool::Light
-        || ui.input(|input| input.key_down(Key::L)) && !ui.ctx().egui_wants_keyboard_input()
+        || ui.input(|input| input.key_down(Key::L)) && !ui.ctx().text_edit_focused()
     {
         paint_light(&painter, rect, studio);
     }
@@ -79,6 +79,12 @@ fn tools(ui: &mut Ui, studio: &mut Studio) {
     });
     ui.menu_button("Compare", |ui| {
         crate::menu::item(ui, studio, Action::KeepState);
+        if let Some(compare) = &mut studio.compare {
+            let slider = Slider::new(&mut compare.split, 0.0..=1.0)
+                .show_value(false)
+                .text("line between");
+            ui.add(slider).accessible_name("Line between the looks");
+        }
         if ui.button("With a preset...").clicked() {
             studio.prompt = Some(Prompt::compare(&studio.folder));
             ui.close();
@@ -87,7 +93,7 @@ fn tools(ui: &mut Ui, studio: &mut Studio) {
             .add_enabled(studio.compare.is_some(), eframe::egui::Button::new("End"))
             .clicked()
         {
-            studio.compare = None;
+            studio.end_compare();
             ui.close();
         }
     });
@@ -280,7 +286,9 @@ fn act(ui: &Ui, response: &Response, rect: Rect, studio: &mut Studio) {
             studio.is_dragging = true;
         }
     }
+    studio.is_picture_focused = response.has_focus();
     if response.has_focus() {
+        super::timeline::keep_arrows(ui, response.id);
         keys(ui, studio, &preset);
         ui.painter().rect_stroke(
             rect,
@@ -335,17 +343,6 @@ fn keys(ui: &Ui, studio: &mut Studio, preset: &stage::CameraSection) {
                 .orbit(preset, way.map(|part| -KEY_POINTS * part));
         }
     }
-    // Arrows turn the view, and don't go to the next widget.
-    ui.memory_mut(|memory| {
-        if let Some(id) = memory.focused() {
-            let filter = eframe::egui::EventFilter {
-                horizontal_arrows: true,
-                vertical_arrows: true,
-                ..Default::default()
-            };
-            memory.set_focus_lock_filter(id, filter);
-        }
-    });
 }
 
 /// Where a place on the picture is from its middle, in parts of half its shorter side.

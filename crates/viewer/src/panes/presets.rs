@@ -11,14 +11,17 @@ use std::path::PathBuf;
 /// Shows the presets of the folder.
 pub(super) fn presets(ui: &mut Ui, studio: &mut Studio) {
     ui.horizontal(|ui| {
-        let mut folder = studio.folder.display().to_string();
+        let id = ui.scope_id().with("folder");
+        let known: Option<String> = ui.data(|data| data.get_temp(id));
+        let mut folder = known.unwrap_or_else(|| studio.folder.display().to_string());
         let label = ui.label("Folder");
-        if ui
-            .text_edit_singleline(&mut folder)
-            .labelled_by(label.id)
-            .changed()
-        {
+        let field = ui.text_edit_singleline(&mut folder).labelled_by(label.id);
+        if field.has_focus() {
+            ui.data_mut(|data| data.insert_temp(id, folder));
+        } else if field.lost_focus() {
+            // Not while it is typed: presets of every folder on the way would be drawn.
             studio.folder = PathBuf::from(folder);
+            ui.data_mut(|data| data.remove::<String>(id));
         }
         if ui.button("New look...").clicked() {
             studio.prompt = Some(Prompt::new_look(&studio.folder));
@@ -94,6 +97,7 @@ fn preset(ui: &mut Ui, studio: &mut Studio, path: &std::path::Path) -> bool {
     if ui
         .small_button("Compare")
         .on_hover_text("Shows it beside the look that is open")
+        .accessible_name(format!("Compare {name}"))
         .clicked()
         && let Err(error) = studio.compare_with(path)
     {

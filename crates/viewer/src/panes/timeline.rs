@@ -5,8 +5,8 @@ use crate::grip::STRONGEST_WIND;
 use crate::studio::Studio;
 use crate::transport::SPEEDS;
 use eframe::egui::{
-    Align2, Button, Color32, ComboBox, FontId, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, pos2,
-    vec2,
+    Align2, Button, Color32, ComboBox, EventFilter, FontId, Id, Key, Pos2, Rect, Sense, Stroke,
+    StrokeKind, Ui, pos2, vec2,
 };
 
 /// Height of a row of moves on the line, points.
@@ -79,6 +79,14 @@ fn line(ui: &mut Ui, studio: &mut Studio) {
             .seek(span * (at.x - rect.left()) / rect.width());
         studio.is_dragging |= response.dragged();
     }
+    if response.has_focus() {
+        keep_arrows(ui, response.id);
+        for (key, frames) in [(Key::ArrowLeft, -1), (Key::ArrowRight, 1)] {
+            if ui.input(|input| input.key_pressed(key)) {
+                studio.transport.step(frames);
+            }
+        }
+    }
     let painter = ui.painter_at(rect);
     let visuals = ui.visuals();
     painter.rect_filled(rect, 2.0, visuals.extreme_bg_color);
@@ -139,6 +147,16 @@ fn color(list: &str) -> Color32 {
     }
 }
 
+/// Arrows are for what has the keyboard, and don't go to the next widget.
+pub(super) fn keep_arrows(ui: &Ui, id: Id) {
+    let filter = EventFilter {
+        horizontal_arrows: true,
+        vertical_arrows: true,
+        ..EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
+}
+
 /// The wind of the dial: seen from above, the face below; where the point is dragged, wind blows to.
 fn dial(ui: &mut Ui, studio: &mut Studio) {
     let (rect, response) = ui.allocate_exact_size(vec2(DIAL, DIAL), Sense::click_and_drag());
@@ -185,12 +203,13 @@ fn dial(ui: &mut Ui, studio: &mut Studio) {
     painter.line_segment([rect.center(), tip], Stroke::new(2.5, green));
     painter.circle_filled(tip, 4.0, green);
     if response.has_focus() {
+        keep_arrows(ui, response.id);
         painter.rect_stroke(rect, 2.0, visuals.selection.stroke, StrokeKind::Inside);
         let keys = [
-            (eframe::egui::Key::ArrowLeft, [-1.0, 0.0]),
-            (eframe::egui::Key::ArrowRight, [1.0, 0.0]),
-            (eframe::egui::Key::ArrowUp, [0.0, -1.0]),
-            (eframe::egui::Key::ArrowDown, [0.0, 1.0]),
+            (Key::ArrowLeft, [-1.0, 0.0]),
+            (Key::ArrowRight, [1.0, 0.0]),
+            (Key::ArrowUp, [0.0, -1.0]),
+            (Key::ArrowDown, [0.0, 1.0]),
         ];
         for (key, way) in keys {
             if ui.input(|input| input.key_pressed(key)) {
