@@ -346,11 +346,15 @@ impl Studio {
 
     /// Does what a menu or key asks for. What is typed into a field and not taken yet is taken before anything is saved, or left.
     pub fn act(&mut self, action: Action) {
-        let leaves = match action {
-            Action::Save | Action::SaveAs | Action::Export => true,
-            Action::Quit | Action::Open | Action::New => true,
-            _ => false,
-        };
+        let leaving = [
+            Action::Save,
+            Action::SaveAs,
+            Action::Export,
+            Action::Quit,
+            Action::Open,
+            Action::New,
+        ];
+        let leaves = leaving.contains(&action);
         if leaves && self.pending.is_none() && self.leave_field() {
             self.pending = Some(action);
             return;
