@@ -582,10 +582,13 @@ impl Studio {
             backend: self.backend,
         });
         self.is_sharp &= !is_new;
-        if self.transport.is_playing {
+        let is_held = self.ctx.input(|input| input.pointer.any_down());
+        if self.transport.is_playing && !self.engine.is_drawing() {
+            // While a frame is drawn its end is waited for: a window that is drawn in software would take the time that hair needs.
             let due = Duration::from_secs_f32(self.transport.next_frame_in_s());
             self.ctx.request_repaint_after(due);
-        } else if self.is_dragging {
+        } else if self.is_dragging && !is_held {
+            // What was dragged is at rest from the next frame on.
             self.ctx.request_repaint();
         }
         // Copies that outlive a crash, and files that nobody watches.

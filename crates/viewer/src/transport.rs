@@ -7,7 +7,7 @@ const SHORTEST_SPAN_S: f32 = 4.0;
 /// How long hair is given to settle after the last move, seconds.
 pub const SETTLING_S: f32 = 2.0;
 /// The longest that a frame of the window lets pass, beyond what it was told to wait: a slow machine shows time slowly.
-const LONGEST_TICK_S: f32 = 0.1;
+const LONGEST_TICK_S: f32 = 0.5;
 /// Where time starts again in a scene without an end, seconds: hair is simulated from the beginning to wherever it is looked at.
 const LONGEST_S: f64 = 600.0;
 

@@ -154,6 +154,8 @@ pub struct Engine {
     last: Option<Wish>,
     /// How many wishes there were.
     number: u64,
+    /// The number of the wish that was answered last.
+    answered: u64,
 }
 
 impl Engine {
@@ -175,6 +177,7 @@ impl Engine {
             answers,
             last: None,
             number: 0,
+            answered: 0,
         }
     }
 
@@ -190,10 +193,17 @@ impl Engine {
         is_new
     }
 
+    /// Whether the newest wish has no answer yet; there will be one, and the window is woken.
+    #[must_use]
+    pub fn is_drawing(&self) -> bool {
+        self.answered != self.number
+    }
+
     /// The newest answer, if it was not taken yet. What is no answer to the newest wish is not final.
     pub fn answer(&mut self) -> Option<Answer> {
         let mut answers = self.answers.lock().unwrap_or_else(PoisonError::into_inner);
         let (number, mut answer) = answers.take()?;
+        self.answered = number;
         answer.is_final &= number == self.number;
         Some(answer)
     }
