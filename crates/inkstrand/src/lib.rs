@@ -11,7 +11,7 @@
 //!
 //! # Features
 //!
-//! Both are on by default; what a program is built without is refused with a sentence that says so.
+//! They are on by default; what a program is built without is refused with a sentence that says so.
 //!
 //! - `gpu`: `--backend gpu`, and `auto` draws on graphics cards.
 //! - `gltf`: `motion: (gltf: ..)` of a preset moves the head by a character's animation.

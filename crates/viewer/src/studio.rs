@@ -548,7 +548,9 @@ impl Studio {
             self.tell(sentence);
         }
         self.read_texts();
-        if let Some(answer) = self.engine.answer() {
+        // What was still drawn of the preset before is not this one's.
+        let answer = self.engine.answer();
+        if let Some(answer) = answer.filter(|answer| answer.opened == self.opened) {
             self.is_sharp = answer.is_final;
             self.problems = answer.problems;
             for (index, drawn) in answer.pictures.into_iter().enumerate().take(2) {

@@ -130,6 +130,8 @@ pub struct Drawn {
 /// What became of a wish.
 #[derive(Clone, Debug, Default)]
 pub struct Answer {
+    /// [`Wish::opened`] of the wish.
+    pub opened: u64,
     /// A picture of each look; none of one that could not be drawn yet.
     pub pictures: Vec<Option<Drawn>>,
     /// What is wrong with the looks. A look with mistakes goes on showing its last good state.
@@ -263,6 +265,7 @@ impl<'r> Drawer<'r> {
             *self = Self::new(self.registry);
             let message = "drawing failed by a bug, which is told where the viewer was started";
             Answer {
+                opened: wish.opened,
                 pictures: Vec::new(),
                 problems: vec![Problem::Failed(message.to_owned())],
                 is_final: true,
@@ -272,6 +275,7 @@ impl<'r> Drawer<'r> {
 
     fn draw_looks(&mut self, wish: &Wish, is_rough: bool) -> Answer {
         let mut answer = Answer {
+            opened: wish.opened,
             is_final: true,
             ..Answer::default()
         };
