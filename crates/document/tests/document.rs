@@ -563,7 +563,7 @@ struct Model {
     /// All texts, each with the gesture that made it, and which is shown.
     texts: Vec<(u8, Option<u64>)>,
     shown: usize,
-    /// Whether the last act was an edit, which a gesture may go on from.
+    /// Whether an edit was the last act that makes or ends a step, so that its gesture may go on.
     editing: bool,
     base: Option<u8>,
     disk: Option<u8>,
@@ -635,6 +635,8 @@ impl Model {
         self.disk = Some(text);
         self.base = self.disk;
         self.conflict = None;
+        // What was saved can be had again by undo: a drag that goes on is a step of its own.
+        self.editing = false;
         true
     }
 }
