@@ -1,4 +1,4 @@
-//! inputs: position, forward, backward, u, strand_mean, head_center, head_height, strand_size, light_direction, view_direction, seed, material_normal
+//! inputs: position, forward, backward, u, strand_mean, head_center, head_height, strand_size, strand_taper, light_direction, view_direction, seed, material_normal
 // The clump: what all layers share of a strand. Size 5.1 to 5.3, normal 5.4, basic colour.
 
 struct Params {
@@ -84,11 +84,13 @@ fn lies_flat(joint: Inputs) -> f32 {
 
 fn clump(joint: Inputs, params: Params) -> Clump {
     let weight = saturate(params.mix + params.mix_variation * random_signed(joint.seed, 0u));
-    let profile = weight * shrink_to_tail(joint.u, params.shrink_start)
+    let taper = vec2<f32>(params.root_size, params.shrink_start);
+    let own = select(taper, joint.strand_taper, joint.strand_taper >= vec2<f32>(0.0));
+    let profile = weight * shrink_to_tail(joint.u, own.y)
         + (1.0 - weight) * swell(joint.u, params.swell_offset);
     // A step where root_length is 0: the root alone is narrow.
     let from_root = select(1.0, smoothstep(0.0, params.root_length, joint.u), joint.u < params.root_length);
-    let root = mix(params.root_size, 1.0, from_root);
+    let root = mix(own.x, 1.0, from_root);
     let variation = 1.0 + params.size_variation * random_signed(joint.seed, 1u);
     let radius = joint.strand_size * params.size * variation * profile * root;
 

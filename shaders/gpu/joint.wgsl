@@ -43,7 +43,7 @@ fn gpu_vec3(joint: u32, at: u32) -> vec3<f32> {
 
 /// A word of the strand's record.
 fn gpu_of_strand(joint: u32, word: u32) -> u32 {
-    return gpu_strands[gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_STRAND] * 5u + word];
+    return gpu_strands[gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_STRAND] * 7u + word];
 }
 
 fn gpu_strand_mean(joint: u32) -> vec3<f32> {
@@ -52,6 +52,10 @@ fn gpu_strand_mean(joint: u32) -> vec3<f32> {
         bitcast<f32>(gpu_of_strand(joint, 2u)),
         bitcast<f32>(gpu_of_strand(joint, 3u)),
     );
+}
+
+fn gpu_strand_taper(joint: u32) -> vec2<f32> {
+    return vec2<f32>(bitcast<f32>(gpu_of_strand(joint, 5u)), bitcast<f32>(gpu_of_strand(joint, 6u)));
 }
 
 /// The seed of the joint's strand in this layer, whose own seed comes first among the words.

@@ -8,7 +8,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use indicatif::ProgressBar;
-use render::{Brush, Frame, Head, Light, Object, Order, StrandInfo};
+use render::{Brush, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo};
 use std::path::PathBuf;
 use std::time::Instant;
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
@@ -128,6 +128,7 @@ impl MadeHair {
             id: i as u32,
             mean: Vec3::ZERO,
             size,
+            taper: NO_TAPER,
         };
         Self {
             particles: vec![Vec3::ZERO; count * POINTS],

@@ -91,6 +91,9 @@ pub(crate) const INPUTS: &[Input] = &[
     input("head_center", Vec3, Both, "centre of the head, metres (c_head in 5.4)"),
     input("head_height", F32, Both, "height of the head, metres"),
     input("strand_size", F32, Both, "the strand's full size, 1/300 of the head's height"),
+    input("strand_taper", Vec2, Both, "the strand's own root size and start of shrinking, in place of the clump's; below 0 the clump's")
+        // Where no strand has one.
+        .where_empty(|| quote!(::effects::wgsl::vec2([-1.0; 2]))),
     input("light_direction", Vec3, Both, "unit vector to the light"),
     input("light_distance", F32, Both, "distance to the light, head heights; 1e6 for a direction"),
     input("view_direction", Vec3, Both, "unit vector to the eye"),

@@ -73,6 +73,7 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         head_center: vec3([0.0; 3]),
         head_height: HEAD_M,
         strand_size: 18.0,
+        strand_taper: vec2([0.3, -1.0]),
         light_direction: vec3(light.to_array()),
         light_distance: to_light.length() / HEAD_M,
         view_direction: vec3(view.to_array()),

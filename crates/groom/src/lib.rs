@@ -22,6 +22,7 @@
 //!     scalp: Scalp::default(),
 //!     undercoat: true,
 //!     cap: 0.02,
+//!     coat: 24,
 //!     zones: Vec::new(), // rows, tails, buns and braids
 //!     edits: Vec::new(),
 //!     drawn: vec![lock],
@@ -46,4 +47,6 @@ pub use bust::{Bust, bust};
 pub use face::{Ink, Patch};
 pub use guides::Guides;
 pub use shell::{Place, Shell, direction};
-pub use style::{Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Ring, Scalp, Style, Tie, Zone, grow};
+pub use style::{
+    Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Ring, Scalp, Style, Taper, Tie, Zone, grow,
+};

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use groom::{
-    Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Place, Scalp, Shell, Style, Zone, bust, grow,
+    Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Place, Scalp, Shell, Style, Taper, Zone, bust, grow,
 };
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -59,6 +59,14 @@ fn plain() -> Zone {
         overlap: 1.5,
         mixed_sizes: 0.0,
         scatter: 0.0,
+        sweep: 0.0,
+        s_curve: 0.0,
+        swell: 0.3,
+        groups: 0,
+        gather: 0.7,
+        peak: 0.3,
+        cut: None,
+        taper: Taper::default(),
     }
 }
 
@@ -68,6 +76,7 @@ fn style(zones: Vec<Zone>) -> Style {
         scalp: Scalp::default(),
         undercoat: false,
         cap: 0.05,
+        coat: 0,
         zones,
         edits: Vec::new(),
         drawn: Vec::new(),

@@ -6,7 +6,7 @@ pub use check::FrameError;
 
 use crate::drawing::{Order, Surface};
 use effects::{InputSet, Layer, Varied, clump};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use std::ops::Range;
 use stroke_path::{Brush, Camera, Paths};
 
@@ -19,7 +19,13 @@ pub struct StrandInfo {
     pub mean: Vec3,
     /// Full size of its clump, 1/300 of the head's height.
     pub size: f32,
+    /// Its own size at the root and start of shrinking (x in 5.1), both 0 to 1, in place of the clump section's; below 0 the
+    /// section's: [`NO_TAPER`].
+    pub taper: Vec2,
 }
+
+/// The taper of a strand that has none of its own.
+pub const NO_TAPER: Vec2 = Vec2::NEG_ONE;
 
 /// Where the head is, and the measure of all sizes.
 #[derive(Clone, Copy, Debug, PartialEq)]

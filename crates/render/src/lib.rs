@@ -53,6 +53,6 @@ pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use drawing::{
     Brush, Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex, scatter,
 };
-pub use frame::{Frame, FrameError, Head, Light, Object, StrandInfo};
+pub use frame::{Frame, FrameError, Head, Light, NO_TAPER, Object, StrandInfo};
 pub use picture::Picture;
 pub use samples::{MAX_SAMPLES, SampleCountError, sample_positions};

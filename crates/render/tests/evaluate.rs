@@ -4,7 +4,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3};
 use render::cpu::Evaluator;
-use render::{Brush, Drawing, Frame, Head, Light, Object, Order, StrandInfo};
+use render::{Brush, Drawing, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
 /// The picture is 200 x 360, the eye 2 m in front of the origin, a 0.3 m head: a unit is 1 mm.
@@ -57,6 +57,7 @@ fn drawing_on(
         id,
         mean: Vec3::ZERO,
         size: 20.0,
+        taper: NO_TAPER,
     };
     let mut values = Values::defaults(clump::Program::PARAMS);
     let plain = [

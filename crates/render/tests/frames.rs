@@ -4,7 +4,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use render::cpu::Evaluator;
-use render::{Brush, Drawing, Frame, FrameError, Head, Light, Object, Order, StrandInfo};
+use render::{Brush, Drawing, Frame, FrameError, Head, Light, NO_TAPER, Object, Order, StrandInfo};
 use std::ops::Range;
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
@@ -44,6 +44,7 @@ impl Scene {
             id,
             mean: Vec3::ZERO,
             size: 10.0,
+            taper: NO_TAPER,
         };
         let mut registry = Registry::new();
         effects_builtin::register(&mut registry).unwrap();

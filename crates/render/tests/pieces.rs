@@ -4,7 +4,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Brush, Drawing, Frame, Head, Light, Object, Order, Picture, StrandInfo};
+use render::{Brush, Drawing, Frame, Head, Light, NO_TAPER, Object, Order, Picture, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths, cuts};
 
 const SPLINE: PathKind = PathKind::CatmullRom { subdivision: 5 };
@@ -77,6 +77,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
             id: 5,
             mean: Vec3::ZERO,
             size: SIZE,
+            taper: NO_TAPER,
         }],
         objects: vec![Object {
             joints,

@@ -4,11 +4,11 @@ use crate::files::StageError;
 use crate::head::HeadModel;
 use crate::preset::HairSection;
 use crate::reach::reach_m;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use groom::{Guides, Tie};
 use hair_io::{HairFile, HeadFrame, Mesh};
 use hair_sim::{PointCache, Strands};
-use render::{Head, StrandInfo};
+use render::{Head, NO_TAPER, StrandInfo};
 use std::path::PathBuf;
 
 /// Hair that was read, grown, or made by a program.
@@ -21,6 +21,8 @@ pub struct HairModel {
     pub(crate) undercoat: usize,
     /// How many points from its root each strand keeps on the head.
     pub(crate) held: Vec<u32>,
+    /// The taper of each strand: see [`StrandInfo`].
+    pub(crate) tapers: Vec<Vec2>,
     /// The shapes that a script wants of it at times.
     pub(crate) shapes: Option<PointCache>,
     /// The bake that its file's motion is of.
@@ -69,6 +71,7 @@ impl HairModel {
         let all_roots: Vec<Vec3> = file.strands.roots().collect();
         Self {
             held: vec![1; file.strands.len()],
+            tapers: vec![NO_TAPER; file.strands.len()],
             undercoat: 0,
             infos: Vec::new(),
             shapes: None,
@@ -106,6 +109,7 @@ impl HairModel {
             id: strands.id(i),
             mean: Vec3::ZERO,
             size: given(i).unwrap_or(size),
+            taper: self.tapers[i],
         });
         self.infos = infos.collect();
         self.keep(&guides.kept);
@@ -123,6 +127,7 @@ impl HairModel {
         let is_undercoat = |i: &&usize| **i < self.undercoat;
         self.undercoat = indices.iter().filter(is_undercoat).count();
         self.held = indices.iter().map(|&i| self.held[i]).collect();
+        self.tapers = indices.iter().map(|&i| self.tapers[i]).collect();
     }
 
     /// How many points from its root a strand keeps on the head, at least its root.

@@ -5,10 +5,12 @@ use crate::hair::{HairModel, head_of};
 use crate::head::HeadModel;
 use crate::preset::{HeadShape, Preset, UpAxis};
 use crate::style;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
+use groom::Taper;
 use hair_io::orient::Axes;
 use hair_io::{HairError, HairFile, HairOptions, HeadFrame, Mesh};
 use hair_sim::Strands;
+use render::NO_TAPER;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
@@ -173,6 +175,15 @@ fn size_of_most(points: &[Vec3]) -> f32 {
     side(0).max(side(1)).max(side(2))
 }
 
+/// A clump's own taper, as a frame has it.
+fn taper(own: &Taper) -> Vec2 {
+    let or_none = |share: Option<f32>, none: f32| share.unwrap_or(none);
+    Vec2::new(
+        or_none(own.root_size, NO_TAPER.x),
+        or_none(own.shrink_start, NO_TAPER.y),
+    )
+}
+
 /// The hair of a style, grown on the head.
 fn grow(files: &Files, path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
     let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
@@ -202,6 +213,7 @@ fn grow(files: &Files, path: &Path, head: Option<&Mesh>) -> Result<HairModel, St
             notes,
         },
         held: grown.held,
+        tapers: grown.tapers.iter().map(taper).collect(),
         undercoat: grown.undercoat,
         shapes: None,
         bake: None,

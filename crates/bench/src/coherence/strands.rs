@@ -5,7 +5,7 @@ use super::animation::{Animation, Kind, TICKS, Tick, seconds};
 use crate::BenchError;
 use effects::{Layer, Registry, Varied, clump};
 use glam::{DVec3, Vec3};
-use render::{Brush, Frame, Head, Light, Object, Order, StrandInfo};
+use render::{Brush, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo};
 use stage::Preset;
 use stroke_path::{Camera, Cut, OrbitView, PathKind, Paths, sin_cos_degrees};
 
@@ -103,6 +103,7 @@ impl Strands {
             id,
             mean: Vec3::ZERO,
             size: SIZE,
+            taper: NO_TAPER,
         };
         let cuts = (0..count as usize).map(|i| {
             let overlap_m = 3.0 * SIZE * HEAD.unit_m();

@@ -15,6 +15,8 @@ pub struct Style {
     pub undercoat: bool,
     /// How high the undercoat stands above the skin at the whorl, head heights.
     pub cap: f32,
+    /// How many broad clumps the undercoat is made of; 0: rows of narrow ones, as first styles have it.
+    pub coat: u32,
     /// The zones.
     pub zones: Vec<Zone>,
     /// Changes of single clumps of the zones.
@@ -66,6 +68,10 @@ pub struct Zone {
     pub weight: f32,
     /// Lean away from the head while it hangs; below 0 towards it.
     pub spread: f32,
+    /// Lean sideways that grows to the tip, the same for all: above 0 towards the back on both sides.
+    pub sweep: f32,
+    /// Lean to one side, then to the other: how far hanging hair swings in an S.
+    pub s_curve: f32,
     /// How much hanging clumps lean sideways, each its own way.
     pub sway: f32,
     /// Turn of the tip away from the head; below 0 towards it.
@@ -78,6 +84,8 @@ pub struct Zone {
     pub curl_flatness: f32,
     /// Radius of gathered hair where it is fullest.
     pub fullness: f32,
+    /// Share of its length at which gathered hair is fullest, above 0.
+    pub swell: f32,
     /// Radius of the tie that gathers the hair; 0 draws none.
     pub tie: f32,
     /// Radius of a clump at its full size; nothing to take it from the row's length and `overlap`.
@@ -88,6 +96,25 @@ pub struct Zone {
     pub mixed_sizes: f32,
     /// How much places differ, degrees.
     pub scatter: f32,
+    /// Groups that the clumps come together in towards their tips; 0: each goes its own way.
+    pub groups: u32,
+    /// How far the tips of a group come together, 0 to 1.
+    pub gather: f32,
+    /// How much shorter the outer clumps of a group are than its middle one, 0 to 1.
+    pub peak: f32,
+    /// Height above the middle of the skull at which all tips end, head heights; nothing to leave them as they fall.
+    pub cut: Option<f32>,
+    /// How its clumps begin and end.
+    pub taper: Taper,
+}
+
+/// How a clump begins and ends, where the look is not to say so.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Taper {
+    /// Size at the root, as a share of the full size.
+    pub root_size: Option<f32>,
+    /// Where along the clump it begins to shrink, 0 root to 1 tip.
+    pub shrink_start: Option<f32>,
 }
 
 /// What the hair of a zone is made into.

@@ -1,6 +1,7 @@
 //! Hair gathered in a tie: tails, buns and braids.
 
 use super::description::{Form, Zone};
+use super::group::Member;
 use super::hang::{Hanging, hang};
 use super::scalp::Scalp;
 use super::tie::Tie;
@@ -69,9 +70,15 @@ impl Gathered<'_> {
     }
 
     /// The points of clump `index` and how many of them stay with the head.
-    pub fn clump(&self, index: u32, length_scale: f32, random: &mut Random) -> (Vec<Vec3>, usize) {
+    pub fn clump(
+        &self,
+        index: u32,
+        member: Option<Member>,
+        length_scale: f32,
+        random: &mut Random,
+    ) -> (Vec<Vec3>, usize) {
         match self.zone.form {
-            Form::Tail | Form::Rows => self.tail(index, length_scale, random),
+            Form::Tail | Form::Rows => self.tail(index, member, length_scale, random),
             Form::Bun => {
                 let points = self.bun(index, random);
                 let count = points.len();
@@ -81,10 +88,21 @@ impl Gathered<'_> {
         }
     }
 
-    fn tail(&self, index: u32, length_scale: f32, random: &mut Random) -> (Vec<Vec3>, usize) {
+    fn tail(
+        &self,
+        index: u32,
+        member: Option<Member>,
+        length_scale: f32,
+        random: &mut Random,
+    ) -> (Vec<Vec3>, usize) {
         let zone = self.zone;
-        let length = zone.hang * (1.0 + zone.length_variation * random.around_zero());
+        let own = 1.0 + zone.length_variation * random.around_zero();
+        let length = zone.hang * member.map_or(own, |member| member.length * (0.7 + 0.3 * own));
         let section = section_place(index, zone.count);
+        let tip_section = member.map_or(section, |_| {
+            let group = section_place(index % zone.groups, zone.groups);
+            [0, 1].map(|i| section[i] + (group[i] - section[i]) * zone.gather)
+        });
         // Inside the tie the clumps lie side by side.
         let outward = self.outward();
         let sideways = Vec3::Y.cross(outward).normalize_or(Vec3::X);
@@ -98,6 +116,10 @@ impl Gathered<'_> {
             side: self.side,
             size: self.size(),
             section,
+            tip_section,
+            towards: Vec3::ZERO,
+            // One swing for all: a tail is one mass.
+            swing: 1.0,
         };
         hang(zone, &hanging, self.shell, random, &mut points);
         (points, 2)
@@ -143,6 +165,9 @@ impl Gathered<'_> {
             side: self.side,
             size: self.size(),
             section: [0.0; 2],
+            tip_section: [0.0; 2],
+            towards: Vec3::ZERO,
+            swing: 1.0,
         };
         let mut axis = vec![
             self.shell.above(self.outward(), 0.3 * zone.root_lift),

@@ -1,8 +1,10 @@
 //! From a style to strands on a head.
 
-use super::description::{Form, Style, Zone};
+use super::description::{Form, Style, Taper, Zone};
 use super::edit::{Drawn, Edit};
 use super::gathered::Gathered;
+use super::group::Groups;
+use super::hang::cut_at;
 use super::row::{Row, Seat, size_class};
 use super::tie::Tie;
 use super::undercoat::undercoat;
@@ -31,16 +33,27 @@ pub struct Grown {
     /// How many points from its root each clump keeps on the head: pressed to the scalp, or gathered
     /// in a tie.
     pub held: Vec<u32>,
+    /// How each clump begins and ends.
+    pub tapers: Vec<Taper>,
     /// The ties of gathered hair.
     pub ties: Vec<Tie>,
 }
 
 impl Grown {
-    fn push(&mut self, zone: u32, number: u32, points: &[Vec3], held: usize, size: f32) {
+    fn push(
+        &mut self,
+        zone: u32,
+        number: u32,
+        points: &[Vec3],
+        held: usize,
+        size: f32,
+        taper: Taper,
+    ) {
         let id = zone.wrapping_mul(IDS_A_ZONE).wrapping_add(number);
         // Points come from a shell of finite radii, so none is refused.
         if self.strands.push(id, points, Some(size)).is_ok() {
             self.held.push(held as u32);
+            self.tapers.push(taper);
         }
     }
 }
@@ -50,8 +63,17 @@ impl Grown {
 pub fn grow(style: &Style, shell: &Shell) -> Grown {
     let mut grown = Grown::default();
     if style.undercoat {
-        for (number, (points, size)) in (0..).zip(undercoat(&style.scalp, style.cap, shell)) {
-            grown.push(UNDERCOAT, number, &points, points.len(), size);
+        for (number, (points, size)) in
+            (0..).zip(undercoat(&style.scalp, style.cap, style.coat, shell))
+        {
+            grown.push(
+                UNDERCOAT,
+                number,
+                &points,
+                points.len(),
+                size,
+                Taper::default(),
+            );
         }
         grown.undercoat = grown.strands.len();
     }
@@ -59,7 +81,14 @@ pub fn grow(style: &Style, shell: &Shell) -> Grown {
         let is_there = |(_, drawn): &(u32, &Drawn)| half == 0 || drawn.mirror;
         for (number, drawn) in (0..).zip(&style.drawn).filter(is_there) {
             let points = drawn.points(side, shell);
-            grown.push(DRAWN, half + number, &points, 1, drawn.size);
+            grown.push(
+                DRAWN,
+                half + number,
+                &points,
+                1,
+                drawn.size,
+                Taper::default(),
+            );
         }
     }
     for (number, zone) in (FIRST_ZONE..).zip(&style.zones) {
@@ -108,6 +137,7 @@ impl Half<'_> {
             let first = row_number * in_row;
             let mut randoms: Vec<Random> = (0..in_row).map(|i| self.random(first + i)).collect();
             let seats = row.seats(&mut randoms);
+            let groups = Groups::new(self.style.seed, zone, row_number, self.side);
             for ((clump, random), seat) in (first..).zip(&mut randoms).zip(seats) {
                 let edit = self.edit(clump);
                 let length = edit.map_or(1.0, |edit| edit.length);
@@ -116,7 +146,8 @@ impl Half<'_> {
                     along: staggered(seat.along, row_number, in_row),
                     ..seat
                 };
-                let (points, held) = row.clump(seat, length, random);
+                let member = groups.member(seat.along);
+                let (points, held) = row.clump(seat, member, length, random);
                 self.push(clump, points, held, seat.size);
             }
         }
@@ -131,11 +162,13 @@ impl Half<'_> {
             side: self.side,
         };
         let size = gathered.size();
+        let groups = Groups::new(self.style.seed, zone, 0, self.side);
         for clump in 0..zone.count.min(MOST_CLUMPS) {
             let mut random = self.random(clump);
             let class = size_class(zone.mixed_sizes, &mut random);
             let length = self.edit(clump).map_or(1.0, |edit| edit.length);
-            let (points, held) = gathered.clump(clump, length, &mut random);
+            let member = groups.of_gathered(clump);
+            let (points, held) = gathered.clump(clump, member, length, &mut random);
             self.push(clump, points, held, size * class);
         }
         self.grown.ties.extend(gathered.ties());
@@ -156,8 +189,13 @@ impl Half<'_> {
             edit.apply(&mut points, self.shell);
             size *= edit.size;
         }
+        if let Some(height) = self.zone.cut {
+            cut_at(height, self.shell, &mut points);
+        }
+        let held = held.min(points.len());
+        let taper = self.zone.taper;
         self.grown
-            .push(self.number, self.first + clump, &points, held, size);
+            .push(self.number, self.first + clump, &points, held, size, taper);
     }
 }
 

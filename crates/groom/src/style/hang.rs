@@ -27,6 +27,12 @@ pub(super) struct Hanging {
     pub size: f32,
     /// Its place in the section of gathered hair (outwards, sideways), within the unit circle.
     pub section: [f32; 2],
+    /// The place in the section that its tip comes to.
+    pub tip_section: [f32; 2],
+    /// How far its tip is drawn to others of its group, metres.
+    pub towards: Vec3,
+    /// Its share of the zone's sideways leans.
+    pub swing: f32,
 }
 
 /// Lets a clump hang on from its last point.
@@ -59,13 +65,34 @@ pub(super) fn hang(
         let outwards = across.cross(heading).normalize_or(axis.away);
         let round = across * cos + outwards * (sin * (1.0 - zone.curl_flatness));
         let curl = round * (zone.curl * shell.height() * smooth(4.0 * t));
-        let [out, side] = hanging.section.map(|x| x * axis.fullness(t));
-        let point = center + axis.away * out + axis.sideways * side + curl;
+        let together = smooth(t);
+        let place = |i: usize| {
+            hanging.section[i] + (hanging.tip_section[i] - hanging.section[i]) * together
+        };
+        let [out, side] = [place(0), place(1)].map(|x| x * axis.fullness(t));
+        let gathered = hanging.towards * together;
+        let point = center + axis.away * out + axis.sideways * side + gathered + curl;
         points.push(shell.keep_out(point, axis.gap));
     }
     if turns <= 0.0 {
         smooth_corners(&mut points[first..]);
     }
+}
+
+/// Ends a clump at a height: cut off there, or led straight down to it.
+pub(super) fn cut_at(height: f32, shell: &Shell, points: &mut Vec<Vec3>) {
+    let level = shell.center().y + height * shell.height();
+    let is_below = |point: &Vec3| point.y < level;
+    let Some(first) = points.iter().skip(1).position(is_below) else {
+        let tip = points[points.len() - 1];
+        points.push(tip.with_y(level.min(tip.y - 1e-3)));
+        return;
+    };
+    let [above, below] = [points[first], points[first + 1]];
+    let t = (above.y - level) / (above.y - below.y).max(1e-6);
+    points.truncate(first + 1);
+    // A root below the level leaves a stub.
+    points.push(above.lerp(below, t.clamp(0.1, 1.0)));
 }
 
 /// Rounds the corners where hair leaves the head, or was kept out of it.
@@ -88,6 +115,9 @@ struct Axis<'a> {
     away: Vec3,
     sideways: Vec3,
     sway: f32,
+    /// Sideways leans of the zone: one that grows, and one that turns.
+    sweep: f32,
+    s_curve: f32,
     length_m: f32,
     /// How near the skin a point may come, head heights.
     gap: f32,
@@ -117,6 +147,8 @@ impl<'a> Axis<'a> {
             away,
             sideways: Vec3::Y.cross(away),
             sway,
+            sweep: zone.sweep * hanging.side * hanging.swing,
+            s_curve: zone.s_curve * hanging.side * hanging.swing,
             length_m: hanging.length_m,
             gap: CLOSEST * hanging.size / 300.0,
         }
@@ -135,7 +167,9 @@ impl<'a> Axis<'a> {
             before = at;
             let turn = zone.weight * length_m / self.shell.height();
             let turn = turn / (turn + (1.0 - zone.weight) * BEND).max(1e-6);
-            let down = self.down + self.sideways * (self.sway * at);
+            let (_, turning) = sin_cos_turns(at);
+            let lean = (self.sway + self.sweep) * at + self.s_curve * turning;
+            let down = self.down + self.sideways * lean;
             heading = heading.lerp(down, turn).normalize_or(self.down);
             let flicked = heading + self.away * (zone.flick * at * at);
             let flicked = flicked.normalize_or(heading);
@@ -146,11 +180,13 @@ impl<'a> Axis<'a> {
     }
 
     /// Radius of gathered hair at share `t` of the points, metres: it bursts from the tie, is fullest
-    /// at a third, and gathers again.
+    /// at its `swell`, and gathers again.
     fn fullness(&self, t: f32) -> f32 {
         let at = t * (0.5 + 0.5 * t);
-        let burst = 1.0 - (1.0 - (at / 0.3).min(1.0)) * (1.0 - (at / 0.3).min(1.0));
-        let gather = 1.0 - 0.6 * smooth((at - 0.3) / 0.7);
+        let swell = self.zone.swell;
+        let left = 1.0 - (at / swell).min(1.0);
+        let burst = 1.0 - left * left;
+        let gather = 1.0 - 0.6 * smooth((at - swell) / (1.0 - swell).max(1e-3));
         self.zone.fullness * self.shell.height() * (0.12 + 0.88 * burst) * gather
     }
 }

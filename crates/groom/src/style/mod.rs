@@ -8,6 +8,7 @@ mod curves;
 mod description;
 mod edit;
 mod gathered;
+mod group;
 mod grow;
 mod hang;
 mod line;
@@ -16,7 +17,7 @@ mod scalp;
 mod tie;
 mod undercoat;
 
-pub use description::{Form, Style, Zone};
+pub use description::{Form, Style, Taper, Zone};
 pub use edit::{Drawn, Edit};
 pub use grow::{Grown, MOST_CLUMPS, grow};
 pub use line::Line;

@@ -2,6 +2,7 @@
 
 use super::curves::{arch, eased, smooth};
 use super::description::Zone;
+use super::group::Member;
 use super::hang::{Hanging, hang};
 use super::line::Line;
 use super::scalp::Scalp;
@@ -16,6 +17,8 @@ const ON_HEAD: usize = 8;
 const WIDEST: f32 = 0.4;
 /// How much lower the last row of a zone lies than the first, as a share of its lift.
 const TILE: f32 = 0.5;
+/// How much of their way together clumps that hang go on the head, before they hang.
+const GATHERED_ON_HEAD: f32 = 0.4;
 /// How near the skin the roots of lower rows lie, head heights.
 const ROOT_OF_TILE: f32 = 0.012;
 
@@ -87,7 +90,13 @@ impl<'a> Row<'a> {
     }
 
     /// The points of a clump, from its root to its tip, and how many of them stay with the head.
-    pub fn clump(&self, seat: Seat, length_scale: f32, random: &mut Random) -> (Vec<Vec3>, usize) {
+    pub fn clump(
+        &self,
+        seat: Seat,
+        member: Option<Member>,
+        length_scale: f32,
+        random: &mut Random,
+    ) -> (Vec<Vec3>, usize) {
         let zone = self.zone;
         let higher = 1.0 + zone.lift_variation * random.around_zero();
         let [root, tip] = self.ends(seat.along);
@@ -97,12 +106,26 @@ impl<'a> Row<'a> {
             (way + moved * zone.scatter.to_radians()).normalize_or(way)
         };
         let ends = [scatter(random, root), scatter(random, tip)];
-        let length = zone.hang * (1.0 + zone.length_variation * random.around_zero());
+        let own = match member {
+            Some(member) => member.length,
+            None => 1.0 + zone.length_variation * random.around_zero(),
+        };
+        let length = zone.hang * own;
+        let hangs = length > 0.0;
+        let (ends, towards) = match member {
+            Some(member) => self.gathered(ends, seat, member, hangs),
+            None => (ends, Vec3::ZERO),
+        };
+        // Hair that only lies on the head ends sooner where it is shorter.
+        let end = match member {
+            Some(_) if !hangs => (own * length_scale).min(1.0),
+            _ => 1.0,
+        };
 
         let mut points = Vec::with_capacity(3 * ON_HEAD);
         if zone.tips.is_some() {
             for step in 0..ON_HEAD {
-                let t = step as f32 / (ON_HEAD - 1) as f32;
+                let t = end * step as f32 / (ON_HEAD - 1) as f32;
                 let t = self.start + (1.0 - self.start) * t;
                 points.push(self.shell.above(self.way(ends, t), self.lift(t, higher)));
             }
@@ -115,9 +138,31 @@ impl<'a> Row<'a> {
             side: self.side,
             size: seat.size,
             section: [0.0; 2],
+            tip_section: [0.0; 2],
+            towards,
+            swing: member.map_or(1.0, |member| member.swing),
         };
         hang(zone, &hanging, self.shell, random, &mut points);
         (points, held)
+    }
+
+    /// The ends of a clump's way over the head, drawn to the middle of its group, and how far its tip is drawn on while it hangs,
+    /// metres.
+    fn gathered(
+        &self,
+        [root, tip]: [Vec3; 2],
+        seat: Seat,
+        member: Member,
+        hangs: bool,
+    ) -> ([Vec3; 2], Vec3) {
+        let at = |share: f32| {
+            let along = seat.along + (member.middle - seat.along) * self.zone.gather * share;
+            self.ends(along)[1]
+        };
+        let (own, on_head) = (at(0.0), at(if hangs { GATHERED_ON_HEAD } else { 1.0 }));
+        let ends = [root, (tip + on_head - own).normalize_or(tip)];
+        let above = |way: Vec3| self.shell.above(way, self.zone.tip_lift);
+        (ends, above(at(1.0)) - above(on_head))
     }
 
     /// Share of the way over the head that stays with it: all where it leads to one place, as a tie.

@@ -21,6 +21,13 @@ const CAP_END: f32 = 0.85;
 const CAP_WIDEST: f32 = 0.5;
 /// Radius of a cap's clump in distances from one to the next where it is widest.
 const CAP_SPREAD: f32 = 0.9;
+/// The broad coat: where its clumps along the hairline lie, in shares of the way from the whorl, and their radius in head heights;
+/// where those from the whorl end, where they are widest, and how they overlap there.
+const BORDER_SHARE: f32 = 0.9;
+const BORDER_RADIUS: f32 = 0.085;
+const BROAD_END: f32 = 1.0;
+const BROAD_WIDEST: f32 = 0.6;
+const BROAD_SPREAD: f32 = 0.95;
 /// Points of a clump.
 const POINTS: u32 = 9;
 /// How deep the middle line lies below the skin, in radii: discs stand out of the head's outline, and a
@@ -29,9 +36,24 @@ const DEPTH: f32 = 0.35;
 
 /// The clumps of the undercoat: points and size (1/300 head heights). The cap stands `cap` head heights
 /// above the skin at the whorl, less and less towards the hairline.
-pub(super) fn undercoat(scalp: &Scalp, cap: f32, shell: &Shell) -> Vec<(Vec<Vec3>, f32)> {
+///
+/// `count` broad clumps, most of them from the whorl to the hairline, the others along it; or rings of narrow ones if it is 0.
+pub(super) fn undercoat(
+    scalp: &Scalp,
+    cap: f32,
+    count: u32,
+    shell: &Shell,
+) -> Vec<(Vec<Vec3>, f32)> {
     let coat = Coat { scalp, cap, shell };
     let mut clumps = Vec::new();
+    if count > 0 {
+        let border = (count / 3).max(3);
+        coat.border(border, &mut clumps);
+        let locks = count.saturating_sub(border).max(3);
+        let turns = (0..locks).map(|lock| lock as f32 / locks as f32);
+        clumps.extend(turns.map(|turn| coat.broad_lock(360.0 * turn, 360.0 / locks as f32)));
+        return clumps;
+    }
     for ring in FIRST_RING..RINGS {
         coat.ring(ring, &mut clumps);
     }
@@ -68,6 +90,32 @@ impl Coat<'_> {
         let neighbours = [longitude, next].map(|longitude| (CAP_WIDEST, longitude));
         let radius = CAP_SPREAD * self.distance(neighbours);
         let share = |t: f32| CAP_START + (CAP_END - CAP_START) * t;
+        let points = even_points(|t| {
+            if share(t) < 0.0 {
+                self.point(-share(t), longitude + 180.0, radius)
+            } else {
+                self.point(share(t), longitude, radius)
+            }
+        });
+        (points, 300.0 * radius)
+    }
+
+    /// Broad clumps along the hairline.
+    fn border(&self, count: u32, clumps: &mut Vec<(Vec<Vec3>, f32)>) {
+        for clump in 0..count {
+            let first = clump as f32 / count as f32;
+            let longitude = |t: f32| 360.0 * (first + RING_LENGTH * t / count as f32);
+            let radius = BORDER_RADIUS;
+            let point = |t: f32| self.point(BORDER_SHARE, longitude(t), radius);
+            clumps.push((even_points(point), 300.0 * radius));
+        }
+    }
+
+    /// A broad clump from beyond the whorl to the hairline, towards a longitude; neighbours are `apart` degrees away.
+    fn broad_lock(&self, longitude: f32, apart: f32) -> (Vec<Vec3>, f32) {
+        let neighbours = [longitude, longitude + apart].map(|longitude| (BROAD_WIDEST, longitude));
+        let radius = BROAD_SPREAD * self.distance(neighbours);
+        let share = |t: f32| CAP_START + (BROAD_END - CAP_START) * t;
         let points = even_points(|t| {
             if share(t) < 0.0 {
                 self.point(-share(t), longitude + 180.0, radius)

@@ -1,7 +1,7 @@
 //! Joints to strokes on the screen, by the layers' own WGSL in Rust.
 
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
-use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, Object, seen_lengths};
+use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
 use effects::{CLUMP_DISCS, Input, InputSet, Joints, Layer, Units, clump, layer_seed};
@@ -176,6 +176,12 @@ impl Evaluator {
             Input::Seed => joints.seed.extend(strands().map(|s| hash(s.id))),
             Input::StrandMean => joints.strand_mean.extend(strands().map(|s| world(&s.mean))),
             Input::StrandSize => joints.strand_size.extend(strands().map(|s| s.size)),
+            // Empty where no strand has one.
+            Input::StrandTaper if frame.strands.iter().all(|s| s.taper == NO_TAPER) => {}
+            Input::StrandTaper => {
+                let tapers = strands().map(|s| vec2(s.taper.to_array()));
+                joints.strand_taper.extend(tapers);
+            }
             Input::HeadCenter => {
                 for Object {
                     head, joints: own, ..

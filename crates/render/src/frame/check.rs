@@ -76,7 +76,9 @@ pub enum FrameError {
         strands: usize,
     },
     /// A strand's numbers make no stroke.
-    #[error("strand {strand}: its mean must be finite, and its size ({size}) finite and 0 or more")]
+    #[error(
+        "strand {strand}: its mean and taper must be finite, and its size ({size}) finite and 0 or more"
+    )]
     StrandNumbers {
         /// Index of the strand.
         strand: usize,
@@ -259,7 +261,7 @@ impl Frame<'_> {
         }
         for (index, strand) in self.strands.iter().enumerate() {
             let is_size = (0.0..=f32::MAX).contains(&strand.size);
-            if !is_size || !strand.mean.is_finite() {
+            if !is_size || !strand.mean.is_finite() || !strand.taper.is_finite() {
                 return Err(FrameError::StrandNumbers {
                     strand: index,
                     size: strand.size,

@@ -32,6 +32,7 @@ impl InputSource {
             Input::Seed => Wgsl("gpu_seed(joint)"),
             Input::StrandMean => Wgsl("gpu_strand_mean(joint)"),
             Input::StrandSize => Wgsl("bitcast<f32>(gpu_of_strand(joint, 4u))"),
+            Input::StrandTaper => Wgsl("gpu_strand_taper(joint)"),
             Input::HeadCenter => Wgsl("gpu_head_center()"),
             Input::HeadHeight => Wgsl("gpu_word(GPU_HEAD_HEIGHT)"),
             Input::LightDirection => Wgsl("gpu_light_direction(joint)"),

@@ -4,7 +4,9 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
-use render::{Brush, Frame, Head, Light, Object, Order, StrandInfo, Surface, SurfaceVertex};
+use render::{
+    Brush, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo, Surface, SurfaceVertex,
+};
 use std::iter;
 use std::ops::Range;
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
@@ -127,6 +129,7 @@ impl Scene {
                 id: 3 * i as u32 + 5,
                 mean,
                 size: numbers.around(9.0, 8.0),
+                taper: NO_TAPER,
             });
         }
         // The last strands are an effect's own.

@@ -28,6 +28,8 @@ section! {
         undercoat: bool = flag(true),
         /// How high the undercoat stands above the skin at the whorl: roots sink into it, so that the crown is no valley.
         cap: f32 = number(0.05, 0.0..=0.3).unit("head heights"),
+        /// How many broad clumps the undercoat is made of; 0: rings of narrow ones, 72 in all.
+        coat: u32 = whole(0, 0..=200),
     }
 }
 
@@ -119,6 +121,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
         scalp: scalp(&mut reader, &lists),
         undercoat: top.undercoat,
         cap: top.cap,
+        coat: top.coat,
         zones: Vec::new(),
         edits: Vec::new(),
         drawn: Vec::new(),

@@ -3,7 +3,7 @@
 use super::lines::line;
 use effects::preset::{Field, Reader};
 use effects::{choices, section};
-use groom::{Form, Line, MOST_CLUMPS, Zone};
+use groom::{Form, Line, MOST_CLUMPS, Taper, Zone};
 
 /// Most rows of a zone.
 const MOST_ROWS: u32 = 32;
@@ -57,6 +57,10 @@ section! {
         weight: f32 = number(0.5, 0.0..=1.0),
         /// Lean away from the head while it hangs.
         spread: f32 = number(0.0, -2.0..=2.0),
+        /// Lean sideways that grows to the tips, the same for all clumps: above 0 towards the back on both sides.
+        sweep: f32 = number(0.0, -3.0..=3.0),
+        /// How far hanging hair swings to one side and back in an S; below 0 the other way.
+        s_curve: f32 = number(0.0, -3.0..=3.0),
         /// How much hanging clumps lean sideways, each its own way.
         sway: f32 = number(0.12, 0.0..=2.0),
         /// Turn of the tips away from the head; below 0 towards it.
@@ -69,6 +73,8 @@ section! {
         curl_flatness: f32 = number(0.0, 0.0..=1.0),
         /// Radius of gathered hair where it is fullest.
         fullness: f32 = number(0.15, 0.0..=2.0).unit("head heights"),
+        /// Share of its length at which gathered hair is fullest.
+        swell: f32 = number(0.3, 0.02..=1.0),
         /// Radius of the tie that gathers the hair; 0 draws none.
         tie: f32 = number(0.0, 0.0..=1.0).unit("head heights"),
         /// Radius of a clump at its full size; 0 takes it from `overlap`.
@@ -79,6 +85,20 @@ section! {
         mixed_sizes: f32 = number(0.5, 0.0..=1.0),
         /// How much places differ.
         scatter: f32 = number(1.5, 0.0..=45.0).unit("degrees"),
+        /// Groups that the clumps of a row, or of a tail, come together in towards their tips; 0: each goes its own way.
+        groups: u32 = whole(0, 0..=MOST_CLUMPS),
+        /// How far the tips of a group come together.
+        gather: f32 = number(0.7, 0.0..=1.0),
+        /// How much shorter the outer clumps of a group are than its middle one.
+        peak: f32 = number(0.3, 0.0..=1.0),
+        /// Whether all tips end at one height, at `cut_height`.
+        cut: bool = flag(false),
+        /// The height at which tips end where they are cut, from the middle of the skull.
+        cut_height: f32 = number(-0.5, -20.0..=2.0).unit("head heights"),
+        /// Size of clumps at their roots, as a share of their full size, in place of the look's; below 0 the look's.
+        root_size: f32 = number(-1.0, -1.0..=1.0),
+        /// Where along the clumps they begin to shrink to a point, in place of the look's; below 0 the look's.
+        shrink_start: f32 = number(-1.0, -1.0..=1.0).unit("0 root to 1 tip"),
     }
 }
 
@@ -148,5 +168,16 @@ fn as_grown(fields: ZoneFields, roots: Line, tips: Option<Line>) -> Zone {
         overlap: fields.overlap,
         mixed_sizes: fields.mixed_sizes,
         scatter: fields.scatter,
+        sweep: fields.sweep,
+        s_curve: fields.s_curve,
+        swell: fields.swell,
+        groups: fields.groups,
+        gather: fields.gather,
+        peak: fields.peak,
+        cut: fields.cut.then_some(fields.cut_height),
+        taper: Taper {
+            root_size: Some(fields.root_size).filter(|size| *size >= 0.0),
+            shrink_start: Some(fields.shrink_start).filter(|start| *start >= 0.0),
+        },
     }
 }
