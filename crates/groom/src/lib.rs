@@ -26,6 +26,7 @@
 //!     zones: Vec::new(), // rows, tails, buns and braids
 //!     edits: Vec::new(),
 //!     drawn: vec![lock],
+//!     accessories: Vec::new(),
 //! };
 //! let hair = grow(&style, &shell);
 //! assert_eq!(hair.strands.len(), hair.undercoat + 2);
@@ -48,5 +49,6 @@ pub use face::{Ink, Patch};
 pub use guides::Guides;
 pub use shell::{Place, Shell, direction};
 pub use style::{
-    Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Ring, Scalp, Style, Taper, Tie, Zone, grow,
+    Accessory, AccessoryKind, Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, OrnamentMesh, Scalp,
+    Style, Taper, Tie, TieKind, Zone, grow,
 };

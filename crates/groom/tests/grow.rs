@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use groom::{
-    Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Place, Scalp, Shell, Style, Taper, Zone, bust, grow,
+    Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Place, Scalp, Shell, Style, Taper, TieKind, Zone,
+    bust, grow,
 };
 use proptest::prelude::*;
 use std::sync::LazyLock;
@@ -55,6 +56,7 @@ fn plain() -> Zone {
         curl_flatness: 0.0,
         fullness: 0.15,
         tie: 0.0,
+        tie_kind: TieKind::Ring,
         size: None,
         overlap: 1.5,
         mixed_sizes: 0.0,
@@ -80,6 +82,7 @@ fn style(zones: Vec<Zone>) -> Style {
         zones,
         edits: Vec::new(),
         drawn: Vec::new(),
+        accessories: Vec::new(),
     }
 }
 

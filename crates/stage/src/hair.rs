@@ -5,7 +5,7 @@ use crate::head::HeadModel;
 use crate::preset::HairSection;
 use crate::reach::reach_m;
 use glam::{Vec2, Vec3};
-use groom::{Guides, Tie};
+use groom::{Guides, OrnamentMesh};
 use hair_io::{HairFile, HeadFrame, Mesh};
 use hair_sim::{PointCache, Strands};
 use render::{Head, NO_TAPER, StrandInfo};
@@ -27,8 +27,8 @@ pub struct HairModel {
     pub(crate) shapes: Option<PointCache>,
     /// The bake that its file's motion is of.
     pub(crate) bake: Option<PathBuf>,
-    /// The ties that gather it.
-    pub(crate) ties: Vec<Tie>,
+    /// The ties that gather it, and what lies on it.
+    pub(crate) ornaments: Vec<OrnamentMesh>,
     /// The head that it stands on.
     pub(crate) head: Head,
     /// The roots of all strands, also of those that guides stand for.
@@ -76,7 +76,7 @@ impl HairModel {
             infos: Vec::new(),
             shapes: None,
             bake: None,
-            ties: Vec::new(),
+            ornaments: Vec::new(),
             head: head_of(HeadFrame::find(head, &all_roots)),
             reach_m: 0.0,
             all_roots,

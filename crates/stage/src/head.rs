@@ -2,7 +2,7 @@
 
 use crate::scalp;
 use glam::{Vec2, Vec3};
-use groom::{Ink, Patch, Tie};
+use groom::{Ink, OrnamentMesh, Patch};
 use hair_io::Mesh;
 use render::{Light, Surface, SurfaceVertex};
 use std::iter::repeat;
@@ -17,8 +17,8 @@ pub struct HeadModel {
     pub(crate) patches: Vec<Patch>,
     /// Triangles that have hair, and those that have none; both empty where that is not told apart.
     pub(crate) scalp: [Vec<[u32; 3]>; 2],
-    /// The bands that gather the hair on it.
-    pub(crate) ties: Mesh,
+    /// What the hair on it wears.
+    pub(crate) ornaments: Mesh,
 }
 
 impl HeadModel {
@@ -27,14 +27,14 @@ impl HeadModel {
         self.scalp = scalp::split(&self.mesh, roots, reach_m);
     }
 
-    /// Puts bands into the hair on it.
-    pub(crate) fn add_ties(&mut self, ties: &[Tie]) {
-        for ring in ties.iter().map(Tie::ring) {
-            let first = self.ties.positions.len() as u32;
-            self.ties.positions.extend(ring.positions);
-            self.ties.normals.extend(ring.normals);
-            let triangles = ring.triangles.iter().map(|t| t.map(|i| first + i));
-            self.ties.triangles.extend(triangles);
+    /// Puts ornaments into the hair on it.
+    pub(crate) fn add_ornaments(&mut self, ornaments: &[OrnamentMesh]) {
+        for ornament in ornaments {
+            let first = self.ornaments.positions.len() as u32;
+            self.ornaments.positions.extend(&ornament.positions);
+            self.ornaments.normals.extend(&ornament.normals);
+            let triangles = ornament.triangles.iter().map(|t| t.map(|i| first + i));
+            self.ornaments.triangles.extend(triangles);
         }
     }
 
@@ -52,7 +52,7 @@ impl HeadModel {
             shade: bust.shade,
             patches: bust.patches,
             scalp: Default::default(),
-            ties: no_mesh(),
+            ornaments: no_mesh(),
         }
     }
 }
@@ -64,7 +64,7 @@ impl From<Mesh> for HeadModel {
             shade: Vec::new(),
             patches: Vec::new(),
             scalp: Default::default(),
-            ties: no_mesh(),
+            ornaments: no_mesh(),
         }
     }
 }
@@ -141,7 +141,7 @@ pub(crate) fn surfaces(
         shade,
         patches,
         scalp: [scalp, skin],
-        ties,
+        ornaments,
     } = model;
     let shade = shade.iter().copied().chain(repeat(0.0));
     let corners: Vec<Corner> = mesh
@@ -189,8 +189,8 @@ pub(crate) fn surfaces(
             ..outline(mesh, paint, camera)
         });
     }
-    if !ties.triangles.is_empty() {
-        surfaces.extend(bands(ties, paint, camera, light));
+    if !ornaments.triangles.is_empty() {
+        surfaces.extend(worn(ornaments, paint, camera, light));
     }
     surfaces.extend(patches.iter().map(|patch| {
         let corner = |position: &Vec3| Corner {
@@ -220,12 +220,12 @@ fn outline(mesh: &Mesh, paint: &HeadPaint, camera: &Camera) -> Surface {
     surface(camera, &mesh.triangles, &hull, back, line, line)
 }
 
-/// The bands in the hair. Hair goes by its depth alone here: what is in a band does not hide it.
-fn bands(ties: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> Vec<Surface> {
-    let corners: Vec<Corner> = ties
+/// What the hair wears. Hair goes by its depth alone here: what is in a band does not hide it.
+fn worn(ornaments: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> Vec<Surface> {
+    let corners: Vec<Corner> = ornaments
         .positions
         .iter()
-        .zip(&ties.normals)
+        .zip(&ornaments.normals)
         .map(|(position, normal)| Corner {
             view: camera.view_from_world(*position),
             tone: normal.dot(light.seen_from(*position).0) - paint.threshold,
@@ -233,20 +233,20 @@ fn bands(ties: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> Vec<
         .collect();
     let front = surface(
         camera,
-        &ties.triangles,
+        &ornaments.triangles,
         &corners,
         Facing::Front,
         paint.tie,
         paint.tie_shadow,
     );
-    let mut bands = vec![front];
+    let mut worn = vec![front];
     if paint.width_m > 0.0 {
-        bands.push(outline(ties, paint, camera));
+        worn.push(outline(ornaments, paint, camera));
     }
-    for band in &mut bands {
-        band.margin_m = BAND_MARGIN_M;
+    for surface in &mut worn {
+        surface.margin_m = BAND_MARGIN_M;
     }
-    bands
+    worn
 }
 
 /// The triangles that face this way, cut at the near plane.

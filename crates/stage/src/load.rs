@@ -217,7 +217,7 @@ fn grow(files: &Files, path: &Path, head: Option<&Mesh>) -> Result<HairModel, St
         undercoat: grown.undercoat,
         shapes: None,
         bake: None,
-        ties: grown.ties,
+        ornaments: grown.ornaments,
         head,
     })
 }

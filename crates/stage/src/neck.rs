@@ -94,7 +94,7 @@ impl PosedHead {
             posed.positions[i] = moved(rest.positions[i], *share);
             posed.normals[i] = turn(*share) * rest.normals[i];
         }
-        let (rest, posed) = (&neck.rest.ties, &mut self.model.ties);
+        let (rest, posed) = (&neck.rest.ornaments, &mut self.model.ornaments);
         for i in 0..rest.positions.len() {
             posed.positions[i] = moved(rest.positions[i], 1.0);
             posed.normals[i] = turn(1.0) * rest.normals[i];

@@ -187,7 +187,7 @@ impl Object {
 /// The head with the hair's bands in it, and with what of it has hair told from what has none.
 fn neck(head: &HeadModel, hair: &HairModel, look: &Look) -> Neck {
     let mut model = head.clone();
-    model.add_ties(&hair.ties);
+    model.add_ornaments(&hair.ornaments);
     let reach = look.sections.head.scalp;
     // A style's own coat lies there.
     if reach > 0.0 && hair.undercoat == 0 {

@@ -2,6 +2,7 @@
 
 use super::edit::{Drawn, Edit};
 use super::line::Line;
+use super::ornament::{Accessory, TieKind};
 use super::scalp::Scalp;
 
 /// A hair style.
@@ -23,6 +24,8 @@ pub struct Style {
     pub edits: Vec<Edit>,
     /// Clumps drawn by hand.
     pub drawn: Vec<Drawn>,
+    /// What lies on the hair.
+    pub accessories: Vec<Accessory>,
 }
 
 /// Rows of clumps, or hair gathered in a tie.
@@ -88,6 +91,8 @@ pub struct Zone {
     pub swell: f32,
     /// Radius of the tie that gathers the hair; 0 draws none.
     pub tie: f32,
+    /// What the tie is.
+    pub tie_kind: TieKind,
     /// Radius of a clump at its full size; nothing to take it from the row's length and `overlap`.
     pub size: Option<f32>,
     /// How many times the widths of a row's clumps cover its length.

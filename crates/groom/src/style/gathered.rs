@@ -3,8 +3,8 @@
 use super::description::{Form, Zone};
 use super::group::Member;
 use super::hang::{Hanging, hang};
+use super::ornament::Tie;
 use super::scalp::Scalp;
-use super::tie::Tie;
 use crate::random::Random;
 use crate::shell::Shell;
 use crate::trig::{sin_cos_degrees, sin_cos_turns};
@@ -63,6 +63,7 @@ impl Gathered<'_> {
             return Vec::new();
         }
         vec![Tie {
+            kind: zone.tie_kind,
             center: self.center(),
             axis: self.outward(),
             radius_m: zone.tie * self.shell.height(),

@@ -5,8 +5,8 @@ use super::edit::{Drawn, Edit};
 use super::gathered::Gathered;
 use super::group::Groups;
 use super::hang::cut_at;
+use super::ornament::{OrnamentMesh, Tie};
 use super::row::{Row, Seat, size_class};
-use super::tie::Tie;
 use super::undercoat::undercoat;
 use crate::random::Random;
 use crate::shell::Shell;
@@ -37,6 +37,8 @@ pub struct Grown {
     pub tapers: Vec<Taper>,
     /// The ties of gathered hair.
     pub ties: Vec<Tie>,
+    /// Ties and accessories as meshes.
+    pub ornaments: Vec<OrnamentMesh>,
 }
 
 impl Grown {
@@ -108,6 +110,13 @@ pub fn grow(style: &Style, shell: &Shell) -> Grown {
                     Form::Tail | Form::Bun | Form::Braid => half.gathered(),
                 }
             }
+        }
+    }
+    grown.ornaments = grown.ties.iter().map(Tie::mesh).collect();
+    for accessory in &style.accessories {
+        grown.ornaments.push(accessory.mesh(1.0, shell));
+        if accessory.mirror {
+            grown.ornaments.push(accessory.mesh(-1.0, shell));
         }
     }
     grown

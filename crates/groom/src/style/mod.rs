@@ -12,14 +12,14 @@ mod group;
 mod grow;
 mod hang;
 mod line;
+mod ornament;
 mod row;
 mod scalp;
-mod tie;
 mod undercoat;
 
 pub use description::{Form, Style, Taper, Zone};
 pub use edit::{Drawn, Edit};
 pub use grow::{Grown, MOST_CLUMPS, grow};
 pub use line::Line;
+pub use ornament::{Accessory, AccessoryKind, OrnamentMesh, Tie, TieKind};
 pub use scalp::Scalp;
-pub use tie::{Ring, Tie};

@@ -91,7 +91,7 @@ impl Scalp {
 
 /// The direction at share `along` (0 to 1) of a line through these places, which are evenly spaced in
 /// `along`.
-fn on_line(line: &[Place], along: f32) -> Vec3 {
+pub(super) fn on_line(line: &[Place], along: f32) -> Vec3 {
     let directions = |i: usize| direction(line[i.min(line.len() - 1)]);
     let at = along.clamp(0.0, 1.0) * (line.len() - 1) as f32;
     let first = (at as usize).min(line.len().saturating_sub(2));

@@ -3,11 +3,13 @@
 //! Places are (longitude, latitude) in degrees: longitude 0 is the face, 90 the character's left ear,
 //! 180 the back; latitude 90 the top.
 
+mod accessories;
 mod clumps;
 mod lines;
 mod zone;
 
 use crate::part::FilePart;
+use accessories::AccessoryFields;
 use clumps::{DrawnFields, EditFields};
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::section;
@@ -92,10 +94,28 @@ pub const STYLE_PARTS: &[FilePart] = &[
             "From root to tip: (longitude, latitude, height above the skin in head heights), two or more.",
         )],
     },
+    FilePart {
+        name: "accessories",
+        doc: "What lies on the hair, in the colours of ties.",
+        example: "accessories: [(kind: clip, at: [(40, 30)], name: value, ...), ...]",
+        table: AccessoryFields::TABLE,
+        places: &[(
+            "at",
+            "Its place, [(longitude, latitude)]; for a hairband the places that it runs through, from one end to the other.",
+        )],
+    },
 ];
 
 /// Fields of a style that hold places, zones or clumps.
-const LISTS: [&str; 6] = ["whorl", "parting", "hairline", "zones", "edits", "strands"];
+const LISTS: [&str; 7] = [
+    "whorl",
+    "parting",
+    "hairline",
+    "zones",
+    "edits",
+    "strands",
+    "accessories",
+];
 
 /// Reads the style `text`, which messages call `file`.
 ///
@@ -125,6 +145,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
         zones: Vec::new(),
         edits: Vec::new(),
         drawn: Vec::new(),
+        accessories: Vec::new(),
     };
     for item in items(&mut reader, &lists, "zones") {
         let zone = zone::zone(&mut reader, item);
@@ -147,6 +168,11 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
         style
             .edits
             .extend(clumps::edit(&mut reader, item, &style.zones));
+    }
+    for item in items(&mut reader, &lists, "accessories") {
+        style
+            .accessories
+            .extend(accessories::accessory(&mut reader, item));
     }
     reader.report()?;
     Ok(style)

@@ -3,7 +3,7 @@
 use super::lines::line;
 use effects::preset::{Field, Reader};
 use effects::{choices, section};
-use groom::{Form, Line, MOST_CLUMPS, Taper, Zone};
+use groom::{Form, Line, MOST_CLUMPS, Taper, TieKind, Zone};
 
 /// Most rows of a zone.
 const MOST_ROWS: u32 = 32;
@@ -19,6 +19,20 @@ choices! {
         Bun = "bun",
         /// A braid.
         Braid = "braid",
+    }
+}
+
+choices! {
+    /// What gathers hair.
+    pub(super) enum TieChoice {
+        /// A thick ring.
+        Ring = "ring",
+        /// A flat band that fits the hair.
+        Band = "band",
+        /// A folded ring of cloth.
+        Scrunchie = "scrunchie",
+        /// A band with a bow on it.
+        Bow = "bow",
     }
 }
 
@@ -77,6 +91,8 @@ section! {
         swell: f32 = number(0.3, 0.02..=1.0),
         /// Radius of the tie that gathers the hair; 0 draws none.
         tie: f32 = number(0.0, 0.0..=1.0).unit("head heights"),
+        /// What the tie is.
+        tie_kind: TieChoice = TieChoice::Ring.or_another(),
         /// Radius of a clump at its full size; 0 takes it from `overlap`.
         size: f32 = number(0.0, 0.0..=200.0).unit("1/300 head height"),
         /// How many times the widths of a row's clumps cover its length.
@@ -164,6 +180,12 @@ fn as_grown(fields: ZoneFields, roots: Line, tips: Option<Line>) -> Zone {
         curl_flatness: fields.curl_flatness,
         fullness: fields.fullness,
         tie: fields.tie,
+        tie_kind: match fields.tie_kind {
+            TieChoice::Ring => TieKind::Ring,
+            TieChoice::Band => TieKind::Band,
+            TieChoice::Scrunchie => TieKind::Scrunchie,
+            TieChoice::Bow => TieKind::Bow,
+        },
         size: Some(fields.size).filter(|size| *size > 0.0),
         overlap: fields.overlap,
         mixed_sizes: fields.mixed_sizes,
