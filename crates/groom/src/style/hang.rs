@@ -14,6 +14,8 @@ const POINTS_A_TURN: f32 = 9.0;
 const MOST_POINTS: usize = 160;
 /// How near the skin a clump's middle line may come, in its radii: some of it lies against the skin.
 const CLOSEST: f32 = 0.6;
+/// How often hanging points are moved out of the body: each move may push others in.
+const CLEARINGS: u32 = 3;
 /// Length in which hair of weight 1/2 turns half-way down, head heights.
 const BEND: f32 = 0.12;
 
@@ -48,6 +50,7 @@ pub(super) fn hang(
         return;
     }
     let first = points.len().saturating_sub(2);
+    let hung = points.len() - 1;
     let axis = Axis::new(zone, hanging, shell, points, sway);
     let length = hanging.length_m / shell.height();
     let turns = if zone.curl > 0.0 {
@@ -76,6 +79,22 @@ pub(super) fn hang(
     }
     if turns <= 0.0 {
         smooth_corners(&mut points[first..]);
+    }
+    keep_clear(&mut points[hung..], axis.gap, shell);
+}
+
+/// Moves hanging points out of the body, and those between which the way runs through it.
+fn keep_clear(points: &mut [Vec3], gap: f32, shell: &Shell) {
+    for _ in 0..CLEARINGS {
+        for i in 1..points.len() {
+            points[i] = shell.keep_out(points[i], gap);
+            let middle = points[i - 1].midpoint(points[i]);
+            let push = shell.keep_out(middle, gap) - middle;
+            points[i] += push;
+            if i > 1 {
+                points[i - 1] += push;
+            }
+        }
     }
 }
 
