@@ -34,6 +34,7 @@ Examples:
   inkstrand render look.ron --camera 35,10,6 --light -40,30
       seen from the viewer's right and a little above, six head heights away; lit from the left
   inkstrand render look.ron --frames 0-47 -o shot_####.png
+  inkstrand render look.ron --frames 0-47 -o shot.apng
       two seconds at 24 frames a second: shot_0000.png to shot_0047.png
   inkstrand render look.ron --size 480x360 --samples 4 -o quick.png
       a quick look
@@ -128,7 +129,7 @@ pub(crate) struct RenderOptions {
     /// The preset, a .ron file
     pub preset: PathBuf,
 
-    /// Picture to write, .png; `#` marks become the frame's number [default: the preset's name, in the current folder]
+    /// Picture to write, .png; `#` marks become the frame's number; .apng is one file of all frames, which moves [default: the preset's name, in the current folder]
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
 

@@ -16,6 +16,7 @@
 //! - `gpu`: `--backend gpu`, and `auto` draws on graphics cards.
 //! - `gltf`: `motion: (gltf: ..)` of a preset moves the head by a character's animation.
 
+mod animation;
 mod cli;
 mod commands;
 mod embed;

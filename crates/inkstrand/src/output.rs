@@ -1,5 +1,6 @@
 //! Picture files: their names and their bytes.
 
+use crate::animation::{Animation, color, pixels};
 use crate::paths::place;
 use hair_io::{folder_of, write_whole};
 use render::Picture;
@@ -16,18 +17,25 @@ pub(crate) struct Output {
     beside: PathBuf,
     name: Name,
     transparent: bool,
+    /// All frames in one file, once there is a first.
+    animation: Option<Animation>,
+    /// How many frames there are, and how many are shown in a second.
+    frames: u32,
+    fps: f32,
 }
 
 /// What pictures are called.
 enum Name {
     One(OsString),
+    /// One file for all frames.
+    Moving(OsString),
     /// The frame's number, of at least so many digits, between two texts.
     Numbered(String, usize, String),
 }
 
 impl Output {
     /// Pictures at `given`, or named after the preset in the current folder. A sequence gets frame
-    /// numbers, also where the name has no `#` for them.
+    /// numbers, also where the name has no `#` for them; or it is one animated PNG, where the name ends in .apng.
     ///
     /// # Errors
     ///
@@ -35,9 +43,11 @@ impl Output {
     pub fn new(
         given: Option<&Path>,
         preset: &Path,
-        sequence: bool,
+        frames: Option<(u32, u32)>,
+        fps: f32,
         transparent: bool,
     ) -> Result<Self, String> {
+        let sequence = frames.is_some();
         let (beside, name) = match given {
             Some(path) => (path.to_owned(), given_name(path, sequence)?),
             None => (PathBuf::new(), name_after(preset, sequence)?),
@@ -46,13 +56,16 @@ impl Output {
             beside,
             name,
             transparent,
+            animation: None,
+            frames: frames.map_or(1, |(first, last)| last - first + 1),
+            fps,
         })
     }
 
     /// The file of a frame.
     pub fn path(&self, frame: u32) -> PathBuf {
         match &self.name {
-            Name::One(name) => self.beside.with_file_name(name),
+            Name::One(name) | Name::Moving(name) => self.beside.with_file_name(name),
             Name::Numbered(before, width, after) => {
                 let name = format!("{before}{frame:0width$}{after}");
                 self.beside.with_file_name(name)
@@ -71,7 +84,7 @@ impl Output {
         let is_picture = |path: &&PathBuf| {
             let path = place(path);
             let frame = match self.name {
-                Name::One(_) => Some(*frames.start()),
+                Name::One(_) | Name::Moving(_) => Some(*frames.start()),
                 Name::Numbered(..) => path.file_name().and_then(|name| self.frame(name)),
             };
             let is_named = frame
@@ -84,7 +97,7 @@ impl Output {
     /// Where links of the names of these frames' pictures lead.
     fn links(&self, frames: &RangeInclusive<u32>) -> HashSet<PathBuf> {
         let entries = match self.name {
-            Name::One(_) => None,
+            Name::One(_) | Name::Moving(_) => None,
             Name::Numbered(..) => fs::read_dir(folder_of(&self.beside)).ok(),
         };
         // A folder that cannot be read is told where the first picture is tried.
@@ -108,26 +121,52 @@ impl Output {
         (self.path(frame).file_name() == Some(name)).then_some(frame)
     }
 
-    /// Writes a picture as PNG: sRGB, straight alpha where it is transparent.
-    pub fn write(&self, picture: &Picture, frame: u32) -> io::Result<PathBuf> {
-        let path = self.path(frame);
-        let bytes = encode(picture, self.transparent)?;
-        write_whole(&path, &bytes)?;
-        Ok(path)
+    /// Writes a picture as PNG: sRGB, straight alpha where it is transparent. Frames of one animated PNG are written with the
+    /// last one, by [`Output::finish`].
+    pub fn write(&mut self, picture: &Picture, frame: u32) -> io::Result<()> {
+        if let Name::Moving(_) = self.name {
+            let animation = match &mut self.animation {
+                Some(animation) => animation,
+                none => none.insert(Animation::new(
+                    [picture.width, picture.height],
+                    self.frames,
+                    self.fps,
+                    self.transparent,
+                )?),
+            };
+            return animation.push(picture);
+        }
+        write_whole(&self.path(frame), &encode(picture, self.transparent)?)
+    }
+
+    /// Writes what is written when all frames are there.
+    pub fn finish(&mut self) -> io::Result<()> {
+        let path = self.path(0);
+        match self.animation.take() {
+            Some(animation) => animation.write(&path),
+            None => Ok(()),
+        }
     }
 }
 
 /// The name that the user gives: where a frame's number goes, the last run of `#` stands.
 fn given_name(path: &Path, sequence: bool) -> Result<Name, String> {
     let shown = path.display();
-    let is_png = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-    let Some(name) = path.file_name().filter(|_| is_png) else {
+    let ends_in = |wanted: &str| {
+        let ending = path.extension();
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
+    };
+    let Some(name) = path
+        .file_name()
+        .filter(|_| ends_in("png") || ends_in("apng"))
+    else {
         return Err(format!(
-            "-o {shown}: pictures are PNG, so the name must end in .png"
+            "-o {shown}: pictures are PNG, so the name must end in .png, or in .apng for one file that moves"
         ));
     };
+    if ends_in("apng") {
+        return Ok(Name::Moving(name.to_owned()));
+    }
     let Some(text) = name.to_str() else {
         if sequence {
             return Err(format!(
@@ -178,26 +217,13 @@ fn name_after(preset: &Path, sequence: bool) -> Result<Name, String> {
 }
 
 fn encode(picture: &Picture, transparent: bool) -> io::Result<Vec<u8>> {
-    let rgba = picture.to_srgb8();
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width, picture.height);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder.set_color(if transparent {
-        png::ColorType::Rgba
-    } else {
-        png::ColorType::Rgb
-    });
+    encoder.set_color(color(transparent));
     let mut writer = encoder.write_header()?;
-    if transparent {
-        writer.write_image_data(&rgba)?;
-    } else {
-        let rgb: Vec<u8> = rgba
-            .chunks_exact(4)
-            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
-            .collect();
-        writer.write_image_data(&rgb)?;
-    }
+    writer.write_image_data(&pixels(picture, transparent))?;
     writer.finish()?;
     Ok(bytes)
 }
@@ -207,7 +233,8 @@ mod tests {
     use super::*;
 
     fn output(given: Option<&str>, preset: &str, sequence: bool) -> Output {
-        Output::new(given.map(Path::new), Path::new(preset), sequence, false).unwrap()
+        let frames = sequence.then_some((0, 9));
+        Output::new(given.map(Path::new), Path::new(preset), frames, 24.0, false).unwrap()
     }
 
     fn path(given: Option<&str>, sequence: bool, frame: u32) -> String {
@@ -224,6 +251,7 @@ mod tests {
         assert_eq!(path(Some("out/x_##.png"), true, 123), "out/x_123.png");
         assert_eq!(path(Some("x#y###.png"), true, 7), "x#y007.png");
         assert_eq!(path(Some("x.v2.PNG"), true, 7), "x.v2.0007.PNG");
+        assert_eq!(path(Some("out/x.apng"), true, 7), "out/x.apng");
     }
 
     #[test]

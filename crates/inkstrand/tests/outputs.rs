@@ -267,6 +267,50 @@ fn pictures_are_named_after_the_whole_name() {
 }
 
 #[test]
+fn a_sequence_is_one_file_that_moves() {
+    let folder = folder();
+    let moving = [
+        "--motion",
+        "nod.motion.ron",
+        "--frames",
+        "3-6",
+        "-o",
+        "nod.apng",
+    ];
+    inkstrand(&folder, &[&["render", "small.ron"][..], &moving].concat())
+        .assert()
+        .success()
+        .stderr(contains("wrote nod.apng"));
+    let file = fs::File::open(folder.path().join("nod.apng")).unwrap();
+    let decoder = png::Decoder::new(std::io::BufReader::new(file));
+    let mut reader = decoder.read_info().unwrap();
+    let control = *reader.info().animation_control().unwrap();
+    assert_eq!((control.num_frames, control.num_plays), (4, 0));
+    let mut first = vec![0; 40 * 30 * 3];
+    reader.next_frame(&mut first).unwrap();
+    let delay = *reader.info().frame_control().unwrap();
+    assert_eq!(delay.delay_den / delay.delay_num, 24);
+
+    // The first frame is the picture of that frame alone.
+    let still = [
+        "--motion",
+        "nod.motion.ron",
+        "--frames",
+        "3-3",
+        "-o",
+        "a_#.png",
+    ];
+    inkstrand(&folder, &[&["render", "small.ron"][..], &still].concat())
+        .assert()
+        .success();
+    let file = fs::File::open(folder.path().join("a_3.png")).unwrap();
+    let decoder = png::Decoder::new(std::io::BufReader::new(file));
+    let mut alone = vec![0; first.len()];
+    decoder.read_info().unwrap().next_frame(&mut alone).unwrap();
+    assert_eq!(first, alone);
+}
+
+#[test]
 #[cfg(target_os = "linux")]
 fn names_may_be_as_long_as_the_file_system_allows() {
     let folder = folder();

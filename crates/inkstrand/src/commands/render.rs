@@ -45,10 +45,11 @@ fn draw(
         background,
         ..
     } = preset.sections.scene;
-    let output = Output::new(
+    let mut output = Output::new(
         options.output.as_deref(),
         &options.preset,
-        options.frames.is_some(),
+        options.frames,
+        fps,
         background.is_none(),
     )
     .map_err(Failure::Usage)?;
@@ -79,6 +80,7 @@ fn draw(
         }
         bar.inc()?;
     }
+    output.finish()?;
     bar.finish();
     if !options.quiet && stage.left_out() > 0 {
         say(format_args!(
@@ -88,7 +90,7 @@ fn draw(
     }
     let (from, to) = (output.path(first), output.path(last));
     let mut written = format!("wrote {}", from.display());
-    if first != last {
+    if from != to {
         written += &format!(" to {}", to.display());
     }
     if !options.quiet {

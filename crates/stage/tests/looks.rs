@@ -1,0 +1,186 @@
+//! The looks that come with inkstrand, as an artist would check them: few clumps, none of them in the head or the body, the eyes
+//! free.
+
+use effects::Registry;
+use glam::DVec3;
+use hair_sim::SignedDistance;
+use render::cpu::{Evaluator, Rasterizer};
+use render::{Drawing, Frame};
+use stage::{Files, Preset, Stage};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Most clumps of a look: 1.5 times those of Table 6.1, and of the two of chapter 7.
+const MOST_CLUMPS: [(&str, usize); 4] = [
+    ("twin-tails", 126),
+    ("flat-tails-black", 150),
+    ("flat-tails-red", 150),
+    ("", 108),
+];
+/// Most clumps of looks that are not in the source.
+const MOST_OF_OTHERS: usize = 126;
+const SOURCE_LOOKS: [&str; 7] = [
+    "twin-tails",
+    "long-pink",
+    "blond-fantasy",
+    "short-ash",
+    "manga-ink",
+    "flat-tails-black",
+    "flat-tails-red",
+];
+/// How deep the middle of a stroke may lie below the skin, metres.
+const DEEPEST_M: f64 = 0.001;
+/// Ids of styles' clumps are below this.
+const MOST_IDS: u32 = 1_000_000;
+/// Share of the eyes that hair may hide, seen from the front.
+const HIDDEN: f64 = 0.01;
+/// Looks whose hair hides an eye, as their first lines say.
+const OVER_AN_EYE: [&str; 0] = [];
+
+fn presets() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets")
+}
+
+fn registry() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    registry
+}
+
+/// The looks of one head: names and texts.
+fn looks() -> Vec<(String, String)> {
+    let mut looks: Vec<(String, String)> = fs::read_dir(presets())
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "ron"))
+        .map(|path| {
+            let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+            (name, fs::read_to_string(&path).unwrap())
+        })
+        .filter(|(_, text)| !text.contains("objects:"))
+        .collect();
+    looks.sort();
+    assert!(looks.len() >= 8);
+    looks
+}
+
+fn stage(preset: &Preset) -> Stage {
+    let files = Files {
+        preset_folder: presets(),
+        ..Files::default()
+    };
+    Stage::new(preset, &files).unwrap()
+}
+
+#[test]
+fn looks_are_drawn_with_few_clumps() {
+    let registry = registry();
+    for (name, text) in looks() {
+        let preset = Preset::parse(&name, &text, &registry).unwrap();
+        let is_of_source = SOURCE_LOOKS.contains(&name.as_str());
+        let limit = MOST_CLUMPS.iter().find(|(look, _)| *look == name);
+        let most = match limit {
+            Some((_, most)) => *most,
+            None if is_of_source => MOST_CLUMPS[3].1,
+            None => MOST_OF_OTHERS,
+        };
+        let count = stage(&preset).strand_count();
+        assert!(count <= most, "{name}: {count} clumps, at most {most}");
+    }
+}
+
+/// How deep strokes' middle lines lie below the skin at most, metres, and the strand that does: from where each strand has first
+/// left the skin, as roots are in it. The coat under all zones, whose ids are below `first`, doesn't count.
+fn deepest(frame: &Frame, skin: &SignedDistance, first: u32) -> (f64, u32) {
+    let mut deepest = (f64::MIN, 0);
+    for strand in frame.paths.runs.chunk_by(|a, b| a.strand == b.strand) {
+        let id = frame.strands[strand[0].strand].id;
+        // Loose hairs go their own way, and have numbers of their own.
+        if !(first..MOST_IDS).contains(&id) {
+            continue;
+        }
+        let joints = strand.iter().flat_map(|run| run.joints.clone());
+        let mut has_left = false;
+        for joint in joints {
+            let place: DVec3 = frame.paths.position[joint].as_dvec3();
+            let depth = -skin.distance(place);
+            has_left |= depth < 0.0;
+            if has_left && depth > deepest.0 {
+                deepest = (depth, id);
+            }
+        }
+    }
+    deepest
+}
+
+#[test]
+fn no_hair_runs_through_the_body() {
+    const FIRST_ZONE: u32 = 10_000;
+    let bust = groom::bust();
+    let skin = SignedDistance::new(&bust.positions, &bust.triangles, 0.004).unwrap();
+    let registry = registry();
+    let mut faults = Vec::new();
+    for (name, text) in looks() {
+        let preset = Preset::parse(&name, &text, &registry).unwrap();
+        let mut stage = stage(&preset);
+        let (depth_m, strand) = deepest(&stage.frame().unwrap(), &skin, FIRST_ZONE);
+        if depth_m > DEEPEST_M {
+            let zone = strand / 10_000 - 2;
+            let clump = strand % 10_000;
+            faults.push(format!(
+                "{name}: {:.1} mm, clump {clump} of zone {zone}",
+                1e3 * depth_m
+            ));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Pixels of the eyes from the front, with the hair and without.
+fn eye_pixels(name: &str, text: &str) -> [usize; 2] {
+    let registry = registry();
+    let set = [
+        ("head.iris", "FF00FF"),
+        ("head.iris_shadow", "FF00FF"),
+        ("scene.size", "(480, 480)"),
+        ("scene.background", "000000"),
+        ("camera.yaw", "0"),
+        ("camera.pitch", "0"),
+        ("camera.distance", "2.6"),
+        ("camera.target", "(0, 0, 0)"),
+    ];
+    ["1", "0"].map(|size| {
+        let mut preset = Preset::parse(name, text, &registry).unwrap();
+        for (name, value) in set {
+            preset.set(name, value).unwrap();
+        }
+        preset.set("clump.size", size).unwrap();
+        if size == "0" {
+            preset.keep_only(&["hair.base".to_owned()]).unwrap();
+        }
+        let mut stage = stage(&preset);
+        let mut drawing = Drawing::default();
+        let frame = stage.frame().unwrap();
+        Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
+        let picture = Rasterizer::new(1, Some(1)).unwrap().draw(&drawing).unwrap();
+        let is_eye = |pixel: &&[f32; 4]| pixel[..3] == [1.0, 0.0, 1.0];
+        picture.pixels.iter().filter(is_eye).count()
+    })
+}
+
+#[test]
+fn eyes_are_free() {
+    for (name, text) in looks() {
+        if OVER_AN_EYE.contains(&name.as_str()) {
+            continue;
+        }
+        let [seen, all] = eye_pixels(&name, &text);
+        assert!(all > 500, "{name}: eyes of {all} pixels");
+        let hidden = 1.0 - seen as f64 / all as f64;
+        assert!(
+            hidden <= HIDDEN,
+            "{name}: hair hides {:.1} % of the eyes",
+            100.0 * hidden
+        );
+    }
+}
