@@ -523,3 +523,173 @@ proptest! {
         prop_assert_eq!(once, grown(zone));
     }
 }
+
+/// Distances between the tips of neighbours, head heights.
+fn gaps(hair: &hair_sim::Strands) -> Vec<f32> {
+    let tips: Vec<Vec3> = hair.iter().map(|points| points[points.len() - 1]).collect();
+    let gap = |pair: &[Vec3]| pair[0].distance(pair[1]) / HEIGHT;
+    tips.windows(2).map(gap).collect()
+}
+
+#[test]
+fn clumps_of_a_group_come_together() {
+    for hang in [0.0, 0.8] {
+        let zone = Zone {
+            count: 12,
+            hang,
+            sway: 0.0,
+            peak: 0.0,
+            ..plain()
+        };
+        let apart = gaps(&grown(zone.clone()).strands);
+        let grouped = Zone {
+            groups: 3,
+            gather: 1.0,
+            ..zone.clone()
+        };
+        let hair = grown(grouped).strands;
+        let together = gaps(&hair);
+        // 12 clumps in 3 groups: nine gaps close, two open.
+        let is_closed = |(now, before): &(&f32, &f32)| **now < 0.35 * **before;
+        let closed = together.iter().zip(&apart).filter(is_closed).count();
+        assert_eq!(closed, 9, "{hang}: {together:?} {apart:?}");
+        let widest = together.iter().copied().fold(0.0, f32::max);
+        assert!(widest > 2.0 * apart[5], "{hang}: {together:?} {apart:?}");
+        // Roots stay where they were.
+        let roots: Vec<Vec3> = grown(zone).strands.roots().collect();
+        assert_eq!(hair.roots().collect::<Vec<_>>(), roots);
+    }
+}
+
+#[test]
+fn the_middle_of_a_group_is_its_longest() {
+    for hang in [0.0, 0.8] {
+        let zone = Zone {
+            count: 9,
+            hang,
+            sway: 0.0,
+            groups: 1,
+            gather: 0.0,
+            peak: 0.5,
+            ..plain()
+        };
+        let hair = grown(zone).strands;
+        let lengths: Vec<f32> = hair.iter().map(length).collect();
+        assert!(lengths[..5].is_sorted(), "{hang}: {lengths:?}");
+        assert!(
+            lengths[4..].is_sorted_by(|a, b| a >= b),
+            "{hang}: {lengths:?}"
+        );
+        assert!(lengths[0] < 0.85 * lengths[4], "{hang}: {lengths:?}");
+    }
+}
+
+#[test]
+fn tips_of_a_tail_come_together_in_groups() {
+    let tail = |groups| Zone {
+        form: Form::Tail,
+        count: 20,
+        roots: Line::Through(vec![place(180.0, 30.0)]),
+        tips: None,
+        hang: 1.5,
+        groups,
+        gather: 1.0,
+        peak: 0.0,
+        sway: 0.0,
+        ..plain()
+    };
+    let nearest = |hair: &hair_sim::Strands| -> f32 {
+        let tips: Vec<Vec3> = hair.iter().map(|points| points[points.len() - 1]).collect();
+        let of = |i: usize| {
+            let others = (0..tips.len()).filter(|j| *j != i);
+            others
+                .map(|j| tips[i].distance(tips[j]))
+                .fold(f32::MAX, f32::min)
+        };
+        (0..tips.len()).map(of).sum::<f32>() / tips.len() as f32
+    };
+    let (alone, grouped) = (
+        nearest(&grown(tail(0)).strands),
+        nearest(&grown(tail(4)).strands),
+    );
+    assert!(grouped < 0.3 * alone, "{grouped} {alone}");
+}
+
+#[test]
+fn cut_hair_ends_on_one_level() {
+    let zone = Zone {
+        hang: 0.7,
+        length_variation: 0.8,
+        cut: Some(-0.4),
+        ..plain()
+    };
+    let level = SHELL.center().y - 0.4 * HEIGHT;
+    for points in grown(zone).strands.iter() {
+        let tip = points[points.len() - 1];
+        assert!((tip.y - level).abs() < 1e-5, "{} {level}", tip.y);
+        assert!(points[1..points.len() - 1].iter().all(|p| p.y >= level));
+    }
+}
+
+#[test]
+fn hair_leans_as_it_is_told() {
+    let tips = |zone: Zone| -> Vec<Vec3> {
+        let hair = grown(zone).strands;
+        hair.iter().map(|points| points[points.len() - 1]).collect()
+    };
+    let zone = Zone {
+        hang: 0.8,
+        sway: 0.0,
+        roots: Line::Through(vec![place(80.0, 60.0)]),
+        tips: Some(Line::Through(vec![place(90.0, 0.0)])),
+        count: 1,
+        mirror: true,
+        ..plain()
+    };
+    let straight = tips(zone.clone());
+    let swept = tips(Zone {
+        sweep: 0.6,
+        ..zone.clone()
+    });
+    for (a, b) in straight.iter().zip(&swept) {
+        assert!(
+            b.z < a.z - 0.05 * HEIGHT,
+            "to the back on both sides: {a} {b}"
+        );
+    }
+    let curved = grown(Zone {
+        s_curve: 0.6,
+        ..zone.clone()
+    });
+    let straight = grown(zone).strands;
+    let off = curved.strands.strand(0).iter().zip(straight.strand(0));
+    let off: Vec<f32> = off.map(|(a, b)| (a.z - b.z) / HEIGHT).collect();
+    let [back, front] = [-1.0, 1.0].map(|way| off.iter().map(|z| way * z).fold(0.0, f32::max));
+    assert!(
+        back > 0.03 && front > 0.03,
+        "to one side, then to the other: {off:?}"
+    );
+}
+
+#[test]
+fn clumps_have_the_tapers_of_their_zones() {
+    let taper = Taper {
+        root_size: Some(0.7),
+        shrink_start: None,
+    };
+    let zone = Zone { taper, ..plain() };
+    assert_eq!(grown(zone).tapers, [taper; 6]);
+    assert_eq!(grown(plain()).tapers, [Taper::default(); 6]);
+}
+
+#[test]
+fn a_broad_coat_is_of_as_many_clumps_as_are_asked_for() {
+    for coat in [12, 24, 30] {
+        let style = Style {
+            undercoat: true,
+            coat,
+            ..style(Vec::new())
+        };
+        assert_eq!(grow(&style, &SHELL).undercoat, coat as usize);
+    }
+}
