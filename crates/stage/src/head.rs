@@ -24,7 +24,21 @@ pub struct HeadModel {
 impl HeadModel {
     /// Tells what of it has hair from what has none.
     pub(crate) fn find_scalp(&mut self, roots: &[Vec3], reach_m: f32) {
-        self.scalp = scalp::split(&self.mesh, roots, reach_m);
+        let split = scalp::split(&self.mesh, roots, reach_m);
+        let Mesh {
+            positions, normals, ..
+        } = &mut self.mesh;
+        for ([a, b], t) in split.between {
+            let [a, b] = [a, b].map(|i| i as usize);
+            positions.push(positions[a].lerp(positions[b], t));
+            normals.push(normals[a].lerp(normals[b], t).normalize_or(normals[a]));
+            if !self.shade.is_empty() {
+                self.shade
+                    .push(self.shade[a] + (self.shade[b] - self.shade[a]) * t);
+            }
+        }
+        self.mesh.triangles = split.triangles.concat();
+        self.scalp = split.triangles;
     }
 
     /// Puts ornaments into the hair on it.
