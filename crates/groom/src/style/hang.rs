@@ -16,6 +16,8 @@ const MOST_POINTS: usize = 160;
 const CLOSEST: f32 = 0.6;
 /// How often hanging points are moved out of the body: each move may push others in.
 const CLEARINGS: u32 = 3;
+/// How near the skin hair may come on its way, head heights.
+const CLEAR: f32 = 0.002;
 /// Length in which hair of weight 1/2 turns half-way down, head heights.
 const BEND: f32 = 0.12;
 
@@ -80,16 +82,16 @@ pub(super) fn hang(
     if turns <= 0.0 {
         smooth_corners(&mut points[first..]);
     }
-    keep_clear(&mut points[hung..], axis.gap, shell);
+    keep_clear(&mut points[hung..], shell);
 }
 
 /// Moves hanging points out of the body, and those between which the way runs through it.
-fn keep_clear(points: &mut [Vec3], gap: f32, shell: &Shell) {
+fn keep_clear(points: &mut [Vec3], shell: &Shell) {
     for _ in 0..CLEARINGS {
         for i in 1..points.len() {
-            points[i] = shell.keep_out(points[i], gap);
+            points[i] = shell.keep_out(points[i], CLEAR);
             let middle = points[i - 1].midpoint(points[i]);
-            let push = shell.keep_out(middle, gap) - middle;
+            let push = shell.keep_out(middle, CLEAR) - middle;
             points[i] += push;
             if i > 1 {
                 points[i - 1] += push;
