@@ -21,6 +21,8 @@ pub const MOST_CLUMPS: u32 = IDS_A_ZONE / 2;
 const UNDERCOAT: u32 = 0;
 const DRAWN: u32 = 1;
 const FIRST_ZONE: u32 = 2;
+/// Size of the broad undercoat's clumps at the whorl, as a share of their full size.
+const COAT_ROOT: f32 = 0.75;
 
 /// Hair that was grown on a head.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,17 +67,14 @@ impl Grown {
 pub fn grow(style: &Style, shell: &Shell) -> Grown {
     let mut grown = Grown::default();
     if style.undercoat {
-        for (number, (points, size)) in
-            (0..).zip(undercoat(&style.scalp, style.cap, style.coat, shell))
-        {
-            grown.push(
-                UNDERCOAT,
-                number,
-                &points,
-                points.len(),
-                size,
-                Taper::default(),
-            );
+        let coat = undercoat(&style.scalp, style.cap, style.coat, shell);
+        // Broad clumps make the skull's dome where they meet: they are wide there, whatever the look says.
+        let taper = Taper {
+            root_size: (style.coat > 0).then_some(COAT_ROOT),
+            shrink_start: None,
+        };
+        for (number, (points, size)) in (0..).zip(coat) {
+            grown.push(UNDERCOAT, number, &points, points.len(), size, taper);
         }
         grown.undercoat = grown.strands.len();
     }
