@@ -125,10 +125,14 @@ fn no_hair_runs_through_the_body() {
         let mut stage = stage(&preset);
         let (depth_m, strand) = deepest(&stage.frame().unwrap(), &skin, FIRST_ZONE);
         if depth_m > DEEPEST_M {
-            let zone = strand / 10_000 - 2;
-            let clump = strand % 10_000;
+            // Ids begin anew with each zone; those of clumps drawn by hand come before all zones.
+            let place = match strand / FIRST_ZONE {
+                1 => "drawn by hand".to_owned(),
+                zone => format!("of zone {}", zone - 2),
+            };
+            let clump = strand % FIRST_ZONE;
             faults.push(format!(
-                "{name}: {:.1} mm, clump {clump} of zone {zone}",
+                "{name}: {:.1} mm, clump {clump} {place}",
                 1e3 * depth_m
             ));
         }

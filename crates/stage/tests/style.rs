@@ -288,7 +288,10 @@ fn the_scalp_has_the_hairs_colour_around_roots() {
     assert_eq!(painted("0.05", "true"), (0, all), "the coat is there");
     let (some, others) = painted("0.05", "false");
     assert!(some > 10 && others > 10, "{some}, {others}");
-    assert_eq!(some + others, all);
+    assert!(
+        some + others >= all,
+        "triangles are cut along the hairline: {some}, {others}, {all}"
+    );
     let (more, _) = painted("0.1", "false");
     assert!(more > some, "{more}, {some}");
 }
