@@ -14,7 +14,7 @@ const LIKENESS: f64 = 0.1;
 /// Largest size and bytes of a picture, and bytes of all of a folder.
 const LARGEST: (u32, u32) = (480, 360);
 const MOST_BYTES: usize = 40_000;
-const MOST_OF_ALL: usize = 600_000;
+const MOST_OF_ALL: usize = 900_000;
 
 struct Picture {
     size: (u32, u32),
