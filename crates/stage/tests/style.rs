@@ -2,11 +2,12 @@
 
 use effects::Registry;
 use glam::Vec3;
-use render::Drawing;
 use render::cpu::{Evaluator, Rasterizer};
+use render::{Drawing, Surface, SurfaceVertex};
 use stage::{Files, Preset, Stage};
 use std::fs;
 use std::path::{Path, PathBuf};
+use stroke_path::{Camera, OrbitView};
 
 fn presets() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets")
@@ -117,33 +118,20 @@ const VIEWS: [[f32; 2]; 10] = [
     [180.0, 85.0],
 ];
 
-/// Pixels of bare skin where hair grows: within the hairline.
-fn scalp_pixels(style: &Path, view: [f32; 2]) -> usize {
-    pixels(style, view, "1")
-}
-
-fn bare_scalp_pixels(view: [f32; 2]) -> usize {
-    pixels(&styles()[0], view, "0")
-}
-
-fn pixels(style: &Path, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
+/// Pixels of bare skin where hair grows, within the hairline, in each view.
+fn scalp_pixels(style: &Path, clump_size: &str, views: &[[f32; 2]]) -> Vec<usize> {
     let registry = registry();
     let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
     let mut preset = Preset::parse("twin-tails.ron", &text, &registry).unwrap();
     for (name, value) in [
-        ("head.light", "FF00FF".to_owned()),
-        ("head.shadow", "FF00FF".to_owned()),
-        ("head.width", "0".to_owned()),
-        ("clump.color", "00FF00".to_owned()),
-        ("clump.size", clump_size.to_owned()),
-        ("clump.shading", "pure".to_owned()),
-        ("scene.size", "(300, 300)".to_owned()),
-        ("camera.yaw", yaw.to_string()),
-        ("camera.pitch", pitch.to_string()),
-        ("camera.distance", "2.6".to_owned()),
-        ("camera.target", "(0, 0.1, 0)".to_owned()),
+        ("head.light", "FF00FF"),
+        ("head.shadow", "FF00FF"),
+        ("head.width", "0"),
+        ("clump.color", "00FF00"),
+        ("clump.size", clump_size),
+        ("clump.shading", "pure"),
     ] {
-        preset.set(name, &value).unwrap();
+        preset.set(name, value).unwrap();
     }
     preset.keep_only(&["hair.base".to_owned()]).unwrap();
     let files = Files {
@@ -152,54 +140,80 @@ fn pixels(style: &Path, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
         ..Files::default()
     };
     let mut stage = Stage::new(&preset, &files).unwrap();
-    let frame = stage.frame().unwrap();
-    let mut drawing = Drawing::default();
-    Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
+    let mut rasterizer = Rasterizer::new(1, Some(1)).unwrap();
+    let scalp = Scalp::new();
+    let pixels = |[yaw_degrees, pitch_degrees]: &[f32; 2]| {
+        let head = stage.head();
+        let view = OrbitView {
+            target: head.center + Vec3::Y * (0.1 * head.height_m),
+            yaw_degrees: *yaw_degrees,
+            pitch_degrees: *pitch_degrees,
+            distance_m: 2.6 * head.height_m,
+            vertical_fov_degrees: 30.0,
+        };
+        let camera = Camera::orbit(view, [300, 300], 0.01).unwrap();
+        let frame = stage.frame_seen_by(camera).unwrap();
+        let mut drawing = Drawing::default();
+        Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
+        let surface = scalp.surface(&camera, drawing.surfaces[0].clone());
+        drawing.surfaces.push(surface);
+        let picture = rasterizer.draw(&drawing).unwrap();
+        let is_scalp = |pixel: &&[f32; 4]| pixel[..3] == [0.0, 0.0, 1.0];
+        picture.pixels.iter().filter(is_scalp).count()
+    };
+    views.iter().map(pixels).collect()
+}
 
-    // The bare scalp over the head, in a colour of its own: what no hair covers shows.
-    let (camera, head) = (*frame.camera, frame.objects[0].head);
-    let bust = groom::bust();
-    let shell = groom::Shell::new(
-        &bust.positions,
-        &bust.normals,
-        &bust.triangles,
-        head.center,
-        head.height_m,
-    );
-    let hairline = groom::Scalp::default();
-    let is_scalp = |p: Vec3| hairline.contains(shell.place(p));
-    let mut scalp = drawing.surfaces[0].clone();
-    scalp.vertices.clear();
-    scalp.triangles.clear();
-    for triangle in &bust.triangles {
-        let corners = triangle.map(|i| bust.positions[i as usize]);
-        if corners.into_iter().all(is_scalp) {
-            let first = scalp.vertices.len() as u32;
-            scalp.vertices.extend(corners.map(|p| {
-                let view = camera.view_from_world(p);
-                render::SurfaceVertex {
-                    position: camera.project(view),
-                    inv_depth: 1.0001 / view.z,
-                    tone: 1.0,
-                }
-            }));
-            scalp.triangles.push([first, first + 1, first + 2]);
+/// The bare scalp over the head, in a colour of its own: what no hair covers shows.
+struct Scalp {
+    corners: Vec<Vec3>,
+}
+
+impl Scalp {
+    fn new() -> Self {
+        let bust = groom::bust();
+        let (middle, height_m) = (Vec3::new(0.0, 1.5, 0.0), 0.24);
+        let shell = groom::Shell::new(
+            &bust.positions,
+            &bust.normals,
+            &bust.triangles,
+            middle,
+            height_m,
+        );
+        let hairline = groom::Scalp::default();
+        let is_scalp = |p: &Vec3| hairline.contains(shell.place(*p));
+        let triangles = bust.triangles.iter();
+        let corners = triangles
+            .map(|triangle| triangle.map(|i| bust.positions[i as usize]))
+            .filter(|corners| corners.iter().all(is_scalp));
+        Self {
+            corners: corners.flatten().collect(),
         }
     }
-    scalp.light = [0.0, 0.0, 1.0];
-    drawing.surfaces.push(scalp);
-    let picture = Rasterizer::new(1, Some(1)).unwrap().draw(&drawing).unwrap();
-    picture
-        .pixels
-        .iter()
-        .filter(|p| p[..3] == [0.0, 0.0, 1.0])
-        .count()
+
+    fn surface(&self, camera: &Camera, like: Surface) -> Surface {
+        let vertex = |p: &Vec3| {
+            let view = camera.view_from_world(*p);
+            SurfaceVertex {
+                position: camera.project(view),
+                inv_depth: 1.0001 / view.z,
+                tone: 1.0,
+            }
+        };
+        let triangles = (0..self.corners.len() as u32).step_by(3);
+        Surface {
+            vertices: self.corners.iter().map(vertex).collect(),
+            triangles: triangles.map(|i| [i, i + 1, i + 2]).collect(),
+            light: [0.0, 0.0, 1.0],
+            ..like
+        }
+    }
 }
 
 #[test]
 fn no_scalp_shows_from_any_side() {
     for style in styles() {
-        let seen = VIEWS.map(|view| scalp_pixels(&style, view));
+        let seen = scalp_pixels(&style, "1", &VIEWS);
         assert!(
             seen.iter().all(|pixels| *pixels == 0),
             "{}: {seen:?} pixels of scalp in {VIEWS:?}",
@@ -211,7 +225,8 @@ fn no_scalp_shows_from_any_side() {
 #[test]
 fn a_bald_head_would_be_noticed() {
     // The count is of what it says: with hair of no size the whole scalp shows.
-    assert!(bare_scalp_pixels([180.0, 85.0]) > 10_000);
+    let bare = scalp_pixels(&styles()[0], "0", &[[180.0, 85.0]]);
+    assert!(bare[0] > 10_000, "{bare:?}");
 }
 
 #[test]
@@ -280,7 +295,7 @@ fn the_scalp_has_the_hairs_colour_around_roots() {
         let mut stage = Stage::new(&preset, &files).unwrap();
         let surfaces = stage.frame().unwrap().surfaces;
         let scalp = surfaces.iter().find(|s| s.light == [0.0, 1.0, 0.0]);
-        let count = |surface: &render::Surface| surface.triangles.len();
+        let count = |surface: &Surface| surface.triangles.len();
         (scalp.map_or(0, count), count(&surfaces[0]))
     };
     let (none, all) = painted("0", "false");

@@ -24,10 +24,10 @@ const CAP_SPREAD: f32 = 0.9;
 /// The broad coat: where its clumps along the hairline lie, in shares of the way from the whorl, and their radius in head heights;
 /// where those from the whorl end, where they are widest, and how they overlap there.
 const BORDER_SHARE: f32 = 0.9;
-const BORDER_RADIUS: f32 = 0.085;
+const BORDER_RADIUS: f32 = 0.095;
 const BROAD_END: f32 = 1.0;
 const BROAD_WIDEST: f32 = 0.6;
-const BROAD_SPREAD: f32 = 0.95;
+const BROAD_SPREAD: f32 = 1.02;
 /// Points of a clump.
 const POINTS: u32 = 9;
 /// How deep the middle line lies below the skin, in radii: discs stand out of the head's outline, and a
