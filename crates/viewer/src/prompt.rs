@@ -245,7 +245,7 @@ fn ask_recover(ui: &mut Ui, studio: &mut Studio) -> Answer {
     ui.separator();
     let is_later = ui
         .button("Later")
-        .on_hover_text("The copies stay, and are offered when the preset is opened again")
+        .on_hover_text("The copies stay, and are offered when the texts are opened again")
         .clicked();
     if let Some(which) = taken {
         documents.accept_recovered(which);
@@ -276,10 +276,8 @@ fn ago(when: SystemTime) -> String {
 
 fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answer {
     ui.heading("There are changes that are not saved");
-    for (_, document) in studio.documents.iter().flat_map(Documents::all) {
-        if document.is_changed() {
-            ui.label(document.path().display().to_string());
-        }
+    for (_, document) in studio.documents.iter().flat_map(Documents::unsaved) {
+        ui.label(document.path().display().to_string());
     }
     let mut goes_on = false;
     let mut is_thrown = false;

@@ -13,7 +13,7 @@ const MOST_SHOWN: usize = 20;
 /// Whether something is wrong, or a text was changed here and on the disk.
 #[must_use]
 pub fn has_problems(studio: &Studio) -> bool {
-    let texts = studio.documents.iter().flat_map(Documents::all);
+    let texts = studio.documents.iter().flat_map(Documents::unsaved);
     !studio.problems.is_empty()
         || texts
             .into_iter()
@@ -54,7 +54,7 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
         return;
     };
     let mut chosen = None;
-    for (which, document) in documents.all() {
+    for (text, document) in documents.unsaved() {
         let Some(conflict) = document.conflict() else {
             continue;
         };
@@ -65,11 +65,11 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
                 format!("{} was changed here and on the disk.", document.name()),
             );
             if ui.button("Keep mine").clicked() {
-                chosen = Some((which, true));
+                chosen = Some((text, true));
             }
             let is_there = on_disk(conflict).is_some();
             if is_there && ui.button("Take the disk's").clicked() {
-                chosen = Some((which, false));
+                chosen = Some((text, false));
             }
         });
         ui.columns(2, |columns| {
@@ -79,7 +79,7 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
             ]) {
                 ui.strong(title);
                 ScrollArea::vertical()
-                    .id_salt((title, which.name()))
+                    .id_salt((title, document.path()))
                     .max_height(160.0)
                     .show(ui, |ui| match text {
                         Some(text) => ui.monospace(&**text),
@@ -88,8 +88,8 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
             }
         });
     }
-    if let Some((which, keeps_mine)) = chosen {
-        documents.resolve(which, keeps_mine);
+    if let Some((text, keeps_mine)) = chosen {
+        documents.resolve(text, keeps_mine);
     }
 }
 
