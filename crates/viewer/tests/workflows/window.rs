@@ -2,10 +2,11 @@
 
 use crate::common::{LOOK, Looks, recovering, sized, viewer, wait_for_picture};
 use crate::hands::{click, picture, press};
-use eframe::egui::{Key, Modifiers, Vec2};
+use eframe::egui::{Key, Modifiers, Pos2, Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::time::Duration;
+use viewer::actions::Action;
 use viewer::app::App;
 use viewer::documents::Which::Preset;
 use viewer::panes::Pane;
@@ -53,6 +54,53 @@ fn every_pane_is_shown_in_windows_of_any_size() {
         }
         press(&mut harness, Modifiers::NONE, Key::F1);
         harness.get_by_label("Turn the head");
+    }
+}
+
+#[test]
+fn every_prompt_fits_a_small_window() {
+    let looks = Looks::new();
+    let size = Vec2::new(640.0, 480.0);
+    let mut harness = sized(Some(looks.path("look.ron")), size);
+    wait_for_picture(&mut harness);
+    for (action, last) in [
+        (Action::New, "Cancel"),
+        (Action::Open, "Cancel"),
+        (Action::SaveAs, "Cancel"),
+        (Action::Export, "Close"),
+        (Action::Help, "Close"),
+    ] {
+        harness.state_mut().studio.act(action);
+        // A window takes some frames to find its place.
+        harness.run_steps(5);
+        let rect = harness.get_by_label(last).rect();
+        let window = Rect::from_min_size(Pos2::ZERO, size);
+        assert!(
+            window.shrink(8.0).contains_rect(rect),
+            "{action:?}: {rect:?}"
+        );
+        harness.get_by_label(last).click();
+        harness.run_steps(3);
+        assert!(harness.state().studio.prompt.is_none());
+    }
+}
+
+#[test]
+fn pictures_have_the_pixels_of_the_screen() {
+    let looks = Looks::new();
+    for density in [1.0, 1.5, 2.0] {
+        let mut harness = sized(Some(looks.path("look.ron")), Vec2::new(1280.0, 800.0));
+        harness.set_pixels_per_point(density);
+        wait_for_picture(&mut harness);
+        let place = picture(&harness);
+        let shown = harness.state().studio.shown[0].as_ref().unwrap();
+        let [width, height] = shown.drawn.size_px.map(|side| side as f32);
+        assert!(width <= density * place.width() + 1.0);
+        let fills = |side: f32, place: f32| (side - density * place).abs() <= 1.0;
+        assert!(
+            fills(width, place.width()) || fills(height, place.height()),
+            "{width} x {height} in {place:?}"
+        );
     }
 }
 
