@@ -14,6 +14,9 @@ use egui_tiles::Tree;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// Width of a scroll bar and what is around it, points.
+const SCROLL_BAR: f32 = 8.0;
+
 /// The viewer as [`eframe`] runs it.
 pub struct App {
     /// All but the panes.
@@ -31,6 +34,8 @@ impl App {
         backend: Backend,
         recovery: Recovery,
     ) -> Self {
+        // Scroll bars have room of their own, beside what is scrolled.
+        ctx.all_styles_mut(|style| style.spacing.scroll.floating_allocated_width = SCROLL_BAR);
         let mut studio = Studio::new(Arc::new(registry), ctx, backend, recovery);
         if let Some(preset) = preset {
             studio.open(preset);

@@ -265,12 +265,18 @@ impl Screen {
     }
 }
 
-/// Where things are in the window: a tab, the fold of the style's first zone, a menu, what it has, and where nothing is.
+/// Where things are in the window: a tab, the fold of what is above the zones and that of the first zone, a menu, what it has, and where
+/// nothing is.
 const STYLE_TAB: [i16; 2] = [939, 37];
-const FIRST_ZONE: [i16; 2] = [832, 200];
+const STYLE_ITSELF: [i16; 2] = [832, 88];
+const FIRST_ZONE: [i16; 2] = [851, 147];
 const WINDOW_MENU: [i16; 2] = [100, 12];
-const LIGHT_THEME: [i16; 2] = [115, 56];
-const NOWHERE: [i16; 2] = [1000, 690];
+const LIGHT_THEME: [i16; 2] = [96, 103];
+const NOWHERE: [i16; 2] = [500, 12];
+
+/// The line between two looks, and mistakes.
+const SPLIT_LINE: [u8; 3] = [230, 70, 100];
+const MISTAKE: [u8; 3] = [255, 0, 0];
 
 /// The skin's colours in the light and in the shadow, as the look has them.
 const LIT_SKIN: [u8; 3] = [0xF8, 0xDC, 0xC8];
@@ -325,6 +331,7 @@ fn its_panes_look_as_they_should() {
     screen.focus();
     screen.wait_for("the head", |screen| screen.count(LIT_SKIN) > 3_000);
     screen.click(STYLE_TAB);
+    screen.click(STYLE_ITSELF);
     screen.click(FIRST_ZONE);
     screen.wait_for_golden("style");
 
@@ -333,12 +340,18 @@ fn its_panes_look_as_they_should() {
     screen.click(LIGHT_THEME);
     screen.click(NOWHERE);
     screen.press_with_control('k');
+    screen.wait_for("two looks", |screen| screen.count(SPLIT_LINE) > 500);
     let other = LOOK.replace("yaw: 40, pitch: 45", "yaw: -60, pitch: 20");
+    let dark = screen.count(DARK_SKIN);
     std::fs::write(looks.path("look.ron"), &other).unwrap();
+    screen.wait_for("shadow on the face", |screen| {
+        screen.count(DARK_SKIN) > dark + 2_000
+    });
     screen.wait_for_golden("compare");
 
     let broken = other.replace("width: 1.5", "widht: 1.5");
     std::fs::write(looks.path("look.ron"), broken).unwrap();
+    screen.wait_for("the mistake", |screen| screen.count(MISTAKE) > 20);
     screen.wait_for_golden("mistake");
 }
 
