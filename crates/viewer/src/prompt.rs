@@ -15,7 +15,7 @@ const MOST_WIDTH: f32 = 560.0;
 /// What is seen of the viewer beside a window at least, and what the window's frame takes, points.
 const MARGIN: Vec2 = vec2(48.0, 48.0);
 /// Height of the shortcuts' heading and button, points.
-const AROUND_SHORTCUTS: f32 = 80.0;
+const AROUND_SHORTCUTS: f32 = 110.0;
 
 /// What is asked.
 pub enum Prompt {

@@ -4,7 +4,7 @@ use crate::documents::Documents;
 use crate::engine::{Drawn, Problem};
 use crate::studio::Studio;
 use document::Conflict;
-use eframe::egui::{RichText, ScrollArea, Ui};
+use eframe::egui::{Label, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
 /// The most mistakes that are shown.
@@ -101,21 +101,23 @@ fn on_disk(conflict: &Conflict) -> Option<&Arc<str>> {
     }
 }
 
-/// Shows the last thing that was done, and what the last frame took.
+/// Shows the last thing that was done, and what the last frame took. One line, however much there is: the picture above keeps its size.
 pub fn status(ui: &mut Ui, studio: &Studio) {
-    ui.horizontal_wrapped(|ui| {
+    let line = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).truncate());
+    ui.horizontal(|ui| {
         if let Some(told) = studio.told() {
-            ui.label(told);
+            line(ui, told.into());
             ui.separator();
         }
         if let Some(shown) = &studio.shown[0] {
             let sharp = if studio.is_sharp { "" } else { " (rough)" };
-            ui.weak(format!("{}{sharp}", frame_in_words(&shown.drawn)));
+            let mut text = format!("{}{sharp}", frame_in_words(&shown.drawn));
             for note in &shown.drawn.facts.notes {
-                ui.weak(note);
+                text += &format!(" | {note}");
             }
+            line(ui, RichText::new(text).weak());
         } else if studio.documents.is_some() && studio.problems.is_empty() {
-            ui.weak("drawing ...");
+            line(ui, RichText::new("drawing ...").weak());
         }
     });
 }

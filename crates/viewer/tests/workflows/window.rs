@@ -81,7 +81,7 @@ fn every_prompt_fits_a_small_window() {
         );
         harness.get_by_label(last).click();
         harness.run_steps(3);
-        assert!(harness.state().studio.prompt.is_none());
+        assert!(harness.state().studio.prompt.is_none(), "{action:?}");
     }
 }
 
