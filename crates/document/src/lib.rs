@@ -54,6 +54,8 @@ pub struct Document {
     watch: Watch,
     recovery: Recovery,
     copy: Option<Copy>,
+    /// The version that was copied last, or could not be.
+    copied: Option<u64>,
     copy_error: Option<String>,
     /// Copies of this file that a crash has left, the newest first.
     recovered: Vec<Recovered>,
@@ -139,6 +141,7 @@ impl Document {
             watch,
             recovery: recovery.clone(),
             copy: None,
+            copied: None,
             copy_error: None,
             recovered,
         })
@@ -176,7 +179,8 @@ impl Document {
     }
 
     /// Whether the text is another one than was last read or saved.
-    fn was_edited(&self) -> bool {
+    #[must_use]
+    pub fn was_edited(&self) -> bool {
         let is_same = |base: &Arc<str>| Arc::ptr_eq(base, &self.text) || *base == self.text;
         !self.base.as_ref().is_some_and(is_same)
     }
@@ -383,17 +387,20 @@ impl Document {
         self.base = Some(self.text.clone());
         self.conflict = None;
         self.copy = None;
+        self.copied = None;
         self.history.end_gesture();
     }
 
     /// Keeps a recovery copy of unsaved changes, where the text is another one than that of the last call, and removes it
-    /// where there are none. To be called about once a second.
+    /// where there are none. To be called at most about once a second, while [`Self::wants_recovery_copy`] says so.
     pub fn keep_recovery_copy(&mut self) {
         if !self.is_changed() {
             self.copy = None;
+            self.copied = None;
             self.copy_error = None;
             return;
         }
+        self.copied = Some(self.version);
         let kept = match &mut self.copy {
             Some(copy) => copy.keep(&self.path, &self.text),
             None => match self.recovery.new_copy() {
@@ -403,6 +410,15 @@ impl Document {
             },
         };
         self.copy_error = kept.err().map(|error| error.to_string());
+    }
+
+    /// Whether [`Self::keep_recovery_copy`] has something to do. A copy that could not be written is wanted again after the next edit.
+    #[must_use]
+    pub fn wants_recovery_copy(&self) -> bool {
+        match self.is_changed() {
+            true => self.recovery.folder().is_some() && self.copied != Some(self.version),
+            false => self.copy.is_some(),
+        }
     }
 
     /// Why the last recovery copy could not be written.

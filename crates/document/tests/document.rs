@@ -402,12 +402,17 @@ fn recovery_copies_come_and_go() {
     let mut document = place.open_with_recovery();
     document.keep_recovery_copy();
     assert_eq!(place.copies(), 0);
+    assert!(!document.wants_recovery_copy());
     edit(&mut document, "two");
+    assert!(document.wants_recovery_copy());
     document.keep_recovery_copy();
     assert_eq!(place.copies(), 2, "the copy and its lock");
+    assert!(!document.wants_recovery_copy());
     document.undo();
+    assert!(document.wants_recovery_copy());
     document.keep_recovery_copy();
     assert_eq!(place.copies(), 0);
+    assert!(!document.wants_recovery_copy());
     document.redo();
     document.keep_recovery_copy();
     document.save().unwrap();

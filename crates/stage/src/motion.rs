@@ -45,7 +45,8 @@ impl Motion {
     ///
     /// When the simulation refuses the scene's numbers.
     pub fn advance_to(&mut self, scene: &Scene, time: f32) -> Result<(), StageError> {
-        self.advance(scene, f64::from(time), None, None)
+        self.advance(scene, f64::from(time), None, None, &mut || true)?;
+        Ok(())
     }
 
     /// As [`Self::advance_to`], for live programs: while this camera cannot see the hair, wherever it may be, and the head is calm, hair
@@ -62,7 +63,8 @@ impl Motion {
         time: f32,
         camera: &Camera,
     ) -> Result<(), StageError> {
-        self.advance(scene, f64::from(time), Some(camera), None)
+        self.advance(scene, f64::from(time), Some(camera), None, &mut || true)?;
+        Ok(())
     }
 
     /// As [`Self::advance_to`], with a hand that moves all heads and blows beside the scene's scripts.
@@ -76,25 +78,46 @@ impl Motion {
         time: f32,
         hand: &Hand,
     ) -> Result<(), StageError> {
-        self.advance(scene, f64::from(time), None, Some(hand))
+        self.advance_by_hand_while(scene, time, hand, || true)?;
+        Ok(())
     }
 
-    /// To `time` (seconds); without a camera hair is seen.
+    /// As [`Self::advance_by_hand`], for live programs whose scene may become another one: for as long as `goes_on` says so, which is
+    /// asked before each step of the simulation. Where it ends early, each object is where it came to, at a time before, and the next
+    /// call goes on from there. Whether all came to `time`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::advance_to`].
+    pub fn advance_by_hand_while(
+        &mut self,
+        scene: &Scene,
+        time: f32,
+        hand: &Hand,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> Result<bool, StageError> {
+        self.advance(scene, f64::from(time), None, Some(hand), &mut goes_on)
+    }
+
+    /// To `time` (seconds); without a camera hair is seen. Whether all objects came there.
     fn advance(
         &mut self,
         scene: &Scene,
         time: f64,
         camera: Option<&Camera>,
         hand: Option<&Hand>,
-    ) -> Result<(), StageError> {
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<bool, StageError> {
         let objects = scene.objects();
-        self.time_s = time as f32;
         self.objects
             .resize_with(objects.len(), ObjectMotion::default);
+        let mut reached = time;
         for (object, motion) in objects.iter().zip(&mut self.objects) {
-            motion.advance(object, scene.fps(), time, camera, hand)?;
+            let came_to = motion.advance(object, scene.fps(), time, camera, hand, goes_on)?;
+            reached = reached.min(came_to);
         }
-        Ok(())
+        self.time_s = reached as f32;
+        Ok(reached == time)
     }
 
     /// The time that it was last moved to, seconds.
@@ -163,6 +186,7 @@ impl ObjectMotion {
         }
     }
 
+    /// The time that it came to, seconds.
     fn advance(
         &mut self,
         object: &Object,
@@ -170,57 +194,71 @@ impl ObjectMotion {
         time: f64,
         camera: Option<&Camera>,
         hand: Option<&Hand>,
-    ) -> Result<(), StageError> {
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<f64, StageError> {
         let is_same = |(of, at): &(Object, f32)| of.moves_as(object) && *at == fps;
         if !self.of.as_ref().is_some_and(is_same) {
             self.dynamics = None;
             self.of = Some((object.clone(), fps));
         }
-        let (hair, script, look) = (object.hair(), object.script(), object.look());
+        let (hair, script) = (object.hair(), object.script());
         let driver = Driver { script, hand };
-        let at_rest = hair.file.strands.points();
-        self.points.resize(at_rest.len(), Vec3::ZERO);
         self.pose = driver.head_at(time);
+        self.points
+            .resize(hair.file.strands.points().len(), Vec3::ZERO);
         if let Some(motion) = &hair.file.motion {
             motion.sample(time as f32, &mut self.points);
-            return Ok(());
+            return Ok(time);
         }
-        let section = &look.sections.dynamics;
-        let is_simulated = Dynamics::moves(section, driver);
+        if !Dynamics::moves(&object.look().sections.dynamics, driver) {
+            self.dynamics = None;
+            self.place(object, driver, time);
+            return Ok(time);
+        }
+        let center = object.placement().point(self.head(object).center);
+        let is_seen = camera.is_none_or(|camera| may_see(camera, center, hair.reach_m));
+        let mut dynamics = match self.dynamics.take() {
+            Some(dynamics) => dynamics,
+            None => Self::dynamics_of(object, fps)?,
+        };
+        dynamics.stand(object.placement());
+        let reached = dynamics.advance_to(time, driver, is_seen, goes_on)?;
+        self.place(object, driver, reached);
+        dynamics.write(driver, &mut self.points);
+        self.dynamics = Some(dynamics);
+        Ok(reached)
+    }
+
+    fn dynamics_of(object: &Object, fps: f32) -> Result<Dynamics, StageError> {
+        let (hair, look) = (object.hair(), object.look());
+        let sizes: Vec<f32> = hair.infos.iter().map(|info| info.size).collect();
+        Dynamics::new(
+            hair,
+            &sizes,
+            object.neck().map(Neck::rest_mesh),
+            &look.sections.dynamics,
+            object.script().hold,
+            fps,
+            look.seed,
+        )
+    }
+
+    /// Puts the head, and hair that the head holds, where they are at `time` (seconds).
+    fn place(&mut self, object: &Object, driver: Driver, time: f64) {
+        let hair = object.hair();
+        let is_simulated = Dynamics::moves(&object.look().sections.dynamics, driver);
         match &hair.shapes {
             // Without dynamics hair is where its keys have it.
             Some(shapes) if !is_simulated => {
-                shapes.sample_smooth(script.within(time), &mut self.points);
+                shapes.sample_smooth(driver.script.within(time), &mut self.points);
             }
-            _ => self.points.copy_from_slice(at_rest),
+            _ => self.points.copy_from_slice(hair.file.strands.points()),
         }
+        self.pose = driver.head_at(time);
         let (rotation, translation) = rigid(self.pose, hair.head);
         for point in &mut self.points {
             *point = (rotation * point.as_dvec3() + translation).as_vec3();
         }
-        if !is_simulated {
-            self.dynamics = None;
-            return Ok(());
-        }
-        let center = object.placement().point(self.head(object).center);
-        let is_seen = camera.is_none_or(|camera| may_see(camera, center, hair.reach_m));
-        let dynamics = match &mut self.dynamics {
-            Some(dynamics) => dynamics,
-            None => {
-                let sizes: Vec<f32> = hair.infos.iter().map(|info| info.size).collect();
-                self.dynamics.insert(Dynamics::new(
-                    hair,
-                    &sizes,
-                    object.neck().map(Neck::rest_mesh),
-                    section,
-                    script.hold,
-                    fps,
-                    look.seed,
-                )?)
-            }
-        };
-        dynamics.stand(object.placement());
-        dynamics.advance_to(time, driver, is_seen, &mut self.points)
     }
 
     /// Its head where it is now.

@@ -7,7 +7,7 @@
 
 use effects::Registry;
 use glam::Vec3;
-use stage::{Files, Preset, Stage};
+use stage::{Files, FrameMaker, Hand, Motion, Preset, Scene, Stage};
 use std::fs;
 use std::path::{Path, PathBuf};
 use stroke_path::{Camera, OrbitView};
@@ -100,6 +100,38 @@ fn a_moment_is_the_same_however_it_is_reached() {
     assert!(means(&mut steps, 0.5) == at_once);
     assert!(means(&mut steps, 0.0) != at_once);
     assert!(means(&mut steps, 0.5) == at_once);
+}
+
+#[test]
+fn a_simulation_that_is_interrupted_goes_on_from_there() {
+    let scene = scene("bob.style.ron", Some(GALE), &[]).scene;
+    let (mut motion, mut frames) = (Motion::new(), FrameMaker::new());
+    let mut means = |scene: &Scene, motion: &Motion| -> Vec<Vec3> {
+        let frame = frames.frame(scene, motion).unwrap();
+        frame.strands.iter().map(|strand| strand.mean).collect()
+    };
+    let at = |time: f32, scene: &Scene| {
+        let mut motion = Motion::new();
+        motion.advance_to(scene, time).unwrap();
+        motion
+    };
+    // Three steps of twelve, of 24 a second: heads and hair are at the same time.
+    let hand = Hand::new();
+    let mut left = 3;
+    let goes_on = || {
+        left -= 1;
+        left >= 0
+    };
+    let advanced = motion.advance_by_hand_while(&scene, 0.5, &hand, goes_on);
+    assert!(!advanced.unwrap());
+    assert_eq!(motion.time_s(), 3.0 / 24.0);
+    assert_eq!(motion.steps_taken(), 3);
+    assert!(means(&scene, &motion) == means(&scene, &at(3.0 / 24.0, &scene)));
+    let advanced = motion.advance_by_hand_while(&scene, 0.5, &hand, || true);
+    assert!(advanced.unwrap());
+    assert_eq!(motion.time_s(), 0.5);
+    assert_eq!(motion.steps_taken(), 12);
+    assert!(means(&scene, &motion) == means(&scene, &at(0.5, &scene)));
 }
 
 #[test]

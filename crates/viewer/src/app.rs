@@ -9,10 +9,18 @@ use crate::studio::Studio;
 use crate::{menu, status};
 use document::Recovery;
 use effects::Registry;
-use eframe::egui::{CentralPanel, Context, Panel, Ui, ViewportCommand};
+use eframe::egui::{CentralPanel, Color32, Context, Panel, Ui, ViewportCommand};
 use egui_tiles::Tree;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// How much of a text's colour is left where it is of less weight: it is read still.
+const WEAK: f32 = 0.75;
+/// Mistakes: full red is hard to read on dark.
+const MISTAKE_ON_DARK: Color32 = Color32::from_rgb(255, 120, 110);
+const MISTAKE_ON_LIGHT: Color32 = Color32::from_rgb(190, 20, 20);
+/// Width of a scroll bar and what is around it, points.
+const SCROLL_BAR: f32 = 8.0;
 
 /// The viewer as [`eframe`] runs it.
 pub struct App {
@@ -31,6 +39,17 @@ impl App {
         backend: Backend,
         recovery: Recovery,
     ) -> Self {
+        ctx.all_styles_mut(|style| {
+            // Scroll bars have room of their own, beside what is scrolled.
+            style.spacing.scroll.floating_allocated_width = SCROLL_BAR;
+            style.visuals.weak_text_alpha = WEAK;
+            let is_dark = style.visuals.dark_mode;
+            style.visuals.error_fg_color = if is_dark {
+                MISTAKE_ON_DARK
+            } else {
+                MISTAKE_ON_LIGHT
+            };
+        });
         let mut studio = Studio::new(Arc::new(registry), ctx, backend, recovery);
         if let Some(preset) = preset {
             studio.open(preset);

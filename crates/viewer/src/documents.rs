@@ -3,7 +3,7 @@
 use crate::edit::{Edit, Place};
 use document::{Conflict, DiskChange, Document, OpenError, Recovery, SaveError};
 use effects::preset::edit;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -39,18 +39,27 @@ const MOST_STEPS: usize = 3000;
 /// A step of undo.
 #[derive(Clone, Copy, PartialEq)]
 struct Step {
-    which: Which,
+    text: Id,
     gesture: Option<u64>,
 }
 
-/// The texts that are open.
+/// Which of all texts that were open since the preset is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Id(u64);
+
+/// The texts that are open, and those that the preset named before: these keep their changes and steps, for when it names them again.
 pub struct Documents {
-    open: BTreeMap<Which, Document>,
+    texts: BTreeMap<Id, (Which, Document)>,
+    /// Those that are named now.
+    open: BTreeMap<Which, Id>,
+    opened: u64,
     recovery: Recovery,
     wake: Arc<dyn Fn() + Send + Sync>,
     /// The texts of the steps that can be taken back, the last one last, and of those that were.
     undo: Vec<Step>,
-    redo: Vec<Which>,
+    redo: Vec<Id>,
+    /// Whether a crash has left copies of what was opened since this was asked last.
+    has_copies: bool,
     /// Why the style or script that the preset names is not open.
     pub troubles: BTreeMap<Which, String>,
 }
@@ -67,46 +76,70 @@ impl Documents {
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> Result<Self, OpenError> {
         let mut documents = Self {
+            texts: BTreeMap::new(),
             open: BTreeMap::new(),
+            opened: 0,
             recovery,
             wake,
             undo: Vec::new(),
             redo: Vec::new(),
+            has_copies: false,
             troubles: BTreeMap::new(),
         };
-        let preset = documents.read(preset)?;
-        documents.open.insert(Which::Preset, preset);
+        documents.read(Which::Preset, preset)?;
         documents.follow_names();
         Ok(documents)
     }
 
-    fn read(&self, path: &Path) -> Result<Document, OpenError> {
+    /// Opens a text from the disk.
+    fn read(&mut self, which: Which, path: &Path) -> Result<(), OpenError> {
         let mut document = Document::open(path, &self.recovery)?;
         let wake = self.wake.clone();
         document.on_change(Some(Box::new(move || wake())));
-        Ok(document)
+        self.has_copies |= document.recovered().is_some();
+        let id = Id(self.opened);
+        self.opened += 1;
+        self.texts.insert(id, (which, document));
+        self.open.insert(which, id);
+        Ok(())
     }
 
     /// The preset.
     #[must_use]
     pub fn preset(&self) -> &Document {
-        &self.open[&Which::Preset]
+        &self.texts[&self.open[&Which::Preset]].1
     }
 
     /// One of the texts, where there is such.
     #[must_use]
     pub fn get(&self, which: Which) -> Option<&Document> {
-        self.open.get(&which)
+        let (_, document) = self.texts.get(self.open.get(&which)?)?;
+        Some(document)
     }
 
     /// The same, to be changed.
     pub fn get_mut(&mut self, which: Which) -> Option<&mut Document> {
-        self.open.get_mut(&which)
+        let (_, document) = self.texts.get_mut(self.open.get(&which)?)?;
+        Some(document)
     }
 
     /// All texts that are open.
     pub fn all(&self) -> impl Iterator<Item = (Which, &Document)> {
-        self.open.iter().map(|(which, document)| (*which, document))
+        let open = self.open.iter();
+        open.map(|(which, id)| (*which, &self.texts[id].1))
+    }
+
+    fn is_open(&self, text: Id) -> bool {
+        self.open.values().any(|open| *open == text)
+    }
+
+    /// Texts with changes that are not saved, also of those that the preset named before.
+    pub fn unsaved(&self) -> impl Iterator<Item = (Id, &Document)> {
+        let texts = self.texts.iter().map(|(id, (_, document))| (*id, document));
+        // What is no more on the disk, and no more named, is missed by nobody.
+        texts.filter(|(id, document)| {
+            document.is_changed() && (self.is_open(*id) || document.was_edited())
+        })
     }
 
     /// The folder of the preset.
@@ -128,13 +161,22 @@ impl Documents {
     /// Whether anything is not saved.
     #[must_use]
     pub fn is_changed(&self) -> bool {
-        self.open.values().any(Document::is_changed)
+        self.unsaved().next().is_some()
     }
 
-    /// Whether the system tells when a file changes on the disk; else somebody has to look.
+    /// Whether there is something to be done in a while, without anybody's doing: copies that outlive a crash, files whose changes
+    /// the system doesn't tell.
     #[must_use]
-    pub fn is_watched(&self) -> bool {
-        self.open.values().all(Document::is_watched)
+    pub fn wants_care(&self) -> bool {
+        let wants_care = |(_, document): &(Which, Document)| {
+            document.wants_recovery_copy() || !document.is_watched()
+        };
+        !self.troubles.is_empty() || self.texts.values().any(wants_care)
+    }
+
+    /// Whether a crash has left copies of what was opened since this was asked last.
+    pub fn take_copies(&mut self) -> bool {
+        std::mem::take(&mut self.has_copies)
     }
 
     /// Makes the changes, one after the other. Those of one `gesture` are one step of undo.
@@ -149,7 +191,7 @@ impl Documents {
         gesture: Option<u64>,
     ) -> Result<(), String> {
         for edit in edits {
-            let Some(document) = self.open.get_mut(&which) else {
+            let Some(document) = self.get_mut(which) else {
                 return Ok(());
             };
             let text = edit
@@ -158,26 +200,23 @@ impl Documents {
             document.edit(text, gesture);
             self.note(which, gesture);
         }
-        if which == Which::Preset {
-            self.follow_names();
-        }
+        self.follow_names();
         Ok(())
     }
 
     /// A text was written by hand.
     pub fn write(&mut self, which: Which, text: String, gesture: Option<u64>) {
-        if let Some(document) = self.open.get_mut(&which) {
+        if let Some(document) = self.get_mut(which) {
             document.edit(text, gesture);
             self.note(which, gesture);
         }
-        if which == Which::Preset {
-            self.follow_names();
-        }
+        self.follow_names();
     }
 
     /// Notes a step of undo, where it is another one than the last.
     fn note(&mut self, which: Which, gesture: Option<u64>) {
-        let step = Step { which, gesture };
+        let text = self.open[&which];
+        let step = Step { text, gesture };
         if gesture.is_none() || self.undo.last() != Some(&step) {
             self.undo.push(step);
         }
@@ -187,34 +226,47 @@ impl Documents {
         self.redo.clear();
     }
 
-    /// Takes the last change of any of the texts back. Whether there was one.
+    /// Takes the last change of any of the texts back. Whether there was one. Those of texts that are not named now wait until they are.
     pub fn undo(&mut self) -> bool {
-        while let Some(Step { which, .. }) = self.undo.pop() {
-            if self.open.get_mut(&which).is_some_and(Document::undo) {
-                self.redo.push(which);
+        let done = self.undo_step();
+        self.follow_names();
+        done
+    }
+
+    fn undo_step(&mut self) -> bool {
+        while let Some(last) = (self.undo.iter()).rposition(|step| self.is_open(step.text)) {
+            let Step { text, .. } = self.undo.remove(last);
+            if self.texts.get_mut(&text).is_some_and(|(_, own)| own.undo()) {
+                self.redo.push(text);
                 return true;
             }
         }
         // What was taken from the disk.
-        let mut texts = self.open.iter_mut();
-        let done = texts.find_map(|(which, document)| document.undo().then_some(*which));
-        self.redo.extend(done);
-        done.is_some()
+        for text in self.open.values() {
+            if self.texts.get_mut(text).is_some_and(|(_, own)| own.undo()) {
+                self.redo.push(*text);
+                return true;
+            }
+        }
+        false
     }
 
     /// Makes the change again that was taken back last. Whether there was one.
     pub fn redo(&mut self) -> bool {
-        let Some(which) = self.redo.pop() else {
+        let Some(last) = self.redo.iter().rposition(|text| self.is_open(*text)) else {
             return false;
         };
+        let text = self.redo.remove(last);
         self.undo.push(Step {
-            which,
+            text,
             gesture: None,
         });
-        self.open.get_mut(&which).is_some_and(Document::redo)
+        let done = self.texts.get_mut(&text).is_some_and(|(_, own)| own.redo());
+        self.follow_names();
+        done
     }
 
-    /// Opens the style and script that the preset names now. One with changes that are not saved stays open until they are.
+    /// Opens the style and script that the preset names now. Those that it named before are set aside.
     pub fn follow_names(&mut self) {
         for (which, section, ending) in [
             (Which::Style, "hair", ".style.ron"),
@@ -224,24 +276,34 @@ impl Documents {
             let named = edit::get(self.preset().text(), &place.steps()).and_then(unquoted);
             let named = named.filter(|name| name.ends_with(ending));
             let path = named.map(|name| self.folder().join(name));
-            let there = self.open.get(&which);
+            let there = self.get(which);
             if there.map(Document::path) == path.as_deref() && there.is_some() {
                 continue;
             }
-            if there.is_some_and(Document::is_changed) {
-                continue;
-            }
-            self.open.remove(&which);
+            self.set_aside(which);
             self.troubles.remove(&which);
             let Some(path) = path else { continue };
-            match self.read(&path) {
-                Ok(document) => {
-                    self.open.insert(which, document);
-                }
-                Err(error) => {
-                    self.troubles.insert(which, error.to_string());
-                }
+            let known = (self.texts.iter())
+                .find(|(_, (of, document))| *of == which && document.path() == path);
+            if let Some((id, _)) = known {
+                self.open.insert(which, *id);
+            } else if let Err(error) = self.read(which, &path) {
+                self.troubles.insert(which, error.to_string());
             }
+        }
+    }
+
+    /// A text that is no longer named: one with nothing to be kept is closed.
+    fn set_aside(&mut self, which: Which) {
+        let Some(id) = self.open.remove(&which) else {
+            return;
+        };
+        let has_steps = |document: &Document| document.can_undo() || document.can_redo();
+        let is_kept = |(_, document): &(Which, Document)| {
+            has_steps(document) || document.was_edited() || document.recovered().is_some()
+        };
+        if !self.texts.get(&id).is_some_and(is_kept) {
+            self.texts.remove(&id);
         }
     }
 
@@ -249,8 +311,13 @@ impl Documents {
     pub fn poll(&mut self) -> Vec<String> {
         let mut told = Vec::new();
         let mut reloaded = false;
-        for document in self.open.values_mut() {
-            let Some(change) = document.poll() else {
+        let open: BTreeSet<Id> = self.open.values().copied().collect();
+        for (id, (_, document)) in &mut self.texts {
+            let change = document.poll();
+            // Of those that are set aside only what somebody must choose from is of interest.
+            let Some(change) =
+                change.filter(|change| open.contains(id) || matches!(change, DiskChange::Conflict))
+            else {
                 continue;
             };
             let name = document.name();
@@ -276,19 +343,15 @@ impl Documents {
 
     /// Writes all that is not saved, also what is no more on the disk. What could be written is; the errors of the others.
     pub fn save(&mut self) -> Vec<SaveError> {
-        let changed = self
-            .open
-            .values_mut()
-            .filter(|document| document.is_changed());
-        let saved = changed.map(|document| {
+        let unsaved: Vec<Id> = self.unsaved().map(|(id, _)| id).collect();
+        let saved = unsaved.iter().filter_map(|id| {
+            let (_, document) = self.texts.get_mut(id)?;
             if document.conflict() == Some(&Conflict::Deleted) {
                 document.keep_mine();
             }
-            document.save()
+            document.save().err()
         });
-        let errors = saved.filter_map(Result::err).collect();
-        self.follow_names();
-        errors
+        saved.collect()
     }
 
     /// Looks again for the style and script that could not be opened.
@@ -312,14 +375,14 @@ impl Documents {
                 self.folder().display()
             ));
         }
-        let preset = self.open.get_mut(&Which::Preset);
+        let preset = self.get_mut(Which::Preset);
         let saved = preset.map(|preset| preset.save_as(path).map_err(|error| error.to_string()));
         saved.unwrap_or(Ok(()))
     }
 
-    /// Ends a conflict: keeps what is here, or takes what is on the disk.
-    pub fn resolve(&mut self, which: Which, keeps_mine: bool) {
-        if let Some(document) = self.open.get_mut(&which) {
+    /// Ends a conflict of one of [`Self::unsaved`]: keeps what is here, or takes what is on the disk.
+    pub fn resolve(&mut self, text: Id, keeps_mine: bool) {
+        if let Some((_, document)) = self.texts.get_mut(&text) {
             match keeps_mine {
                 true => document.keep_mine(),
                 false => document.take_theirs(),
@@ -331,12 +394,13 @@ impl Documents {
     /// Why copies that would outlive a crash cannot be kept.
     #[must_use]
     pub fn recovery_error(&self) -> Option<&str> {
-        self.open.values().find_map(Document::recovery_error)
+        let mut texts = self.texts.values();
+        texts.find_map(|(_, document)| document.recovery_error())
     }
 
     /// Takes on the copy of a text that a crash has left, as a step of undo.
     pub fn accept_recovered(&mut self, which: Which) {
-        if let Some(document) = self.open.get_mut(&which) {
+        if let Some(document) = self.get_mut(which) {
             document.accept_recovered();
             self.note(which, None);
         }
@@ -345,19 +409,20 @@ impl Documents {
 
     /// Throws the copy of a text away.
     pub fn discard_recovered(&mut self, which: Which) {
-        if let Some(document) = self.open.get_mut(&which) {
+        if let Some(document) = self.get_mut(which) {
             document.discard_recovered();
         }
     }
 
     /// Throws all changes away, with the copies that would outlive a crash, and closes the texts.
     pub fn close(self) {
-        self.open.into_values().for_each(Document::close);
+        let texts = self.texts.into_values();
+        texts.for_each(|(_, document)| document.close());
     }
 
     /// Keeps copies that outlive a crash.
     pub fn keep_recovery_copies(&mut self) {
-        for document in self.open.values_mut() {
+        for (_, document) in self.texts.values_mut() {
             document.keep_recovery_copy();
         }
     }

@@ -75,6 +75,8 @@ pub fn run(registry: Registry) -> ExitCode {
             .with_inner_size(SIZE)
             .with_min_inner_size(LEAST_SIZE)
             .with_drag_and_drop(true),
+        // Pictures are shown as they are.
+        dithering: false,
         ..eframe::NativeOptions::default()
     };
     let shown = eframe::run_native(

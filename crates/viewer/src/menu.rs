@@ -15,6 +15,19 @@ pub fn item(ui: &mut Ui, studio: &mut Studio, action: Action) {
     }
 }
 
+/// The window's colours.
+fn theme(ui: &mut Ui) {
+    use egui::ThemePreference::{Dark, Light, System};
+    let before = ui.ctx().options(|options| options.theme_preference);
+    let mut chosen = before;
+    for (preference, name) in [(System, "the system's"), (Dark, "dark"), (Light, "light")] {
+        ui.radio_value(&mut chosen, preference, name);
+    }
+    if chosen != before {
+        ui.ctx().set_theme(chosen);
+    }
+}
+
 /// Shows the bar.
 pub fn bar(ui: &mut Ui, studio: &mut Studio) {
     egui::MenuBar::new().ui(ui, |ui| {
@@ -31,7 +44,7 @@ pub fn bar(ui: &mut Ui, studio: &mut Studio) {
         });
         ui.menu_button("Window", |ui| {
             ui.weak("Colours");
-            egui::widgets::global_theme_preference_buttons(ui);
+            theme(ui);
             ui.weak("Drawn by");
             for backend in Backend::ALL {
                 let about = match backend {

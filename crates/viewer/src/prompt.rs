@@ -6,9 +6,16 @@ use crate::engine::Backend;
 use crate::export::{Running, Settings, State};
 use crate::path_field::PathField;
 use crate::studio::Studio;
-use eframe::egui::{self, Id, Key, Modal, ProgressBar, RichText, Ui};
+use eframe::egui::{self, Id, Key, Label, Modal, ProgressBar, RichText, Ui, Vec2, vec2};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
+
+/// The largest width of a window, points.
+const MOST_WIDTH: f32 = 560.0;
+/// What is seen of the viewer beside a window at least, and what the window's frame takes, points.
+const MARGIN: Vec2 = vec2(48.0, 48.0);
+/// Height of the shortcuts' heading and button, points.
+const AROUND_SHORTCUTS: f32 = 110.0;
 
 /// What is asked.
 pub enum Prompt {
@@ -102,8 +109,12 @@ impl Prompt {
     pub fn show(mut self, ui: &mut Ui, studio: &mut Studio) -> Option<Self> {
         let mut answer = Answer::Stays;
         let modal = Modal::new(Id::unique(("prompt", self.name()))).show(ui.ctx(), |ui| {
-            ui.set_max_width(560.0);
-            answer = self.ask(ui, studio);
+            // A small window has room for less.
+            let room = ui.ctx().content_rect().size() - MARGIN;
+            ui.set_max_width(room.x.min(MOST_WIDTH));
+            egui::ScrollArea::vertical()
+                .max_height(room.y)
+                .show(ui, |ui| answer = self.ask(ui, studio));
         });
         let is_busy = matches!(&self, Self::Export(export) if export.is_busy());
         if modal.should_close() && !is_busy && !matches!(self, Self::Recover) {
@@ -176,12 +187,8 @@ fn open_or_ask(studio: &mut Studio, path: &Path) -> Answer {
     if studio.documents.as_ref().is_some_and(Documents::is_changed) {
         return Answer::Becomes(Prompt::Unsaved(Some(path.to_owned())));
     }
-    studio.prompt = None;
     studio.open(path);
-    match studio.prompt.take() {
-        Some(next) => Answer::Becomes(next),
-        None => Answer::Closes,
-    }
+    Answer::Closes
 }
 
 /// A window with a path, which does something with it.
@@ -245,7 +252,7 @@ fn ask_recover(ui: &mut Ui, studio: &mut Studio) -> Answer {
     ui.separator();
     let is_later = ui
         .button("Later")
-        .on_hover_text("The copies stay, and are offered when the preset is opened again")
+        .on_hover_text("The copies stay, and are offered when the texts are opened again")
         .clicked();
     if let Some(which) = taken {
         documents.accept_recovered(which);
@@ -276,10 +283,8 @@ fn ago(when: SystemTime) -> String {
 
 fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answer {
     ui.heading("There are changes that are not saved");
-    for (_, document) in studio.documents.iter().flat_map(Documents::all) {
-        if document.is_changed() {
-            ui.label(document.path().display().to_string());
-        }
+    for (_, document) in studio.documents.iter().flat_map(Documents::unsaved) {
+        ui.label(document.path().display().to_string());
     }
     let mut goes_on = false;
     let mut is_thrown = false;
@@ -302,10 +307,10 @@ fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answe
     }
     match next {
         // Only when the other is open nothing is left of this one.
-        Some(path) => match studio.open(&path) {
-            true => studio.prompt.take().map_or(Answer::Closes, Answer::Becomes),
-            false => Answer::Closes,
-        },
+        Some(path) => {
+            studio.open(&path);
+            Answer::Closes
+        }
         None => {
             if let Some(documents) = studio.documents.take().filter(|_| is_thrown) {
                 documents.close();
@@ -319,8 +324,9 @@ fn ask_unsaved(ui: &mut Ui, studio: &mut Studio, next: Option<PathBuf>) -> Answe
 
 fn show_shortcuts(ui: &mut Ui) -> Answer {
     ui.heading("Shortcuts");
+    let room = ui.ctx().content_rect().height() - MARGIN.y - AROUND_SHORTCUTS;
     egui::ScrollArea::vertical()
-        .max_height(420.0)
+        .max_height(room.min(420.0))
         .show(ui, |ui| {
             egui::Grid::new("shortcuts")
                 .num_columns(3)
@@ -329,7 +335,7 @@ fn show_shortcuts(ui: &mut Ui) -> Answer {
                     for entry in actions::ALL {
                         ui.label(RichText::new(entry.key_text(ui.ctx())).monospace());
                         ui.label(entry.name);
-                        ui.weak(entry.about);
+                        ui.add(Label::new(RichText::new(entry.about).weak()).truncate());
                         ui.end_row();
                     }
                     for (key, name, about) in [
@@ -359,7 +365,7 @@ fn show_shortcuts(ui: &mut Ui) -> Answer {
                     ] {
                         ui.label(RichText::new(key).monospace());
                         ui.label(name);
-                        ui.weak(about);
+                        ui.add(Label::new(RichText::new(about).weak()).truncate());
                         ui.end_row();
                     }
                 });

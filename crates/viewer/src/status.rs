@@ -4,7 +4,7 @@ use crate::documents::Documents;
 use crate::engine::{Drawn, Problem};
 use crate::studio::Studio;
 use document::Conflict;
-use eframe::egui::{RichText, ScrollArea, Ui};
+use eframe::egui::{Label, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
 /// The most mistakes that are shown.
@@ -13,7 +13,7 @@ const MOST_SHOWN: usize = 20;
 /// Whether something is wrong, or a text was changed here and on the disk.
 #[must_use]
 pub fn has_problems(studio: &Studio) -> bool {
-    let texts = studio.documents.iter().flat_map(Documents::all);
+    let texts = studio.documents.iter().flat_map(Documents::unsaved);
     !studio.problems.is_empty()
         || texts
             .into_iter()
@@ -54,7 +54,7 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
         return;
     };
     let mut chosen = None;
-    for (which, document) in documents.all() {
+    for (text, document) in documents.unsaved() {
         let Some(conflict) = document.conflict() else {
             continue;
         };
@@ -65,11 +65,11 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
                 format!("{} was changed here and on the disk.", document.name()),
             );
             if ui.button("Keep mine").clicked() {
-                chosen = Some((which, true));
+                chosen = Some((text, true));
             }
             let is_there = on_disk(conflict).is_some();
             if is_there && ui.button("Take the disk's").clicked() {
-                chosen = Some((which, false));
+                chosen = Some((text, false));
             }
         });
         ui.columns(2, |columns| {
@@ -79,7 +79,7 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
             ]) {
                 ui.strong(title);
                 ScrollArea::vertical()
-                    .id_salt((title, which.name()))
+                    .id_salt((title, document.path()))
                     .max_height(160.0)
                     .show(ui, |ui| match text {
                         Some(text) => ui.monospace(&**text),
@@ -88,8 +88,8 @@ fn conflicts(ui: &mut Ui, studio: &mut Studio) {
             }
         });
     }
-    if let Some((which, keeps_mine)) = chosen {
-        documents.resolve(which, keeps_mine);
+    if let Some((text, keeps_mine)) = chosen {
+        documents.resolve(text, keeps_mine);
     }
 }
 
@@ -101,21 +101,23 @@ fn on_disk(conflict: &Conflict) -> Option<&Arc<str>> {
     }
 }
 
-/// Shows the last thing that was done, and what the last frame took.
+/// Shows the last thing that was done, and what the last frame took. One line, however much there is: the picture above keeps its size.
 pub fn status(ui: &mut Ui, studio: &Studio) {
-    ui.horizontal_wrapped(|ui| {
+    let line = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).truncate());
+    ui.horizontal(|ui| {
         if let Some(told) = studio.told() {
-            ui.label(told);
+            line(ui, told.into());
             ui.separator();
         }
         if let Some(shown) = &studio.shown[0] {
             let sharp = if studio.is_sharp { "" } else { " (rough)" };
-            ui.weak(format!("{}{sharp}", frame_in_words(&shown.drawn)));
+            let mut text = format!("{}{sharp}", frame_in_words(&shown.drawn));
             for note in &shown.drawn.facts.notes {
-                ui.weak(note);
+                text += &format!(" | {note}");
             }
+            line(ui, RichText::new(text).weak());
         } else if studio.documents.is_some() && studio.problems.is_empty() {
-            ui.weak("drawing ...");
+            line(ui, RichText::new("drawing ...").weak());
         }
     });
 }

@@ -29,6 +29,9 @@ const TOLD_FOR: Duration = Duration::from_secs(8);
 /// How often copies are kept that outlive a crash, and files on the disk are looked after.
 const HOUSEKEEPING: Duration = Duration::from_secs(1);
 
+/// When the window is drawn that something woke: without a wait it would be drawn twice, which takes long in software.
+const SOON: Duration = Duration::from_millis(1);
+
 /// What a drag on the picture does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
@@ -132,7 +135,7 @@ impl Studio {
         recovery: Recovery,
     ) -> Self {
         let waker = ctx.clone();
-        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(move || waker.request_repaint());
+        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(move || waker.request_repaint_after(SOON));
         let [for_engine, for_thumbnails] = [wake.clone(), wake.clone()];
         Self {
             engine: Engine::start(registry.clone(), move || for_engine()),
@@ -195,9 +198,6 @@ impl Studio {
                 if let Some(folder) = path.parent() {
                     folder.clone_into(&mut self.folder);
                 }
-                let has_copy = documents
-                    .all()
-                    .any(|(_, document)| document.recovered().is_some());
                 self.documents = Some(documents);
                 self.layers = LayersShown::default();
                 self.view.follow_preset();
@@ -205,9 +205,6 @@ impl Studio {
                 self.grip.reset();
                 self.compare = None;
                 self.read = None;
-                if has_copy {
-                    self.prompt = Some(Prompt::Recover);
-                }
                 true
             }
             Err(error) => {
@@ -417,9 +414,6 @@ impl Studio {
         if !is_done {
             self.tell("there is nothing to take back or make again");
         }
-        if let Some(documents) = &mut self.documents {
-            documents.follow_names();
-        }
     }
 
     /// Writes all that is changed.
@@ -566,6 +560,7 @@ impl Studio {
 
     /// What happens after: the picture that is wanted now is wished for.
     pub fn after_frame(&mut self) {
+        self.look_after_texts();
         let Some(look) = self.look().filter(|_| self.picture_px != [0, 0]) else {
             return;
         };
@@ -593,14 +588,21 @@ impl Studio {
             // What was dragged is at rest from the next frame on.
             self.ctx.request_repaint();
         }
-        // Copies that outlive a crash, and files that nobody watches.
-        let wants_care = |documents: &Documents| {
-            documents.is_changed() || !documents.is_watched() || !documents.troubles.is_empty()
+        self.is_dragging = false;
+    }
+
+    /// Asks what becomes of copies that a crash has left, and wakes the window when its texts want care.
+    fn look_after_texts(&mut self) {
+        let Some(documents) = &mut self.documents else {
+            return;
         };
-        if self.documents.as_ref().is_some_and(wants_care) {
+        if self.prompt.is_none() && documents.take_copies() {
+            self.prompt = Some(Prompt::Recover);
+            self.ctx.request_repaint();
+        }
+        if documents.wants_care() {
             self.ctx.request_repaint_after(HOUSEKEEPING);
         }
-        self.is_dragging = false;
     }
 
     fn show(&mut self, index: usize, drawn: Drawn) {
@@ -618,6 +620,12 @@ impl Studio {
                     .load_texture(format!("picture {index}"), image, TextureOptions::LINEAR);
             self.shown[index] = Some(Shown { drawn, texture });
         }
+    }
+
+    /// Whether what is wished for is not drawn yet.
+    #[must_use]
+    pub fn is_drawing(&self) -> bool {
+        self.engine.is_drawing()
     }
 
     /// The pixels of a picture: rows from above, red, green, blue, alpha, sRGB, straight.

@@ -72,8 +72,8 @@ pub(crate) struct Dynamics {
     warm_up: i64,
     /// Steps done since the start.
     done: i64,
-    /// Whether what is shown is the start.
-    is_at_start: bool,
+    /// The time of what is shown, seconds.
+    shown: f64,
     /// How many more were wanted at the last time, when the hair was not seen.
     owed: i64,
     /// Steps taken, long ones as one.
@@ -173,7 +173,7 @@ impl Dynamics {
             warm_up: (f64::from(section.warm_up) / step).round() as i64,
             step,
             done: 0,
-            is_at_start: true,
+            shown: f64::NEG_INFINITY,
             owed: 0,
             taken: 0,
             stats: Stats::default(),
@@ -201,9 +201,10 @@ impl Dynamics {
         self.taken
     }
 
-    /// Steps to `time` (seconds) of a driver, and writes the points of what moves. A time between two steps is shown by a shorter
-    /// step of its own, from which nothing goes on: the motion is the same whatever times are looked at. Hair that is not seen comes
-    /// after in long steps; as soon as it is seen, one step takes it to where it should be.
+    /// Steps towards `time` (seconds) of a driver for as long as `goes_on` says so, and answers to which time it came: where that is
+    /// before `time`, the next call goes on from there. A time between two steps is come to by a shorter step of its own, from which
+    /// nothing goes on: the motion is the same whatever times are looked at. Hair that is not seen comes after in long steps; as soon as
+    /// it is seen, one step takes it to where it should be.
     ///
     /// # Errors
     ///
@@ -213,8 +214,8 @@ impl Dynamics {
         time: f64,
         driver: Driver,
         is_seen: bool,
-        points: &mut [Vec3],
-    ) -> Result<(), StageError> {
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<f64, StageError> {
         // What the time's own precision, single, can tell from a whole step.
         let slack = time.abs() * f64::from(f32::EPSILON) + SHORTEST_STEP;
         let wanted = ((time + slack) / self.step).floor() as i64 + self.warm_up;
@@ -225,17 +226,18 @@ impl Dynamics {
             let first = Roots::Head(self.pose_at(self.time_of(0), driver));
             self.strands.restart(first)?;
         }
+        let mut goes_on_to = |done: i64| done < wanted && goes_on();
         if is_seen {
             let owed = self.owed.min(wanted - self.done);
             if owed > 0 {
                 self.step(owed, driver)?;
             }
             self.owed = 0;
-            while self.done < wanted {
+            while goes_on_to(self.done) {
                 self.step(1, driver)?;
             }
         } else {
-            while self.done < wanted {
+            while goes_on_to(self.done) {
                 let is_calm = self.is_calm(driver);
                 if is_calm && wanted - self.done < UNSEEN_STEPS {
                     break;
@@ -246,18 +248,24 @@ impl Dynamics {
         }
         self.strands.look_back();
         let mut shown = self.time_of(self.done);
-        if is_seen && time > shown + slack {
+        let is_there = !is_seen || self.done == wanted;
+        if is_seen && is_there && time > shown + slack {
             shown = time;
             self.stats = self.drive(time, driver, |strands, scene, dt| {
                 strands.look_ahead(scene, dt)
             })?;
         }
-        self.is_at_start = shown <= self.time_of(0);
-        if self.is_at_start {
+        self.shown = shown;
+        Ok(if is_there { time } else { shown })
+    }
+
+    /// Writes where it came to into the points of what moves; those of the others are where the head has them.
+    pub fn write(&self, driver: Driver, points: &mut [Vec3]) {
+        if self.is_at_start() {
             // All hair is where the head's pose has put it.
-            return Ok(());
+            return;
         }
-        let pose = self.pose_at(shown, driver);
+        let pose = self.pose_at(self.shown, driver);
         for part in &self.guides {
             let moved = self.strands.points(part.strand);
             for (point, moved) in points[part.points.clone()].iter_mut().zip(moved) {
@@ -267,7 +275,11 @@ impl Dynamics {
         self.carried
             .carry(points, |strand| self.strands.turns(strand));
         self.bodies.keep_out(self.carried.ranges(), pose, points);
-        Ok(())
+    }
+
+    /// Whether what is shown is the start.
+    fn is_at_start(&self) -> bool {
+        self.shown <= self.time_of(0)
     }
 
     /// Whether the head's motion is even from the last step to the end of a long one.
@@ -299,7 +311,7 @@ impl Dynamics {
 
     /// Turns the normals of the links that move from those at rest, both in the list of the scene's points.
     pub fn turn_normals(&self, rest: &[Vec3], normals: &mut [Vec3]) {
-        if self.is_at_start {
+        if self.is_at_start() {
             return;
         }
         for part in &self.guides {

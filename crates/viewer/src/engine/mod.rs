@@ -18,9 +18,13 @@ use stage::{CameraSection, Hand};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
+
+/// How long hair is moved towards where it is wished, once there is a newer wish: then it is drawn as far as it came. Without that, wishes
+/// that come one after the other, as those of a drag do, would never be seen.
+const LONGEST_WHILE_NEWER: Duration = Duration::from_millis(150);
 
 /// A preset's text, and what belongs to it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -172,7 +176,11 @@ impl Engine {
                 *shared.lock().unwrap_or_else(PoisonError::into_inner) = Some((number, answer));
                 wake();
             };
-            Drawer::new(&registry).serve(&received, answer);
+            let wishes = Wishes {
+                received,
+                newer: None,
+            };
+            Drawer::new(&registry).serve(wishes, answer);
         });
         Self {
             wishes,
@@ -234,46 +242,38 @@ impl<'r> Drawer<'r> {
 
     /// Draws the newest of the wishes until nobody wishes any more. At rest a picture is drawn roughly first, then sharp, unless
     /// another wish comes between.
-    fn serve(&mut self, wishes: &Receiver<(u64, Wish)>, answer: impl Fn(u64, Answer)) {
-        let mut next = wishes.recv().ok();
-        while let Some((mut number, mut wish)) = next.take() {
-            while let Ok(newer) = wishes.try_recv() {
-                (number, wish) = newer;
-            }
-            let mut first = self.draw(&wish, true);
+    fn serve(&mut self, mut wishes: Wishes, answer: impl Fn(u64, Answer)) {
+        while let Some((number, wish)) = wishes.next() {
+            let Some(mut first) = self.draw(&wish, true, &mut wishes) else {
+                continue;
+            };
             first.is_final &= !wish.is_moving;
             let is_final = first.is_final || wish.is_moving;
             answer(number, first);
-            if !is_final {
-                match wishes.recv_timeout(self.quality.patience(wish.size_px)) {
-                    Ok(newer) => {
-                        next = Some(newer);
-                        continue;
-                    }
-                    Err(RecvTimeoutError::Timeout) => answer(number, self.draw(&wish, false)),
-                    Err(RecvTimeoutError::Disconnected) => return,
-                }
+            if !is_final && !wishes.has_newer_within(self.quality.patience(wish.size_px)) {
+                let sharp = self.draw(&wish, false, &mut wishes);
+                sharp.into_iter().for_each(|sharp| answer(number, sharp));
             }
-            next = wishes.recv().ok();
         }
     }
 
-    /// Draws what is wished for; where an effect has a bug, that is told, and all is made anew for the next wish.
-    fn draw(&mut self, wish: &Wish, is_rough: bool) -> Answer {
-        let drawn = catch_unwind(AssertUnwindSafe(|| self.draw_looks(wish, is_rough)));
+    /// Draws what is wished for; nothing where a newer wish came before it was sharp. Where an effect has a bug, that is told, and all is
+    /// made anew for the next wish.
+    fn draw(&mut self, wish: &Wish, is_rough: bool, wishes: &mut Wishes) -> Option<Answer> {
+        let drawn = catch_unwind(AssertUnwindSafe(|| self.draw_looks(wish, is_rough, wishes)));
         drawn.unwrap_or_else(|_| {
             *self = Self::new(self.registry);
             let message = "drawing failed by a bug, which is told where the viewer was started";
-            Answer {
+            Some(Answer {
                 opened: wish.opened,
                 pictures: Vec::new(),
                 problems: vec![Problem::Failed(message.to_owned())],
                 is_final: true,
-            }
+            })
         })
     }
 
-    fn draw_looks(&mut self, wish: &Wish, is_rough: bool) -> Answer {
+    fn draw_looks(&mut self, wish: &Wish, is_rough: bool, wishes: &mut Wishes) -> Option<Answer> {
         let mut answer = Answer {
             opened: wish.opened,
             is_final: true,
@@ -286,7 +286,11 @@ impl<'r> Drawer<'r> {
         self.slots
             .resize_with(wish.looks.len(), || Slot::new(self.registry));
         let mut camera = wish.camera.clone();
+        let begun = Instant::now();
         for (look, slot) in wish.looks.iter().zip(&mut self.slots) {
+            if !is_rough && wishes.has_newer() {
+                return None;
+            }
             let started = Instant::now();
             answer.problems.extend(slot.follow(look));
             let load = started.elapsed().as_secs_f64() * 1e3;
@@ -304,9 +308,18 @@ impl<'r> Drawer<'r> {
                 (wish.size_px, wanted)
             };
             answer.is_final &= (size_px, samples) == (wish.size_px, wanted);
-            let drawn = slot.draw(wish, camera, size_px, samples, &mut self.painter);
+            let started = Instant::now();
+            let advanced = slot.advance(wish, || {
+                begun.elapsed() < LONGEST_WHILE_NEWER || !wishes.has_newer()
+            });
+            let simulate = started.elapsed().as_secs_f64() * 1e3;
+            let drawn = advanced.and_then(|is_there| {
+                answer.is_final &= is_there;
+                slot.draw(wish, camera, size_px, samples, &mut self.painter)
+            });
             match drawn {
                 Ok(mut drawn) => {
+                    drawn.times.simulate = simulate;
                     self.quality.learn(size_px, samples, &drawn.times);
                     drawn.times.load = load;
                     answer.pictures.push(Some(drawn));
@@ -318,7 +331,49 @@ impl<'r> Drawer<'r> {
             }
         }
         answer.problems.extend(self.painter.problem());
-        answer
+        Some(answer)
+    }
+}
+
+/// What is wished for, as the thread gets it.
+struct Wishes {
+    received: Receiver<(u64, Wish)>,
+    /// The newest of those that came while one was drawn.
+    newer: Option<(u64, Wish)>,
+}
+
+impl Wishes {
+    /// The newest wish; waits for one. Nothing where nobody wishes any more.
+    fn next(&mut self) -> Option<(u64, Wish)> {
+        if !self.has_newer() {
+            self.newer = self.received.recv().ok();
+            // One may be newer still.
+            self.has_newer();
+        }
+        self.newer.take()
+    }
+
+    /// Whether there is another wish than the one that is drawn, or nobody wishes any more.
+    fn has_newer(&mut self) -> bool {
+        loop {
+            match self.received.try_recv() {
+                Ok(newer) => self.newer = Some(newer),
+                Err(TryRecvError::Empty) => return self.newer.is_some(),
+                Err(TryRecvError::Disconnected) => return true,
+            }
+        }
+    }
+
+    /// The same, before so much time has passed.
+    fn has_newer_within(&mut self, patience: Duration) -> bool {
+        if !self.has_newer() {
+            match self.received.recv_timeout(patience) {
+                Ok(newer) => self.newer = Some(newer),
+                Err(RecvTimeoutError::Timeout) => return false,
+                Err(RecvTimeoutError::Disconnected) => return true,
+            }
+        }
+        true
     }
 }
 

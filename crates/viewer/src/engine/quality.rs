@@ -95,7 +95,9 @@ impl Quality {
     pub fn learn(&mut self, [width, height]: [u32; 2], samples: u32, times: &Times) {
         let megasamples = f64::from(width) * f64::from(height) * f64::from(samples) * 1e-6;
         let blend = |known: &mut f64, new: f64| *known += NEWS * (new - *known);
-        blend(&mut self.base_ms, times.frame() - times.raster);
+        // Hair that comes after from far behind tells nothing about the next picture.
+        let simulate = times.simulate.min(LONG_MS);
+        blend(&mut self.base_ms, simulate + times.paths + times.effects);
         blend(&mut self.sample_ms, times.raster / megasamples.max(1e-3));
     }
 }

@@ -125,7 +125,18 @@ impl<'r> Slot<'r> {
         }
     }
 
-    /// Draws the scene as it is wished for, seen by that camera.
+    /// Moves the scene to the wish's time, or towards it for as long as `goes_on` says so. Whether it came there; so it did where there
+    /// is no scene.
+    pub fn advance(&mut self, wish: &Wish, goes_on: impl FnMut() -> bool) -> Result<bool, Problem> {
+        let Some(Loaded { scene, .. }) = &self.loaded else {
+            return Ok(true);
+        };
+        let motion = &mut self.motion;
+        let advanced = motion.advance_by_hand_while(scene, wish.time_s, &wish.hand, goes_on);
+        advanced.map_err(failed)
+    }
+
+    /// Draws the scene as it stands, seen by that camera.
     pub fn draw(
         &mut self,
         wish: &Wish,
@@ -134,19 +145,12 @@ impl<'r> Slot<'r> {
         samples: u32,
         painter: &mut Painter,
     ) -> Result<Drawn, Problem> {
-        let failed = |error: StageError| Problem::Failed(error.to_string());
         let Some(loaded) = &mut self.loaded else {
             return Err(Problem::Failed("there is nothing to draw yet".to_owned()));
         };
         loaded.scene.camera = camera.clone();
         let scene = &loaded.scene;
         let mut times = Times::default();
-        let started = Instant::now();
-        self.motion
-            .advance_by_hand(scene, wish.time_s, &wish.hand)
-            .map_err(failed)?;
-        times.simulate = started.elapsed().as_secs_f64() * 1e3;
-
         let started = Instant::now();
         let camera = scene.camera_of_size(size_px).map_err(failed)?;
         let frame = self
@@ -204,6 +208,10 @@ impl From {
                 .collect(),
         }
     }
+}
+
+fn failed(error: StageError) -> Problem {
+    Problem::Failed(error.to_string())
 }
 
 fn mistakes(errors: &PresetErrors) -> Vec<Problem> {

@@ -108,7 +108,9 @@ fn draw(path: &Path, registry: &Registry, painter: &mut Painter) -> Thumbnail {
         hand: Hand::new(),
         backend: Backend::Cpu,
     };
-    match slot.draw(&wish, &facts.camera, SIZE_PX, SAMPLES, painter) {
+    let drawn = (slot.advance(&wish, || true))
+        .and_then(|_| slot.draw(&wish, &facts.camera, SIZE_PX, SAMPLES, painter));
+    match drawn {
         Ok(drawn) => Thumbnail::Drawn(Arc::new(drawn.pixels)),
         Err(problem) => Thumbnail::Failed(problem.to_string()),
     }

@@ -11,7 +11,7 @@ use crate::documents::Which;
 use crate::edit::Edit;
 use crate::panels;
 use crate::studio::Studio;
-use eframe::egui::{Id, ScrollArea, Ui, WidgetText};
+use eframe::egui::{Frame, Id, ScrollArea, Ui, WidgetText};
 use egui_tiles::{
     Behavior, Linear, LinearDir, SimplificationOptions, TileId, Tiles, Tree, UiResponse,
 };
@@ -90,9 +90,12 @@ impl Behavior<Pane> for Panes<'_> {
 
     fn pane_ui(&mut self, ui: &mut Ui, _: TileId, pane: &mut Pane) -> UiResponse {
         let studio = &mut *self.0;
-        let margin = if *pane == Pane::Picture { 0 } else { 6 };
-        let frame = eframe::egui::Frame::NONE.fill(ui.visuals().panel_fill);
-        frame.inner_margin(margin).show(ui, |ui| match pane {
+        let frame = match pane {
+            // It fills what is to be filled itself.
+            Pane::Picture => Frame::NONE,
+            _ => Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(6),
+        };
+        frame.show(ui, |ui| match pane {
             Pane::Picture => picture::picture(ui, studio),
             Pane::Presets => presets::presets(ui, studio),
             Pane::Text => text::text(ui, studio),

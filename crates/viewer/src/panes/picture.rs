@@ -10,28 +10,38 @@ use crate::view::NamedView;
 use effects::preset::edit::written;
 use effects::{ParamKind, Value};
 use eframe::egui::{
-    Align2, Color32, CursorIcon, FontId, Key, Painter, PointerButton, Pos2, Rect, Response, Sense,
-    Slider, Stroke, Ui, pos2, vec2,
+    Align2, Color32, CursorIcon, FontId, Frame, Key, Margin, Painter, PointerButton, Pos2, Rect,
+    Response, Sense, Slider, Stroke, Ui, emath::GuiRounding as _, pos2, vec2,
 };
 
 /// The largest side of a picture that is drawn for the window, pixels.
 const MOST_PX: f32 = 4096.0;
+/// Around the row of tools, points.
+const ROW: Margin = Margin::symmetric(6, 3);
 /// Points of a drag that an arrow key is worth.
 const KEY_POINTS: f32 = 12.0;
 
 /// Shows the picture with its tools.
 pub(super) fn picture(ui: &mut Ui, studio: &mut Studio) {
-    ui.horizontal_wrapped(|ui| tools(ui, studio));
+    let row = Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(ROW);
+    let gap = std::mem::take(&mut ui.spacing_mut().item_spacing.y);
+    row.show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = gap;
+        ui.set_width(ui.available_width());
+        ui.horizontal_wrapped(|ui| tools(ui, studio));
+    });
     let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     let response = response.accessible_name("The picture");
-    let rect = fitted(area, studio.sections.scene.size);
     let scale = ui.pixels_per_point();
+    // On whole pixels: a picture between them would be blurred.
+    let area = area.round_to_pixels(scale);
+    let rect = fitted(area, studio.sections.scene.size).round_to_pixels(scale);
     let most_px = ui.input(|input| input.max_texture_side as f32).min(MOST_PX);
     let most = most_px / (scale * rect.width().max(rect.height())).max(most_px);
     studio.picture_px =
         [rect.width(), rect.height()].map(|side| (side * scale * most).round().max(1.0) as u32);
     let painter = ui.painter_at(area);
-    painter.rect_filled(area, 0.0, ui.visuals().extreme_bg_color);
+    paint_ground(&painter, area, rect, ui.visuals().extreme_bg_color, studio);
     paint(&painter, rect, studio);
     if studio.documents.is_none() {
         hint(ui, &painter, area);
@@ -127,6 +137,22 @@ fn fitted(area: Rect, [width, height]: [u32; 2]) -> Rect {
     let size = vec2(width as f32, height as f32);
     let scale = (area.width() / size.x).min(area.height() / size.y).max(0.0);
     Rect::from_center_size(area.center(), (size * scale).max(vec2(1.0, 1.0)))
+}
+
+/// Fills what is not covered by the picture: where windows are drawn in software, each layer of pixels takes its time.
+fn paint_ground(painter: &Painter, area: Rect, rect: Rect, color: Color32, studio: &Studio) {
+    let is_covered = studio.shown[0].is_some() && studio.reference.is_none();
+    if !is_covered {
+        painter.rect_filled(area, 0.0, color);
+        return;
+    }
+    let (left, rest) = area.split_left_right_at_x(rect.left());
+    let (rest, right) = rest.split_left_right_at_x(rect.right());
+    let (above, rest) = rest.split_top_bottom_at_y(rect.top());
+    let (_, below) = rest.split_top_bottom_at_y(rect.bottom());
+    for part in [left, right, above, below] {
+        painter.rect_filled(part, 0.0, color);
+    }
 }
 
 fn paint(painter: &Painter, rect: Rect, studio: &Studio) {

@@ -1,0 +1,112 @@
+//! The thread that draws: newer wishes don't wait for what nobody wants to see any more.
+
+use crate::common::{LOOK, Looks, viewer, wait_for, wait_for_picture};
+use stage::Hand;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use viewer::engine::{Answer, Backend, Engine, Look, Wish};
+
+/// Dynamics that are not at rest, and take steps for hours before their first picture.
+const ENDLESS: &str = "dynamics: (gravity: 0.9, step: 0.00001, warm_up: 600),";
+
+/// The look with another part.
+fn with(part: &str) -> String {
+    LOOK.replace("version: 1,", &format!("version: 1, {part}"))
+}
+
+fn wish(looks: &Looks, text: &str) -> Wish {
+    Wish {
+        looks: vec![Look {
+            name: "look.ron".to_owned(),
+            folder: looks.path(""),
+            text: text.into(),
+            ..Look::default()
+        }],
+        opened: 0,
+        camera: None,
+        size_px: [64, 48],
+        is_moving: false,
+        samples: None,
+        time_s: 0.0,
+        hand: Hand::new(),
+        backend: Backend::Cpu,
+    }
+}
+
+/// The next answer; nothing where there is none in a minute.
+fn next_answer(engine: &mut Engine) -> Option<Answer> {
+    let started = Instant::now();
+    while started.elapsed() < Duration::from_secs(60) {
+        if let Some(answer) = engine.answer() {
+            return Some(answer);
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    None
+}
+
+#[test]
+fn hair_far_behind_keeps_nobody_waiting() {
+    let looks = Looks::new();
+    let mut engine = Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
+    engine.wish(wish(&looks, &with(ENDLESS)));
+    std::thread::sleep(Duration::from_millis(500));
+    // It is not shown before hair is where it is wished, while nobody wishes for something else.
+    assert!(engine.answer().is_none());
+    engine.wish(wish(&looks, LOOK));
+    loop {
+        let answer = next_answer(&mut engine).expect("the newer wish is drawn");
+        assert!(answer.problems.is_empty(), "{:?}", answer.problems);
+        if answer.is_final {
+            break;
+        }
+    }
+    assert!(!engine.is_drawing());
+}
+
+#[test]
+fn pictures_go_on_while_dynamics_are_dragged() {
+    let looks = Looks::new();
+    let mut engine = Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
+    let mut pictures = 0;
+    let started = Instant::now();
+    for drag in 0.. {
+        let gravity = format!("gravity: {}", 0.5 + 0.001 * f64::from(drag));
+        let dragged = with(ENDLESS).replace("gravity: 0.9", &gravity);
+        engine.wish(wish(&looks, &dragged));
+        std::thread::sleep(Duration::from_millis(20));
+        if let Some(answer) = engine.answer() {
+            assert!(!answer.is_final && answer.pictures[0].is_some());
+            pictures += 1;
+        }
+        if pictures == 3 {
+            break;
+        }
+        let waited = started.elapsed();
+        assert!(waited < Duration::from_secs(60), "{pictures} pictures");
+    }
+}
+
+#[test]
+fn what_was_under_way_of_another_preset_is_not_shown() {
+    let looks = Looks::new();
+    std::fs::write(looks.path("endless.ron"), with(ENDLESS)).unwrap();
+    // One whose hair has some way to go before it is shown, and another layer.
+    let next = with("dynamics: (gravity: 0.9, step: 0.001, warm_up: 3),");
+    let next = next.replace("effect: \"hair.base\"", "effect: \"hair.cel\"");
+    std::fs::write(looks.path("next.ron"), next).unwrap();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    harness.state_mut().studio.open(&looks.path("endless.ron"));
+    harness.run_steps(3);
+    std::thread::sleep(Duration::from_millis(300));
+    harness.state_mut().studio.open(&looks.path("next.ron"));
+    wait_for(&mut harness, "the next one's picture", |app| {
+        let shown = app.studio.shown[0].as_ref();
+        shown.is_some_and(|shown| {
+            let layers = &shown.drawn.facts.layers;
+            assert_eq!(layers, &["hair.silhouette", "hair.cel"]);
+            true
+        })
+    });
+}

@@ -1,0 +1,223 @@
+//! Presets and what they name, opened, saved, and changed by others.
+
+use crate::common::{LOOK, Looks, recovering, text, viewer, viewer_of, wait_for, wait_for_picture};
+use crate::hands::{COMMAND, click, drag, press, type_path, wait_for_label};
+use eframe::egui::{Key, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use std::path::Path;
+use viewer::app::App;
+use viewer::studio::Tool;
+
+#[test]
+fn a_new_look_begins_with_a_style() {
+    let looks = Looks::new();
+    let mut harness = viewer_of(None);
+    harness.run_steps(3);
+    press(&mut harness, COMMAND, Key::N);
+    // A name that is taken is refused, in place.
+    type_path(&mut harness, &looks.path("look.ron"));
+    click(&mut harness, "Write");
+    harness.get_by_label_contains("is already there");
+    type_path(&mut harness, &looks.path("mine.ron"));
+    click(&mut harness, "Write");
+    assert!(looks.path("mine.ron").is_file() && looks.path("mine.style.ron").is_file());
+    wait_for_picture(&mut harness);
+    assert!(harness.state().studio.problems.is_empty());
+}
+
+#[test]
+fn unsaved_changes_are_asked_for() {
+    let looks = Looks::new();
+    std::fs::write(looks.path("other.ron"), LOOK).unwrap();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    harness.state_mut().studio.tool = Tool::Light;
+    drag(&mut harness, [0.0, 0.0], [0.1, 0.1]);
+    let open = |harness: &mut Harness<App>| {
+        press(harness, COMMAND, Key::O);
+        type_path(harness, &looks.path("other.ron"));
+        click(harness, "Open");
+    };
+    let name = |harness: &Harness<App>| {
+        harness
+            .state()
+            .studio
+            .documents
+            .as_ref()
+            .unwrap()
+            .preset()
+            .name()
+    };
+    open(&mut harness);
+    click(&mut harness, "Cancel");
+    assert_eq!(name(&harness), "look.ron");
+    open(&mut harness);
+    click(&mut harness, "Save");
+    assert_eq!(
+        name(&harness),
+        "other.ron",
+        "{:?}",
+        harness.state().studio.told()
+    );
+    assert_ne!(looks.read("look.ron"), LOOK);
+}
+
+#[test]
+fn files_are_dropped() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    std::fs::copy(
+        looks.path("turn.motion.ron"),
+        looks.path("other.motion.ron"),
+    )
+    .unwrap();
+    harness
+        .state_mut()
+        .studio
+        .take_file(&looks.path("other.motion.ron"));
+    harness.run_steps(3);
+    assert!(
+        text(&harness).contains(r#"motion: (file: "other.motion.ron")"#),
+        "{}",
+        text(&harness)
+    );
+    harness
+        .state_mut()
+        .studio
+        .take_file(Path::new("letter.docx"));
+    harness.run_steps(2);
+    harness.get_by_label_contains("can be dropped here");
+}
+
+#[test]
+fn changes_outlive_a_crash() {
+    let looks = Looks::new();
+    let copies = looks.path("copies");
+    let size = Vec2::new(1280.0, 800.0);
+    let open = || {
+        let recovery = document::Recovery::in_folder(&copies);
+        recovering(Some(looks.path("look.ron")), size, recovery)
+    };
+    let mut harness = open();
+    wait_for_picture(&mut harness);
+    harness.state_mut().studio.tool = Tool::Light;
+    drag(&mut harness, [0.0, 0.0], [0.2, 0.1]);
+    let changed = text(&harness);
+    let is_kept = || std::fs::read_dir(&copies).is_ok_and(|mut entries| entries.next().is_some());
+    wait_for(&mut harness, "the copy", |_| is_kept());
+    // It ends without a word.
+    drop(harness);
+    assert_eq!(looks.read("look.ron"), LOOK);
+
+    let mut harness = open();
+    harness.run_steps(3);
+    click(&mut harness, "Take the copy");
+    assert_eq!(text(&harness), changed);
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(text(&harness), LOOK);
+}
+
+#[test]
+fn copies_are_offered_of_styles_that_are_opened_later() {
+    use viewer::documents::Which::{Preset, Style};
+    let looks = Looks::new();
+    let path = looks.path("other.style.ron");
+    let own = looks.read("bob.style.ron");
+    std::fs::write(&path, &own).unwrap();
+    let recovery = document::Recovery::in_folder(&looks.path("copies"));
+    let mut left = document::Document::open(&path, &recovery).unwrap();
+    let lost = format!("// lost\n{own}");
+    left.edit(lost.clone(), None);
+    left.keep_recovery_copy();
+    drop(left);
+
+    let size = Vec2::new(1280.0, 800.0);
+    let mut harness = recovering(Some(looks.path("look.ron")), size, recovery);
+    harness.run_steps(3);
+    assert!(harness.state().studio.prompt.is_none());
+    let renamed = LOOK.replace("bob.style", "other.style");
+    harness
+        .state_mut()
+        .studio
+        .write(Preset, renamed.clone(), None);
+    click(&mut harness, "Take the copy");
+    let style = |harness: &Harness<App>| {
+        let documents = harness.state().studio.documents.as_ref().unwrap();
+        documents.get(Style).unwrap().text().to_string()
+    };
+    assert_eq!(style(&harness), lost);
+    assert!(harness.state().studio.prompt.is_none());
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(style(&harness), own);
+    assert_eq!(text(&harness), renamed);
+}
+
+#[test]
+fn a_file_that_both_changed_shows_both() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    harness.state_mut().studio.tool = Tool::Light;
+    drag(&mut harness, [0.0, 0.0], [0.2, 0.1]);
+    let mine = text(&harness);
+    let theirs = LOOK.replace("1.5", "3.5");
+    std::fs::write(looks.path("look.ron"), &theirs).unwrap();
+    wait_for_label(&mut harness, "was changed here and on the disk.");
+    harness.get_by_label_contains("width: 3.5");
+    // Saving before one is chosen loses nobody's change.
+    press(&mut harness, COMMAND, Key::S);
+    assert_eq!(looks.read("look.ron"), theirs);
+    click(&mut harness, "Keep mine");
+    press(&mut harness, COMMAND, Key::S);
+    assert_eq!(looks.read("look.ron"), mine);
+}
+
+#[test]
+fn a_file_deleted_while_open_is_written_again() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    std::fs::remove_file(looks.path("look.ron")).unwrap();
+    wait_for_label(&mut harness, "is no more on the disk");
+    let studio = &harness.state().studio;
+    assert!(
+        studio.documents.as_ref().unwrap().is_changed(),
+        "quitting asks"
+    );
+    press(&mut harness, COMMAND, Key::S);
+    assert_eq!(looks.read("look.ron"), LOOK);
+    assert!(
+        !harness
+            .state()
+            .studio
+            .documents
+            .as_ref()
+            .unwrap()
+            .is_changed()
+    );
+}
+
+#[test]
+fn files_that_the_preset_names_are_watched() {
+    let looks = Looks::new();
+    let strands = "(version: 1, strands: [(size: 14, mirror: true, points: [(0.02, 1.619, 0), (0.058, 1.6, 0), (0.083, 1.55, 0.01)])])";
+    std::fs::write(looks.path("few.strands.ron"), strands).unwrap();
+    std::fs::write(
+        looks.path("look.ron"),
+        LOOK.replace("bob.style.ron", "few.strands.ron"),
+    )
+    .unwrap();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let before = harness.state().studio.pixels(0).unwrap().to_vec();
+    std::fs::write(
+        looks.path("few.strands.ron"),
+        strands.replace("0.083", "0.12"),
+    )
+    .unwrap();
+    wait_for(&mut harness, "other hair", |app| {
+        app.studio.is_sharp && app.studio.pixels(0).is_some_and(|pixels| pixels != before)
+    });
+}

@@ -1,0 +1,139 @@
+//! Changes of several texts, and the steps back.
+
+use crate::common::{LOOK, Looks, SCRIPT, viewer, wait_for_picture};
+use crate::hands::{COMMAND, press};
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use viewer::app::App;
+use viewer::panes::Pane;
+
+#[test]
+fn changes_of_different_texts_are_taken_back_in_their_order() {
+    use viewer::documents::Which::{Motion, Preset};
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    harness.run_steps(3);
+    let write = |harness: &mut Harness<App>, which, text: &str| {
+        harness
+            .state_mut()
+            .studio
+            .write(which, text.to_owned(), None);
+        harness.step();
+    };
+    let [first, third] = ["1.6", "1.7"].map(|width| LOOK.replace("1.5", width));
+    let second = SCRIPT.replace("40", "50");
+    write(&mut harness, Preset, &first);
+    write(&mut harness, Motion, &second);
+    write(&mut harness, Preset, &third);
+    let texts = |harness: &Harness<App>| {
+        let documents = harness.state().studio.documents.as_ref().unwrap();
+        [Preset, Motion].map(|which| documents.get(which).unwrap().text().to_string())
+    };
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(texts(&harness), [first.clone(), second]);
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(texts(&harness), [first, SCRIPT.to_owned()]);
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(texts(&harness), [LOOK.to_owned(), SCRIPT.to_owned()]);
+    for _ in 0..3 {
+        press(
+            &mut harness,
+            Modifiers {
+                shift: true,
+                ..COMMAND
+            },
+            Key::Z,
+        );
+    }
+    assert_eq!(texts(&harness)[0], third);
+}
+
+#[test]
+fn what_is_typed_is_taken_before_it_is_saved() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    harness.state_mut().show_pane(Pane::Look);
+    harness.state_mut().studio.search = "background".to_owned();
+    harness.run_steps(3);
+    let field = harness.get_by_label("scene background hex");
+    field.focus();
+    harness.run_steps(2);
+    press(&mut harness, COMMAND, Key::A);
+    harness
+        .get_by_label("scene background hex")
+        .type_text("123456");
+    harness.run_steps(2);
+    press(&mut harness, COMMAND, Key::S);
+    harness.run_steps(4);
+    assert!(
+        looks.read("look.ron").contains("123456"),
+        "{}",
+        looks.read("look.ron")
+    );
+}
+
+#[test]
+fn a_style_that_is_named_again_has_its_changes_and_steps() {
+    use viewer::documents::Which::{Preset, Style};
+    let looks = Looks::new();
+    let own = looks.read("bob.style.ron");
+    std::fs::write(looks.path("other.style.ron"), &own).unwrap();
+    let mut harness = viewer(&looks);
+    harness.run_steps(3);
+    let write = |harness: &mut Harness<App>, which, text: &str| {
+        let studio = &mut harness.state_mut().studio;
+        studio.write(which, text.to_owned(), None);
+        harness.step();
+    };
+    let style = |harness: &Harness<App>| {
+        let documents = harness.state().studio.documents.as_ref().unwrap();
+        let style = documents.get(Style).unwrap();
+        (style.name(), style.text().to_string())
+    };
+    let is = |name: &str, text: &str| (name.to_owned(), text.to_owned());
+    let [mine, others] = ["mine", "other's"].map(|name| format!("// {name}\n{own}"));
+    let renamed = LOOK.replace("bob.style", "other.style");
+    write(&mut harness, Style, &mine);
+    write(&mut harness, Preset, &renamed);
+    assert_eq!(style(&harness), is("other.style.ron", &own));
+    write(&mut harness, Style, &others);
+
+    // Named again it is as it was left.
+    write(&mut harness, Preset, LOOK);
+    assert_eq!(style(&harness), is("bob.style.ron", &mine));
+    // Steps back go through all of them in their order, and names are followed.
+    for (name, text) in [
+        ("other.style.ron", &others),
+        ("other.style.ron", &own),
+        ("bob.style.ron", &mine),
+        ("bob.style.ron", &own),
+    ] {
+        press(&mut harness, COMMAND, Key::Z);
+        assert_eq!(style(&harness), is(name, text));
+    }
+    let again = Modifiers {
+        shift: true,
+        ..COMMAND
+    };
+    for (name, text) in [
+        ("bob.style.ron", &mine),
+        ("other.style.ron", &own),
+        ("other.style.ron", &others),
+    ] {
+        press(&mut harness, again, Key::Z);
+        assert_eq!(style(&harness), is(name, text));
+    }
+    // What is not named now is saved, too.
+    press(&mut harness, COMMAND, Key::S);
+    assert_eq!(looks.read("look.ron"), renamed);
+    assert_eq!(looks.read("bob.style.ron"), mine);
+    assert_eq!(looks.read("other.style.ron"), others);
+    // Without it nobody misses it.
+    std::fs::remove_file(looks.path("bob.style.ron")).unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(600));
+    harness.run_steps(2);
+    let documents = harness.state().studio.documents.as_ref().unwrap();
+    assert!(!documents.is_changed());
+}
