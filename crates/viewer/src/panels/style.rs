@@ -1,4 +1,4 @@
-//! A hair style: where it grows from, its zones, changes of single clumps, and clumps drawn by hand.
+//! A hair style: where it grows from, its zones, changes of single clumps, clumps drawn by hand, and what the hair wears.
 
 use super::fold::fold;
 use super::items::{Change, new_name};
@@ -13,7 +13,7 @@ use eframe::egui::Ui;
 use stage::{FilePart, STYLE_PARTS};
 
 /// Fields of places, how they are written, and what they are at first: the whorl, parting and hairline of a drawn character.
-const PLACES: [(&str, Written, &str); 6] = [
+const PLACES: [(&str, Written, &str); 7] = [
     ("whorl", Written::Place, "(180, 74)"),
     ("parting", Written::List, "[(0, 46), (0, 68), (180, 82)]"),
     (
@@ -24,18 +24,20 @@ const PLACES: [(&str, Written, &str); 6] = [
     ("roots", Written::Line, "[(-40, 60), (40, 60)]"),
     ("tips", Written::Line, "[(-40, 20), (40, 20)]"),
     ("points", Written::Heights, "[(0, 60, 0.05), (0, 20, 0.1)]"),
+    ("at", Written::List, "[(40, 30)]"),
 ];
 
 /// Shows the hair style `text`.
 pub fn style(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
     let search = Search::new(search);
-    let [top, zones, clumps, strands] = STYLE_PARTS else {
+    let [top, zones, clumps, strands, accessories] = STYLE_PARTS else {
         return;
     };
     top_fields(ui, text, top, &search, edits);
     zone_list(ui, text, zones, &search, edits);
     edit_list(ui, text, [zones, clumps], &search, edits);
     strand_list(ui, text, strands, &search, edits);
+    accessory_list(ui, text, accessories, &search, edits);
 }
 
 /// The fields of a part that are places.
@@ -47,7 +49,7 @@ fn places_of(part: &FilePart) -> Vec<PlaceField> {
             doc,
             form,
             template,
-            is_needed: ["roots", "points"].contains(name),
+            is_needed: ["roots", "points", "at"].contains(name),
         })
     };
     part.places.iter().filter_map(field).collect()
@@ -259,6 +261,33 @@ fn strand_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits:
     let asked = parts.show(ui, text, search, |_| part.table.to_vec(), edits);
     edits.extend(asked.map(|asked| match asked {
         Asked::Add => parts.add(text, "(points: [(0, 60, 0.05), (0, 20, 0.1)])"),
+        Asked::Of(change) => plain(change, parts.place(), &items),
+    }));
+}
+
+fn accessory_list(
+    ui: &mut Ui,
+    text: &str,
+    part: &FilePart,
+    search: &Search,
+    edits: &mut Vec<Edit>,
+) {
+    let items = items_of(text, part.name);
+    let fields = places_of(part);
+    let parts = Parts {
+        part,
+        noun: "accessory",
+        titles: (1..=items.len()).map(|number| number.to_string()).collect(),
+        fields: &fields,
+        needed: &[],
+        refusal: &|_, _, _| None,
+        is_movable: true,
+        may_remove: true,
+        may_add: true,
+    };
+    let asked = parts.show(ui, text, search, |_| part.table.to_vec(), edits);
+    edits.extend(asked.map(|asked| match asked {
+        Asked::Add => parts.add(text, "(kind: clip, at: [(40, 30)])"),
         Asked::Of(change) => plain(change, parts.place(), &items),
     }));
 }

@@ -90,6 +90,22 @@ fn the_last_hair_stays() {
 }
 
 #[test]
+fn hair_wears_what_is_added() {
+    let mut harness = shown(Kind::Style, STYLE);
+    click(&mut harness, "add accessory");
+    says(&harness, "accessories: [(kind: clip, at: [(40, 30)])]");
+    click(&mut harness, "open accessory 1");
+    type_into(&mut harness, "accessory 1 size", "0.1");
+    says(&harness, "(kind: clip, at: [(40, 30)], size: 0.1)");
+    click(&mut harness, "duplicate accessory 1");
+    click(&mut harness, "remove accessory 1");
+    says(
+        &harness,
+        "accessories: [(kind: clip, at: [(40, 30)], size: 0.1)]",
+    );
+}
+
+#[test]
 fn edits_follow_the_name_of_their_zone_and_have_its_clumps() {
     let mut harness = shown(Kind::Style, STYLE);
     type_into(&mut harness, "zone fringe name", "bangs");

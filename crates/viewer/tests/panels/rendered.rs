@@ -67,12 +67,12 @@ fn every_effect_is_there() {
 #[test]
 fn every_part_of_styles_is_there() {
     let text = "(version: 1, whorl: (0, 1), zones: [(name: \"a\", roots: whorl, tips: [(0, 1)])], \
-                edits: [(zone: \"a\")], strands: [(points: [(0, 1, 0), (0, 2, 0)])])";
+                edits: [(zone: \"a\")], strands: [(points: [(0, 1, 0), (0, 2, 0)])], \
+                accessories: [(at: [(0, 1)])])";
     let names = names(&opened(Kind::Style, text, 300.0));
-    for (part, owner) in STYLE_PARTS
-        .iter()
-        .zip(["style", "zone a", "edit 1: a 0", "strand 1"])
-    {
+    let owners = ["style", "zone a", "edit 1: a 0", "strand 1", "accessory 1"];
+    assert_eq!(owners.len(), STYLE_PARTS.len());
+    for (part, owner) in STYLE_PARTS.iter().zip(owners) {
         has_all(&names, owner, part.table, &[]);
         for (place, _) in part.places {
             assert!(
