@@ -31,7 +31,9 @@
 //! ```
 
 mod bust;
+mod cut;
 mod face;
+mod figure;
 mod guides;
 mod random;
 mod ribbon;
@@ -44,6 +46,7 @@ mod trig;
 
 pub use bust::{Bust, bust};
 pub use face::{Ink, Patch};
+pub use figure::{Blush, Cloth, Dress, Expression, Eyes, Face, Figure};
 pub use guides::Guides;
 pub use shell::{Place, Shell, direction};
 pub use style::{Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, Ring, Scalp, Style, Tie, Zone, grow};

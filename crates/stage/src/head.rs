@@ -2,16 +2,25 @@
 
 use crate::scalp;
 use glam::{Vec2, Vec3};
-use groom::{Ink, Patch, Tie};
+use groom::{Bust, Cloth, Figure, Ink, Patch, Tie};
 use hair_io::Mesh;
-use render::{Light, Surface, SurfaceVertex};
-use std::iter::repeat;
+use render::{Head, Light, Surface, SurfaceVertex};
+use std::iter::{once, repeat};
 use stroke_path::Camera;
 
 /// A head's shape, and what is drawn on it.
 #[derive(Clone)]
 pub struct HeadModel {
     pub(crate) mesh: Mesh,
+    /// Which way light takes each position to face; empty where that is its normal.
+    pub(crate) facing: Vec<Vec3>,
+    /// The outline's width at each position, in parts of its whole width; empty is 1.
+    pub(crate) outline: Vec<f32>,
+    /// Triangles that are no skin, by what they are painted as; the rest.
+    pub(crate) clothes: Vec<(Cloth, Vec<[u32; 3]>)>,
+    pub(crate) skin: Vec<[u32; 3]>,
+    /// Where the head is, and its height, where that is known and need not be found in the mesh.
+    pub(crate) frame: Option<Head>,
     /// Shadow whatever the light, one a position, 0 to 1; empty is none.
     pub(crate) shade: Vec<f32>,
     pub(crate) patches: Vec<Patch>,
@@ -24,7 +33,7 @@ pub struct HeadModel {
 impl HeadModel {
     /// Tells what of it has hair from what has none.
     pub(crate) fn find_scalp(&mut self, roots: &[Vec3], reach_m: f32) {
-        self.scalp = scalp::split(&self.mesh, roots, reach_m);
+        self.scalp = scalp::split(&self.mesh.positions, &self.skin, roots, reach_m);
     }
 
     /// Puts bands into the hair on it.
@@ -41,14 +50,47 @@ impl HeadModel {
     /// The bust that comes with inkstrand.
     #[must_use]
     pub fn bust() -> Self {
-        let bust = groom::bust();
-        let mesh = Mesh {
-            positions: bust.positions,
-            normals: bust.normals,
-            triangles: bust.triangles,
-        };
+        groom::bust().into()
+    }
+
+    /// A figure. Its skull is the bust's, and hair that fits one fits the other.
+    #[must_use]
+    pub fn figure(figure: &Figure) -> Self {
         Self {
-            mesh,
+            // What is found in the bust's mesh: neither dress nor crop changes the size of hair.
+            frame: Some(Head {
+                center: Vec3::new(0.0, 1.5, 0.0),
+                height_m: 0.24,
+            }),
+            ..figure.build().into()
+        }
+    }
+}
+
+impl From<Bust> for HeadModel {
+    fn from(bust: Bust) -> Self {
+        let painted = |cloth: Cloth| {
+            let all = bust.triangles.iter().zip(&bust.cloth);
+            let own = all.filter(|(_, other)| **other == cloth);
+            own.map(|(triangle, _)| *triangle).collect()
+        };
+        let clothes = [Cloth::Dress, Cloth::Accent, Cloth::Line].map(|cloth| (cloth, painted(cloth)));
+        let skin = match bust.cloth.is_empty() {
+            true => bust.triangles.clone(),
+            false => painted(Cloth::Skin),
+        };
+        let clothes = clothes.into_iter().filter(|(_, triangles)| !triangles.is_empty());
+        Self {
+            clothes: clothes.collect(),
+            skin,
+            facing: bust.facing,
+            outline: bust.outline,
+            frame: None,
+            mesh: Mesh {
+                positions: bust.positions,
+                normals: bust.normals,
+                triangles: bust.triangles,
+            },
             shade: bust.shade,
             patches: bust.patches,
             scalp: Default::default(),
@@ -60,7 +102,12 @@ impl HeadModel {
 impl From<Mesh> for HeadModel {
     fn from(mesh: Mesh) -> Self {
         Self {
+            skin: mesh.triangles.clone(),
             mesh,
+            facing: Vec::new(),
+            outline: Vec::new(),
+            clothes: Vec::new(),
+            frame: None,
             shade: Vec::new(),
             patches: Vec::new(),
             scalp: Default::default(),
@@ -85,6 +132,14 @@ pub(crate) struct HeadPaint {
     pub line: [f32; 3],
     pub iris: [f32; 3],
     pub iris_shadow: [f32; 3],
+    pub iris_light: [f32; 3],
+    pub blush: [f32; 3],
+    pub mouth: [f32; 3],
+    pub dress: [f32; 3],
+    pub dress_shadow: [f32; 3],
+    pub dress_line: [f32; 3],
+    pub accent: [f32; 3],
+    pub accent_shadow: [f32; 3],
     pub tie: [f32; 3],
     pub tie_shadow: [f32; 3],
     /// Between clumps of hair.
@@ -107,6 +162,22 @@ impl HeadPaint {
             Ink::White => [1.0; 3],
             Ink::Iris => self.iris,
             Ink::IrisShadow => self.iris_shadow,
+            Ink::IrisLight => self.iris_light,
+            // White in the shadow of the skin around it.
+            Ink::WhiteShadow => self.shadow.map(|shadow| 0.45 + 0.55 * shadow),
+            Ink::SkinShadow => self.shadow,
+            Ink::Blush => self.blush,
+            Ink::Mouth => self.mouth,
+        }
+    }
+
+    /// Light, shadow and outline of what a triangle is painted as.
+    fn of_cloth(&self, cloth: Cloth) -> [[f32; 3]; 3] {
+        match cloth {
+            Cloth::Skin => [self.light, self.shadow, self.line],
+            Cloth::Dress => [self.dress, self.dress_shadow, self.dress_line],
+            Cloth::Accent => [self.accent, self.accent_shadow, self.dress_line],
+            Cloth::Line => [self.dress_line; 3],
         }
     }
 }
@@ -138,30 +209,39 @@ pub(crate) fn surfaces(
 ) -> Vec<Surface> {
     let HeadModel {
         mesh,
+        facing,
+        outline: _,
+        clothes,
+        skin,
+        frame: _,
         shade,
         patches,
-        scalp: [scalp, skin],
+        scalp: [scalp, bare],
         ties,
     } = model;
+    let facing = match facing.is_empty() {
+        true => &mesh.normals,
+        false => facing,
+    };
     let shade = shade.iter().copied().chain(repeat(0.0));
     let corners: Vec<Corner> = mesh
         .positions
         .iter()
-        .zip(&mesh.normals)
+        .zip(facing)
         .zip(shade)
-        .map(|((position, normal), shade)| Corner {
+        .map(|((position, facing), shade)| Corner {
             view: camera.view_from_world(*position),
-            tone: normal.dot(light.seen_from(*position).0) - paint.threshold - shade,
+            tone: facing.dot(light.seen_from(*position).0) - paint.threshold - shade,
         })
         .collect();
-    let skin = match scalp.is_empty() {
-        true => &mesh.triangles,
-        false => skin,
+    let bare = match scalp.is_empty() {
+        true => skin,
+        false => bare,
     };
     let mut surfaces = vec![
         surface(
             camera,
-            skin,
+            bare,
             &corners,
             Facing::Front,
             paint.light,
@@ -183,16 +263,32 @@ pub(crate) fn surfaces(
         let (front, color) = (Facing::Front, paint.scalp);
         surfaces.push(surface(camera, scalp, &corners, front, color, color));
     }
+    for (cloth, triangles) in clothes {
+        let [light, shadow, _] = paint.of_cloth(*cloth);
+        let front = Facing::Front;
+        surfaces.push(surface(camera, triangles, &corners, front, light, shadow));
+    }
     if paint.width_m > 0.0 {
-        surfaces.push(Surface {
-            margin_m: -paint.outline_margin_m,
-            ..outline(mesh, paint, camera)
-        });
+        let hull = hull(mesh, &model.outline, paint, camera);
+        let skin = once((Cloth::Skin, skin));
+        let clothes = clothes.iter().map(|(cloth, triangles)| (*cloth, triangles));
+        for (cloth, triangles) in skin.chain(clothes) {
+            let [.., line] = paint.of_cloth(cloth);
+            surfaces.push(Surface {
+                margin_m: -paint.outline_margin_m,
+                ..surface(camera, triangles, &hull, Facing::Back, line, line)
+            });
+        }
     }
     if !ties.triangles.is_empty() {
         surfaces.extend(bands(ties, paint, camera, light));
     }
-    surfaces.extend(patches.iter().map(|patch| {
+    let center = model.frame.map_or(Vec3::ZERO, |head| head.center);
+    let is_drawn = |patch: &&Patch| {
+        let lit = |away: Vec3| away.dot(light.seen_from(center).0) >= paint.threshold;
+        !patch.away_from.is_some_and(lit)
+    };
+    surfaces.extend(patches.iter().filter(is_drawn).map(|patch| {
         let corner = |position: &Vec3| Corner {
             view: camera.view_from_world(*position),
             tone: 0.0,
@@ -205,19 +301,18 @@ pub(crate) fn surfaces(
     surfaces
 }
 
-/// The inside of a slightly larger mesh, seen around the edges of the mesh itself.
-fn outline(mesh: &Mesh, paint: &HeadPaint, camera: &Camera) -> Surface {
-    let hull: Vec<Corner> = mesh
-        .positions
+/// A slightly larger mesh, whose inside is seen around the edges of the mesh itself; `widths` as in [`HeadModel`].
+fn hull(mesh: &Mesh, widths: &[f32], paint: &HeadPaint, camera: &Camera) -> Vec<Corner> {
+    let widths = widths.iter().copied().chain(repeat(1.0));
+    mesh.positions
         .iter()
         .zip(&mesh.normals)
-        .map(|(position, normal)| Corner {
-            view: camera.view_from_world(*position + *normal * paint.width_m),
+        .zip(widths)
+        .map(|((position, normal), width)| Corner {
+            view: camera.view_from_world(*position + *normal * (paint.width_m * width)),
             tone: 0.0,
         })
-        .collect();
-    let (back, line) = (Facing::Back, paint.line);
-    surface(camera, &mesh.triangles, &hull, back, line, line)
+        .collect()
 }
 
 /// The bands in the hair. Hair goes by its depth alone here: what is in a band does not hide it.
@@ -241,7 +336,9 @@ fn bands(ties: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> Vec<
     );
     let mut bands = vec![front];
     if paint.width_m > 0.0 {
-        bands.push(outline(ties, paint, camera));
+        let hull = hull(ties, &[], paint, camera);
+        let (back, line) = (Facing::Back, paint.line);
+        bands.push(surface(camera, &ties.triangles, &hull, back, line, line));
     }
     for band in &mut bands {
         band.margin_m = BAND_MARGIN_M;
@@ -386,6 +483,14 @@ mod tests {
         line: [0.0; 3],
         iris: [0.2; 3],
         iris_shadow: [0.1; 3],
+        iris_light: [0.3; 3],
+        blush: [0.9; 3],
+        mouth: [0.3; 3],
+        dress: [0.8; 3],
+        dress_shadow: [0.6; 3],
+        dress_line: [0.05; 3],
+        accent: [0.7; 3],
+        accent_shadow: [0.3; 3],
         tie: [0.2, 0.4, 0.6],
         tie_shadow: [0.1, 0.2, 0.3],
         scalp: [0.4, 0.2, 0.1],

@@ -39,7 +39,8 @@ pub use motion::Motion;
 pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
-    BrushChoice, CameraSection, ClumpSection, FixedTo, HairSection, HeadSection, HeadShape,
+    BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, ExpressionChoice, EyesChoice,
+    FixedTo, HairSection, HeadSection, HeadShape,
     LightKind, LightSection, MotionSection, NamedObject, ObjectSection, OrderChoice, PathChoice,
     PathSection, Preset, SceneSection, Sections, TopSection, UpAxis, VERSION,
 };

@@ -3,14 +3,20 @@
 use crate::files::{Files, StageError};
 use crate::hair::{HairModel, head_of};
 use crate::head::HeadModel;
-use crate::preset::{HeadShape, Preset, UpAxis};
+use crate::preset::{
+    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HeadSection, HeadShape, Preset, UpAxis,
+};
 use crate::style;
 use glam::Vec3;
+use groom::{Blush, Dress, Expression, Eyes, Face, Figure};
 use hair_io::orient::Axes;
 use hair_io::{HairError, HairFile, HairOptions, HeadFrame, Mesh};
 use hair_sim::Strands;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+
+/// From the chin to the top of a figure, metres.
+const FIGURE_HEIGHT_M: f32 = 0.24;
 
 fn axes(up: UpAxis) -> Option<Axes> {
     match up {
@@ -50,6 +56,7 @@ pub(crate) fn head(
         return Ok(match section.shape {
             HeadShape::None => None,
             HeadShape::Bust => Some(HeadModel::bust()),
+            HeadShape::Figure => Some(HeadModel::figure(&figure(section))),
         });
     };
     let file = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
@@ -65,6 +72,43 @@ pub(crate) fn head(
             .for_each(|normal| *normal = -*normal);
     }
     Ok(Some(mesh.into()))
+}
+
+/// The figure that a section describes.
+fn figure(section: &HeadSection) -> Figure {
+    Figure {
+        crop_m: section.crop * FIGURE_HEIGHT_M,
+        dress: match section.dress {
+            DressChoice::None => Dress::None,
+            DressChoice::Choker => Dress::Choker,
+            DressChoice::Turtleneck => Dress::Turtleneck,
+            DressChoice::Collar => Dress::Collar,
+            DressChoice::Jacket => Dress::Jacket,
+            DressChoice::Sailor => Dress::Sailor,
+        },
+        face: Face {
+            eyes: match section.eyes {
+                EyesChoice::Round => Eyes::Round,
+                EyesChoice::Almond => Eyes::Almond,
+                EyesChoice::Sharp => Eyes::Sharp,
+                EyesChoice::Sleepy => Eyes::Sleepy,
+            },
+            eye_size: section.eye_size,
+            highlights: section.highlights,
+            expression: match section.expression {
+                ExpressionChoice::Neutral => Expression::Neutral,
+                ExpressionChoice::Smile => Expression::Smile,
+                ExpressionChoice::Laugh => Expression::Laugh,
+                ExpressionChoice::Closed => Expression::Closed,
+            },
+            brow: section.brow,
+            blush: match section.blush {
+                BlushChoice::None => Blush::None,
+                BlushChoice::Flat => Blush::Flat,
+                BlushChoice::Hatch => Blush::Hatch,
+            },
+        },
+    }
 }
 
 /// Whether most of a mesh faces inwards: its signed volume, seen from its middle, is below 0.

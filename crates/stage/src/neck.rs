@@ -94,6 +94,10 @@ impl PosedHead {
             posed.positions[i] = moved(rest.positions[i], *share);
             posed.normals[i] = turn(*share) * rest.normals[i];
         }
+        let (rest, posed) = (&neck.rest.facing, &mut self.model.facing);
+        for (i, facing) in rest.iter().enumerate() {
+            posed[i] = turn(neck.shares[i]) * *facing;
+        }
         let (rest, posed) = (&neck.rest.ties, &mut self.model.ties);
         for i in 0..rest.positions.len() {
             posed.positions[i] = moved(rest.positions[i], 1.0);
@@ -104,6 +108,7 @@ impl PosedHead {
             for (i, share) in shares.iter().enumerate() {
                 posed.positions[i] = moved(rest.positions[i], *share);
             }
+            posed.away_from = rest.away_from.map(|away| turn(1.0) * away);
         }
     }
 }

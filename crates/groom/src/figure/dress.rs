@@ -1,0 +1,339 @@
+//! What a figure wears: how much of the skin is covered, and what stands off it.
+
+use super::body::{neck_axis, skin};
+use super::planes::smooth;
+use super::sewn::{Piece, band, slab};
+use glam::{Vec2, Vec3};
+
+/// What a figure wears.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dress {
+    /// Nothing.
+    #[default]
+    None,
+    /// A band around the neck, and a top with straps.
+    Choker,
+    /// A collar that is rolled at the jaw.
+    Turtleneck,
+    /// A shirt with a folded collar and a tie.
+    Collar,
+    /// A jacket with a standing collar, open over a shirt.
+    Jacket,
+    /// A blouse with a sailor's collar and a bow.
+    Sailor,
+}
+
+/// What a triangle is painted as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Cloth {
+    /// Skin.
+    Skin,
+    /// The dress.
+    Dress,
+    /// What is set off from it: a collar, a band, a bow.
+    Accent,
+    /// Hems and seams.
+    Line,
+}
+
+/// A part of the surface that is painted: where a field is from one value to another, metres.
+pub(crate) struct Layer {
+    pub field: Field,
+    pub from: f32,
+    pub to: f32,
+    pub cloth: Cloth,
+}
+
+/// About the distance to an edge on the body, metres, above 0 inside; x is 0 or above.
+pub(crate) type Field = fn(Vec3) -> f32;
+
+/// Width of hems, metres.
+const HEM: f32 = 0.0012;
+
+impl Dress {
+    /// The signed distance to a dressed body, metres.
+    pub(crate) fn distance(self, p: Vec3) -> f32 {
+        let naked = skin(p, 1.0);
+        if naked.abs() > 0.04 || p.y > 1.42 {
+            return naked;
+        }
+        naked - self.thickness(p.with_x(p.x.abs()))
+    }
+
+    /// How far cloth stands off the skin, metres.
+    fn thickness(self, p: Vec3) -> f32 {
+        let cloth = |field: Field, thickness: f32| thickness * smooth(field(p) / 0.005);
+        match self {
+            Self::None => 0.0,
+            Self::Choker => {
+                let band = choker(p);
+                0.0015 * smooth(band.min(CHOKER - band) / 0.002) + cloth(camisole, 0.001)
+            }
+            Self::Turtleneck => {
+                let below = turtleneck(p);
+                let roll = smooth(below / 0.008) * smooth((ROLL + 0.004 - below) / 0.008);
+                cloth(turtleneck, 0.003) + 0.0045 * roll
+            }
+            Self::Collar => cloth(crew, 0.003),
+            Self::Jacket => cloth(crew, 0.002) + 0.004 * smooth(outside_v(p) / 0.005),
+            Self::Sailor => cloth(sailor, 0.003),
+        }
+    }
+
+    /// What is painted on it, the lowest first.
+    pub(crate) fn layers(self) -> Vec<Layer> {
+        let layer = |field: Field, from: f32, to: f32, cloth| Layer {
+            field,
+            from,
+            to,
+            cloth,
+        };
+        let hemmed = |field: Field, cloth| {
+            [
+                layer(field, 0.0, f32::INFINITY, cloth),
+                layer(field, 0.0, HEM, Cloth::Line),
+            ]
+        };
+        let mut layers = Vec::new();
+        match self {
+            Self::None => {}
+            Self::Choker => {
+                layers.extend(hemmed(camisole, Cloth::Dress));
+                layers.extend([
+                    layer(choker, 0.0, CHOKER, Cloth::Accent),
+                    layer(choker, 0.0, HEM, Cloth::Line),
+                    layer(choker, CHOKER - HEM, CHOKER, Cloth::Line),
+                ]);
+            }
+            Self::Turtleneck => {
+                layers.extend(hemmed(turtleneck, Cloth::Dress));
+                layers.push(layer(turtleneck, ROLL, ROLL + HEM, Cloth::Line));
+            }
+            Self::Collar => layers.extend(hemmed(crew, Cloth::Dress)),
+            Self::Jacket => {
+                layers.extend(hemmed(crew, Cloth::Accent));
+                layers.extend(hemmed(outside_v, Cloth::Dress));
+            }
+            Self::Sailor => layers.extend(hemmed(sailor, Cloth::Dress)),
+        }
+        layers
+    }
+
+    /// What is sewn on, of the half where x is 0 or above.
+    pub(crate) fn pieces(self) -> Vec<Piece> {
+        match self {
+            Self::None | Self::Choker | Self::Turtleneck => Vec::new(),
+            Self::Collar => vec![folded_collar()],
+            Self::Jacket => vec![standing_collar()],
+            Self::Sailor => vec![sailor_collar()],
+        }
+    }
+
+    /// What is sewn on across the middle.
+    pub(crate) fn middle_pieces(self) -> Vec<Piece> {
+        let on = |p: Vec3| self.distance(p);
+        match self {
+            Self::Collar => tie(on),
+            Self::Sailor => bow(on),
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Below a plane around the neck, which rises towards the back by `slope`.
+fn below(p: Vec3, height: f32, slope: f32) -> f32 {
+    (height - slope * (p.z + 0.03) - p.y) / (1.0 + slope * slope).sqrt()
+}
+
+/// How high the roll and the choker are, metres.
+const ROLL: f32 = 0.026;
+const CHOKER: f32 = 0.010;
+
+fn turtleneck(p: Vec3) -> f32 {
+    below(p, 1.352, 0.35)
+}
+
+fn choker(p: Vec3) -> f32 {
+    below(p, 1.342, 0.30)
+}
+
+fn crew(p: Vec3) -> f32 {
+    below(p, 1.322, 0.60)
+}
+
+/// The front below the collarbones, higher at the sides, and straps over the shoulders.
+fn camisole(p: Vec3) -> f32 {
+    let top = 1.200 + 0.25 * (p.x - 0.02).max(0.0).min(0.07) - p.y;
+    let strap = 0.0045 - (p.x - 0.072 - 0.10 * (1.25 - p.y)).abs();
+    let strap = strap.min(1.36 - p.y);
+    top.max(strap)
+}
+
+/// Outside of a V from the sides of the neck to the chest: in front alone.
+fn outside_v(p: Vec3) -> f32 {
+    let behind = (-0.030 - p.z).max(0.0);
+    let edge = 0.010 + (p.y - 1.165).max(0.0) * 0.34;
+    0.94 * (p.x - edge) + 3.0 * behind
+}
+
+fn sailor(p: Vec3) -> f32 {
+    let behind = (-0.030 - p.z).max(0.0);
+    let edge = (p.y - 1.222).max(0.0) * 0.55;
+    crew(p).min(0.87 * (p.x - edge) + 3.0 * behind + if p.y < 1.222 { 0.01 } else { 0.0 })
+}
+
+/// A point around the neck: `out` metres from its axis to the side, `ahead` to the front.
+fn around(out: f32, y: f32, ahead: f32) -> Vec3 {
+    Vec3::new(out, y, neck_axis(y) + ahead)
+}
+
+fn folded_collar() -> Piece {
+    // From the back to the tips of the wings in front: where it leaves the neck, its fold, its edge.
+    let base = [
+        around(0.0, 1.325, -0.036),
+        around(0.026, 1.322, -0.028),
+        around(0.038, 1.312, 0.000),
+        around(0.024, 1.296, 0.030),
+        around(0.005, 1.285, 0.034),
+    ];
+    let fold = [
+        around(0.0, 1.350, -0.043),
+        around(0.031, 1.347, -0.032),
+        around(0.045, 1.334, 0.002),
+        around(0.029, 1.309, 0.037),
+        around(0.004, 1.289, 0.041),
+    ];
+    let edge = [
+        around(0.0, 1.313, -0.055),
+        around(0.044, 1.313, -0.042),
+        around(0.064, 1.309, 0.002),
+        around(0.052, 1.268, 0.047),
+        around(0.026, 1.252, 0.058),
+    ];
+    band(&[&base, &fold, &edge], &[Cloth::Dress; 3])
+}
+
+fn standing_collar() -> Piece {
+    let base = [
+        around(0.0, 1.322, -0.040),
+        around(0.030, 1.320, -0.030),
+        around(0.044, 1.310, 0.000),
+        around(0.038, 1.296, 0.022),
+        around(0.028, 1.285, 0.036),
+    ];
+    let top = [
+        around(0.0, 1.360, -0.047),
+        around(0.036, 1.358, -0.034),
+        around(0.053, 1.347, 0.002),
+        around(0.050, 1.333, 0.026),
+        around(0.043, 1.322, 0.043),
+    ];
+    let foot = [
+        around(0.0, 1.312, -0.052),
+        around(0.038, 1.310, -0.038),
+        around(0.055, 1.302, 0.002),
+        around(0.048, 1.290, 0.027),
+        around(0.034, 1.272, 0.047),
+    ];
+    band(&[&base, &top, &foot], &[Cloth::Dress; 3])
+}
+
+/// Over the shoulders, square on the back, its points at the bow.
+fn sailor_collar() -> Piece {
+    // Lies on the blouse.
+    let on = |x: f32, y: f32, z: f32, gap: f32| {
+        let mut p = Vec3::new(x, y, z);
+        let out = crate::solid::gradient(|p| Dress::Sailor.distance(p), p, 0.004).normalize_or(Vec3::Y);
+        for _ in 0..8 {
+            p += out * (gap - Dress::Sailor.distance(p)) * 0.8;
+        }
+        p
+    };
+    let inner = [
+        (0.0, 1.338, -0.074),
+        (0.028, 1.336, -0.066),
+        (0.046, 1.330, -0.036),
+        (0.042, 1.300, 0.004),
+        (0.022, 1.262, 0.030),
+        (0.004, 1.226, 0.042),
+    ];
+    let outer = [
+        (0.0, 1.205, -0.104),
+        (0.098, 1.212, -0.096),
+        (0.118, 1.296, -0.046),
+        (0.086, 1.270, 0.006),
+        (0.050, 1.232, 0.034),
+        (0.010, 1.205, 0.046),
+    ];
+    let row = |share: f32, gap: f32| -> Vec<Vec3> {
+        let pairs = inner.iter().zip(&outer);
+        let points = pairs.map(|(a, b)| {
+            let p = Vec3::from(*a).lerp(Vec3::from(*b), share);
+            on(p.x, p.y, p.z, gap)
+        });
+        points.collect()
+    };
+    let rows = [
+        row(0.0, -0.002),
+        row(0.0, 0.003),
+        row(0.25, 0.004),
+        row(0.5, 0.004),
+        row(0.80, 0.004),
+        row(0.86, 0.004),
+        row(1.0, 0.004),
+        row(0.97, -0.002),
+    ];
+    let rows: Vec<&[Vec3]> = rows.iter().map(Vec::as_slice).collect();
+    let a = Cloth::Accent;
+    band(&rows, &[a, a, a, a, Cloth::Dress, a, a, a])
+}
+
+fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
+    let knot = [(-9.0, 0.0), (9.0, 0.0), (6.0, -20.0), (-6.0, -20.0)];
+    let blade = [
+        (-6.0, -19.0),
+        (6.0, -19.0),
+        (14.0, -120.0),
+        (17.0, -240.0),
+        (-17.0, -240.0),
+        (-14.0, -120.0),
+    ];
+    let at = Vec2::new(0.0, 1.287);
+    vec![
+        slab(at, &blade, 0.0045, Cloth::Accent, &on),
+        slab(at, &knot, 0.0085, Cloth::Accent, &on),
+    ]
+}
+
+fn bow(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
+    let at = Vec2::new(0.0, 1.216);
+    let knot = [(-8.0, 9.0), (8.0, 9.0), (9.0, -9.0), (-9.0, -9.0)];
+    let mut pieces = Vec::new();
+    for side in [1.0, -1.0] {
+        let loop_ = [
+            (4.0, 6.0),
+            (26.0, 18.0),
+            (43.0, 17.0),
+            (47.0, 2.0),
+            (42.0, -13.0),
+            (26.0, -12.0),
+            (4.0, -5.0),
+        ];
+        let tail = [
+            (2.0, -4.0),
+            (9.0, -5.0),
+            (22.0, -34.0),
+            (33.0, -62.0),
+            (20.0, -60.0),
+            (13.0, -66.0),
+            (6.0, -34.0),
+        ];
+        let turned = |points: &[(f32, f32)]| -> Vec<(f32, f32)> {
+            points.iter().map(|(x, y)| (x * side, *y)).collect()
+        };
+        pieces.push(slab(at, &turned(&tail), 0.007, Cloth::Accent, &on));
+        pieces.push(slab(at, &turned(&loop_), 0.014, Cloth::Accent, &on));
+    }
+    pieces.push(slab(at, &knot, 0.018, Cloth::Accent, &on));
+    pieces
+}
