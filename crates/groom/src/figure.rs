@@ -49,7 +49,6 @@ impl Figure {
         let cut_height = body::CHIN - self.crop_m;
         let solid = |p: Vec3| common(self.dress.distance(p), cut_height - p.y, 0.003);
         let (half, cloth) = self.half(solid, cut_height);
-        let skin_count = half.positions.len();
         let net = with_image(half);
         let mut cloth = [cloth.as_slice(), &cloth].concat();
         let Net {
@@ -57,14 +56,12 @@ impl Figure {
             mut triangles,
         } = net;
 
-        let smooth = |p: Vec3| shading_normal(self.dress, p);
-        let mut normals: Vec<Vec3> = positions.iter().map(|p| smooth(*p)).collect();
+        let mut normals: Vec<Vec3> = positions.iter().map(|p| shading_normal(*p)).collect();
         let mut facing: Vec<Vec3> = positions
             .iter()
             .zip(&normals)
             .map(|(p, normal)| planes::facing(*p, *normal))
             .collect();
-        let _ = skin_count;
         let mut shade: Vec<f32> = positions.iter().map(|p| body::jaw_shade(*p)).collect();
         let shell = Shell::new(&positions, &normals, &triangles, CENTER, HEIGHT);
         let mut scalp: Vec<f32> = positions.iter().map(|p| above_hairline(&shell, *p)).collect();
@@ -106,7 +103,7 @@ impl Figure {
         let grid = Grid {
             // The first cells lie across x = 0.
             x: planes_of(-0.00235, 0.23, near(-0.01, 0.095, 0.12, 0.0100)),
-            y: planes_of(cut_height - 0.03, 1.64, near(1.335, 1.52, 0.10, 0.0200)),
+            y: planes_of(cut_height - 0.03, 1.64, near(1.335, 1.52, 0.10, 0.0280)),
             z: planes_of(-0.15, 0.12, near(-0.02, 0.11, 0.12, 0.0100)),
         };
         let mut net = surface_net(&solid, &grid);
@@ -152,11 +149,10 @@ impl Figure {
     }
 }
 
-/// The unit normal of the dressed body without what is smaller than 16 mm, but for the ears.
-fn shading_normal(dress: Dress, p: Vec3) -> Vec3 {
+/// The skin's unit normal without what is smaller than 16 mm, but for the ears.
+fn shading_normal(p: Vec3) -> Vec3 {
     let step = (0.002 + distance_to_ear(p).max(0.0)).min(0.016);
     let round = |p: Vec3| body::skin(p, 0.0);
-    let _ = dress;
     gradient(round, p, step).normalize_or(Vec3::Y)
 }
 

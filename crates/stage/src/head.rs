@@ -1,12 +1,19 @@
 //! The head on the screen: two flat tones and an outline.
 
+use crate::hair::head_of;
 use crate::scalp;
 use glam::{Vec2, Vec3};
 use groom::{Bust, Cloth, Figure, Ink, Patch, Tie};
-use hair_io::Mesh;
+use hair_io::{HeadFrame, Mesh};
 use render::{Head, Light, Surface, SurfaceVertex};
 use std::iter::{once, repeat};
 use stroke_path::Camera;
+
+/// What is found in the bust's mesh, so that neither dress nor crop changes the size of hair.
+const FIGURE_FRAME: Head = Head {
+    center: Vec3::new(0.0, 1.4995, -0.0075),
+    height_m: 0.241,
+};
 
 /// A head's shape, and what is drawn on it.
 #[derive(Clone)]
@@ -31,6 +38,12 @@ pub struct HeadModel {
 }
 
 impl HeadModel {
+    /// The head's middle and height, where `roots` grow on it.
+    pub(crate) fn frame(&self, roots: &[Vec3]) -> Head {
+        let find = || head_of(HeadFrame::find(Some(&self.mesh), roots));
+        self.frame.unwrap_or_else(find)
+    }
+
     /// Tells what of it has hair from what has none.
     pub(crate) fn find_scalp(&mut self, roots: &[Vec3], reach_m: f32) {
         self.scalp = scalp::split(&self.mesh.positions, &self.skin, roots, reach_m);
@@ -57,11 +70,7 @@ impl HeadModel {
     #[must_use]
     pub fn figure(figure: &Figure) -> Self {
         Self {
-            // What is found in the bust's mesh: neither dress nor crop changes the size of hair.
-            frame: Some(Head {
-                center: Vec3::new(0.0, 1.5, 0.0),
-                height_m: 0.24,
-            }),
+            frame: Some(FIGURE_FRAME),
             ..figure.build().into()
         }
     }

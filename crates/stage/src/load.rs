@@ -1,7 +1,7 @@
 //! The preset's files: hair and head in, strands with their sizes out.
 
 use crate::files::{Files, StageError};
-use crate::hair::{HairModel, head_of};
+use crate::hair::HairModel;
 use crate::head::HeadModel;
 use crate::preset::{
     BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HeadSection, HeadShape, Preset, UpAxis,
@@ -129,7 +129,7 @@ fn is_inside_out(mesh: &Mesh) -> bool {
 pub(crate) fn hair(
     preset: &Preset,
     files: &Files,
-    head: Option<&Mesh>,
+    head: Option<&HeadModel>,
     notes: &mut Vec<String>,
 ) -> Result<HairModel, StageError> {
     let own = preset.sections.hair.file.as_ref();
@@ -149,7 +149,7 @@ pub(crate) fn strands(
     preset: &Preset,
     files: &Files,
     path: &Path,
-    head: Option<&Mesh>,
+    head: Option<&HeadModel>,
     notes: &mut Vec<String>,
 ) -> Result<HairModel, StageError> {
     let section = &preset.sections.hair;
@@ -163,10 +163,12 @@ pub(crate) fn strands(
         scale: scale(section.scale),
         offset: None,
     };
-    let mut hair = hair_io::read_hair(path, &HairOptions { given, head }).map_err(with_styles)?;
+    let mesh = head.map(|head| &head.mesh);
+    let options = HairOptions { given, head: mesh };
+    let mut hair = hair_io::read_hair(path, &options).map_err(with_styles)?;
     notes.append(&mut hair.notes);
     if given.scale.is_none() {
-        notes.extend(misfit(&hair.strands, head));
+        notes.extend(misfit(&hair.strands, mesh));
     }
     Ok(HairModel::read(hair, head))
 }
@@ -218,12 +220,12 @@ fn size_of_most(points: &[Vec3]) -> f32 {
 }
 
 /// The hair of a style, grown on the head.
-fn grow(files: &Files, path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
-    let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
+fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairModel, StageError> {
+    let model = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
     let text = files.read_text(path)?;
     let style = style::parse(&path.display().to_string(), &text)?;
     // The mesh alone: the hair that grows on a head must not change its size.
-    let head = head_of(HeadFrame::find(Some(mesh), &[]));
+    let (mesh, head) = (&model.mesh, model.frame(&[]));
     let shell = groom::Shell::new(
         &mesh.positions,
         &mesh.normals,

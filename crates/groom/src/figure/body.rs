@@ -112,32 +112,32 @@ fn body(p: Vec3) -> f32 {
     );
     let slope = cone(
         p,
-        v(0.008, 1.352, -0.052),
-        v(0.122, 1.288, -0.046),
-        0.012,
+        v(0.008, 1.342, -0.054),
+        v(0.116, 1.276, -0.046),
+        0.010,
         0.019,
     );
-    let chest = ellipsoid(p, v(0.0, 1.190, -0.028), v(0.110, 0.130, 0.070));
+    let chest = ellipsoid(p, v(0.0, 1.190, -0.028), v(0.106, 0.130, 0.068));
     let waist = ellipsoid(p, v(0.0, 1.030, -0.032), v(0.086, 0.170, 0.060));
     let hips = ellipsoid(p, v(0.0, 0.840, -0.034), v(0.130, 0.130, 0.084));
-    let shoulder = ellipsoid(p, v(0.134, 1.258, -0.044), v(0.032, 0.050, 0.034));
+    let shoulder = ellipsoid(p, v(0.127, 1.248, -0.044), v(0.031, 0.050, 0.034));
     let upper_arm = cone(
         p,
-        v(0.141, 1.250, -0.044),
-        v(0.166, 1.030, -0.052),
-        0.0285,
+        v(0.133, 1.240, -0.044),
+        v(0.158, 1.030, -0.054),
+        0.0270,
         0.0240,
     );
     let forearm = cone(
         p,
-        v(0.166, 1.030, -0.052),
-        v(0.182, 0.820, -0.030),
+        v(0.158, 1.030, -0.054),
+        v(0.176, 0.820, -0.030),
         0.0240,
         0.0180,
     );
     let arm = melt(melt(shoulder, upper_arm, 0.03), forearm, 0.01);
     let torso = melt(melt(chest, waist, 0.05), hips, 0.05);
-    let trunk = melt(torso, arm, 0.016);
+    let trunk = melt(torso, arm, 0.024);
     let neck = melt(neck, strap, 0.016);
     melt(melt(trunk, slope, 0.040), neck, 0.032)
 }

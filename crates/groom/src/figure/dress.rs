@@ -2,7 +2,7 @@
 
 use super::body::{neck_axis, skin};
 use super::planes::smooth;
-use super::sewn::{Piece, band, slab};
+use super::sewn::{Lie, Piece, band, slab};
 use glam::{Vec2, Vec3};
 
 /// What a figure wears.
@@ -150,11 +150,11 @@ const ROLL: f32 = 0.026;
 const CHOKER: f32 = 0.010;
 
 fn turtleneck(p: Vec3) -> f32 {
-    below(p, 1.352, 0.35)
+    below(p, 1.360, 0.30)
 }
 
 fn choker(p: Vec3) -> f32 {
-    below(p, 1.342, 0.30)
+    below(p, 1.350, 0.30)
 }
 
 fn crew(p: Vec3) -> f32 {
@@ -163,7 +163,8 @@ fn crew(p: Vec3) -> f32 {
 
 /// The front below the collarbones, higher at the sides, and straps over the shoulders.
 fn camisole(p: Vec3) -> f32 {
-    let top = 1.200 + 0.25 * (p.x - 0.02).max(0.0).min(0.07) - p.y;
+    let top = 1.200 + 0.25 * (p.x - 0.02).clamp(0.0, 0.07) - p.y;
+    let top = top.min(0.107 + 0.10 * (1.20 - p.y) - p.x);
     let strap = 0.0045 - (p.x - 0.072 - 0.10 * (1.25 - p.y)).abs();
     let strap = strap.min(1.36 - p.y);
     top.max(strap)
@@ -210,7 +211,11 @@ fn folded_collar() -> Piece {
         around(0.052, 1.268, 0.047),
         around(0.026, 1.252, 0.058),
     ];
-    band(&[&base, &fold, &edge], &[Cloth::Dress; 3])
+    band(
+        &[(&base, Lie::At(-0.002)), (&fold, Lie::Over(0.005)), (&edge, Lie::At(0.0035))],
+        &[Cloth::Dress; 3],
+        |p| Dress::Collar.distance(p),
+    )
 }
 
 fn standing_collar() -> Piece {
@@ -235,20 +240,15 @@ fn standing_collar() -> Piece {
         around(0.048, 1.290, 0.027),
         around(0.034, 1.272, 0.047),
     ];
-    band(&[&base, &top, &foot], &[Cloth::Dress; 3])
+    band(
+        &[(&base, Lie::At(-0.002)), (&top, Lie::Over(0.008)), (&foot, Lie::At(0.0025))],
+        &[Cloth::Dress; 3],
+        |p| Dress::Jacket.distance(p),
+    )
 }
 
 /// Over the shoulders, square on the back, its points at the bow.
 fn sailor_collar() -> Piece {
-    // Lies on the blouse.
-    let on = |x: f32, y: f32, z: f32, gap: f32| {
-        let mut p = Vec3::new(x, y, z);
-        let out = crate::solid::gradient(|p| Dress::Sailor.distance(p), p, 0.004).normalize_or(Vec3::Y);
-        for _ in 0..8 {
-            p += out * (gap - Dress::Sailor.distance(p)) * 0.8;
-        }
-        p
-    };
     let inner = [
         (0.0, 1.338, -0.074),
         (0.028, 1.336, -0.066),
@@ -265,27 +265,19 @@ fn sailor_collar() -> Piece {
         (0.050, 1.232, 0.034),
         (0.010, 1.205, 0.046),
     ];
-    let row = |share: f32, gap: f32| -> Vec<Vec3> {
+    let row = |share: f32| -> Vec<Vec3> {
         let pairs = inner.iter().zip(&outer);
-        let points = pairs.map(|(a, b)| {
-            let p = Vec3::from(*a).lerp(Vec3::from(*b), share);
-            on(p.x, p.y, p.z, gap)
-        });
+        let points = pairs.map(|(a, b)| Vec3::from(*a).lerp(Vec3::from(*b), share));
         points.collect()
     };
-    let rows = [
-        row(0.0, -0.002),
-        row(0.0, 0.003),
-        row(0.25, 0.004),
-        row(0.5, 0.004),
-        row(0.80, 0.004),
-        row(0.86, 0.004),
-        row(1.0, 0.004),
-        row(0.97, -0.002),
-    ];
-    let rows: Vec<&[Vec3]> = rows.iter().map(Vec::as_slice).collect();
+    // Down on the blouse to its edge, a stripe before it, and back under itself.
+    let rows = [0.0, 0.0, 0.25, 0.5, 0.80, 0.86, 1.0, 0.98].map(row);
+    let lies = [-0.002, 0.003, 0.0035, 0.0035, 0.0035, 0.0035, 0.0035, -0.002].map(Lie::At);
+    let rows: Vec<(&[Vec3], Lie)> = rows.iter().map(Vec::as_slice).zip(lies).collect();
     let a = Cloth::Accent;
-    band(&rows, &[a, a, a, a, Cloth::Dress, a, a, a])
+    band(&rows, &[a, a, a, a, Cloth::Dress, a, a, a], |p| {
+        Dress::Sailor.distance(p)
+    })
 }
 
 fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {

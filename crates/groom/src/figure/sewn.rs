@@ -2,6 +2,7 @@
 
 use super::dress::Cloth;
 use crate::ribbon::curve;
+use crate::solid::gradient;
 use glam::{Vec2, Vec3};
 
 /// A closed mesh.
@@ -21,10 +22,40 @@ fn curve_in_space(points: &[Vec3]) -> Vec<Vec3> {
     joints.step_by(2).collect()
 }
 
+/// How a row of a band lies to the surface below, metres.
+#[derive(Clone, Copy)]
+pub(crate) enum Lie {
+    /// This far over it; below 0 in it.
+    At(f32),
+    /// This far over it or farther, where it is.
+    Over(f32),
+}
+
+/// `p`, moved to lie so on the surface of `on`.
+fn laid(mut p: Vec3, lie: Lie, on: &impl Fn(Vec3) -> f32) -> Vec3 {
+    for _ in 0..12 {
+        let missing = match lie {
+            Lie::At(gap) => gap - on(p),
+            Lie::Over(gap) => (gap - on(p)).max(0.0),
+        };
+        if missing != 0.0 {
+            let along = gradient(on, p, 0.002).normalize_or(Vec3::Y);
+            // In the middle of the back it stays there.
+            let along = if p.x == 0.0 { along.with_x(0.0) } else { along };
+            p += along * (missing * 0.8);
+        }
+    }
+    p
+}
+
 /// A band from the middle of the back, at x = 0, to its end on one side. `rows` run along it, around its
-/// section; `cloth` is between each row and the next.
-pub(crate) fn band(rows: &[&[Vec3]], cloth: &[Cloth]) -> Piece {
-    let rows: Vec<Vec<Vec3>> = rows.iter().map(|row| curve_in_space(row)).collect();
+/// section, and lie on the surface of `on`; `cloth` is between each row and the next.
+pub(crate) fn band(rows: &[(&[Vec3], Lie)], cloth: &[Cloth], on: impl Fn(Vec3) -> f32) -> Piece {
+    let on_body = |(row, lie): &(&[Vec3], Lie)| -> Vec<Vec3> {
+        let points = curve_in_space(row).into_iter();
+        points.map(|p| laid(p, *lie, &on)).collect()
+    };
+    let rows: Vec<Vec<Vec3>> = rows.iter().map(on_body).collect();
     let (around, along) = (rows.len() as u32, rows[0].len() as u32);
     let mut piece = Piece {
         positions: (0..along as usize)
