@@ -1,10 +1,10 @@
 //! The bust: its skin as a mesh, and what is drawn on it.
 
+use crate::Shell;
 use crate::face::{self, Patch};
 use crate::figure::{Cloth, above_hairline};
 use crate::shape::{distance, jaw_shade, shading_normal};
 use crate::surface_nets::{Grid, Net, planes, relax, surface_net, with_image};
-use crate::Shell;
 use glam::Vec3;
 
 /// Middle of the head.
@@ -54,7 +54,10 @@ pub fn bust() -> Bust {
         outline: Vec::new(),
         cloth: Vec::new(),
         shade: positions.iter().map(|p| jaw_shade(*p)).collect(),
-        scalp: positions.iter().map(|p| above_hairline(&shell, *p)).collect(),
+        scalp: positions
+            .iter()
+            .map(|p| above_hairline(&shell, *p))
+            .collect(),
         positions,
         triangles,
         patches: face::patches(),

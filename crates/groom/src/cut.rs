@@ -1,6 +1,7 @@
 //! Cutting a mesh along lines on its surface.
 
 use crate::surface_nets::Net;
+use glam::Vec3;
 use std::collections::HashMap;
 
 /// No cut comes nearer to an end of an edge, in parts of it: slivers have no direction.
@@ -26,7 +27,7 @@ pub(crate) fn cut(net: &mut Net, fields: &mut [Vec<f32>], field: usize, level: f
             let key = (from.min(to), from.max(to));
             *middles
                 .entry(key)
-                .or_insert_with(|| halve(net_parts(&mut net.positions, fields), key, field, level))
+                .or_insert_with(|| halve(&mut net.positions, fields, key, field, level))
         };
         let (ab, ac) = (middle(a, b), middle(a, c));
         triangles.extend([[a, ab, ac], [ab, b, c], [ab, c, ac]]);
@@ -34,14 +35,14 @@ pub(crate) fn cut(net: &mut Net, fields: &mut [Vec<f32>], field: usize, level: f
     net.triangles = triangles;
 }
 
-type Parts<'a> = (&'a mut Vec<glam::Vec3>, &'a mut [Vec<f32>]);
-
-fn net_parts<'a>(positions: &'a mut Vec<glam::Vec3>, fields: &'a mut [Vec<f32>]) -> Parts<'a> {
-    (positions, fields)
-}
-
 /// A new position on an edge, where the field has the level.
-fn halve((positions, fields): Parts, (a, b): (u32, u32), field: usize, level: f32) -> u32 {
+fn halve(
+    positions: &mut Vec<Vec3>,
+    fields: &mut [Vec<f32>],
+    (a, b): (u32, u32),
+    field: usize,
+    level: f32,
+) -> u32 {
     let (a, b) = (a as usize, b as usize);
     let (at_a, at_b) = (fields[field][a], fields[field][b]);
     let t = ((level - at_a) / (at_b - at_a)).clamp(NEAREST, 1.0 - NEAREST);
@@ -58,7 +59,6 @@ fn halve((positions, fields): Parts, (a, b): (u32, u32), field: usize, level: f3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec3;
 
     #[test]
     fn a_square_is_cut_along_a_line() {
@@ -84,7 +84,14 @@ mod tests {
             }
         }
         // The line runs from (0.5, 0) to (0.3, 1).
-        assert!((below - 0.4).abs() < 1e-6 && (above - 0.6).abs() < 1e-6, "{below} {above}");
-        assert_eq!(net.positions.len(), 7, "edges are cut once for both of their sides");
+        assert!(
+            (below - 0.4).abs() < 1e-6 && (above - 0.6).abs() < 1e-6,
+            "{below} {above}"
+        );
+        assert_eq!(
+            net.positions.len(),
+            7,
+            "edges are cut once for both of their sides"
+        );
     }
 }

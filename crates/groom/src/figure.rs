@@ -64,15 +64,21 @@ impl Figure {
             .collect();
         let mut shade: Vec<f32> = positions.iter().map(|p| body::jaw_shade(*p)).collect();
         let shell = Shell::new(&positions, &normals, &triangles, CENTER, HEIGHT);
-        let mut scalp: Vec<f32> = positions.iter().map(|p| above_hairline(&shell, *p)).collect();
+        let mut scalp: Vec<f32> = positions
+            .iter()
+            .map(|p| above_hairline(&shell, *p))
+            .collect();
 
         for piece in self.pieces() {
             let first = positions.len() as u32;
             let own = normals_of(&piece);
             shade.extend(own.iter().map(|_| 0.0));
             scalp.extend(own.iter().map(|_| -90.0));
+            match piece.is_lit_as_body {
+                true => facing.extend(piece.positions.iter().map(|p| shading_normal(*p))),
+                false => facing.extend(&own),
+            }
             positions.extend(piece.positions);
-            facing.extend(&own);
             normals.extend(own);
             triangles.extend(piece.triangles.iter().map(|t| t.map(|i| first + i)));
             cloth.extend(piece.cloth);
@@ -143,6 +149,7 @@ impl Figure {
                 positions: net.positions,
                 triangles: net.triangles,
                 cloth: [piece.cloth.as_slice(), &piece.cloth].concat(),
+                is_lit_as_body: piece.is_lit_as_body,
             }
         });
         halves.chain(self.dress.middle_pieces()).collect()
@@ -173,5 +180,144 @@ fn normals_of(piece: &Piece) -> Vec<Vec3> {
             sums[*i as usize] += normal;
         }
     }
-    sums.into_iter().map(|sum| sum.normalize_or(Vec3::Y)).collect()
+    sums.into_iter()
+        .map(|sum| sum.normalize_or(Vec3::Y))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape;
+    use std::collections::HashMap;
+
+    const DRESSES: [Dress; 6] = [
+        Dress::None,
+        Dress::Choker,
+        Dress::Turtleneck,
+        Dress::Collar,
+        Dress::Jacket,
+        Dress::Sailor,
+    ];
+
+    fn dressed(dress: Dress, crop_m: f32) -> Bust {
+        let face = Face::default();
+        Figure {
+            crop_m,
+            dress,
+            face,
+        }
+        .build()
+    }
+
+    #[test]
+    fn it_is_closed_in_every_dress() {
+        for (i, dress) in DRESSES.into_iter().enumerate() {
+            let figure = dressed(dress, 0.15 + 0.08 * i as f32);
+            assert_eq!(figure.cloth.len(), figure.triangles.len());
+            let mut edges = HashMap::new();
+            for [a, b, c] in figure.triangles {
+                for edge in [(a, b), (b, c), (c, a)] {
+                    *edges.entry(edge).or_insert(0) += 1;
+                }
+            }
+            for ((a, b), count) in &edges {
+                let other = edges.get(&(*b, *a));
+                assert_eq!(
+                    (*count, other),
+                    (1, Some(&1)),
+                    "{dress:?}: each edge has two sides"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn both_sides_are_the_same() {
+        for dress in DRESSES {
+            let figure = dressed(dress, 0.25);
+            let place = |p: Vec3| (p * 1e5).round().as_ivec3();
+            let all: HashMap<_, _> = figure
+                .positions
+                .iter()
+                .map(|p| place(*p))
+                .zip(0..)
+                .collect();
+            let mut alone = 0;
+            for (i, p) in figure.positions.iter().enumerate() {
+                let Some(image) = all.get(&place(p.with_x(-p.x))) else {
+                    alone += 1;
+                    continue;
+                };
+                let other: usize = *image;
+                let turned = figure.facing[other] * Vec3::new(-1.0, 1.0, 1.0);
+                // At one place two pieces may have corners.
+                let same = figure.facing[i].distance(turned) < 2e-3;
+                assert!(
+                    same || figure.positions[other] != p.with_x(-p.x) || p.z > 0.02,
+                    "{dress:?} at {p}"
+                );
+            }
+            assert!(
+                alone * 200 < figure.positions.len(),
+                "{dress:?}: {alone} without an image"
+            );
+        }
+    }
+
+    #[test]
+    fn hair_grows_on_it_as_on_the_bust() {
+        for i in 0..8000 {
+            let at = |step: usize, low: f32, high: f32| {
+                low + (high - low) * (i * step % 1009) as f32 / 1009.0
+            };
+            let p = Vec3::new(at(7, -0.1, 0.1), at(31, 1.528, 1.63), at(113, -0.13, 0.11));
+            assert_eq!(body::skin(p, 1.0), shape::distance(p), "{p}");
+        }
+    }
+
+    #[test]
+    fn no_light_cuts_an_eye() {
+        let figure = Figure {
+            face: Face {
+                eye_size: 1.2,
+                ..Face::default()
+            },
+            ..Figure::default()
+        };
+        let figure = figure.build();
+        for side in [1.0, -1.0] {
+            // The triangles below the white of this eye.
+            let white = figure
+                .patches
+                .iter()
+                .filter(|patch| patch.ink == crate::Ink::White);
+            let white: Vec<Vec3> = white.flat_map(|patch| patch.positions.clone()).collect();
+            let own = || white.iter().filter(|p| p.x * side > 0.0);
+            let low = own().fold(Vec3::MAX, |low, p| low.min(*p));
+            let high = own().fold(Vec3::MIN, |high, p| high.max(*p));
+            let below = |triangle: &&[u32; 3]| {
+                let corners = triangle.map(|i| figure.positions[i as usize]);
+                let reach = |k: usize| {
+                    let values = corners.map(|p| p[k]);
+                    let (from, to) = (
+                        values[0].min(values[1]).min(values[2]),
+                        values[0].max(values[1]).max(values[2]),
+                    );
+                    to > low[k] && from < high[k]
+                };
+                corners[0].z > 0.04 && reach(0) && reach(1)
+            };
+            let below: Vec<&[u32; 3]> = figure.triangles.iter().filter(below).collect();
+            assert!(below.len() > 100, "{}", below.len());
+            let mut facing = below
+                .iter()
+                .flat_map(|t| t.map(|i| figure.facing[i as usize]));
+            // One plane: whatever the light, all of it is lit or none.
+            let first = facing.next().unwrap();
+            for other in facing {
+                assert!(first.distance(other) < 1e-5, "{first} {other}");
+            }
+        }
+    }
 }

@@ -83,12 +83,15 @@ impl From<Bust> for HeadModel {
             let own = all.filter(|(_, other)| **other == cloth);
             own.map(|(triangle, _)| *triangle).collect()
         };
-        let clothes = [Cloth::Dress, Cloth::Accent, Cloth::Line].map(|cloth| (cloth, painted(cloth)));
+        let clothes =
+            [Cloth::Dress, Cloth::Accent, Cloth::Line].map(|cloth| (cloth, painted(cloth)));
         let skin = match bust.cloth.is_empty() {
             true => bust.triangles.clone(),
             false => painted(Cloth::Skin),
         };
-        let clothes = clothes.into_iter().filter(|(_, triangles)| !triangles.is_empty());
+        let clothes = clothes
+            .into_iter()
+            .filter(|(_, triangles)| !triangles.is_empty());
         Self {
             clothes: clothes.collect(),
             skin,
@@ -260,7 +263,7 @@ pub(crate) fn surfaces(
             margin_m: paint.inside_margin_m,
             ..surface(
                 camera,
-                &mesh.triangles,
+                skin,
                 &corners,
                 Facing::Back,
                 paint.shadow,
@@ -274,8 +277,12 @@ pub(crate) fn surfaces(
     }
     for (cloth, triangles) in clothes {
         let [light, shadow, _] = paint.of_cloth(*cloth);
-        let front = Facing::Front;
+        let (front, back) = (Facing::Front, Facing::Back);
         surfaces.push(surface(camera, triangles, &corners, front, light, shadow));
+        surfaces.push(Surface {
+            margin_m: paint.inside_margin_m,
+            ..surface(camera, triangles, &corners, back, shadow, shadow)
+        });
     }
     if paint.width_m > 0.0 {
         let hull = hull(mesh, &model.outline, paint, camera);

@@ -40,7 +40,8 @@ mod tests {
         // A strip of squares along x, 1 wide.
         let positions = (0..20).map(|i| Vec3::new((i / 2) as f32, (i % 2) as f32, 0.0));
         let triangles = (0..18).map(|i| [i, i + 1, i + 2]);
-        let (positions, triangles): (Vec<Vec3>, Vec<_>) = (positions.collect(), triangles.collect());
+        let (positions, triangles): (Vec<Vec3>, Vec<_>) =
+            (positions.collect(), triangles.collect());
         let split = |roots: &[Vec3], reach: f32| super::split(&positions, &triangles, roots, reach);
         let roots = [Vec3::new(0.0, 0.5, 0.0), Vec3::new(1.0, 0.5, 0.0)];
         let [scalp, skin] = split(&roots, 1.3);

@@ -3,12 +3,12 @@
 use crate::bake::difference;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
+use crate::head::HeadModel;
 use crate::load;
 use crate::preset::{Preset, missing};
 use crate::script::{KeyShape, MotionScript};
 use effects::preset::{PresetError, PresetErrors};
 use glam::Vec3;
-use crate::head::HeadModel;
 use hair_sim::{PointCache, Strands};
 use std::path::Path;
 

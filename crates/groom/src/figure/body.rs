@@ -31,12 +31,12 @@ fn skull(p: Vec3, share: f32) -> f32 {
     // The relief raises the skin towards the face's front.
     let face = p - Vec3::Z * (share * relief(p));
     let cheeks = ellipsoid(face, v(0.0, 1.478, 0.014), v(0.067, 0.083, 0.070));
-    let mouth = ellipsoid(face, v(0.0, 1.426, 0.042), v(0.031, 0.036, 0.0405));
+    let mouth = ellipsoid(face, v(0.0, 1.426, 0.042), v(0.0285, 0.036, 0.0405));
     let jaw = cone(
         face,
-        v(0.004, 1.3985, 0.060),
-        v(0.0365, 1.447, 0.006),
-        0.0130,
+        v(0.003, 1.3985, 0.060),
+        v(0.0360, 1.447, 0.006),
+        0.0122,
         0.0145,
     );
     let chin = ellipsoid(face, v(0.0, 1.3965, 0.064), v(0.0125, 0.0155, 0.0160));
@@ -101,7 +101,13 @@ fn body(p: Vec3) -> f32 {
     if p.y > 1.50 {
         return p.y - 1.46; // far above all of it
     }
-    let neck = cone(p, v(0.0, 1.45, -0.016), v(0.0, 1.28, -0.0407), 0.0280, 0.0335);
+    let neck = cone(
+        p,
+        v(0.0, 1.45, -0.016),
+        v(0.0, 1.28, -0.0407),
+        0.0280,
+        0.0335,
+    );
     // From behind the ear to the pit between the collarbones.
     let strap = cone(
         p,
@@ -131,7 +137,7 @@ fn body(p: Vec3) -> f32 {
     let forearm = cone(
         p,
         v(0.158, 1.030, -0.054),
-        v(0.176, 0.820, -0.030),
+        v(0.180, 0.770, -0.026),
         0.0240,
         0.0180,
     );

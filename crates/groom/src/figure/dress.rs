@@ -3,6 +3,7 @@
 use super::body::{neck_axis, skin};
 use super::planes::smooth;
 use super::sewn::{Lie, Piece, band, slab};
+use crate::solid::melt;
 use glam::{Vec2, Vec3};
 
 /// What a figure wears.
@@ -17,7 +18,7 @@ pub enum Dress {
     Turtleneck,
     /// A shirt with a folded collar and a tie.
     Collar,
-    /// A jacket with a standing collar, open over a shirt.
+    /// A jacket with a wide collar, open over a shirt.
     Jacket,
     /// A blouse with a sailor's collar and a bow.
     Sailor,
@@ -98,6 +99,10 @@ impl Dress {
         match self {
             Self::None => {}
             Self::Choker => {
+                layers.extend([
+                    layer(strap, 0.0, STRAP, Cloth::Line),
+                    layer(strap, HEM, STRAP - HEM, Cloth::Dress),
+                ]);
                 layers.extend(hemmed(camisole, Cloth::Dress));
                 layers.extend([
                     layer(choker, 0.0, CHOKER, Cloth::Accent),
@@ -124,7 +129,7 @@ impl Dress {
         match self {
             Self::None | Self::Choker | Self::Turtleneck => Vec::new(),
             Self::Collar => vec![folded_collar()],
-            Self::Jacket => vec![standing_collar()],
+            Self::Jacket => vec![jacket_collar()],
             Self::Sailor => vec![sailor_collar()],
         }
     }
@@ -148,6 +153,8 @@ fn below(p: Vec3, height: f32, slope: f32) -> f32 {
 /// How high the roll and the choker are, metres.
 const ROLL: f32 = 0.026;
 const CHOKER: f32 = 0.010;
+/// How wide straps are, metres.
+const STRAP: f32 = 0.010;
 
 fn turtleneck(p: Vec3) -> f32 {
     below(p, 1.360, 0.30)
@@ -161,25 +168,31 @@ fn crew(p: Vec3) -> f32 {
     below(p, 1.322, 0.60)
 }
 
-/// The front below the collarbones, higher at the sides, and straps over the shoulders.
+/// Below a line over the chest, between the arms.
 fn camisole(p: Vec3) -> f32 {
     let top = 1.200 + 0.25 * (p.x - 0.02).clamp(0.0, 0.07) - p.y;
-    let top = top.min(0.107 + 0.10 * (1.20 - p.y) - p.x);
-    let strap = 0.0045 - (p.x - 0.072 - 0.10 * (1.25 - p.y)).abs();
-    let strap = strap.min(1.36 - p.y);
-    top.max(strap)
+    let side = 0.108 + 0.10 * (1.20 - p.y) - p.x;
+    melt(top, side, 0.012)
+}
+
+/// From the outer edge of a strap over the shoulder inwards.
+fn strap(p: Vec3) -> f32 {
+    if p.y > 1.36 {
+        return -1.0; // the head
+    }
+    0.077 + 0.10 * (1.25 - p.y) - p.x
 }
 
 /// Outside of a V from the sides of the neck to the chest: in front alone.
 fn outside_v(p: Vec3) -> f32 {
     let behind = (-0.030 - p.z).max(0.0);
     let edge = 0.010 + (p.y - 1.165).max(0.0) * 0.34;
-    0.94 * (p.x - edge) + 3.0 * behind
+    crew(p).min(0.94 * (p.x - edge) + 3.0 * behind)
 }
 
 fn sailor(p: Vec3) -> f32 {
-    let behind = (-0.030 - p.z).max(0.0);
-    let edge = (p.y - 1.222).max(0.0) * 0.55;
+    let behind = (-0.012 - p.z).max(0.0);
+    let edge = (p.y - 1.222).max(0.0) * 0.50;
     crew(p).min(0.87 * (p.x - edge) + 3.0 * behind + if p.y < 1.222 { 0.01 } else { 0.0 })
 }
 
@@ -212,36 +225,45 @@ fn folded_collar() -> Piece {
         around(0.026, 1.252, 0.058),
     ];
     band(
-        &[(&base, Lie::At(-0.002)), (&fold, Lie::Over(0.005)), (&edge, Lie::At(0.0035))],
+        &[
+            (&base, Lie::At(-0.002)),
+            (&fold, Lie::Over(0.005)),
+            (&edge, Lie::At(0.005)),
+        ],
         &[Cloth::Dress; 3],
         |p| Dress::Collar.distance(p),
     )
 }
 
-fn standing_collar() -> Piece {
+/// Folded over a jacket, from the back to the lapels beside the V.
+fn jacket_collar() -> Piece {
     let base = [
-        around(0.0, 1.322, -0.040),
-        around(0.030, 1.320, -0.030),
-        around(0.044, 1.310, 0.000),
-        around(0.038, 1.296, 0.022),
-        around(0.028, 1.285, 0.036),
+        around(0.0, 1.328, -0.038),
+        around(0.028, 1.326, -0.030),
+        around(0.042, 1.316, 0.000),
+        around(0.040, 1.292, 0.026),
+        around(0.022, 1.235, 0.062),
     ];
-    let top = [
-        around(0.0, 1.360, -0.047),
-        around(0.036, 1.358, -0.034),
-        around(0.053, 1.347, 0.002),
-        around(0.050, 1.333, 0.026),
-        around(0.043, 1.322, 0.043),
+    let fold = [
+        around(0.0, 1.356, -0.046),
+        around(0.034, 1.353, -0.034),
+        around(0.050, 1.340, 0.002),
+        around(0.046, 1.312, 0.030),
+        around(0.025, 1.238, 0.068),
     ];
-    let foot = [
-        around(0.0, 1.312, -0.052),
-        around(0.038, 1.310, -0.038),
-        around(0.055, 1.302, 0.002),
-        around(0.048, 1.290, 0.027),
-        around(0.034, 1.272, 0.047),
+    let edge = [
+        around(0.0, 1.308, -0.060),
+        around(0.050, 1.308, -0.046),
+        around(0.076, 1.304, 0.000),
+        around(0.080, 1.268, 0.044),
+        around(0.034, 1.206, 0.070),
     ];
     band(
-        &[(&base, Lie::At(-0.002)), (&top, Lie::Over(0.008)), (&foot, Lie::At(0.0025))],
+        &[
+            (&base, Lie::At(-0.002)),
+            (&fold, Lie::Over(0.006)),
+            (&edge, Lie::At(0.005)),
+        ],
         &[Cloth::Dress; 3],
         |p| Dress::Jacket.distance(p),
     )
@@ -272,7 +294,7 @@ fn sailor_collar() -> Piece {
     };
     // Down on the blouse to its edge, a stripe before it, and back under itself.
     let rows = [0.0, 0.0, 0.25, 0.5, 0.80, 0.86, 1.0, 0.98].map(row);
-    let lies = [-0.002, 0.003, 0.0035, 0.0035, 0.0035, 0.0035, 0.0035, -0.002].map(Lie::At);
+    let lies = [-0.002, 0.004, 0.005, 0.005, 0.005, 0.005, 0.005, -0.002].map(Lie::At);
     let rows: Vec<(&[Vec3], Lie)> = rows.iter().map(Vec::as_slice).zip(lies).collect();
     let a = Cloth::Accent;
     band(&rows, &[a, a, a, a, Cloth::Dress, a, a, a], |p| {
@@ -286,8 +308,9 @@ fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
         (-6.0, -19.0),
         (6.0, -19.0),
         (14.0, -120.0),
-        (17.0, -240.0),
-        (-17.0, -240.0),
+        (17.0, -224.0),
+        (0.0, -244.0),
+        (-17.0, -224.0),
         (-14.0, -120.0),
     ];
     let at = Vec2::new(0.0, 1.287);
@@ -328,4 +351,58 @@ fn bow(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
     }
     pieces.push(slab(at, &knot, 0.018, Cloth::Accent, &on));
     pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Dress; 6] = [
+        Dress::None,
+        Dress::Choker,
+        Dress::Turtleneck,
+        Dress::Collar,
+        Dress::Jacket,
+        Dress::Sailor,
+    ];
+
+    #[test]
+    fn skin_never_pokes_through_cloth() {
+        for i in 0..20_000 {
+            let at = |step: usize, low: f32, high: f32| {
+                low + (high - low) * (i * step % 9973) as f32 / 9973.0
+            };
+            let p = Vec3::new(at(7, -0.2, 0.2), at(313, 0.8, 1.65), at(1013, -0.15, 0.13));
+            for dress in ALL {
+                let (cloth, skin) = (dress.distance(p), skin(p, 1.0));
+                assert!(
+                    cloth <= skin && cloth > skin - 0.012,
+                    "{dress:?} at {p}: {cloth} {skin}"
+                );
+                // Nothing is worn on the head.
+                assert!(p.y < 1.41 || cloth == skin, "{dress:?} at {p}");
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_lie_on_the_dress() {
+        for dress in ALL {
+            let pieces = dress.pieces().into_iter().chain(dress.middle_pieces());
+            for piece in pieces {
+                let gaps = piece.positions.iter().map(|p| dress.distance(*p));
+                let gaps: Vec<f32> = gaps.collect();
+                assert!(
+                    gaps.iter().all(|gap| (-0.008..0.03).contains(gap)),
+                    "{dress:?}: {gaps:?}"
+                );
+                let outside = gaps.iter().filter(|gap| **gap > 0.002).count();
+                assert!(
+                    2 * outside >= gaps.len(),
+                    "{dress:?}: {outside} of {}",
+                    gaps.len()
+                );
+            }
+        }
+    }
 }

@@ -222,7 +222,12 @@ impl Eye<'_> {
             kept.map(|p| keep_inside(p, middle, &outline)).collect()
         };
         // The lids shade the white.
-        let lowered = inside(upper.iter().map(|p| *p - Vec2::Y * 4.2e-3 * self.size).collect());
+        let lowered = inside(
+            upper
+                .iter()
+                .map(|p| *p - Vec2::Y * 4.2e-3 * self.size)
+                .collect(),
+        );
         let band: Vec<Vec2> = upper.iter().chain(lowered.iter().rev()).copied().collect();
         self.add(Ink::WhiteShadow, strip(&band), 0.4);
 
@@ -248,7 +253,11 @@ impl Eye<'_> {
         };
         let shadow: Vec<Vec2> = scaled(0.92).iter().map(shaded).collect();
         let high = center + Vec2::Y * half_axes.y * 0.45;
-        self.add(Ink::IrisShadow, fill(keep_inside(high, middle, &outline), &shadow), 2.4);
+        self.add(
+            Ink::IrisShadow,
+            fill(keep_inside(high, middle, &outline), &shadow),
+            2.4,
+        );
         let pupil = inside(ellipse(center, half_axes * Vec2::new(0.44, 0.50)));
         self.add(Ink::IrisShadow, fill(from, &pupil), 2.5);
         // Lights are where the light is, in both eyes on the same side.
@@ -307,7 +316,11 @@ impl Eye<'_> {
             let tip = from + toward * reach + Vec2::new(1.6, rise * up * 0.75);
             let bend = from.lerp(tip, 0.5) - Vec2::Y * up * 0.8;
             self.stroke(
-                &[(from.into(), width), (bend.into(), width * 0.6), (tip.into(), 0.1)],
+                &[
+                    (from.into(), width),
+                    (bend.into(), width * 0.6),
+                    (tip.into(), 0.1),
+                ],
                 4.4,
             );
         }
@@ -329,7 +342,11 @@ impl Eye<'_> {
         let up = if laughs { 1.0 } else { -1.0 };
         self.lashes(&lid, &[0.6, 2.0, 3.0, 3.6, 3.0], flick, up);
         if !laughs {
-            let fold = [([-11.0, low + 9.0], 0.1), ([1.0, low + 10.5], 0.9), ([13.0, low + 10.0], 0.1)];
+            let fold = [
+                ([-11.0, low + 9.0], 0.1),
+                ([1.0, low + 10.5], 0.9),
+                ([13.0, low + 10.0], 0.1),
+            ];
             self.stroke(&fold, 1.0);
         }
     }
@@ -344,7 +361,10 @@ fn strip(outline: &[Vec2]) -> Flat {
     };
     for i in 0..half - 1 {
         let (a, b) = (i as u32, i as u32 + 1);
-        let (c, d) = ((outline.len() - 1 - i) as u32, (outline.len() - 2 - i) as u32);
+        let (c, d) = (
+            (outline.len() - 1 - i) as u32,
+            (outline.len() - 2 - i) as u32,
+        );
         flat.triangles.extend([[a, b, c], [b, d, c]]);
     }
     flat
@@ -425,7 +445,11 @@ fn blush(blush: Blush) -> Vec<Flat> {
                 let tall = 4.6 - 0.02 * x * x;
                 let slant = Vec2::new(1.9, tall) * 1e-3;
                 let foot = middle + Vec2::X * x * 1e-3;
-                stroke(&[(foot - slant, 0.2e-3), (foot, 1.3e-3), (foot + slant, 0.2e-3)])
+                stroke(&[
+                    (foot - slant, 0.2e-3),
+                    (foot, 1.3e-3),
+                    (foot + slant, 0.2e-3),
+                ])
             })
             .into(),
     }
@@ -443,7 +467,10 @@ fn nose_side(skin: &impl Fn(Vec3) -> f32, side: f32) -> Patch {
         [6.4, -31.0],
     ]
     .map(|[x, y]: [f32; 2]| Vec2::new(x * side, EYE_HEIGHT * 1e3 + y) * 1e-3);
-    let flat = fill(Vec2::new(4.6 * side, EYE_HEIGHT * 1e3 - 36.0) * 1e-3, &outline);
+    let flat = fill(
+        Vec2::new(4.6 * side, EYE_HEIGHT * 1e3 - 36.0) * 1e-3,
+        &outline,
+    );
     Patch {
         away_from: Some(Vec3::new(0.80 * side, -0.10, 0.5916)),
         ..FRONT.lay_on(skin, Ink::SkinShadow, &flat, 1.0)
@@ -484,7 +511,10 @@ fn mouth(expression: Expression) -> Vec<(Ink, Flat, f32)> {
     let lips = |points: &[([f32; 2], f32)]| (Ink::Line, line(1.4235, points), 4.4);
     let lower_lip = (
         Ink::Line,
-        line(1.412, &[([-3.8, 0.5], 0.1), ([0.0, -0.3], 0.9), ([3.8, 0.5], 0.1)]),
+        line(
+            1.412,
+            &[([-3.8, 0.5], 0.1), ([0.0, -0.3], 0.9), ([3.8, 0.5], 0.1)],
+        ),
         1.4,
     );
     match expression {
@@ -514,9 +544,25 @@ fn mouth(expression: Expression) -> Vec<(Ink, Flat, f32)> {
         ],
         Expression::Laugh => {
             let at = |[x, y]: [f32; 2]| Vec2::new(x * 1e-3, 1.4235 + y * 1e-3);
-            let top = curve(&[[-14.0, 4.0], [-7.0, 2.6], [0.0, 2.8], [7.0, 2.6], [14.0, 4.0]].map(at));
+            let top = curve(
+                &[
+                    [-14.0, 4.0],
+                    [-7.0, 2.6],
+                    [0.0, 2.8],
+                    [7.0, 2.6],
+                    [14.0, 4.0],
+                ]
+                .map(at),
+            );
             let bottom = curve(
-                &[[14.0, 4.0], [10.5, -5.0], [0.0, -10.5], [-10.5, -5.0], [-14.0, 4.0]].map(at),
+                &[
+                    [14.0, 4.0],
+                    [10.5, -5.0],
+                    [0.0, -10.5],
+                    [-10.5, -5.0],
+                    [-14.0, 4.0],
+                ]
+                .map(at),
             );
             let inside: Vec<Vec2> = top
                 .iter()
@@ -540,6 +586,94 @@ fn mouth(expression: Expression) -> Vec<(Ink, Flat, f32)> {
                     ([-13.6, 3.4], 0.3),
                 ]),
             ]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::body;
+    use super::*;
+
+    const EYES: [Eyes; 4] = [Eyes::Round, Eyes::Almond, Eyes::Sharp, Eyes::Sleepy];
+    const EXPRESSIONS: [Expression; 4] = [
+        Expression::Neutral,
+        Expression::Smile,
+        Expression::Laugh,
+        Expression::Closed,
+    ];
+
+    /// Every face there is.
+    fn faces() -> impl Iterator<Item = Face> {
+        EYES.into_iter().flat_map(|eyes| {
+            EXPRESSIONS.into_iter().flat_map(move |expression| {
+                [(0.7, Blush::None), (1.2, Blush::Flat), (1.0, Blush::Hatch)].map(
+                    |(eye_size, blush)| Face {
+                        eyes,
+                        eye_size,
+                        highlights: 3,
+                        expression,
+                        brow: 1.0,
+                        blush,
+                    },
+                )
+            })
+        })
+    }
+
+    fn skin(p: Vec3) -> f32 {
+        body::skin(p, 1.0)
+    }
+
+    #[test]
+    fn every_patch_lies_on_the_skin() {
+        for face in faces() {
+            for patch in patches(&face, &skin, true) {
+                for p in &patch.positions {
+                    let gap = skin(*p);
+                    assert!(
+                        (0.0..0.0012).contains(&gap),
+                        "{face:?}, {:?} at {p}: {gap}",
+                        patch.ink
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn closed_eyes_show_no_white_and_open_ones_do() {
+        for face in faces() {
+            let patches = patches(&face, &skin, false);
+            let has = |ink| patches.iter().any(|patch| patch.ink == ink);
+            let is_open = matches!(face.expression, Expression::Neutral | Expression::Smile);
+            assert_eq!(has(Ink::White), is_open, "{face:?}");
+            assert_eq!(has(Ink::Iris), is_open, "{face:?}");
+            assert_eq!(has(Ink::Mouth), face.expression == Expression::Laugh);
+            assert_eq!(has(Ink::Blush), face.blush != Blush::None);
+        }
+    }
+
+    #[test]
+    fn irises_stay_within_their_eyes() {
+        for face in faces().filter(|face| face.expression == Expression::Neutral) {
+            let patches = patches(&face, &skin, false);
+            let reach = |ink| {
+                let own = patches.iter().filter(|patch| patch.ink == ink);
+                let points = own.flat_map(|patch| &patch.positions).filter(|p| p.x > 0.0);
+                points.fold((Vec3::MAX, Vec3::MIN), |(low, high), p| {
+                    (low.min(*p), high.max(*p))
+                })
+            };
+            let (white_low, white_high) = reach(Ink::White);
+            for ink in [Ink::Iris, Ink::IrisShadow, Ink::IrisLight, Ink::WhiteShadow] {
+                let (low, high) = reach(ink);
+                let slack = Vec3::new(1e-4, 1e-4, 1.0);
+                assert!(
+                    low.cmpge(white_low - slack).all() && high.cmple(white_high + slack).all(),
+                    "{face:?} {ink:?}"
+                );
+            }
         }
     }
 }

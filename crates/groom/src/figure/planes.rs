@@ -9,10 +9,10 @@ use glam::Vec3;
 /// Half the front's width by height over the eyes, millimetres, from the brow's top to the chin.
 const FRONT: [(f32, f32); 8] = [
     (62.0, 60.0),
-    (36.0, 63.0),
-    (24.0, 67.0),
-    (-24.0, 64.0),
-    (-38.0, 50.0),
+    (38.0, 65.0),
+    (24.0, 71.0),
+    (-22.0, 69.0),
+    (-38.0, 53.0),
     (-62.0, 37.0),
     (-84.0, 27.0),
     (-104.0, 20.0),

@@ -11,12 +11,19 @@ pub(crate) struct Piece {
     pub triangles: Vec<[u32; 3]>,
     /// One a triangle.
     pub cloth: Vec<Cloth>,
+    /// Whether light falls on it as on the body below, not as on a body of its own.
+    pub is_lit_as_body: bool,
 }
 
 /// A smooth curve through points.
 fn curve_in_space(points: &[Vec3]) -> Vec<Vec3> {
     let along = curve(&points.iter().map(|p| p.truncate()).collect::<Vec<_>>());
-    let depths = curve(&points.iter().map(|p| Vec2::new(p.z, 0.0)).collect::<Vec<_>>());
+    let depths = curve(
+        &points
+            .iter()
+            .map(|p| Vec2::new(p.z, 0.0))
+            .collect::<Vec<_>>(),
+    );
     // Half as many joints do.
     let joints = along.iter().zip(&depths).map(|(p, z)| p.extend(z.x));
     joints.step_by(2).collect()
@@ -63,6 +70,7 @@ pub(crate) fn band(rows: &[(&[Vec3], Lie)], cloth: &[Cloth], on: impl Fn(Vec3) -
             .collect(),
         triangles: Vec::new(),
         cloth: Vec::new(),
+        is_lit_as_body: true,
     };
     for i in 0..along - 1 {
         for k in 0..around {
@@ -78,7 +86,11 @@ pub(crate) fn band(rows: &[(&[Vec3], Lie)], cloth: &[Cloth], on: impl Fn(Vec3) -
         piece.cloth.push(cloth[0]);
     }
     // The open end lies in a plane through 0, which adds nothing to the volume.
-    let volume: f32 = piece.triangles.iter().map(|t| volume(&piece.positions, *t)).sum();
+    let volume: f32 = piece
+        .triangles
+        .iter()
+        .map(|t| volume(&piece.positions, *t))
+        .sum();
     if volume < 0.0 {
         piece.triangles.iter_mut().for_each(|t| t.swap(1, 2));
     }
@@ -140,6 +152,7 @@ pub(crate) fn slab(
         cloth: vec![cloth; triangles.len()],
         positions,
         triangles,
+        is_lit_as_body: false,
     }
 }
 
@@ -150,7 +163,11 @@ fn ears(outline: &[Vec2]) -> Vec<[u32; 3]> {
     while left.len() > 3 {
         let count = left.len();
         let corner = |i: usize| {
-            [left[(i + count - 1) % count], left[i % count], left[(i + 1) % count]]
+            [
+                left[(i + count - 1) % count],
+                left[i % count],
+                left[(i + 1) % count],
+            ]
         };
         let turn = |[a, b, c]: [u32; 3]| {
             let [a, b, c] = [a, b, c].map(|i| outline[i as usize]);
@@ -160,7 +177,9 @@ fn ears(outline: &[Vec2]) -> Vec<[u32; 3]> {
             let [a, b, c] = corner(*i);
             let is_in = |p: &u32| {
                 ![a, b, c].contains(p)
-                    && [[a, b, *p], [b, c, *p], [c, a, *p]].iter().all(|t| turn(*t) > 0.0)
+                    && [[a, b, *p], [b, c, *p], [c, a, *p]]
+                        .iter()
+                        .all(|t| turn(*t) > 0.0)
             };
             turn([a, b, c]) > 0.0 && !left.iter().any(is_in)
         };
@@ -170,7 +189,9 @@ fn ears(outline: &[Vec2]) -> Vec<[u32; 3]> {
             outline[a as usize].distance(outline[c as usize])
         };
         let ears = (0..count).filter(is_ear);
-        let ear = ears.min_by(|a, b| width(*a).total_cmp(&width(*b))).unwrap_or(0);
+        let ear = ears
+            .min_by(|a, b| width(*a).total_cmp(&width(*b)))
+            .unwrap_or(0);
         triangles.push(corner(ear));
         left.remove(ear);
     }

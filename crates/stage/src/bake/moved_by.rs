@@ -151,7 +151,13 @@ fn head_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Cause,
             hash.file(&path)?;
             file_name(&path)
         }
-        None => section.shape.name().to_owned(),
+        None => {
+            if section.shape == HeadShape::Figure {
+                hash.bytes(section.dress.name().as_bytes());
+                hash.numbers(&[section.crop]);
+            }
+            section.shape.name().to_owned()
+        }
     };
     hash.bytes(words.as_bytes());
     Ok(hash.cause("head", words))

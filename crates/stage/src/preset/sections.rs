@@ -58,7 +58,7 @@ choices! {
         Turtleneck = "turtleneck",
         /// A shirt with a folded collar and a tie.
         Collar = "collar",
-        /// A jacket with a standing collar, open over a shirt.
+        /// A jacket with a wide collar, open over a shirt.
         Jacket = "jacket",
         /// A blouse with a sailor's collar and a bow.
         Sailor = "sailor",
