@@ -546,6 +546,70 @@ mod tests {
     }
 
     #[test]
+    fn hair_is_of_one_size_on_the_bust_and_on_figures() {
+        let found = HeadModel::bust().frame(&[]);
+        let figure = HeadModel::figure(&Figure::default()).frame(&[]);
+        assert!(
+            found.center.distance(figure.center) < 1e-3,
+            "{found:?} {figure:?}"
+        );
+        assert!((found.height_m - figure.height_m).abs() < 1e-3);
+    }
+
+    #[test]
+    fn clothes_have_colours_of_their_own() {
+        let sailor = HeadModel::figure(&Figure {
+            dress: groom::Dress::Sailor,
+            ..Figure::default()
+        });
+        let seen = surfaces(&sailor, &PAINT, &bust_camera(), &Light::Direction(Vec3::Z));
+        let drawn = |color: [f32; 3]| -> usize {
+            let own = seen.iter().filter(|surface| surface.light == color);
+            own.map(|surface| surface.triangles.len()).sum()
+        };
+        assert!(drawn(PAINT.dress) > 500 && drawn(PAINT.accent) > 100);
+        assert!(drawn(PAINT.light) > 1000 && drawn(PAINT.dress_line) > 100);
+        let all: usize = sailor.clothes.iter().map(|(_, own)| own.len()).sum();
+        assert_eq!(all + sailor.skin.len(), sailor.mesh.triangles.len());
+        // Lines end at the cut.
+        let low = sailor.mesh.positions.iter().zip(&sailor.outline);
+        let (at_the_cut, above): (Vec<_>, Vec<_>) = low.partition(|(p, _)| p.y < 1.1301);
+        assert!(at_the_cut.len() > 50 && at_the_cut.iter().all(|(_, width)| **width < 0.01));
+        assert!(above.iter().all(|(p, width)| p.y < 1.19 || **width == 1.0));
+    }
+
+    #[test]
+    fn the_side_of_the_nose_is_dark_where_light_is_away() {
+        let figure = HeadModel::figure(&Figure::default());
+        let dark = |light: Vec3| {
+            let light = Light::Direction(light.normalize());
+            let seen = surfaces(&figure, &PAINT, &bust_camera(), &light);
+            // Patches are flat in one tone; the skin has two.
+            let flat = |surface: &&Surface| surface.light == surface.shadow;
+            let own = seen.iter().filter(|surface| surface.light == PAINT.shadow);
+            own.filter(flat)
+                .filter(|surface| surface.triangles.len() < 200 && !surface.triangles.is_empty())
+                .count()
+        };
+        assert_eq!(dark(Vec3::new(0.0, 0.0, 1.0)), 0);
+        assert_eq!(dark(Vec3::new(1.0, 0.0, 1.0)), 1, "the other side");
+        assert_eq!(dark(Vec3::new(-1.0, 0.0, 1.0)), 1);
+        assert_eq!(dark(Vec3::new(0.0, 1.2, 1.0)), 1, "under the lip");
+    }
+
+    /// Looks at the face of the bust or a figure.
+    fn bust_camera() -> Camera {
+        let view = OrbitView {
+            target: Vec3::new(0.0, 1.4, 0.0),
+            yaw_degrees: 0.0,
+            pitch_degrees: 0.0,
+            distance_m: 2.0,
+            vertical_fov_degrees: 30.0,
+        };
+        Camera::orbit(view, [100, 100], 0.01).unwrap()
+    }
+
+    #[test]
     fn triangles_are_cut_at_the_near_plane() {
         let mut mesh = plate();
         mesh.positions[2].z = 5.0; // behind the eye

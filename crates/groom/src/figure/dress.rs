@@ -114,7 +114,7 @@ impl Dress {
                 layers.extend(hemmed(turtleneck, Cloth::Dress));
                 layers.push(layer(turtleneck, ROLL, ROLL + HEM, Cloth::Line));
             }
-            Self::Collar => layers.extend(hemmed(crew, Cloth::Dress)),
+            Self::Collar => layers.push(layer(crew, 0.0, f32::INFINITY, Cloth::Dress)),
             Self::Jacket => {
                 layers.extend(hemmed(crew, Cloth::Accent));
                 layers.extend(hemmed(outside_v, Cloth::Dress));
@@ -201,6 +201,28 @@ fn around(out: f32, y: f32, ahead: f32) -> Vec3 {
     Vec3::new(out, y, neck_axis(y) + ahead)
 }
 
+/// A collar from where it leaves the dress over its fold to its edge, with a line along both.
+fn collar(base: [Vec3; 5], fold: [Vec3; 5], edge: [Vec3; 5], dress: Dress) -> Piece {
+    let towards = |from: [Vec3; 5], to: [Vec3; 5]| -> Vec<Vec3> {
+        let pairs = from.into_iter().zip(to);
+        let aside = pairs.map(|(from, to)| from + (to - from).normalize_or_zero() * HEM);
+        aside.collect()
+    };
+    let (below_fold, above_edge) = (towards(fold, edge), towards(edge, fold));
+    let (cloth, line) = (Cloth::Dress, Cloth::Line);
+    band(
+        &[
+            (&base, Lie::At(-0.002)),
+            (&fold, Lie::Over(0.005)),
+            (&below_fold, Lie::Over(0.005)),
+            (&above_edge, Lie::At(0.005)),
+            (&edge, Lie::At(0.005)),
+        ],
+        &[cloth, line, cloth, line, cloth],
+        |p| dress.distance(p),
+    )
+}
+
 fn folded_collar() -> Piece {
     // From the back to the tips of the wings in front: where it leaves the neck, its fold, its edge.
     let base = [
@@ -224,15 +246,7 @@ fn folded_collar() -> Piece {
         around(0.052, 1.268, 0.047),
         around(0.026, 1.252, 0.058),
     ];
-    band(
-        &[
-            (&base, Lie::At(-0.002)),
-            (&fold, Lie::Over(0.005)),
-            (&edge, Lie::At(0.005)),
-        ],
-        &[Cloth::Dress; 3],
-        |p| Dress::Collar.distance(p),
-    )
+    collar(base, fold, edge, Dress::Collar)
 }
 
 /// Folded over a jacket, from the back to the lapels beside the V.
@@ -258,15 +272,7 @@ fn jacket_collar() -> Piece {
         around(0.080, 1.268, 0.044),
         around(0.034, 1.206, 0.070),
     ];
-    band(
-        &[
-            (&base, Lie::At(-0.002)),
-            (&fold, Lie::Over(0.006)),
-            (&edge, Lie::At(0.005)),
-        ],
-        &[Cloth::Dress; 3],
-        |p| Dress::Jacket.distance(p),
-    )
+    collar(base, fold, edge, Dress::Jacket)
 }
 
 /// Over the shoulders, square on the back, its points at the bow.
@@ -313,7 +319,7 @@ fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
         (-17.0, -224.0),
         (-14.0, -120.0),
     ];
-    let at = Vec2::new(0.0, 1.287);
+    let at = Vec2::new(0.0, 1.292);
     vec![
         slab(at, &blade, 0.0045, Cloth::Accent, &on),
         slab(at, &knot, 0.0085, Cloth::Accent, &on),

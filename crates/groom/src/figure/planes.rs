@@ -7,12 +7,13 @@ use crate::shape::EYE_HEIGHT;
 use glam::Vec3;
 
 /// Half the front's width by height over the eyes, millimetres, from the brow's top to the chin.
-const FRONT: [(f32, f32); 8] = [
+const FRONT: [(f32, f32); 9] = [
     (62.0, 60.0),
-    (38.0, 65.0),
-    (24.0, 71.0),
-    (-22.0, 69.0),
-    (-38.0, 53.0),
+    (40.0, 66.0),
+    (26.0, 76.0),
+    (-15.0, 76.0),
+    (-25.0, 70.0),
+    (-41.0, 53.0),
     (-62.0, 37.0),
     (-84.0, 27.0),
     (-104.0, 20.0),

@@ -4,7 +4,7 @@ use crate::dynamics::DynamicsSection;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::load::chosen;
-use crate::preset::Preset;
+use crate::preset::{HeadShape, Preset};
 use effects::section::Section as _;
 use effects::{Param, ParamKind, Value};
 use hair_io::BoneMotion;
