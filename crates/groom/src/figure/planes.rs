@@ -31,7 +31,7 @@ pub(crate) fn facing(p: Vec3, normal: Vec3) -> Vec3 {
         * smooth((p.z - 0.015) * 1e3 / 10.0);
     let half = 2.0 * smooth(x / 12.0 + 0.5) - 1.0;
     // Below the eyes the front turns down a little.
-    let down = 0.10 - 0.22 * smooth((-28.0 - y) / 50.0);
+    let down = 0.08 - 0.12 * smooth((-28.0 - y) / 50.0);
     let front = Vec3::new(0.30 * half, down, 1.0);
     normal.lerp(front.normalize(), within).normalize_or(normal)
 }
