@@ -588,7 +588,7 @@ mod tests {
             let flat = |surface: &&Surface| surface.light == surface.shadow;
             let own = seen.iter().filter(|surface| surface.light == PAINT.shadow);
             own.filter(flat)
-                .filter(|surface| surface.triangles.len() < 200 && !surface.triangles.is_empty())
+                .filter(|surface| surface.triangles.len() < 1000 && !surface.triangles.is_empty())
                 .count()
         };
         assert_eq!(dark(Vec3::new(0.0, 0.0, 1.0)), 0);

@@ -42,14 +42,14 @@ mod tests {
         let triangles = (0..18).map(|i| [i, i + 1, i + 2]);
         let (positions, triangles): (Vec<Vec3>, Vec<_>) =
             (positions.collect(), triangles.collect());
-        let split = |roots: &[Vec3], reach: f32| super::split(&positions, &triangles, roots, reach);
+        let parts = |roots: &[Vec3], reach: f32| split(&positions, &triangles, roots, reach);
         let roots = [Vec3::new(0.0, 0.5, 0.0), Vec3::new(1.0, 0.5, 0.0)];
-        let [scalp, skin] = split(&roots, 1.3);
+        let [scalp, skin] = parts(&roots, 1.3);
         // Roots at 0 and 1 reach to x = 2.2.
         let last = |triangles: &[[u32; 3]]| triangles.iter().flatten().copied().max();
         assert_eq!(last(&scalp), Some(5));
         assert_eq!(scalp.len() + skin.len(), 18);
-        assert_eq!(split(&[], 1.0)[0].len(), 0);
-        assert_eq!(split(&[Vec3::MAX, Vec3::MIN], 1e-30)[0].len(), 0);
+        assert_eq!(parts(&[], 1.0)[0].len(), 0);
+        assert_eq!(parts(&[Vec3::MAX, Vec3::MIN], 1e-30)[0].len(), 0);
     }
 }
