@@ -131,7 +131,7 @@ impl Figure {
                 let sum: f32 = triangle.iter().map(|k| fields[*i][*k as usize]).sum();
                 (layer.from..layer.to).contains(&(sum / 3.0))
             };
-            let top = layers.iter().enumerate().filter(covers).last();
+            let top = layers.iter().enumerate().rfind(covers);
             top.map_or(Cloth::Skin, |(_, layer)| layer.cloth)
         };
         let cloth = net.triangles.iter().map(cloth_of).collect();
