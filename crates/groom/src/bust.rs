@@ -1,16 +1,17 @@
 //! The bust: its skin as a mesh, and what is drawn on it.
 
+use crate::Shell;
 use crate::face::{self, Patch};
-use crate::shape::{distance, distance_to_ear, jaw_shade, shading_normal};
+use crate::figure::{Cloth, above_hairline};
+use crate::shape::{distance, jaw_shade, shading_normal};
 use crate::surface_nets::{Grid, Net, planes, relax, surface_net, with_image};
-use crate::{Scalp, Shell};
 use glam::Vec3;
 
 /// Middle of the head.
-const CENTER: Vec3 = Vec3::new(0.0, 1.5, 0.0);
+pub(crate) const CENTER: Vec3 = Vec3::new(0.0, 1.5, 0.0);
 
 /// From the chin to the top, metres.
-const HEIGHT: f32 = 0.24;
+pub(crate) const HEIGHT: f32 = 0.24;
 
 /// A head with neck and shoulders, and what is drawn on it.
 #[derive(Clone, Debug)]
@@ -19,6 +20,10 @@ pub struct Bust {
     pub positions: Vec<Vec3>,
     /// Unit normals, one a position. They shade: what is smaller than a nose does not turn them.
     pub normals: Vec<Vec3>,
+    /// Which way light takes each position to face, unit vectors, where those aren't the normals; else empty.
+    pub facing: Vec<Vec3>,
+    /// The outline's width at each position, in parts of its whole width; empty where it is whole all over.
+    pub outline: Vec<f32>,
     /// The shadow that the jaw casts on the neck wherever the light is, one a position: 0 is none,
     /// 1 is enough to be dark in full light.
     pub shade: Vec<f32>,
@@ -27,6 +32,8 @@ pub struct Bust {
     pub scalp: Vec<f32>,
     /// Indices, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
+    /// What each triangle is painted as; empty where all is skin.
+    pub cloth: Vec<Cloth>,
     /// What is drawn on the skin: eyes, brows, nose, mouth, ears, collarbones; later ones over
     /// earlier ones.
     pub patches: Vec<Patch>,
@@ -41,16 +48,16 @@ pub fn bust() -> Bust {
     } = skin();
     let normals: Vec<Vec3> = positions.iter().map(|p| shading_normal(*p)).collect();
     let shell = Shell::new(&positions, &normals, &triangles, CENTER, HEIGHT);
-    let hairline = Scalp::default();
-    let above_hairline = |p: &Vec3| {
-        let place = shell.place(*p);
-        let above = place.latitude - hairline.hairline_at(place.longitude);
-        above.min((distance_to_ear(*p) - 0.003) * 1e3)
-    };
     Bust {
         normals,
+        facing: Vec::new(),
+        outline: Vec::new(),
+        cloth: Vec::new(),
         shade: positions.iter().map(|p| jaw_shade(*p)).collect(),
-        scalp: positions.iter().map(above_hairline).collect(),
+        scalp: positions
+            .iter()
+            .map(|p| above_hairline(&shell, *p))
+            .collect(),
         positions,
         triangles,
         patches: face::patches(),
@@ -84,6 +91,7 @@ fn skin() -> Net {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::distance_to_ear;
     use std::collections::HashMap;
 
     #[test]

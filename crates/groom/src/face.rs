@@ -15,6 +15,16 @@ pub enum Ink {
     Iris,
     /// The upper part of the iris, in the lid's shadow, and the pupil.
     IrisShadow,
+    /// The lower part of the iris, which light comes through.
+    IrisLight,
+    /// The white of the eye in the lid's shadow.
+    WhiteShadow,
+    /// The skin in shadow.
+    SkinShadow,
+    /// Blush on the cheeks.
+    Blush,
+    /// The inside of the mouth.
+    Mouth,
 }
 
 /// A shape on the skin.
@@ -22,6 +32,8 @@ pub enum Ink {
 pub struct Patch {
     /// Its colour.
     pub ink: Ink,
+    /// Drawn where light is away from this direction, a unit vector that turns with the head; none is always drawn.
+    pub away_from: Option<Vec3>,
     /// Positions in metres, a little outside the skin.
     pub positions: Vec<Vec3>,
     /// Indices into `positions`.
@@ -38,13 +50,13 @@ const LAYER: f32 = 0.00014;
 const EYE: Vec2 = Vec2::new(0.0355, EYE_HEIGHT - 0.0015);
 
 /// A plane that is drawn on, to be laid onto the skin in front of it.
-struct Sheet {
-    origin: Vec3,
-    right: Vec3,
-    up: Vec3,
+pub(crate) struct Sheet {
+    pub origin: Vec3,
+    pub right: Vec3,
+    pub up: Vec3,
 }
 
-const FRONT: Sheet = Sheet {
+pub(crate) const FRONT: Sheet = Sheet {
     origin: Vec3::ZERO,
     right: Vec3::X,
     up: Vec3::Y,
@@ -161,7 +173,7 @@ fn eye(add: &mut impl FnMut(Ink, Flat, f32), side: f32) {
 }
 
 /// A stroke through points in millimetres, y from `base` in metres; widths in millimetres.
-fn line(base: f32, points: &[([f32; 2], f32)]) -> Flat {
+pub(crate) fn line(base: f32, points: &[([f32; 2], f32)]) -> Flat {
     let points = points.iter().map(|([x, y], width)| {
         let at = Vec2::new(x * 1e-3, base + y * 1e-3);
         (at, width * 1e-3)
@@ -212,7 +224,7 @@ fn lower_lip() -> Flat {
 }
 
 /// From the pit of the neck outwards.
-fn collarbone() -> Flat {
+pub(crate) fn collarbone() -> Flat {
     line(
         1.28,
         &[
@@ -225,7 +237,7 @@ fn collarbone() -> Flat {
 }
 
 /// The strap of muscle that ends at the collarbone.
-fn neck() -> Flat {
+pub(crate) fn neck() -> Flat {
     line(
         1.28,
         &[([9.5, 10.0], 0.9), ([13.5, 24.0], 0.7), ([20.0, 42.0], 0.1)],
@@ -233,7 +245,7 @@ fn neck() -> Flat {
 }
 
 /// The rim's inner edge, and the bowl's, in the sheet of the left ear.
-fn ear_lines() -> [Flat; 2] {
+pub(crate) fn ear_lines() -> [Flat; 2] {
     let rim = [
         ([-12.0, 8.0], 0.2),
         ([-8.0, 21.0], 1.0),
@@ -252,7 +264,7 @@ fn ear_lines() -> [Flat; 2] {
     [line(0.0, &rim), line(0.0, &bowl)]
 }
 
-fn mirrored(mut flat: Flat, side: f32) -> Flat {
+pub(crate) fn mirrored(mut flat: Flat, side: f32) -> Flat {
     for point in &mut flat.points {
         point.x *= side;
     }
@@ -260,7 +272,7 @@ fn mirrored(mut flat: Flat, side: f32) -> Flat {
 }
 
 /// `p`, or where the way to it from `center` leaves the outline.
-fn keep_inside(p: Vec2, center: Vec2, outline: &[Vec2]) -> Vec2 {
+pub(crate) fn keep_inside(p: Vec2, center: Vec2, outline: &[Vec2]) -> Vec2 {
     let way = p - center;
     let mut share = 1.0_f32;
     for (i, a) in outline.iter().enumerate() {
@@ -282,6 +294,17 @@ fn keep_inside(p: Vec2, center: Vec2, outline: &[Vec2]) -> Vec2 {
 impl Sheet {
     /// Lays a flat shape onto the skin, straight back from this sheet.
     fn lay(&self, ink: Ink, flat: &Flat, layer: f32) -> Patch {
+        self.lay_on(&distance, ink, flat, layer)
+    }
+
+    /// The same on another surface than the bust's.
+    pub(crate) fn lay_on(
+        &self,
+        distance: &impl Fn(Vec3) -> f32,
+        ink: Ink,
+        flat: &Flat,
+        layer: f32,
+    ) -> Patch {
         let front = self.right.cross(self.up);
         let positions = flat.points.iter().map(|p| {
             // Walk in from the front until the skin is reached.
@@ -307,6 +330,7 @@ impl Sheet {
         });
         Patch {
             ink,
+            away_from: None,
             positions: positions.collect(),
             triangles: triangles.collect(),
         }

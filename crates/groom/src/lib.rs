@@ -2,8 +2,8 @@
 //!
 //! [`bust`] is a stylised head with neck and shoulders, made by code, with a drawn face: metres, Y up,
 //! the face towards +Z, 0.24 m from the chin at 1.38 m to the top at 1.62 m. [`grow`] grows a [`Style`]
-//! on the [`Shell`] of that or any other head. [`Guides`] are the few strands that stand for a dense
-//! groom.
+//! on the [`Shell`] of that or any other head. A [`Figure`] has the bust's skull, and a face, a body and a
+//! dress to choose. [`Guides`] are the few strands that stand for a dense groom.
 //!
 //! ```
 //! use groom::{Drawn, Place, Scalp, Shell, Style, bust, grow};
@@ -33,7 +33,9 @@
 //! ```
 
 mod bust;
+mod cut;
 mod face;
+mod figure;
 mod guides;
 mod random;
 mod ribbon;
@@ -46,6 +48,7 @@ mod trig;
 
 pub use bust::{Bust, bust};
 pub use face::{Ink, Patch};
+pub use figure::{Blush, Cloth, Dress, Expression, Eyes, Face, Figure};
 pub use guides::Guides;
 pub use shell::{Place, Shell, direction};
 pub use style::{

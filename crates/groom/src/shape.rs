@@ -45,9 +45,18 @@ fn head(p: Vec3, share: f32) -> f32 {
     melt(skull(p, share), ear(p), 0.007)
 }
 
+/// The round of the skull, on which hair grows.
+pub(crate) fn cranium(p: Vec3) -> f32 {
+    ellipsoid(
+        p,
+        Vec3::new(0.0, 1.530, -0.012),
+        Vec3::new(0.083, 0.090, 0.100),
+    )
+}
+
 fn skull(p: Vec3, share: f32) -> f32 {
     let v = Vec3::new;
-    let cranium = ellipsoid(p, v(0.0, 1.530, -0.012), v(0.083, 0.090, 0.100));
+    let cranium = cranium(p);
     if p.y > 1.58 {
         return cranium; // nothing else reaches up here
     }
@@ -104,7 +113,7 @@ fn nose(p: Vec3) -> f32 {
 }
 
 /// A plate that leans back and opens to the front, and its lobe; what is in it is drawn.
-fn ear(p: Vec3) -> f32 {
+pub(crate) fn ear(p: Vec3) -> f32 {
     let v = Vec3::new;
     let from_middle = p - EAR;
     if from_middle.length_squared() > 0.05 * 0.05 {

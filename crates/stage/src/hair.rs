@@ -6,7 +6,7 @@ use crate::preset::HairSection;
 use crate::reach::reach_m;
 use glam::{Vec2, Vec3};
 use groom::{Guides, OrnamentMesh};
-use hair_io::{HairFile, HeadFrame, Mesh};
+use hair_io::{HairFile, HeadFrame};
 use hair_sim::{PointCache, Strands};
 use render::{Head, NO_TAPER, StrandInfo};
 use std::path::PathBuf;
@@ -59,13 +59,13 @@ impl HairModel {
         if file.strands.is_empty() {
             return Err(StageError::NoHair);
         }
-        let mut hair = Self::read(file, head.map(|head| &head.mesh));
+        let mut hair = Self::read(file, head);
         hair.choose_guides(&HairSection::default());
         Ok(hair)
     }
 
     /// Strands of a file, before guides are chosen.
-    pub(crate) fn read(mut file: HairFile, head: Option<&Mesh>) -> Self {
+    pub(crate) fn read(mut file: HairFile, head: Option<&HeadModel>) -> Self {
         sort_by_id(&mut file);
         // Before strands are chosen: how many are kept moves neither the camera nor any size.
         let all_roots: Vec<Vec3> = file.strands.roots().collect();
@@ -77,7 +77,10 @@ impl HairModel {
             shapes: None,
             bake: None,
             ornaments: Vec::new(),
-            head: head_of(HeadFrame::find(head, &all_roots)),
+            head: match head {
+                Some(head) => head.frame(&all_roots),
+                None => head_of(HeadFrame::find(None, &all_roots)),
+            },
             reach_m: 0.0,
             all_roots,
             file,

@@ -1,17 +1,33 @@
 //! The head on the screen: two flat tones and an outline.
 
+use crate::hair::head_of;
 use crate::scalp;
 use glam::{Vec2, Vec3};
-use groom::{Ink, OrnamentMesh, Patch};
-use hair_io::Mesh;
-use render::{Light, Surface, SurfaceVertex};
-use std::iter::repeat;
+use groom::{Bust, Cloth, Figure, Ink, OrnamentMesh, Patch};
+use hair_io::{HeadFrame, Mesh};
+use render::{Head, Light, Surface, SurfaceVertex};
+use std::iter::{once, repeat};
 use stroke_path::Camera;
+
+/// What is found in the bust's mesh, so that neither dress nor crop changes the size of hair.
+const FIGURE_FRAME: Head = Head {
+    center: Vec3::new(0.0, 1.4995, -0.0075),
+    height_m: 0.241,
+};
 
 /// A head's shape, and what is drawn on it.
 #[derive(Clone)]
 pub struct HeadModel {
     pub(crate) mesh: Mesh,
+    /// Which way light takes each position to face; empty where that is its normal.
+    pub(crate) facing: Vec<Vec3>,
+    /// The outline's width at each position, in parts of its whole width; empty is 1.
+    pub(crate) outline: Vec<f32>,
+    /// Triangles that are no skin, by what they are painted as; the rest.
+    pub(crate) clothes: Vec<(Cloth, Vec<[u32; 3]>)>,
+    pub(crate) skin: Vec<[u32; 3]>,
+    /// Where the head is, and its height, where that is known and need not be found in the mesh.
+    pub(crate) frame: Option<Head>,
     /// Shadow whatever the light, one a position, 0 to 1; empty is none.
     pub(crate) shade: Vec<f32>,
     pub(crate) patches: Vec<Patch>,
@@ -22,22 +38,37 @@ pub struct HeadModel {
 }
 
 impl HeadModel {
+    /// The head's middle and height, where `roots` grow on it.
+    pub(crate) fn frame(&self, roots: &[Vec3]) -> Head {
+        let find = || head_of(HeadFrame::find(Some(&self.mesh), roots));
+        self.frame.unwrap_or_else(find)
+    }
+
     /// Tells what of it has hair from what has none.
     pub(crate) fn find_scalp(&mut self, roots: &[Vec3], reach_m: f32) {
-        let split = scalp::split(&self.mesh, roots, reach_m);
+        let split = scalp::split(&self.mesh.positions, &self.skin, roots, reach_m);
         let Mesh {
-            positions, normals, ..
+            positions,
+            normals,
+            triangles,
         } = &mut self.mesh;
         for ([a, b], t) in split.between {
             let [a, b] = [a, b].map(|i| i as usize);
+            let way = |ways: &[Vec3]| ways[a].lerp(ways[b], t).normalize_or(ways[a]);
             positions.push(positions[a].lerp(positions[b], t));
-            normals.push(normals[a].lerp(normals[b], t).normalize_or(normals[a]));
-            if !self.shade.is_empty() {
-                self.shade
-                    .push(self.shade[a] + (self.shade[b] - self.shade[a]) * t);
+            normals.push(way(normals));
+            if !self.facing.is_empty() {
+                self.facing.push(way(&self.facing));
+            }
+            for list in [&mut self.shade, &mut self.outline] {
+                if !list.is_empty() {
+                    list.push(list[a] + (list[b] - list[a]) * t);
+                }
             }
         }
-        self.mesh.triangles = split.triangles.concat();
+        self.skin = split.triangles.concat();
+        triangles.clone_from(&self.skin);
+        triangles.extend(self.clothes.iter().flat_map(|(_, cloth)| cloth));
         self.scalp = split.triangles;
     }
 
@@ -55,14 +86,46 @@ impl HeadModel {
     /// The bust that comes with inkstrand.
     #[must_use]
     pub fn bust() -> Self {
-        let bust = groom::bust();
-        let mesh = Mesh {
-            positions: bust.positions,
-            normals: bust.normals,
-            triangles: bust.triangles,
-        };
+        groom::bust().into()
+    }
+
+    /// A figure. Its skull is the bust's, and hair that fits one fits the other.
+    #[must_use]
+    pub fn figure(figure: &Figure) -> Self {
         Self {
-            mesh,
+            frame: Some(FIGURE_FRAME),
+            ..figure.build().into()
+        }
+    }
+}
+
+impl From<Bust> for HeadModel {
+    fn from(bust: Bust) -> Self {
+        let painted = |cloth: Cloth| {
+            let all = bust.triangles.iter().zip(&bust.cloth);
+            let own = all.filter(|(_, other)| **other == cloth);
+            own.map(|(triangle, _)| *triangle).collect()
+        };
+        let clothes =
+            [Cloth::Dress, Cloth::Accent, Cloth::Line].map(|cloth| (cloth, painted(cloth)));
+        let skin = match bust.cloth.is_empty() {
+            true => bust.triangles.clone(),
+            false => painted(Cloth::Skin),
+        };
+        let clothes = clothes
+            .into_iter()
+            .filter(|(_, triangles)| !triangles.is_empty());
+        Self {
+            clothes: clothes.collect(),
+            skin,
+            facing: bust.facing,
+            outline: bust.outline,
+            frame: None,
+            mesh: Mesh {
+                positions: bust.positions,
+                normals: bust.normals,
+                triangles: bust.triangles,
+            },
             shade: bust.shade,
             patches: bust.patches,
             scalp: Default::default(),
@@ -74,7 +137,12 @@ impl HeadModel {
 impl From<Mesh> for HeadModel {
     fn from(mesh: Mesh) -> Self {
         Self {
+            skin: mesh.triangles.clone(),
             mesh,
+            facing: Vec::new(),
+            outline: Vec::new(),
+            clothes: Vec::new(),
+            frame: None,
             shade: Vec::new(),
             patches: Vec::new(),
             scalp: Default::default(),
@@ -99,6 +167,14 @@ pub(crate) struct HeadPaint {
     pub line: [f32; 3],
     pub iris: [f32; 3],
     pub iris_shadow: [f32; 3],
+    pub iris_light: [f32; 3],
+    pub blush: [f32; 3],
+    pub mouth: [f32; 3],
+    pub dress: [f32; 3],
+    pub dress_shadow: [f32; 3],
+    pub dress_line: [f32; 3],
+    pub accent: [f32; 3],
+    pub accent_shadow: [f32; 3],
     pub tie: [f32; 3],
     pub tie_shadow: [f32; 3],
     /// Between clumps of hair.
@@ -121,6 +197,22 @@ impl HeadPaint {
             Ink::White => [1.0; 3],
             Ink::Iris => self.iris,
             Ink::IrisShadow => self.iris_shadow,
+            Ink::IrisLight => self.iris_light,
+            // White in the shadow of the skin around it.
+            Ink::WhiteShadow => self.shadow.map(|shadow| 0.45 + 0.55 * shadow),
+            Ink::SkinShadow => self.shadow,
+            Ink::Blush => self.blush,
+            Ink::Mouth => self.mouth,
+        }
+    }
+
+    /// Light, shadow and outline of what a triangle is painted as.
+    fn of_cloth(&self, cloth: Cloth) -> [[f32; 3]; 3] {
+        match cloth {
+            Cloth::Skin => [self.light, self.shadow, self.line],
+            Cloth::Dress => [self.dress, self.dress_shadow, self.dress_line],
+            Cloth::Accent => [self.accent, self.accent_shadow, self.dress_line],
+            Cloth::Line => [self.dress_line; 3],
         }
     }
 }
@@ -152,30 +244,39 @@ pub(crate) fn surfaces(
 ) -> Vec<Surface> {
     let HeadModel {
         mesh,
+        facing,
+        outline: _,
+        clothes,
+        skin,
+        frame: _,
         shade,
         patches,
-        scalp: [scalp, skin],
+        scalp: [scalp, bare],
         ornaments,
     } = model;
+    let facing = match facing.is_empty() {
+        true => &mesh.normals,
+        false => facing,
+    };
     let shade = shade.iter().copied().chain(repeat(0.0));
     let corners: Vec<Corner> = mesh
         .positions
         .iter()
-        .zip(&mesh.normals)
+        .zip(facing)
         .zip(shade)
-        .map(|((position, normal), shade)| Corner {
+        .map(|((position, facing), shade)| Corner {
             view: camera.view_from_world(*position),
-            tone: normal.dot(light.seen_from(*position).0) - paint.threshold - shade,
+            tone: facing.dot(light.seen_from(*position).0) - paint.threshold - shade,
         })
         .collect();
-    let skin = match scalp.is_empty() {
-        true => &mesh.triangles,
-        false => skin,
+    let bare = match scalp.is_empty() {
+        true => skin,
+        false => bare,
     };
     let mut surfaces = vec![
         surface(
             camera,
-            skin,
+            bare,
             &corners,
             Facing::Front,
             paint.light,
@@ -185,7 +286,7 @@ pub(crate) fn surfaces(
             margin_m: paint.inside_margin_m,
             ..surface(
                 camera,
-                &mesh.triangles,
+                skin,
                 &corners,
                 Facing::Back,
                 paint.shadow,
@@ -197,16 +298,36 @@ pub(crate) fn surfaces(
         let (front, color) = (Facing::Front, paint.scalp);
         surfaces.push(surface(camera, scalp, &corners, front, color, color));
     }
-    if paint.width_m > 0.0 {
+    for (cloth, triangles) in clothes {
+        let [light, shadow, _] = paint.of_cloth(*cloth);
+        let (front, back) = (Facing::Front, Facing::Back);
+        surfaces.push(surface(camera, triangles, &corners, front, light, shadow));
         surfaces.push(Surface {
-            margin_m: -paint.outline_margin_m,
-            ..outline(mesh, paint, camera)
+            margin_m: paint.inside_margin_m,
+            ..surface(camera, triangles, &corners, back, shadow, shadow)
         });
+    }
+    if paint.width_m > 0.0 {
+        let hull = hull(mesh, &model.outline, paint, camera);
+        let skin = once((Cloth::Skin, skin));
+        let clothes = clothes.iter().map(|(cloth, triangles)| (*cloth, triangles));
+        for (cloth, triangles) in skin.chain(clothes) {
+            let [.., line] = paint.of_cloth(cloth);
+            surfaces.push(Surface {
+                margin_m: -paint.outline_margin_m,
+                ..surface(camera, triangles, &hull, Facing::Back, line, line)
+            });
+        }
     }
     if !ornaments.triangles.is_empty() {
         surfaces.extend(worn(ornaments, paint, camera, light));
     }
-    surfaces.extend(patches.iter().map(|patch| {
+    let center = model.frame.map_or(Vec3::ZERO, |head| head.center);
+    let is_drawn = |patch: &&Patch| {
+        let lit = |away: Vec3| away.dot(light.seen_from(center).0) >= paint.threshold;
+        !patch.away_from.is_some_and(lit)
+    };
+    surfaces.extend(patches.iter().filter(is_drawn).map(|patch| {
         let corner = |position: &Vec3| Corner {
             view: camera.view_from_world(*position),
             tone: 0.0,
@@ -219,19 +340,18 @@ pub(crate) fn surfaces(
     surfaces
 }
 
-/// The inside of a slightly larger mesh, seen around the edges of the mesh itself.
-fn outline(mesh: &Mesh, paint: &HeadPaint, camera: &Camera) -> Surface {
-    let hull: Vec<Corner> = mesh
-        .positions
+/// A slightly larger mesh, whose inside is seen around the edges of the mesh itself; `widths` as in [`HeadModel`].
+fn hull(mesh: &Mesh, widths: &[f32], paint: &HeadPaint, camera: &Camera) -> Vec<Corner> {
+    let widths = widths.iter().copied().chain(repeat(1.0));
+    mesh.positions
         .iter()
         .zip(&mesh.normals)
-        .map(|(position, normal)| Corner {
-            view: camera.view_from_world(*position + *normal * paint.width_m),
+        .zip(widths)
+        .map(|((position, normal), width)| Corner {
+            view: camera.view_from_world(*position + *normal * (paint.width_m * width)),
             tone: 0.0,
         })
-        .collect();
-    let (back, line) = (Facing::Back, paint.line);
-    surface(camera, &mesh.triangles, &hull, back, line, line)
+        .collect()
 }
 
 /// What the hair wears. Hair goes by its depth alone here: what is in a band does not hide it.
@@ -255,7 +375,16 @@ fn worn(ornaments: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> 
     );
     let mut worn = vec![front];
     if paint.width_m > 0.0 {
-        worn.push(outline(ornaments, paint, camera));
+        let hull = hull(ornaments, &[], paint, camera);
+        let (back, line) = (Facing::Back, paint.line);
+        worn.push(surface(
+            camera,
+            &ornaments.triangles,
+            &hull,
+            back,
+            line,
+            line,
+        ));
     }
     for surface in &mut worn {
         surface.margin_m = BAND_MARGIN_M;
@@ -400,6 +529,14 @@ mod tests {
         line: [0.0; 3],
         iris: [0.2; 3],
         iris_shadow: [0.1; 3],
+        iris_light: [0.3; 3],
+        blush: [0.9; 3],
+        mouth: [0.3; 3],
+        dress: [0.8; 3],
+        dress_shadow: [0.6; 3],
+        dress_line: [0.05; 3],
+        accent: [0.7; 3],
+        accent_shadow: [0.3; 3],
         tie: [0.2, 0.4, 0.6],
         tie_shadow: [0.1, 0.2, 0.3],
         scalp: [0.4, 0.2, 0.1],
@@ -436,6 +573,70 @@ mod tests {
         let seen = surfaces(&model, &PAINT, &camera(0.0), &Light::Direction(Vec3::Z));
         let tones = seen[0].vertices.iter().map(|vertex| vertex.tone > 0.0);
         assert_eq!(tones.collect::<Vec<_>>(), [true, true, false]);
+    }
+
+    #[test]
+    fn hair_is_of_one_size_on_the_bust_and_on_figures() {
+        let found = HeadModel::bust().frame(&[]);
+        let figure = HeadModel::figure(&Figure::default()).frame(&[]);
+        assert!(
+            found.center.distance(figure.center) < 1e-3,
+            "{found:?} {figure:?}"
+        );
+        assert!((found.height_m - figure.height_m).abs() < 1e-3);
+    }
+
+    #[test]
+    fn clothes_have_colours_of_their_own() {
+        let sailor = HeadModel::figure(&Figure {
+            dress: groom::Dress::Sailor,
+            ..Figure::default()
+        });
+        let seen = surfaces(&sailor, &PAINT, &bust_camera(), &Light::Direction(Vec3::Z));
+        let drawn = |color: [f32; 3]| -> usize {
+            let own = seen.iter().filter(|surface| surface.light == color);
+            own.map(|surface| surface.triangles.len()).sum()
+        };
+        assert!(drawn(PAINT.dress) > 500 && drawn(PAINT.accent) > 100);
+        assert!(drawn(PAINT.light) > 1000 && drawn(PAINT.dress_line) > 100);
+        let all: usize = sailor.clothes.iter().map(|(_, own)| own.len()).sum();
+        assert_eq!(all + sailor.skin.len(), sailor.mesh.triangles.len());
+        // Lines end at the cut.
+        let low = sailor.mesh.positions.iter().zip(&sailor.outline);
+        let (at_the_cut, above): (Vec<_>, Vec<_>) = low.partition(|(p, _)| p.y < 1.1301);
+        assert!(at_the_cut.len() > 50 && at_the_cut.iter().all(|(_, width)| **width < 0.01));
+        assert!(above.iter().all(|(p, width)| p.y < 1.19 || **width == 1.0));
+    }
+
+    #[test]
+    fn the_side_of_the_nose_is_dark_where_light_is_away() {
+        let figure = HeadModel::figure(&Figure::default());
+        let dark = |light: Vec3| {
+            let light = Light::Direction(light.normalize());
+            let seen = surfaces(&figure, &PAINT, &bust_camera(), &light);
+            // Patches are flat in one tone; the skin has two.
+            let flat = |surface: &&Surface| surface.light == surface.shadow;
+            let own = seen.iter().filter(|surface| surface.light == PAINT.shadow);
+            own.filter(flat)
+                .filter(|surface| surface.triangles.len() < 1000 && !surface.triangles.is_empty())
+                .count()
+        };
+        assert_eq!(dark(Vec3::new(0.0, 0.0, 1.0)), 0);
+        assert_eq!(dark(Vec3::new(1.0, 0.0, 1.0)), 1, "the other side");
+        assert_eq!(dark(Vec3::new(-1.0, 0.0, 1.0)), 1);
+        assert_eq!(dark(Vec3::new(0.0, 1.2, 1.0)), 1, "under the lip");
+    }
+
+    /// Looks at the face of the bust or a figure.
+    fn bust_camera() -> Camera {
+        let view = OrbitView {
+            target: Vec3::new(0.0, 1.4, 0.0),
+            yaw_degrees: 0.0,
+            pitch_degrees: 0.0,
+            distance_m: 2.0,
+            vertical_fov_degrees: 30.0,
+        };
+        Camera::orbit(view, [100, 100], 0.01).unwrap()
     }
 
     #[test]

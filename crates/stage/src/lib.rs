@@ -39,9 +39,10 @@ pub use motion::Motion;
 pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
-    BrushChoice, CameraSection, ClumpSection, FixedTo, HairSection, HeadSection, HeadShape,
-    LightKind, LightSection, MotionSection, NamedObject, ObjectSection, OrderChoice, PathChoice,
-    PathSection, Preset, SceneSection, Sections, TopSection, UpAxis, VERSION,
+    BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, ExpressionChoice,
+    EyesChoice, FixedTo, HairSection, HeadSection, HeadShape, LightKind, LightSection,
+    MotionSection, NamedObject, ObjectSection, OrderChoice, PathChoice, PathSection, Preset,
+    SceneSection, Sections, TopSection, UpAxis, VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;

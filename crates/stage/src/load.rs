@@ -1,18 +1,23 @@
 //! The preset's files: hair and head in, strands with their sizes out.
 
 use crate::files::{Files, StageError};
-use crate::hair::{HairModel, head_of};
+use crate::hair::HairModel;
 use crate::head::HeadModel;
-use crate::preset::{HeadShape, Preset, UpAxis};
+use crate::preset::{
+    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HeadSection, HeadShape, Preset, UpAxis,
+};
 use crate::style;
 use glam::{Vec2, Vec3};
-use groom::Taper;
+use groom::{Blush, Dress, Expression, Eyes, Face, Figure, Taper};
 use hair_io::orient::Axes;
 use hair_io::{HairError, HairFile, HairOptions, HeadFrame, Mesh};
 use hair_sim::Strands;
 use render::NO_TAPER;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+
+/// From the chin to the top of a figure, metres.
+const FIGURE_HEIGHT_M: f32 = 0.24;
 
 fn axes(up: UpAxis) -> Option<Axes> {
     match up {
@@ -52,6 +57,7 @@ pub(crate) fn head(
         return Ok(match section.shape {
             HeadShape::None => None,
             HeadShape::Bust => Some(HeadModel::bust()),
+            HeadShape::Figure => Some(HeadModel::figure(&figure(section))),
         });
     };
     let file = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
@@ -67,6 +73,43 @@ pub(crate) fn head(
             .for_each(|normal| *normal = -*normal);
     }
     Ok(Some(mesh.into()))
+}
+
+/// The figure that a section describes.
+fn figure(section: &HeadSection) -> Figure {
+    Figure {
+        crop_m: section.crop * FIGURE_HEIGHT_M,
+        dress: match section.dress {
+            DressChoice::None => Dress::None,
+            DressChoice::Choker => Dress::Choker,
+            DressChoice::Turtleneck => Dress::Turtleneck,
+            DressChoice::Collar => Dress::Collar,
+            DressChoice::Jacket => Dress::Jacket,
+            DressChoice::Sailor => Dress::Sailor,
+        },
+        face: Face {
+            eyes: match section.eyes {
+                EyesChoice::Round => Eyes::Round,
+                EyesChoice::Almond => Eyes::Almond,
+                EyesChoice::Sharp => Eyes::Sharp,
+                EyesChoice::Sleepy => Eyes::Sleepy,
+            },
+            eye_size: section.eye_size,
+            highlights: section.highlights,
+            expression: match section.expression {
+                ExpressionChoice::Neutral => Expression::Neutral,
+                ExpressionChoice::Smile => Expression::Smile,
+                ExpressionChoice::Laugh => Expression::Laugh,
+                ExpressionChoice::Closed => Expression::Closed,
+            },
+            brow: section.brow,
+            blush: match section.blush {
+                BlushChoice::None => Blush::None,
+                BlushChoice::Flat => Blush::Flat,
+                BlushChoice::Hatch => Blush::Hatch,
+            },
+        },
+    }
 }
 
 /// Whether most of a mesh faces inwards: its signed volume, seen from its middle, is below 0.
@@ -87,7 +130,7 @@ fn is_inside_out(mesh: &Mesh) -> bool {
 pub(crate) fn hair(
     preset: &Preset,
     files: &Files,
-    head: Option<&Mesh>,
+    head: Option<&HeadModel>,
     notes: &mut Vec<String>,
 ) -> Result<HairModel, StageError> {
     let own = preset.sections.hair.file.as_ref();
@@ -107,7 +150,7 @@ pub(crate) fn strands(
     preset: &Preset,
     files: &Files,
     path: &Path,
-    head: Option<&Mesh>,
+    head: Option<&HeadModel>,
     notes: &mut Vec<String>,
 ) -> Result<HairModel, StageError> {
     let section = &preset.sections.hair;
@@ -121,10 +164,12 @@ pub(crate) fn strands(
         scale: scale(section.scale),
         offset: None,
     };
-    let mut hair = hair_io::read_hair(path, &HairOptions { given, head }).map_err(with_styles)?;
+    let mesh = head.map(|head| &head.mesh);
+    let options = HairOptions { given, head: mesh };
+    let mut hair = hair_io::read_hair(path, &options).map_err(with_styles)?;
     notes.append(&mut hair.notes);
     if given.scale.is_none() {
-        notes.extend(misfit(&hair.strands, head));
+        notes.extend(misfit(&hair.strands, mesh));
     }
     Ok(HairModel::read(hair, head))
 }
@@ -185,12 +230,12 @@ fn taper(own: &Taper) -> Vec2 {
 }
 
 /// The hair of a style, grown on the head.
-fn grow(files: &Files, path: &Path, head: Option<&Mesh>) -> Result<HairModel, StageError> {
-    let mesh = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
+fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairModel, StageError> {
+    let model = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
     let text = files.read_text(path)?;
     let style = style::parse(&path.display().to_string(), &text)?;
     // The mesh alone: the hair that grows on a head must not change its size.
-    let head = head_of(HeadFrame::find(Some(mesh), &[]));
+    let (mesh, head) = (&model.mesh, model.frame(&[]));
     let shell = groom::Shell::new(
         &mesh.positions,
         &mesh.normals,

@@ -94,6 +94,10 @@ impl PosedHead {
             posed.positions[i] = moved(rest.positions[i], *share);
             posed.normals[i] = turn(*share) * rest.normals[i];
         }
+        let (rest, posed) = (&neck.rest.facing, &mut self.model.facing);
+        for (i, facing) in rest.iter().enumerate() {
+            posed[i] = turn(neck.shares[i]) * *facing;
+        }
         let (rest, posed) = (&neck.rest.ornaments, &mut self.model.ornaments);
         for i in 0..rest.positions.len() {
             posed.positions[i] = moved(rest.positions[i], 1.0);
@@ -104,6 +108,7 @@ impl PosedHead {
             for (i, share) in shares.iter().enumerate() {
                 posed.positions[i] = moved(rest.positions[i], *share);
             }
+            posed.away_from = rest.away_from.map(|away| turn(1.0) * away);
         }
     }
 }
@@ -157,6 +162,23 @@ mod tests {
             }
         }
         assert!(turned > 1000 && still > 500, "{turned} {still}");
+        // Light and drawn shadows turn with a figure's face.
+        let figure = HeadModel::figure(&groom::Figure::default());
+        let (facing, away) = (figure.facing.clone(), figure.patches[0].away_from.unwrap());
+        let neck_of_figure = Neck::new(figure, head);
+        let mut posed_figure = PosedHead::new(&neck_of_figure);
+        let turned_figure = posed_figure.in_pose(&neck_of_figure, pose);
+        let turned_away = turned_figure.patches[0].away_from.unwrap();
+        assert!(turned_away.distance((rotation * away.as_dvec3()).as_vec3()) < 1e-6);
+        for ((from, to), p) in facing
+            .iter()
+            .zip(&turned_figure.facing)
+            .zip(&neck_of_figure.rest_mesh().positions)
+        {
+            if p.y > 1.5 - 0.42 * 0.24 {
+                assert!(to.distance((rotation * from.as_dvec3()).as_vec3()) < 1e-6);
+            }
+        }
         for normal in &turned_head.mesh.normals {
             assert!((normal.length() - 1.0).abs() < 1e-4);
         }

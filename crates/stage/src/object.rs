@@ -52,9 +52,8 @@ impl Object {
         notes: &mut Vec<String>,
     ) -> Result<Self, StageError> {
         let head = load::head(preset, files, notes)?;
-        let mesh = head.as_ref().map(|model| &model.mesh);
-        let mut hair = load::hair(preset, files, mesh, notes)?;
-        let script = script::load(preset, files, &mut hair, mesh)?;
+        let mut hair = load::hair(preset, files, head.as_ref(), notes)?;
+        let script = script::load(preset, files, &mut hair, head.as_ref())?;
         hair.choose_guides(&preset.sections.hair);
         bake::load(preset, files, &mut hair, notes)?;
         Self::of(hair, head, look, script)

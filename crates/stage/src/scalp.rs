@@ -1,7 +1,6 @@
 //! Where a head has hair: what of its mesh is seen between clumps in the hair's colour, so that gaps are no bald spots.
 
 use glam::{IVec3, Vec3};
-use hair_io::Mesh;
 use std::collections::HashMap;
 
 /// Bare places in the hair are scalp too, up to this share of its area.
@@ -17,22 +16,26 @@ pub(crate) struct Split {
 }
 
 /// Tells the part of a mesh that has hair from the part that has none.
-pub(crate) fn split(mesh: &Mesh, roots: &[Vec3], reach_m: f32) -> Split {
+pub(crate) fn split(
+    positions: &[Vec3],
+    triangles: &[[u32; 3]],
+    roots: &[Vec3],
+    reach_m: f32,
+) -> Split {
     let roots = Roots::new(roots, reach_m);
     // Above 0 within the hairline.
-    let inside: Vec<f32> = mesh
-        .positions
+    let inside: Vec<f32> = positions
         .iter()
         .map(|p| reach_m - roots.distance(*p))
         .collect();
     let mut cuts = Cuts {
-        first: mesh.positions.len() as u32,
+        first: positions.len() as u32,
         inside: &inside,
         between: Vec::new(),
         of_edge: HashMap::new(),
     };
     let (mut scalp, mut skin) = (Vec::new(), Vec::new());
-    for triangle in &mesh.triangles {
+    for triangle in triangles {
         let has_hair = triangle.map(|i| inside[i as usize] > 0.0);
         match has_hair.iter().filter(|has| **has).count() {
             3 => scalp.push(*triangle),
@@ -52,11 +55,11 @@ pub(crate) fn split(mesh: &Mesh, roots: &[Vec3], reach_m: f32) -> Split {
         }
     }
     let between = cuts.between;
-    let place = |i: u32| match mesh.positions.get(i as usize) {
+    let place = |i: u32| match positions.get(i as usize) {
         Some(place) => *place,
         None => {
-            let ([a, b], t) = between[i as usize - mesh.positions.len()];
-            mesh.positions[a as usize].lerp(mesh.positions[b as usize], t)
+            let ([a, b], t) = between[i as usize - positions.len()];
+            positions[a as usize].lerp(positions[b as usize], t)
         }
     };
     fill_gaps(&mut scalp, &mut skin, place);
@@ -191,6 +194,7 @@ impl Islands {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hair_io::Mesh;
 
     /// A strip of squares along x, 1 wide.
     fn strip(length: u32) -> Mesh {
@@ -227,7 +231,7 @@ mod tests {
     fn the_hairline_cuts_triangles() {
         let mesh = strip(9);
         let roots = [Vec3::new(0.0, 0.5, 0.0), Vec3::new(2.0, 0.5, 0.0)];
-        let split = split(&mesh, &roots, 2.5);
+        let split = split(&mesh.positions, &mesh.triangles, &roots, 2.5);
         let places = places(&mesh, &split);
         // Both sides of the line together are the mesh, facing as before.
         let [scalp, skin] = split.triangles.each_ref().map(|t| area(&places, t));
@@ -247,7 +251,7 @@ mod tests {
     fn nothing_is_scalp_without_roots() {
         let mesh = strip(9);
         for roots in [&[][..], &[Vec3::MAX, Vec3::MIN]] {
-            let split = split(&mesh, roots, 1e-3);
+            let split = split(&mesh.positions, &mesh.triangles, roots, 1e-3);
             assert!(split.triangles[0].is_empty() && split.between.is_empty());
             assert_eq!(split.triangles[1], mesh.triangles);
         }
@@ -290,7 +294,7 @@ mod tests {
                 4.0 * Vec3::new(turn.cos(), turn.sin(), 0.0)
             })
             .collect();
-        let split = split(&mesh, &roots, 2.5);
+        let split = split(&mesh.positions, &mesh.triangles, &roots, 2.5);
         let [scalp, skin] = &split.triangles;
         assert!(
             scalp.iter().flatten().any(|i| *i == 0),

@@ -3,12 +3,12 @@
 use crate::bake::difference;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
+use crate::head::HeadModel;
 use crate::load;
 use crate::preset::{Preset, missing};
 use crate::script::{KeyShape, MotionScript};
 use effects::preset::{PresetError, PresetErrors};
 use glam::Vec3;
-use hair_io::Mesh;
 use hair_sim::{PointCache, Strands};
 use std::path::Path;
 
@@ -28,7 +28,7 @@ pub(crate) fn load(
     script: &MotionScript,
     folder: &Path,
     hair: &HairModel,
-    head: Option<&Mesh>,
+    head: Option<&HeadModel>,
 ) -> Result<Option<PointCache>, StageError> {
     let points = hair.file.strands.points().len().max(1);
     if let Some(key) = script.shapes.get(MOST_POINTS / points) {
@@ -72,7 +72,7 @@ fn read(
     name: &str,
     folder: &Path,
     hair: &HairModel,
-    head: Option<&Mesh>,
+    head: Option<&HeadModel>,
 ) -> Result<Result<Vec<Vec3>, String>, StageError> {
     if let Some(message) = missing(folder, "hair", name) {
         return Ok(Err(message));

@@ -4,7 +4,7 @@ use crate::dynamics::DynamicsSection;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::load::chosen;
-use crate::preset::Preset;
+use crate::preset::{HeadShape, Preset};
 use effects::section::Section as _;
 use effects::{Param, ParamKind, Value};
 use hair_io::BoneMotion;
@@ -151,7 +151,13 @@ fn head_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Cause,
             hash.file(&path)?;
             file_name(&path)
         }
-        None => section.shape.name().to_owned(),
+        None => {
+            if section.shape == HeadShape::Figure {
+                hash.bytes(section.dress.name().as_bytes());
+                hash.numbers(&[section.crop]);
+            }
+            section.shape.name().to_owned()
+        }
     };
     hash.bytes(words.as_bytes());
     Ok(hash.cause("head", words))

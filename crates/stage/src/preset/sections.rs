@@ -42,6 +42,66 @@ choices! {
         None = "none",
         /// The bust that comes with inkstrand.
         Bust = "bust",
+        /// A figure with the bust's skull, and a face and a dress to choose.
+        Figure = "figure",
+    }
+}
+
+choices! {
+    /// What a figure wears.
+    pub enum DressChoice {
+        /// Nothing.
+        None = "none",
+        /// A band around the neck, and a top with straps.
+        Choker = "choker",
+        /// A collar that is rolled at the jaw.
+        Turtleneck = "turtleneck",
+        /// A shirt with a folded collar and a tie.
+        Collar = "collar",
+        /// A jacket with a wide collar, open over a shirt.
+        Jacket = "jacket",
+        /// A blouse with a sailor's collar and a bow.
+        Sailor = "sailor",
+    }
+}
+
+choices! {
+    /// The cut of a figure's eyes.
+    pub enum EyesChoice {
+        /// Large and open.
+        Round = "round",
+        /// Long, a little pointed.
+        Almond = "almond",
+        /// Narrow, the outer corners raised.
+        Sharp = "sharp",
+        /// Under heavy lids, the outer corners low.
+        Sleepy = "sleepy",
+    }
+}
+
+choices! {
+    /// What a figure's face says.
+    pub enum ExpressionChoice {
+        /// At rest.
+        Neutral = "neutral",
+        /// A smile with open eyes.
+        Smile = "smile",
+        /// An open mouth under eyes closed upwards.
+        Laugh = "laugh",
+        /// Eyes closed at rest.
+        Closed = "closed",
+    }
+}
+
+choices! {
+    /// Blush on a figure's cheeks.
+    pub enum BlushChoice {
+        /// None.
+        None = "none",
+        /// A flat shape under each eye.
+        Flat = "flat",
+        /// Slanted strokes.
+        Hatch = "hatch",
     }
 }
 
@@ -50,7 +110,8 @@ section! {
     pub struct HeadSection {
         /// The head, relative to the preset: .obj.
         file: Option<String> = text(),
-        /// The head where no file is named: none, or the bust that comes with inkstrand.
+        /// The head where no file is named: none, the bust that comes with inkstrand, or a figure with the bust's skull that is dressed and has
+        /// a face to choose. What follows `threshold` is said of figures alone.
         shape: HeadShape = HeadShape::None.or_another(),
         /// The file's upward axis.
         up: UpAxis = UpAxis::Guess.or_another(),
@@ -77,6 +138,38 @@ section! {
         width: f32 = number(1.6, 0.0..=50.0).unit("1/300 head height"),
         /// Where light turns to shadow: the cosine to the light.
         threshold: f32 = number(0.1, -1.0..=1.0),
+        /// How far below the chin the figure is cut off; its outline thins out there.
+        crop: f32 = number(1.05, 0.5..=2.4).unit("head heights"),
+        /// What it wears.
+        dress: DressChoice = DressChoice::None.or_another(),
+        /// Colour of the dress.
+        dress_light: [f32; 3] = color("F4F1EE"),
+        /// Colour of the dress away from the light.
+        dress_shadow: [f32; 3] = color("C3BFD2"),
+        /// Colour of the dress's outline and hems.
+        dress_line: [f32; 3] = color("4A4458"),
+        /// Colour of what is set off from the dress: collar, band, bow, tie or shirt.
+        accent: [f32; 3] = color("3E5A94"),
+        /// Colour of that away from the light.
+        accent_shadow: [f32; 3] = color("2A3E70"),
+        /// The cut of the eyes.
+        eyes: EyesChoice = EyesChoice::Round.or_another(),
+        /// Size of the eyes.
+        eye_size: f32 = number(1.0, 0.7..=1.2),
+        /// Colour of the lower part of the irises, which light comes through.
+        iris_light: [f32; 3] = color("8FD3D1"),
+        /// Lights in each eye.
+        highlights: u32 = whole(2, 0..=3),
+        /// Width of the brows, in parts of their own; 0 is none.
+        brow: f32 = number(1.0, 0.0..=3.0),
+        /// What the face says: eyes, brows and mouth.
+        expression: ExpressionChoice = ExpressionChoice::Neutral.or_another(),
+        /// Blush on the cheeks.
+        blush: BlushChoice = BlushChoice::None.or_another(),
+        /// Colour of the blush.
+        blush_color: [f32; 3] = color("F0A79A"),
+        /// Colour of the inside of an open mouth.
+        mouth: [f32; 3] = color("B4555A"),
     }
 }
 

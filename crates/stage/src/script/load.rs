@@ -3,10 +3,11 @@
 use super::{Bone, MotionScript, parse};
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
+use crate::head::HeadModel;
 use crate::load::chosen;
 use crate::preset::Preset;
 use crate::shapes;
-use hair_io::{BoneMotion, Mesh};
+use hair_io::BoneMotion;
 use std::path::Path;
 
 /// What moves head, wind and hair; the hair is given its key shapes.
@@ -14,7 +15,7 @@ pub(crate) fn load(
     preset: &Preset,
     files: &Files,
     hair: &mut HairModel,
-    mesh: Option<&Mesh>,
+    head: Option<&HeadModel>,
 ) -> Result<MotionScript, StageError> {
     let own = preset.sections.motion.file.as_ref();
     let mut script = MotionScript::default();
@@ -22,7 +23,7 @@ pub(crate) fn load(
         let text = files.read_text(&path)?;
         script = parse(&path.display().to_string(), &text)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        hair.shapes = shapes::load(preset, files, &script, folder, hair, mesh)?;
+        hair.shapes = shapes::load(preset, files, &script, folder, hair, head)?;
     }
     let section = &preset.sections.motion;
     if let Some(name) = &section.gltf {

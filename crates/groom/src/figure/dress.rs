@@ -1,0 +1,414 @@
+//! What a figure wears: how much of the skin is covered, and what stands off it.
+
+use super::body::{neck_axis, skin};
+use super::planes::smooth;
+use super::sewn::{Lie, Piece, band, slab};
+use crate::solid::melt;
+use glam::{Vec2, Vec3};
+
+/// What a figure wears.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dress {
+    /// Nothing.
+    #[default]
+    None,
+    /// A band around the neck, and a top with straps.
+    Choker,
+    /// A collar that is rolled at the jaw.
+    Turtleneck,
+    /// A shirt with a folded collar and a tie.
+    Collar,
+    /// A jacket with a wide collar, open over a shirt.
+    Jacket,
+    /// A blouse with a sailor's collar and a bow.
+    Sailor,
+}
+
+/// What a triangle is painted as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Cloth {
+    /// Skin.
+    Skin,
+    /// The dress.
+    Dress,
+    /// What is set off from it: a collar, a band, a bow.
+    Accent,
+    /// Hems and seams.
+    Line,
+}
+
+/// A part of the surface that is painted: where a field is from one value to another, metres.
+pub(crate) struct Layer {
+    pub field: Field,
+    pub from: f32,
+    pub to: f32,
+    pub cloth: Cloth,
+}
+
+/// About the distance to an edge on the body, metres, above 0 inside; x is 0 or above.
+pub(crate) type Field = fn(Vec3) -> f32;
+
+/// Width of hems, metres.
+const HEM: f32 = 0.0012;
+
+impl Dress {
+    /// The signed distance to a dressed body, metres.
+    pub(crate) fn distance(self, p: Vec3) -> f32 {
+        let naked = skin(p, 1.0);
+        if naked.abs() > 0.04 || p.y > 1.42 {
+            return naked;
+        }
+        naked - self.thickness(p.with_x(p.x.abs()))
+    }
+
+    /// How far cloth stands off the skin, metres.
+    fn thickness(self, p: Vec3) -> f32 {
+        let cloth = |field: Field, thickness: f32| thickness * smooth(field(p) / 0.005);
+        match self {
+            Self::None => 0.0,
+            Self::Choker => {
+                let band = choker(p);
+                0.0015 * smooth(band.min(CHOKER - band) / 0.002) + cloth(camisole, 0.001)
+            }
+            Self::Turtleneck => {
+                let below = turtleneck(p);
+                let roll = smooth(below / 0.008) * smooth((ROLL + 0.004 - below) / 0.008);
+                cloth(turtleneck, 0.003) + 0.0045 * roll
+            }
+            Self::Collar => cloth(crew, 0.003),
+            Self::Jacket => cloth(crew, 0.002) + 0.004 * smooth(outside_v(p) / 0.005),
+            Self::Sailor => cloth(sailor, 0.003),
+        }
+    }
+
+    /// What is painted on it, the lowest first.
+    pub(crate) fn layers(self) -> Vec<Layer> {
+        let layer = |field: Field, from: f32, to: f32, cloth| Layer {
+            field,
+            from,
+            to,
+            cloth,
+        };
+        let hemmed = |field: Field, cloth| {
+            [
+                layer(field, 0.0, f32::INFINITY, cloth),
+                layer(field, 0.0, HEM, Cloth::Line),
+            ]
+        };
+        let mut layers = Vec::new();
+        match self {
+            Self::None => {}
+            Self::Choker => {
+                layers.extend([
+                    layer(strap, 0.0, STRAP, Cloth::Line),
+                    layer(strap, HEM, STRAP - HEM, Cloth::Dress),
+                ]);
+                layers.extend(hemmed(camisole, Cloth::Dress));
+                layers.extend([
+                    layer(choker, 0.0, CHOKER, Cloth::Accent),
+                    layer(choker, 0.0, HEM, Cloth::Line),
+                    layer(choker, CHOKER - HEM, CHOKER, Cloth::Line),
+                ]);
+            }
+            Self::Turtleneck => {
+                layers.extend(hemmed(turtleneck, Cloth::Dress));
+                layers.push(layer(turtleneck, ROLL, ROLL + HEM, Cloth::Line));
+            }
+            Self::Collar => layers.push(layer(crew, 0.0, f32::INFINITY, Cloth::Dress)),
+            Self::Jacket => {
+                layers.extend(hemmed(crew, Cloth::Accent));
+                layers.extend(hemmed(outside_v, Cloth::Dress));
+            }
+            Self::Sailor => layers.extend(hemmed(sailor, Cloth::Dress)),
+        }
+        layers
+    }
+
+    /// What is sewn on, of the half where x is 0 or above.
+    pub(crate) fn pieces(self) -> Vec<Piece> {
+        match self {
+            Self::None | Self::Choker | Self::Turtleneck => Vec::new(),
+            Self::Collar => vec![folded_collar()],
+            Self::Jacket => vec![jacket_collar()],
+            Self::Sailor => vec![sailor_collar()],
+        }
+    }
+
+    /// What is sewn on across the middle.
+    pub(crate) fn middle_pieces(self) -> Vec<Piece> {
+        let on = |p: Vec3| self.distance(p);
+        match self {
+            Self::Collar => tie(on),
+            Self::Sailor => bow(on),
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Below a plane around the neck, which rises towards the back by `slope`.
+fn below(p: Vec3, height: f32, slope: f32) -> f32 {
+    (height - slope * (p.z + 0.03) - p.y) / (1.0 + slope * slope).sqrt()
+}
+
+/// How high the roll and the choker are, metres.
+const ROLL: f32 = 0.026;
+const CHOKER: f32 = 0.010;
+/// How wide straps are, metres.
+const STRAP: f32 = 0.010;
+
+fn turtleneck(p: Vec3) -> f32 {
+    below(p, 1.360, 0.30)
+}
+
+fn choker(p: Vec3) -> f32 {
+    below(p, 1.350, 0.30)
+}
+
+fn crew(p: Vec3) -> f32 {
+    below(p, 1.322, 0.60)
+}
+
+/// Below a line over the chest, between the arms.
+fn camisole(p: Vec3) -> f32 {
+    let top = 1.200 + 0.25 * (p.x - 0.02).clamp(0.0, 0.07) - p.y;
+    let side = 0.108 + 0.10 * (1.20 - p.y) - p.x;
+    melt(top, side, 0.012)
+}
+
+/// From the outer edge of a strap over the shoulder inwards.
+fn strap(p: Vec3) -> f32 {
+    if p.y > 1.36 {
+        return -1.0; // the head
+    }
+    0.077 + 0.10 * (1.25 - p.y) - p.x
+}
+
+/// Outside of a V from the sides of the neck to the chest: in front alone.
+fn outside_v(p: Vec3) -> f32 {
+    let behind = (-0.030 - p.z).max(0.0);
+    let edge = 0.010 + (p.y - 1.165).max(0.0) * 0.34;
+    crew(p).min(0.94 * (p.x - edge) + 3.0 * behind)
+}
+
+fn sailor(p: Vec3) -> f32 {
+    let behind = (-0.012 - p.z).max(0.0);
+    let edge = (p.y - 1.222).max(0.0) * 0.50;
+    crew(p).min(0.87 * (p.x - edge) + 3.0 * behind + if p.y < 1.222 { 0.01 } else { 0.0 })
+}
+
+/// A point around the neck: `out` metres from its axis to the side, `ahead` to the front.
+fn around(out: f32, y: f32, ahead: f32) -> Vec3 {
+    Vec3::new(out, y, neck_axis(y) + ahead)
+}
+
+/// A collar from where it leaves the dress over its fold to its edge, with a line along both.
+fn collar(base: [Vec3; 5], fold: [Vec3; 5], edge: [Vec3; 5], dress: Dress) -> Piece {
+    let towards = |from: [Vec3; 5], to: [Vec3; 5]| -> Vec<Vec3> {
+        let pairs = from.into_iter().zip(to);
+        let aside = pairs.map(|(from, to)| from + (to - from).normalize_or_zero() * HEM);
+        aside.collect()
+    };
+    let (below_fold, above_edge) = (towards(fold, edge), towards(edge, fold));
+    let (cloth, line) = (Cloth::Dress, Cloth::Line);
+    band(
+        &[
+            (&base, Lie::At(-0.002)),
+            (&fold, Lie::Over(0.005)),
+            (&below_fold, Lie::Over(0.005)),
+            (&above_edge, Lie::At(0.005)),
+            (&edge, Lie::At(0.005)),
+        ],
+        &[cloth, line, cloth, line, cloth],
+        |p| dress.distance(p),
+    )
+}
+
+fn folded_collar() -> Piece {
+    // From the back to the tips of the wings in front: where it leaves the neck, its fold, its edge.
+    let base = [
+        around(0.0, 1.325, -0.036),
+        around(0.026, 1.322, -0.028),
+        around(0.038, 1.312, 0.000),
+        around(0.024, 1.296, 0.030),
+        around(0.005, 1.285, 0.034),
+    ];
+    let fold = [
+        around(0.0, 1.350, -0.043),
+        around(0.031, 1.347, -0.032),
+        around(0.045, 1.334, 0.002),
+        around(0.029, 1.309, 0.037),
+        around(0.004, 1.289, 0.041),
+    ];
+    let edge = [
+        around(0.0, 1.313, -0.055),
+        around(0.044, 1.313, -0.042),
+        around(0.064, 1.309, 0.002),
+        around(0.052, 1.268, 0.047),
+        around(0.026, 1.252, 0.058),
+    ];
+    collar(base, fold, edge, Dress::Collar)
+}
+
+/// Folded over a jacket, from the back to the lapels beside the V.
+fn jacket_collar() -> Piece {
+    let base = [
+        around(0.0, 1.328, -0.038),
+        around(0.028, 1.326, -0.030),
+        around(0.042, 1.316, 0.000),
+        around(0.040, 1.292, 0.026),
+        around(0.022, 1.235, 0.062),
+    ];
+    let fold = [
+        around(0.0, 1.356, -0.046),
+        around(0.034, 1.353, -0.034),
+        around(0.050, 1.340, 0.002),
+        around(0.046, 1.312, 0.030),
+        around(0.025, 1.238, 0.068),
+    ];
+    let edge = [
+        around(0.0, 1.308, -0.060),
+        around(0.050, 1.308, -0.046),
+        around(0.076, 1.304, 0.000),
+        around(0.080, 1.268, 0.044),
+        around(0.034, 1.206, 0.070),
+    ];
+    collar(base, fold, edge, Dress::Jacket)
+}
+
+/// Over the shoulders, square on the back, its points at the bow.
+fn sailor_collar() -> Piece {
+    let inner = [
+        (0.0, 1.338, -0.074),
+        (0.028, 1.336, -0.066),
+        (0.046, 1.330, -0.036),
+        (0.042, 1.300, 0.004),
+        (0.022, 1.262, 0.030),
+        (0.004, 1.226, 0.042),
+    ];
+    let outer = [
+        (0.0, 1.205, -0.104),
+        (0.098, 1.212, -0.096),
+        (0.118, 1.296, -0.046),
+        (0.086, 1.270, 0.006),
+        (0.050, 1.232, 0.034),
+        (0.010, 1.205, 0.046),
+    ];
+    let row = |share: f32| -> Vec<Vec3> {
+        let pairs = inner.iter().zip(&outer);
+        let points = pairs.map(|(a, b)| Vec3::from(*a).lerp(Vec3::from(*b), share));
+        points.collect()
+    };
+    // Down on the blouse to its edge, a stripe before it, and back under itself.
+    let rows = [0.0, 0.0, 0.25, 0.5, 0.80, 0.86, 1.0, 0.98].map(row);
+    let lies = [-0.002, 0.004, 0.005, 0.005, 0.005, 0.005, 0.005, -0.002].map(Lie::At);
+    let rows: Vec<(&[Vec3], Lie)> = rows.iter().map(Vec::as_slice).zip(lies).collect();
+    let a = Cloth::Accent;
+    band(&rows, &[a, a, a, a, Cloth::Dress, a, a, a], |p| {
+        Dress::Sailor.distance(p)
+    })
+}
+
+fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
+    let knot = [(-9.0, 0.0), (9.0, 0.0), (6.0, -20.0), (-6.0, -20.0)];
+    let blade = [
+        (-6.0, -19.0),
+        (6.0, -19.0),
+        (14.0, -120.0),
+        (17.0, -224.0),
+        (0.0, -244.0),
+        (-17.0, -224.0),
+        (-14.0, -120.0),
+    ];
+    let at = Vec2::new(0.0, 1.292);
+    vec![
+        slab(at, &blade, 0.0045, Cloth::Accent, &on),
+        slab(at, &knot, 0.0085, Cloth::Accent, &on),
+    ]
+}
+
+fn bow(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
+    let at = Vec2::new(0.0, 1.216);
+    let knot = [(-8.0, 9.0), (8.0, 9.0), (9.0, -9.0), (-9.0, -9.0)];
+    let mut pieces = Vec::new();
+    for side in [1.0, -1.0] {
+        let loop_ = [
+            (4.0, 6.0),
+            (26.0, 18.0),
+            (43.0, 17.0),
+            (47.0, 2.0),
+            (42.0, -13.0),
+            (26.0, -12.0),
+            (4.0, -5.0),
+        ];
+        let tail = [
+            (2.0, -4.0),
+            (9.0, -5.0),
+            (22.0, -34.0),
+            (33.0, -62.0),
+            (20.0, -60.0),
+            (13.0, -66.0),
+            (6.0, -34.0),
+        ];
+        let turned = |points: &[(f32, f32)]| -> Vec<(f32, f32)> {
+            points.iter().map(|(x, y)| (x * side, *y)).collect()
+        };
+        pieces.push(slab(at, &turned(&tail), 0.007, Cloth::Accent, &on));
+        pieces.push(slab(at, &turned(&loop_), 0.014, Cloth::Accent, &on));
+    }
+    pieces.push(slab(at, &knot, 0.018, Cloth::Accent, &on));
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Dress; 6] = [
+        Dress::None,
+        Dress::Choker,
+        Dress::Turtleneck,
+        Dress::Collar,
+        Dress::Jacket,
+        Dress::Sailor,
+    ];
+
+    #[test]
+    fn skin_never_pokes_through_cloth() {
+        for i in 0..20_000 {
+            let at = |step: usize, low: f32, high: f32| {
+                low + (high - low) * (i * step % 9973) as f32 / 9973.0
+            };
+            let p = Vec3::new(at(7, -0.2, 0.2), at(313, 0.8, 1.65), at(1013, -0.15, 0.13));
+            for dress in ALL {
+                let (cloth, skin) = (dress.distance(p), skin(p, 1.0));
+                assert!(
+                    cloth <= skin && cloth > skin - 0.012,
+                    "{dress:?} at {p}: {cloth} {skin}"
+                );
+                // Nothing is worn on the head.
+                assert!(p.y < 1.41 || cloth == skin, "{dress:?} at {p}");
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_lie_on_the_dress() {
+        for dress in ALL {
+            let pieces = dress.pieces().into_iter().chain(dress.middle_pieces());
+            for piece in pieces {
+                let gaps = piece.positions.iter().map(|p| dress.distance(*p));
+                let gaps: Vec<f32> = gaps.collect();
+                assert!(
+                    gaps.iter().all(|gap| (-0.008..0.03).contains(gap)),
+                    "{dress:?}: {gaps:?}"
+                );
+                let outside = gaps.iter().filter(|gap| **gap > 0.002).count();
+                assert!(
+                    2 * outside >= gaps.len(),
+                    "{dress:?}: {outside} of {}",
+                    gaps.len()
+                );
+            }
+        }
+    }
+}
