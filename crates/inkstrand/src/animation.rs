@@ -1,7 +1,9 @@
 //! Moving pictures: all frames in one animated PNG.
 
 use hair_io::write_whole;
-use png::{BitDepth, BlendOp, ColorType, Compression, Encoder, SrgbRenderingIntent, Writer};
+use png::{
+    BitDepth, BlendOp, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer,
+};
 use render::Picture;
 use std::cell::RefCell;
 use std::io::{self, Write};
@@ -26,6 +28,8 @@ impl Animation {
         encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
         encoder.set_color(color(transparent));
         encoder.set_compression(Compression::High);
+        // Flat colours become smaller as they are than as differences.
+        encoder.set_filter(Filter::NoFilter);
         encoder.set_animated(frames, 0)?;
         let (numerator, denominator) = delay(fps);
         encoder.set_frame_delay(numerator, denominator)?;

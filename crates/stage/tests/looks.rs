@@ -3,10 +3,11 @@
 
 use effects::Registry;
 use glam::DVec3;
+use groom::{Dress, Face};
 use hair_sim::SignedDistance;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{Drawing, Frame};
-use stage::{Files, Preset, Stage};
+use stage::{DressChoice, Files, HeadSection, HeadShape, Preset, Stage};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -113,15 +114,33 @@ fn deepest(frame: &Frame, skin: &SignedDistance, first: u32) -> (f64, u32) {
     deepest
 }
 
+/// Distances from the skin and the clothes of a look's figure.
+fn skin(head: &HeadSection) -> SignedDistance {
+    assert_eq!(head.shape, HeadShape::Figure);
+    let figure = groom::Figure {
+        crop_m: head.crop * 0.24,
+        dress: match head.dress {
+            DressChoice::None => Dress::None,
+            DressChoice::Choker => Dress::Choker,
+            DressChoice::Turtleneck => Dress::Turtleneck,
+            DressChoice::Collar => Dress::Collar,
+            DressChoice::Jacket => Dress::Jacket,
+            DressChoice::Sailor => Dress::Sailor,
+        },
+        face: Face::default(),
+    };
+    let figure = figure.build();
+    SignedDistance::new(&figure.positions, &figure.triangles, 0.004).unwrap()
+}
+
 #[test]
 fn no_hair_runs_through_the_body() {
     const FIRST_ZONE: u32 = 10_000;
-    let bust = groom::bust();
-    let skin = SignedDistance::new(&bust.positions, &bust.triangles, 0.004).unwrap();
     let registry = registry();
     let mut faults = Vec::new();
     for (name, text) in looks() {
         let preset = Preset::parse(&name, &text, &registry).unwrap();
+        let skin = skin(&preset.sections.head);
         let mut stage = stage(&preset);
         let (depth_m, strand) = deepest(&stage.frame().unwrap(), &skin, FIRST_ZONE);
         if depth_m > DEEPEST_M {
@@ -146,6 +165,8 @@ fn eye_pixels(name: &str, text: &str) -> [usize; 2] {
     let set = [
         ("head.iris", "FF00FF"),
         ("head.iris_shadow", "FF00FF"),
+        ("head.iris_light", "FF00FF"),
+        ("head.expression", "neutral"),
         ("scene.size", "(480, 480)"),
         ("scene.background", "000000"),
         ("camera.yaw", "0"),

@@ -15,7 +15,7 @@ const MOST_POINTS: usize = 160;
 /// How near the skin a clump's middle line may come, in its radii: some of it lies against the skin.
 const CLOSEST: f32 = 0.6;
 /// How often hanging points are moved out of the body: each move may push others in.
-const CLEARINGS: u32 = 3;
+const CLEARINGS: u32 = 4;
 /// How near the skin hair may come on its way, head heights.
 const CLEAR: f32 = 0.002;
 /// Length in which hair of weight 1/2 turns half-way down, head heights.
@@ -90,11 +90,19 @@ fn keep_clear(points: &mut [Vec3], shell: &Shell) {
     for _ in 0..CLEARINGS {
         for i in 1..points.len() {
             points[i] = shell.keep_out(points[i], CLEAR);
-            let middle = points[i - 1].midpoint(points[i]);
-            let push = shell.keep_out(middle, CLEAR) - middle;
-            points[i] += push;
-            if i > 1 {
-                points[i - 1] += push;
+            for t in [0.25, 0.5, 0.75] {
+                let place = points[i - 1].lerp(points[i], t);
+                let push = shell.keep_out(place, CLEAR) - place;
+                // As little as moves the place by that much; what hair hangs from stays.
+                let (before, here) = match i {
+                    1 => (0.0, 1.0),
+                    _ => {
+                        let squared = (1.0 - t) * (1.0 - t) + t * t;
+                        ((1.0 - t) / squared, t / squared)
+                    }
+                };
+                points[i - 1] += push * before;
+                points[i] += push * here;
             }
         }
     }
