@@ -4,7 +4,7 @@ use effects::Registry;
 use glam::Vec3;
 use render::Drawing;
 use render::cpu::{Evaluator, Rasterizer};
-use stage::{Files, Preset, Stage};
+use stage::{Files, FrameMaker, Look, Motion, Preset, Scene, Stage};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -117,33 +117,23 @@ const VIEWS: [[f32; 2]; 10] = [
     [180.0, 85.0],
 ];
 
-/// Pixels of bare skin where hair grows: within the hairline.
-fn scalp_pixels(style: &Path, view: [f32; 2]) -> usize {
-    pixels(style, view, "1")
-}
-
-fn bare_scalp_pixels(view: [f32; 2]) -> usize {
-    pixels(&styles()[0], view, "0")
-}
-
-fn pixels(style: &Path, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
+/// Pixels of bare skin where hair grows: within the hairline. One number for each view.
+fn scalp_pixels(style: &Path, clump_size: &str, views: &[[f32; 2]]) -> Vec<usize> {
     let registry = registry();
     let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
     let mut preset = Preset::parse("twin-tails.ron", &text, &registry).unwrap();
     for (name, value) in [
-        ("head.light", "FF00FF".to_owned()),
-        ("head.shadow", "FF00FF".to_owned()),
-        ("head.width", "0".to_owned()),
-        ("clump.color", "00FF00".to_owned()),
-        ("clump.size", clump_size.to_owned()),
-        ("clump.shading", "pure".to_owned()),
-        ("scene.size", "(300, 300)".to_owned()),
-        ("camera.yaw", yaw.to_string()),
-        ("camera.pitch", pitch.to_string()),
-        ("camera.distance", "2.6".to_owned()),
-        ("camera.target", "(0, 0.1, 0)".to_owned()),
+        ("head.light", "FF00FF"),
+        ("head.shadow", "FF00FF"),
+        ("head.width", "0"),
+        ("clump.color", "00FF00"),
+        ("clump.size", clump_size),
+        ("clump.shading", "pure"),
+        ("scene.size", "(300, 300)"),
+        ("camera.distance", "2.6"),
+        ("camera.target", "(0, 0.1, 0)"),
     ] {
-        preset.set(name, &value).unwrap();
+        preset.set(name, value).unwrap();
     }
     preset.keep_only(&["hair.base".to_owned()]).unwrap();
     let files = Files {
@@ -151,8 +141,18 @@ fn pixels(style: &Path, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
         hair: Some(style.to_owned()),
         ..Files::default()
     };
-    let mut stage = Stage::new(&preset, &files).unwrap();
-    let frame = stage.frame().unwrap();
+    let scene = Scene::load(&preset, &files).unwrap();
+    let mut seen_from = |[yaw, pitch]: &[f32; 2]| {
+        preset.set("camera.yaw", &yaw.to_string()).unwrap();
+        preset.set("camera.pitch", &pitch.to_string()).unwrap();
+        pixels(&scene.with_look(Look::new(&preset).unwrap()).unwrap())
+    };
+    views.iter().map(&mut seen_from).collect()
+}
+
+fn pixels(scene: &Scene) -> usize {
+    let mut maker = FrameMaker::new();
+    let frame = maker.frame(scene, &Motion::new()).unwrap();
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
 
@@ -199,7 +199,7 @@ fn pixels(style: &Path, [yaw, pitch]: [f32; 2], clump_size: &str) -> usize {
 #[test]
 fn no_scalp_shows_from_any_side() {
     for style in styles() {
-        let seen = VIEWS.map(|view| scalp_pixels(&style, view));
+        let seen = scalp_pixels(&style, "1", &VIEWS);
         assert!(
             seen.iter().all(|pixels| *pixels == 0),
             "{}: {seen:?} pixels of scalp in {VIEWS:?}",
@@ -211,7 +211,8 @@ fn no_scalp_shows_from_any_side() {
 #[test]
 fn a_bald_head_would_be_noticed() {
     // The count is of what it says: with hair of no size the whole scalp shows.
-    assert!(bare_scalp_pixels([180.0, 85.0]) > 10_000);
+    let seen = scalp_pixels(&styles()[0], "0", &[[180.0, 85.0]]);
+    assert!(seen[0] > 10_000, "{seen:?}");
 }
 
 #[test]
