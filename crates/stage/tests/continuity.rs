@@ -15,7 +15,7 @@ use std::path::Path;
 const WIDTH: usize = 96;
 const HEIGHT: usize = 96;
 /// Many, so that no edge crosses a large part of a pixel's at once.
-const SAMPLES: u32 = 64;
+const SAMPLES: u32 = 128;
 /// Sides of a tile, in pixels, whose mean change counts.
 const TILE: usize = 8;
 /// Steps of a series.
