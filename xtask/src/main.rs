@@ -24,6 +24,7 @@ mod regress;
 mod setup;
 mod stress;
 mod test;
+mod test_programs;
 mod wasm;
 mod work;
 

@@ -127,19 +127,33 @@ pub fn fuzz_target() -> Outcome<PathBuf> {
 
 /// Builds a program, with the tests of the workspace or by the arguments for it `alone`. Compiler messages go to our stderr.
 fn build(name: &str, kind: &str, alone: &[&str]) -> Outcome<PathBuf> {
-    let mut command = if IS_FROM_TESTS.load(Ordering::Relaxed) {
-        cargo(&[&["test", "--no-run"][..], &WORKSPACE].concat())
+    let messages = if IS_FROM_TESTS.load(Ordering::Relaxed) {
+        built_with_tests()?
     } else {
-        cargo(alone)
+        messages_of(cargo(alone))?
     };
+    program_of(&messages, name, kind)
+        .ok_or_else(|| format!("cargo built {name} and named no program").into())
+}
+
+/// Builds all tests of the workspace, and the programs that they run.
+///
+/// Returns cargo's messages, one JSON object a line. Those of compilers go to our stderr.
+///
+/// # Errors
+/// Something doesn't compile.
+pub fn built_with_tests() -> Outcome<String> {
+    messages_of(cargo(&[&["test", "--no-run"][..], &WORKSPACE].concat()))
+}
+
+/// Builds, and returns cargo's messages.
+fn messages_of(mut command: Command) -> Outcome<String> {
     command.arg("--message-format=json-render-diagnostics");
     let output = command.stderr(Stdio::inherit()).output()?;
     if !output.status.success() {
-        return Err(format!("{name} doesn't build").into());
+        return Err(format!("{}: {}", line_of(&command), output.status).into());
     }
-    let messages = String::from_utf8_lossy(&output.stdout);
-    program_of(&messages, name, kind)
-        .ok_or_else(|| format!("cargo built {name} and named no program").into())
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
 /// Where cargo put a program, by its messages: one JSON object a line. Tests of the program are programs too.

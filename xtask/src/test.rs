@@ -3,9 +3,9 @@
 
 use std::time::{Duration, Instant};
 
-use crate::program::{Inkstrand, WORKSPACE, cargo, succeed};
+use crate::program::{WORKSPACE, cargo, succeed};
 use crate::regress::Backend;
-use crate::{Outcome, count, figures, fuzz, layers, regress, wasm};
+use crate::{Outcome, count, figures, fuzz, layers, regress, test_programs, wasm};
 
 /// A step's name, and what it does; its output goes to the terminal.
 type Step = (&'static str, fn() -> Outcome);
@@ -18,7 +18,7 @@ const STEPS: &[Step] = &[
         succeed(cargo(&[&lint[..], &WORKSPACE, &deny].concat()))
     }),
     ("docs", || {
-        let mut doc = cargo(&["doc", "--workspace", "--no-deps"]);
+        let mut doc = cargo(&[&["doc", "--no-deps"], &DOCUMENTED[..], &WORKSPACE].concat());
         doc.env("RUSTDOCFLAGS", "--deny=warnings");
         succeed(doc)
     }),
@@ -29,17 +29,23 @@ const STEPS: &[Step] = &[
         })
     }),
     // Unit, property, conformance and command-line tests.
-    ("tests", || {
-        Inkstrand::take_from_tests();
-        let tests = ["test", "--no-fail-fast"];
-        succeed(cargo(&[&tests[..], &WORKSPACE].concat()))
-    }),
+    ("tests", test_programs::run),
     ("fuzz", fuzz::briefly),
     ("wasm", wasm::check),
     ("figures", figures::run),
     ("regressions", || regress::run("", Backend::Cpu, false)),
     ("backends", || regress::run("", Backend::Gpu, false)),
     ("counts", || count::run(false)),
+];
+
+/// What has docs: all libraries, and the programs that are none. An example is there because the crates that examples and
+/// tests use count with it, and their features: so dependencies are as the lints have checked them.
+const DOCUMENTED: [&str; 5] = [
+    "--lib",
+    "--bin=xtask",
+    "--bin=backlight",
+    "--bin=backlight-viewer",
+    "--example=fuzz_target",
 ];
 
 /// The crates that must compile with all of their features off: those whose own they are, and the program, which

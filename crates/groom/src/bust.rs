@@ -6,6 +6,7 @@ use crate::figure::{Cloth, above_hairline};
 use crate::shape::{distance, jaw_shade, shading_normal};
 use crate::surface_nets::{Grid, Net, planes, relax, surface_net, with_image};
 use glam::Vec3;
+use std::sync::LazyLock;
 
 /// Middle of the head.
 pub(crate) const CENTER: Vec3 = Vec3::new(0.0, 1.5, 0.0);
@@ -39,9 +40,14 @@ pub struct Bust {
     pub patches: Vec<Patch>,
 }
 
-/// Makes the bust.
+/// The bust. It is made once in a program: later calls copy it.
 #[must_use]
 pub fn bust() -> Bust {
+    static BUST: LazyLock<Bust> = LazyLock::new(made);
+    BUST.clone()
+}
+
+fn made() -> Bust {
     let Net {
         positions,
         triangles,

@@ -29,8 +29,18 @@ pub struct Shell {
     center: Vec3,
     height: f32,
     radii: Vec<f32>,
-    /// Points of neck and shoulders, with the skin's unit normals.
-    body: Vec<(Vec3, Vec3)>,
+    /// Points of neck and shoulders, from the lowest up.
+    body: Vec<Skin>,
+}
+
+/// A point of the skin.
+#[derive(Clone, Copy, Debug)]
+struct Skin {
+    point: Vec3,
+    /// Unit.
+    normal: Vec3,
+    /// Its place among the mesh's points.
+    index: usize,
 }
 
 impl Shell {
@@ -54,13 +64,20 @@ impl Shell {
                 enter(&mut radii, corners);
             }
         }
-        let is_body = |position: &Vec3| position.y < center.y - 0.35 * height;
-        let skin = positions.iter().copied().zip(normals.iter().copied());
+        let skin = positions.iter().zip(normals).enumerate();
+        let skin = skin.map(|(index, (point, normal))| Skin {
+            point: *point,
+            normal: *normal,
+            index,
+        });
+        let is_body = |skin: &Skin| skin.point.y < center.y - 0.35 * height;
+        let mut body: Vec<Skin> = skin.filter(is_body).collect();
+        body.sort_by(|a, b| a.point.y.total_cmp(&b.point.y));
         let mut shell = Self {
             center,
             height,
             radii,
-            body: skin.filter(|(position, _)| is_body(position)).collect(),
+            body,
         };
         shell.close_gaps();
         shell
@@ -96,20 +113,24 @@ impl Shell {
                 point
             };
         }
-        let nearest = self.body.iter().min_by(|a, b| {
-            let squared = |skin: &(Vec3, Vec3)| (skin.0 - point).length_squared();
-            squared(a).total_cmp(&squared(b))
-        });
-        let Some((skin, normal)) = nearest else {
+        let Some(skin) = self.nearest_of_body(point) else {
             return point;
         };
         // In front of the skin's plane there is nothing to keep out of; far behind it is another side.
-        let push = gap * self.height - (point - *skin).dot(*normal);
+        let push = gap * self.height - (point - skin.point).dot(skin.normal);
         if (0.0..DEEPEST * self.height).contains(&push) {
-            point + *normal * push
+            point + skin.normal * push
         } else {
             point
         }
+    }
+
+    /// The point of neck and shoulders that is nearest to `point`: of several, the mesh's first.
+    fn nearest_of_body(&self, point: Vec3) -> Option<&Skin> {
+        let level = self.body.partition_point(|skin| skin.point.y < point.y);
+        let (below, above) = self.body.split_at(level);
+        let nearest = nearer(None, above.iter(), point);
+        nearer(nearest, below.iter().rev(), point)
     }
 
     /// How far a point lies above the skin, head heights, and the direction away from the centre.
@@ -181,6 +202,29 @@ impl Shell {
             }
         }
     }
+}
+
+/// `nearest`, or what of the skin is nearer to `point`; of several at one distance the mesh's first. `skin` goes away from
+/// the point's height: where that alone is too far, so is all that follows.
+fn nearer<'s>(
+    mut nearest: Option<&'s Skin>,
+    skin: impl Iterator<Item = &'s Skin>,
+    point: Vec3,
+) -> Option<&'s Skin> {
+    let squared = |skin: &Skin| (skin.point - point).length_squared();
+    let mut least = nearest.map_or(f32::INFINITY, squared);
+    for skin in skin {
+        let height = skin.point.y - point.y;
+        if height * height > least {
+            break;
+        }
+        let squared = squared(skin);
+        let is_before = nearest.is_none_or(|nearest| skin.index < nearest.index);
+        if squared < least || squared == least && is_before {
+            (nearest, least) = (Some(skin), squared);
+        }
+    }
+    nearest
 }
 
 /// The direction of a place.
@@ -342,6 +386,30 @@ mod tests {
             let t = step as f32 / 20.0;
             let found = from.dot(between(from, to, t)).clamp(-1.0, 1.0).acos();
             assert!((found - t * angle).abs() < 0.012 * angle, "{t}: {found}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_of_the_body_is_found() {
+        let bust = bust();
+        let center = Vec3::new(0.0, 1.5, 0.0);
+        let shell = Shell::new(
+            &bust.positions,
+            &bust.normals,
+            &bust.triangles,
+            center,
+            0.24,
+        );
+        // In the middle two points across x = 0 are as near as each other.
+        for (i, x) in (0..300).zip([0.0, 0.03, -0.11, 0.4].into_iter().cycle()) {
+            let (y, z) = (1.0 + 0.003 * i as f32, (i * 37 % 100) as f32 * 0.006 - 0.3);
+            let point = Vec3::new(x, y, z);
+            let nearest = shell.body.iter().min_by(|a, b| {
+                let key = |skin: &Skin| (skin.point - point).length_squared();
+                key(a).total_cmp(&key(b)).then(a.index.cmp(&b.index))
+            });
+            let found = shell.nearest_of_body(point).map(|skin| skin.index);
+            assert_eq!(found, nearest.map(|skin| skin.index), "{point}");
         }
     }
 

@@ -287,7 +287,7 @@ fn what_a_solver_cannot_do_is_refused_at_its_place() {
 fn extremes_stay_finite() {
     let script = "(version: 1, moves: [(move: turn, length: 0.1, angle: 3600), (move: walk, step: 5, rate: 50)], \
                   winds: [(speed: 200, gusts: 200)])";
-    for settings in [
+    let extremes = [
         [
             ("dynamics.feel", "gel"),
             ("dynamics.stiffness", "1000"),
@@ -338,8 +338,9 @@ fn extremes_stay_finite() {
             ("dynamics.feel", "gel"),
             ("dynamics.damping", "0"),
         ],
-    ] {
-        let mut stage = scene("waves.style.ron", Some(script), &settings);
+    ];
+    let stays_finite = |settings: &[(&str, &str)]| {
+        let mut stage = scene("waves.style.ron", Some(script), settings);
         for frame in 0..24 {
             let means = means(&mut stage, frame as f32 / 24.0);
             assert!(
@@ -347,7 +348,12 @@ fn extremes_stay_finite() {
                 "{settings:?}, frame {frame}"
             );
         }
-    }
+    };
+    std::thread::scope(|scope| {
+        for settings in &extremes {
+            scope.spawn(|| stays_finite(settings));
+        }
+    });
 }
 
 /// Hair off screen is simulated a quarter as often, and comes back where it should be and as fast as it should.

@@ -86,7 +86,7 @@ fn portraits_agree_sample_for_sample() {
     {
         let drawing = Drawing {
             brush,
-            ..portrait([480, 360], order)
+            ..portrait([320, 240], order)
         };
         for samples in [1, 4, 16] {
             let picture = rasterise(&drawing, samples, 2);
