@@ -28,7 +28,7 @@ pub struct Bust {
     /// The shadow that the jaw casts on the neck wherever the light is, one a position: 0 is none,
     /// 1 is enough to be dark in full light.
     pub shade: Vec<f32>,
-    /// Where hair grows: how far above the hairline of [`Scalp::default`] each position lies, in
+    /// Where hair grows: how far above the hairline of [`crate::Scalp::default`] each position lies, in
     /// degrees of latitude on its [`Shell`]; below 0 is bare skin, as the ears are.
     pub scalp: Vec<f32>,
     /// Indices, counter-clockwise seen from outside.
