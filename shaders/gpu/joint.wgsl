@@ -4,7 +4,7 @@
 
 @group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
 @group(0) @binding(1) var<storage, read> gpu_joints: array<u32>;
-/// Id, mean of the particles, size.
+/// Id, mean of the particles, size, taper.
 @group(0) @binding(2) var<storage, read> gpu_strands: array<u32>;
 /// What the layer or the clump is and on which head (the places below), its parameters, and how they vary.
 @group(0) @binding(3) var<storage, read> gpu_words: array<u32>;

@@ -46,7 +46,7 @@ impl Figure {
     /// Makes it. Its skull is the bust's, so that hair fits both.
     #[must_use]
     pub fn build(&self) -> Bust {
-        let cut_height = body::CHIN - self.crop_m;
+        let cut_height = body::CHIN - self.crop_m.clamp(0.1, 0.6);
         let solid = |p: Vec3| common(self.dress.distance(p), cut_height - p.y, 0.003);
         let (half, cloth) = self.half(solid, cut_height);
         let net = with_image(half);

@@ -99,12 +99,9 @@ fn changed(before: &[u8], now: &[u8], width: u32, channels: usize) -> [u32; 4] {
 
 /// Seconds of a frame as a fraction of small numbers.
 fn delay(fps: f32) -> (u16, u16) {
-    let thousandths = (fps * 1000.0).round();
-    if thousandths <= f32::from(u16::MAX) {
-        (1000, thousandths as u16)
-    } else {
-        (1, fps.round().min(f32::from(u16::MAX)) as u16)
-    }
+    let fits = |factor: &u16| fps * f32::from(*factor) <= f32::from(u16::MAX);
+    let factor = [1000, 100, 10].into_iter().find(fits).unwrap_or(1);
+    (factor, (fps * f32::from(factor)).round() as u16)
 }
 
 /// The colours of pictures, with alpha where they are transparent.
@@ -212,7 +209,7 @@ mod tests {
 
     #[test]
     fn delays_are_those_of_the_rate() {
-        for fps in [1.0, 12.0, 23.976, 24.0, 60.0, 65.5, 240.0, 1000.0] {
+        for fps in [1.0, 12.0, 23.976, 24.0, 60.0, 65.6, 99.97, 240.0, 1000.0] {
             let (numerator, denominator) = delay(fps);
             let shown = f32::from(denominator) / f32::from(numerator);
             assert!((shown / fps - 1.0).abs() < 1e-3, "{fps}: {shown}");

@@ -34,8 +34,9 @@ Examples:
   inkstrand render look.ron --camera 35,10,6 --light -40,30
       seen from the viewer's right and a little above, six head heights away; lit from the left
   inkstrand render look.ron --frames 0-47 -o shot_####.png
-  inkstrand render look.ron --frames 0-47 -o shot.apng
       two seconds at 24 frames a second: shot_0000.png to shot_0047.png
+  inkstrand render look.ron --frames 0-47 -o shot.apng
+      the same in one file that moves
   inkstrand render look.ron --size 480x360 --samples 4 -o quick.png
       a quick look
   inkstrand render look.ron --background none --only hair.base

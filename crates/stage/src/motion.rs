@@ -235,7 +235,7 @@ impl ObjectMotion {
         Dynamics::new(
             hair,
             &sizes,
-            object.neck().map(Neck::rest_mesh),
+            object.bare_mesh(),
             &look.sections.dynamics,
             object.script().hold,
             fps,

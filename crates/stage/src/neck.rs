@@ -89,6 +89,10 @@ impl PosedHead {
         let shift = (self.pose.shift * f64::from(neck.height_m)).as_vec3();
         let pivot = neck.pivot;
         let moved = |p: Vec3, share: f32| turn(share) * (p - pivot) + pivot + shift;
+        self.model.frame = neck.rest.frame.map(|head| Head {
+            center: moved(head.center, 1.0),
+            ..head
+        });
         let (rest, posed) = (&neck.rest.mesh, &mut self.model.mesh);
         for (i, share) in neck.shares.iter().enumerate() {
             posed.positions[i] = moved(rest.positions[i], *share);

@@ -11,6 +11,7 @@ use crate::placement::Placement;
 use crate::preset::Preset;
 use crate::script::{self, MotionScript};
 use glam::Vec3;
+use hair_io::Mesh;
 use render::{Head, StrandInfo};
 use std::sync::Arc;
 use stroke_path::Cut;
@@ -152,6 +153,11 @@ impl Object {
         &self.script
     }
 
+    /// The head's mesh as it was given, which hair cannot enter: however it is painted.
+    pub(crate) fn bare_mesh(&self) -> Option<&Mesh> {
+        self.bare_head.as_deref().map(|head| &head.mesh)
+    }
+
     pub(crate) fn neck(&self) -> Option<&Neck> {
         self.neck.as_deref()
     }
@@ -183,7 +189,7 @@ impl Object {
     }
 }
 
-/// The head with the hair's bands in it, and with what of it has hair told from what has none.
+/// The head with what the hair wears, and with what of it has hair told from what has none.
 fn neck(head: &HeadModel, hair: &HairModel, look: &Look) -> Neck {
     let mut model = head.clone();
     model.add_ornaments(&hair.ornaments);

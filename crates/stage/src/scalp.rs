@@ -1,7 +1,7 @@
 //! Where a head has hair: what of its mesh is seen between clumps in the hair's colour, so that gaps are no bald spots.
 
 use glam::{IVec3, Vec3};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Bare places in the hair are scalp too, up to this share of its area.
 const LARGEST_GAP: f32 = 0.25;
@@ -141,10 +141,10 @@ fn fill_gaps(scalp: &mut Vec<[u32; 3]>, skin: &mut Vec<[u32; 3]>, place: impl Fn
         islands.join(*b, *c);
     }
     // Corners of the hairline have triangles on both sides; skin that has none of them is no gap.
-    let mut is_at_hair: HashMap<u32, bool> = HashMap::new();
+    let mut at_hair: HashSet<u32> = HashSet::new();
     for corner in scalp.iter().flatten() {
         if islands.parent.contains_key(corner) {
-            is_at_hair.insert(islands.find(*corner), true);
+            at_hair.insert(islands.find(*corner));
         }
     }
     let mut areas: HashMap<u32, f32> = HashMap::new();
@@ -154,7 +154,7 @@ fn fill_gaps(scalp: &mut Vec<[u32; 3]>, skin: &mut Vec<[u32; 3]>, place: impl Fn
     let most = LARGEST_GAP * scalp.iter().map(area).sum::<f32>();
     let is_gap = |triangle: &[u32; 3]| {
         let island = islands.find(triangle[0]);
-        is_at_hair.contains_key(&island) && areas[&island] < most
+        at_hair.contains(&island) && areas[&island] < most
     };
     let (gaps, bare): (Vec<_>, Vec<_>) = skin.iter().partition(|triangle| is_gap(triangle));
     *skin = bare;

@@ -55,6 +55,12 @@ fn mistakes_in_styles_have_their_places() {
         (zone: \"b\", mirrored: true),
     ],
     strands: [(size: 3), (points: [(0, 0, 0), (0, 0, 99)])],
+    accessories: [
+        (kind: clip),
+        (kind: bow, at: [(0, 10), (20, 30)]),
+        (kind: hairband, at: [(0, 10)]),
+        (kind: cilp, at: [(0, 99)]),
+    ],
 )";
     let message = refusal(style);
     for line in [
@@ -73,6 +79,11 @@ fn mistakes_in_styles_have_their_places() {
         "a.style.ron:16:15: a strand needs `points`, two or more",
         "a.style.ron:16:47: points: expected (longitude",
         "there is no `yes`",
+        "a.style.ron:18:9: an accessory needs `at`",
+        "a.style.ron:19:9: a clip or a bow lies at one place",
+        "a.style.ron:20:9: a hairband needs two places or more",
+        "a.style.ron:21:16: kind: ",
+        "a.style.ron:21:27: at: expected (longitude from -360 to 360",
     ] {
         assert!(message.contains(line), "`{line}` is missing in:\n{message}");
     }
@@ -268,6 +279,38 @@ fn ties_are_bands_of_their_own_colour() {
     };
     assert!(bands("twin-tails.style.ron") > 100);
     assert_eq!(bands("bob.style.ron"), 0);
+}
+
+#[test]
+fn what_hair_wears_is_drawn_in_the_colours_of_ties() {
+    let registry = registry();
+    let text = fs::read_to_string(presets().join("short-ash.ron")).unwrap();
+    let mut preset = Preset::parse("short-ash.ron", &text, &registry).unwrap();
+    for (name, value) in [("head.tie", "00FF00"), ("head.tie_shadow", "00FF00")] {
+        preset.set(name, value).unwrap();
+    }
+    let style = fs::read_to_string(presets().join("styles/bob.style.ron")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let mut triangles = |accessories: &str| {
+        let path = folder.path().join("worn.style.ron");
+        let text = format!("version: 1, accessories: [{accessories}],");
+        fs::write(&path, style.replacen("version: 1,", &text, 1)).unwrap();
+        let files = Files {
+            preset_folder: presets(),
+            hair: Some(path),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let surfaces = stage.frame().unwrap().surfaces;
+        let worn = surfaces.iter().find(|s| s.light == [0.0, 1.0, 0.0]);
+        worn.map_or(0, |surface| surface.triangles.len())
+    };
+    assert_eq!(triangles(""), 0);
+    let one = triangles("(at: [(30, 40)], lift: 0.2)");
+    let two = triangles("(at: [(30, 40)], lift: 0.2, mirror: true)");
+    assert!(one > 50 && two > one, "{one} {two}");
+    assert!(triangles("(kind: bow, at: [(0, 60)], lift: 0.2)") > one);
+    assert!(triangles("(kind: hairband, at: [(-90, 0), (0, 80), (90, 0)], lift: 0.2)") > one);
 }
 
 #[test]

@@ -112,8 +112,10 @@ impl Prompt {
             // A small window has room for less.
             let room = ui.ctx().content_rect().size() - MARGIN;
             ui.set_max_width(room.x.min(MOST_WIDTH));
+            // As high as what it shows: it scrolls only where the window has no more room.
             egui::ScrollArea::vertical()
                 .max_height(room.y)
+                .min_scrolled_height(room.y)
                 .show(ui, |ui| answer = self.ask(ui, studio));
         });
         let is_busy = matches!(&self, Self::Export(export) if export.is_busy());
@@ -449,7 +451,7 @@ impl Export {
             let label = ui.label("File");
             ui.text_edit_singleline(&mut settings.output)
                 .labelled_by(label.id)
-                .on_hover_text("A name that ends in .png; # marks become the frame's number");
+                .on_hover_text("A name that ends in .png; # marks become the frame's number; or in .apng for one file that moves");
             ui.end_row();
             ui.label("What");
             ui.horizontal(|ui| {

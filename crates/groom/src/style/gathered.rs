@@ -101,7 +101,8 @@ impl Gathered<'_> {
         let length = zone.hang * member.map_or(own, |member| member.length * (0.7 + 0.3 * own));
         let section = section_place(index, zone.count);
         let tip_section = member.map_or(section, |_| {
-            let group = section_place(index % zone.groups, zone.groups);
+            let groups = zone.groups.min(zone.count);
+            let group = section_place(index % groups, groups);
             [0, 1].map(|i| section[i] + (group[i] - section[i]) * zone.gather)
         });
         // Inside the tie the clumps lie side by side.

@@ -197,7 +197,8 @@ impl Half<'_> {
             edit.apply(&mut points, self.shell);
             size *= edit.size;
         }
-        if let Some(height) = self.zone.cut {
+        let cut = self.zone.cut.filter(|_| self.zone.form != Form::Bun);
+        if let Some(height) = cut {
             cut_at(height, self.shell, &mut points);
         }
         let held = held.min(points.len());

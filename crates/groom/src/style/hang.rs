@@ -16,6 +16,8 @@ const MOST_POINTS: usize = 160;
 const CLOSEST: f32 = 0.6;
 /// How often hanging points are moved out of the body: each move may push others in.
 const CLEARINGS: u32 = 4;
+/// Points of what leads hair that is too short down to where it is cut.
+const LED_DOWN: u32 = 4;
 /// How near the skin hair may come on its way, head heights.
 const CLEAR: f32 = 0.002;
 /// Length in which hair of weight 1/2 turns half-way down, head heights.
@@ -88,11 +90,15 @@ pub(super) fn hang(
 /// Moves hanging points out of the body, and those between which the way runs through it.
 fn keep_clear(points: &mut [Vec3], shell: &Shell) {
     for _ in 0..CLEARINGS {
+        let mut has_moved = false;
         for i in 1..points.len() {
-            points[i] = shell.keep_out(points[i], CLEAR);
+            let clear = shell.keep_out(points[i], CLEAR);
+            has_moved |= clear != points[i];
+            points[i] = clear;
             for t in [0.25, 0.5, 0.75] {
                 let place = points[i - 1].lerp(points[i], t);
                 let push = shell.keep_out(place, CLEAR) - place;
+                has_moved |= push != Vec3::ZERO;
                 // As little as moves the place by that much; what hair hangs from stays.
                 let (before, here) = match i {
                     1 => (0.0, 1.0),
@@ -105,6 +111,9 @@ fn keep_clear(points: &mut [Vec3], shell: &Shell) {
                 points[i] += push * here;
             }
         }
+        if !has_moved {
+            return;
+        }
     }
 }
 
@@ -113,8 +122,10 @@ pub(super) fn cut_at(height: f32, shell: &Shell, points: &mut Vec<Vec3>) {
     let level = shell.center().y + height * shell.height();
     let is_below = |point: &Vec3| point.y < level;
     let Some(first) = points.iter().skip(1).position(is_below) else {
-        let tip = points[points.len() - 1];
-        points.push(tip.with_y(level.min(tip.y - 1e-3)));
+        let (hung, tip) = (points.len() - 1, points[points.len() - 1]);
+        let end = tip.with_y(level.min(tip.y - 1e-3));
+        points.extend((1..=LED_DOWN).map(|i| tip.lerp(end, i as f32 / LED_DOWN as f32)));
+        keep_clear(&mut points[hung..], shell);
         return;
     };
     let [above, below] = [points[first], points[first + 1]];

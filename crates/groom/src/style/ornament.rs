@@ -225,7 +225,8 @@ fn clip(center: Vec3, outwards: Vec3, along: Vec3, half_m: f32) -> OrnamentMesh 
     let across = outwards.cross(along);
     let stations = (0..=10).map(|step| {
         let t = step as f32 / 5.0 - 1.0;
-        let full = (1.0 - t.powi(4)).max(0.02).sqrt();
+        let squared = t * t;
+        let full = (1.0 - squared * squared).max(0.02).sqrt();
         Station {
             center: center + along * (t * half_m),
             across: across * (0.22 * half_m * full),

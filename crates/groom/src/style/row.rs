@@ -19,6 +19,8 @@ const WIDEST: f32 = 0.4;
 const TILE: f32 = 0.5;
 /// How much of their way together clumps that hang go on the head, before they hang.
 const GATHERED_ON_HEAD: f32 = 0.4;
+/// The least share of its way that a clump goes over the head, where a group makes it shorter.
+const SHORTEST: f32 = 0.05;
 /// How near the skin the roots of lower rows lie, head heights.
 const ROOT_OF_TILE: f32 = 0.012;
 
@@ -111,14 +113,14 @@ impl<'a> Row<'a> {
             None => 1.0 + zone.length_variation * random.around_zero(),
         };
         let length = zone.hang * own;
-        let hangs = length > 0.0;
+        let hangs = zone.hang > 0.0;
         let (ends, towards) = match member {
             Some(member) => self.gathered(ends, seat, member, hangs),
             None => (ends, Vec3::ZERO),
         };
         // Hair that only lies on the head ends sooner where it is shorter.
         let end = match member {
-            Some(_) if !hangs => (own * length_scale).min(1.0),
+            Some(_) if !hangs => (own * length_scale).clamp(SHORTEST, 1.0),
             _ => 1.0,
         };
 
@@ -159,7 +161,12 @@ impl<'a> Row<'a> {
             let along = seat.along + (member.middle - seat.along) * self.zone.gather * share;
             self.ends(along)[1]
         };
-        let (own, on_head) = (at(0.0), at(if hangs { GATHERED_ON_HEAD } else { 1.0 }));
+        let share = match &self.zone.tips {
+            None => 0.0,
+            Some(_) if hangs => GATHERED_ON_HEAD,
+            Some(_) => 1.0,
+        };
+        let (own, on_head) = (at(0.0), at(share));
         let ends = [root, (tip + on_head - own).normalize_or(tip)];
         let above = |way: Vec3| self.shell.above(way, self.zone.tip_lift);
         (ends, above(at(1.0)) - above(on_head))

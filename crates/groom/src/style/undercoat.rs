@@ -1,5 +1,6 @@
-//! A coat of clumps below all zones, so that no scalp shows between them: rings along the hairline, and a
-//! cap of clumps that run from the whorl outwards, which roots of other clumps sink into.
+//! A coat of clumps below all zones, so that no scalp shows between them. Either a few broad ones, most of them from the whorl to
+//! the hairline and the others along it, which make a smooth dome; or, as first styles have it, rings along the hairline and a cap
+//! of narrow ones that run from the whorl outwards. Roots of other clumps sink into both.
 
 use super::scalp::Scalp;
 use crate::shell::{Place, Shell, between, direction};

@@ -2,7 +2,7 @@
 
 use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, vec2};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
 use render::{
     Brush, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo, Surface, SurfaceVertex,
@@ -125,11 +125,12 @@ impl Scene {
             assert_eq!(cuts.is_empty(), i != 7, "strand {i}: {} cuts", cuts.len());
             let mean = points.iter().sum::<Vec3>() / points.len() as f32;
             paths.push_pieces(i, &points, &cuts, kind, &camera).unwrap();
+            let tapers = [NO_TAPER, vec2(0.3, -1.0), vec2(-1.0, 0.6), vec2(0.2, 0.5)];
             strands.push(StrandInfo {
                 id: 3 * i as u32 + 5,
                 mean,
                 size: numbers.around(9.0, 8.0),
-                taper: NO_TAPER,
+                taper: tapers[i % tapers.len()],
             });
         }
         // The last strands are an effect's own.

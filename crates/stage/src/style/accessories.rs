@@ -62,6 +62,10 @@ pub(super) fn accessory<'a>(reader: &mut Reader<'a>, item: &'a str) -> Option<Ac
         );
         return None;
     }
+    if kind != AccessoryKind::Hairband && at.len() > 1 {
+        reader.error(item, "a clip or a bow lies at one place: at: [(40, 30)]");
+        return None;
+    }
     Some(Accessory {
         kind,
         at,

@@ -30,7 +30,7 @@ section! {
         undercoat: bool = flag(true),
         /// How high the undercoat stands above the skin at the whorl: roots sink into it, so that the crown is no valley.
         cap: f32 = number(0.05, 0.0..=0.3).unit("head heights"),
-        /// How many broad clumps the undercoat is made of; 0: rings of narrow ones, 72 in all.
+        /// How many broad clumps the undercoat is made of, 6 at least; 0: rings of narrow ones, 72 in all.
         coat: u32 = whole(0, 0..=200),
     }
 }
@@ -106,6 +106,9 @@ pub const STYLE_PARTS: &[FilePart] = &[
     },
 ];
 
+/// Most accessories of a style.
+const MOST_ACCESSORIES: usize = 1000;
+
 /// Fields of a style that hold places, zones or clumps.
 const LISTS: [&str; 7] = [
     "whorl",
@@ -169,7 +172,14 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
             .edits
             .extend(clumps::edit(&mut reader, item, &style.zones));
     }
-    for item in items(&mut reader, &lists, "accessories") {
+    let worn = items(&mut reader, &lists, "accessories");
+    if let Some(first) = worn.get(MOST_ACCESSORIES) {
+        reader.error(
+            first,
+            format!("a style has at most {MOST_ACCESSORIES} accessories"),
+        );
+    }
+    for item in worn.into_iter().take(MOST_ACCESSORIES) {
         style
             .accessories
             .extend(accessories::accessory(&mut reader, item));

@@ -141,7 +141,8 @@ fn fitted(area: Rect, [width, height]: [u32; 2]) -> Rect {
 
 /// Fills what is not covered by the picture: where windows are drawn in software, each layer of pixels takes its time.
 fn paint_ground(painter: &Painter, area: Rect, rect: Rect, color: Color32, studio: &Studio) {
-    let is_covered = studio.shown[0].is_some() && studio.reference.is_none();
+    let is_covered =
+        studio.shown[0].is_some() && studio.reference.is_none() && studio.compare.is_none();
     if !is_covered {
         painter.rect_filled(area, 0.0, color);
         return;

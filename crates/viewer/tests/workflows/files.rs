@@ -18,7 +18,7 @@ fn a_new_look_begins_with_a_style() {
     // A name that is taken is refused, in place.
     type_path(&mut harness, &looks.path("look.ron"));
     click(&mut harness, "Write");
-    harness.get_by_label_contains("is already there");
+    wait_for_label(&mut harness, "is already there");
     type_path(&mut harness, &looks.path("mine.ron"));
     click(&mut harness, "Write");
     assert!(looks.path("mine.ron").is_file() && looks.path("mine.style.ron").is_file());
