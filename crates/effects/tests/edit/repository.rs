@@ -72,10 +72,9 @@ fn presets_of_the_repository() {
             let field: Vec<Step> = path.iter().copied().chain([Field("added")]).collect();
             if !edit::fields(&text, &path).is_empty() {
                 let added = edit::set(&text, &field, "1").unwrap();
-                assert_eq!(
-                    added.lines().count(),
-                    text.lines().count() + usize::from(value.contains('\n'))
-                );
+                // On a line of its own at most, and only where values stand on several lines.
+                let lines = added.lines().count() - text.lines().count();
+                assert!(lines <= usize::from(value.contains('\n')), "{name}: {path:?}");
                 assert_eq!(
                     edit::remove(&added, &field).unwrap(),
                     text,
