@@ -4,7 +4,7 @@ use crate::bake::Bake;
 use crate::dynamics::Dynamics;
 use crate::files::StageError;
 use crate::hand::{Driver, Hand};
-use crate::neck::{Neck, rigid};
+use crate::neck::rigid;
 use crate::object::Object;
 use crate::reach::may_see;
 use crate::scene::{Scene, mean_head};

@@ -50,11 +50,6 @@ impl Neck {
             rest: model,
         }
     }
-
-    /// The mesh as its file has it.
-    pub fn rest_mesh(&self) -> &Mesh {
-        &self.rest.mesh
-    }
 }
 
 impl PosedHead {
@@ -177,7 +172,7 @@ mod tests {
         for ((from, to), p) in facing
             .iter()
             .zip(&turned_figure.facing)
-            .zip(&neck_of_figure.rest_mesh().positions)
+            .zip(&neck_of_figure.rest.mesh.positions)
         {
             if p.y > 1.5 - 0.42 * 0.24 {
                 assert!(to.distance((rotation * from.as_dvec3()).as_vec3()) < 1e-6);

@@ -74,7 +74,10 @@ fn presets_of_the_repository() {
                 let added = edit::set(&text, &field, "1").unwrap();
                 // On a line of its own at most, and only where values stand on several lines.
                 let lines = added.lines().count() - text.lines().count();
-                assert!(lines <= usize::from(value.contains('\n')), "{name}: {path:?}");
+                assert!(
+                    lines <= usize::from(value.contains('\n')),
+                    "{name}: {path:?}"
+                );
                 assert_eq!(
                     edit::remove(&added, &field).unwrap(),
                     text,
