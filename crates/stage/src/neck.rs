@@ -3,7 +3,6 @@
 use crate::head::HeadModel;
 use crate::script::HeadPose;
 use glam::{DQuat, DVec3, Vec3};
-use hair_io::Mesh;
 use render::Head;
 
 /// Where the head turns about, from its middle, in head heights: the top of the neck.
