@@ -291,7 +291,7 @@ fn what_hair_wears_is_drawn_in_the_colours_of_ties() {
     }
     let style = fs::read_to_string(presets().join("styles/bob.style.ron")).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let mut triangles = |accessories: &str| {
+    let triangles = |accessories: &str| {
         let path = folder.path().join("worn.style.ron");
         let text = format!("version: 1, accessories: [{accessories}],");
         fs::write(&path, style.replacen("version: 1,", &text, 1)).unwrap();
