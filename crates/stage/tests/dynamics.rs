@@ -467,8 +467,7 @@ fn ordinary_motions_need_no_rescue() {
             let what = format!("{look}, {feel}, {motion}: {fallbacks} of {steps} steps");
             println!("{what}");
             assert!(steps > 1000, "{what}");
-            // The most is short-ash's as limp: the hair that stands up at its whorl falls over.
-            assert!(fallbacks * 50 <= steps, "{what}");
+            assert!(fallbacks * 100 <= steps, "{what}");
             assert_eq!(set_aside, 0, "{what}");
         }
     }
