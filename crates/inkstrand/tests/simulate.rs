@@ -230,6 +230,7 @@ fn a_bake_is_made_anew_in_the_place_of_the_one_that_the_preset_names() {
         style.to_str().unwrap()
     );
     let preset = preset.replace("file: \"styles/bob.style.ron\"", &hair);
+    let line = 1 + preset.lines().position(|line| line.contains(&hair)).unwrap();
     fs::write(folder.path().join("look.ron"), preset).unwrap();
     let run = |line: &[&str]| {
         let mut command = Command::cargo_bin("inkstrand").unwrap();
@@ -253,6 +254,6 @@ fn a_bake_is_made_anew_in_the_place_of_the_one_that_the_preset_names() {
     );
     run(&["check", "look.ron"])
         .code(1)
-        .stderr(contains("look.ron:4:"))
+        .stderr(contains(format!("look.ron:{line}:")))
         .stderr(contains("motion was walk.motion.ron and is none"));
 }
