@@ -31,15 +31,14 @@ use crate::drawing::Drawing;
 use crate::picture::Picture;
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
-use glam::Vec2;
 use instructions::Instructions;
 use rayon::prelude::*;
 use segment::{Segments, Stroke};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-use strand::{Part, StrandPlanes, TileContext};
+use strand::{Part, StrandMasks, TileContext};
 use surface::Triangle;
-use tile::{Sums, Target};
+use tile::{Stack, Sums, Target};
 
 /// Most threads of a rasteriser.
 pub const MAX_THREADS: usize = 1024;
@@ -63,7 +62,9 @@ pub enum RasterizerError {
 pub struct Rasterizer {
     /// Its own threads, or none where it draws on the caller's.
     pool: Option<rayon::ThreadPool>,
-    samples: Vec<Vec2>,
+    /// In a pixel.
+    samples: usize,
+    stacks: Vec<Stack>,
     parts: Parts,
     instructions: Instructions,
     /// One for each thread, once it has drawn.
@@ -96,7 +97,8 @@ impl Rasterizer {
         let available = Instructions::available();
         Ok(Self {
             pool,
-            samples,
+            samples: samples.len(),
+            stacks: Stack::of_pixel(&samples),
             instructions: *available.last().unwrap_or(&Instructions::Compiled),
             parts: Parts::default(),
             workers: Vec::new(),
@@ -114,6 +116,7 @@ impl Rasterizer {
         let Self {
             pool,
             samples,
+            stacks,
             parts,
             instructions,
             workers,
@@ -122,16 +125,18 @@ impl Rasterizer {
             check::check(drawing)?;
             let mut picture = empty_picture(drawing.size)?;
             let strokes = segment::strokes_in_order(drawing);
-            parts.collect(drawing, &strokes);
+            let tile_height = tile::height(stacks);
+            parts.collect(drawing, &strokes, tile_height);
             let frame = Frame {
                 drawing,
                 strokes: &strokes,
                 parts,
-                samples,
+                samples: *samples,
+                stacks,
             };
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
-            let band_length = drawing.size[0] as usize * tile::HEIGHT;
+            let band_length = drawing.size[0] as usize * tile_height;
             picture
                 .pixels
                 .par_chunks_mut(band_length)
@@ -169,13 +174,13 @@ fn empty_picture([width, height]: [u32; 2]) -> Result<Picture, DrawError> {
 }
 
 impl Parts {
-    fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke]) {
-        let bands = (drawing.size[1] as usize).div_ceil(tile::HEIGHT);
-        self.segments.collect(drawing, strokes, bands);
+    fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], tile_height: usize) {
+        self.segments.collect(drawing, strokes, tile_height);
         surface::collect(drawing, &mut self.triangles);
+        let bands = (drawing.size[1] as usize).div_ceil(tile_height);
         let rows = self.triangles.iter().map(|t| t.bounds.y).zip(0..);
         self.triangles_of_bands
-            .fill(bands, rows.map(|(y, i)| (i, cells(y, tile::HEIGHT))));
+            .fill(bands, rows.map(|(y, i)| (i, cells(y, tile_height))));
     }
 }
 
@@ -184,7 +189,9 @@ struct Frame<'a> {
     drawing: &'a Drawing,
     strokes: &'a [Stroke],
     parts: &'a Parts,
-    samples: &'a [Vec2],
+    /// In a pixel.
+    samples: usize,
+    stacks: &'a [Stack],
 }
 
 /// A thread's own memory.
@@ -195,7 +202,7 @@ struct Worker {
     triangles_of_tiles: Bins,
     target: Target,
     parts: Vec<Part>,
-    strand: StrandPlanes,
+    strand: StrandMasks,
     sums: Sums,
 }
 
@@ -207,7 +214,7 @@ impl Worker {
             triangles_of_tiles: Bins::default(),
             target: Target::new(),
             parts: Vec::new(),
-            strand: StrandPlanes::new(),
+            strand: StrandMasks::new(),
             sums: Sums::new(),
         }
     }
@@ -234,7 +241,7 @@ impl Worker {
             (i, cells(columns, tile::WIDTH))
         });
         self.triangles_of_tiles.fill(tiles, columns);
-        let empty = tile::empty_pixel(frame.drawing.background, frame.samples.len());
+        let empty = tile::empty_pixel(frame.drawing.background, frame.samples);
         for tile in 0..tiles {
             let x = tile * tile::WIDTH;
             let is_empty = self.segments_of_tiles.bin(tile).is_empty()
@@ -246,11 +253,10 @@ impl Worker {
                 }
                 continue;
             }
-            self.draw_tile(frame, tile, [x, band * tile::HEIGHT]);
+            self.draw_tile(frame, tile, [x, band * tile::height(frame.stacks)]);
             let end = (x + tile::WIDTH).min(width);
             for (row, pixels) in pixels.chunks_mut(width).enumerate() {
-                self.sums
-                    .write(row, frame.samples.len(), &mut pixels[x..end]);
+                self.sums.write(row, frame.samples, &mut pixels[x..end]);
             }
         }
     }
@@ -258,7 +264,7 @@ impl Worker {
     /// Sums up the samples of the tile at `origin`.
     #[inline(always)]
     fn draw_tile(&mut self, frame: &Frame, tile: usize, origin: [usize; 2]) {
-        self.sums.clear();
+        self.sums.clear(tile::height(frame.stacks));
         let background = frame.drawing.background;
         let segments_of_tile = self.segments_of_tiles.bin(tile);
         let mut scene = TileContext {
@@ -267,17 +273,17 @@ impl Worker {
             strokes: frame.strokes,
             segments: frame.parts.segments.list(),
             origin,
-            samples: frame.samples,
+            stack: &frame.stacks[0],
         };
         scene.strands(segments_of_tile, &mut self.parts);
-        for samples in frame.samples.chunks(tile::GROUP) {
-            scene.samples = samples;
-            self.target.clear(samples.len(), background);
+        for stack in frame.stacks {
+            scene.stack = stack;
+            self.target.clear(background);
             let triangles = self.triangles_of_tiles.bin(tile);
             if !triangles.is_empty() {
                 for &triangle in triangles {
                     let triangle = &frame.parts.triangles[triangle as usize];
-                    triangle.draw(frame.drawing, origin, samples, &mut self.target);
+                    triangle.draw(frame.drawing, origin, stack, &mut self.target);
                 }
                 self.target.finish_surfaces();
             }
@@ -285,8 +291,7 @@ impl Worker {
                 self.strand
                     .draw(&scene, segments_of_tile, part, &mut self.target);
             }
-            self.sums
-                .add(&self.target, samples.len(), background.is_some());
+            self.sums.add(&mut self.target, stack, background.is_some());
         }
     }
 }

@@ -8,7 +8,7 @@
 //! Between half discs it is the hull of these, again convex.
 
 use super::segment::Segment;
-use super::tile::{HEIGHT, LANE, LANES, Lanes, Mask, WIDTH, greater, lesser, select};
+use super::tile::{LANES, Lanes, Mask, STACK, Stack, WIDTH, greater, lesser, select};
 use glam::{DVec2, Vec2};
 use std::ops::Range;
 use stroke_path::sweep::FlatEnd;
@@ -108,12 +108,12 @@ impl Intervals {
 
     /// The columns whose samples, `offset` to the right of them, lie in the intervals; ends included.
     #[inline(always)]
-    fn columns(&self, offset: f32) -> [u32; LANES] {
+    fn columns(&self, offset: &Lanes) -> [u32; LANES] {
         let mut columns = [0; LANES];
         for k in 0..LANES {
-            let from = greater(self.least[k] - offset, 0.0);
+            let from = greater(self.least[k] - offset[k], 0.0);
             let from = lesser(from, WIDTH as f32);
-            let to = lesser(self.greatest[k] - offset, (WIDTH - 1) as f32);
+            let to = lesser(self.greatest[k] - offset[k], (WIDTH - 1) as f32);
             let to = greater(to, -1.0);
             let ((first, at_first), (last, at_last)) = (round(from), round(to));
             let first = first + select(at_first < from, 1, 0);
@@ -142,14 +142,17 @@ fn lowest(number: i32) -> u32 {
     select(number >= 32, u32::MAX, some)
 }
 
+/// Rows of stacks whose samples are worked on at once.
+pub(super) const ROWS_AT_ONCE: usize = LANES / STACK;
+
 /// Sets the bits of the samples in the tile at `origin` that the segment covers. Only `rows` are
-/// looked at, which begin and end at multiples of [`LANES`].
+/// looked at, which begin and end at multiples of [`ROWS_AT_ONCE`].
 #[inline(always)]
 pub(super) fn cover(
     segment: &Segment,
     origin: DVec2,
     rows: &Range<usize>,
-    samples: &[Vec2],
+    stack: &Stack,
     mask: &mut Mask,
 ) {
     let discs = segment.sweep.ends().map(|(center, radius)| Disc {
@@ -158,12 +161,17 @@ pub(super) fn cover(
         radius,
     });
     let outline = Outline::new(segment, discs);
-    for (sample, offset) in samples.iter().enumerate() {
-        for first in rows.clone().step_by(LANES) {
-            let y = LANE.map(|k| first as f32 + k + offset.y);
-            let start = sample * HEIGHT + first;
-            mask[start..start + LANES].copy_from_slice(&outline.intervals(&y).columns(offset.x));
+    let mut offset = [0.0; LANES];
+    for k in 0..LANES {
+        offset[k] = stack.x[k % STACK];
+    }
+    for first in rows.clone().step_by(ROWS_AT_ONCE) {
+        let mut y = [0.0; LANES];
+        for k in 0..LANES {
+            y[k] = ((first + k / STACK) * stack.height) as f32 + stack.y[k % STACK];
         }
+        let words = &mut mask[first * STACK..][..LANES];
+        words.copy_from_slice(&outline.intervals(&y).columns(&offset));
     }
 }
 

@@ -1,7 +1,7 @@
 //! A drawing's strokes taken apart into segments, in the order in which they are drawn.
 
 use super::bin::{Bins, Bounds, cells, clip};
-use super::tile;
+use super::tile::{self, Stack};
 use crate::drawing::{Disc, Drawing, Order, Run};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -107,8 +107,10 @@ struct Group {
 }
 
 impl Segments {
-    /// Takes those of a checked drawing that may be seen in place of what was there, sorted into that many bands of tiles.
-    pub(super) fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], bands: usize) {
+    /// Takes those of a checked drawing that may be seen in place of what was there, sorted into bands of tiles so many
+    /// pixels high.
+    pub(super) fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], tile_height: usize) {
+        let bands = (drawing.size[1] as usize).div_ceil(tile_height);
         let strands: Vec<&[Run]> = drawing.runs.chunk_by(|a, b| a.strand == b.strand).collect();
         let groups = &mut self.groups;
         groups.resize_with(strands.len().div_ceil(GROUP), Group::default);
@@ -152,7 +154,7 @@ impl Segments {
                 .zip(0..);
             group
                 .bands
-                .fill(bands, rows.map(|(rows, i)| (i, cells(rows, tile::HEIGHT))));
+                .fill(bands, rows.map(|(rows, i)| (i, cells(rows, tile_height))));
         });
     }
 
@@ -331,10 +333,11 @@ impl Segment {
         })
     }
 
-    /// The rows, of the tile whose first one is `top`, that the segment may reach.
+    /// The rows of stacks, of the tile whose first pixel is `top`, that the segment may reach.
     #[inline(always)]
-    pub(super) fn rows_in(&self, top: usize) -> Range<usize> {
-        clip(self.bounds.y, top, tile::HEIGHT)
+    pub(super) fn rows_in(&self, top: usize, stack: &Stack) -> Range<usize> {
+        let pixels = clip(self.bounds.y, top, tile::ROWS * stack.height);
+        pixels.start / stack.height..pixels.end.div_ceil(stack.height)
     }
 
     /// The columns, of the tile whose first one is `left`, that the segment may reach, a bit for each.

@@ -3,7 +3,7 @@
 
 use super::bin::{Bins, Bounds, cells};
 use super::instructions::Instructions;
-use super::tile::{self, LANE, LANES, NOTHING, Sums, Target, overwrite, row_start, select};
+use super::tile::{self, Cell, LANES, NOTHING, Stack, Sums, Target, any, overwrite, select};
 use super::{DrawError, RasterizerError, empty_picture, segment};
 use crate::check;
 use crate::drawing::{Brush, Drawing, LayerStrokes};
@@ -21,7 +21,9 @@ use std::sync::{Mutex, PoisonError};
 /// and the disc in front gives the colour. Surfaces are left out.
 pub struct Stamper {
     pool: rayon::ThreadPool,
-    samples: Vec<Vec2>,
+    /// In a pixel.
+    samples: usize,
+    stacks: Vec<Stack>,
     stamps: Vec<Stamp>,
     bands: Bins,
     instructions: Instructions,
@@ -47,7 +49,8 @@ struct Stamp {
 /// What a row of tiles shows.
 struct Band<'a> {
     drawing: &'a Drawing,
-    samples: &'a [Vec2],
+    samples: usize,
+    stacks: &'a [Stack],
     stamps: &'a [Stamp],
     /// Indices of those stamps that reach it.
     in_band: &'a [u32],
@@ -77,7 +80,8 @@ impl Stamper {
             sums: Sums::new(),
         };
         Ok(Self {
-            samples,
+            samples: samples.len(),
+            stacks: Stack::of_pixel(&samples),
             stamps: Vec::new(),
             bands: Bins::default(),
             instructions: Instructions::available()
@@ -100,6 +104,7 @@ impl Stamper {
         let Self {
             pool,
             samples,
+            stacks,
             stamps,
             bands,
             instructions,
@@ -110,14 +115,16 @@ impl Stamper {
             let mut picture = empty_picture(drawing.size)?;
             collect(drawing, per_interval.max(1), stamps);
             let rows = stamps.iter().map(|stamp| stamp.rows).zip(0..);
-            let count = (drawing.size[1] as usize).div_ceil(tile::HEIGHT);
-            bands.fill(count, rows.map(|(rows, i)| (i, cells(rows, tile::HEIGHT))));
-            let band_length = drawing.size[0] as usize * tile::HEIGHT;
+            let height = tile::height(stacks);
+            let count = (drawing.size[1] as usize).div_ceil(height);
+            bands.fill(count, rows.map(|(rows, i)| (i, cells(rows, height))));
+            let band_length = drawing.size[0] as usize * height;
             let chunks = picture.pixels.par_chunks_mut(band_length);
             chunks.enumerate().for_each(|(index, pixels)| {
                 let band = Band {
                     drawing,
-                    samples,
+                    samples: *samples,
+                    stacks,
                     stamps,
                     in_band: bands.bin(index),
                     index,
@@ -218,6 +225,7 @@ impl Worker {
         let Band {
             drawing,
             samples,
+            stacks,
             stamps,
             in_band,
             index,
@@ -229,20 +237,19 @@ impl Worker {
             .map(|&i| (i, cells(stamps[i as usize].columns, tile::WIDTH)));
         self.tiles.fill(tiles, columns);
         for tile in 0..tiles {
-            let origin = [tile * tile::WIDTH, index * tile::HEIGHT];
-            self.sums.clear();
-            for samples in samples.chunks(tile::GROUP) {
-                self.target.clear(samples.len(), drawing.background);
+            let origin = [tile * tile::WIDTH, index * tile::height(stacks)];
+            self.sums.clear(tile::height(stacks));
+            for stack in stacks {
+                self.target.clear(drawing.background);
                 for &stamp in self.tiles.bin(tile) {
-                    stamps[stamp as usize].draw(origin, samples, &mut self.target);
+                    stamps[stamp as usize].draw(origin, stack, &mut self.target);
                 }
                 let is_opaque = drawing.background.is_some();
-                self.sums.add(&self.target, samples.len(), is_opaque);
+                self.sums.add(&mut self.target, stack, is_opaque);
             }
             let end = (origin[0] + tile::WIDTH).min(width);
             for (row, pixels) in pixels.chunks_mut(width).enumerate() {
-                self.sums
-                    .write(row, samples.len(), &mut pixels[origin[0]..end]);
+                self.sums.write(row, samples, &mut pixels[origin[0]..end]);
             }
         }
     }
@@ -263,47 +270,38 @@ fn avx512(worker: &mut Worker, band: &Band, pixels: &mut [[f32; 4]]) {
 impl Stamp {
     /// Where the stamp covers a sample and is nearer than what is there, it takes its place.
     #[inline(always)]
-    fn draw(&self, origin: [usize; 2], samples: &[Vec2], target: &mut Target) {
+    fn draw(&self, origin: [usize; 2], stack: &Stack, target: &mut Target) {
         let clip = |[start, end]: [u16; 2], origin: usize, size: usize| {
             let (start, end) = (usize::from(start), usize::from(end));
             start.max(origin) - origin..end.min(origin + size) - origin
         };
         let columns = clip(self.columns, origin[0], tile::WIDTH);
-        let chunks = columns.start / LANES..columns.end.div_ceil(LANES);
+        let across = columns.start / tile::CELL_WIDTH..columns.end.div_ceil(tile::CELL_WIDTH);
+        let pixels = clip(self.rows, origin[1], tile::ROWS * stack.height);
         let center = self.center - Vec2::new(origin[0] as f32, origin[1] as f32);
-        for row in clip(self.rows, origin[1], tile::HEIGHT) {
-            for (sample, offset) in samples.iter().enumerate() {
-                let y = row as f32 + offset.y - center.y;
-                let half_width_squared = self.radius_squared - y * y;
-                if half_width_squared < 0.0 {
-                    continue;
-                }
-                let start = row_start(sample * tile::HEIGHT + row);
-                for chunk in chunks.clone() {
-                    let x = (chunk * LANES) as f32 + offset.x - center.x;
-                    self.draw_chunk(Vec2::new(x, y), half_width_squared, start + chunk, target);
-                }
+        for row in pixels.start / stack.height..pixels.end.div_ceil(stack.height) {
+            for cell in across.clone() {
+                let cell = Cell::new(row, cell * tile::CELL_WIDTH);
+                let corner = Vec2::new(cell.column as f32, (row * stack.height) as f32);
+                self.draw_cell(corner - center, stack, cell.index, target);
             }
         }
     }
 
-    /// `first` is the first lane's place from the centre, `half_width_squared` the largest square of an x that is covered.
+    /// `corner` is the cell's, from the disc's centre.
     #[inline(always)]
-    fn draw_chunk(&self, first: Vec2, half_width_squared: f32, cell: usize, target: &mut Target) {
+    fn draw_cell(&self, corner: Vec2, stack: &Stack, cell: usize, target: &mut Target) {
         let mut nearest = target.strand[cell];
-        let mut wins = [0.0; LANES];
+        let mut wins = [0; LANES];
         for k in 0..LANES {
-            let x = first.x + LANE[k];
-            let is_behind = x * self.ahead.x + first.y * self.ahead.y <= 0.0;
-            let depth = select(
-                (x * x <= half_width_squared) & is_behind,
-                self.inv_depth,
-                NOTHING,
-            );
-            wins[k] = select(depth > nearest[k], 1.0, 0.0);
+            let (x, y) = (corner.x + stack.x[k], corner.y + stack.y[k]);
+            let is_behind = x * self.ahead.x + y * self.ahead.y <= 0.0;
+            let is_covered = (x * x + y * y <= self.radius_squared) & is_behind;
+            let depth = select(is_covered, self.inv_depth, NOTHING);
+            wins[k] = select(depth > nearest[k], u32::MAX, 0);
             nearest[k] = select(depth > nearest[k], depth, nearest[k]);
         }
-        if wins == [0.0; LANES] {
+        if !any(&wins) {
             return;
         }
         target.strand[cell] = nearest;

@@ -1,22 +1,18 @@
 //! One strand in one tile: its strokes in their order, then the strand against what is there.
 //!
 //! What can't be seen is not worked out. First come the masks of what each stroke covers; from the
-//! highest stroke down each takes the samples that are left. Of these only those get a depth where the
-//! stroke's nearest disc in the tile would show; only those are rounded that still would, as rounding takes
-//! them deeper; and only those that then show in the picture get a colour.
+//! highest stroke down each takes the samples that are left. Then cell by cell: where the
+//! stroke's nearest disc in the tile would show, its segments give depth and roundness, and what of that shows in the picture
+//! goes there; only that gets a colour.
 
 use super::segment::{Segment, Stroke};
-use super::stroke::{Depths, Placed};
+use super::stroke::{Measured, Placed, Shaded};
 use super::tile::{
-    HEIGHT, LANES, Lanes, Mask, NO_SAMPLES, Plane, ROWS, Target, both, cells, greater, has,
-    is_empty, plane, select, without,
+    LANES, LaneMask, Lanes, Mask, NO_SAMPLES, ROWS, Stack, Target, add, any, both, cells, columns,
+    greater, is_empty, overwrite, without,
 };
 use crate::drawing::Order;
-use glam::Vec2;
 use std::ops::Range;
-
-/// Part of an inverse depth below which two are the same: the rounding of a ramp's ends.
-const SAME_DEPTH: f32 = 1e-6;
 
 /// What stays the same from strand to strand.
 pub(super) struct TileContext<'a> {
@@ -26,21 +22,17 @@ pub(super) struct TileContext<'a> {
     pub(super) segments: &'a [Segment],
     /// The tile's upper left pixel.
     pub(super) origin: [usize; 2],
-    /// The samples that are worked on, from their pixel's corner.
-    pub(super) samples: &'a [Vec2],
+    /// The samples that are worked on.
+    pub(super) stack: &'a Stack,
 }
 
 /// The working memory of one strand.
-pub(super) struct StrandPlanes {
+pub(super) struct StrandMasks {
     /// The strand's segments that cover something, in drawing order.
     placed: Vec<Placed>,
     /// Its strokes, lowest first; the clump before them.
     strokes: Vec<Covered>,
-    depths: Depths,
-    /// The least ratio of the stroke that is being shaded.
-    ratio: Plane,
-    /// Segments of a stroke from the nearest to the farthest.
-    by_depth: Vec<Near>,
+    row: Row,
 }
 
 /// A stroke in the tile.
@@ -53,27 +45,22 @@ struct Covered {
     samples: Mask,
 }
 
-/// A segment's range of depths.
-struct Near {
-    placed: usize,
-    /// Least and greatest.
-    inv_depth: [f32; 2],
-    biased: [f32; 2],
-    /// The greatest of this and all farther segments.
-    biased_from_here: f32,
+/// How much deeper than its middle a stroke lies towards its edge.
+#[derive(Clone, Copy, PartialEq)]
+enum Roundness {
+    Flat,
+    /// By the square of distance over radius.
+    Clump,
+    /// By its eighth power.
+    Outline,
 }
 
-impl StrandPlanes {
+impl StrandMasks {
     pub(super) fn new() -> Self {
         Self {
             placed: Vec::new(),
             strokes: Vec::new(),
-            depths: Depths {
-                inv_depth: plane(),
-                biased: plane(),
-            },
-            ratio: plane(),
-            by_depth: Vec::new(),
+            row: Row::default(),
         }
     }
 
@@ -88,7 +75,7 @@ impl StrandPlanes {
     ) {
         let strand = &tile[part.segments.clone()];
         let open = scene.open(part, target);
-        if is_empty(&open) {
+        if open == [0; ROWS] {
             return;
         }
         self.place(scene, strand, &open);
@@ -103,7 +90,7 @@ impl StrandPlanes {
 
     /// Finds which of the open samples each stroke covers, and leaves out those that cover none.
     #[inline(always)]
-    fn place(&mut self, scene: &TileContext, strand: &[u32], open: &Mask) {
+    fn place(&mut self, scene: &TileContext, strand: &[u32], open: &[u32; ROWS]) {
         self.placed.clear();
         self.strokes.clear();
         let number = |i: u32| scene.segments[i as usize].stroke;
@@ -112,11 +99,11 @@ impl StrandPlanes {
             let mut samples = NO_SAMPLES;
             for &index in stroke {
                 let segment = &scene.segments[index as usize];
-                let placed = Placed::new(index, segment, scene.origin, scene.samples, open);
-                for row in 0..ROWS {
-                    samples[row] |= placed.covered[row] & open[row];
+                let placed = Placed::new(index, segment, scene.origin, scene.stack, open);
+                if let Some(placed) = placed {
+                    add(&mut samples, &placed.covered);
+                    self.placed.push(placed);
                 }
-                self.placed.push(placed);
             }
             if is_empty(&samples) {
                 self.placed.truncate(first);
@@ -129,13 +116,13 @@ impl StrandPlanes {
             });
         }
         if let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) {
-            self.place_base(scene, clump.segments.clone(), open);
+            self.place_base(scene, clump.segments.clone());
         }
     }
 
     /// Adds the strokes that are the clump and its sides, whose segments these are.
     #[inline(always)]
-    fn place_base(&mut self, scene: &TileContext, segments: Range<usize>, open: &Mask) {
+    fn place_base(&mut self, scene: &TileContext, segments: Range<usize>) {
         let drawn_as = |placed: &Placed| scene.segments[placed.segment as usize].drawn_as;
         let mut first = segments.start;
         while first < segments.end {
@@ -144,9 +131,7 @@ impl StrandPlanes {
             let part = ahead.partition_point(|placed| drawn_as(placed) <= number);
             let mut samples = NO_SAMPLES;
             for placed in &ahead[..part] {
-                for row in 0..ROWS {
-                    samples[row] |= placed.covered[row] & open[row];
-                }
+                add(&mut samples, &placed.covered);
             }
             let stroke = Covered {
                 number,
@@ -171,171 +156,156 @@ impl StrandPlanes {
         };
         let clump_samples = clump.as_ref().map_or(NO_SAMPLES, |clump| clump.samples);
         let rank = |stroke: &Covered| scene.strokes[stroke.number as usize - 1].rank;
-        let mut shown = NO_SAMPLES;
+        let mut drawn = NO_SAMPLES;
         for stroke in strokes.iter_mut().rev() {
-            let is_clipped = rank(stroke) >= 0;
-            for row in 0..ROWS {
-                let may = select(is_clipped, clump_samples[row], u32::MAX);
-                stroke.samples[row] &= may & !shown[row];
-                shown[row] |= stroke.samples[row];
+            if rank(stroke) >= 0 {
+                stroke.samples = both(&stroke.samples, &clump_samples);
             }
+            stroke.samples = without(&stroke.samples, &drawn);
+            add(&mut drawn, &stroke.samples);
         }
-        self.depths.clear(&shown);
-        let is_round = scene.order == Order::Rounded;
+        let [of_clump, of_outline] = match scene.order {
+            Order::Rounded => [Roundness::Clump, Roundness::Outline],
+            _ => [Roundness::Flat; 2],
+        };
+        let mut shown = NO_SAMPLES;
         for stroke in strokes.iter().filter(|stroke| rank(stroke) < 0) {
             let placed = &self.placed[stroke.segments.clone()];
             let outside = without(&stroke.samples, &clump_samples);
-            let near = scene.before(placed, &outside, target);
-            shown = without(&shown, &without(&outside, &near));
-            let outside = near;
-            measure(scene, placed, outside, &mut self.by_depth, &mut self.depths);
-            if is_round {
-                let near = self.depths.before(&outside, target);
-                shown = without(&shown, &without(&outside, &near));
-                round(
-                    scene,
-                    placed,
-                    &near,
-                    true,
-                    &mut self.ratio,
-                    &mut self.depths,
-                );
-            }
+            let offer = Offer {
+                scene,
+                placed,
+                roundness: of_outline,
+                priority,
+            };
+            offer.make(&outside, &mut self.row, target, &mut shown);
         }
         if let Some(clump) = clump {
             let placed = &self.placed[clump.segments.clone()];
-            let inside = both(&shown, &clump_samples);
-            let near = scene.before(placed, &inside, target);
-            shown = without(&shown, &without(&inside, &near));
-            let inside = near;
-            measure(scene, placed, inside, &mut self.by_depth, &mut self.depths);
-            if is_round {
-                let near = self.depths.before(&inside, target);
-                shown = without(&shown, &without(&inside, &near));
-                round(
-                    scene,
-                    placed,
-                    &near,
-                    false,
-                    &mut self.ratio,
-                    &mut self.depths,
-                );
-            }
-        }
-        composite(&self.depths, &mut shown, priority, target);
-        for stroke in strokes {
-            stroke.samples = both(&stroke.samples, &shown);
-            shade(
+            let inside = both(&drawn, &clump_samples);
+            let offer = Offer {
                 scene,
-                &self.placed[stroke.segments.clone()],
-                &stroke.samples,
-                &mut self.ratio,
-                target,
-            );
+                placed,
+                roundness: of_clump,
+                priority,
+            };
+            offer.make(&inside, &mut self.row, target, &mut shown);
+        }
+        for stroke in strokes {
+            let placed = &self.placed[stroke.segments.clone()];
+            let samples = both(&stroke.samples, &shown);
+            shade(scene, placed, &samples, &mut self.row, target);
         }
     }
 
     /// Each stroke by itself against what is there.
     #[inline(always)]
     fn draw_each(&mut self, scene: &TileContext, target: &mut Target) {
-        for stroke in &mut self.strokes {
+        for stroke in &self.strokes {
             let placed = &self.placed[stroke.segments.clone()];
-            self.depths.clear(&stroke.samples);
-            measure(
+            let offer = Offer {
                 scene,
                 placed,
-                stroke.samples,
-                &mut self.by_depth,
-                &mut self.depths,
-            );
-            composite(&self.depths, &mut stroke.samples, stroke.number, target);
-            shade(scene, placed, &stroke.samples, &mut self.ratio, target);
+                roundness: Roundness::Flat,
+                priority: stroke.number,
+            };
+            let mut shown = NO_SAMPLES;
+            offer.make(&stroke.samples, &mut self.row, target, &mut shown);
+            shade(scene, placed, &shown, &mut self.row, target);
         }
     }
 }
 
-/// Works out the depths of the samples, which the segments cover.
-///
-/// From the nearest segment to the farthest: a sample that one covers needs no other that is farther
-/// all along.
-#[inline(always)]
-fn measure(
-    scene: &TileContext,
-    placed: &[Placed],
-    mut samples: Mask,
-    by_depth: &mut Vec<Near>,
-    depths: &mut Depths,
-) {
-    if is_empty(&samples) {
-        return;
-    }
-    by_depth.clear();
-    by_depth.extend(placed.iter().enumerate().map(|(i, placed)| {
-        let segment = &scene.segments[placed.segment as usize];
-        let biased = segment.inv_depth_biased.range();
-        Near {
-            placed: i,
-            inv_depth: segment.inv_depth.range(),
-            biased,
-            biased_from_here: biased[1],
-        }
-    }));
-    by_depth.sort_by(|a, b| b.inv_depth[1].total_cmp(&a.inv_depth[1]));
-    for i in (1..by_depth.len()).rev() {
-        by_depth[i - 1].biased_from_here = by_depth[i - 1]
-            .biased_from_here
-            .max(by_depth[i].biased_from_here);
-    }
-    let reaches = |least: f32, greatest: f32| least + SAME_DEPTH * least.abs() >= greatest;
-    for (i, near) in by_depth.iter().enumerate() {
-        let placed = &placed[near.placed];
-        let segment = &scene.segments[placed.segment as usize];
-        placed.measure(segment, scene.samples, &samples, depths);
-        let hides_the_rest = by_depth.get(i + 1).is_some_and(|next| {
-            reaches(near.inv_depth[0], next.inv_depth[1])
-                & reaches(near.biased[0], next.biased_from_here)
-        });
-        if hides_the_rest {
-            samples = without(&samples, &placed.covered);
-        }
-    }
-}
+/// The segments of a stroke that cover some samples of a row of stacks: their places among its segments, and the columns.
+#[derive(Default)]
+struct Row(Vec<(usize, u32)>);
 
-/// Takes the samples, which the segments cover, as much deeper as they are far from the stroke's middle.
-#[inline(always)]
-fn round(
-    scene: &TileContext,
-    placed: &[Placed],
-    samples: &Mask,
-    is_outline: bool,
-    ratio: &mut Plane,
-    depths: &mut Depths,
-) {
-    if is_empty(samples) {
-        return;
-    }
-    for cell in cells(samples) {
-        ratio[cell.index] = [1.0; LANES];
-    }
-    for placed in placed {
-        let segment = &scene.segments[placed.segment as usize];
-        placed.ratio(segment, scene.samples, samples, ratio);
-    }
-    for cell in cells(samples) {
-        let mut part = ratio[cell.index];
-        if is_outline {
-            for k in 0..LANES {
-                part[k] *= part[k];
-                part[k] *= part[k];
+impl Row {
+    /// Finds those that cover one of the columns.
+    #[inline(always)]
+    fn find(&mut self, placed: &[Placed], row: usize, wanted: u32) {
+        self.0.clear();
+        for (i, placed) in placed.iter().enumerate() {
+            let reached = columns(&placed.covered, row) & wanted;
+            if reached != 0 {
+                self.0.push((i, reached));
             }
         }
-        let nearest = &mut depths.inv_depth[cell.index];
-        let biased = &mut depths.biased[cell.index];
+    }
+}
+
+/// A stroke that is held against what the samples show.
+struct Offer<'a> {
+    scene: &'a TileContext<'a>,
+    /// Its segments.
+    placed: &'a [Placed],
+    roundness: Roundness,
+    /// Decides among equal depths.
+    priority: u32,
+}
+
+impl Offer<'_> {
+    /// Puts the samples, which the segments cover, into the picture; those that show are added to `shown`.
+    #[inline(always)]
+    fn make(&self, samples: &Mask, segments: &mut Row, target: &mut Target, shown: &mut Mask) {
+        let (mut nearest, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
+        for placed in self.placed {
+            let segment = self.segment(placed);
+            nearest = nearest.max(segment.inv_depth.range()[1]);
+            biased = biased.max(segment.inv_depth_biased.range()[1]);
+        }
+        for row in 0..ROWS {
+            let wanted = columns(samples, row);
+            if wanted == 0 {
+                continue;
+            }
+            segments.find(self.placed, row, wanted);
+            for cell in cells(row, wanted) {
+                let taken = target.may_show(cell, &cell.lanes(samples), nearest, biased);
+                if !any(&taken) {
+                    continue;
+                }
+                let mut stroke = Measured::new();
+                for &(place, reached) in &segments.0 {
+                    if reached >> cell.column & 3 != 0 {
+                        let placed = &self.placed[place];
+                        placed.measure(self.segment(placed), cell, &mut stroke);
+                    }
+                }
+                self.round(&mut stroke);
+                let wins = target.offer(
+                    cell,
+                    &taken,
+                    &stroke.inv_depth,
+                    &stroke.biased,
+                    self.priority,
+                );
+                cell.add_to(shown, &wins);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn segment(&self, placed: &Placed) -> &Segment {
+        &self.scene.segments[placed.segment as usize]
+    }
+
+    /// Takes the samples as much deeper as they are far from the stroke's middle.
+    #[inline(always)]
+    fn round(&self, stroke: &mut Measured) {
+        if self.roundness == Roundness::Flat {
+            return;
+        }
+        if self.roundness == Roundness::Outline {
+            for k in 0..LANES {
+                stroke.ratio[k] *= stroke.ratio[k];
+                stroke.ratio[k] *= stroke.ratio[k];
+            }
+        }
         for k in 0..LANES {
-            let deeper_m = scene.edge_depth_m * part[k];
-            let is_taken = has(cell.bits, k);
-            nearest[k] = select(is_taken, deeper(nearest[k], deeper_m), nearest[k]);
-            biased[k] = select(is_taken, deeper(biased[k], deeper_m), biased[k]);
+            let deeper_m = self.scene.edge_depth_m * stroke.ratio[k];
+            stroke.inv_depth[k] = deeper(stroke.inv_depth[k], deeper_m);
+            stroke.biased[k] = deeper(stroke.biased[k], deeper_m);
         }
     }
 }
@@ -346,62 +316,51 @@ fn deeper(inv_depth: f32, metres: f32) -> f32 {
     inv_depth / (1.0 + metres * greater(inv_depth, 0.0))
 }
 
-/// Puts the samples into the picture; those that don't show are taken away.
-#[inline(always)]
-fn composite(depths: &Depths, samples: &mut Mask, priority: u32, target: &mut Target) {
-    let offered = *samples;
-    for cell in cells(&offered) {
-        let (depth, biased) = (&depths.inv_depth[cell.index], &depths.biased[cell.index]);
-        let shown = target.offer(cell, depth, biased, priority);
-        samples[cell.row] &= !((cell.bits & !shown) << cell.column);
-    }
-}
-
 /// Gives the samples, which the stroke covers, its colour.
 #[inline(always)]
 fn shade(
     scene: &TileContext,
     placed: &[Placed],
     samples: &Mask,
-    ratio: &mut Plane,
+    segments: &mut Row,
     target: &mut Target,
 ) {
-    if is_empty(samples) {
-        return;
-    }
     let segment = |placed: &Placed| &scene.segments[placed.segment as usize];
     let first = segment(&placed[0]);
     let is_one_color = placed.iter().all(|placed| {
         let segment = segment(placed);
         segment.is_one_color() && segment.color == first.color
     });
-    if is_one_color {
-        let color = first.color.map(|channel| channel.start);
-        for cell in cells(samples) {
-            for (plane, value) in target.color.iter_mut().zip(color) {
-                fill(&mut plane[cell.index], value, cell.bits);
-            }
+    let color = first.color.map(|channel| [channel.start; LANES]);
+    for row in 0..ROWS {
+        let wanted = columns(samples, row);
+        if wanted == 0 {
+            continue;
         }
-        return;
-    }
-    for cell in cells(samples) {
-        ratio[cell.index] = [f32::INFINITY; LANES];
-    }
-    for placed in placed {
-        placed.shade(
-            segment(placed),
-            scene.samples,
-            samples,
-            ratio,
-            &mut target.color,
-        );
+        if is_one_color {
+            for cell in cells(row, wanted) {
+                paint(target, cell.index, &color, &cell.lanes(samples));
+            }
+            continue;
+        }
+        segments.find(placed, row, wanted);
+        for cell in cells(row, wanted) {
+            let mut stroke = Shaded::new();
+            for &(place, reached) in &segments.0 {
+                if reached >> cell.column & 3 != 0 {
+                    let placed = &placed[place];
+                    placed.shade(segment(placed), cell, &mut stroke);
+                }
+            }
+            paint(target, cell.index, &stroke.color, &cell.lanes(samples));
+        }
     }
 }
 
 #[inline(always)]
-fn fill(lanes: &mut Lanes, value: f32, bits: u32) {
-    for k in 0..LANES {
-        lanes[k] = select(has(bits, k), value, lanes[k]);
+fn paint(target: &mut Target, cell: usize, color: &[Lanes; 3], samples: &LaneMask) {
+    for (plane, color) in target.color.iter_mut().zip(color) {
+        overwrite(&mut plane[cell], color, samples);
     }
 }
 
@@ -412,7 +371,7 @@ pub(super) struct Part {
     /// No disc of it is nearer than these.
     inv_depth: f32,
     biased: f32,
-    /// Rows that it may reach.
+    /// Rows of stacks that it may reach.
     rows: Range<usize>,
     /// Columns that it may reach, a bit for each.
     columns: u32,
@@ -430,7 +389,7 @@ impl TileContext<'_> {
                 segments: start..start + strand.len(),
                 inv_depth: f32::NEG_INFINITY,
                 biased: f32::NEG_INFINITY,
-                rows: segment(strand[0]).rows_in(self.origin[1]),
+                rows: segment(strand[0]).rows_in(self.origin[1], self.stack),
                 columns: 0,
             };
             start = part.segments.end;
@@ -438,7 +397,7 @@ impl TileContext<'_> {
                 let segment = segment(index);
                 part.inv_depth = part.inv_depth.max(segment.inv_depth.range()[1]);
                 part.biased = part.biased.max(segment.inv_depth_biased.range()[1]);
-                let rows = segment.rows_in(self.origin[1]);
+                let rows = segment.rows_in(self.origin[1], self.stack);
                 part.rows = part.rows.start.min(rows.start)..part.rows.end.max(rows.end);
                 part.columns |= segment.columns_in(self.origin[0]);
             }
@@ -451,26 +410,12 @@ impl TileContext<'_> {
         }
     }
 
-    /// Those of the samples where segments that cover them may show.
+    /// The columns of each row of stacks that the strand may reach where it is not sure, for a whole cell, to be hidden.
     #[inline(always)]
-    fn before(&self, placed: &[Placed], samples: &Mask, target: &Target) -> Mask {
-        let (mut depth, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
-        for placed in placed {
-            let segment = &self.segments[placed.segment as usize];
-            depth = depth.max(segment.inv_depth.range()[1]);
-            biased = biased.max(segment.inv_depth_biased.range()[1]);
-        }
-        target.before(samples, |_| ([depth; LANES], [biased; LANES]))
-    }
-
-    /// The samples that the strand may reach where it is not sure, for a whole chunk, to be hidden.
-    #[inline(always)]
-    fn open(&self, part: &Part, target: &Target) -> Mask {
-        let mut open = NO_SAMPLES;
-        for sample in 0..self.samples.len() {
-            for row in sample * HEIGHT + part.rows.start..sample * HEIGHT + part.rows.end {
-                open[row] = part.columns & target.open(row, part.inv_depth, part.biased);
-            }
+    fn open(&self, part: &Part, target: &Target) -> [u32; ROWS] {
+        let mut open = [0; ROWS];
+        for row in part.rows.clone() {
+            open[row] = part.columns & target.open(row, part.inv_depth, part.biased);
         }
         open
     }

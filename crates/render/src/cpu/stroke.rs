@@ -1,12 +1,12 @@
 //! One segment in one tile: which samples it covers, how near, in which colour.
 
-use super::rows;
+use super::rows::{self, ROWS_AT_ONCE};
 use super::segment::Segment;
 use super::tile::{
-    Cell, HEIGHT, LANE, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, Plane, Slope, Target, both, cells,
-    greater, has, overwrite, select,
+    Cell, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, Stack, greater,
+    overwrite, select,
 };
-use glam::{DVec2, Vec2};
+use glam::DVec2;
 
 /// A segment seen from a tile.
 pub(super) struct Placed {
@@ -15,177 +15,144 @@ pub(super) struct Placed {
     /// The samples that it covers.
     pub(super) covered: Mask,
     /// The segment's frame.
-    x: Slope,
-    y: Slope,
+    x: Samples,
+    y: Samples,
 }
 
 impl Placed {
-    /// `origin` is the tile's upper left pixel. A segment that reaches none of the open samples covers nothing.
+    /// `origin` is the tile's upper left pixel. Nothing where the segment reaches none of the open samples, which are given
+    /// as columns of the rows of stacks.
     #[inline(always)]
     pub(super) fn new(
         index: u32,
         segment: &Segment,
         origin: [usize; 2],
-        samples: &[Vec2],
-        open: &Mask,
-    ) -> Self {
-        let rows = segment.rows_in(origin[1]);
-        let rows = rows.start / LANES * LANES..rows.end.next_multiple_of(LANES);
-        let columns = segment.columns_in(origin[0]);
+        stack: &Stack,
+        open: &[u32; ROWS],
+    ) -> Option<Self> {
+        let rows = segment.rows_in(origin[1], stack);
         let mut reached = 0;
-        for sample in 0..samples.len() {
-            for row in rows.clone() {
-                reached |= open[sample * HEIGHT + row];
-            }
+        for row in rows.clone() {
+            reached |= open[row];
         }
-        let rows = select(reached & columns == 0, 0..0, rows);
+        if reached & segment.columns_in(origin[0]) == 0 {
+            return None;
+        }
+        let rows =
+            rows.start / ROWS_AT_ONCE * ROWS_AT_ONCE..rows.end.next_multiple_of(ROWS_AT_ONCE);
         let origin = DVec2::new(origin[0] as f64, origin[1] as f64);
         let mut covered = NO_SAMPLES;
-        rows::cover(segment, origin, &rows, samples, &mut covered);
+        rows::cover(segment, origin, &rows, stack, &mut covered);
+        for row in rows {
+            for sample in 0..STACK {
+                covered[row * STACK + sample] &= open[row];
+            }
+        }
         // From double precision, so that long strokes stay exact in every tile.
         let corner = segment.sweep.local(origin).as_vec2();
         let axis = segment.sweep.axis();
-        Self {
+        let x = Slope {
+            corner: corner.x,
+            per_x: axis.x,
+            per_y: axis.y,
+        };
+        let y = Slope {
+            corner: corner.y,
+            per_x: -axis.y,
+            per_y: axis.x,
+        };
+        Some(Self {
             segment: index,
             covered,
-            x: Slope {
-                corner: corner.x,
-                per_x: axis.x,
-                per_y: axis.y,
-            },
-            y: Slope {
-                corner: corner.y,
-                per_x: -axis.y,
-                per_y: axis.x,
-            },
-        }
+            x: x.at_samples(stack),
+            y: y.at_samples(stack),
+        })
     }
 
-    /// The places of a cell's samples in the segment's frame.
+    /// Brings the segment's depth and ratio at the samples of a cell that it covers into those of its stroke.
     #[inline(always)]
-    fn local(&self, samples: &[Vec2], cell: Cell) -> (Lanes, Lanes) {
-        let (sample, row) = (cell.row / HEIGHT, cell.row % HEIGHT);
-        let first = samples[sample] + Vec2::new(cell.column as f32, row as f32);
-        let (x0, y0) = (self.x.at(first), self.y.at(first));
-        let (mut x, mut y) = ([x0; LANES], [y0; LANES]);
-        for k in 0..LANES {
-            x[k] += LANE[k] * self.x.per_x;
-            y[k] += LANE[k] * self.y.per_x;
-        }
-        (x, y)
-    }
-
-    /// Raises both inverse depths of some of the covered samples to the segment's own.
-    #[inline(always)]
-    pub(super) fn measure(
-        &self,
-        segment: &Segment,
-        samples: &[Vec2],
-        wanted: &Mask,
-        depths: &mut Depths,
-    ) {
+    pub(super) fn measure(&self, segment: &Segment, cell: Cell, stroke: &mut Measured) {
         let Segment {
             sweep,
             inv_depth,
             inv_depth_biased,
             ..
         } = segment;
-        for cell in cells(&both(&self.covered, wanted)) {
-            let (x, y) = self.local(samples, cell);
-            let mut near = depths.inv_depth[cell.index];
-            let mut near_biased = depths.biased[cell.index];
-            for k in 0..LANES {
-                let (low, high) = sweep.interval(x[k], y[k]);
-                // Linear, so the greatest is at one of the ends.
-                let depth = greater(inv_depth.at(low), inv_depth.at(high));
-                let biased = greater(inv_depth_biased.at(low), inv_depth_biased.at(high));
-                let is_nearer = has(cell.bits, k) & (depth > near[k]);
-                near[k] = select(is_nearer, depth, near[k]);
-                let is_nearer = has(cell.bits, k) & (biased > near_biased[k]);
-                near_biased[k] = select(is_nearer, biased, near_biased[k]);
-            }
-            depths.inv_depth[cell.index] = near;
-            depths.biased[cell.index] = near_biased;
+        let covered = cell.lanes(&self.covered);
+        let (x, y) = (self.x.of(cell), self.y.of(cell));
+        for k in 0..LANES {
+            let is_covered = covered[k] != 0;
+            let (low, high) = sweep.interval(x[k], y[k]);
+            // Linear, so the greatest is at one of the ends.
+            let depth = greater(inv_depth.at(low), inv_depth.at(high));
+            let biased = greater(inv_depth_biased.at(low), inv_depth_biased.at(high));
+            let (_, ratio) = sweep.attribute_point(x[k], y[k]);
+            let is_nearer = is_covered & (depth > stroke.inv_depth[k]);
+            stroke.inv_depth[k] = select(is_nearer, depth, stroke.inv_depth[k]);
+            let is_nearer = is_covered & (biased > stroke.biased[k]);
+            stroke.biased[k] = select(is_nearer, biased, stroke.biased[k]);
+            let is_less = is_covered & (ratio < stroke.ratio[k]);
+            stroke.ratio[k] = select(is_less, ratio, stroke.ratio[k]);
         }
     }
 
-    /// Lowers the squares of distance over radius to the segment's own.
+    /// Gives the samples of a cell that the segment covers its colour where its ratio is the least so far.
     #[inline(always)]
-    pub(super) fn ratio(
-        &self,
-        segment: &Segment,
-        samples: &[Vec2],
-        wanted: &Mask,
-        ratio: &mut Plane,
-    ) {
-        for cell in cells(&both(&self.covered, wanted)) {
-            let (x, y) = self.local(samples, cell);
-            let mut least = ratio[cell.index];
-            for k in 0..LANES {
-                let (_, ratio) = segment.sweep.attribute_point(x[k], y[k]);
-                let is_less = has(cell.bits, k) & (ratio < least[k]);
-                least[k] = select(is_less, ratio, least[k]);
-            }
-            ratio[cell.index] = least;
+    pub(super) fn shade(&self, segment: &Segment, cell: Cell, stroke: &mut Shaded) {
+        let covered = cell.lanes(&self.covered);
+        let (x, y) = (self.x.of(cell), self.y.of(cell));
+        let (mut u, mut wins) = ([0.0; LANES], covered);
+        for k in 0..LANES {
+            let (at, ratio) = segment.sweep.attribute_point(x[k], y[k]);
+            // A covered sample has a colour, even at a tip that is a point.
+            let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
+            let is_less = (covered[k] != 0) & (ratio < stroke.ratio[k]);
+            u[k] = at;
+            wins[k] = select(is_less, u32::MAX, 0);
+            stroke.ratio[k] = select(is_less, ratio, stroke.ratio[k]);
         }
-    }
-
-    /// Gives some of the covered samples the segment's colour where its ratio is the least so far.
-    #[inline(always)]
-    pub(super) fn shade(
-        &self,
-        segment: &Segment,
-        samples: &[Vec2],
-        wanted: &Mask,
-        ratio: &mut Plane,
-        color: &mut [Plane; 3],
-    ) {
-        for cell in cells(&both(&self.covered, wanted)) {
-            let (x, y) = self.local(samples, cell);
-            let mut least = ratio[cell.index];
-            let (mut u, mut wins) = ([0.0; LANES], [0.0; LANES]);
+        for (color, ramp) in stroke.color.iter_mut().zip(&segment.color) {
+            let mut new = [0.0; LANES];
             for k in 0..LANES {
-                let (at, ratio) = segment.sweep.attribute_point(x[k], y[k]);
-                // A covered sample has a colour, even at a tip that is a point.
-                let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
-                let is_less = has(cell.bits, k) & (ratio < least[k]);
-                u[k] = at;
-                wins[k] = select(is_less, 1.0, 0.0);
-                least[k] = select(is_less, ratio, least[k]);
+                new[k] = ramp.at(u[k]);
             }
-            ratio[cell.index] = least;
-            for (plane, ramp) in color.iter_mut().zip(&segment.color) {
-                let mut new = [0.0; LANES];
-                for k in 0..LANES {
-                    new[k] = ramp.at(u[k]);
-                }
-                overwrite(&mut plane[cell.index], &new, &wins);
-            }
+            overwrite(color, &new, &wins);
         }
     }
 }
 
-/// The nearest of a strand at each sample, 1/m; [`NOTHING`] where it isn't.
-pub(super) struct Depths {
-    pub(super) inv_depth: Plane,
-    pub(super) biased: Plane,
+/// What a stroke's segments that cover the samples of a cell come to.
+pub(super) struct Measured {
+    /// The nearest, 1/m; [`NOTHING`] where none covers the sample.
+    pub(super) inv_depth: Lanes,
+    pub(super) biased: Lanes,
+    /// The least square of distance over radius, at most 1.
+    pub(super) ratio: Lanes,
 }
 
-impl Depths {
-    /// Those of the samples that may show if they lie no nearer than this.
+impl Measured {
     #[inline(always)]
-    pub(super) fn before(&self, samples: &Mask, target: &Target) -> Mask {
-        target.before(samples, |cell| {
-            (self.inv_depth[cell.index], self.biased[cell.index])
-        })
+    pub(super) fn new() -> Self {
+        Self {
+            inv_depth: [NOTHING; LANES],
+            biased: [NOTHING; LANES],
+            ratio: [1.0; LANES],
+        }
     }
+}
 
-    /// Forgets the cells that hold one of the samples.
+/// The colours of a stroke at the samples of a cell, and the ratios at which they were found.
+pub(super) struct Shaded {
+    ratio: Lanes,
+    pub(super) color: [Lanes; 3],
+}
+
+impl Shaded {
     #[inline(always)]
-    pub(super) fn clear(&mut self, mask: &Mask) {
-        for cell in cells(mask) {
-            self.inv_depth[cell.index] = [NOTHING; LANES];
-            self.biased[cell.index] = [NOTHING; LANES];
+    pub(super) fn new() -> Self {
+        Self {
+            ratio: [f32::INFINITY; LANES],
+            color: [[0.0; LANES]; 3],
         }
     }
 }

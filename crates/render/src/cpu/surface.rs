@@ -2,10 +2,11 @@
 
 use super::bin::{Bounds, clip};
 use super::tile::{
-    HEIGHT, LANE, LANES, Slope, Target, WIDTH, any, greater, least, lesser, row_start, select,
+    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, ROWS, Slope, Stack, Target, WIDTH, any, greater, least,
+    lesser, overwrite, select,
 };
 use crate::drawing::{Drawing, SurfaceVertex};
-use glam::{DVec2, Vec2};
+use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -49,13 +50,14 @@ impl Triangle {
         &self,
         drawing: &Drawing,
         origin: [usize; 2],
-        samples: &[Vec2],
+        stack: &Stack,
         target: &mut Target,
     ) {
-        let rows = clip(self.bounds.y, origin[1], HEIGHT);
+        let pixels = clip(self.bounds.y, origin[1], ROWS * stack.height);
+        let rows = pixels.start / stack.height..pixels.end.div_ceil(stack.height);
         let columns = clip(self.bounds.x, origin[0], WIDTH);
-        let chunks = columns.start / LANES..columns.end.div_ceil(LANES);
-        if self.is_hidden(&rows, &chunks, samples.len(), target) {
+        let across = columns.start / CELL_WIDTH..columns.end.div_ceil(CELL_WIDTH);
+        if self.is_hidden(&rows, &across, target) {
             return;
         }
         let surface = &drawing.surfaces[self.surface as usize];
@@ -72,63 +74,50 @@ impl Triangle {
         ];
         let side = area.signum();
         let inside = [
-            edges[0].slope(side),
-            edges[1].slope(side),
-            edges[2].slope(side),
+            edges[0].slope(side).at_samples(stack),
+            edges[1].slope(side).at_samples(stack),
+            edges[2].slope(side).at_samples(stack),
         ];
         let depths = Interpolated::new([a.inv_depth, b.inv_depth, c.inv_depth], &edges, area);
         let tones = Interpolated::new([a.tone, b.tone, c.tone], &edges, area);
-        for (sample, offset) in samples.iter().enumerate() {
-            for chunk in chunks.clone() {
-                let mut x = LANE;
-                for k in 0..LANES {
-                    x[k] += offset.x + (chunk * LANES) as f32;
+        let depth_at = depths.slope.at_samples(stack);
+        let tone_at = tones.slope.at_samples(stack);
+        for row in rows {
+            for cell in across.clone() {
+                let cell = Cell::new(row, cell * CELL_WIDTH);
+                if depths.greatest <= target.farthest_surface[cell.index] {
+                    continue; // all of the cell shows what is nearer
                 }
-                let inside = [
-                    inside[0].along(&x),
-                    inside[1].along(&x),
-                    inside[2].along(&x),
-                ];
-                let (depths_x, tones_x) = (depths.slope.along(&x), tones.slope.along(&x));
-                for row in rows.clone() {
-                    let cell = row_start(sample * HEIGHT + row) + chunk;
-                    if depths.greatest <= target.farthest_surface[cell] {
-                        continue; // all of the cell shows what is nearer
-                    }
-                    let y = offset.y + row as f32;
-                    let mut nearest = target.surface[cell];
-                    let mut wins = [0_u32; LANES];
+                let inside = [inside[0].of(cell), inside[1].of(cell), inside[2].of(cell)];
+                let depth = depth_at.of(cell);
+                let mut nearest = target.surface[cell.index];
+                let mut wins = [0_u32; LANES];
+                for k in 0..LANES {
+                    let is_inside =
+                        (inside[0][k] >= 0.0) & (inside[1][k] >= 0.0) & (inside[2][k] >= 0.0);
+                    let depth = depths.clamp(depth[k]);
+                    let is_first = is_inside & (depth > nearest[k]);
+                    nearest[k] = select(is_first, depth, nearest[k]);
+                    wins[k] = select(is_first, u32::MAX, 0);
+                }
+                if !any(&wins) {
+                    continue;
+                }
+                target.surface[cell.index] = nearest;
+                target.farthest_surface[cell.index] = least(&nearest);
+                overwrite(
+                    &mut target.margin[cell.index],
+                    &[surface.margin_m; LANES],
+                    &wins,
+                );
+                let tone = tone_at.of(cell);
+                for (channel, plane) in target.color.iter_mut().enumerate() {
+                    let (light, shadow) = (surface.light[channel], surface.shadow[channel]);
+                    let mut color = [0.0; LANES];
                     for k in 0..LANES {
-                        let is_inside = (inside[0].at(k, y) >= 0.0)
-                            & (inside[1].at(k, y) >= 0.0)
-                            & (inside[2].at(k, y) >= 0.0);
-                        let depth = depths.clamp(depths_x.at(k, y));
-                        let is_first = is_inside & (depth > nearest[k]);
-                        nearest[k] = select(is_first, depth, nearest[k]);
-                        wins[k] = select(is_first, u32::MAX, 0);
+                        color[k] = select(tones.clamp(tone[k]) >= 0.0, light, shadow);
                     }
-                    if !any(&wins) {
-                        continue;
-                    }
-                    target.surface[cell] = nearest;
-                    target.farthest_surface[cell] = least(&nearest);
-                    let mut is_lit = [0_u32; LANES];
-                    for k in 0..LANES {
-                        let tone = tones.clamp(tones_x.at(k, y));
-                        is_lit[k] = select(tone >= 0.0, u32::MAX, 0);
-                    }
-                    let margins = &mut target.margin[cell];
-                    for k in 0..LANES {
-                        margins[k] = select(wins[k] != 0, surface.margin_m, margins[k]);
-                    }
-                    for (channel, plane) in target.color.iter_mut().enumerate() {
-                        let (light, shadow) = (surface.light[channel], surface.shadow[channel]);
-                        let colors = &mut plane[cell];
-                        for k in 0..LANES {
-                            let color = select(is_lit[k] != 0, light, shadow);
-                            colors[k] = select(wins[k] != 0, color, colors[k]);
-                        }
-                    }
+                    overwrite(&mut plane[cell.index], &color, &wins);
                 }
             }
         }
@@ -136,23 +125,16 @@ impl Triangle {
 
     /// Whether all that the triangle may reach in the tile shows a surface that is nearer, or as near and earlier.
     #[inline(always)]
-    fn is_hidden(
-        &self,
-        rows: &Range<usize>,
-        chunks: &Range<usize>,
-        samples: usize,
-        target: &Target,
-    ) -> bool {
+    fn is_hidden(&self, rows: &Range<usize>, across: &Range<usize>, target: &Target) -> bool {
         let [a, b, c] = self.corners.map(|corner| corner.inv_depth);
         let greatest = a.max(b).max(c);
-        for sample in 0..samples {
-            for row in rows.clone() {
-                for chunk in chunks.clone() {
-                    let cell = row_start(sample * HEIGHT + row) + chunk;
-                    if greatest > target.farthest_surface[cell] {
-                        return false;
-                    }
-                }
+        for row in rows.clone() {
+            let cells = &target.farthest_surface[row * CELLS_ACROSS..][..CELLS_ACROSS];
+            if cells[across.clone()]
+                .iter()
+                .any(|farthest| greatest > *farthest)
+            {
+                return false;
             }
         }
         true

@@ -6,6 +6,7 @@ mod reference;
 
 use super::*;
 use crate::drawing::{Brush, Disc, LayerStrokes, Order, Run, Surface, SurfaceVertex};
+use glam::Vec2;
 use std::f64::consts::PI;
 
 const RED: [f32; 3] = [1.0, 0.0, 0.0];

@@ -1,36 +1,34 @@
 //! A tile: the samples of a few pixels, as planes of numbers that vector instructions walk along.
 //!
-//! A plane holds one number of each sample of the tile: for each sample of a pixel a block of rows,
-//! for each row its pixels in chunks of [`LANES`] neighbours. So a chunk is one sample position in
-//! eight neighbouring pixels, and every loop over a chunk's lanes compiles to vector instructions.
+//! Four samples one below the other are a *stack* ([`Stack`]): four of a pixel's samples, or those of two or four
+//! pixels where a pixel has fewer. A tile is [`ROWS`] rows of [`WIDTH`] stacks, one pixel wide each; where
+//! a pixel has more than four samples, it is drawn four at a time. A *cell* is two stacks beside each other: eight
+//! numbers of a plane, and every loop over a cell's lanes compiles to vector instructions. A cell is two pixels wide and not eight,
+//! as strokes are thin: twice as many of its lanes have something to do.
 
 use glam::Vec2;
 
 /// Width of a tile in pixels.
 pub(super) const WIDTH: usize = 32;
-/// Height of a tile in pixels.
-pub(super) const HEIGHT: usize = 16;
-/// Pixels in a chunk.
+/// Height of a tile in stacks.
+pub(super) const ROWS: usize = 16;
+/// Samples of a stack.
+pub(super) const STACK: usize = 4;
+/// Numbers of a cell.
 pub(super) const LANES: usize = 8;
-/// Most samples of a pixel that are worked on at once: keeps a tile in a core's own cache.
-pub(super) const GROUP: usize = 4;
 
-const CHUNKS: usize = WIDTH / LANES;
-const CELLS: usize = GROUP * HEIGHT * CHUNKS;
+/// Cells of a row.
+pub(super) const CELLS_ACROSS: usize = WIDTH * STACK / LANES;
+const CELLS: usize = ROWS * CELLS_ACROSS;
 
-/// One number of each pixel of a chunk.
+/// Pixels that a cell is wide.
+pub(super) const CELL_WIDTH: usize = LANES / STACK;
+
+/// One number of each sample of a cell: of the left stack from its first sample on, then of the right one.
 pub(super) type Lanes = [f32; LANES];
 
-/// 0, 1, 2 .. : the places of a chunk's lanes.
-pub(super) const LANE: Lanes = {
-    let mut lanes = [0.0; LANES];
-    let mut k = 0;
-    while k < LANES {
-        lanes[k] = k as f32;
-        k += 1;
-    }
-    lanes
-};
+/// Some of a cell's samples: all bits or none.
+pub(super) type LaneMask = [u32; LANES];
 
 /// Marks the depth of a sample where there is nothing.
 pub(super) const NOTHING: f32 = f32::NEG_INFINITY;
@@ -54,12 +52,56 @@ pub(super) fn greater(a: f32, b: f32) -> f32 {
     select(a > b, a, b)
 }
 
-/// Takes on the new values where `mask` is not 0.
+/// Takes on the new values where `mask` is set.
 #[inline(always)]
-pub(super) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &Lanes) {
+pub(super) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
     for k in 0..LANES {
-        old[k] = select(mask[k] != 0.0, new[k], old[k]);
+        old[k] = select(mask[k] != 0, new[k], old[k]);
     }
+}
+
+/// Four samples that lie one below the other, in one pixel or in several.
+#[derive(Clone, Debug)]
+pub(super) struct Stack {
+    /// The samples' places for each lane of a cell, from the cell's upper left corner, in pixels.
+    pub(super) x: Lanes,
+    pub(super) y: Lanes,
+    /// Pixels one below the other that it holds samples of.
+    pub(super) height: usize,
+    /// How many of its samples count. Those behind are the first one again, so that they hide and are hidden as it is.
+    samples: usize,
+}
+
+impl Stack {
+    /// The stacks that make up a pixel's samples, given from the pixel's corner, or those of several pixels.
+    pub(super) fn of_pixel(samples: &[Vec2]) -> Vec<Self> {
+        let height = match samples.len() {
+            1 => 4,
+            2 => 2,
+            _ => 1,
+        };
+        let below = |pixel: usize| Vec2::new(0.0, pixel as f32);
+        let rows = (0..height).flat_map(|pixel| samples.iter().map(move |s| *s + below(pixel)));
+        let samples: Vec<Vec2> = rows.collect();
+        let stack = |samples: &[Vec2]| {
+            let place = |k: usize| {
+                let sample = samples.get(k % STACK).unwrap_or(&samples[0]);
+                *sample + Vec2::new((k / STACK) as f32, 0.0)
+            };
+            Self {
+                x: std::array::from_fn(|k| place(k).x),
+                y: std::array::from_fn(|k| place(k).y),
+                height,
+                samples: samples.len(),
+            }
+        };
+        samples.chunks(STACK).map(stack).collect()
+    }
+}
+
+/// Height of a tile in pixels, made of such stacks.
+pub(super) fn height(stacks: &[Stack]) -> usize {
+    ROWS * stacks[0].height
 }
 
 /// One number of each sample.
@@ -69,37 +111,25 @@ pub(super) fn plane() -> Plane {
     vec![[0.0; LANES]; CELLS]
 }
 
-/// Rows of samples in a tile: for each sample of a pixel the tile's rows.
-pub(super) const ROWS: usize = GROUP * HEIGHT;
+/// Rows of samples in a tile: for each row of stacks those of its four samples.
+const SAMPLE_ROWS: usize = ROWS * STACK;
 
 /// Some of a tile's samples: a word for each row of samples, in it a bit for each column.
-pub(super) type Mask = [u32; ROWS];
+pub(super) type Mask = [u32; SAMPLE_ROWS];
 
 const _: () = assert!(WIDTH == u32::BITS as usize);
 
 /// No samples at all.
-pub(super) const NO_SAMPLES: Mask = [0; ROWS];
+pub(super) const NO_SAMPLES: Mask = [0; SAMPLE_ROWS];
 
-/// The bits of the first chunk of a row.
-const CHUNK: u32 = (1 << LANES) - 1;
-
-/// Whether a lane's bit is set.
-#[inline(always)]
-pub(super) fn has(bits: u32, lane: usize) -> bool {
-    bits & (1 << lane) != 0
-}
-
-/// Where the chunks of a row of samples lie in a plane.
-#[inline(always)]
-pub(super) fn row_start(row: usize) -> usize {
-    row * CHUNKS
-}
+/// The bits of a row's first cell.
+const CELL_BITS: u32 = (1 << CELL_WIDTH) - 1;
 
 /// The samples of both.
 #[inline(always)]
 pub(super) fn both(a: &Mask, b: &Mask) -> Mask {
     let mut both = *a;
-    for row in 0..ROWS {
+    for row in 0..SAMPLE_ROWS {
         both[row] &= b[row];
     }
     both
@@ -109,84 +139,113 @@ pub(super) fn both(a: &Mask, b: &Mask) -> Mask {
 #[inline(always)]
 pub(super) fn without(a: &Mask, b: &Mask) -> Mask {
     let mut rest = *a;
-    for row in 0..ROWS {
+    for row in 0..SAMPLE_ROWS {
         rest[row] &= !b[row];
     }
     rest
 }
 
+/// Adds samples to some.
+#[inline(always)]
+pub(super) fn add(samples: &mut Mask, others: &Mask) {
+    for row in 0..SAMPLE_ROWS {
+        samples[row] |= others[row];
+    }
+}
+
 #[inline(always)]
 pub(super) fn is_empty(mask: &Mask) -> bool {
     let mut any = 0;
-    for row in 0..ROWS {
+    for row in 0..SAMPLE_ROWS {
         any |= mask[row];
     }
     any == 0
 }
 
-/// A chunk of a row of samples, and some of its samples.
-#[derive(Clone, Copy)]
-pub(super) struct Cell {
-    /// Index of the chunk in every plane.
-    pub(super) index: usize,
-    /// Row of samples.
-    pub(super) row: usize,
-    /// Column of its first lane.
-    pub(super) column: usize,
-    /// A bit for each lane.
-    pub(super) bits: u32,
+/// The columns of a row of stacks in which a sample is set.
+#[inline(always)]
+pub(super) fn columns(mask: &Mask, row: usize) -> u32 {
+    let [a, b, c, d] = words(mask, row);
+    a | b | c | d
 }
 
-/// All chunks that hold one of some samples.
+/// The words of a row of stacks.
+#[inline(always)]
+fn words(mask: &Mask, row: usize) -> [u32; STACK] {
+    let mut words = [0; STACK];
+    words.copy_from_slice(&mask[row * STACK..][..STACK]);
+    words
+}
+
+/// Two stacks of a row.
+#[derive(Clone, Copy)]
+pub(super) struct Cell {
+    /// Its index in every plane.
+    pub(super) index: usize,
+    /// Row of stacks.
+    pub(super) row: usize,
+    /// Column of its left stack.
+    pub(super) column: usize,
+}
+
+impl Cell {
+    #[inline(always)]
+    pub(super) fn new(row: usize, column: usize) -> Self {
+        Self {
+            index: row * CELLS_ACROSS + column / CELL_WIDTH,
+            row,
+            column,
+        }
+    }
+
+    /// Its samples of a mask.
+    #[inline(always)]
+    pub(super) fn lanes(&self, mask: &Mask) -> LaneMask {
+        let words = words(mask, self.row);
+        let mut lanes = [0; LANES];
+        for k in 0..LANES {
+            // The sign bit is the column's.
+            let bit = words[k % STACK] << (WIDTH - 1 - self.column - k / STACK);
+            lanes[k] = ((bit as i32) >> (WIDTH - 1)) as u32;
+        }
+        lanes
+    }
+
+    /// Adds some of its samples to a mask.
+    #[inline(always)]
+    pub(super) fn add_to(&self, mask: &mut Mask, lanes: &LaneMask) {
+        let words = &mut mask[self.row * STACK..][..STACK];
+        for k in 0..STACK {
+            words[k] |= (lanes[k] & 1 | lanes[k + STACK] & 2) << self.column;
+        }
+    }
+}
+
+/// The cells of a row of stacks that hold one of some columns.
 ///
 /// An iterator of its own, because closures are not sure to be compiled for their caller's
 /// instruction set.
-pub(super) struct Cells<'a> {
-    mask: &'a Mask,
+pub(super) struct Cells {
     row: usize,
     left: u32,
 }
 
 #[inline(always)]
-pub(super) fn cells(mask: &Mask) -> Cells<'_> {
-    Cells {
-        mask,
-        row: 0,
-        left: mask[0],
-    }
+pub(super) fn cells(row: usize, columns: u32) -> Cells {
+    Cells { row, left: columns }
 }
 
-impl Iterator for Cells<'_> {
+impl Iterator for Cells {
     type Item = Cell;
 
     #[inline(always)]
     fn next(&mut self) -> Option<Cell> {
-        while self.left == 0 {
-            self.row += 1;
-            // Eight rows without samples are left behind at once.
-            while self.row.is_multiple_of(LANES) {
-                let rows = self.mask.get(self.row..self.row + LANES)?;
-                let mut any = 0;
-                for k in 0..LANES {
-                    any |= rows[k];
-                }
-                if any != 0 {
-                    break;
-                }
-                self.row += LANES;
-            }
-            self.left = self.mask[self.row];
+        if self.left == 0 {
+            return None;
         }
-        let chunk = self.left.trailing_zeros() as usize / LANES;
-        let column = chunk * LANES;
-        let bits = self.left >> column & CHUNK;
-        self.left &= !(CHUNK << column);
-        Some(Cell {
-            index: row_start(self.row) + chunk,
-            row: self.row,
-            column,
-            bits,
-        })
+        let column = self.left.trailing_zeros() as usize / CELL_WIDTH * CELL_WIDTH;
+        self.left &= !(CELL_BITS << column);
+        Some(Cell::new(self.row, column))
     }
 }
 
@@ -199,7 +258,7 @@ pub(super) struct Target {
     /// Nearest strand that no surface hides, 1/m.
     pub(super) strand: Plane,
     /// What decides there among equals: the higher one lies on top.
-    pub(super) priority: Vec<[u32; LANES]>,
+    priority: Vec<[u32; LANES]>,
     pub(super) color: [Plane; 3],
     /// For each cell the farthest of `strand`.
     farthest_strand: Box<[f32; CELLS]>,
@@ -221,19 +280,17 @@ impl Target {
         }
     }
 
-    /// Forgets the first `samples` samples of each pixel.
     #[inline(always)]
-    pub(super) fn clear(&mut self, samples: usize, background: Option<[f32; 3]>) {
-        let cells = ..row_start(samples * HEIGHT);
-        self.surface[cells].fill([NOTHING; LANES]);
-        self.margin[cells].fill([0.0; LANES]);
-        self.strand[cells].fill([NOTHING; LANES]);
-        self.priority[cells].fill([0; LANES]);
+    pub(super) fn clear(&mut self, background: Option<[f32; 3]>) {
+        self.surface.fill([NOTHING; LANES]);
+        self.margin.fill([0.0; LANES]);
+        self.strand.fill([NOTHING; LANES]);
+        self.priority.fill([0; LANES]);
         for (plane, value) in self.color.iter_mut().zip(background.unwrap_or_default()) {
-            plane[cells].fill([value; LANES]);
+            plane.fill([value; LANES]);
         }
-        self.farthest_strand[cells].fill(NOTHING);
-        self.farthest_surface[cells].fill(NOTHING);
+        self.farthest_strand.fill(NOTHING);
+        self.farthest_surface.fill(NOTHING);
     }
 
     /// To be called when all surfaces have been drawn.
@@ -249,90 +306,108 @@ impl Target {
         }
     }
 
-    /// The chunks of a row of samples that don't hide all that is as far as the given inverse depths,
-    /// with all their bits.
+    /// Makes of colours what a sample adds to a pixel's light, and of the surfaces' depths what it adds to its alpha.
+    /// Loops of their own, as one with the sums would be no vector instructions.
+    #[inline(always)]
+    fn finish(&mut self, stack: &Stack, is_opaque: bool) {
+        let mut counts = [0.0; LANES];
+        for k in 0..LANES {
+            counts[k] = select(k % STACK < stack.samples, 1.0, 0.0);
+        }
+        for plane in &mut self.color {
+            for color in plane {
+                for k in 0..LANES {
+                    color[k] = lesser(greater(color[k], 0.0), 1.0) * counts[k];
+                }
+            }
+        }
+        if is_opaque {
+            self.surface.fill(counts);
+            return;
+        }
+        for (surface, strand) in self.surface.iter_mut().zip(&self.strand) {
+            for k in 0..LANES {
+                let shows = greater(surface[k], strand[k]) > NOTHING;
+                surface[k] = select(shows, counts[k], 0.0);
+            }
+        }
+    }
+
+    /// The columns of a row of stacks whose cells don't hide all that is as far as the given inverse depths.
     #[inline(always)]
     pub(super) fn open(&self, row: usize, inv_depth: f32, biased: f32) -> u32 {
-        let chunks = row_start(row)..row_start(row + 1);
-        let strand = &self.farthest_strand[chunks.clone()];
-        let surface = &self.farthest_surface[chunks];
-        let mut open = 0;
-        for (chunk, (strand, surface)) in strand.iter().zip(surface).enumerate() {
-            let is_hidden = (*strand > inv_depth) | (*surface > biased);
-            open |= select(is_hidden, 0, CHUNK << (chunk * LANES));
+        let mut strand = [0.0; CELLS_ACROSS];
+        strand.copy_from_slice(&self.farthest_strand[row * CELLS_ACROSS..][..CELLS_ACROSS]);
+        let mut surface = [0.0; CELLS_ACROSS];
+        surface.copy_from_slice(&self.farthest_surface[row * CELLS_ACROSS..][..CELLS_ACROSS]);
+        let mut open = [0; CELLS_ACROSS];
+        for k in 0..CELLS_ACROSS {
+            let is_hidden = (strand[k] > inv_depth) | (surface[k] > biased);
+            open[k] = select(is_hidden, 0, CELL_BITS << (k * CELL_WIDTH));
         }
-        open
+        let mut columns = 0;
+        for k in 0..CELLS_ACROSS {
+            columns |= open[k];
+        }
+        columns
     }
 
-    /// Those of the samples where a strand may show that is no nearer than what is given for their cell.
+    /// Those of the samples of a cell where a strand may show that is no nearer than this.
     #[inline(always)]
-    pub(super) fn before(&self, samples: &Mask, nearest: impl Fn(Cell) -> (Lanes, Lanes)) -> Mask {
-        let mut before = NO_SAMPLES;
-        for cell in cells(samples) {
-            let (depth, biased) = nearest(cell);
-            before[cell.row] |= self.may_show(cell, &depth, &biased) << cell.column;
-        }
-        before
-    }
-
-    /// The bits of those samples of a cell where a strand may show that is no nearer than this.
-    #[inline(always)]
-    pub(super) fn may_show(&self, cell: Cell, depth: &Lanes, biased: &Lanes) -> u32 {
+    pub(super) fn may_show(
+        &self,
+        cell: Cell,
+        samples: &LaneMask,
+        depth: f32,
+        biased: f32,
+    ) -> LaneMask {
         let (surface, margin) = (&self.surface[cell.index], &self.margin[cell.index]);
         let nearest = &self.strand[cell.index];
-        let mut may = [0_u32; LANES];
+        let mut may = *samples;
         for k in 0..LANES {
             // A margin counts from the depth, which may yet change either way.
-            let is_before = (margin[k] != 0.0) | (surface[k] <= biased[k]);
-            let is_near = has(cell.bits, k) & is_before & (depth[k] >= nearest[k]);
-            may[k] = select(is_near, 1 << k, 0);
+            let is_before = (margin[k] != 0.0) | (surface[k] <= biased);
+            may[k] &= select(is_before & (depth >= nearest[k]), u32::MAX, 0);
         }
-        let mut bits = 0;
-        for bit in may {
-            bits |= bit;
-        }
-        bits
+        may
     }
 
     /// Offers a strand to some samples of a cell: it shows where it lies behind no surface, and is
-    /// nearer than the strands before it, or as near but of higher priority. Returns the bits of the
+    /// nearer than the strands before it, or as near but of higher priority. Returns the
     /// samples where it does; their colour is the caller's to set.
     #[inline(always)]
     pub(super) fn offer(
         &mut self,
         cell: Cell,
+        samples: &LaneMask,
         depth: &Lanes,
         biased: &Lanes,
         priority: u32,
-    ) -> u32 {
+    ) -> LaneMask {
         let (surface, margin) = (self.surface[cell.index], self.margin[cell.index]);
         let mut nearest = self.strand[cell.index];
         let mut top = self.priority[cell.index];
-        let mut wins = [0_u32; LANES];
+        let mut wins = *samples;
         for k in 0..LANES {
             let before_wall = depth[k] / (1.0 + margin[k] * depth[k]);
             let against = select(margin[k] != 0.0, before_wall, biased[k]);
             let is_better =
                 (depth[k] > nearest[k]) | ((depth[k] == nearest[k]) & (priority > top[k]));
-            let is_shown = has(cell.bits, k) & (surface[k] <= against) & is_better;
+            let is_shown = (samples[k] != 0) & (surface[k] <= against) & is_better;
             nearest[k] = select(is_shown, depth[k], nearest[k]);
             top[k] = select(is_shown, priority, top[k]);
-            wins[k] = select(is_shown, 1 << k, 0);
+            wins[k] = select(is_shown, u32::MAX, 0);
         }
         self.strand[cell.index] = nearest;
         self.priority[cell.index] = top;
         self.farthest_strand[cell.index] = least(&nearest);
-        let mut bits = 0;
-        for win in wins {
-            bits |= win;
-        }
-        bits
+        wins
     }
 }
 
-/// Whether a lane is not 0.
+/// Whether a lane is set.
 #[inline(always)]
-pub(super) fn any(lanes: &[u32; LANES]) -> bool {
+pub(super) fn any(lanes: &LaneMask) -> bool {
     let mut any = 0;
     for k in 0..LANES {
         any |= lanes[k];
@@ -340,7 +415,7 @@ pub(super) fn any(lanes: &[u32; LANES]) -> bool {
     any != 0
 }
 
-/// The least of a chunk's numbers.
+/// The least of a cell's numbers.
 #[inline(always)]
 pub(super) fn least(lanes: &Lanes) -> f32 {
     let mut least = *lanes;
@@ -366,40 +441,55 @@ pub(super) fn empty_pixel(background: Option<[f32; 3]>, samples: usize) -> [f32;
     })
 }
 
-/// The sums over the samples of a tile's pixels: red, green, blue and alpha.
-pub(super) struct Sums([Vec<Lanes>; 4]);
+/// The sums over the samples of a tile's pixels, row by row: red, green, blue and alpha.
+pub(super) struct Sums(Vec<[f32; 4]>);
 
 impl Sums {
     pub(super) fn new() -> Self {
-        Self([(); 4].map(|()| vec![[0.0; LANES]; HEIGHT * CHUNKS]))
+        Self(Vec::new())
     }
 
+    /// Forgets them; a tile is then so many pixels high.
     #[inline(always)]
-    pub(super) fn clear(&mut self) {
-        for plane in &mut self.0 {
-            plane.fill([0.0; LANES]);
+    pub(super) fn clear(&mut self, height: usize) {
+        self.0.clear();
+        self.0.resize(height * WIDTH, [0.0; 4]);
+    }
+
+    /// Adds the samples of the target, which are such stacks. Light beyond 0..1 counts as 0 or 1.
+    #[inline(always)]
+    pub(super) fn add(&mut self, target: &mut Target, stack: &Stack, is_opaque: bool) {
+        target.finish(stack, is_opaque);
+        match stack.height {
+            1 => self.add_pixels::<1>(target),
+            2 => self.add_pixels::<2>(target),
+            _ => self.add_pixels::<4>(target),
         }
     }
 
-    /// Adds the first `samples` samples of the target. Light beyond 0..1 counts as 0 or 1.
+    /// The same, of finished stacks of that many pixels.
     #[inline(always)]
-    pub(super) fn add(&mut self, target: &Target, samples: usize, is_opaque: bool) {
-        let [sums @ .., alpha_sum] = &mut self.0;
-        for sample in 0..samples {
-            let start = row_start(sample * HEIGHT);
-            for (i, cell) in (start..start + HEIGHT * CHUNKS).enumerate() {
-                for (sum, color) in sums.iter_mut().zip(&target.color) {
-                    let (sum, color) = (&mut sum[i], color[cell]);
-                    for k in 0..LANES {
-                        let value = select(color[k] > 0.0, color[k], 0.0);
-                        sum[k] += select(value < 1.0, value, 1.0);
+    fn add_pixels<const HEIGHT: usize>(&mut self, target: &Target) {
+        let of_pixel = STACK / HEIGHT;
+        let [red, green, blue] = &target.color;
+        for (row, sums) in self.0.chunks_mut(WIDTH * HEIGHT).enumerate() {
+            let cells = row * CELLS_ACROSS..(row + 1) * CELLS_ACROSS;
+            let light = [
+                red[cells.clone()].as_flattened(),
+                green[cells.clone()].as_flattened(),
+                blue[cells.clone()].as_flattened(),
+                target.surface[cells].as_flattened(),
+            ];
+            for column in 0..WIDTH {
+                for below in 0..HEIGHT {
+                    let mut sum = sums[below * WIDTH + column];
+                    let first = column * STACK + below * of_pixel;
+                    for (sum, light) in sum.iter_mut().zip(light) {
+                        for value in &light[first..first + of_pixel] {
+                            *sum += value;
+                        }
                     }
-                }
-                let (surface, strand) = (target.surface[cell], target.strand[cell]);
-                let sum = &mut alpha_sum[i];
-                for k in 0..LANES {
-                    let shows = is_opaque | (surface[k] > NOTHING) | (strand[k] > NOTHING);
-                    sum[k] += select(shows, 1.0, 0.0);
+                    sums[below * WIDTH + column] = sum;
                 }
             }
         }
@@ -409,9 +499,10 @@ impl Sums {
     #[inline(always)]
     pub(super) fn write(&self, row: usize, samples: usize, pixels: &mut [[f32; 4]]) {
         let count = samples as f32;
-        for (x, pixel) in pixels.iter_mut().enumerate() {
-            let cell = row * CHUNKS + x / LANES;
-            *pixel = [0, 1, 2, 3].map(|channel| self.0[channel][cell][x % LANES] / count);
+        for (pixel, sum) in pixels.iter_mut().zip(&self.0[row * WIDTH..]) {
+            for channel in 0..4 {
+                pixel[channel] = sum[channel] / count;
+            }
         }
     }
 }
@@ -425,36 +516,39 @@ pub(super) struct Slope {
     pub(super) per_y: f32,
 }
 
-/// A [`Slope`] at the columns of a chunk, whatever the row.
+/// A [`Slope`] at a tile's samples.
 #[derive(Clone, Copy)]
-pub(super) struct Columns {
-    at_top: Lanes,
-    per_y: f32,
-}
-
-impl Columns {
-    #[inline(always)]
-    pub(super) fn at(&self, lane: usize, y: f32) -> f32 {
-        self.at_top[lane] + y * self.per_y
-    }
+pub(super) struct Samples {
+    /// At the lanes of the tile's first cell.
+    first: Lanes,
+    per_column: f32,
+    per_row: f32,
 }
 
 impl Slope {
     #[inline(always)]
-    pub(super) fn along(&self, x: &Lanes) -> Columns {
-        let mut at_top = [self.corner; LANES];
+    pub(super) fn at_samples(&self, stack: &Stack) -> Samples {
+        let mut first = [self.corner; LANES];
         for k in 0..LANES {
-            at_top[k] += x[k] * self.per_x;
+            first[k] += stack.x[k] * self.per_x + stack.y[k] * self.per_y;
         }
-        Columns {
-            at_top,
-            per_y: self.per_y,
+        Samples {
+            first,
+            per_column: self.per_x,
+            per_row: self.per_y * stack.height as f32,
         }
     }
+}
 
-    /// At the first lane of a chunk that begins at `position`; the others follow in steps of `per_x`.
+impl Samples {
+    /// At the samples of a cell.
     #[inline(always)]
-    pub(super) fn at(&self, position: Vec2) -> f32 {
-        self.corner + position.x * self.per_x + position.y * self.per_y
+    pub(super) fn of(&self, cell: Cell) -> Lanes {
+        let step = cell.column as f32 * self.per_column + cell.row as f32 * self.per_row;
+        let mut lanes = self.first;
+        for k in 0..LANES {
+            lanes[k] += step;
+        }
+        lanes
     }
 }
