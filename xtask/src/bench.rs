@@ -1,4 +1,4 @@
-//! Builds the `bench` program in release and runs one of its suites; or counts instructions, which needs no release.
+//! Builds the `bench` program in release and runs one of its suites; or counts instructions.
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
@@ -29,6 +29,7 @@ pub fn command() -> Command {
             flag("peers")
                 .help("Other programs too, by the Python that INKSTRAND_PYTHON names: dynamics"),
         )
+        .arg(flag("release").help("Counts the program that users run, in place of the tests' build: count"))
         .arg(flag("bless").help("Stores the counts as those that later ones are held to: count"))
 }
 
@@ -39,11 +40,19 @@ pub fn command() -> Command {
 pub fn run(args: &ArgMatches) -> Outcome {
     let name = args.get_one::<String>("suite").map_or("", String::as_str);
     let bless = args.get_flag("bless");
+    let is_release = args.get_flag("release");
     if name == COUNT {
-        return match FLAGS.iter().find(|flag| args.get_flag(flag)) {
+        let knows = |flag: &str| is_release && flag == "check";
+        let mut flags = FLAGS.iter().filter(|flag| args.get_flag(flag));
+        return match flags.find(|flag| !knows(flag)) {
             Some(flag) => Err(format!("bench count has no --{flag}").into()),
+            None if is_release && bless => Err("counts of --release aren't stored".into()),
+            None if is_release => count::run_release(args.get_flag("check")),
             None => count::run(bless),
         };
+    }
+    if is_release {
+        return Err(format!("bench {name} is always of a release build").into());
     }
     if bless {
         return Err(format!("bench {name} stores nothing: --bless is for count alone").into());
@@ -77,6 +86,8 @@ mod tests {
             ("strokes", "--peers", "has no peers"),
             ("frame", "--bless", "stores nothing"),
             ("count", "--quick", "bench count has no --quick"),
+            ("count", "--check", "bench count has no --check"),
+            ("strokes", "--release", "is always of a release build"),
         ] {
             let matches = command().try_get_matches_from(["bench", suite, flag]);
             let error = run(&matches.unwrap()).unwrap_err().to_string();

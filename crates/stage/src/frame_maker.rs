@@ -53,6 +53,7 @@ impl FrameMaker {
     /// # Errors
     ///
     /// When camera or paths cannot be made.
+    #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn frame<'a>(
         &'a mut self,
         scene: &'a Scene,
