@@ -6,7 +6,16 @@ use crate::program::{cargo, succeed};
 use crate::{Outcome, count};
 
 /// Suites of the program, and our own.
-const SUITES: [&str; 6] = ["strokes", "dynamics", "coherence", "frame", "scale", COUNT];
+const SUITES: [&str; 8] = [
+    "all",
+    "strokes",
+    "dynamics",
+    "coherence",
+    "frame",
+    "scale",
+    "skip",
+    COUNT,
+];
 const COUNT: &str = "count";
 /// Flags of the program's suites.
 const FLAGS: [&str; 3] = ["quick", "check", "peers"];
@@ -15,7 +24,7 @@ const FLAGS: [&str; 3] = ["quick", "check", "peers"];
 pub fn command() -> Command {
     let flag = |name: &'static str| Arg::new(name).long(name).action(ArgAction::SetTrue);
     Command::new("bench")
-        .about("Measures time against error: target/bench/SUITE.csv and a plot; or counts instructions")
+        .about("Measures time against error: target/bench/SUITE.csv and a plot, of `all` a page too; or counts instructions")
         .arg(
             Arg::new("suite")
                 .help("What is measured")
