@@ -133,6 +133,16 @@ pub trait LayerProgram: Send + Sync {
         seed: u32,
         strokes: &mut Vec<Stroke>,
     );
+    /// Appends their radii alone, bit for bit the same: most strokes have none on most joints, and what else is made of them need
+    /// not be worked out.
+    fn radii(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+        radii: &mut Vec<f32>,
+    );
 }
 
 /// The erasure of an effect `E`.
@@ -211,6 +221,20 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         strokes.reserve(range.len());
         self.0.for_each(joints, range, seed, |i, params| {
             strokes.push(E::Program::stroke(joints, i, instance, seed, params));
+        });
+    }
+
+    fn radii(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+        radii: &mut Vec<f32>,
+    ) {
+        radii.reserve(range.len());
+        self.0.for_each(joints, range, seed, |i, params| {
+            radii.push(E::Program::stroke(joints, i, instance, seed, params).radius);
         });
     }
 }
