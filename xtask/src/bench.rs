@@ -1,4 +1,4 @@
-//! Builds the `bench` program in release and runs one of its suites; or counts instructions, which needs no release.
+//! Builds the `bench` program in release and runs one of its suites; or counts instructions.
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
@@ -6,7 +6,16 @@ use crate::program::{cargo, succeed};
 use crate::{Outcome, count};
 
 /// Suites of the program, and our own.
-const SUITES: [&str; 6] = ["strokes", "dynamics", "coherence", "frame", "scale", COUNT];
+const SUITES: [&str; 8] = [
+    "all",
+    "strokes",
+    "dynamics",
+    "coherence",
+    "frame",
+    "scale",
+    "skip",
+    COUNT,
+];
 const COUNT: &str = "count";
 /// Flags of the program's suites.
 const FLAGS: [&str; 3] = ["quick", "check", "peers"];
@@ -15,7 +24,7 @@ const FLAGS: [&str; 3] = ["quick", "check", "peers"];
 pub fn command() -> Command {
     let flag = |name: &'static str| Arg::new(name).long(name).action(ArgAction::SetTrue);
     Command::new("bench")
-        .about("Measures time against error: target/bench/SUITE.csv and a plot; or counts instructions")
+        .about("Measures time against error: target/bench/SUITE.csv and a plot, of `all` a page too; or counts instructions")
         .arg(
             Arg::new("suite")
                 .help("What is measured")
@@ -29,6 +38,7 @@ pub fn command() -> Command {
             flag("peers")
                 .help("Other programs too, by the Python that INKSTRAND_PYTHON names: dynamics"),
         )
+        .arg(flag("release").help("Counts the program that users run, in place of the tests' build: count"))
         .arg(flag("bless").help("Stores the counts as those that later ones are held to: count"))
 }
 
@@ -39,11 +49,19 @@ pub fn command() -> Command {
 pub fn run(args: &ArgMatches) -> Outcome {
     let name = args.get_one::<String>("suite").map_or("", String::as_str);
     let bless = args.get_flag("bless");
+    let is_release = args.get_flag("release");
     if name == COUNT {
-        return match FLAGS.iter().find(|flag| args.get_flag(flag)) {
+        let knows = |flag: &str| is_release && flag == "check";
+        let mut flags = FLAGS.iter().filter(|flag| args.get_flag(flag));
+        return match flags.find(|flag| !knows(flag)) {
             Some(flag) => Err(format!("bench count has no --{flag}").into()),
+            None if is_release && bless => Err("counts of --release aren't stored".into()),
+            None if is_release => count::run_release(args.get_flag("check")),
             None => count::run(bless),
         };
+    }
+    if is_release {
+        return Err(format!("bench {name} is always of a release build").into());
     }
     if bless {
         return Err(format!("bench {name} stores nothing: --bless is for count alone").into());
@@ -77,6 +95,8 @@ mod tests {
             ("strokes", "--peers", "has no peers"),
             ("frame", "--bless", "stores nothing"),
             ("count", "--quick", "bench count has no --quick"),
+            ("count", "--check", "bench count has no --check"),
+            ("strokes", "--release", "is always of a release build"),
         ] {
             let matches = command().try_get_matches_from(["bench", suite, flag]);
             let error = run(&matches.unwrap()).unwrap_err().to_string();

@@ -3,7 +3,7 @@
 //! Times lie where other programs run beside; instructions don't. valgrind's callgrind counts those of the program as
 //! the tests build it, with one thread on the CPU, for a frame of each yardstick as it moves: the second one, when
 //! everything has been loaded and has its memory. `tests/yardsticks/counts.toml` holds the counts that later ones are
-//! held to.
+//! held to. With `--release` it is the program that users run, and the frame is held to its targets.
 //!
 //! valgrind runs programs on a processor of its own, which has AVX2 and no AVX-512 where the machine has AVX2: so
 //! every such machine counts the same.
@@ -40,6 +40,10 @@ const STAGES: [(&str, &str); 4] = [
 /// The part of a count by which a later one may differ.
 const TOLERANCE: f64 = 0.03;
 
+/// Most instructions that a whole frame of a yardstick should take in a release build: 60 frames a second on one of two
+/// cores of about 20 million a millisecond.
+const TARGETS: [(&str, u64); 1] = [("twin-tails", 280_000_000)];
+
 /// Instructions of a frame's stages, by their names.
 type Counts = BTreeMap<String, u64>;
 
@@ -62,17 +66,7 @@ pub fn run(bless: bool) -> Outcome {
         println!("SKIPPED: {reason}");
         return Ok(());
     }
-    let program = Inkstrand::build()?;
-    let counted = work::on_all_cores(&YARDSTICKS, "yardsticks", |name| {
-        count(&program, name).map_err(|error| format!("{name}: {error}"))
-    });
-    let counted = YARDSTICKS
-        .iter()
-        .map(|name| (*name).to_owned())
-        .zip(counted);
-    let counted = counted
-        .map(|(name, counts)| Ok((name, counts?)))
-        .collect::<Result<Table, String>>()?;
+    let counted = count_all(&Inkstrand::build()?)?;
     let path = program::root().join("tests/yardsticks/counts.toml");
     if bless {
         print(&counted, &Table::new());
@@ -89,6 +83,50 @@ pub fn run(bless: bool) -> Outcome {
     }
     differences.push("if that is meant: cargo xtask bench count --bless".to_owned());
     Err(differences.join("\n").into())
+}
+
+/// Counts the program as users build it, and tells how far its frames are from their targets.
+///
+/// # Errors
+/// The program doesn't build or run; with `check` where a target is missed, or nothing can be counted.
+pub fn run_release(check: bool) -> Outcome {
+    if let Some(reason) = obstacle() {
+        if check {
+            return Err(reason.into());
+        }
+        println!("SKIPPED: {reason}");
+        return Ok(());
+    }
+    let counted = count_all(&Inkstrand::build_release()?)?;
+    print(&counted, &Table::new());
+    let mut missed = Vec::new();
+    for (name, most) in TARGETS {
+        let count: u64 = counted[name].values().sum();
+        let verdict = if count <= most { "met" } else { "MISSED" };
+        let line = format!(
+            "{name}: {:.1} million instructions a frame, at most {:.1}: {verdict}",
+            count as f64 * 1e-6,
+            most as f64 * 1e-6
+        );
+        println!("  {line}");
+        if count > most {
+            missed.push(line);
+        }
+    }
+    match check && !missed.is_empty() {
+        true => Err(missed.join("\n").into()),
+        false => Ok(()),
+    }
+}
+
+/// Counts the frames of all yardsticks.
+fn count_all(program: &Inkstrand) -> Result<Table, String> {
+    let counted = work::on_all_cores(&YARDSTICKS, "yardsticks", |name| {
+        count(program, name).map_err(|error| format!("{name}: {error}"))
+    });
+    let names = YARDSTICKS.iter().map(|name| (*name).to_owned());
+    let counted = names.zip(counted);
+    counted.map(|(name, counts)| Ok((name, counts?))).collect()
 }
 
 /// Why nothing can be counted here.

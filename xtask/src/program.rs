@@ -77,6 +77,24 @@ impl Inkstrand {
         build("inkstrand", "bin", &alone).map(Self)
     }
 
+    /// Builds the program as its users do, in release.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_release() -> Outcome<Self> {
+        let release = [
+            "build",
+            "--release",
+            "--package=inkstrand",
+            "--bin=inkstrand",
+        ];
+        let messages = messages_of(cargo(&release))?;
+        let program = program_of(&messages, "inkstrand", "bin");
+        program
+            .map(Self)
+            .ok_or_else(|| "cargo built inkstrand and named no program".into())
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.0

@@ -107,7 +107,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
 }
 
 /// Where the looks are that don't change.
-const YARDSTICKS: &str = "tests/yardsticks";
+pub(crate) const YARDSTICKS: &str = "tests/yardsticks";
 
 /// Their presets, by name.
 fn presets(root: &Path) -> Result<Vec<PathBuf>, BenchError> {
@@ -119,13 +119,24 @@ fn presets(root: &Path) -> Result<Vec<PathBuf>, BenchError> {
     Ok(paths)
 }
 
-/// A look whose head nods and shakes.
-fn open(path: &Path, root: &Path) -> Result<Stage, BenchError> {
-    let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| format!("{name}: {error}"))?;
+/// The effects that come with inkstrand.
+pub(crate) fn registry() -> Result<Registry, BenchError> {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
-    let mut preset = Preset::parse(&name, &text, &registry).map_err(|errors| errors.to_string())?;
+    Ok(registry)
+}
+
+/// Reads a preset.
+pub(crate) fn preset<'r>(path: &Path, registry: &'r Registry) -> Result<Preset<'r>, BenchError> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{name}: {error}"))?;
+    Preset::parse(&name, &text, registry).map_err(|errors| errors.to_string().into())
+}
+
+/// A look whose head nods and shakes.
+fn open(path: &Path, root: &Path) -> Result<Stage, BenchError> {
+    let registry = registry()?;
+    let mut preset = preset(path, &registry)?;
     preset.sections.scene.fps = FPS as f32;
     let files = Files {
         motion: Some(

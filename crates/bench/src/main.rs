@@ -8,8 +8,10 @@
 use bench::BenchError;
 use bench::backends::Card;
 use bench::dynamics::{self, peers::Peers, stored};
+use bench::page::{self, Finished};
+use bench::results::Row;
 use bench::targets::{Target, report};
-use bench::{coherence, frame, results, scale, stress, strokes};
+use bench::{coherence, frame, ratios, results, scale, skip, stress, strokes};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
@@ -27,8 +29,10 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Suite {
+    /// All: every suite, and a page of their plots and targets
+    All(CardOptions),
     /// Strokes: the exact sweep, stamping, and libraries that fill outlines
-    Strokes(Options),
+    Strokes(RatioOptions),
     /// Dynamics: our strands, springs, XPBD, and other programs
     Dynamics(DynamicsOptions),
     /// Coherence: how continuous pictures are in time, in every order of strokes
@@ -37,6 +41,8 @@ enum Suite {
     Frame(CardOptions),
     /// Scale: 72 to 100,000 strands, by stages, on both backends
     Scale(CardOptions),
+    /// Skip: what a scene doesn't need, and what it costs all the same
+    Skip(RatioOptions),
     /// No measure: random scenes with hostile numbers, in which strands must hold
     Stress(StressOptions),
 }
@@ -58,6 +64,16 @@ impl CardOptions {
             Card::Hardware
         }
     }
+}
+
+/// Of suites whose figures are ratios of times.
+#[derive(clap::Args)]
+struct RatioOptions {
+    #[command(flatten)]
+    common: Options,
+    /// Stores our ratios as those that later ones are checked against
+    #[arg(long, conflicts_with = "quick")]
+    store: bool,
 }
 
 #[derive(clap::Args)]
@@ -110,7 +126,7 @@ fn hours(text: &str) -> Result<Duration, String> {
     Err("from 0 to 100000 hours".to_owned())
 }
 
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 struct Options {
     /// Fewer scenes, knobs and rounds: within two minutes on two cores
     #[arg(long)]
@@ -131,17 +147,60 @@ fn main() -> ExitCode {
     if cfg!(debug_assertions) && !matches!(suite, Suite::Stress(_)) {
         eprintln!("bench: not a release build: its times say nothing");
     }
-    let measured = match suite {
-        Suite::Strokes(options) => strokes(&options),
-        Suite::Dynamics(options) => dynamics(&options),
-        Suite::Coherence(options) => coherence(&options),
-        Suite::Frame(options) => frame(&options),
-        Suite::Scale(options) => scale(&options),
-        Suite::Stress(options) => stress(&options),
+    let done = match &suite {
+        Suite::Stress(options) => stress(options),
+        Suite::All(options) => all(options),
+        Suite::Strokes(options) => strokes(options).map(|it| exit_code(&it, options.common.check)),
+        Suite::Dynamics(options) => {
+            dynamics(options).map(|it| exit_code(&it, options.common.check))
+        }
+        Suite::Coherence(options) => {
+            coherence(options).map(|it| exit_code(&it, options.common.check))
+        }
+        Suite::Frame(options) => frame(options).map(|it| exit_code(&it, options.common.check)),
+        Suite::Scale(options) => scale(options).map(|it| exit_code(&it, options.common.check)),
+        Suite::Skip(options) => skip(options).map(|it| exit_code(&it, options.common.check)),
     };
-    measured.unwrap_or_else(|error| {
+    done.unwrap_or_else(|error| {
         eprintln!("bench: {error}");
         ExitCode::FAILURE
+    })
+}
+
+/// Every suite one after the other, and a page of what they found.
+fn all(options: &CardOptions) -> Result<ExitCode, BenchError> {
+    let with_ratios = || RatioOptions {
+        common: options.common.clone(),
+        store: false,
+    };
+    let done = [
+        strokes(&with_ratios())?,
+        dynamics(&DynamicsOptions {
+            common: options.common.clone(),
+            peers: false,
+            store: false,
+        })?,
+        coherence(&CoherenceOptions {
+            common: options.common.clone(),
+            only: String::new(),
+        })?,
+        frame(options)?,
+        scale(options)?,
+        skip(&with_ratios())?,
+    ];
+    let out = &options.common.out;
+    let machine = results::machine(
+        options.common.threads(),
+        &["vello_cpu", "tiny-skia", "wgpu"],
+    );
+    results::save(out, "index.html", &page::page(&done, &machine, out)?)?;
+    println!("wrote {}", out.join("index.html").display());
+    let missed = done
+        .iter()
+        .any(|suite| !suite.targets.iter().all(Target::is_met));
+    Ok(match options.common.check && missed {
+        true => ExitCode::FAILURE,
+        false => ExitCode::SUCCESS,
     })
 }
 
@@ -157,21 +216,78 @@ impl Options {
     }
 }
 
-fn strokes(options: &Options) -> Result<ExitCode, BenchError> {
+fn strokes(options: &RatioOptions) -> Result<Finished, BenchError> {
+    let common = &options.common;
     let suite = strokes::Options {
         root: root(),
-        out: options.out.clone(),
-        quick: options.quick,
-        threads: options.threads(),
+        out: common.out.clone(),
+        quick: common.quick,
+        threads: common.threads(),
     };
     let measured = with_progress(|progress| strokes::run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
     println!("{}", report(&measured.targets));
     println!("{}", strokes::NOT_MEASURED);
-    for file in ["strokes.csv", "strokes-errors.csv", "strokes.svg"] {
-        println!("wrote {}", options.out.join(file).display());
+    let files = ["strokes.csv", "strokes-errors.csv", "strokes.svg"];
+    let targets = held_to_stored("strokes", measured.targets, options.store)?;
+    Ok(finished("strokes", common, &files, measured.rows, targets))
+}
+
+/// Stores ratios, or adds how they stand to those that are stored.
+fn held_to_stored(
+    suite: &str,
+    mut targets: Vec<Target>,
+    store: bool,
+) -> Result<Vec<Target>, BenchError> {
+    if store {
+        let path = root().join(ratios::PATH);
+        let text =
+            std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let text = ratios::renewed(&text, suite, &targets)?;
+        results::write(&path, &text).map_err(|error| format!("{}: {error}", path.display()))?;
+        println!("stored the ratios of {suite}");
+        return Ok(targets);
     }
-    Ok(exit_code(&measured.targets, options.check))
+    let against = ratios::against(suite, &targets)?;
+    tell_regressions("ratios", &against);
+    targets.extend(against);
+    Ok(targets)
+}
+
+/// Says how many figures are as good as stored, and which are worse.
+fn tell_regressions(figures: &str, regressions: &[Target]) {
+    let worse: Vec<Target> = (regressions.iter())
+        .filter(|target| !target.is_met())
+        .cloned()
+        .collect();
+    println!(
+        "{} {figures} as good as stored, {} worse",
+        regressions.len() - worse.len(),
+        worse.len()
+    );
+    if !worse.is_empty() {
+        println!("{}", report(&worse));
+    }
+}
+
+/// What a suite found, when it has told which files it wrote.
+fn finished(
+    suite: &'static str,
+    options: &Options,
+    files: &[&str],
+    rows: Vec<Row>,
+    targets: Vec<Target>,
+) -> Finished {
+    let files: Vec<PathBuf> = files.iter().map(|file| options.out.join(file)).collect();
+    for file in &files {
+        println!("wrote {}", file.display());
+    }
+    Finished {
+        suite,
+        rows,
+        targets,
+        files,
+    }
 }
 
 fn peers() -> Result<Peers, BenchError> {
@@ -179,7 +295,7 @@ fn peers() -> Result<Peers, BenchError> {
     Peers::new(&root(), python.unwrap_or_else(|| "python3".into()).into())
 }
 
-fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, BenchError> {
+fn dynamics(options: &DynamicsOptions) -> Result<Finished, BenchError> {
     let common = &options.common;
     let suite = dynamics::Options {
         out: common.out.clone(),
@@ -197,24 +313,13 @@ fn dynamics(options: &DynamicsOptions) -> Result<ExitCode, BenchError> {
         results::write(&path, &file).map_err(|error| format!("{}: {error}", path.display()))?;
         println!("stored our figures");
     }
-    let (held, worse): (Vec<Target>, Vec<Target>) =
-        (measured.regressions.iter().cloned()).partition(Target::is_met);
-    println!(
-        "{} figures as good as stored, {} worse",
-        held.len(),
-        worse.len()
-    );
-    if !worse.is_empty() {
-        println!("{}", report(&worse));
-    }
-    for file in ["dynamics.csv", "dynamics.svg"] {
-        println!("wrote {}", common.out.join(file).display());
-    }
-    let all: Vec<Target> = measured.targets.into_iter().chain(worse).collect();
-    Ok(exit_code(&all, common.check))
+    tell_regressions("figures", &measured.regressions);
+    let targets = [measured.targets, measured.regressions].concat();
+    let files = ["dynamics.csv", "dynamics.svg"];
+    Ok(finished("dynamics", common, &files, measured.rows, targets))
 }
 
-fn coherence(options: &CoherenceOptions) -> Result<ExitCode, BenchError> {
+fn coherence(options: &CoherenceOptions) -> Result<Finished, BenchError> {
     let common = &options.common;
     let suite = coherence::Options {
         root: root(),
@@ -228,14 +333,21 @@ fn coherence(options: &CoherenceOptions) -> Result<ExitCode, BenchError> {
     println!("{}", coherence::summary(&measured.scenes));
     println!("{}", coherence::places(&measured.scenes));
     println!("{}", report(&measured.targets));
-    println!("wrote {}", common.out.join("coherence.csv").display());
-    for picture in &measured.pictures {
+    let mut done = finished(
+        "coherence",
+        common,
+        &["coherence.csv"],
+        Vec::new(),
+        measured.targets,
+    );
+    for picture in measured.pictures {
         println!("wrote {}", picture.display());
+        done.files.push(picture);
     }
-    Ok(exit_code(&measured.targets, common.check))
+    Ok(done)
 }
 
-fn frame(options: &CardOptions) -> Result<ExitCode, BenchError> {
+fn frame(options: &CardOptions) -> Result<Finished, BenchError> {
     let common = &options.common;
     let suite = frame::Options {
         root: root(),
@@ -251,11 +363,16 @@ fn frame(options: &CardOptions) -> Result<ExitCode, BenchError> {
         "graphics card: {}",
         measured.card.as_deref().unwrap_or("none")
     );
-    println!("wrote {}", common.out.join("frame.csv").display());
-    Ok(exit_code(&measured.targets, common.check))
+    Ok(finished(
+        "frame",
+        common,
+        &["frame.csv"],
+        measured.rows,
+        measured.targets,
+    ))
 }
 
-fn scale(options: &CardOptions) -> Result<ExitCode, BenchError> {
+fn scale(options: &CardOptions) -> Result<Finished, BenchError> {
     let common = &options.common;
     let suite = scale::Options {
         out: common.out.clone(),
@@ -278,8 +395,34 @@ fn scale(options: &CardOptions) -> Result<ExitCode, BenchError> {
         "graphics card: {}",
         measured.card.as_deref().unwrap_or("none")
     );
-    println!("wrote {}", common.out.join("scale.csv").display());
-    Ok(exit_code(&measured.targets, common.check))
+    Ok(finished(
+        "scale",
+        common,
+        &["scale.csv"],
+        measured.rows,
+        measured.targets,
+    ))
+}
+
+fn skip(options: &RatioOptions) -> Result<Finished, BenchError> {
+    let common = &options.common;
+    let suite = skip::Options {
+        root: root(),
+        out: common.out.clone(),
+        quick: common.quick,
+        threads: common.threads(),
+    };
+    let measured = with_progress(|progress| skip::run(&suite, progress))?;
+    println!("{}", results::summary(&measured.rows));
+    println!("{}", report(&measured.targets));
+    let targets = held_to_stored("skip", measured.targets, options.store)?;
+    Ok(finished(
+        "skip",
+        common,
+        &["skip.csv"],
+        measured.rows,
+        targets,
+    ))
 }
 
 /// Failures are told at once, each with the command that runs its scene again.
@@ -322,7 +465,8 @@ fn with_progress<T>(
 }
 
 /// Missed targets are a failure only where asked for.
-fn exit_code(targets: &[Target], check: bool) -> ExitCode {
+fn exit_code(done: &Finished, check: bool) -> ExitCode {
+    let targets = &done.targets;
     let missed = targets.iter().filter(|target| !target.is_met()).count();
     if missed == 0 {
         return ExitCode::SUCCESS;
@@ -360,7 +504,8 @@ mod tests {
         let Suite::Strokes(options) = Arguments::try_parse_from(line).unwrap().suite else {
             panic!("another suite");
         };
-        assert!(options.quick && options.check && options.out == Path::new("x"));
+        let common = options.common;
+        assert!(common.quick && common.check && common.out == Path::new("x"));
         let line = ["bench", "dynamics", "--peers", "--threads", "2"];
         let Suite::Dynamics(options) = Arguments::try_parse_from(line).unwrap().suite else {
             panic!("another suite");
@@ -409,11 +554,14 @@ mod tests {
             found: Some(Found::Is(ratio)),
             limit: Limit::AtMost(0.25),
         };
-        assert_eq!(exit_code(&[target(0.2)], true), ExitCode::SUCCESS);
-        assert_eq!(
-            exit_code(&[target(0.2), target(0.3)], true),
-            ExitCode::FAILURE
-        );
-        assert_eq!(exit_code(&[target(0.3)], false), ExitCode::SUCCESS);
+        let done = |ratios: &[f64]| Finished {
+            suite: "strokes",
+            rows: Vec::new(),
+            targets: ratios.iter().map(|ratio| target(*ratio)).collect(),
+            files: Vec::new(),
+        };
+        assert_eq!(exit_code(&done(&[0.2]), true), ExitCode::SUCCESS);
+        assert_eq!(exit_code(&done(&[0.2, 0.3]), true), ExitCode::FAILURE);
+        assert_eq!(exit_code(&done(&[0.3]), false), ExitCode::SUCCESS);
     }
 }

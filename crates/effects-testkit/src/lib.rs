@@ -53,6 +53,7 @@ const CHECKS: &[(&str, Check)] = &[
         "its strokes are finite and not negative, whatever the parameters",
         strokes::with_any_parameters,
     ),
+    ("its strokes stay near their strands", strokes::near),
     ("it draws something", strokes::something),
     ("where it draws nothing the radius is 0", strokes::nothing),
     (

@@ -4,7 +4,7 @@ use crate::hair;
 use crate::joint::{Joint, list};
 use crate::values::{Case, defaults, extremes, some_instances};
 use effects::wgsl::Stroke;
-use effects::{AnyEffect, Input, LayerProgram};
+use effects::{AnyEffect, FARTHEST_CLUMPS, FARTHEST_UNITS, Input, LayerProgram};
 
 /// Strokes side by side, at most: no clump is so wide that more would be seen.
 const MOST_INSTANCES: u32 = 1024;
@@ -38,6 +38,30 @@ pub(crate) fn with_any_parameters(effect: &dyn AnyEffect) -> Result<(), String> 
     );
     for case in extremes(effect) {
         look_at(effect, &case, &joints)?;
+    }
+    Ok(())
+}
+
+/// Farther strokes would vanish where their strands leave the picture.
+pub(crate) fn near(effect: &dyn AnyEffect) -> Result<(), String> {
+    let joints = hair::joints();
+    for case in extremes(effect) {
+        let program = effect.program(&case.values);
+        for instance in some_instances(program.instances()) {
+            let strokes = evaluate(&*program, &joints, instance);
+            for (stroke, joint) in strokes.iter().zip(&joints) {
+                let reach = stroke.offset.length().0 + stroke.radius;
+                let most =
+                    FARTHEST_CLUMPS * joint.clump_radius + FARTHEST_UNITS * joint.unit.max(1.0);
+                if stroke.radius > 0.0 && reach > most {
+                    return Err(format!(
+                        "{}: stroke {instance} reaches {reach} from its strand; {FARTHEST_CLUMPS} radii of the clump and \
+                         {FARTHEST_UNITS} units, here {most}, are the most",
+                        case.name
+                    ));
+                }
+            }
+        }
     }
     Ok(())
 }

@@ -127,6 +127,16 @@ fn rank_and_depth_offset_are_a_layers() {
     assert_fails::<Nowhere>("depth offset", "depth_offset is NaN");
 }
 
+#[test]
+fn strokes_stay_near_their_strands() {
+    spoil!(Far {
+        fn stroke(good: Stroke, _: &Joints, _: usize, _: &Params) -> Stroke {
+            Stroke { offset: good.offset + vec2([900.0, 0.0]), ..good }
+        }
+    });
+    assert_fails::<Far>("stay near", "from its strand");
+}
+
 /// The good parameters and one more.
 const fn with(more: Param) -> [Param; 8] {
     let mut params = [more; 8];

@@ -94,6 +94,15 @@ pub trait AnyEffect: Send + Sync {
     fn program(&self, values: &Values) -> Box<dyn LayerProgram>;
 }
 
+/// How far from its path a stroke may reach at most, its radius and all: so many radii of the clump there, and beside that so many
+/// 1/300 of the head's height, or of a layer whose unit is pixels so many pixels of a picture of 720 lines. A strand whose path is
+/// farther than that from the picture isn't evaluated.
+pub const FARTHEST_CLUMPS: f32 = 6.0;
+/// See [`FARTHEST_CLUMPS`].
+pub const FARTHEST_UNITS: f32 = 150.0;
+/// See [`FARTHEST_CLUMPS`].
+pub const FARTHEST_PIXELS: f32 = 150.0;
+
 /// How many discs a clump is made of: `clump_disc` in `shaders/prelude.wgsl`.
 pub const CLUMP_DISCS: u32 = 3;
 
@@ -123,6 +132,16 @@ pub trait LayerProgram: Send + Sync {
         instance: u32,
         seed: u32,
         strokes: &mut Vec<Stroke>,
+    );
+    /// Appends their radii alone, bit for bit the same: most strokes have none on most joints, and what else is made of them need
+    /// not be worked out.
+    fn radii(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+        radii: &mut Vec<f32>,
     );
 }
 
@@ -202,6 +221,20 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         strokes.reserve(range.len());
         self.0.for_each(joints, range, seed, |i, params| {
             strokes.push(E::Program::stroke(joints, i, instance, seed, params));
+        });
+    }
+
+    fn radii(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+        radii: &mut Vec<f32>,
+    ) {
+        radii.reserve(range.len());
+        self.0.for_each(joints, range, seed, |i, params| {
+            radii.push(E::Program::stroke(joints, i, instance, seed, params).radius);
         });
     }
 }

@@ -10,6 +10,7 @@ use std::fs::{self, DirEntry};
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Where pictures go.
 pub(crate) struct Output {
@@ -22,6 +23,8 @@ pub(crate) struct Output {
     /// How many frames there are, and how many are shown in a second.
     frames: u32,
     fps: f32,
+    /// The last picture of several, and its bytes: it may come again.
+    last: Option<(Arc<Picture>, Vec<u8>)>,
 }
 
 /// What pictures are called.
@@ -59,6 +62,7 @@ impl Output {
             animation: None,
             frames: frames.map_or(1, |(first, last)| last - first + 1),
             fps,
+            last: None,
         })
     }
 
@@ -123,7 +127,7 @@ impl Output {
 
     /// Writes a picture as PNG: sRGB, straight alpha where it is transparent. Frames of one animated PNG are written with the
     /// last one, by [`Output::finish`].
-    pub fn write(&mut self, picture: &Picture, frame: u32) -> io::Result<()> {
+    pub fn write(&mut self, picture: &Arc<Picture>, frame: u32) -> io::Result<()> {
         if let Name::Moving(_) = self.name {
             let animation = match &mut self.animation {
                 Some(animation) => animation,
@@ -136,7 +140,16 @@ impl Output {
             };
             return animation.push(picture);
         }
-        write_whole(&self.path(frame), &encode(picture, self.transparent)?)
+        let path = self.path(frame);
+        match &self.last {
+            Some((last, bytes)) if Arc::ptr_eq(last, picture) => write_whole(&path, bytes),
+            _ => {
+                let bytes = encode(picture, self.transparent)?;
+                write_whole(&path, &bytes)?;
+                self.last = (self.frames > 1).then(|| (picture.clone(), bytes));
+                Ok(())
+            }
+        }
     }
 
     /// Writes what is written when all frames are there.

@@ -13,9 +13,10 @@ use card::Card;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{Drawing, Picture};
 use stage::Stage;
+use std::sync::Arc;
 use std::time::Instant;
 
-/// Draws scenes.
+/// Draws a scene in motion.
 pub(crate) struct Painter {
     samples: u32,
     card: Option<Card>,
@@ -23,6 +24,14 @@ pub(crate) struct Painter {
     may_fall_back: bool,
     cpu: Option<Cpu>,
     is_quiet: bool,
+    /// The last picture, and what drew it.
+    last: Option<Drawn>,
+}
+
+struct Drawn {
+    picture: Arc<Picture>,
+    backend: &'static str,
+    bytes: Bytes,
 }
 
 /// The CPU's part.
@@ -47,6 +56,7 @@ impl Painter {
             may_fall_back: backend == Backend::Auto,
             cpu: None,
             is_quiet,
+            last: None,
         };
         if painter.card.is_none() {
             painter.cpu()?;
@@ -54,13 +64,14 @@ impl Painter {
         Ok(painter)
     }
 
-    /// Draws the scene at `time`, in seconds.
+    /// Draws the scene at `time`, in seconds. Where nothing changed since the last picture, which must have been of the same scene, it
+    /// is that one.
     pub(crate) fn paint(
         &mut self,
         stage: &mut Stage,
         frame: u32,
         time: f32,
-    ) -> Result<(Picture, FrameStats), Failure> {
+    ) -> Result<(Arc<Picture>, FrameStats), Failure> {
         let started = Instant::now();
         let mut lap = Lap(started);
         let mut stats = FrameStats {
@@ -70,7 +81,23 @@ impl Painter {
         };
         stage.advance_to(time)?;
         stats.milliseconds.simulate = lap.passed();
-        let picture = self.draw(stage, &mut stats, &mut lap)?;
+        let drawn = match self.last.take() {
+            Some(last) if stage.is_as_before()? => {
+                stats.reused = true;
+                last
+            }
+            _ => {
+                let picture = self.draw(stage, &mut stats, &mut lap)?;
+                Drawn {
+                    picture: Arc::new(picture),
+                    backend: stats.backend,
+                    bytes: stats.bytes,
+                }
+            }
+        };
+        (stats.backend, stats.bytes) = (drawn.backend, drawn.bytes);
+        let picture = drawn.picture.clone();
+        self.last = Some(drawn);
         stats.milliseconds.total = started.elapsed().as_secs_f64() * 1e3;
         stats.size = [picture.width, picture.height];
         stats.strands = StrandCounts {

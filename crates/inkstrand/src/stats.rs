@@ -55,6 +55,7 @@ pub(crate) struct FrameStats {
     pub strands: StrandCounts,
     pub layers: BTreeMap<String, LayerCounts>,
     pub bytes: Bytes,
+    /// Whether the picture is the last one, as nothing changed since: nothing was drawn, and no layer has joints.
     pub reused: bool,
 }
 
@@ -84,7 +85,7 @@ pub(crate) struct LayerCounts {
     pub segments: usize,
 }
 
-#[derive(Default, Serialize)]
+#[derive(Clone, Copy, Default, Serialize)]
 pub(crate) struct Bytes {
     /// What the drawing's lists hold, or the graphics card's buffers.
     pub buffers: usize,

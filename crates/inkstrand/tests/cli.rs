@@ -201,6 +201,40 @@ fn sequences_have_numbers_and_move() {
 }
 
 #[test]
+fn what_does_not_change_is_drawn_once() {
+    let folder = folder();
+    // Beyond its last key hair stands still: the second from then on is the one before once more.
+    let options = ["render", "small.ron", "--frames", "23-27", "-o", "a_##.png"];
+    let options = [&options[..], &["--stats", "stats.jsonl"]].concat();
+    inkstrand(folder.path(), &options).assert().success();
+    let stats = fs::read_to_string(folder.path().join("stats.jsonl")).unwrap();
+    let lines = stats.lines();
+    let lines: Vec<serde_json::Value> = lines
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let reused: Vec<_> = lines.iter().map(|line| &line["reused"]).collect();
+    assert_eq!(reused, [false, false, true, true, true]);
+    for line in &lines {
+        let is_drawn = line["layers"]["hair.base"]["joints"].as_u64().is_some();
+        assert_eq!(is_drawn, line["reused"] == false);
+        assert_eq!(line["size"], serde_json::json!([80, 60]));
+        assert_eq!(line["backend"], "cpu");
+    }
+    let frame = |number: u32| fs::read(folder.path().join(format!("a_{number}.png"))).unwrap();
+    assert!(frame(23) != frame(24));
+    assert!((25..28).all(|number| frame(number) == frame(24)));
+    // As it is drawn for itself.
+    inkstrand(
+        folder.path(),
+        &["render", "small.ron", "--frames", "27-27", "-o", "b_##.png"],
+    )
+    .assert()
+    .success();
+    let alone = fs::read(folder.path().join("b_27.png")).unwrap();
+    assert!(alone == frame(27));
+}
+
+#[test]
 fn mistakes_in_presets_are_named_with_file_line_and_column() {
     let folder = folder();
     let broken = PRESET

@@ -131,19 +131,12 @@ impl Candidates {
 impl Strand {
     /// The strand that has `runs`.
     fn new(drawing: &Drawing, runs: &[render::Run]) -> Self {
-        let joints = drawing.clump.len();
-        let no_colors = vec![[0.0; 3]; joints];
         let mut strokes: Vec<Stroke> = Vec::new();
         for (layer, strokes_of_layer) in drawing.layers.iter().enumerate() {
-            let joints = &strokes_of_layer.joints;
-            let is_drawn = |run: &&render::Run| {
-                joints.start <= run.joints.start && run.joints.end <= joints.end
-            };
-            let drawn: Vec<Range<usize>> = (runs.iter().filter(is_drawn))
-                .map(|run| run.joints.start - joints.start..run.joints.end - joints.start)
-                .collect();
             for instance in 0..strokes_of_layer.instances {
-                let of_instance = instance * joints.len()..(instance + 1) * joints.len();
+                let on = |run: &render::Run| strokes_of_layer.on(instance, &run.joints);
+                let drawn: Vec<Range<usize>> =
+                    runs.iter().flat_map(on).map(|s| s.places()).collect();
                 strokes.push(Stroke {
                     precedence: Precedence {
                         rank: strokes_of_layer.rank,
@@ -152,22 +145,23 @@ impl Strand {
                     },
                     segments: segments(
                         &drawn,
-                        &strokes_of_layer.discs[of_instance.clone()],
-                        &strokes_of_layer.colors[of_instance],
+                        &strokes_of_layer.discs,
+                        &strokes_of_layer.colors,
                         drawing.brush,
                     ),
                 });
             }
         }
-        let runs: Vec<Range<usize>> = runs.iter().map(|run| run.joints.clone()).collect();
         strokes.sort_by_key(|stroke| Reverse(stroke.precedence));
-        let sides = drawing.sides.chunks(joints);
-        let clump = [&drawing.clump[..]].into_iter().chain(sides);
-        let clump = clump.flat_map(|discs| segments(&runs, discs, &no_colors, drawing.brush));
-        Self {
-            clump: clump.collect(),
-            strokes,
+        let no_colors = vec![[0.0; 3]; drawing.clump.len().max(drawing.sides.len())];
+        let middles: Vec<Range<usize>> = runs.iter().map(|run| run.joints.clone()).collect();
+        let mut clump = segments(&middles, &drawing.clump, &no_colors, drawing.brush);
+        for side in 0..2 {
+            let on = |run: &render::Run| drawing.side_on(side, &run.joints);
+            let drawn: Vec<Range<usize>> = runs.iter().flat_map(on).map(|s| s.places()).collect();
+            clump.extend(segments(&drawn, &drawing.sides, &no_colors, drawing.brush));
         }
+        Self { clump, strokes }
     }
 
     /// What of it may touch the box from `min` to `max`.

@@ -3,7 +3,7 @@
 //!
 //! ```
 //! use reference::{compare, picture};
-//! use render::{Disc, Drawing, LayerStrokes, Run, cpu::Rasterizer};
+//! use render::{Disc, Drawing, LayerStrokes, Run, Stretches, cpu::Rasterizer};
 //!
 //! // One white stroke from the left to the right, 6 pixels wide at first, then pointed.
 //! let joint = |x: f32, radius: f32| Disc {
@@ -22,6 +22,7 @@
 //!         joints: 0..2,
 //!         rank: 0,
 //!         instances: 1,
+//!         stretches: Stretches::Everywhere,
 //!         discs,
 //!         colors: vec![[1.0; 3]; 2],
 //!     }],

@@ -3,7 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::Vec2;
 use render::cpu::Rasterizer;
-use render::{Disc, Drawing, LayerStrokes, Order, Run};
+use render::{Disc, Drawing, LayerStrokes, Order, Run, Stretches};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -70,6 +70,7 @@ impl Hair {
         Drawing {
             size: SIZE,
             sides: Vec::new(),
+            side_stretches: Stretches::Everywhere,
             runs: (0..self.strands)
                 .map(|strand| Run {
                     strand: strand as u32,
@@ -82,6 +83,7 @@ impl Hair {
                     joints: 0..clump.len(),
                     rank: -1,
                     instances: 1,
+                    stretches: Stretches::Everywhere,
                     discs: outline.collect(),
                     colors: vec![[0.02, 0.0, 0.01]; clump.len()],
                 },
@@ -90,6 +92,7 @@ impl Hair {
                     joints: 0..clump.len(),
                     rank: 0,
                     instances: 1,
+                    stretches: Stretches::Everywhere,
                     discs: clump.clone(),
                     colors: (0..clump.len()).map(base).collect(),
                 },
@@ -149,6 +152,7 @@ fn shaded() -> Drawing {
         joints: 0..drawing.clump.len(),
         rank: 100,
         instances: 8,
+        stretches: Stretches::Everywhere,
         discs: discs.collect(),
         colors: vec![[1.0, 0.9, 0.8]; 8 * drawing.clump.len()],
     };

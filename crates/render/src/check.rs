@@ -1,6 +1,6 @@
 //! What a drawing must be before anything is drawn.
 
-use crate::drawing::{Disc, Drawing, LayerStrokes, Run, Surface};
+use crate::drawing::{Disc, Drawing, LayerStrokes, Run, Stretch, Stretches, Surface};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -87,6 +87,37 @@ pub enum DrawError {
         instances: usize,
         /// The joints that it draws on.
         joints: usize,
+    },
+    /// A stretch lies on joints or discs that there aren't, or before the end of the one before.
+    #[error(
+        "{of}, stroke {instance}: the joints {start}..{end} with discs from {first} on are no stretch of joints {} to {} with {discs} discs, behind the one before",
+        joints.start, joints.end
+    )]
+    Stretch {
+        /// The layer, or the clump's sides.
+        of: String,
+        /// Which of its strokes.
+        instance: usize,
+        /// The first joint of the stretch.
+        start: usize,
+        /// One beyond the last.
+        end: usize,
+        /// Where its first disc lies.
+        first: usize,
+        /// The joints that the strokes may be on.
+        joints: Range<usize>,
+        /// How many discs there are.
+        discs: usize,
+    },
+    /// A layer has stretches for other strokes than its own.
+    #[error("{of}: there are stretches for {lists} strokes, of {instances}")]
+    StretchLists {
+        /// The layer, or the clump's sides.
+        of: String,
+        /// For how many strokes there are stretches.
+        lists: usize,
+        /// How many strokes there are.
+        instances: usize,
     },
     /// There are sides of the clump for other joints than the drawing's.
     #[error(
@@ -180,19 +211,11 @@ const DISC_RULE: &str =
 pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     check_picture(drawing.size, drawing.background, drawing.edge_depth_m)?;
     check_runs(drawing)?;
-    let joints = drawing.clump.len();
     if let Some(joint) = first_that_is_not(&drawing.clump, is_disc) {
         let disc = drawing.clump[joint];
         return Err(DrawError::ClumpDisc { joint, disc });
     }
-    let discs = drawing.sides.len();
-    if discs != 0 && discs != 2 * joints {
-        return Err(DrawError::Sides { discs, joints });
-    }
-    if let Some(index) = first_that_is_not(&drawing.sides, is_disc) {
-        let (joint, disc) = (index % joints, drawing.sides[index]);
-        return Err(DrawError::ClumpDisc { joint, disc });
-    }
+    check_sides(drawing)?;
     for layer in &drawing.layers {
         check_layer(layer, drawing)?;
     }
@@ -263,6 +286,89 @@ fn check_runs(drawing: &Drawing) -> Result<(), DrawError> {
     Ok(())
 }
 
+fn check_sides(drawing: &Drawing) -> Result<(), DrawError> {
+    let (discs, joints) = (drawing.sides.len(), drawing.clump.len());
+    let sides = Strokes {
+        stretches: &drawing.side_stretches,
+        instances: 2,
+        joints: 0..joints,
+        discs,
+    };
+    match sides.stretches {
+        Stretches::Everywhere if discs != 0 && discs != 2 * joints => {
+            return Err(DrawError::Sides { discs, joints });
+        }
+        Stretches::Everywhere => {}
+        Stretches::Within(_) => sides.check(|| "the clump's sides".to_owned())?,
+    }
+    if let Some(index) = first_that_is_not(&drawing.sides, is_disc) {
+        let (_, joint) = sides.owner(index);
+        let disc = drawing.sides[index];
+        return Err(DrawError::ClumpDisc { joint, disc });
+    }
+    Ok(())
+}
+
+/// Strokes whose discs are listed.
+struct Strokes<'a> {
+    stretches: &'a Stretches,
+    instances: usize,
+    joints: Range<usize>,
+    discs: usize,
+}
+
+impl Strokes<'_> {
+    /// Looks at all stretches; `of` says whose they are.
+    fn check(&self, of: impl Fn() -> String) -> Result<(), DrawError> {
+        let Stretches::Within(lists) = self.stretches else {
+            return Ok(());
+        };
+        if lists.len() != self.instances {
+            return Err(DrawError::StretchLists {
+                of: of(),
+                lists: lists.len(),
+                instances: self.instances,
+            });
+        }
+        for (instance, list) in lists.iter().enumerate() {
+            let mut end = self.joints.start;
+            for Stretch { joints, first } in list {
+                let is_there = end <= joints.start && joints.end <= self.joints.end;
+                let has_discs = joints.start < joints.end
+                    && *first <= self.discs
+                    && joints.end - joints.start <= self.discs - first;
+                if !(is_there && has_discs) {
+                    return Err(DrawError::Stretch {
+                        of: of(),
+                        instance,
+                        start: joints.start,
+                        end: joints.end,
+                        first: *first,
+                        joints: self.joints.clone(),
+                        discs: self.discs,
+                    });
+                }
+                end = joints.end;
+            }
+        }
+        Ok(())
+    }
+
+    /// The stroke and the joint that have a place in the list of discs; the first ones where nobody has it.
+    fn owner(&self, place: usize) -> (usize, usize) {
+        let (start, joints) = (self.joints.start, self.joints.len().max(1));
+        let Stretches::Within(lists) = self.stretches else {
+            return (place / joints, start + place % joints);
+        };
+        let stretches = lists.iter().enumerate();
+        let mut stretches = stretches.flat_map(|(i, list)| list.iter().map(move |s| (i, s)));
+        let owner = stretches.find(|(_, stretch)| stretch.places().contains(&place));
+        owner.map_or((0, start), |(instance, stretch)| {
+            (instance, stretch.joints.start + place - stretch.first)
+        })
+    }
+}
+
 fn check_layer(layer: &LayerStrokes, drawing: &Drawing) -> Result<(), DrawError> {
     let Range { start, end } = layer.joints;
     let all = drawing.clump.len();
@@ -283,29 +389,42 @@ fn check_layer(layer: &LayerStrokes, drawing: &Drawing) -> Result<(), DrawError>
         });
     }
     let joints = layer.joints.len();
-    let length = layer.instances.checked_mul(joints);
-    if length != Some(layer.discs.len()) || length != Some(layer.colors.len()) {
+    let (discs, colors) = (layer.discs.len(), layer.colors.len());
+    let length = match layer.stretches {
+        Stretches::Everywhere => layer.instances.checked_mul(joints),
+        Stretches::Within(_) => Some(discs),
+    };
+    if length != Some(discs) || length != Some(colors) {
         return Err(DrawError::LayerLength {
             layer: layer.name.clone(),
-            discs: layer.discs.len(),
-            colors: layer.colors.len(),
+            discs,
+            colors,
             instances: layer.instances,
             joints,
         });
     }
+    let strokes = Strokes {
+        stretches: &layer.stretches,
+        instances: layer.instances,
+        joints: layer.joints.clone(),
+        discs,
+    };
+    strokes.check(|| format!("layer \"{}\"", layer.name))?;
     if let Some(index) = first_that_is_not(&layer.discs, is_disc) {
+        let (instance, joint) = strokes.owner(index);
         return Err(DrawError::LayerDisc {
             layer: layer.name.clone(),
-            instance: index / joints,
-            joint: start + index % joints,
+            instance,
+            joint,
             disc: layer.discs[index],
         });
     }
     if let Some(index) = first_that_is_not(&layer.colors, is_finite) {
+        let (instance, joint) = strokes.owner(index);
         return Err(DrawError::LayerColor {
             layer: layer.name.clone(),
-            instance: index / joints,
-            joint: start + index % joints,
+            instance,
+            joint,
         });
     }
     Ok(())

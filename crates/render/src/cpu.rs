@@ -112,6 +112,7 @@ impl Rasterizer {
     /// # Errors
     ///
     /// When the drawing is invalid (see [`DrawError`]); then nothing has been drawn.
+    #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn draw(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
         let Self {
             pool,

@@ -36,6 +36,29 @@ pub struct Run {
     pub joints: Range<usize>,
 }
 
+/// Neighbouring joints on which a stroke is drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stretch {
+    /// The joints of the drawing, at least one.
+    pub joints: Range<usize>,
+    /// Where the first one's disc lies in the list of discs; the others' follow.
+    pub first: usize,
+}
+
+/// Where the strokes of a list of discs are drawn.
+///
+/// Most strokes cover a small part of their strands. Lists without the rest take less time and memory, and make the same
+/// picture: between two joints that both have no size nothing is drawn.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Stretches {
+    /// On all joints: one disc a joint for the first stroke, then those of the next.
+    #[default]
+    Everywhere,
+    /// For each stroke where it is drawn, by rising joints. A stretch ends with its run, or with a joint at which the stroke has
+    /// tapered to nothing; it may go on from run to run, as a stroke of each.
+    Within(Vec<Vec<Stretch>>),
+}
+
 /// The strokes of one layer: `instances` strokes for each run that it draws on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerStrokes {
@@ -48,7 +71,9 @@ pub struct LayerStrokes {
     pub rank: i32,
     /// Strokes per run (feathers); a later one lies over an earlier one.
     pub instances: usize,
-    /// `discs[instance * joints.len() + joint - joints.start]`.
+    /// Where they are drawn, and so which disc is whose.
+    pub stretches: Stretches,
+    /// Those of all stretches; where strokes are drawn everywhere, `discs[instance * joints.len() + joint - joints.start]`.
     pub discs: Vec<Disc>,
     /// Linear colours, parallel to `discs`; linear between joints.
     pub colors: Vec<[f32; 3]>,
@@ -122,14 +147,75 @@ pub fn scatter(strand: u32, sample: u32) -> f32 {
     (place >> 8) as f32 / (1 << 24) as f32
 }
 
-impl LayerStrokes {
-    /// Where the lists hold one stroke of joints that it draws on; nothing where it doesn't draw on them.
+impl Stretch {
+    /// Where the discs lie in their list.
     #[must_use]
-    pub fn places(&self, instance: usize, joints: &Range<usize>) -> Option<Range<usize>> {
-        let is_drawn = self.joints.start <= joints.start && joints.end <= self.joints.end;
-        let first = instance * self.joints.len();
-        let place = |joint: usize| first + joint - self.joints.start;
-        is_drawn.then(|| place(joints.start)..place(joints.end))
+    pub fn places(&self) -> Range<usize> {
+        self.first..self.first + self.joints.len()
+    }
+}
+
+impl Stretches {
+    /// The parts of stroke `instance` that lie on the joints of `run`, by rising joints. The list has the discs of the joints `all`.
+    pub fn on(
+        &self,
+        instance: usize,
+        all: &Range<usize>,
+        run: &Range<usize>,
+    ) -> impl Iterator<Item = Stretch> + use<'_> {
+        let (whole, within) = match self {
+            Self::Everywhere => {
+                let is_drawn = all.start <= run.start && run.end <= all.end;
+                let whole = is_drawn.then(|| Stretch {
+                    joints: all.clone(),
+                    first: instance * all.len(),
+                });
+                (whole, &[][..])
+            }
+            Self::Within(stretches) => {
+                let of_stroke = stretches.get(instance).map_or(&[][..], |list| &list[..]);
+                let first = of_stroke.partition_point(|stretch| stretch.joints.end <= run.start);
+                (None, &of_stroke[first..])
+            }
+        };
+        let run = run.clone();
+        let parts = whole.into_iter().chain(within.iter().cloned());
+        parts
+            .take_while(move |stretch| stretch.joints.start < run.end)
+            .map(move |Stretch { joints, first }| {
+                let start = joints.start.max(run.start);
+                Stretch {
+                    first: first + start - joints.start,
+                    joints: start..joints.end.min(run.end),
+                }
+            })
+    }
+}
+
+impl LayerStrokes {
+    /// The parts of one stroke that lie on the joints of `run`, by rising joints; nothing where the layer doesn't draw there.
+    pub fn on(
+        &self,
+        instance: usize,
+        run: &Range<usize>,
+    ) -> impl Iterator<Item = Stretch> + use<'_> {
+        self.stretches.on(instance, &self.joints, run)
+    }
+}
+
+impl Drawing {
+    /// The parts of one of the clump's sides, 0 or 1, that lie on the joints of `run`, by rising joints.
+    pub fn side_on(
+        &self,
+        side: usize,
+        run: &Range<usize>,
+    ) -> impl Iterator<Item = Stretch> + use<'_> {
+        let joints = if self.sides.is_empty() {
+            0
+        } else {
+            self.clump.len()
+        };
+        self.side_stretches.on(side, &(0..joints), run)
     }
 }
 
@@ -142,9 +228,11 @@ pub struct Drawing {
     pub runs: Vec<Run>,
     /// The clump of each strand: one disc a joint.
     pub clump: Vec<Disc>,
-    /// What the clump has to both sides where it is flat (`effects::wgsl::clump_disc`): one disc a joint for the one, then for the
-    /// other; empty where no clump has any.
+    /// What the clump has to both sides where it is flat (`effects::wgsl::clump_disc`): discs of the one, then of the other; empty
+    /// where no clump has any.
     pub sides: Vec<Disc>,
+    /// Where the two sides are drawn.
+    pub side_stretches: Stretches,
     /// The strokes, in the order of the objects and of their presets' layers.
     pub layers: Vec<LayerStrokes>,
     /// The heads and their outlines.
@@ -162,6 +250,30 @@ pub struct Drawing {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn stretches_are_cut_at_the_ends_of_a_run() {
+        let stretch = |joints, first| Stretch { joints, first };
+        let all = 10..30;
+        let everywhere = Stretches::Everywhere;
+        let on = |list: &Stretches, instance, run| -> Vec<Stretch> {
+            list.on(instance, &all, &run).collect()
+        };
+        assert_eq!(on(&everywhere, 1, 12..15), [stretch(12..15, 22)]);
+        assert_eq!(on(&everywhere, 0, 5..9), [], "not drawn there");
+        let within = Stretches::Within(vec![
+            vec![],
+            vec![stretch(10..14, 7), stretch(16..17, 11), stretch(20..25, 12)],
+        ]);
+        assert_eq!(on(&within, 0, 10..30), []);
+        assert_eq!(on(&within, 2, 10..30), []);
+        assert_eq!(
+            on(&within, 1, 12..22),
+            [stretch(12..14, 9), stretch(16..17, 11), stretch(20..22, 12)]
+        );
+        assert_eq!(on(&within, 1, 14..16), []);
+        assert_eq!(on(&within, 1, 24..30), [stretch(24..25, 16)]);
+    }
 
     #[test]
     fn the_samples_of_a_pixel_share_the_range_evenly() {

@@ -7,7 +7,7 @@
 //! ```
 //! use glam::Vec2;
 //! use render::cpu::Rasterizer;
-//! use render::{Disc, Drawing, LayerStrokes, Run};
+//! use render::{Disc, Drawing, LayerStrokes, Run, Stretches};
 //!
 //! // One strand of two joints, 2 m away, in red.
 //! let disc = |y| Disc {
@@ -25,6 +25,7 @@
 //!         joints: 0..2,
 //!         rank: 0,
 //!         instances: 1,
+//!         stretches: Stretches::Everywhere,
 //!         discs: vec![disc(10.0), disc(54.0)],
 //!         colors: vec![[1.0, 0.0, 0.0]; 2],
 //!     }],
@@ -51,7 +52,8 @@ mod samples;
 
 pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use drawing::{
-    Brush, Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex, scatter,
+    Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface, SurfaceVertex,
+    scatter,
 };
 pub use frame::{Frame, FrameError, Head, Light, NO_TAPER, Object, StrandInfo};
 pub use picture::Picture;

@@ -2,16 +2,20 @@
 
 use crate::files::StageError;
 use crate::head;
+use crate::look::Look;
 use crate::material::Material;
 use crate::motion::{Motion, ObjectMotion};
 use crate::neck::{PosedHead, rigid};
 use crate::object::Object;
+use crate::reach::Sight;
 use crate::scene::Scene;
+use crate::script::HeadPose;
 use effects::wgsl::hash;
 use effects::{HairStrand, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
 use render::{Frame, Light, StrandInfo, Surface};
 use std::ops::Range;
+use std::sync::Arc;
 use stroke_path::{Camera, Paths};
 
 /// Makes frames of scenes.
@@ -24,11 +28,20 @@ pub struct FrameMaker {
     normals: Vec<Vec3>,
     objects: Vec<ObjectFrame>,
     camera: Option<Camera>,
+    /// Look and time (seconds) of the last frame.
+    of: Option<(Arc<Look>, f32)>,
+    /// Whether strands are drawn that no picture can show: to hold pictures without them against.
+    #[cfg(test)]
+    keeps_unseen: bool,
 }
 
 /// An object in the last frame.
 struct ObjectFrame {
     of: Object,
+    pose: HeadPose,
+    points: Vec<Vec3>,
+    /// Strands of hair of which nothing can be seen, so that it is left out as a whole.
+    unseen: usize,
     /// Its hair's strands, and its joints.
     strands: Range<usize>,
     joints: Range<usize>,
@@ -53,6 +66,7 @@ impl FrameMaker {
     /// # Errors
     ///
     /// When camera or paths cannot be made.
+    #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn frame<'a>(
         &'a mut self,
         scene: &'a Scene,
@@ -72,6 +86,7 @@ impl FrameMaker {
         motion: &Motion,
         camera: Camera,
     ) -> Result<Frame<'a>, StageError> {
+        let shows_all = self.shows_all();
         let Self {
             strands,
             paths,
@@ -95,8 +110,10 @@ impl FrameMaker {
             let frame = &mut objects[index];
             let motion = motion.of(index, object);
             let own_camera = object.placement().own_camera(&camera);
-            frame.push_strands(motion, &own_camera, strands, paths)?;
-            frame.push_made_paths(motion, &own_camera, strands, paths)?;
+            let sight = Sight::new(&own_camera, object, shows_all);
+            frame.keep(motion);
+            frame.push_strands(motion, &sight, strands, paths)?;
+            frame.push_made_paths(motion, &sight, strands, paths)?;
             if reads_material {
                 frame.push_material_normals(motion, paths, normals);
             }
@@ -104,7 +121,7 @@ impl FrameMaker {
             object
                 .placement()
                 .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
-            surfaces.extend(frame.surfaces(motion, &own_camera, light));
+            surfaces.extend(frame.surfaces(motion, &sight, light));
         }
         let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
             let look = object.look();
@@ -119,6 +136,7 @@ impl FrameMaker {
                 layer_joints: &frame.layer_joints,
             }
         };
+        self.of = Some((scene.shared_look().clone(), motion.time_s()));
         let objects = self.objects.iter().zip(scene.objects()).enumerate();
         let section = &scene.look().sections.scene;
         Ok(Frame {
@@ -135,6 +153,33 @@ impl FrameMaker {
             edge_depth_m: section.edge_depth * scene.head().height_m,
             brush: scene.brush(),
         })
+    }
+
+    /// Whether a frame would be the last one once more, bit for bit: scene, motion and camera are as they were, whatever the time. Then
+    /// so is its picture.
+    #[must_use]
+    pub fn is_as_before(&self, scene: &Scene, motion: &Motion, camera: &Camera) -> bool {
+        let Some((look, time)) = &self.of else {
+            return false;
+        };
+        let is_same = Arc::ptr_eq(look, scene.shared_look())
+            && self.camera.as_ref() == Some(camera)
+            && self.objects.len() == scene.objects().len();
+        let mut objects = self.objects.iter().zip(scene.objects()).enumerate();
+        is_same
+            && objects.all(|(index, (frame, object))| {
+                frame.is_as_before(object, motion.of(index, object), *time == motion.time_s())
+            })
+    }
+
+    #[cfg(not(test))]
+    fn shows_all(&self) -> bool {
+        false
+    }
+
+    #[cfg(test)]
+    fn shows_all(&self) -> bool {
+        self.keeps_unseen
     }
 
     /// Strands of the last frame that are behind the eye or wholly off the picture.
@@ -168,7 +213,7 @@ impl FrameMaker {
                 let is_seen = high.cmpge(Vec2::ZERO).all() && low.cmple(picture).all();
                 seen += usize::from(is_seen);
             }
-            culled += object.strands.len() - seen;
+            culled += object.unseen + object.strands.len() - seen;
         }
         culled
     }
@@ -185,6 +230,9 @@ impl ObjectFrame {
         let reads_material = object.look().reads_material();
         Self {
             of: object.clone(),
+            pose: HeadPose::REST,
+            points: Vec::new(),
+            unseen: 0,
             strands: 0..0,
             joints: 0..0,
             made: MadePaths::default(),
@@ -209,11 +257,29 @@ impl ObjectFrame {
         self.of = object.clone();
     }
 
-    /// Appends the hair's strands and their paths.
+    /// Whether the object would be drawn as it was last; what moves in time alone only where the time is the same.
+    fn is_as_before(&self, object: &Object, motion: &ObjectMotion, is_same_time: bool) -> bool {
+        let look = object.look();
+        // Strands may twist in their places.
+        let turns = look.reads_material() && motion.dynamics().is_some();
+        self.of.is_drawn_as(object)
+            && self.pose == motion.pose()
+            && (is_same_time || !(turns || look.reads_time()))
+            && self.points == motion.points(object)
+    }
+
+    /// Keeps what the object's hair and head are like.
+    fn keep(&mut self, motion: &ObjectMotion) {
+        self.pose = motion.pose();
+        self.points.clear();
+        self.points.extend_from_slice(motion.points(&self.of));
+    }
+
+    /// Appends the hair's strands, and the paths of those that may be seen.
     fn push_strands(
         &mut self,
         motion: &ObjectMotion,
-        camera: &Camera,
+        sight: &Sight,
         strands: &mut Vec<StrandInfo>,
         paths: &mut Paths,
     ) -> Result<(), StageError> {
@@ -222,14 +288,25 @@ impl ObjectFrame {
         let first = strands.len();
         self.strands = first..first + hair.infos.len();
         self.joints = paths.len()..paths.len();
+        self.unseen = 0;
+        let center = motion.head(&self.of).center;
+        if !sight.may_see_any(center, hair.reach_m) {
+            self.strands.end = first;
+            self.unseen = hair.infos.len();
+            return Ok(());
+        }
         for (i, info) in hair.infos.iter().enumerate() {
             let particles = &points[hair.file.strands.point_range(i)];
+            let cuts = &self.of.cuts()[i];
             let mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
             strands.push(StrandInfo {
                 mean: self.of.placement().point(mean),
                 ..*info
             });
-            paths.push_pieces(first + i, particles, &self.of.cuts()[i], path, camera)?;
+            match sight.may_see(particles, info.size) {
+                true => paths.push_pieces(first + i, particles, cuts, path, sight.camera())?,
+                false => paths.leave_out(cuts),
+            }
         }
         self.joints.end = paths.len();
         Ok(())
@@ -239,11 +316,18 @@ impl ObjectFrame {
     fn push_made_paths(
         &mut self,
         motion: &ObjectMotion,
-        camera: &Camera,
+        sight: &Sight,
         strands: &mut Vec<StrandInfo>,
         paths: &mut Paths,
     ) -> Result<(), StageError> {
         let (hair, look) = (self.of.hair(), self.of.look());
+        self.layer_joints.clear();
+        self.made_of.clear();
+        if self.unseen > 0 {
+            let none = paths.len()..paths.len();
+            self.layer_joints.resize(look.layers.len(), none);
+            return Ok(());
+        }
         let points = motion.points(&self.of);
         let of_hair = self.joints.clone();
         let first_above = self.strands.start + hair.undercoat;
@@ -255,8 +339,6 @@ impl ObjectFrame {
             .last()
             .map_or(of_hair.start, |run| run.joints.end);
         let head = motion.head(&self.of);
-        self.layer_joints.clear();
-        self.made_of.clear();
         for layer in &look.layers {
             if !layer.program.has_own_paths() {
                 let start = match layer.program.is_on_undercoat() {
@@ -302,7 +384,9 @@ impl ObjectFrame {
                     id: made_id(parent.id, number),
                     ..parent
                 });
-                paths.push_strand(index, points, look.path(), camera)?;
+                if sight.may_see(points, parent.size) {
+                    paths.push_strand(index, points, look.path(), sight.camera())?;
+                }
             }
             self.layer_joints.push(start..paths.len());
         }
@@ -347,15 +431,19 @@ impl ObjectFrame {
         material.push_at_joints(paths, self.joints.clone(), of_path, normals);
     }
 
-    /// The head's surfaces on the screen, by a camera of the object's own.
-    fn surfaces(&mut self, motion: &ObjectMotion, camera: &Camera, light: Light) -> Vec<Surface> {
+    /// The head's surfaces on the screen; none where nothing of the head can be seen.
+    fn surfaces(&mut self, motion: &ObjectMotion, sight: &Sight, light: Light) -> Vec<Surface> {
         let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
             return Vec::new();
         };
+        let (center, radius) = neck.ball(motion.pose());
+        if !sight.may_see_any(center, radius) {
+            return Vec::new();
+        }
         let model = posed.in_pose(neck, motion.pose());
         let paint = self.of.look().paint(self.of.hair().head);
         let light = self.of.placement().own_light(light);
-        head::surfaces(model, &paint, camera, &light)
+        head::surfaces(model, &paint, sight.camera(), &light)
     }
 }
 
@@ -363,3 +451,6 @@ impl ObjectFrame {
 fn made_id(id: u32, number: u32) -> u32 {
     hash(id ^ hash(number + 1))
 }
+
+#[cfg(test)]
+mod tests;

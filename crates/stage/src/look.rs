@@ -72,6 +72,12 @@ impl Look {
         self.clump.base().normal == clump::Params::NORMAL_MATERIAL || self.layers.iter().any(reads)
     }
 
+    /// Whether pictures change with time alone.
+    pub(crate) fn reads_time(&self) -> bool {
+        let reads = |layer: &Layer| layer.program.inputs().has(Input::Time);
+        self.layers.iter().any(reads)
+    }
+
     pub(crate) fn path(&self) -> PathKind {
         let subdivision = self.sections.path.subdivision;
         match self.sections.path.kind {

@@ -20,6 +20,8 @@ pub(crate) struct Neck {
     patch_shares: Vec<Vec<f32>>,
     pivot: Vec3,
     height_m: f32,
+    /// How far from the pivot the farthest corner is, metres: of meshes and patches.
+    reach_m: f32,
 }
 
 /// A head in a pose.
@@ -37,7 +39,12 @@ impl Neck {
             t * t * (3.0 - 2.0 * t)
         };
         let shares_of = |positions: &[Vec3]| positions.iter().map(share).collect();
+        let patches = model.patches.iter().map(|patch| &patch.positions);
+        let meshes = [&model.mesh.positions, &model.ornaments.positions];
+        let corners = meshes.into_iter().chain(patches).flatten();
+        let from_pivot = corners.map(|p| p.distance(pivot(head)));
         Self {
+            reach_m: from_pivot.fold(0.0, f32::max),
             shares: shares_of(&model.mesh.positions),
             patch_shares: model
                 .patches
@@ -48,6 +55,14 @@ impl Neck {
             height_m: head.height_m,
             rest: model,
         }
+    }
+}
+
+impl Neck {
+    /// The ball that all of the head stays in, in this pose: its middle and its radius, metres.
+    pub fn ball(&self, pose: HeadPose) -> (Vec3, f32) {
+        let shift_m = pose.shift.length() as f32 * self.height_m;
+        (self.pivot, self.reach_m + shift_m)
     }
 }
 

@@ -179,6 +179,14 @@ impl Object {
         same_head && Arc::ptr_eq(&self.hair, &other.hair)
     }
 
+    /// Whether both are drawn alike where they have moved alike: they share all parts, and stand in one place.
+    pub(crate) fn is_drawn_as(&self, other: &Self) -> bool {
+        self.has_hair_and_head_of(other)
+            && Arc::ptr_eq(&self.look, &other.look)
+            && Arc::ptr_eq(&self.cuts, &other.cuts)
+            && self.placement == other.placement
+    }
+
     /// Whether hair moves alike in both: the same hair on the same head, with the same script and dynamics.
     pub(crate) fn moves_as(&self, other: &Self) -> bool {
         let (own, others) = (&self.look, &other.look);

@@ -1,5 +1,9 @@
 //! How far hair can be from the head, and whether a camera can see that far.
 
+use crate::look::Look;
+use crate::object::Object;
+use effects::{FARTHEST_CLUMPS, FARTHEST_PIXELS, FARTHEST_UNITS, Units};
+use glam::Vec3;
 use hair_sim::Strands;
 use render::{Head, StrandInfo};
 use stroke_path::Camera;
@@ -10,7 +14,7 @@ const MARGIN: f32 = 1.1;
 /// The radius in metres of the ball around the head's middle that hair of these sizes stays in, however it moves: strands
 /// are no longer than they are, and their roots stay on the head.
 pub(crate) fn reach_m(strands: &Strands, infos: &[StrandInfo], head: Head) -> f32 {
-    let reach = |(points, info): (&[glam::Vec3], &StrandInfo)| {
+    let reach = |(points, info): (&[Vec3], &StrandInfo)| {
         let length: f32 = points
             .windows(2)
             .map(|link| link[0].distance(link[1]))
@@ -21,8 +25,90 @@ pub(crate) fn reach_m(strands: &Strands, infos: &[StrandInfo], head: Head) -> f3
     MARGIN * farthest
 }
 
+/// What a camera sees of an object, in the object's own coordinates.
+pub(crate) struct Sight {
+    camera: Camera,
+    /// The near plane and the planes through the eye and the picture's edges: unit vectors out of what is seen, and how far from the
+    /// eye they lie, metres.
+    planes: [(Vec3, f32); 5],
+    /// How far strokes may be from their strand, metres: all of them, and by a strand's own size of 1.
+    reach_m: f32,
+    reach_by_size_m: f32,
+    shows_all: bool,
+}
+
+impl Sight {
+    /// Of a camera as the object has it. `shows_all` leaves no strand out.
+    pub fn new(camera: &Camera, object: &Object, shows_all: bool) -> Self {
+        let (look, unit_m) = (object.look(), object.hair().head.unit_m());
+        let has_pixels = look.layers.iter().any(|layer| layer.units == Units::Pixels);
+        let pixels = if has_pixels { FARTHEST_PIXELS } else { 0.0 };
+        let [half_width, half_height] = camera.size_px().map(|side| {
+            let beyond_px = pixels * camera.size_px()[1] as f32 / 720.0;
+            0.5 * side as f32 + beyond_px
+        });
+        let focal = camera.focal_px();
+        let side = |x: f32, y: f32, half_px: f32| {
+            let out = Vec3::new(x * focal, y * focal, -half_px).normalize();
+            (camera.world_from_view_direction(out), 0.0)
+        };
+        Self {
+            camera: *camera,
+            planes: [
+                (
+                    camera.world_from_view_direction(Vec3::NEG_Z),
+                    -camera.near_m(),
+                ),
+                side(1.0, 0.0, half_width),
+                side(-1.0, 0.0, half_width),
+                side(0.0, 1.0, half_height),
+                side(0.0, -1.0, half_height),
+            ],
+            reach_m: FARTHEST_UNITS * unit_m,
+            reach_by_size_m: FARTHEST_CLUMPS * thickest(look) * unit_m,
+            shows_all,
+        }
+    }
+
+    /// The camera, as the object has it.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// Whether any of the hair in a ball (metres) may be in the picture.
+    pub fn may_see_any(&self, center: Vec3, radius: f32) -> bool {
+        let beyond = self.reach_m + radius;
+        self.shows_all || (self.planes.iter()).all(|plane| self.outside(plane, center) <= beyond)
+    }
+
+    /// Whether any stroke of a strand of that size (1/300 of the head's height) may be in the picture.
+    pub fn may_see(&self, particles: &[Vec3], size: f32) -> bool {
+        let links = particles.windows(2);
+        let longest = links.map(|link| link[0].distance_squared(link[1]));
+        // A path between particles leaves their hull by no more than a third of a link (the control points of its Bezier form).
+        let bulge = longest.fold(0.0, f32::max).sqrt() / 3.0;
+        let beyond = self.reach_m + self.reach_by_size_m * size + bulge;
+        let is_outside = |plane: &(Vec3, f32)| {
+            // Not finite is told elsewhere.
+            (particles.iter()).all(|particle| self.outside(plane, *particle) > beyond)
+        };
+        self.shows_all || !self.planes.iter().any(is_outside)
+    }
+
+    /// How far a point lies outside of a plane, metres.
+    fn outside(&self, (out, from_eye): &(Vec3, f32), point: Vec3) -> f32 {
+        out.dot(point - self.camera.eye()) - from_eye
+    }
+}
+
+/// The largest factor of the look on a strand's own size.
+fn thickest(look: &Look) -> f32 {
+    let values = &look.sections.clump.0;
+    values.greatest("size") * (1.0 + values.greatest("size_variation"))
+}
+
 /// Whether any of a ball (metres) may be in the camera's picture.
-pub(crate) fn may_see(camera: &Camera, center: glam::Vec3, radius: f32) -> bool {
+pub(crate) fn may_see(camera: &Camera, center: Vec3, radius: f32) -> bool {
     let center = camera.view_from_world(center);
     let [half_width, half_height] = camera.size_px().map(|side| 0.5 * side as f32);
     // The distance beyond the plane through the eye and an edge of the picture.
@@ -38,7 +124,6 @@ pub(crate) fn may_see(camera: &Camera, center: glam::Vec3, radius: f32) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec3;
     use stroke_path::OrbitView;
 
     #[test]

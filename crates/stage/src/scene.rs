@@ -172,6 +172,10 @@ impl Scene {
         &self.look
     }
 
+    pub(crate) fn shared_look(&self) -> &Arc<Look> {
+        &self.look
+    }
+
     /// The number of all strands.
     #[must_use]
     pub fn strand_count(&self) -> usize {

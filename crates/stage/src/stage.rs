@@ -120,6 +120,16 @@ impl Stage {
         self.scene.head()
     }
 
+    /// [`FrameMaker::is_as_before`], seen by the scene's own camera.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such camera.
+    pub fn is_as_before(&self) -> Result<bool, StageError> {
+        let camera = self.scene.own_camera()?;
+        Ok(self.frames.is_as_before(&self.scene, &self.motion, &camera))
+    }
+
     /// [`FrameMaker::frame`].
     ///
     /// # Errors

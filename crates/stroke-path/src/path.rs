@@ -196,6 +196,11 @@ impl Paths {
         Ok(())
     }
 
+    /// Leaves out a strand that nobody sees and that is cut there, so that the pieces after it have the numbers that they would have.
+    pub fn leave_out(&mut self, cuts: &[Cut]) {
+        self.cut += cuts.len();
+    }
+
     /// Fills `whole` with the strand's joints, but for their directions.
     fn place_joints(
         &mut self,

@@ -3,7 +3,7 @@
 use render::{Drawing, Run};
 use std::ops::Range;
 
-/// A piece of a stroke: one instance of a layer along one run.
+/// A piece of a stroke: one instance of a layer along a stretch of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// Index of the layer.
@@ -34,11 +34,11 @@ pub fn painters_order(drawing: &Drawing) -> Vec<Piece> {
         for &layer in &layers {
             let strokes = &drawing.layers[layer];
             for instance in 0..strokes.instances {
-                let places = |run: &Run| strokes.places(instance, &run.joints);
-                pieces.extend(runs.iter().filter_map(places).map(|places| Piece {
+                let on = |run: &Run| strokes.on(instance, &run.joints);
+                pieces.extend(runs.iter().flat_map(on).map(|stretch| Piece {
                     layer,
                     instance,
-                    places,
+                    places: stretch.places(),
                 }));
             }
         }
@@ -60,7 +60,7 @@ fn mean_inv_depth(drawing: &Drawing, runs: &[Run]) -> f64 {
 mod tests {
     use super::*;
     use glam::Vec2;
-    use render::{Disc, LayerStrokes};
+    use render::{Disc, LayerStrokes, Stretches};
 
     #[test]
     fn far_strands_first_then_by_rank_layer_and_instance() {
@@ -80,6 +80,7 @@ mod tests {
             joints: 0..6,
             rank,
             instances,
+            stretches: Stretches::Everywhere,
             discs: discs.repeat(instances),
             colors: vec![[0.0; 3]; 6 * instances],
         };

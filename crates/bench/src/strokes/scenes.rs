@@ -4,7 +4,7 @@ use crate::BenchError;
 use effects::Registry;
 use glam::{DVec3, Vec2};
 use render::cpu::Evaluator;
-use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches};
 use stage::{Files, Preset, Stage};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -34,15 +34,15 @@ pub struct TestDrawing {
 }
 
 impl TestDrawing {
-    /// Segments of all strokes, empty ones too, and those that cover anything.
+    /// Segments of all strokes that are listed, empty ones too, and those that cover anything.
     #[must_use]
     pub fn segments(&self) -> [usize; 2] {
         let mut count = [0, 0];
         for layer in &self.drawing.layers {
             for instance in 0..layer.instances {
                 let runs = self.drawing.runs.iter();
-                let places = runs.filter_map(|run| layer.places(instance, &run.joints));
-                for discs in places.map(|places| &layer.discs[places]) {
+                let stretches = runs.flat_map(|run| layer.on(instance, &run.joints));
+                for discs in stretches.map(|stretch| &layer.discs[stretch.places()]) {
                     let pairs = || discs.windows(2);
                     count[0] += pairs().count();
                     count[1] += pairs()
@@ -342,6 +342,7 @@ fn drawing(strands: impl Iterator<Item = (u32, Vec<ClumpPoint>)>, layers: &[Laye
             joints: 0..joints.len(),
             rank: layer.rank,
             instances: layer.instances,
+            stretches: Stretches::Everywhere,
             discs: (0..layer.instances).flat_map(discs_of).collect(),
             colors: colors.repeat(layer.instances),
         }
@@ -354,6 +355,7 @@ fn drawing(strands: impl Iterator<Item = (u32, Vec<ClumpPoint>)>, layers: &[Laye
             .map(|joint| joint.disc(joint.radius, 0.0, 0.0))
             .collect(),
         sides: Vec::new(),
+        side_stretches: Stretches::Everywhere,
         runs,
         surfaces: Vec::new(),
         background: None,

@@ -1,7 +1,7 @@
 //! Small drawings.
 
 use glam::{DVec2, Vec2};
-use render::{Disc, Drawing, LayerStrokes, Order, Picture, Run, Surface, SurfaceVertex};
+use render::{Disc, Drawing, LayerStrokes, Order, Picture, Run, Stretches, Surface, SurfaceVertex};
 
 pub const WHITE: [f32; 3] = [1.0; 3];
 pub const RED: [f32; 3] = [1.0, 0.0, 0.0];
@@ -44,6 +44,7 @@ pub fn add_layer(drawing: &mut Drawing, rank: i32, color: [f32; 3], instances: &
         joints: 0..drawing.clump.len(),
         rank,
         instances: instances.len(),
+        stretches: Stretches::Everywhere,
         colors: vec![color; discs.len()],
         discs,
     });

@@ -1,6 +1,6 @@
 //! Joints to strokes on the screen, by the layers' own WGSL in Rust.
 
-use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run};
+use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches};
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
@@ -27,6 +27,7 @@ impl Evaluator {
     /// # Errors
     ///
     /// When the frame is invalid ([`Frame::check`]); then the drawing is as it was.
+    #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn evaluate(&mut self, frame: &Frame, drawing: &mut Drawing) -> Result<(), FrameError> {
         frame.check()?;
         let read = inputs(frame);
@@ -45,7 +46,8 @@ impl Evaluator {
             strand: run.piece as u32,
             joints: run.joints.clone(),
         }));
-        self.fill_clump_discs(frame, &mut drawing.clump, &mut drawing.sides);
+        self.fill_clump_discs(frame, &mut drawing.clump);
+        self.fill_sides(frame, drawing);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
@@ -57,10 +59,10 @@ impl Evaluator {
                 let strokes = self.layer(frame, object, layer, joints, lists);
                 if layer.program.has_own_paths() {
                     // No strand's clump holds them: they are their own.
-                    let own = &strokes.discs[..joints.len()];
-                    drawing.clump[joints.clone()].copy_from_slice(own);
-                    for side in drawing.sides.chunks_mut(frame.paths.len().max(1)) {
-                        side[joints.clone()].fill(NO_DISC);
+                    drawing.clump[joints.clone()].fill(NO_DISC);
+                    for stretch in strokes.on(0, joints) {
+                        let own = &strokes.discs[stretch.places()];
+                        drawing.clump[stretch.joints].copy_from_slice(own);
                     }
                 }
                 drawing.layers.push(strokes);
@@ -69,27 +71,62 @@ impl Evaluator {
         Ok(())
     }
 
-    /// The discs of all clumps, and those at their sides if any is flat.
-    fn fill_clump_discs(&self, frame: &Frame, clumps: &mut Vec<Disc>, sides: &mut Vec<Disc>) {
-        let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
-        let fill = |discs: &mut Vec<Disc>, instance| {
-            for object in &frame.objects {
-                let joints = object.joints.clone().into_par_iter().with_min_len(CHUNK);
-                discs.par_extend(joints.map(|i| {
-                    let (radius, shift) = (radii[i], shifts[i]);
-                    let [x, y, size] = clump_disc(instance, radius, shift).to_array();
-                    let place = shift + vec2([x, y]);
-                    let place = Vec2::new(place.x, place.y);
-                    disc_at(frame, object.head, i, place, size, radius, 0.0)
-                }));
-            }
-        };
+    /// The discs of all clumps.
+    fn fill_clump_discs(&self, frame: &Frame, clumps: &mut Vec<Disc>) {
         clumps.clear();
-        fill(clumps, 0);
-        sides.clear();
-        if shifts.iter().any(|&shift| shift != vec2([0.0; 2])) {
-            (1..CLUMP_DISCS).for_each(|instance| fill(sides, instance));
+        for object in &frame.objects {
+            let joints = object.joints.clone().into_par_iter().with_min_len(CHUNK);
+            clumps.par_extend(joints.map(|i| self.clump_disc_at(frame, object, i, 0)));
         }
+    }
+
+    /// Those at their sides, where clumps are flat.
+    fn fill_sides(&self, frame: &Frame, drawing: &mut Drawing) {
+        let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
+        drawing.sides.clear();
+        drawing.side_stretches = Stretches::default();
+        if shifts.iter().all(|&shift| shift == vec2([0.0; 2])) {
+            return;
+        }
+        let mut parts = Vec::new();
+        for number in 1..CLUMP_DISCS {
+            for object in &frame.objects {
+                for joints in without_made_paths(object) {
+                    let pieces = pieces(frame.paths, &joints);
+                    parts.extend(pieces.map(|joints| (object, number, joints)));
+                }
+            }
+        }
+        let made = parts.into_par_iter().map_init(
+            Scratch::default,
+            |scratch, (object, number, joints)| {
+                let size = |i| clump_disc(number, radii[i], shifts[i]).z;
+                scratch.radii.clear();
+                scratch.radii.extend(joints.clone().map(size));
+                let mut made = Made::new(number - 1);
+                made.find_stretches(frame.paths, &joints, &scratch.radii);
+                let drawn = made.stretches.iter().flat_map(|s| s.joints.clone());
+                let discs = drawn.map(|i| self.clump_disc_at(frame, object, i, number));
+                made.discs.extend(discs);
+                made
+            },
+        );
+        let made: Vec<Made> = made.collect();
+        let mut stretches = vec![Vec::new(); CLUMP_DISCS as usize - 1];
+        for made in made {
+            made.append(&mut stretches, &mut drawing.sides, &mut Vec::new());
+        }
+        drawing.side_stretches = Stretches::Within(stretches);
+    }
+
+    /// Disc `number` of the clump at a joint.
+    fn clump_disc_at(&self, frame: &Frame, object: &Object, joint: usize, number: u32) -> Disc {
+        let radius = self.joints.clump_radius[joint];
+        let shift = self.joints.clump_shift[joint];
+        let [x, y, size] = clump_disc(number, radius, shift).to_array();
+        let place = shift + vec2([x, y]);
+        let place = Vec2::new(place.x, place.y);
+        disc_at(frame, object.head, joint, place, size, radius, 0.0)
     }
 
     /// The strokes of one layer on the joints `drawn`; `lists` are reused.
@@ -102,42 +139,36 @@ impl Evaluator {
         (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
     ) -> LayerStrokes {
         self.fill_unit(frame, object.head, drawn, layer.units);
-        let joints = drawn.len();
         let instances = layer.program.instances();
-        let length = joints * instances as usize;
-        discs.resize(length, NO_DISC);
-        colors.resize(length, [0.0; 3]);
-        let seed = layer_seed(object.seed, &layer.name);
-        let mut parts = Vec::new();
-        let lists = discs
-            .chunks_mut(joints.max(1))
-            .zip(colors.chunks_mut(joints.max(1)));
-        for ((mut discs, mut colors), number) in lists.zip(0..instances) {
-            for joints in pieces(frame.paths, drawn) {
-                let (these, others) = discs.split_at_mut(joints.len());
-                let (their_colors, other_colors) = colors.split_at_mut(joints.len());
-                (discs, colors) = (others, other_colors);
-                let part = Part {
-                    frame,
-                    head: object.head,
-                    layer,
-                    inputs: &self.joints,
-                    joints,
-                    seen_length: &self.seen_length,
-                    seed,
-                };
-                parts.push((part, number, these, their_colors));
-            }
+        let part = |joints| Part {
+            frame,
+            head: object.head,
+            layer,
+            inputs: &self.joints,
+            joints,
+            seen_length: &self.seen_length,
+            seed: layer_seed(object.seed, &layer.name),
+        };
+        let of_stroke = |number| pieces(frame.paths, drawn).map(move |joints| (number, joints));
+        let parts: Vec<(u32, Range<usize>)> = (0..instances).flat_map(of_stroke).collect();
+        let made = parts
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, (number, joints)| {
+                part(joints).evaluate(number, scratch)
+            });
+        let made: Vec<Made> = made.collect();
+        let mut stretches = vec![Vec::new(); instances as usize];
+        discs.clear();
+        colors.clear();
+        for made in made {
+            made.append(&mut stretches, &mut discs, &mut colors);
         }
-        parts.into_par_iter().for_each_init(
-            Scratch::default,
-            |scratch, (part, number, discs, colors)| part.evaluate(number, scratch, discs, colors),
-        );
         LayerStrokes {
             name: layer.name.clone(),
             joints: drawn.clone(),
             rank: layer.rank,
             instances: instances as usize,
+            stretches: Stretches::Within(stretches),
             discs,
             colors,
         }
@@ -328,9 +359,83 @@ fn inputs(frame: &Frame) -> InputSet {
 #[derive(Default)]
 struct Scratch {
     strokes: Vec<Stroke>,
+    /// Of all joints of a part.
     radii: Vec<f32>,
+    /// Those of a whole strand, and where they are.
+    whole: Vec<f32>,
     places: Vec<f32>,
     smoother: Smoother,
+}
+
+/// A stroke on some neighbouring joints.
+struct Made {
+    number: usize,
+    /// Where it is drawn; their discs follow each other.
+    stretches: Vec<Stretch>,
+    discs: Vec<Disc>,
+    colors: Vec<[f32; 3]>,
+}
+
+impl Made {
+    fn new(number: u32) -> Self {
+        Self {
+            number: number as usize,
+            stretches: Vec::new(),
+            discs: Vec::new(),
+            colors: Vec::new(),
+        }
+    }
+
+    /// Finds where a stroke with these radii at `joints`, which are whole runs, is drawn: where it has a size, and at the joints
+    /// beside, to which it tapers.
+    fn find_stretches(&mut self, paths: &Paths, joints: &Range<usize>, radii: &[f32]) {
+        for run in runs_of(paths, joints) {
+            let has_size = |&joint: &usize| radii[joint - joints.start] > 0.0;
+            let mut rest = run.joints.clone();
+            while let Some(start) = rest.find(has_size) {
+                let end = rest.find(|joint| !has_size(joint));
+                let end = end.map_or(run.joints.end, |end| end + 1);
+                let start = start.saturating_sub(1).max(run.joints.start);
+                match self.stretches.last_mut() {
+                    // There is no gap but what tapers.
+                    Some(last) if last.joints.end >= start => last.joints.end = end,
+                    _ => self.stretches.push(Stretch {
+                        joints: start..end,
+                        first: 0,
+                    }),
+                }
+            }
+        }
+        let mut first = 0;
+        for stretch in &mut self.stretches {
+            stretch.first = first;
+            first += stretch.joints.len();
+        }
+    }
+
+    /// Puts it behind what the lists of its layer have.
+    fn append(
+        mut self,
+        stretches: &mut [Vec<Stretch>],
+        discs: &mut Vec<Disc>,
+        colors: &mut Vec<[f32; 3]>,
+    ) {
+        let list = &mut stretches[self.number];
+        for mut stretch in self.stretches {
+            stretch.first += discs.len();
+            match list.last_mut() {
+                Some(last)
+                    if last.joints.end == stretch.joints.start
+                        && last.places().end == stretch.first =>
+                {
+                    last.joints.end = stretch.joints.end;
+                }
+                _ => list.push(stretch),
+            }
+        }
+        discs.append(&mut self.discs);
+        colors.append(&mut self.colors);
+    }
 }
 
 /// Some neighbouring joints of a layer.
@@ -345,60 +450,71 @@ struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Makes stroke `number` of each run, a disc and a colour for every one of the joints.
-    fn evaluate(
-        &self,
-        number: u32,
-        scratch: &mut Scratch,
-        discs: &mut [Disc],
-        colors: &mut [[f32; 3]],
-    ) {
+    /// Makes stroke `number` of each run where it has a size.
+    fn evaluate(&self, number: u32, scratch: &mut Scratch) -> Made {
         let (frame, layer, inputs) = (self.frame, self.layer, self.inputs);
-        let (program, joints) = (&layer.program, self.joints.clone());
-        scratch.strokes.clear();
-        program.evaluate(
-            inputs,
-            joints.clone(),
-            number,
-            self.seed,
-            &mut scratch.strokes,
-        );
-        scratch.strokes.iter_mut().for_each(drop_if_not_finite);
+        let program = &layer.program;
+        let radii = &mut scratch.radii;
+        radii.clear();
+        program.radii(inputs, self.joints.clone(), number, self.seed, radii);
+        // A stroke that an effect failed to work out is not drawn.
+        let size = |radius: f32| {
+            if radius.is_finite() {
+                radius.max(0.0)
+            } else {
+                0.0
+            }
+        };
+        radii.iter_mut().for_each(|radius| *radius = size(*radius));
         self.smooth(scratch);
-        let made = discs.iter_mut().zip(colors).zip(&scratch.strokes);
-        for (i, ((disc, color), stroke)) in joints.zip(made) {
-            let offset = inputs.clump_shift[i] + stroke.offset;
-            let offset = Vec2::new(offset.x, offset.y);
-            let depth_offset = layer.depth_offset + stroke.depth_offset;
-            let (radius, clump_radius) = (stroke.radius, inputs.clump_radius[i]);
-            *disc = disc_at(
-                frame,
-                self.head,
-                i,
-                offset,
-                radius,
-                clump_radius,
-                depth_offset,
-            );
-            *color = stroke.color.to_array();
+
+        let Scratch { strokes, radii, .. } = scratch;
+        let mut made = Made::new(number);
+        made.find_stretches(frame.paths, &self.joints, radii);
+        for stretch in &made.stretches {
+            let joints = stretch.joints.clone();
+            strokes.clear();
+            program.evaluate(inputs, joints.clone(), number, self.seed, strokes);
+            for (i, stroke) in joints.zip(strokes.iter_mut()) {
+                stroke.radius = radii[i - self.joints.start];
+                drop_if_not_finite(stroke);
+                let offset = inputs.clump_shift[i] + stroke.offset;
+                made.discs.push(disc_at(
+                    frame,
+                    self.head,
+                    i,
+                    Vec2::new(offset.x, offset.y),
+                    stroke.radius,
+                    inputs.clump_radius[i],
+                    layer.depth_offset + stroke.depth_offset,
+                ));
+                made.colors.push(stroke.color.to_array());
+            }
         }
         if frame.brush == Brush::Semicircle {
-            self.go_around_flat_ends(&scratch.strokes, discs);
+            self.go_around_flat_ends(radii, &mut made);
         }
+        made
     }
 
     /// Moves the tips of strokes that are wider than their clump on by what they are wider, or an outline
     /// would end where its clump does.
-    fn go_around_flat_ends(&self, strokes: &[Stroke], discs: &mut [Disc]) {
+    fn go_around_flat_ends(&self, radii: &[f32], made: &mut Made) {
         let paths = self.frame.paths;
+        let mut stretches = made.stretches.iter().peekable();
         let tips = self.runs().iter().map(|run| run.joints.end - 1);
         for tip in tips.filter(|&tip| paths.u[tip] == 1.0) {
-            let place = tip - self.joints.start;
-            let wider = (strokes[place].radius - self.inputs.clump_radius[tip]).max(0.0);
+            while stretches.next_if(|s| s.joints.end <= tip).is_some() {}
+            let Some(stretch) = stretches.peek().filter(|s| s.joints.start <= tip) else {
+                continue;
+            };
+            let radius = radii[tip - self.joints.start];
+            let wider = (radius - self.inputs.clump_radius[tip]).max(0.0);
             let unit_px = self.head.unit_m() * paths.px_per_metre[tip];
             // The path on the screen, of which `across` is a right angle to the right.
             let ahead = -paths.across[tip].perp();
-            discs[place].center += ahead * (wider * unit_px).min(LARGEST_PX);
+            let disc = &mut made.discs[stretch.first + tip - stretch.joints.start];
+            disc.center += ahead * (wider * unit_px).min(LARGEST_PX);
         }
     }
 
@@ -415,10 +531,11 @@ impl Part<'_> {
             return;
         }
         let Scratch {
-            strokes,
             radii,
+            whole,
             places,
             smoother,
+            ..
         } = scratch;
         let start = self.joints.start;
         // Pieces of one strand together, and what they share once.
@@ -427,22 +544,41 @@ impl Part<'_> {
                 let own = |run: &PathRun| run.joints.start + run.overlap..run.joints.end;
                 pieces.iter().flat_map(own)
             };
-            radii.clear();
-            radii.extend(joints().map(|i| strokes[i - start].radius.max(0.0)));
+            whole.clear();
+            whole.extend(joints().map(|i| radii[i - start]));
+            if whole.iter().all(|radius| *radius == 0.0) {
+                continue;
+            }
             places.clear();
             places.extend(joints().map(|i| self.seen_length[i]));
-            smoother.smooth(places, radii, length_m);
-            for (i, radius) in joints().zip(radii.iter()) {
-                strokes[i - start].radius = *radius;
+            smoother.smooth(places, whole, length_m);
+            for (i, radius) in joints().zip(whole.iter()) {
+                radii[i - start] = *radius;
             }
             for piece in pieces {
                 let shared = piece.joints.start..piece.joints.start + piece.overlap;
                 for i in shared {
-                    strokes[i - start].radius = strokes[i - piece.overlap - start].radius;
+                    radii[i - start] = radii[i - piece.overlap - start];
                 }
             }
         }
     }
+}
+
+/// The joints of an object's hair alone: the clumps of made paths are their strokes.
+fn without_made_paths(object: &Object) -> Vec<Range<usize>> {
+    let layers = object.layers.iter().zip(object.layer_joints);
+    let made = layers.filter(|(layer, _)| layer.program.has_own_paths());
+    let mut made: Vec<&Range<usize>> = made.map(|(_, joints)| joints).collect();
+    made.sort_by_key(|joints| joints.start);
+    let mut hair = Vec::new();
+    let mut start = object.joints.start;
+    for joints in made {
+        hair.push(start..joints.start.max(start));
+        start = start.max(joints.end);
+    }
+    hair.push(start..object.joints.end);
+    hair
 }
 
 /// The runs whose joints are in a range, which is one of whole runs.

@@ -5,7 +5,6 @@ use super::tile::{self, Stack};
 use crate::drawing::{Disc, Drawing, Order, Run};
 use glam::DVec2;
 use rayon::prelude::*;
-use std::iter;
 use std::ops::Range;
 use stroke_path::sweep::{Brush, Circle, Sweep, visible_part};
 
@@ -182,7 +181,7 @@ struct Strand<'a> {
     base: Option<(&'a [Stroke], u32)>,
 }
 
-/// Discs and colours of a run, with their [`Segment::stroke`] and [`Segment::drawn_as`].
+/// Discs and colours of a stretch, with their [`Segment::stroke`] and [`Segment::drawn_as`].
 type Drawn<'a> = (&'a [Disc], Option<&'a [[f32; 3]]>, (u32, u32));
 
 impl<'a> Strand<'a> {
@@ -192,10 +191,7 @@ impl<'a> Strand<'a> {
         };
         let base = match drawing.order {
             Order::Shifted => None,
-            _ => strokes
-                .windows(clumps(drawing).count())
-                .zip(1..)
-                .find(is_base),
+            _ => strokes.windows(clumps(drawing)).zip(1..).find(is_base),
         };
         Self {
             drawing,
@@ -215,25 +211,36 @@ impl<'a> Strand<'a> {
         } = *self;
         let has_clump = drawing.order != Order::Shifted;
         let (base, drawn_as) = base.map_or((&[][..], 0), |(base, number)| (base, number));
-        let clumps = clumps(drawing).enumerate().filter(move |_| has_clump);
-        let clump = clumps.flat_map(move |(part, discs)| {
-            runs.iter().map(move |run| {
-                let colors = base.get(part).and_then(|stroke| {
-                    let layer = &drawing.layers[stroke.layer];
-                    Some(&layer.colors[layer.places(stroke.instance, &run.joints)?])
-                });
-                let drawn_as = colors.map_or(0, |_| drawn_as + part as u32);
-                (&discs[run.joints.clone()], colors, (0, drawn_as))
-            })
+        let parts = 0..if has_clump { clumps(drawing) } else { 0 };
+        let clump = parts.flat_map(move |part| {
+            let of_base = base.get(part).map(|stroke| {
+                let layer = &drawing.layers[stroke.layer];
+                let stretches = (runs.iter())
+                    .flat_map(move |run| layer.on(stroke.instance, &run.joints))
+                    .filter_map(move |stretch| {
+                        let (_, discs) = clump_on(drawing, part, &stretch.joints).next()?;
+                        let colors = &layer.colors[stretch.places()];
+                        Some((discs, Some(colors), (0, drawn_as + part as u32)))
+                    });
+                stretches
+            });
+            let is_bare = of_base.is_none();
+            let bare = runs.iter().filter(move |_| is_bare);
+            let bare = bare.flat_map(move |run| clump_on(drawing, part, &run.joints));
+            let bare = bare.map(|(_, discs)| (discs, None, (0, 0)));
+            of_base.into_iter().flatten().chain(bare)
         });
         let as_clump = drawn_as..drawn_as + base.len() as u32;
         let others = (strokes.iter().zip(1..)).filter(move |(_, n)| !as_clump.contains(n));
         let others = others.flat_map(move |(stroke, number)| {
             let layer = &drawing.layers[stroke.layer];
-            runs.iter().filter_map(move |run| {
-                let places = layer.places(stroke.instance, &run.joints)?;
+            let stretches = runs
+                .iter()
+                .flat_map(move |run| layer.on(stroke.instance, &run.joints));
+            stretches.map(move |stretch| {
+                let places = stretch.places();
                 let colors = &layer.colors[places.clone()];
-                Some((&layer.discs[places], Some(colors), (number, 0)))
+                (&layer.discs[places], Some(colors), (number, 0))
             })
         });
         clump.chain(others)
@@ -278,24 +285,65 @@ impl<'a> Strand<'a> {
     }
 }
 
-/// The discs of all clumps, then those of their sides.
-fn clumps(drawing: &Drawing) -> impl Iterator<Item = &[Disc]> {
-    let sides = drawing.sides.chunks(drawing.clump.len().max(1));
-    iter::once(&drawing.clump[..]).chain(sides)
+/// How many strokes a clump is made of.
+fn clumps(drawing: &Drawing) -> usize {
+    if drawing.sides.is_empty() { 1 } else { 3 }
+}
+
+/// The stretches of a run's clump, part 0, or of one of its sides, with their discs.
+fn clump_on<'a>(
+    drawing: &'a Drawing,
+    part: usize,
+    run: &Range<usize>,
+) -> impl Iterator<Item = (Range<usize>, &'a [Disc])> + use<'a> {
+    let middle = (part == 0).then(|| (run.clone(), &drawing.clump[run.clone()]));
+    let sides = (part > 0).then(|| drawing.side_on(part - 1, run));
+    let sides = sides.into_iter().flatten();
+    middle
+        .into_iter()
+        .chain(sides.map(|s| (s.joints.clone(), &drawing.sides[s.places()])))
 }
 
 /// Whether strokes of one layer cover what the clump and its sides cover, disc for disc.
 fn is_clump(drawing: &Drawing, strokes: &[Stroke], run: &Run) -> bool {
-    let is_same = |(a, b): (&Disc, &Disc)| a.center == b.center && a.radius == b.radius;
-    strokes.iter().zip(clumps(drawing)).all(|(stroke, clump)| {
-        let layer = &drawing.layers[stroke.layer];
-        let places = layer.places(stroke.instance, &run.joints);
+    let layer = &drawing.layers[strokes[0].layer];
+    strokes.iter().zip(0..).all(|(stroke, part)| {
+        let own = layer.on(stroke.instance, &run.joints);
+        let own = own.map(|stretch| (stretch.joints.clone(), &layer.discs[stretch.places()]));
         let is_of_one_layer = stroke.layer == strokes[0].layer;
-        places.filter(|_| is_of_one_layer).is_some_and(|places| {
-            let discs = layer.discs[places].iter();
-            discs.zip(&clump[run.joints.clone()]).all(is_same)
-        })
+        is_of_one_layer && is_same(clump_on(drawing, part, &run.joints), own)
     })
+}
+
+/// Whether stretches of joints have the same discs, of which the first ones may go on where they have no size.
+fn is_same<'a>(
+    mut longer: impl Iterator<Item = (Range<usize>, &'a [Disc])>,
+    stretches: impl Iterator<Item = (Range<usize>, &'a [Disc])>,
+) -> bool {
+    let is_same = |(a, b): (&Disc, &Disc)| a.center == b.center && a.radius == b.radius;
+    let is_nothing = |discs: &[Disc]| discs.iter().all(|disc| disc.radius == 0.0);
+    let mut rest: (Range<usize>, &[Disc]) = (0..0, &[]);
+    for (joints, discs) in stretches {
+        while rest.0.end <= joints.start {
+            if !is_nothing(rest.1) {
+                return false;
+            }
+            let Some(next) = longer.next() else {
+                return false;
+            };
+            rest = next;
+        }
+        if joints.start < rest.0.start || rest.0.end < joints.end {
+            return false;
+        }
+        let (before, here) = rest.1.split_at(joints.start - rest.0.start);
+        let (here, after) = here.split_at(joints.len());
+        if !is_nothing(before) || !here.iter().zip(discs).all(is_same) {
+            return false;
+        }
+        rest = (joints.end..rest.0.end, after);
+    }
+    is_nothing(rest.1) && longer.all(|(_, discs)| is_nothing(discs))
 }
 
 type ColoredDisc = (Disc, [f32; 3]);

@@ -147,19 +147,23 @@ fn collect(drawing: &Drawing, per_interval: usize, stamps: &mut Vec<Stamp>) {
     let of_stroke = |stroke: &Stroke| {
         let (layer, instance) = (&drawing.layers[stroke.layer], stroke.instance);
         let runs = drawing.runs.iter();
-        runs.filter_map(move |run| Some((layer, layer.places(instance, &run.joints)?)))
+        runs.flat_map(move |run| {
+            layer
+                .on(instance, &run.joints)
+                .map(move |s| (layer, s.places()))
+        })
     };
     let pieces: Vec<_> = strokes.iter().rev().flat_map(of_stroke).collect();
     stamps.clear();
     stamps.par_extend(
         pieces
             .into_par_iter()
-            .flat_map_iter(|(layer, places)| of_run(drawing, layer, places, per_interval)),
+            .flat_map_iter(|(layer, places)| of_stretch(drawing, layer, places, per_interval)),
     );
 }
 
-/// The stamps of one stroke of a run, whose places these are in the lists of its layer.
-fn of_run<'a>(
+/// The stamps of one stretch of a stroke, whose places these are in the lists of its layer.
+fn of_stretch<'a>(
     drawing: &Drawing,
     layer: &'a LayerStrokes,
     places: Range<usize>,

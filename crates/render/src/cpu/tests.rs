@@ -5,7 +5,7 @@ mod order;
 mod reference;
 
 use super::*;
-use crate::drawing::{Brush, Disc, LayerStrokes, Order, Run, Surface, SurfaceVertex};
+use crate::drawing::{Brush, Disc, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex};
 use glam::Vec2;
 use std::f64::consts::PI;
 
@@ -34,6 +34,7 @@ fn layer(name: &str, rank: i32, color: [f32; 3], discs: &[Disc]) -> LayerStrokes
         joints: 0..discs.len(),
         rank,
         instances: 1,
+        stretches: Stretches::Everywhere,
         discs: discs.to_vec(),
         colors: vec![color; discs.len()],
     }

@@ -123,12 +123,17 @@ impl SceneWords {
         self.disc_words.clear();
         let joints = drawing.clump.len();
         let black = [0.0; 3];
-        let clumps = drawing.clump.iter().chain(&drawing.sides);
-        clumps.for_each(|disc| push_disc(&mut self.disc_words, disc, black));
+        let clumps = drawing.clump.iter();
+        clumps.for_each(|disc| self.disc_words.extend(disc_words(disc, black)));
+        for side in 0..CLUMP_DISCS as usize - 1 {
+            self.begin_stroke(joints);
+            for stretch in drawing.side_on(side, &(0..joints)) {
+                let discs = &drawing.sides[stretch.places()];
+                let discs = discs.iter().map(|disc| (disc, black));
+                self.put_discs(joints - stretch.joints.start, discs);
+            }
+        }
         self.discs = joints * CLUMP_DISCS as usize;
-        // Sides that there are none of have no size.
-        let words = self.discs * DISC_BYTES as usize / 4;
-        self.disc_words.resize(words, 0);
         let mut placed = Vec::new();
         for (layer, strokes) in drawing.layers.iter().enumerate() {
             placed.push(Placed {
@@ -138,9 +143,16 @@ impl SceneWords {
                 joints: strokes.joints.clone(),
                 first_disc: self.discs,
             });
-            self.discs += strokes.discs.len();
-            for (disc, color) in strokes.discs.iter().zip(&strokes.colors) {
-                push_disc(&mut self.disc_words, disc, *color);
+            let count = strokes.joints.len();
+            self.discs += count * strokes.instances;
+            for instance in 0..strokes.instances {
+                self.begin_stroke(count);
+                for stretch in strokes.on(instance, &strokes.joints) {
+                    let (places, first) = (stretch.places(), stretch.joints.start);
+                    let discs = strokes.discs[places.clone()].iter();
+                    let discs = discs.zip(strokes.colors[places].iter().copied());
+                    self.put_discs(strokes.joints.end - first, discs);
+                }
             }
         }
         placed.sort_by_key(|p| (p.rank, p.layer));
@@ -148,6 +160,21 @@ impl SceneWords {
         let runs = runs.map(|run| (run.strand, run.joints.clone()));
         self.fill_chunks_and_tables(runs, &placed, joints);
         self.fill_surfaces(&drawing.surfaces);
+    }
+
+    /// Adds a stroke without size on that many joints.
+    fn begin_stroke(&mut self, joints: usize) {
+        let words = self.disc_words.len() + joints * DISC_BYTES as usize / 4;
+        self.disc_words.resize(words, 0);
+    }
+
+    /// Puts discs into the stroke that was added last, from its `behind`th joint from the end on.
+    fn put_discs<'a>(&mut self, behind: usize, discs: impl Iterator<Item = (&'a Disc, [f32; 3])>) {
+        const WORDS: usize = DISC_BYTES as usize / 4;
+        let start = self.disc_words.len() - behind * WORDS;
+        for (words, (disc, color)) in self.disc_words[start..].chunks_mut(WORDS).zip(discs) {
+            words.copy_from_slice(&disc_words(disc, color));
+        }
     }
 
     fn fill_strands(&mut self, frame: &Frame) {
@@ -344,7 +371,7 @@ fn push_head(words: &mut Vec<u32>, head: Head) {
 }
 
 /// A `GpuDisc`.
-fn push_disc(words: &mut Vec<u32>, disc: &Disc, [red, green, blue]: [f32; 3]) {
+fn disc_words(disc: &Disc, [red, green, blue]: [f32; 3]) -> [u32; DISC_BYTES as usize / 4] {
     let Disc {
         center,
         radius,
@@ -361,5 +388,5 @@ fn push_disc(words: &mut Vec<u32>, disc: &Disc, [red, green, blue]: [f32; 3]) {
         blue,
         inv_depth_biased,
     ];
-    words.extend(numbers.map(f32::to_bits));
+    numbers.map(f32::to_bits)
 }

@@ -8,7 +8,7 @@ use glam::Vec2;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use render::gpu::{AdapterKind, GpuError, Offscreen};
-use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches};
 use std::cell::RefCell;
 use std::ops::Range;
 
@@ -82,6 +82,7 @@ fn a_stroke_goes_on_where_other_layers_begin() {
         name: String::new(),
         rank,
         instances: 1,
+        stretches: Stretches::Everywhere,
         discs: discs[joints.clone()].to_vec(),
         colors: colors[joints.clone()].to_vec(),
         joints,

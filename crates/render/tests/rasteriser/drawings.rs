@@ -3,7 +3,7 @@
 use glam::Vec2;
 use proptest::collection::vec;
 use proptest::prelude::*;
-use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex};
 
 fn disc_around(extent: f32) -> impl Strategy<Value = Disc> {
     let coordinate =
@@ -95,6 +95,7 @@ fn layer(extent: f32, clump: Vec<Disc>) -> impl Strategy<Value = LayerStrokes> {
                     joints: 0..clump.len(),
                     rank,
                     instances,
+                    stretches: Stretches::Everywhere,
                     discs,
                     colors,
                 }
@@ -205,6 +206,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                     runs,
                     clump,
                     sides,
+                    side_stretches: Stretches::Everywhere,
                     layers,
                     surfaces,
                     background,

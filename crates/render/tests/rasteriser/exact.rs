@@ -8,7 +8,7 @@ use glam::{DVec2, Vec2};
 use proptest::prelude::*;
 use reference::compare;
 use render::cpu::Rasterizer;
-use render::{Brush, Disc, Drawing, LayerStrokes, Order, Picture, Run};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Picture, Run, Stretches};
 
 fn rasterise(drawing: &Drawing, samples: u32, threads: usize) -> Picture {
     Rasterizer::new(samples, Some(threads))
@@ -62,6 +62,7 @@ fn radius_zero_draws_nothing_even_at_a_sample() {
             joints: 0..discs.len(),
             rank: 0,
             instances: 1,
+            stretches: Stretches::Everywhere,
             colors: vec![[1.0; 3]; discs.len()],
             discs,
         }],

@@ -1,7 +1,7 @@
 //! Drawings like those of the program: a head, hair around it, all kinds of layers.
 
 use glam::{DVec3, Vec2};
-use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Surface, SurfaceVertex};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex};
 use std::f64::consts::TAU;
 
 const STRANDS: u32 = 80;
@@ -82,6 +82,7 @@ pub fn portrait(size: [u32; 2], order: Order) -> Drawing {
             joints: joints.clone(),
             rank,
             instances,
+            stretches: Stretches::Everywhere,
             discs: all
                 .clone()
                 .map(|(instance, joint)| disc(instance, joint))
@@ -152,6 +153,7 @@ pub fn portrait(size: [u32; 2], order: Order) -> Drawing {
         background: Some([0.8, 0.8, 0.75]),
         order,
         sides: Vec::new(),
+        side_stretches: Stretches::Everywhere,
         edge_depth_m: 0.02,
         brush: Brush::Circle,
     }

@@ -3,7 +3,7 @@
 use crate::portrait::{portrait, strokes_alone};
 use glam::DVec2;
 use render::cpu::{Rasterizer, Stamper};
-use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches};
 
 /// The stamps of a drawing as a drawing: each is a strand of one joint, so that the disc in front
 /// gives the colour. A stamp stands at each joint, the others at equal steps between two.
@@ -48,6 +48,7 @@ fn stamped(drawing: &Drawing, per_interval: usize) -> Drawing {
             joints: 0..places.len(),
             rank: layer.rank,
             instances: layer.instances,
+            stretches: Stretches::Everywhere,
             discs: discs.collect(),
             colors: colors.collect(),
         }
@@ -69,6 +70,7 @@ fn stamped(drawing: &Drawing, per_interval: usize) -> Drawing {
         background: drawing.background,
         order: Order::Shifted,
         sides: Vec::new(),
+        side_stretches: Stretches::Everywhere,
         edge_depth_m: 0.0,
         brush: Brush::Circle,
     }

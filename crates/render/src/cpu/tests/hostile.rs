@@ -181,6 +181,7 @@ fn nothing_makes_an_empty_picture() {
     // Without joints any number of instances is consistent.
     drawing.layers = vec![LayerStrokes {
         instances: usize::MAX,
+        stretches: Stretches::Everywhere,
         ..layer("", 0, RED, &[])
     }];
     drawing.background = Some(GREEN);
@@ -244,7 +245,8 @@ proptest! {
             runs: vec![Run { strand: 0, joints: 0..1 }, Run { strand: 7, joints: 1..6 }],
             clump,
             sides: discs.clone(),
-            layers: vec![LayerStrokes { name: String::new(), joints: 0..6, rank, instances: 2, discs, colors }],
+            side_stretches: Stretches::Everywhere,
+            layers: vec![LayerStrokes { name: String::new(), joints: 0..6, rank, instances: 2, stretches: Stretches::Everywhere, discs, colors }],
             surfaces: vec![surface],
             background: None,
             order: Order::ALL[order],

@@ -220,6 +220,7 @@ fn any_layer(joints: usize) -> impl Strategy<Value = LayerStrokes> {
                 joints: 0..joints,
                 rank,
                 instances,
+                stretches: Stretches::Everywhere,
                 discs,
                 colors,
             }
@@ -251,6 +252,7 @@ fn any_drawing() -> impl Strategy<Value = Drawing> {
                     joints: 0..JOINTS,
                     rank: 0,
                     instances: discs.len() / JOINTS,
+                    stretches: Stretches::Everywhere,
                     discs,
                     colors,
                 });

@@ -1,0 +1,149 @@
+//! What is left out of a frame changes no picture, and what a frame is made of is known.
+
+use super::*;
+use crate::{Files, HairModel, Hand, HeadModel, Preset, Sections};
+use effects::Registry;
+use hair_sim::Strands;
+use proptest::prelude::*;
+use render::Drawing;
+use render::cpu::{Evaluator, Rasterizer};
+use std::path::Path;
+
+/// A yardstick's scene, in a small picture.
+fn yardstick(name: &str) -> Scene {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/yardsticks");
+    let text = std::fs::read_to_string(folder.join(name).with_extension("ron")).unwrap();
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let mut preset = Preset::parse(name, &text, &registry).unwrap();
+    preset.sections.scene.size = [96, 72];
+    let files = Files {
+        preset_folder: folder,
+        ..Files::default()
+    };
+    Scene::load(&preset, &files).unwrap()
+}
+
+/// The pixels' bits, and how many strands have joints.
+fn picture(frame: &Frame) -> (Vec<[u32; 4]>, usize) {
+    let mut drawing = Drawing::default();
+    Evaluator::default().evaluate(frame, &mut drawing).unwrap();
+    let picture = Rasterizer::new(2, None).unwrap().draw(&drawing).unwrap();
+    let bits = picture.pixels.iter().map(|pixel| pixel.map(f32::to_bits));
+    let strands = frame.paths.runs.chunk_by(|a, b| a.strand == b.strand);
+    (bits.collect(), strands.count())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    /// From near the hair and from far away, beside it and within it.
+    #[test]
+    fn strands_that_nobody_sees_leave_no_trace(
+        look in prop::sample::select(vec!["twin-tails", "blond-fantasy", "flat-tails-red"]),
+        yaw in -180.0_f32..180.0, pitch in -60.0_f32..60.0, distance in 0.1_f32..4.0,
+        x in -1.5_f32..1.5, y in -1.5_f32..1.5,
+    ) {
+        let mut scene = yardstick(look);
+        let camera = &mut scene.camera;
+        (camera.yaw, camera.pitch, camera.distance) = (yaw, pitch, distance);
+        (camera.target[0], camera.target[1]) = (x, y);
+        let motion = Motion::new();
+        let mut all = FrameMaker { keeps_unseen: true, ..FrameMaker::new() };
+        let mut seen = FrameMaker::new();
+        let (expected, every) = picture(&all.frame(&scene, &motion).unwrap());
+        let (found, some) = picture(&seen.frame(&scene, &motion).unwrap());
+        prop_assert!(some <= every);
+        prop_assert!(found == expected);
+        prop_assert_eq!(all.culled(), seen.culled());
+    }
+}
+
+#[test]
+fn hair_far_off_the_picture_is_not_looked_at() {
+    let mut scene = yardstick("twin-tails");
+    let motion = Motion::new();
+    let mut frames = FrameMaker::new();
+    assert!(frames.frame(&scene, &motion).unwrap().paths.len() > 1000);
+    let near = scene.camera.target;
+    scene.camera.target[0] = 12.0;
+    let frame = frames.frame(&scene, &motion).unwrap();
+    assert_eq!((frame.paths.len(), frame.surfaces.len()), (0, 0));
+    assert_eq!(frames.culled(), scene.strand_count());
+    // Half of it: some strands are worked out, others are not.
+    scene.camera.target = near;
+    scene.camera.distance = 0.4;
+    let (_, some) = picture(&frames.frame(&scene, &motion).unwrap());
+    let mut all = FrameMaker {
+        keeps_unseen: true,
+        ..FrameMaker::new()
+    };
+    let (_, every) = picture(&all.frame(&scene, &motion).unwrap());
+    assert!(some > 0 && some < every, "{some} of {every}");
+}
+
+/// Three strands on the bust.
+fn small() -> Scene {
+    let head = HeadModel::bust();
+    let mut strands = Strands::new();
+    for id in 0..3 {
+        let x = 0.02 * (id as f32 - 1.0);
+        let points = [[x, 1.68, 0.06], [x, 1.66, 0.11], [x, 1.58, 0.13]].map(Vec3::from);
+        strands.push(id, &points, Some(9.0)).unwrap();
+    }
+    let hair = HairModel::new(strands, Some(&head)).unwrap();
+    Scene::of_one(hair, Some(head), look(&Sections::default())).unwrap()
+}
+
+fn look(sections: &Sections) -> Look {
+    Look::new(&Preset::new(1, sections.clone(), Vec::new())).unwrap()
+}
+
+#[test]
+fn a_frame_is_as_before_until_something_changes() {
+    let mut scene = small();
+    let (mut motion, mut frames) = (Motion::new(), FrameMaker::new());
+    let camera = scene.own_camera().unwrap();
+    assert!(
+        !frames.is_as_before(&scene, &motion, &camera),
+        "there is no frame yet"
+    );
+    let make = |frames: &mut FrameMaker, scene: &Scene, motion: &Motion| {
+        frames.frame(scene, motion).unwrap();
+        let camera = scene.own_camera().unwrap();
+        assert!(frames.is_as_before(scene, motion, &camera));
+    };
+    make(&mut frames, &scene, &motion);
+    // Time passes, and nothing moves.
+    motion.advance_to(&scene, 1.5).unwrap();
+    assert!(frames.is_as_before(&scene, &motion, &camera));
+
+    // Another camera, look, place; a look of the same words, too, as only its own parts are known.
+    scene.camera.yaw += 1.0;
+    let turned = scene.own_camera().unwrap();
+    assert!(!frames.is_as_before(&scene, &motion, &turned));
+    make(&mut frames, &scene, &motion);
+    let mut sections = Sections::default();
+    sections.head.light = [0.2, 0.1, 0.05];
+    let tanned = scene.with_look(look(&sections)).unwrap();
+    assert!(!frames.is_as_before(&tanned, &motion, &turned));
+    let moved = scene.objects()[0].placed(0.0, Vec3::new(0.0, 0.0, 1e-3));
+    let moved = scene.with_object(0, moved).unwrap();
+    assert!(!frames.is_as_before(&moved, &motion, &turned));
+    assert!(frames.is_as_before(&scene, &motion, &turned));
+}
+
+#[test]
+fn moving_hair_is_never_as_before() {
+    let scene = small();
+    let (mut motion, mut frames) = (Motion::new(), FrameMaker::new());
+    let mut hand = Hand::new();
+    for step in 0..4 {
+        let time = step as f32 / 24.0;
+        hand.hold(time, Vec3::ZERO, Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0));
+        motion.advance_by_hand(&scene, time, &hand).unwrap();
+        let camera = scene.own_camera().unwrap();
+        assert!(!frames.is_as_before(&scene, &motion, &camera), "{step}");
+        frames.frame(&scene, &motion).unwrap();
+    }
+}
