@@ -41,6 +41,7 @@ fn drawing_with(list: &str, clump: &[(&str, &str)], seed: u32, brush: Brush) -> 
 /// `layer_joints` are the joints that each layer draws on.
 fn drawing_on(
     list: &str,
+    solid: None,
     clump: &[(&str, &str)],
     seed: u32,
     brush: Brush,
@@ -82,6 +83,7 @@ fn drawing_on(
                 center: Vec3::ZERO,
                 height_m: 0.3,
             },
+            solid: None,
             clump: &clump,
             seed,
             layers: &layers,

@@ -85,6 +85,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
                 center: Vec3::new(0.0, 0.0, -0.3),
                 height_m: 0.3,
             },
+            solid: None,
             clump: &clump,
             seed: 1,
             layers: &layers,
