@@ -5,7 +5,9 @@ mod order;
 mod reference;
 
 use super::*;
-use crate::drawing::{Brush, Disc, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex};
+use crate::drawing::{
+    Brush, Disc, LayerStrokes, Order, Run, Stretch, Stretches, Surface, SurfaceVertex,
+};
 use std::f64::consts::PI;
 
 const RED: [f32; 3] = [1.0, 0.0, 0.0];
