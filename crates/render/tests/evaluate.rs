@@ -194,8 +194,8 @@ fn what_faces_the_light_is_bright() {
     assert_eq!([green, blue], [red; 2]);
     assert_eq!(
         drawing.layers[0].colors.len(),
-        4 * 3,
-        "of the clump and its sides"
+        4,
+        "round clumps have no sides"
     );
 }
 
