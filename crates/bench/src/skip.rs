@@ -168,7 +168,7 @@ fn cases(root: &Path) -> Result<Vec<Case>, BenchError> {
         whole: whole.clone(),
         part: seen_by(&whole, &|scene| fill(scene, 0.1)),
         time: 0.1,
-        discs: 1.0,
+        discs: 1.1, // more of the hair is in the picture
     });
     let (crowd, seen) = crowd(&whole, &all)?;
     cases.push(Case {

@@ -41,7 +41,6 @@ fn drawing_with(list: &str, clump: &[(&str, &str)], seed: u32, brush: Brush) -> 
 /// `layer_joints` are the joints that each layer draws on.
 fn drawing_on(
     list: &str,
-    solid: None,
     clump: &[(&str, &str)],
     seed: u32,
     brush: Brush,
