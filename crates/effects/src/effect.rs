@@ -112,9 +112,9 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// What no stroke may exceed: six of the clump's radii and half a head's height, or 150 pixels.
+    /// What no stroke may exceed: eight of the clump's radii and half a head's height, or 150 pixels.
     pub const FARTHEST: Self = Self {
-        clumps: 6.0,
+        clumps: 8.0,
         units: 150.0,
     };
 }
