@@ -96,19 +96,18 @@ impl Bins {
         // second pass moves it to where it ends.
         self.first.clear();
         self.first.resize(bins + 2, 0);
+        let ahead = &mut self.first[2..];
         for (_, range) in items.clone() {
-            for bin in range {
-                self.first[bin + 2] += 1;
-            }
+            ahead[range].iter_mut().for_each(|count| *count += 1);
         }
         for bin in 2..bins + 2 {
             self.first[bin] += self.first[bin - 1];
         }
         self.items.clear();
         self.items.resize(self.first[bins + 1], 0);
+        let places = &mut self.first[1..];
         for (item, range) in items {
-            for bin in range {
-                let place = &mut self.first[bin + 1];
+            for place in &mut places[range] {
                 self.items[*place] = item;
                 *place += 1;
             }

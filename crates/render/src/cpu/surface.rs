@@ -125,15 +125,14 @@ impl Triangle {
     /// Whether all that the triangle may reach in the tile shows a surface that is nearer, or as near and earlier.
     #[inline(always)]
     fn is_hidden(&self, rows: &Range<usize>, across: &Range<usize>, target: &Target) -> bool {
-        let [a, b, c] = self.corners.map(|corner| corner.inv_depth);
-        let greatest = a.max(b).max(c);
+        let [a, b, c] = &self.corners;
+        let greatest = greater(greater(a.inv_depth, b.inv_depth), c.inv_depth);
         for row in rows.clone() {
-            let cells = &target.farthest_surface[row * CELLS_ACROSS..][..CELLS_ACROSS];
-            if cells[across.clone()]
-                .iter()
-                .any(|farthest| greatest > *farthest)
-            {
-                return false;
+            let cells = row * CELLS_ACROSS + across.start..row * CELLS_ACROSS + across.end;
+            for farthest in &target.farthest_surface[cells] {
+                if greatest > *farthest {
+                    return false;
+                }
             }
         }
         true
@@ -198,8 +197,8 @@ impl Interpolated {
                 per_x: mean(e.per_x, f.per_x, g.per_x),
                 per_y: mean(e.per_y, f.per_y, g.per_y),
             },
-            least: a.min(b).min(c),
-            greatest: a.max(b).max(c),
+            least: lesser(lesser(a, b), c),
+            greatest: greater(greater(a, b), c),
         }
     }
 
