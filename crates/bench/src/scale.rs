@@ -209,6 +209,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
                     center: Vec3::ZERO,
                     height_m: HEAD_M,
                 },
+                solid: None,
                 clump: &clump,
                 seed: 1,
                 layers: &layers,

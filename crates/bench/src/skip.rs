@@ -12,7 +12,7 @@ use hair_sim::Strands;
 use indicatif::ProgressBar;
 use render::Drawing;
 use render::cpu::{Evaluator, Rasterizer};
-use stage::{Files, FrameMaker, HairModel, HeadModel, Look, Motion, Object, Preset, Scene};
+use stage::{Figure, Files, FrameMaker, HairModel, HeadModel, Look, Motion, Object, Preset, Scene};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -22,8 +22,6 @@ const SAMPLES: u32 = 4;
 const LOOK: &str = "twin-tails";
 /// Heads of the crowd to each side.
 const CROWD: i32 = 10;
-/// Where hair begins at the back of the bust, metres.
-const BACK: Vec3 = Vec3::new(0.0, 1.66, -0.12);
 /// How far the middles of the crowd's heads are from each other, metres.
 const APART_M: f32 = 1.2;
 
@@ -148,7 +146,8 @@ fn cases(root: &Path) -> Result<Vec<Case>, BenchError> {
         name: "half-off-screen",
         says: "one tail of two in the picture, from near",
         part: seen_by(&whole, &|scene| {
-            scene.camera.target[0] += 3.0;
+            scene.camera.target[0] += 0.6;
+            scene.camera.distance *= 0.5;
         }),
         whole: whole.clone(),
         time: 0.75,
@@ -165,11 +164,11 @@ fn cases(root: &Path) -> Result<Vec<Case>, BenchError> {
     });
     cases.push(Case {
         name: "far",
-        says: "a head that fills a tenth of the picture's height, of one that fills it",
-        whole: seen_by(&whole, &|scene| fill(scene, 1.0)),
+        says: "a head that fills a tenth of the picture's height, of the look as it is",
+        whole: whole.clone(),
         part: seen_by(&whole, &|scene| fill(scene, 0.1)),
         time: 0.1,
-        discs: 1.0,
+        discs: 1.1, // more of the hair is in the picture
     });
     let (crowd, seen) = crowd(&whole, &all)?;
     cases.push(Case {
@@ -197,24 +196,45 @@ fn fill(scene: &mut Scene, share: f32) {
     scene.camera.distance = 0.5 / (share * half);
 }
 
-/// Strands of the program's own that hang at the back of the bust.
+/// Strands of the program's own that hang at the back of a head.
 fn back_of_a_head(preset: &Preset) -> Result<Scene, BenchError> {
-    let bust = HeadModel::bust();
-    let mut strands = Strands::new();
-    for id in 0..60 {
-        let (column, row) = (id % 12, id / 12);
-        let x = 0.008 * (column as f32 - 5.5);
-        let root = BACK + Vec3::new(x, -0.01 * row as f32, 0.0);
-        let points: Vec<Vec3> = (0..12)
-            .map(|i| root + i as f32 * Vec3::new(0.0, -0.005, 0.0))
-            .collect();
-        strands
-            .push(id, &points, Some(6.0))
-            .map_err(|error| error.to_string())?;
-    }
-    let hair = HairModel::new(strands, Some(&bust)).map_err(|error| error.to_string())?;
+    let hair =
+        |roots: &mut dyn Iterator<Item = Vec3>, length_m: f32| -> Result<HairModel, BenchError> {
+            let mut strands = Strands::new();
+            for (id, root) in roots.enumerate() {
+                let points = (0..12).map(|i| root + i as f32 / 11.0 * length_m * Vec3::NEG_Y);
+                let points: Vec<Vec3> = points.collect();
+                let pushed = strands.push(id as u32, &points, Some(6.0));
+                pushed.map_err(|error| error.to_string())?;
+            }
+            let figure = HeadModel::figure(&Figure::default());
+            HairModel::new(strands, Some(&figure)).map_err(|error| error.to_string().into())
+        };
     let look = Look::new(preset).map_err(|error| error.to_string())?;
-    Scene::of_one(hair, Some(bust), look).map_err(|error| error.to_string().into())
+    let figure = HeadModel::figure(&Figure::default());
+    let bald = Object::new(
+        hair(&mut [Vec3::ZERO].into_iter(), 0.1)?,
+        Some(figure),
+        look,
+    );
+    let bald = bald.map_err(|error| error.to_string())?;
+    let head = bald.head();
+    let mut roots = (0..60).map(|i| {
+        let (column, row) = (i % 12, i / 12);
+        let place = Vec3::new(
+            0.02 * (column as f32 - 5.5),
+            0.15 - 0.02 * row as f32,
+            -0.46,
+        );
+        head.center + head.height_m * place
+    });
+    let object = bald.with_hair(hair(&mut roots, 0.15 * head.height_m)?);
+    let object = object.map_err(|error| error.to_string())?;
+    let look = Look::new(preset).map_err(|error| error.to_string())?;
+    let mut scene = Scene::new(vec![object], look).map_err(|error| error.to_string())?;
+    scene.camera.target = [0.0; 3];
+    scene.camera.pitch = 0.0;
+    Ok(scene)
 }
 
 /// A hundred heads in rows, and those of them that have anything in the picture.

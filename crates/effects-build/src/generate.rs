@@ -51,6 +51,10 @@ pub(crate) fn effect(
     items.retain(|item| item_name(item).is_none_or(|name| !shared.contains(&name)));
     for item in &mut items {
         document(item, params);
+        if let Item::Fn(f) = item {
+            // So that where radii alone are asked for the rest is not worked out.
+            f.attrs.push(syn::parse_quote!(#[inline(always)]));
+        }
     }
     let own = quote! { #(#items)* };
     let choices = choices(params);
@@ -88,6 +92,7 @@ fn effect_program(source: &Source, params: &[Param]) -> TokenStream {
             #common
         }
         impl ::effects::Program for Program {
+            #[inline(always)]
             fn stroke(
                 joints: &::effects::Joints,
                 index: usize,

@@ -14,4 +14,11 @@ impl effects::StrokeEffect for Base {
     fn instances(_: &Params) -> u32 {
         effects::CLUMP_DISCS
     }
+
+    fn reach(_: &Params) -> effects::Reach {
+        effects::Reach {
+            clumps: 2.0,
+            units: 0.0,
+        }
+    }
 }

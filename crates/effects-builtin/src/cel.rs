@@ -18,4 +18,12 @@ impl effects::StrokeEffect for Cel {
     fn shortest(params: &Params) -> f32 {
         params.shortest
     }
+
+    fn reach(params: &Params) -> effects::Reach {
+        // A row of strokes across the clump, or along its flat end.
+        effects::Reach {
+            clumps: 2.0 + params.fullness,
+            units: 0.0,
+        }
+    }
 }

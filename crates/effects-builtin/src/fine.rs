@@ -49,6 +49,13 @@ impl effects::StrokeEffect for Fine {
             }
         }
     }
+
+    fn reach(params: &Params) -> effects::Reach {
+        effects::Reach {
+            clumps: 0.0,
+            units: params.width,
+        }
+    }
 }
 
 /// The `number` strands that run beside strand `index` at rest, the nearest first: their roots, middles

@@ -23,4 +23,11 @@ impl effects::StrokeEffect for Highlight {
     fn needs_point_light(params: &Params) -> bool {
         params.kind == Params::KIND_DISTANCE
     }
+
+    fn reach(params: &Params) -> effects::Reach {
+        effects::Reach {
+            clumps: 2.0 + params.fullness,
+            units: 0.0,
+        }
+    }
 }

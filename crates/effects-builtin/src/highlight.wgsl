@@ -103,6 +103,14 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let shift = params.strand_variation * random_signed(joint.seed, 0u)
         + params.feather_variation * random_signed(joint.seed, 3u * instance + 2u);
 
+    // Most strokes have no size on most joints: what is cheap to know comes first.
+    let nothing = Stroke(place * joint.clump_radius * joint.across, 0.0, 0.0, params.color);
+    let is_there = random(joint.seed, 1u) < params.strand_share
+        && random(joint.seed, 3u * instance + 3u) < params.feather_share;
+    if (!is_there || joint.u <= params.start) {
+        return nothing;
+    }
+
     let basic = params.spread * joint.clump_radius / f32(params.feathers);
     let size = select(params.fullness * basic, min(0.5 * params.width * joint.unit, basic), params.shape == 1u);
     let across = params.roundness * place * cross(joint.forward, joint.view_direction);
@@ -121,8 +129,6 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
         whole = feather_share(-light, -max(params.full + shift, 0.01), -max(params.threshold + shift, 0.01));
     }
     whole = whole * smoothstep(0.0, 0.1, joint.u - params.start);
-    let is_there = random(joint.seed, 1u) < params.strand_share
-        && random(joint.seed, 3u * instance + 3u) < params.feather_share;
-    let share = select(0.0, without_hairlines(whole, size, 0.5 * params.thinnest * joint.unit), is_there);
+    let share = without_hairlines(whole, size, 0.5 * params.thinnest * joint.unit);
     return Stroke(place * joint.clump_radius * joint.across, share * size, 0.0, params.color);
 }

@@ -16,4 +16,11 @@ impl effects::StrokeEffect for Silhouette {
     fn instances(_: &Params) -> u32 {
         effects::CLUMP_DISCS
     }
+
+    fn reach(params: &Params) -> effects::Reach {
+        effects::Reach {
+            clumps: 2.0,
+            units: params.width,
+        }
+    }
 }

@@ -4,7 +4,7 @@ use crate::hair;
 use crate::joint::{Joint, list};
 use crate::values::{Case, defaults, extremes, some_instances};
 use effects::wgsl::Stroke;
-use effects::{AnyEffect, FARTHEST_CLUMPS, FARTHEST_UNITS, Input, LayerProgram};
+use effects::{AnyEffect, Input, LayerProgram, Reach};
 
 /// Strokes side by side, at most: no clump is so wide that more would be seen.
 const MOST_INSTANCES: u32 = 1024;
@@ -47,16 +47,21 @@ pub(crate) fn near(effect: &dyn AnyEffect) -> Result<(), String> {
     let joints = hair::joints();
     for case in extremes(effect) {
         let program = effect.program(&case.values);
+        let (own, farthest) = (program.reach(), Reach::FARTHEST);
+        if !(own.clumps <= farthest.clumps && own.units <= farthest.units) {
+            return Err(format!(
+                "{}: its reach is {own:?}, and no stroke may exceed {farthest:?}",
+                case.name
+            ));
+        }
         for instance in some_instances(program.instances()) {
             let strokes = evaluate(&*program, &joints, instance);
             for (stroke, joint) in strokes.iter().zip(&joints) {
                 let reach = stroke.offset.length().0 + stroke.radius;
-                let most =
-                    FARTHEST_CLUMPS * joint.clump_radius + FARTHEST_UNITS * joint.unit.max(1.0);
-                if stroke.radius > 0.0 && reach > most {
+                let most = own.clumps * joint.clump_radius + own.units * joint.unit;
+                if stroke.radius > 0.0 && reach > 1.0001 * most {
                     return Err(format!(
-                        "{}: stroke {instance} reaches {reach} from its strand; {FARTHEST_CLUMPS} radii of the clump and \
-                         {FARTHEST_UNITS} units, here {most}, are the most",
+                        "{}: stroke {instance} reaches {reach} from its clump's middle, and by its `reach` {most} is the most",
                         case.name
                     ));
                 }

@@ -134,7 +134,7 @@ fn strokes_stay_near_their_strands() {
             Stroke { offset: good.offset + vec2([900.0, 0.0]), ..good }
         }
     });
-    assert_fails::<Far>("stay near", "from its strand");
+    assert_fails::<Far>("stay near", "from its clump's middle");
 }
 
 /// The good parameters and one more.

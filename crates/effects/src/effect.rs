@@ -62,6 +62,13 @@ pub trait StrokeEffect: Send + Sync + 'static {
         false
     }
 
+    /// How far strokes reach, where that is less than any may: what is far off the picture, or behind a head, costs less then. The
+    /// parameters are the largest that there are along strands and from strand to strand.
+    fn reach(params: &<Self::Program as Parameters>::Params) -> Reach {
+        let _ = params;
+        Reach::FARTHEST
+    }
+
     /// Makes this frame's paths of the hair as it stands, for an effect with [`Self::OWN_PATHS`]. Choices
     /// hang on `seed`, the layer's, and the strands' ids alone, so that the paths move as the hair does.
     fn make_paths(
@@ -94,14 +101,23 @@ pub trait AnyEffect: Send + Sync {
     fn program(&self, values: &Values) -> Box<dyn LayerProgram>;
 }
 
-/// How far from its path a stroke may reach at most, its radius and all: so many radii of the clump there, and beside that so many
-/// 1/300 of the head's height, or of a layer whose unit is pixels so many pixels of a picture of 720 lines. A strand whose path is
-/// farther than that from the picture isn't evaluated.
-pub const FARTHEST_CLUMPS: f32 = 6.0;
-/// See [`FARTHEST_CLUMPS`].
-pub const FARTHEST_UNITS: f32 = 150.0;
-/// See [`FARTHEST_CLUMPS`].
-pub const FARTHEST_PIXELS: f32 = 150.0;
+/// How far strokes reach from the middle of their clump, their radius and all: the sum of both. What is so far off the picture isn't
+/// worked out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// In radii of the clump there.
+    pub clumps: f32,
+    /// In the layer's unit: 1/300 of the head's height, or pixels of a picture of 720 lines.
+    pub units: f32,
+}
+
+impl Reach {
+    /// What no stroke may exceed: six of the clump's radii and half a head's height, or 150 pixels.
+    pub const FARTHEST: Self = Self {
+        clumps: 6.0,
+        units: 150.0,
+    };
+}
 
 /// How many discs a clump is made of: `clump_disc` in `shaders/prelude.wgsl`.
 pub const CLUMP_DISCS: u32 = 3;
@@ -118,6 +134,8 @@ pub trait LayerProgram: Send + Sync {
     fn has_own_paths(&self) -> bool;
     /// [`StrokeEffect::ON_UNDERCOAT`].
     fn is_on_undercoat(&self) -> bool;
+    /// [`StrokeEffect::reach`].
+    fn reach(&self) -> Reach;
     /// [`StrokeEffect::make_paths`].
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths);
     /// What is read of a joint.
@@ -196,6 +214,10 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn is_on_undercoat(&self) -> bool {
         E::ON_UNDERCOAT
+    }
+
+    fn reach(&self) -> Reach {
+        E::reach(&self.0.greatest())
     }
 
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths) {

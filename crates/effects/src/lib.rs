@@ -53,10 +53,7 @@ mod varied;
 pub mod wgsl;
 
 pub use color::{linear_from_srgb, parse_hex, to_hex};
-pub use effect::{
-    AnyEffect, CLUMP_DISCS, FARTHEST_CLUMPS, FARTHEST_PIXELS, FARTHEST_UNITS, LayerProgram,
-    StrokeEffect,
-};
+pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Reach, StrokeEffect};
 pub use joints::{Input, InputSet, Joints};
 pub use layer::{Layer, Units};
 pub use param::{Param, ParamKind, Value, Values};

@@ -229,20 +229,6 @@ impl Values {
         }
     }
 
-    /// The largest value that a number takes on, along strands and from strand to strand.
-    #[must_use]
-    pub fn greatest(&self, name: &str) -> f32 {
-        match self.value(name) {
-            Value::Varying(Variation { curve, vary }) => {
-                let values = curve
-                    .iter()
-                    .map(|(_, value)| value * (1.0 + vary * value.signum()));
-                values.fold(f32::NEG_INFINITY, f32::max)
-            }
-            _ => self.number(name),
-        }
-    }
-
     /// A whole number's value.
     #[must_use]
     pub fn integer(&self, name: &str) -> i32 {

@@ -5,12 +5,20 @@
 //! 1982) with an interval for structuring element. Both change by no more than their input does, so that
 //! nothing pops in animation, as it would if short pieces were looked for and left out.
 
-/// Smooths lists of sizes. Keeps its memory.
+use std::ops::Range;
+
+/// Smooths lists of sizes, in a time that grows as the lists do, however long stretches may be. Keeps its memory.
 #[derive(Clone, Debug, Default)]
 pub struct Smoother {
-    /// For each place the least size in the window that begins there, and in the one that ends there.
+    /// For each place the window that begins there, and the one that ends there, as the places that they hold.
+    from: Vec<Range<usize>>,
+    to: Vec<Range<usize>>,
+    /// The least sizes in them.
     after: Vec<f32>,
     before: Vec<f32>,
+    /// Working memory.
+    extremes: Extremes,
+    found: Vec<f32>,
 }
 
 /// Whether windows may reach beyond the strand, where nothing counts.
@@ -58,61 +66,106 @@ impl Smoother {
     /// At each place the greatest, over all windows of `length` that hold it, of the least value in the
     /// window. Of the windows only those are looked at that begin or end at a place.
     fn open(&mut self, places: &[f32], values: &mut [f32], length: f32, ends: Ends) {
-        let indices = 0..places.len();
-        self.after.clear();
-        self.before.clear();
-        self.after.extend(
-            indices
-                .clone()
-                .map(|i| least_after(places, values, i, length, ends)),
-        );
-        self.before.extend(
-            indices
-                .clone()
-                .map(|i| least_before(places, values, i, length, ends)),
-        );
-        for i in indices {
-            let place = places[i];
-            let ending = (i..places.len()).take_while(|&j| places[j] <= place + length);
-            let beginning = (0..=i).rev().take_while(|&j| places[j] >= place - length);
-            let ending = ending.map(|j| self.before[j]);
-            let beginning = beginning.map(|j| self.after[j]);
-            values[i] = ending.chain(beginning).fold(f32::NEG_INFINITY, f32::max);
+        let Self {
+            from,
+            to,
+            after,
+            before,
+            extremes,
+            found,
+        } = self;
+        let count = places.len();
+        windows(places, length, from, to);
+        let is_less = |a: f32, b: f32| a < b;
+        extremes.find(values, from, is_less, after);
+        extremes.find(values, to, is_less, before);
+        // A window ends between places; one beyond the strand's end ends there, or is the last one.
+        for (i, (least, window)) in after.iter_mut().zip(&*from).enumerate() {
+            if window.end < count {
+                let end = places[i] + length;
+                *least = least.min(between(places, values, window.end - 1, end));
+            }
+        }
+        for (i, (least, window)) in before.iter_mut().zip(&*to).enumerate() {
+            if window.start > 0 {
+                let start = places[i] - length;
+                *least = least.min(between(places, values, window.start - 1, start));
+            }
+        }
+        if ends == Ends::Closed {
+            let (first, last) = (after[0], before[count - 1]);
+            let beyond = after.iter_mut().zip(&*from);
+            let beyond = beyond.filter(|(_, window)| window.end == count);
+            beyond.for_each(|(least, _)| *least = last);
+            let beyond = before.iter_mut().zip(&*to);
+            let beyond = beyond.filter(|(_, window)| window.start == 0);
+            beyond.for_each(|(least, _)| *least = first);
+        }
+        // The windows that hold a place end up to a length after it, or begin up to a length before.
+        let is_more = |a: f32, b: f32| a > b;
+        extremes.find(before, from, is_more, found);
+        values.copy_from_slice(found);
+        extremes.find(after, to, is_more, found);
+        for (value, greatest) in values.iter_mut().zip(&*found) {
+            *value = value.max(*greatest);
         }
     }
 }
 
-/// The least value from place `i` to `length` after it; where the strand ends before, up to there, or in
-/// the last window.
-fn least_after(places: &[f32], values: &[f32], i: usize, length: f32, ends: Ends) -> f32 {
-    let end = places[i] + length;
-    let mut least = values[i];
-    for j in i + 1..places.len() {
-        if places[j] > end {
-            return least.min(between(places, values, j - 1, end));
+/// For each place the places from it to `length` after it, and those from `length` before it to it.
+fn windows(places: &[f32], length: f32, from: &mut Vec<Range<usize>>, to: &mut Vec<Range<usize>>) {
+    from.clear();
+    to.clear();
+    let (mut start, mut end) = (0, 0);
+    for (i, place) in places.iter().enumerate() {
+        while places[start] < place - length {
+            start += 1;
         }
-        least = least.min(values[j]);
-    }
-    match ends {
-        Ends::Open => least,
-        Ends::Closed => least_before(places, values, places.len() - 1, length, Ends::Open),
+        while end < places.len() && places[end] <= place + length {
+            end += 1;
+        }
+        from.push(i..end);
+        to.push(start..i + 1);
     }
 }
 
-/// The least value from `length` before place `i` to it; where the strand begins after, from there, or in
-/// the first window.
-fn least_before(places: &[f32], values: &[f32], i: usize, length: f32, ends: Ends) -> f32 {
-    let start = places[i] - length;
-    let mut least = values[i];
-    for j in (0..i).rev() {
-        if places[j] < start {
-            return least.min(between(places, values, j, start));
+/// Finds extremes of windows, of which each begins and ends no earlier than the one before. Every value enters and leaves a list
+/// of candidates once (Lemire, "Streaming Maximum-Minimum Filter Using No More than Three Comparisons per Element", 2006).
+#[derive(Clone, Debug, Default)]
+struct Extremes {
+    /// Places in the window of which each is more extreme than all behind it.
+    candidates: Vec<usize>,
+}
+
+impl Extremes {
+    /// The extreme of each window, of which `is_more(a, b)` says whether `a` is the more extreme of two.
+    #[inline]
+    fn find(
+        &mut self,
+        values: &[f32],
+        windows: &[Range<usize>],
+        is_more: impl Fn(f32, f32) -> bool,
+        extremes: &mut Vec<f32>,
+    ) {
+        let candidates = &mut self.candidates;
+        candidates.clear();
+        extremes.clear();
+        let (mut first, mut next) = (0, 0);
+        for window in windows {
+            while next < window.end {
+                while candidates.len() > first
+                    && !is_more(values[candidates[candidates.len() - 1]], values[next])
+                {
+                    candidates.pop();
+                }
+                candidates.push(next);
+                next += 1;
+            }
+            while candidates[first] < window.start {
+                first += 1;
+            }
+            extremes.push(values[candidates[first]]);
         }
-        least = least.min(values[j]);
-    }
-    match ends {
-        Ends::Open => least,
-        Ends::Closed => least_after(places, values, 0, length, Ends::Open),
     }
 }
 
@@ -206,7 +259,77 @@ mod tests {
         })
     }
 
+    /// [`Smoother::open`] by its definition, window by window.
+    fn opened(places: &[f32], values: &[f32], length: f32, ends: Ends) -> Vec<f32> {
+        let indices = 0..places.len();
+        let after: Vec<f32> = (indices.clone())
+            .map(|i| least_after(places, values, i, length, ends))
+            .collect();
+        let before: Vec<f32> = (indices.clone())
+            .map(|i| least_before(places, values, i, length, ends))
+            .collect();
+        let greatest = |i: usize| {
+            let place = places[i];
+            let ending = (i..places.len()).take_while(|&j| places[j] <= place + length);
+            let beginning = (0..=i).rev().take_while(|&j| places[j] >= place - length);
+            let ending = ending.map(|j| before[j]);
+            let beginning = beginning.map(|j| after[j]);
+            ending.chain(beginning).fold(f32::NEG_INFINITY, f32::max)
+        };
+        indices.map(greatest).collect()
+    }
+
+    /// The least value from place `i` to `length` after it; where the strand ends before, up to there, or in
+    /// the last window.
+    fn least_after(places: &[f32], values: &[f32], i: usize, length: f32, ends: Ends) -> f32 {
+        let end = places[i] + length;
+        let mut least = values[i];
+        for j in i + 1..places.len() {
+            if places[j] > end {
+                return least.min(between(places, values, j - 1, end));
+            }
+            least = least.min(values[j]);
+        }
+        match ends {
+            Ends::Open => least,
+            Ends::Closed => least_before(places, values, places.len() - 1, length, Ends::Open),
+        }
+    }
+
+    /// The least value from `length` before place `i` to it; where the strand begins after, from there, or in
+    /// the first window.
+    fn least_before(places: &[f32], values: &[f32], i: usize, length: f32, ends: Ends) -> f32 {
+        let start = places[i] - length;
+        let mut least = values[i];
+        for j in (0..i).rev() {
+            if places[j] < start {
+                return least.min(between(places, values, j, start));
+            }
+            least = least.min(values[j]);
+        }
+        match ends {
+            Ends::Open => least,
+            Ends::Closed => least_after(places, values, 0, length, Ends::Open),
+        }
+    }
+
     proptest! {
+        #[test]
+        fn windows_are_those_of_the_definition(
+            (places, values) in line(),
+            length in prop_oneof![0.0..3.0f32, Just(1e-4f32)],
+            is_closed in any::<bool>(),
+        ) {
+            let ends = if is_closed { Ends::Closed } else { Ends::Open };
+            // Twice, with the memory of the first time.
+            let mut smoother = Smoother::default();
+            for values in [values.clone(), values.iter().map(|value| -value).collect()] {
+                let mut fast = values.clone();
+                smoother.open(&places, &mut fast, length, ends);
+                prop_assert_eq!(fast, opened(&places, &values, length, ends));
+            }
+        }
+
         #[test]
         fn a_small_change_stays_small(
             (places, values) in line(),

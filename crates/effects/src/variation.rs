@@ -94,6 +94,16 @@ impl Varying {
         let [min, max] = self.range;
         (self.variation.at(u) * factor).clamp(min, max)
     }
+
+    /// The largest value on any strand.
+    pub(crate) fn greatest(&self) -> f32 {
+        let Variation { curve, vary } = &self.variation;
+        let [min, max] = self.range;
+        let values = curve
+            .iter()
+            .map(|(_, value)| value * (1.0 + vary * value.signum()));
+        values.fold(min, f32::max).min(max)
+    }
 }
 
 #[cfg(test)]

@@ -62,6 +62,16 @@ impl<P: Parameters> Varied<P> {
         &self.base
     }
 
+    /// The parameters where all that varies is as large as it gets.
+    #[must_use]
+    pub fn greatest(&self) -> P::Params {
+        let mut params = self.base.clone();
+        for varying in &self.varying {
+            P::set_number(&mut params, varying.index, varying.greatest());
+        }
+        params
+    }
+
     /// What is read of a joint, also to know how parameters vary.
     #[must_use]
     pub fn inputs(&self) -> InputSet {

@@ -12,6 +12,7 @@ mod bin;
 mod evaluate;
 mod instructions;
 mod rows;
+mod seen;
 mod segment;
 mod stamp;
 mod strand;

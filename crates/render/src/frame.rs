@@ -5,7 +5,7 @@ mod check;
 pub use check::FrameError;
 
 use crate::drawing::{Order, Surface};
-use effects::{InputSet, Layer, Varied, clump};
+use effects::{InputSet, Layer, Reach, Varied, clump};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
 use stroke_path::{Brush, Camera, Paths};
@@ -104,6 +104,28 @@ pub struct Frame<'a> {
     pub brush: Brush,
 }
 
+/// A ball in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Its middle, metres.
+    pub center: Vec3,
+    /// Metres, above 0.
+    pub radius_m: f32,
+}
+
+/// How far a layer's strokes reach as they are drawn: tips of half discs are moved on by what they are wider than their clumps.
+#[must_use]
+pub fn reach_of(layer: &Layer, brush: Brush) -> Reach {
+    let Reach { clumps, units } = layer.program.reach();
+    match brush {
+        Brush::Circle => Reach { clumps, units },
+        Brush::Semicircle => Reach {
+            clumps: 2.0 * clumps,
+            units: 2.0 * units,
+        },
+    }
+}
+
 /// Hair on a head, and how it is drawn.
 #[derive(Clone)]
 pub struct Object<'a> {
@@ -112,6 +134,9 @@ pub struct Object<'a> {
     pub joints: Range<usize>,
     /// The head.
     pub head: Head,
+    /// A ball within the head, so that a surface of the frame covers each sight through it: strokes behind it aren't worked out.
+    /// None where no such ball is known.
+    pub solid: Option<Ball>,
     /// Its preset's clump section.
     pub clump: &'a Varied<clump::Program>,
     /// Seed of its style's variations.

@@ -55,6 +55,6 @@ pub use drawing::{
     Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface, SurfaceVertex,
     scatter,
 };
-pub use frame::{Frame, FrameError, Head, Light, NO_TAPER, Object, StrandInfo};
+pub use frame::{Ball, Frame, FrameError, Head, Light, NO_TAPER, Object, StrandInfo, reach_of};
 pub use picture::Picture;
 pub use samples::{MAX_SAMPLES, SampleCountError, sample_positions};

@@ -82,6 +82,7 @@ fn drawing_on(
                 center: Vec3::ZERO,
                 height_m: 0.3,
             },
+            solid: None,
             clump: &clump,
             seed,
             layers: &layers,
@@ -192,8 +193,8 @@ fn what_faces_the_light_is_bright() {
     assert_eq!([green, blue], [red; 2]);
     assert_eq!(
         drawing.layers[0].colors.len(),
-        4 * 3,
-        "of the clump and its sides"
+        4,
+        "round clumps have no sides"
     );
 }
 

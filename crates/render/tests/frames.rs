@@ -75,6 +75,7 @@ impl Scene {
         let object = |index: usize| Object {
             joints: self.joints[index].0.clone(),
             head: self.heads[index],
+            solid: None,
             clump: &self.clump,
             seed: 1,
             layers: &self.layers,

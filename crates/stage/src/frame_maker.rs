@@ -13,7 +13,7 @@ use crate::script::HeadPose;
 use effects::wgsl::hash;
 use effects::{HairStrand, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
-use render::{Frame, Light, StrandInfo, Surface};
+use render::{Ball, Frame, Light, StrandInfo, Surface};
 use std::ops::Range;
 use std::sync::Arc;
 use stroke_path::{Camera, Paths};
@@ -52,6 +52,8 @@ struct ObjectFrame {
     /// Normals of the links, where something reads them.
     material: Option<Material>,
     head: Option<PosedHead>,
+    /// What hides hair, in the world.
+    solid: Option<Ball>,
 }
 
 impl FrameMaker {
@@ -130,6 +132,7 @@ impl FrameMaker {
                 head: object
                     .placement()
                     .head(motion.of(index, object).head(object)),
+                solid: frame.solid,
                 clump: &look.clump,
                 seed: look.seed,
                 layers: &look.layers,
@@ -240,6 +243,7 @@ impl ObjectFrame {
             layer_joints: Vec::new(),
             material: reads_material.then(Material::default),
             head: object.neck().map(PosedHead::new),
+            solid: None,
         }
     }
 
@@ -290,7 +294,8 @@ impl ObjectFrame {
         self.joints = paths.len()..paths.len();
         self.unseen = 0;
         let center = motion.head(&self.of).center;
-        if !sight.may_see_any(center, hair.reach_m) {
+        let sizes = hair.infos.iter().map(|info| info.size);
+        if !sight.may_see_any(center, hair.reach_m, sizes.fold(0.0, f32::max)) {
             self.strands.end = first;
             self.unseen = hair.infos.len();
             return Ok(());
@@ -436,12 +441,18 @@ impl ObjectFrame {
         let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
             return Vec::new();
         };
-        let (center, radius) = neck.ball(motion.pose());
-        if !sight.may_see_any(center, radius) {
+        let paint = self.of.look().paint(self.of.hair().head);
+        let (pose, placement) = (motion.pose(), self.of.placement());
+        let solid = match sight.shows_all() {
+            true => None,
+            false => neck.solid(pose, self.of.hair().head, sight.camera().eye()),
+        };
+        self.solid = solid.map(|ball| placement.ball(ball));
+        let (center, radius) = neck.ball(pose);
+        if !sight.may_see_ball(center, radius + paint.width_m) {
             return Vec::new();
         }
         let model = posed.in_pose(neck, motion.pose());
-        let paint = self.of.look().paint(self.of.hair().head);
         let light = self.of.placement().own_light(light);
         head::surfaces(model, &paint, sight.camera(), &light)
     }

@@ -23,6 +23,7 @@ mod scalp;
 mod scene;
 mod script;
 mod shapes;
+mod solid;
 mod stage;
 mod style;
 
@@ -31,6 +32,7 @@ pub use check::{check_hair, check_motion, check_style};
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 pub use files::{Files, StageError};
 pub use frame_maker::FrameMaker;
+pub use groom::{Blush, Dress, Expression, Eyes, Face, Figure};
 pub use hair::HairModel;
 pub use hand::Hand;
 pub use head::HeadModel;

@@ -2,8 +2,9 @@
 
 use crate::head::HeadModel;
 use crate::script::HeadPose;
+use crate::solid::Solid;
 use glam::{DQuat, DVec3, Vec3};
-use render::Head;
+use render::{Ball, Head};
 
 /// Where the head turns about, from its middle, in head heights: the top of the neck.
 const PIVOT: Vec3 = Vec3::new(0.0, -0.38, -0.12);
@@ -22,6 +23,7 @@ pub(crate) struct Neck {
     height_m: f32,
     /// How far from the pivot the farthest corner is, metres: of meshes and patches.
     reach_m: f32,
+    solid: Option<Solid>,
 }
 
 /// A head in a pose.
@@ -44,7 +46,9 @@ impl Neck {
         let corners = meshes.into_iter().chain(patches).flatten();
         let from_pivot = corners.map(|p| p.distance(pivot(head)));
         Self {
-            reach_m: from_pivot.fold(0.0, f32::max),
+            // A little more, for lines that are drawn around it.
+            reach_m: from_pivot.fold(0.0, f32::max) + 0.02 * head.height_m,
+            solid: Solid::within(&model.mesh, head),
             shares: shares_of(&model.mesh.positions),
             patch_shares: model
                 .patches
@@ -63,6 +67,20 @@ impl Neck {
     pub fn ball(&self, pose: HeadPose) -> (Vec3, f32) {
         let shift_m = pose.shift.length() as f32 * self.height_m;
         (self.pivot, self.reach_m + shift_m)
+    }
+}
+
+impl Neck {
+    /// A ball within the head in this pose that an eye at this place sees nothing through.
+    pub fn solid(&self, pose: HeadPose, head: Head, eye: Vec3) -> Option<Ball> {
+        let (rotation, translation) = rigid(pose, head);
+        let eye = rotation.inverse() * (eye.as_dvec3() - translation);
+        let ball = self.solid.as_ref()?.seen_from(eye.as_vec3())?;
+        let center = rotation * ball.center.as_dvec3() + translation;
+        Some(Ball {
+            center: center.as_vec3(),
+            ..ball
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where an object stands in the world of its scene.
 
 use glam::{DVec3, Quat, Vec3};
-use render::{Head, Light};
+use render::{Ball, Head, Light};
 use std::ops::Range;
 use stroke_path::{Camera, Paths, sin_cos_degrees};
 
@@ -39,6 +39,13 @@ impl Placement {
         Head {
             center: self.point(head.center),
             ..head
+        }
+    }
+
+    pub fn ball(&self, ball: Ball) -> Ball {
+        Ball {
+            center: self.point(ball.center),
+            ..ball
         }
     }
 

@@ -2,10 +2,10 @@
 
 use crate::look::Look;
 use crate::object::Object;
-use effects::{FARTHEST_CLUMPS, FARTHEST_PIXELS, FARTHEST_UNITS, Units};
+use effects::Units;
 use glam::Vec3;
 use hair_sim::Strands;
-use render::{Head, StrandInfo};
+use render::{Head, StrandInfo, reach_of};
 use stroke_path::Camera;
 
 /// Of the ball around all hair: for what layers draw beyond it, and for solvers that stretch it a little.
@@ -25,6 +25,9 @@ pub(crate) fn reach_m(strands: &Strands, infos: &[StrandInfo], head: Head) -> f3
     MARGIN * farthest
 }
 
+/// How many radii a clump and its sides reach at most from its middle.
+const CLUMP: f32 = 2.0;
+
 /// What a camera sees of an object, in the object's own coordinates.
 pub(crate) struct Sight {
     camera: Camera,
@@ -41,12 +44,18 @@ impl Sight {
     /// Of a camera as the object has it. `shows_all` leaves no strand out.
     pub fn new(camera: &Camera, object: &Object, shows_all: bool) -> Self {
         let (look, unit_m) = (object.look(), object.hair().head.unit_m());
-        let has_pixels = look.layers.iter().any(|layer| layer.units == Units::Pixels);
-        let pixels = if has_pixels { FARTHEST_PIXELS } else { 0.0 };
-        let [half_width, half_height] = camera.size_px().map(|side| {
-            let beyond_px = pixels * camera.size_px()[1] as f32 / 720.0;
-            0.5 * side as f32 + beyond_px
-        });
+        let (mut clumps, mut units, mut pixels) = (CLUMP, 0.0_f32, 0.0_f32);
+        for layer in &look.layers {
+            let reach = reach_of(layer, look.brush());
+            clumps = clumps.max(reach.clumps);
+            match layer.units {
+                Units::Pixels => pixels = pixels.max(reach.units),
+                Units::World => units = units.max(reach.units),
+            }
+        }
+        let pixel_px = camera.size_px()[1] as f32 / 720.0;
+        let [half_width, half_height] =
+            (camera.size_px()).map(|side| 0.5 * side as f32 + pixels * pixel_px + 1.0);
         let focal = camera.focal_px();
         let side = |x: f32, y: f32, half_px: f32| {
             let out = Vec3::new(x * focal, y * focal, -half_px).normalize();
@@ -64,8 +73,9 @@ impl Sight {
                 side(0.0, 1.0, half_height),
                 side(0.0, -1.0, half_height),
             ],
-            reach_m: FARTHEST_UNITS * unit_m,
-            reach_by_size_m: FARTHEST_CLUMPS * thickest(look) * unit_m,
+            reach_m: units * unit_m,
+            // A flat clump's middle is beside its strand.
+            reach_by_size_m: (1.0 + clumps) * thickest(look) * unit_m,
             shows_all,
         }
     }
@@ -75,10 +85,19 @@ impl Sight {
         &self.camera
     }
 
-    /// Whether any of the hair in a ball (metres) may be in the picture.
-    pub fn may_see_any(&self, center: Vec3, radius: f32) -> bool {
-        let beyond = self.reach_m + radius;
-        self.shows_all || (self.planes.iter()).all(|plane| self.outside(plane, center) <= beyond)
+    /// Whether nothing is left out.
+    pub fn shows_all(&self) -> bool {
+        self.shows_all
+    }
+
+    /// Whether any of a ball (metres) may be in the picture.
+    pub fn may_see_ball(&self, center: Vec3, radius: f32) -> bool {
+        self.shows_all || (self.planes.iter()).all(|plane| self.outside(plane, center) <= radius)
+    }
+
+    /// Whether any stroke of strands up to that size (1/300 of the head's height) may be in the picture that stay in a ball (metres).
+    pub fn may_see_any(&self, center: Vec3, radius: f32, size: f32) -> bool {
+        self.may_see_ball(center, radius + self.reach_m + self.reach_by_size_m * size)
     }
 
     /// Whether any stroke of a strand of that size (1/300 of the head's height) may be in the picture.
@@ -103,8 +122,8 @@ impl Sight {
 
 /// The largest factor of the look on a strand's own size.
 fn thickest(look: &Look) -> f32 {
-    let values = &look.sections.clump.0;
-    values.greatest("size") * (1.0 + values.greatest("size_variation"))
+    let clump = look.clump.greatest();
+    clump.size * (1.0 + clump.size_variation)
 }
 
 /// Whether any of a ball (metres) may be in the camera's picture.

@@ -162,6 +162,7 @@ impl Animation for Strands {
             objects: vec![Object {
                 joints: 0..self.paths.len(),
                 head: HEAD,
+                solid: None,
                 clump: &style.clump,
                 seed: 1,
                 layers: &style.layers,

@@ -1,5 +1,6 @@
 //! Joints to strokes on the screen, by the layers' own WGSL in Rust.
 
+use super::seen::fill_needed;
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches};
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
 use effects::smooth::Smoother;
@@ -19,9 +20,21 @@ pub struct Evaluator {
     /// For each joint the length of its run up to there as it is seen, metres at its depth; empty where no
     /// layer has a shortest stroke.
     seen_length: Vec<f32>,
+    /// Whether strokes make a difference at each joint; empty where they do everywhere.
+    needed: Vec<bool>,
+    is_everywhere: bool,
 }
 
 impl Evaluator {
+    /// One that works out strokes where no picture shows them, too: for those who read a drawing's discs.
+    #[must_use]
+    pub fn everywhere() -> Self {
+        Self {
+            is_everywhere: true,
+            ..Self::default()
+        }
+    }
+
     /// Makes all strokes of `frame`. Only what the active layers declare is worked out.
     ///
     /// # Errors
@@ -34,6 +47,9 @@ impl Evaluator {
         self.fill_inputs(frame, read);
         self.fill_clumps(frame, read);
         self.fill_seen_length(frame);
+        if !self.is_everywhere {
+            fill_needed(frame, &self.joints, &mut self.needed);
+        }
 
         drawing.size = frame.camera.size_px();
         drawing.background = frame.background;
@@ -103,6 +119,7 @@ impl Evaluator {
                 let size = |i| clump_disc(number, radii[i], shifts[i]).z;
                 scratch.radii.clear();
                 scratch.radii.extend(joints.clone().map(size));
+                leave_out_unneeded(&self.needed, &joints, &mut scratch.radii);
                 let mut made = Made::new(number - 1);
                 made.find_stretches(frame.paths, &joints, &scratch.radii);
                 let drawn = made.stretches.iter().flat_map(|s| s.joints.clone());
@@ -119,11 +136,16 @@ impl Evaluator {
         drawing.side_stretches = Stretches::Within(stretches);
     }
 
+    fn is_needed(&self, joint: usize) -> bool {
+        self.needed.get(joint).is_none_or(|needed| *needed)
+    }
+
     /// Disc `number` of the clump at a joint.
     fn clump_disc_at(&self, frame: &Frame, object: &Object, joint: usize, number: u32) -> Disc {
         let radius = self.joints.clump_radius[joint];
         let shift = self.joints.clump_shift[joint];
         let [x, y, size] = clump_disc(number, radius, shift).to_array();
+        let size = if self.is_needed(joint) { size } else { 0.0 };
         let place = shift + vec2([x, y]);
         let place = Vec2::new(place.x, place.y);
         disc_at(frame, object.head, joint, place, size, radius, 0.0)
@@ -147,6 +169,7 @@ impl Evaluator {
             inputs: &self.joints,
             joints,
             seen_length: &self.seen_length,
+            needed: &self.needed,
             seed: layer_seed(object.seed, &layer.name),
         };
         let of_stroke = |number| pieces(frame.paths, drawn).map(move |joints| (number, joints));
@@ -446,6 +469,7 @@ struct Part<'a> {
     inputs: &'a Joints,
     joints: Range<usize>,
     seen_length: &'a [f32],
+    needed: &'a [bool],
     seed: u32,
 }
 
@@ -454,6 +478,13 @@ impl Part<'_> {
     fn evaluate(&self, number: u32, scratch: &mut Scratch) -> Made {
         let (frame, layer, inputs) = (self.frame, self.layer, self.inputs);
         let program = &layer.program;
+        if self
+            .needed
+            .get(self.joints.clone())
+            .is_some_and(|needed| !needed.contains(&true))
+        {
+            return Made::new(number);
+        }
         let radii = &mut scratch.radii;
         radii.clear();
         program.radii(inputs, self.joints.clone(), number, self.seed, radii);
@@ -469,6 +500,7 @@ impl Part<'_> {
         self.smooth(scratch);
 
         let Scratch { strokes, radii, .. } = scratch;
+        leave_out_unneeded(self.needed, &self.joints, radii);
         let mut made = Made::new(number);
         made.find_stretches(frame.paths, &self.joints, radii);
         for stretch in &made.stretches {
@@ -562,6 +594,14 @@ impl Part<'_> {
                 }
             }
         }
+    }
+}
+
+/// Takes their sizes from joints at which strokes make no difference.
+fn leave_out_unneeded(needed: &[bool], joints: &Range<usize>, radii: &mut [f32]) {
+    let needed = needed.get(joints.clone()).unwrap_or_default();
+    for (radius, is_needed) in radii.iter_mut().zip(needed) {
+        *radius = if *is_needed { *radius } else { 0.0 };
     }
 }
 

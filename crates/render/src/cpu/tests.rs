@@ -5,7 +5,9 @@ mod order;
 mod reference;
 
 use super::*;
-use crate::drawing::{Brush, Disc, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex};
+use crate::drawing::{
+    Brush, Disc, LayerStrokes, Order, Run, Stretch, Stretches, Surface, SurfaceVertex,
+};
 use glam::Vec2;
 use std::f64::consts::PI;
 

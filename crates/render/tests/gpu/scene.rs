@@ -256,6 +256,7 @@ impl Scene {
                 center: Vec3::new(0.0, 0.02, 0.0),
                 height_m: 0.24,
             },
+            solid: None,
             clump: &self.clump,
             seed: self.seed,
             layers: &self.layers,

@@ -25,9 +25,9 @@ fn yardstick(name: &str) -> Scene {
 }
 
 /// The pixels' bits, and how many strands have joints.
-fn picture(frame: &Frame) -> (Vec<[u32; 4]>, usize) {
+fn picture(frame: &Frame, mut evaluator: Evaluator) -> (Vec<[u32; 4]>, usize) {
     let mut drawing = Drawing::default();
-    Evaluator::default().evaluate(frame, &mut drawing).unwrap();
+    evaluator.evaluate(frame, &mut drawing).unwrap();
     let picture = Rasterizer::new(2, None).unwrap().draw(&drawing).unwrap();
     let bits = picture.pixels.iter().map(|pixel| pixel.map(f32::to_bits));
     let strands = frame.paths.runs.chunk_by(|a, b| a.strand == b.strand);
@@ -51,11 +51,34 @@ proptest! {
         let motion = Motion::new();
         let mut all = FrameMaker { keeps_unseen: true, ..FrameMaker::new() };
         let mut seen = FrameMaker::new();
-        let (expected, every) = picture(&all.frame(&scene, &motion).unwrap());
-        let (found, some) = picture(&seen.frame(&scene, &motion).unwrap());
+        let (expected, every) = picture(&all.frame(&scene, &motion).unwrap(), Evaluator::everywhere());
+        let (found, some) = picture(&seen.frame(&scene, &motion).unwrap(), Evaluator::default());
         prop_assert!(some <= every);
         prop_assert!(found == expected);
         prop_assert_eq!(all.culled(), seen.culled());
+    }
+}
+
+#[test]
+fn strokes_behind_the_head_are_not_worked_out() {
+    let mut scene = yardstick("short-ash");
+    let motion = Motion::new();
+    let discs = |scene: &Scene, mut evaluator: Evaluator| {
+        let mut frames = FrameMaker::new();
+        let frame = frames.frame(scene, &motion).unwrap();
+        assert!(frame.objects[0].solid.is_some());
+        let mut drawing = Drawing::default();
+        evaluator.evaluate(&frame, &mut drawing).unwrap();
+        let layers = drawing.layers.iter().map(|layer| layer.discs.len());
+        layers.sum::<usize>()
+    };
+    for yaw in [0.0, 90.0] {
+        scene.camera.yaw = yaw;
+        let (some, all) = (
+            discs(&scene, Evaluator::default()),
+            discs(&scene, Evaluator::everywhere()),
+        );
+        assert!(10 * some < 9 * all, "{yaw}: {some} of {all}");
     }
 }
 
@@ -73,12 +96,18 @@ fn hair_far_off_the_picture_is_not_looked_at() {
     // Half of it: some strands are worked out, others are not.
     scene.camera.target = near;
     scene.camera.distance = 0.4;
-    let (_, some) = picture(&frames.frame(&scene, &motion).unwrap());
+    let (_, some) = picture(
+        &frames.frame(&scene, &motion).unwrap(),
+        Evaluator::default(),
+    );
     let mut all = FrameMaker {
         keeps_unseen: true,
         ..FrameMaker::new()
     };
-    let (_, every) = picture(&all.frame(&scene, &motion).unwrap());
+    let (_, every) = picture(
+        &all.frame(&scene, &motion).unwrap(),
+        Evaluator::everywhere(),
+    );
     assert!(some > 0 && some < every, "{some} of {every}");
 }
 

@@ -91,6 +91,57 @@ fn layers_must_fit_their_joints() {
 }
 
 #[test]
+fn stretches_must_be_there() {
+    let within = |stretches: &[(Range<usize>, usize)]| {
+        let stretches = stretches.iter().cloned();
+        let list = stretches.map(|(joints, first)| Stretch { joints, first });
+        let list: Vec<Stretch> = list.collect();
+        after(move |d| d.layers[0].stretches = Stretches::Within(vec![list]))
+    };
+    let bad: [&[(Range<usize>, usize)]; 6] = [
+        &[(0..5, 0)],
+        &[(1..3, 3)],
+        &[(0..2, usize::MAX)],
+        &[(2..2, 0)],
+        &[(0..2, 0), (1..3, 2)],
+        &[(2..3, 0), (0..1, 2)],
+    ];
+    for list in bad {
+        assert!(
+            matches!(within(list), DrawError::Stretch { .. }),
+            "{list:?}"
+        );
+    }
+    assert_eq!(
+        within(&[(1..3, 3)]).to_string(),
+        "layer \"base\", stroke 0: the joints 1..3 with discs from 3 on are no stretch of joints 0 to 4 with 4 discs, behind the one before"
+    );
+    let lists = after(|d| d.layers[0].stretches = Stretches::Within(Vec::new()));
+    assert_eq!(
+        lists.to_string(),
+        "layer \"base\": there are stretches for 0 strokes, of 1"
+    );
+    let sides = after(|d| {
+        d.sides = d.clump.clone();
+        let list = vec![Stretch {
+            joints: 3..5,
+            first: 0,
+        }];
+        d.side_stretches = Stretches::Within(vec![list, Vec::new()]);
+    });
+    assert!(matches!(sides, DrawError::Stretch { of, .. } if of == "the clump's sides"));
+    let disc = after(|d| {
+        let list = vec![Stretch {
+            joints: 2..4,
+            first: 1,
+        }];
+        d.layers[0].stretches = Stretches::Within(vec![list]);
+        d.layers[0].discs[2].radius = f32::NAN;
+    });
+    assert!(matches!(disc, DrawError::LayerDisc { joint: 3, .. }));
+}
+
+#[test]
 fn sides_are_two_a_joint() {
     let text = after(|d| d.sides = d.clump.clone()).to_string();
     assert_eq!(

@@ -278,8 +278,68 @@ fn any_drawing() -> impl Strategy<Value = Drawing> {
     )
 }
 
+/// The lists without what has no size, but for the joints beside what has.
+fn sparse(drawing: &Drawing) -> Drawing {
+    let mut sparse = drawing.clone();
+    let all = 0..drawing.clump.len();
+    sparse.sides.clear();
+    sparse.side_stretches = within(drawing, 2, &drawing.sides, |place| {
+        sparse.sides.push(drawing.sides[place]);
+    });
+    for (layer, dense) in sparse.layers.iter_mut().zip(&drawing.layers) {
+        assert_eq!(dense.joints, all);
+        layer.discs.clear();
+        layer.colors.clear();
+        layer.stretches = within(drawing, dense.instances, &dense.discs, |place| {
+            layer.discs.push(dense.discs[place]);
+            layer.colors.push(dense.colors[place]);
+        });
+    }
+    sparse
+}
+
+/// The stretches of strokes on all joints; `keep` is told the places of what they hold, one after the other.
+fn within(
+    drawing: &Drawing,
+    strokes: usize,
+    discs: &[Disc],
+    mut keep: impl FnMut(usize),
+) -> Stretches {
+    let mut kept = 0;
+    let mut lists = vec![Vec::new(); strokes];
+    let of_strokes = discs.chunks(drawing.clump.len());
+    for (stroke, (list, discs)) in lists.iter_mut().zip(of_strokes).enumerate() {
+        for run in &drawing.runs {
+            let has_size = |joint: usize| run.joints.contains(&joint) && discs[joint].radius > 0.0;
+            for joint in run.joints.clone() {
+                let is_kept = [joint.wrapping_sub(1), joint, joint + 1]
+                    .map(has_size)
+                    .contains(&true);
+                if !is_kept {
+                    continue;
+                }
+                keep(stroke * discs.len() + joint);
+                match list.last_mut() {
+                    Some(Stretch { joints, .. }) if joints.end == joint => joints.end += 1,
+                    _ => list.push(Stretch {
+                        joints: joint..joint + 1,
+                        first: kept,
+                    }),
+                }
+                kept += 1;
+            }
+        }
+    }
+    Stretches::Within(lists)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn what_has_no_size_need_not_be_listed(drawing in any_drawing()) {
+        prop_assert_eq!(draw(&sparse(&drawing), 4), draw(&drawing, 4));
+    }
 
     /// But for samples on an edge, and where two depths are closer than rounding.
     #[test]
