@@ -77,7 +77,7 @@ pub struct Rasterizer {
 struct Parts {
     segments: Segments,
     triangles: Vec<Triangle>,
-    triangles_of_bands: Bins,
+    triangles_of_tiles: Bins,
 }
 
 impl Rasterizer {
@@ -125,7 +125,7 @@ impl Rasterizer {
         } = self;
         let mut draw = || {
             check::check(drawing)?;
-            let mut picture = empty_picture(drawing.size)?;
+            let mut picture = empty_picture(drawing, *samples)?;
             let strokes = segment::strokes_in_order(drawing);
             let tile_height = tile::height(stacks);
             parts.collect(drawing, &strokes, tile_height);
@@ -160,14 +160,15 @@ impl Rasterizer {
     }
 }
 
-fn empty_picture([width, height]: [u32; 2]) -> Result<Picture, DrawError> {
+/// A picture in which nothing has been drawn.
+fn empty_picture(drawing: &Drawing, samples: usize) -> Result<Picture, DrawError> {
+    let [width, height] = drawing.size;
     let length = width as usize * height as usize;
     let mut pixels = Vec::new();
     pixels
         .try_reserve_exact(length)
         .map_err(|_| DrawError::Memory(width, height))?;
-    // In parallel: most of the time goes into the memory's first touch.
-    pixels.par_extend(rayon::iter::repeat_n([0.0; 4], length));
+    pixels.resize(length, tile::empty_pixel(drawing.background, samples));
     Ok(Picture {
         width,
         height,
@@ -179,10 +180,20 @@ impl Parts {
     fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], tile_height: usize) {
         self.segments.collect(drawing, strokes, tile_height);
         surface::collect(drawing, &mut self.triangles);
-        let bands = (drawing.size[1] as usize).div_ceil(tile_height);
-        let rows = self.triangles.iter().map(|t| t.bounds.y).zip(0..);
-        self.triangles_of_bands
-            .fill(bands, rows.map(|(y, i)| (i, cells(y, tile_height))));
+        let [width, height] = drawing.size.map(|side| side as usize);
+        let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
+        let rows_of_tiles = |(triangle, i): (&Triangle, u32)| {
+            let columns = cells(triangle.bounds.x, tile::WIDTH);
+            let bands = cells(triangle.bounds.y, tile_height);
+            bands.map(move |band| {
+                (
+                    i,
+                    band * across + columns.start..band * across + columns.end,
+                )
+            })
+        };
+        let triangles = self.triangles.iter().zip(0..).flat_map(rows_of_tiles);
+        self.triangles_of_tiles.fill(across * bands, triangles);
     }
 }
 
@@ -201,7 +212,6 @@ struct Worker {
     /// A band's segments and the tiles that each reaches.
     columns: Vec<(u32, Range<usize>)>,
     segments_of_tiles: Bins,
-    triangles_of_tiles: Bins,
     target: Target,
     parts: Vec<Part>,
     strand: StrandMasks,
@@ -213,7 +223,6 @@ impl Worker {
         Self {
             columns: Vec::new(),
             segments_of_tiles: Bins::default(),
-            triangles_of_tiles: Bins::default(),
             target: Target::new(),
             parts: Vec::new(),
             strand: StrandMasks::new(),
@@ -228,8 +237,8 @@ impl Worker {
         let tiles = width.div_ceil(tile::WIDTH);
         let Parts {
             segments,
-            triangles,
-            triangles_of_bands,
+            triangles_of_tiles,
+            ..
         } = frame.parts;
         self.columns.clear();
         self.columns.extend(segments.of_band(band).map(|i| {
@@ -238,24 +247,18 @@ impl Worker {
         }));
         self.segments_of_tiles
             .fill(tiles, self.columns.iter().cloned());
-        let columns = triangles_of_bands.bin(band).iter().map(|&i| {
-            let columns = triangles[i as usize].bounds.x;
-            (i, cells(columns, tile::WIDTH))
-        });
-        self.triangles_of_tiles.fill(tiles, columns);
-        let empty = tile::empty_pixel(frame.drawing.background, frame.samples);
         for tile in 0..tiles {
             let x = tile * tile::WIDTH;
-            let is_empty = self.segments_of_tiles.bin(tile).is_empty()
-                && self.triangles_of_tiles.bin(tile).is_empty();
-            if is_empty {
-                for pixels in pixels.chunks_mut(width) {
-                    let end = (x + tile::WIDTH).min(width);
-                    pixels[x..end].fill(empty);
-                }
+            let triangles = triangles_of_tiles.bin(band * tiles + tile);
+            if triangles.is_empty() && self.segments_of_tiles.bin(tile).is_empty() {
                 continue;
             }
-            self.draw_tile(frame, tile, [x, band * tile::height(frame.stacks)]);
+            self.draw_tile(
+                frame,
+                tile,
+                triangles,
+                [x, band * tile::height(frame.stacks)],
+            );
             let end = (x + tile::WIDTH).min(width);
             for (row, pixels) in pixels.chunks_mut(width).enumerate() {
                 self.sums.write(row, frame.samples, &mut pixels[x..end]);
@@ -265,13 +268,12 @@ impl Worker {
 
     /// Sums up the samples of the tile at `origin`.
     #[inline(always)]
-    fn draw_tile(&mut self, frame: &Frame, tile: usize, origin: [usize; 2]) {
+    fn draw_tile(&mut self, frame: &Frame, tile: usize, triangles: &[u32], origin: [usize; 2]) {
         self.sums.clear(tile::height(frame.stacks));
         let background = frame.drawing.background;
         let segments_of_tile = self.segments_of_tiles.bin(tile);
         let mut scene = TileContext {
-            order: frame.drawing.order,
-            edge_depth_m: frame.drawing.edge_depth_m,
+            drawing: frame.drawing,
             strokes: frame.strokes,
             segments: frame.parts.segments.list(),
             origin,
@@ -281,7 +283,6 @@ impl Worker {
         for stack in frame.stacks {
             scene.stack = stack;
             self.target.clear(background);
-            let triangles = self.triangles_of_tiles.bin(tile);
             if !triangles.is_empty() {
                 for &triangle in triangles {
                     let triangle = &frame.parts.triangles[triangle as usize];

@@ -1,6 +1,7 @@
 //! Sorting what is drawn into the parts of the picture that it reaches.
 
-use glam::DVec2;
+use super::tile::{self, Stack, greater, lesser};
+use glam::Vec2;
 use std::ops::Range;
 
 /// A margin for rounding around everything that is drawn, in pixels.
@@ -18,16 +19,39 @@ pub(super) struct Bounds {
 impl Bounds {
     /// The pixels of a picture of the given size that the box from `min` to `max` touches, if any.
     #[inline]
-    pub(super) fn of_box(min: DVec2, max: DVec2, size: [u32; 2]) -> Option<Self> {
+    pub(super) fn of_box(min: Vec2, max: Vec2, size: [u32; 2]) -> Option<Self> {
         let [width, height] = size.map(|side| side as f32);
-        // Far from the picture all places are one, so that single precision is finer than the margin.
-        let range = |min: f64, max: f64, size: f32| {
-            let start = (min as f32 - MARGIN - 0.5).clamp(0.0, size);
-            let end = (max as f32 + MARGIN + 0.5).clamp(0.0, size);
+        // Single precision is finer than the margin wherever a picture is.
+        let range = |min: f32, max: f32, size: f32| {
+            let start = lesser(greater(min - MARGIN - 0.5, 0.0), size);
+            let end = lesser(greater(max + MARGIN + 0.5, 0.0), size);
             [nearest(start) as u16, nearest(end) as u16]
         };
         let (x, y) = (range(min.x, max.x, width), range(min.y, max.y, height));
         (x[0] < x[1] && y[0] < y[1]).then_some(Self { x, y })
+    }
+
+    /// What holds these and others.
+    #[inline(always)] // into kernels that are compiled for several instruction sets
+    pub(super) fn around(&self, others: &Self) -> Self {
+        let range = |a: [u16; 2], b: [u16; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        Self {
+            x: range(self.x, others.x),
+            y: range(self.y, others.y),
+        }
+    }
+
+    /// The rows of stacks in the tile whose first pixel is `top`.
+    #[inline(always)]
+    pub(super) fn rows_in(&self, top: usize, stack: &Stack) -> Range<usize> {
+        stack.rows(clip(self.y, top, tile::ROWS * stack.height))
+    }
+
+    /// The columns in the tile whose first one is `left`, a bit for each.
+    #[inline(always)]
+    pub(super) fn columns_in(&self, left: usize) -> u32 {
+        let columns = clip(self.x, left, tile::WIDTH);
+        u32::MAX << columns.start & u32::MAX >> (tile::WIDTH - columns.end)
     }
 }
 
@@ -39,10 +63,11 @@ fn nearest(value: f32) -> i32 {
     (value + WHOLE).to_bits() as i32 - WHOLE.to_bits() as i32
 }
 
-/// Which cells of `size` pixels a range of pixels reaches.
+/// Which cells of `size` pixels, a power of 2, a range of pixels reaches.
 #[inline]
 pub(super) fn cells([start, end]: [u16; 2], size: usize) -> Range<usize> {
-    usize::from(start) / size..usize::from(end).div_ceil(size)
+    let shift = size.trailing_zeros();
+    usize::from(start) >> shift..(usize::from(end) + size - 1) >> shift
 }
 
 /// The part of a range of pixels that lies in the `size` pixels from `origin` on, seen from there.
@@ -71,19 +96,18 @@ impl Bins {
         // second pass moves it to where it ends.
         self.first.clear();
         self.first.resize(bins + 2, 0);
+        let ahead = &mut self.first[2..];
         for (_, range) in items.clone() {
-            for bin in range {
-                self.first[bin + 2] += 1;
-            }
+            ahead[range].iter_mut().for_each(|count| *count += 1);
         }
         for bin in 2..bins + 2 {
             self.first[bin] += self.first[bin - 1];
         }
         self.items.clear();
         self.items.resize(self.first[bins + 1], 0);
+        let places = &mut self.first[1..];
         for (item, range) in items {
-            for bin in range {
-                let place = &mut self.first[bin + 1];
+            for place in &mut places[range] {
                 self.items[*place] = item;
                 *place += 1;
             }
@@ -118,7 +142,7 @@ mod tests {
     #[test]
     fn bounds_hold_the_box_and_stay_in_the_picture() {
         let of = |x0, y0, x1, y1| {
-            Bounds::of_box(DVec2::new(x0, y0), DVec2::new(x1, y1), [100, 50]).map(|b| (b.x, b.y))
+            Bounds::of_box(Vec2::new(x0, y0), Vec2::new(x1, y1), [100, 50]).map(|b| (b.x, b.y))
         };
         assert_eq!(of(1.5, 2.5, 3.5, 3.5), Some(([1, 4], [2, 4])));
         assert_eq!(of(-9.0, -9.0, 999.0, 999.0), Some(([0, 100], [0, 50])));

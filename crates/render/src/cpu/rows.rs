@@ -7,11 +7,10 @@
 //!
 //! Between half discs it is the hull of these, again convex.
 
-use super::segment::Segment;
 use super::tile::{LANES, Lanes, Mask, STACK, Stack, WIDTH, greater, lesser, select};
 use glam::{DVec2, Vec2};
 use std::ops::Range;
-use stroke_path::sweep::FlatEnd;
+use stroke_path::sweep::{FlatEnd, Sweep};
 
 /// A disc, from the tile's corner.
 #[derive(Clone, Copy)]
@@ -25,23 +24,29 @@ struct Disc {
 #[derive(Clone, Copy)]
 struct Tangent {
     start: Vec2,
-    /// From the start to the end.
-    along: Vec2,
-    /// 1 / `along.y`.
-    inv_height: f32,
+    /// How far it goes to the right for each pixel down; 0 for a level one, which has but one row.
+    slope: f32,
     top: f32,
     bottom: f32,
 }
 
 impl Tangent {
+    /// No line at all.
+    const NONE: Self = Self {
+        start: Vec2::ZERO,
+        slope: 0.0,
+        top: f32::INFINITY,
+        bottom: f32::NEG_INFINITY,
+    };
+
+    #[inline(always)]
     fn new(start: Vec2, end: Vec2) -> Self {
         let along = end - start;
         Self {
             start,
-            along,
-            inv_height: 1.0 / along.y,
-            top: start.y.min(end.y),
-            bottom: start.y.max(end.y),
+            slope: select(along.y == 0.0, 0.0, along.x / along.y),
+            top: lesser(start.y, end.y),
+            bottom: greater(start.y, end.y),
         }
     }
 }
@@ -80,11 +85,10 @@ impl Intervals {
     #[inline(always)]
     fn add_tangent(&mut self, tangent: &Tangent, y: &Lanes) {
         for k in 0..LANES {
-            let is_beside = (y[k] >= tangent.top) & (y[k] <= tangent.bottom);
             // Kept between the ends, so that a flat tangent's steep slope can't lead astray.
-            let t = (y[k] - tangent.start.y) * tangent.inv_height;
-            let t = select(t > 0.0, t, 0.0);
-            let x = tangent.start.x + select(t < 1.0, t, 1.0) * tangent.along.x;
+            let beside = lesser(greater(y[k], tangent.top), tangent.bottom);
+            let is_beside = beside == y[k];
+            let x = tangent.start.x + (beside - tangent.start.y) * tangent.slope;
             self.least[k] = lesser(select(is_beside, x, f32::INFINITY), self.least[k]);
             self.greatest[k] = greater(select(is_beside, x, f32::NEG_INFINITY), self.greatest[k]);
         }
@@ -149,18 +153,18 @@ pub(super) const ROWS_AT_ONCE: usize = LANES / STACK;
 /// looked at, which begin and end at multiples of [`ROWS_AT_ONCE`].
 #[inline(always)]
 pub(super) fn cover(
-    segment: &Segment,
+    sweep: &Sweep,
     origin: DVec2,
     rows: &Range<usize>,
     stack: &Stack,
     mask: &mut Mask,
 ) {
-    let discs = segment.sweep.ends().map(|(center, radius)| Disc {
+    let discs = sweep.ends().map(|(center, radius)| Disc {
         // From double precision, so that long strokes stay exact in every tile.
         center: (center - origin).as_vec2(),
         radius,
     });
-    let outline = Outline::new(segment, discs);
+    let outline = Outline::new(sweep, discs);
     let mut offset = [0.0; LANES];
     for k in 0..LANES {
         offset[k] = stack.x[k % STACK];
@@ -177,9 +181,9 @@ pub(super) fn cover(
 
 /// What bounds a segment.
 enum Outline {
-    /// The hull of two discs; the tangents are missing where one disc holds the other. Of half discs that
+    /// The hull of two discs; the tangents are none where one disc holds the other. Of half discs that
     /// run to the larger it is what lies behind that one's centre.
-    Discs([Disc; 2], Option<[Tangent; 2]>, Option<HalfPlane>),
+    Discs([Disc; 2], [Tangent; 2], Option<HalfPlane>),
     /// Half a disc, and the trapezoid from there to the end of the smaller half disc.
     HalfDisc(Disc, HalfPlane, [Tangent; 3]),
 }
@@ -187,8 +191,7 @@ enum Outline {
 impl Outline {
     /// `discs` are the larger and the smaller.
     #[inline(always)]
-    fn new(segment: &Segment, discs: [Disc; 2]) -> Self {
-        let sweep = &segment.sweep;
+    fn new(sweep: &Sweep, discs: [Disc; 2]) -> Self {
         let axis = sweep.axis();
         let touch = |disc: &Disc, normal: Vec2| disc.center + disc.radius * normal;
         let behind = |ahead: Vec2| HalfPlane {
@@ -202,9 +205,11 @@ impl Outline {
             let edges = [Tangent::new(a, b), Tangent::new(c, d), Tangent::new(b, d)];
             return Self::HalfDisc(discs[0], behind(axis), edges);
         }
-        let tangents = sweep.tangent_normals().map(|normals| {
-            normals.map(|normal| Tangent::new(touch(&discs[0], normal), touch(&discs[1], normal)))
-        });
+        let tangents = match sweep.tangent_normals() {
+            Some(normals) => normals
+                .map(|normal| Tangent::new(touch(&discs[0], normal), touch(&discs[1], normal))),
+            None => [Tangent::NONE; 2],
+        };
         let flat = (sweep.flat_end() == FlatEnd::Larger).then(|| behind(-axis));
         Self::Discs(discs, tangents, flat)
     }
@@ -219,9 +224,8 @@ impl Outline {
             Self::Discs(discs, tangents, flat) => {
                 intervals.add_disc(&discs[0], y);
                 intervals.add_disc(&discs[1], y);
-                for tangent in tangents.iter().flatten() {
-                    intervals.add_tangent(tangent, y);
-                }
+                intervals.add_tangent(&tangents[0], y);
+                intervals.add_tangent(&tangents[1], y);
                 if let Some(half_plane) = flat {
                     intervals.clip(half_plane, y);
                 }

@@ -1,9 +1,9 @@
 //! A drawing's strokes taken apart into segments, in the order in which they are drawn.
 
-use super::bin::{Bins, Bounds, cells, clip};
-use super::tile::{self, Stack};
-use crate::drawing::{Disc, Drawing, Order, Run};
-use glam::DVec2;
+use super::bin::{Bins, Bounds, cells};
+use super::tile::{greater, lesser};
+use crate::drawing::{Disc, Drawing, Order, Run, Stretch};
+use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 use std::ops::Range;
 use stroke_path::sweep::{Brush, Circle, Sweep, visible_part};
@@ -34,10 +34,10 @@ impl Ramp {
         }
     }
 
-    /// The least and the greatest value that [`at`](Self::at) takes on from 0 to 1.
-    pub(super) fn range(&self) -> [f32; 2] {
-        let (a, b) = (self.at(0.0), self.at(1.0));
-        [a.min(b), a.max(b)]
+    /// The greatest value that [`at`](Self::at) takes on from 0 to 1.
+    #[inline(always)]
+    pub(super) fn greatest(&self) -> f32 {
+        self.start + greater(self.rise, 0.0)
     }
 
     #[inline(always)]
@@ -46,7 +46,8 @@ impl Ramp {
     }
 }
 
-/// A piece of a stroke between two joints; u as in [`Sweep`], from the larger disc to the smaller.
+/// A piece of a stroke between two joints: what is needed to find the tiles where it may be seen. Its [`Shape`] is worked out there,
+/// as many a segment is hidden.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Segment {
     /// The strand's number.
@@ -56,7 +57,22 @@ pub(super) struct Segment {
     /// Of a clump's segment: the stroke that is the same discs, and has no segments of its own. 0 if
     /// there is none. The colour is that stroke's.
     pub(super) drawn_as: u32,
+    /// Where the first joint's disc lies in its list, and the colour in the layer's. The other joint's are the next.
+    disc: u32,
+    color: u32,
+    /// One of the clump's sides.
+    is_side: bool,
+    /// There is no other joint: a segment from the first to itself.
+    is_dot: bool,
     pub(super) bounds: Bounds,
+    /// No disc of it is nearer than these.
+    pub(super) inv_depth: f32,
+    pub(super) biased: f32,
+}
+
+/// What a segment is on the screen; u as in [`Sweep`], from the larger disc to the smaller.
+#[derive(Clone, Debug)]
+pub(super) struct Shape {
     pub(super) sweep: Sweep,
     pub(super) inv_depth: Ramp,
     pub(super) inv_depth_biased: Ramp,
@@ -181,8 +197,17 @@ struct Strand<'a> {
     base: Option<(&'a [Stroke], u32)>,
 }
 
-/// Discs and colours of a stretch, with their [`Segment::stroke`] and [`Segment::drawn_as`].
-type Drawn<'a> = (&'a [Disc], Option<&'a [[f32; 3]]>, (u32, u32));
+/// The discs of a stretch.
+struct Drawn {
+    /// As [`Segment`] has them.
+    stroke: u32,
+    drawn_as: u32,
+    is_side: bool,
+    /// Their places in their list: the clump's, the sides' or a layer's.
+    discs: Range<usize>,
+    /// The place of the first one's colour.
+    first_color: usize,
+}
 
 impl<'a> Strand<'a> {
     fn new(drawing: &'a Drawing, strokes: &'a [Stroke], runs: &'a [Run]) -> Self {
@@ -202,7 +227,7 @@ impl<'a> Strand<'a> {
     }
 
     /// What is drawn, in order.
-    fn parts(&self) -> impl Iterator<Item = Drawn<'a>> {
+    fn parts(&self) -> impl Iterator<Item = Drawn> {
         let Self {
             drawing,
             strokes,
@@ -213,21 +238,30 @@ impl<'a> Strand<'a> {
         let (base, drawn_as) = base.map_or((&[][..], 0), |(base, number)| (base, number));
         let parts = 0..if has_clump { clumps(drawing) } else { 0 };
         let clump = parts.flat_map(move |part| {
+            let of_clump = move |discs, drawn_as, first_color| Drawn {
+                stroke: 0,
+                drawn_as,
+                is_side: part > 0,
+                discs,
+                first_color,
+            };
             let of_base = base.get(part).map(|stroke| {
                 let layer = &drawing.layers[stroke.layer];
-                let stretches = (runs.iter())
+                (runs.iter())
                     .flat_map(move |run| layer.on(stroke.instance, &run.joints))
                     .filter_map(move |stretch| {
-                        let (_, discs) = clump_on(drawing, part, &stretch.joints).next()?;
-                        let colors = &layer.colors[stretch.places()];
-                        Some((discs, Some(colors), (0, drawn_as + part as u32)))
-                    });
-                stretches
+                        let clump = clump_on(drawing, part, &stretch.joints).next()?;
+                        Some(of_clump(
+                            clump.places(),
+                            drawn_as + part as u32,
+                            stretch.first,
+                        ))
+                    })
             });
             let is_bare = of_base.is_none();
             let bare = runs.iter().filter(move |_| is_bare);
             let bare = bare.flat_map(move |run| clump_on(drawing, part, &run.joints));
-            let bare = bare.map(|(_, discs)| (discs, None, (0, 0)));
+            let bare = bare.map(move |stretch| of_clump(stretch.places(), 0, 0));
             of_base.into_iter().flatten().chain(bare)
         });
         let as_clump = drawn_as..drawn_as + base.len() as u32;
@@ -237,51 +271,60 @@ impl<'a> Strand<'a> {
             let stretches = runs
                 .iter()
                 .flat_map(move |run| layer.on(stroke.instance, &run.joints));
-            stretches.map(move |stretch| {
-                let places = stretch.places();
-                let colors = &layer.colors[places.clone()];
-                (&layer.discs[places], Some(colors), (number, 0))
+            stretches.map(move |stretch| Drawn {
+                stroke: number,
+                drawn_as: 0,
+                is_side: false,
+                discs: stretch.places(),
+                first_color: stretch.first,
             })
         });
         clump.chain(others)
     }
 
-    /// How many segments it has at most: those between discs that aren't both without size.
+    /// How many segments it has at most.
     fn most_segments(&self) -> usize {
-        let mut count = 0;
-        for (discs, ..) in self.parts() {
-            let mut has_size = discs[0].radius > 0.0;
-            count += usize::from(has_size && discs.len() == 1);
-            for disc in &discs[1..] {
-                let before = std::mem::replace(&mut has_size, disc.radius > 0.0);
-                count += usize::from(before | has_size);
-            }
-        }
-        count
+        self.parts().map(|part| (part.discs.len() - 1).max(1)).sum()
     }
 
     /// Gives each segment that may be seen, in order.
     fn for_each(&self, mut give: impl FnMut(Segment)) {
-        let (size, brush) = (self.drawing.size, self.drawing.brush);
         let strand = self.runs[0].strand;
-        for (discs, colors, (stroke, drawn_as)) in self.parts() {
-            let joint = |i: usize| (discs[i], colors.map_or([0.0; 3], |colors| colors[i]));
+        for part in self.parts() {
+            let all = discs(self.drawing, self.strokes, part.stroke, part.is_side);
+            let own = &all[part.discs.clone()];
             // One joint alone is a segment from itself to itself.
-            for i in 0..(discs.len() - 1).max(1) {
-                let next = (i + 1).min(discs.len() - 1);
-                if discs[i].radius <= 0.0 && discs[next].radius <= 0.0 {
+            for i in 0..(own.len() - 1).max(1) {
+                let (a, b) = (&own[i], &own[(i + 1).min(own.len() - 1)]);
+                if a.radius <= 0.0 && b.radius <= 0.0 {
                     continue;
                 }
-                if let Some(segment) = Segment::new(joint(i), joint(next), size, brush) {
+                if let Some(bounds) = bounds(a, b, self.drawing.size) {
                     give(Segment {
                         strand,
-                        stroke,
-                        drawn_as,
-                        ..segment
+                        stroke: part.stroke,
+                        drawn_as: part.drawn_as,
+                        disc: (part.discs.start + i) as u32,
+                        color: (part.first_color + i) as u32,
+                        is_side: part.is_side,
+                        is_dot: own.len() == 1,
+                        bounds,
+                        inv_depth: greater(a.inv_depth, b.inv_depth),
+                        biased: greater(a.inv_depth_biased, b.inv_depth_biased),
                     });
                 }
             }
         }
+    }
+}
+
+/// The list that holds the discs of a stroke, 0 being the clump or its sides.
+#[inline(always)] // into kernels that are compiled for several instruction sets
+fn discs<'a>(drawing: &'a Drawing, strokes: &[Stroke], stroke: u32, is_side: bool) -> &'a [Disc] {
+    match stroke {
+        0 if is_side => &drawing.sides,
+        0 => &drawing.clump,
+        number => &drawing.layers[strokes[number as usize - 1].layer].discs,
     }
 }
 
@@ -290,18 +333,18 @@ fn clumps(drawing: &Drawing) -> usize {
     if drawing.sides.is_empty() { 1 } else { 3 }
 }
 
-/// The stretches of a run's clump, part 0, or of one of its sides, with their discs.
+/// The stretches of a run's clump, part 0, or of one of its sides.
 fn clump_on<'a>(
     drawing: &'a Drawing,
     part: usize,
     run: &Range<usize>,
-) -> impl Iterator<Item = (Range<usize>, &'a [Disc])> + use<'a> {
-    let middle = (part == 0).then(|| (run.clone(), &drawing.clump[run.clone()]));
+) -> impl Iterator<Item = Stretch> + use<'a> {
+    let middle = (part == 0).then(|| Stretch {
+        joints: run.clone(),
+        first: run.start,
+    });
     let sides = (part > 0).then(|| drawing.side_on(part - 1, run));
-    let sides = sides.into_iter().flatten();
-    middle
-        .into_iter()
-        .chain(sides.map(|s| (s.joints.clone(), &drawing.sides[s.places()])))
+    middle.into_iter().chain(sides.into_iter().flatten())
 }
 
 /// Whether strokes of one layer cover what the clump and its sides cover, disc for disc.
@@ -311,7 +354,14 @@ fn is_clump(drawing: &Drawing, strokes: &[Stroke], run: &Run) -> bool {
         let own = layer.on(stroke.instance, &run.joints);
         let own = own.map(|stretch| (stretch.joints.clone(), &layer.discs[stretch.places()]));
         let is_of_one_layer = stroke.layer == strokes[0].layer;
-        is_of_one_layer && is_same(clump_on(drawing, part, &run.joints), own)
+        let of_part = if part == 0 {
+            &drawing.clump
+        } else {
+            &drawing.sides
+        };
+        let clump = clump_on(drawing, part, &run.joints);
+        let clump = clump.map(|stretch| (stretch.joints.clone(), &of_part[stretch.places()]));
+        is_of_one_layer && is_same(clump, own)
     })
 }
 
@@ -348,14 +398,64 @@ fn is_same<'a>(
 
 type ColoredDisc = (Disc, [f32; 3]);
 
+/// The part of what lies between two discs that may be seen in a picture of that size, as in [`visible_part`].
+#[inline(always)]
+fn seen_part(a: &Disc, b: &Disc, size: [u32; 2]) -> Option<[f64; 2]> {
+    // A pixel more than the picture makes up for rounding.
+    let min = DVec2::splat(-1.0);
+    let max = DVec2::new(f64::from(size[0]), f64::from(size[1])) + 1.0;
+    visible_part(circle(a), circle(b), min, max)
+}
+
+/// The pixels that the segment between two discs may reach, if any.
+#[inline]
+fn bounds(a: &Disc, b: &Disc, size: [u32; 2]) -> Option<Bounds> {
+    let around = |a: &Disc, b: &Disc| {
+        let (min_a, min_b) = (a.center - a.radius, b.center - b.radius);
+        let (max_a, max_b) = (a.center + a.radius, b.center + b.radius);
+        let min = Vec2::new(lesser(min_a.x, min_b.x), lesser(min_a.y, min_b.y));
+        let max = Vec2::new(greater(max_a.x, max_b.x), greater(max_a.y, max_b.y));
+        (min, max)
+    };
+    let (mut min, mut max) = around(a, b);
+    let [width, height] = size.map(|side| side as f32);
+    let is_inside = (min.x >= 0.0) & (min.y >= 0.0) & (max.x <= width) & (max.y <= height);
+    if !is_inside {
+        let [from, to] = seen_part(a, b, size)?;
+        let part = |u| between((*a, [0.0; 3]), (*b, [0.0; 3]), u).0;
+        (min, max) = around(&part(from), &part(to));
+    }
+    Bounds::of_box(min, max, size)
+}
+
 impl Segment {
-    /// The part of the segment between two joints that may be seen in a picture of that size, if
-    /// any. Its strand and stroke are left at 0.
+    /// Its shape, as far as it may be seen.
+    #[inline(always)]
+    pub(super) fn shape(&self, drawing: &Drawing, strokes: &[Stroke]) -> Option<Shape> {
+        let discs = discs(drawing, strokes, self.stroke, self.is_side);
+        let first = self.disc as usize;
+        let next = usize::from(!self.is_dot);
+        let mut colors = [[0.0; 3]; 2];
+        let colored = if self.stroke > 0 {
+            self.stroke
+        } else {
+            self.drawn_as
+        };
+        if colored > 0 {
+            let layer = &drawing.layers[strokes[colored as usize - 1].layer];
+            let first = self.color as usize;
+            colors = [layer.colors[first], layer.colors[first + next]];
+        }
+        let (a, b) = ((discs[first], colors[0]), (discs[first + next], colors[1]));
+        Shape::new(a, b, drawing.size, drawing.brush)
+    }
+}
+
+impl Shape {
+    /// The part of the segment between two joints that may be seen in a picture of that size, if any.
+    #[inline(always)]
     fn new(a: ColoredDisc, b: ColoredDisc, size: [u32; 2], brush: Brush) -> Option<Self> {
-        // A pixel more than the picture makes up for rounding.
-        let min = DVec2::splat(-1.0);
-        let max = DVec2::new(f64::from(size[0]), f64::from(size[1])) + 1.0;
-        let [from, to] = visible_part(circle(&a.0), circle(&b.0), min, max)?;
+        let [from, to] = seen_part(&a.0, &b.0, size)?;
         let (a, b) = (between(a, b, from), between(a, b, to));
         let shrinks = a.0.radius >= b.0.radius;
         let (large, small) = if shrinks { (a, b) } else { (b, a) };
@@ -364,12 +464,7 @@ impl Segment {
             Brush::Circle => sweep,
             Brush::Semicircle => sweep.with_semicircles(shrinks),
         };
-        let (min, max) = sweep.bounds();
         Some(Self {
-            strand: 0,
-            stroke: 0,
-            drawn_as: 0,
-            bounds: Bounds::of_box(min, max, size)?,
             sweep,
             inv_depth: Ramp::new(large.0.inv_depth, small.0.inv_depth),
             inv_depth_biased: Ramp::new(large.0.inv_depth_biased, small.0.inv_depth_biased),
@@ -379,20 +474,6 @@ impl Segment {
                 Ramp::new(large.1[2], small.1[2]),
             ],
         })
-    }
-
-    /// The rows of stacks, of the tile whose first pixel is `top`, that the segment may reach.
-    #[inline(always)]
-    pub(super) fn rows_in(&self, top: usize, stack: &Stack) -> Range<usize> {
-        let pixels = clip(self.bounds.y, top, tile::ROWS * stack.height);
-        pixels.start / stack.height..pixels.end.div_ceil(stack.height)
-    }
-
-    /// The columns, of the tile whose first one is `left`, that the segment may reach, a bit for each.
-    #[inline(always)]
-    pub(super) fn columns_in(&self, left: usize) -> u32 {
-        let columns = clip(self.bounds.x, left, tile::WIDTH);
-        u32::MAX << columns.start & u32::MAX >> (tile::WIDTH - columns.end)
     }
 
     pub(super) fn is_one_color(&self) -> bool {
@@ -429,7 +510,6 @@ fn between(a: ColoredDisc, b: ColoredDisc, u: f64) -> ColoredDisc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec2;
 
     fn disc(x: f32, radius: f32, inv_depth: f32) -> Disc {
         Disc {
@@ -445,7 +525,7 @@ mod tests {
         let far = 1e6;
         let a = (disc(-far, 1.0, 1.0), [0.0, 0.5, 1.0]);
         let b = (disc(far, 3.0, 3.0), [1.0, 0.5, 0.0]);
-        let segment = Segment::new(a, b, [10, 10], Brush::Circle).unwrap();
+        let segment = Shape::new(a, b, [10, 10], Brush::Circle).unwrap();
         // The middle of the screen is the middle of the segment.
         let local = segment.sweep.local(DVec2::new(5.0, 5.0)).as_vec2();
         assert!(segment.sweep.covers(local.x, local.y));
@@ -462,7 +542,10 @@ mod tests {
 
     #[test]
     fn what_is_not_seen_is_left_out() {
-        let new = |a, b| Segment::new((a, [0.0; 3]), (b, [0.0; 3]), [10, 10], Brush::Circle);
+        let new = |a, b| {
+            let shape = Shape::new((a, [0.0; 3]), (b, [0.0; 3]), [10, 10], Brush::Circle);
+            shape.and_then(|_| bounds(&a, &b, [10, 10]))
+        };
         assert!(new(disc(20.0, 1.0, 1.0), disc(30.0, 1.0, 1.0)).is_none());
         assert!(new(disc(1.0, 0.0, 1.0), disc(9.0, 0.0, 1.0)).is_none());
         assert!(new(disc(1.0, 0.0, 1.0), disc(9.0, 0.1, 1.0)).is_some());

@@ -112,7 +112,7 @@ impl Stamper {
         } = self;
         pool.install(|| {
             check::check(drawing)?;
-            let mut picture = empty_picture(drawing.size)?;
+            let mut picture = empty_picture(drawing, *samples)?;
             collect(drawing, per_interval.max(1), stamps);
             let rows = stamps.iter().map(|stamp| stamp.rows).zip(0..);
             let height = tile::height(stacks);
@@ -185,8 +185,7 @@ fn of_stretch<'a>(
             if radius <= 0.0 {
                 return None;
             }
-            let (middle, reach) = (center.as_dvec2(), f64::from(radius));
-            let bounds = Bounds::of_box(middle - reach, middle + reach, size)?;
+            let bounds = Bounds::of_box(center - radius, center + radius, size)?;
             let (from, to) = (layer.colors[i], layer.colors[j]);
             // At the last joint there is but the way to it.
             let (before, next) = if i == j {
@@ -283,7 +282,7 @@ impl Stamp {
         let across = columns.start / tile::CELL_WIDTH..columns.end.div_ceil(tile::CELL_WIDTH);
         let pixels = clip(self.rows, origin[1], tile::ROWS * stack.height);
         let center = self.center - Vec2::new(origin[0] as f32, origin[1] as f32);
-        for row in pixels.start / stack.height..pixels.end.div_ceil(stack.height) {
+        for row in stack.rows(pixels) {
             for cell in across.clone() {
                 let cell = Cell::new(row, cell * tile::CELL_WIDTH);
                 let corner = Vec2::new(cell.column as f32, (row * stack.height) as f32);

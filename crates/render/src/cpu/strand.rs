@@ -11,13 +11,12 @@ use super::tile::{
     LANES, LaneMask, Lanes, Mask, NO_SAMPLES, ROWS, Stack, Target, add, any, both, cells, columns,
     greater, is_empty, overwrite, without,
 };
-use crate::drawing::Order;
+use crate::drawing::{Drawing, Order};
 use std::ops::Range;
 
 /// What stays the same from strand to strand.
 pub(super) struct TileContext<'a> {
-    pub(super) order: Order,
-    pub(super) edge_depth_m: f32,
+    pub(super) drawing: &'a Drawing,
     pub(super) strokes: &'a [Stroke],
     pub(super) segments: &'a [Segment],
     /// The tile's upper left pixel.
@@ -79,7 +78,7 @@ impl StrandMasks {
             return;
         }
         self.place(scene, strand, &open);
-        match scene.order {
+        match scene.drawing.order {
             Order::Rounded | Order::StrandFirst => {
                 let id = scene.segments[strand[0] as usize].strand;
                 self.draw_as_one(scene, u32::MAX - id, target);
@@ -99,7 +98,7 @@ impl StrandMasks {
             let mut samples = NO_SAMPLES;
             for &index in stroke {
                 let segment = &scene.segments[index as usize];
-                let placed = Placed::new(index, segment, scene.origin, scene.stack, open);
+                let placed = Placed::new(scene, segment, open);
                 if let Some(placed) = placed {
                     add(&mut samples, &placed.covered);
                     self.placed.push(placed);
@@ -116,14 +115,14 @@ impl StrandMasks {
             });
         }
         if let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) {
-            self.place_base(scene, clump.segments.clone());
+            self.place_base(clump.segments.clone());
         }
     }
 
     /// Adds the strokes that are the clump and its sides, whose segments these are.
     #[inline(always)]
-    fn place_base(&mut self, scene: &TileContext, segments: Range<usize>) {
-        let drawn_as = |placed: &Placed| scene.segments[placed.segment as usize].drawn_as;
+    fn place_base(&mut self, segments: Range<usize>) {
+        let drawn_as = |placed: &Placed| placed.drawn_as;
         let mut first = segments.start;
         while first < segments.end {
             let number = drawn_as(&self.placed[first]);
@@ -164,7 +163,7 @@ impl StrandMasks {
             stroke.samples = without(&stroke.samples, &drawn);
             add(&mut drawn, &stroke.samples);
         }
-        let [of_clump, of_outline] = match scene.order {
+        let [of_clump, of_outline] = match scene.drawing.order {
             Order::Rounded => [Roundness::Clump, Roundness::Outline],
             _ => [Roundness::Flat; 2],
         };
@@ -194,7 +193,7 @@ impl StrandMasks {
         for stroke in strokes {
             let placed = &self.placed[stroke.segments.clone()];
             let samples = both(&stroke.samples, &shown);
-            shade(scene, placed, &samples, &mut self.row, target);
+            shade(placed, &samples, &mut self.row, target);
         }
     }
 
@@ -211,7 +210,7 @@ impl StrandMasks {
             };
             let mut shown = NO_SAMPLES;
             offer.make(&stroke.samples, &mut self.row, target, &mut shown);
-            shade(scene, placed, &shown, &mut self.row, target);
+            shade(placed, &shown, &mut self.row, target);
         }
     }
 }
@@ -250,9 +249,8 @@ impl Offer<'_> {
     fn make(&self, samples: &Mask, segments: &mut Row, target: &mut Target, shown: &mut Mask) {
         let (mut nearest, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
         for placed in self.placed {
-            let segment = self.segment(placed);
-            nearest = nearest.max(segment.inv_depth.range()[1]);
-            biased = biased.max(segment.inv_depth_biased.range()[1]);
+            nearest = greater(placed.shape.inv_depth.greatest(), nearest);
+            biased = greater(placed.shape.inv_depth_biased.greatest(), biased);
         }
         for row in 0..ROWS {
             let wanted = columns(samples, row);
@@ -269,7 +267,7 @@ impl Offer<'_> {
                 for &(place, reached) in &segments.0 {
                     if reached >> cell.column & 3 != 0 {
                         let placed = &self.placed[place];
-                        placed.measure(self.segment(placed), cell, &mut stroke);
+                        placed.measure(cell, &mut stroke);
                     }
                 }
                 self.round(&mut stroke);
@@ -285,11 +283,6 @@ impl Offer<'_> {
         }
     }
 
-    #[inline(always)]
-    fn segment(&self, placed: &Placed) -> &Segment {
-        &self.scene.segments[placed.segment as usize]
-    }
-
     /// Takes the samples as much deeper as they are far from the stroke's middle.
     #[inline(always)]
     fn round(&self, stroke: &mut Measured) {
@@ -303,7 +296,7 @@ impl Offer<'_> {
             }
         }
         for k in 0..LANES {
-            let deeper_m = self.scene.edge_depth_m * stroke.ratio[k];
+            let deeper_m = self.scene.drawing.edge_depth_m * stroke.ratio[k];
             stroke.inv_depth[k] = deeper(stroke.inv_depth[k], deeper_m);
             stroke.biased[k] = deeper(stroke.biased[k], deeper_m);
         }
@@ -318,19 +311,11 @@ fn deeper(inv_depth: f32, metres: f32) -> f32 {
 
 /// Gives the samples, which the stroke covers, its colour.
 #[inline(always)]
-fn shade(
-    scene: &TileContext,
-    placed: &[Placed],
-    samples: &Mask,
-    segments: &mut Row,
-    target: &mut Target,
-) {
-    let segment = |placed: &Placed| &scene.segments[placed.segment as usize];
-    let first = segment(&placed[0]);
-    let is_one_color = placed.iter().all(|placed| {
-        let segment = segment(placed);
-        segment.is_one_color() && segment.color == first.color
-    });
+fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Target) {
+    let first = &placed[0].shape;
+    let is_one_color = placed
+        .iter()
+        .all(|Placed { shape, .. }| shape.is_one_color() && shape.color == first.color);
     let color = first.color.map(|channel| [channel.start; LANES]);
     for row in 0..ROWS {
         let wanted = columns(samples, row);
@@ -349,7 +334,7 @@ fn shade(
             for &(place, reached) in &segments.0 {
                 if reached >> cell.column & 3 != 0 {
                     let placed = &placed[place];
-                    placed.shade(segment(placed), cell, &mut stroke);
+                    placed.shade(cell, &mut stroke);
                 }
             }
             paint(target, cell.index, &stroke.color, &cell.lanes(samples));
@@ -385,27 +370,26 @@ impl TileContext<'_> {
         parts.clear();
         let mut start = 0;
         for strand in tile.chunk_by(|&a, &b| segment(a).strand == segment(b).strand) {
-            let mut part = Part {
-                segments: start..start + strand.len(),
-                inv_depth: f32::NEG_INFINITY,
-                biased: f32::NEG_INFINITY,
-                rows: segment(strand[0]).rows_in(self.origin[1], self.stack),
-                columns: 0,
-            };
-            start = part.segments.end;
+            let (mut inv_depth, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
+            let mut bounds = segment(strand[0]).bounds;
             for &index in strand {
                 let segment = segment(index);
-                part.inv_depth = part.inv_depth.max(segment.inv_depth.range()[1]);
-                part.biased = part.biased.max(segment.inv_depth_biased.range()[1]);
-                let rows = segment.rows_in(self.origin[1], self.stack);
-                part.rows = part.rows.start.min(rows.start)..part.rows.end.max(rows.end);
-                part.columns |= segment.columns_in(self.origin[0]);
+                inv_depth = greater(segment.inv_depth, inv_depth);
+                biased = greater(segment.biased, biased);
+                bounds = bounds.around(&segment.bounds);
             }
-            parts.push(part);
+            parts.push(Part {
+                segments: start..start + strand.len(),
+                inv_depth,
+                biased,
+                rows: bounds.rows_in(self.origin[1], self.stack),
+                columns: bounds.columns_in(self.origin[0]),
+            });
+            start += strand.len();
         }
         // What lies behind the nearer ones is then seen to be hidden. Shifted strokes of equal depth
         // need their strands' order.
-        if self.order != Order::Shifted {
+        if self.drawing.order != Order::Shifted {
             parts.sort_by(|a, b| b.inv_depth.total_cmp(&a.inv_depth));
         }
     }

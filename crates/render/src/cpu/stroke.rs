@@ -1,17 +1,19 @@
 //! One segment in one tile: which samples it covers, how near, in which colour.
 
 use super::rows::{self, ROWS_AT_ONCE};
-use super::segment::Segment;
+use super::segment::{Segment, Shape};
+use super::strand::TileContext;
 use super::tile::{
-    Cell, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, Stack, greater,
+    Cell, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, greater, lesser,
     overwrite, select,
 };
 use glam::DVec2;
 
 /// A segment seen from a tile.
 pub(super) struct Placed {
-    /// Its place in the list of segments.
-    pub(super) segment: u32,
+    pub(super) shape: Shape,
+    /// As [`Segment::drawn_as`].
+    pub(super) drawn_as: u32,
     /// The samples that it covers.
     pub(super) covered: Mask,
     /// The segment's frame.
@@ -20,37 +22,33 @@ pub(super) struct Placed {
 }
 
 impl Placed {
-    /// `origin` is the tile's upper left pixel. Nothing where the segment reaches none of the open samples, which are given
+    /// Nothing where the segment reaches none of the open samples, which are given
     /// as columns of the rows of stacks.
     #[inline(always)]
-    pub(super) fn new(
-        index: u32,
-        segment: &Segment,
-        origin: [usize; 2],
-        stack: &Stack,
-        open: &[u32; ROWS],
-    ) -> Option<Self> {
-        let rows = segment.rows_in(origin[1], stack);
+    pub(super) fn new(scene: &TileContext, segment: &Segment, open: &[u32; ROWS]) -> Option<Self> {
+        let TileContext { origin, stack, .. } = *scene;
+        let rows = segment.bounds.rows_in(origin[1], stack);
         let mut reached = 0;
         for row in rows.clone() {
             reached |= open[row];
         }
-        if reached & segment.columns_in(origin[0]) == 0 {
+        if reached & segment.bounds.columns_in(origin[0]) == 0 {
             return None;
         }
         let rows =
             rows.start / ROWS_AT_ONCE * ROWS_AT_ONCE..rows.end.next_multiple_of(ROWS_AT_ONCE);
+        let shape = segment.shape(scene.drawing, scene.strokes)?;
         let origin = DVec2::new(origin[0] as f64, origin[1] as f64);
         let mut covered = NO_SAMPLES;
-        rows::cover(segment, origin, &rows, stack, &mut covered);
+        rows::cover(&shape.sweep, origin, &rows, stack, &mut covered);
         for row in rows {
             for sample in 0..STACK {
                 covered[row * STACK + sample] &= open[row];
             }
         }
         // From double precision, so that long strokes stay exact in every tile.
-        let corner = segment.sweep.local(origin).as_vec2();
-        let axis = segment.sweep.axis();
+        let corner = shape.sweep.local(origin).as_vec2();
+        let axis = shape.sweep.axis();
         let x = Slope {
             corner: corner.x,
             per_x: axis.x,
@@ -62,7 +60,8 @@ impl Placed {
             per_y: axis.x,
         };
         Some(Self {
-            segment: index,
+            shape,
+            drawn_as: segment.drawn_as,
             covered,
             x: x.at_samples(stack),
             y: y.at_samples(stack),
@@ -71,13 +70,13 @@ impl Placed {
 
     /// Brings the segment's depth and ratio at the samples of a cell that it covers into those of its stroke.
     #[inline(always)]
-    pub(super) fn measure(&self, segment: &Segment, cell: Cell, stroke: &mut Measured) {
-        let Segment {
+    pub(super) fn measure(&self, cell: Cell, stroke: &mut Measured) {
+        let Shape {
             sweep,
             inv_depth,
             inv_depth_biased,
             ..
-        } = segment;
+        } = &self.shape;
         let covered = cell.lanes(&self.covered);
         let (x, y) = (self.x.of(cell), self.y.of(cell));
         for k in 0..LANES {
@@ -87,23 +86,23 @@ impl Placed {
             let depth = greater(inv_depth.at(low), inv_depth.at(high));
             let biased = greater(inv_depth_biased.at(low), inv_depth_biased.at(high));
             let (_, ratio) = sweep.attribute_point(x[k], y[k]);
-            let is_nearer = is_covered & (depth > stroke.inv_depth[k]);
-            stroke.inv_depth[k] = select(is_nearer, depth, stroke.inv_depth[k]);
-            let is_nearer = is_covered & (biased > stroke.biased[k]);
-            stroke.biased[k] = select(is_nearer, biased, stroke.biased[k]);
-            let is_less = is_covered & (ratio < stroke.ratio[k]);
-            stroke.ratio[k] = select(is_less, ratio, stroke.ratio[k]);
+            let depth = select(is_covered, depth, NOTHING);
+            stroke.inv_depth[k] = greater(depth, stroke.inv_depth[k]);
+            let biased = select(is_covered, biased, NOTHING);
+            stroke.biased[k] = greater(biased, stroke.biased[k]);
+            let ratio = select(is_covered, ratio, 1.0);
+            stroke.ratio[k] = lesser(ratio, stroke.ratio[k]);
         }
     }
 
     /// Gives the samples of a cell that the segment covers its colour where its ratio is the least so far.
     #[inline(always)]
-    pub(super) fn shade(&self, segment: &Segment, cell: Cell, stroke: &mut Shaded) {
+    pub(super) fn shade(&self, cell: Cell, stroke: &mut Shaded) {
         let covered = cell.lanes(&self.covered);
         let (x, y) = (self.x.of(cell), self.y.of(cell));
         let (mut u, mut wins) = ([0.0; LANES], covered);
         for k in 0..LANES {
-            let (at, ratio) = segment.sweep.attribute_point(x[k], y[k]);
+            let (at, ratio) = self.shape.sweep.attribute_point(x[k], y[k]);
             // A covered sample has a colour, even at a tip that is a point.
             let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
             let is_less = (covered[k] != 0) & (ratio < stroke.ratio[k]);
@@ -111,7 +110,7 @@ impl Placed {
             wins[k] = select(is_less, u32::MAX, 0);
             stroke.ratio[k] = select(is_less, ratio, stroke.ratio[k]);
         }
-        for (color, ramp) in stroke.color.iter_mut().zip(&segment.color) {
+        for (color, ramp) in stroke.color.iter_mut().zip(&self.shape.color) {
             let mut new = [0.0; LANES];
             for k in 0..LANES {
                 new[k] = ramp.at(u[k]);

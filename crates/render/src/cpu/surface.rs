@@ -2,7 +2,7 @@
 
 use super::bin::{Bounds, clip};
 use super::tile::{
-    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, ROWS, Slope, Stack, Target, WIDTH, any, greater, least,
+    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, Slope, Stack, Target, WIDTH, any, greater, least,
     lesser, overwrite, select,
 };
 use crate::drawing::{Drawing, SurfaceVertex};
@@ -25,10 +25,10 @@ pub(super) fn collect(drawing: &Drawing, triangles: &mut Vec<Triangle>) {
         triangles.par_extend(surface.triangles.par_iter().with_min_len(1024).filter_map(
             |indices| {
                 let corners = indices.map(|i| surface.vertices[i as usize]);
-                let [a, b, c] = corners.map(|corner| corner.position.as_dvec2());
+                let [a, b, c] = corners.map(|corner| corner.position);
                 let bounds = Bounds::of_box(a.min(b).min(c), a.max(b).max(c), drawing.size)?;
                 // Without area it would have no inside.
-                (twice_area([a, b, c]) != 0.0).then_some(Triangle {
+                (twice_area([a, b, c].map(|corner| corner.as_dvec2())) != 0.0).then_some(Triangle {
                     corners,
                     surface: number,
                     bounds,
@@ -53,8 +53,7 @@ impl Triangle {
         stack: &Stack,
         target: &mut Target,
     ) {
-        let pixels = clip(self.bounds.y, origin[1], ROWS * stack.height);
-        let rows = pixels.start / stack.height..pixels.end.div_ceil(stack.height);
+        let rows = self.bounds.rows_in(origin[1], stack);
         let columns = clip(self.bounds.x, origin[0], WIDTH);
         let across = columns.start / CELL_WIDTH..columns.end.div_ceil(CELL_WIDTH);
         if self.is_hidden(&rows, &across, target) {
@@ -126,15 +125,14 @@ impl Triangle {
     /// Whether all that the triangle may reach in the tile shows a surface that is nearer, or as near and earlier.
     #[inline(always)]
     fn is_hidden(&self, rows: &Range<usize>, across: &Range<usize>, target: &Target) -> bool {
-        let [a, b, c] = self.corners.map(|corner| corner.inv_depth);
-        let greatest = a.max(b).max(c);
+        let [a, b, c] = &self.corners;
+        let greatest = greater(greater(a.inv_depth, b.inv_depth), c.inv_depth);
         for row in rows.clone() {
-            let cells = &target.farthest_surface[row * CELLS_ACROSS..][..CELLS_ACROSS];
-            if cells[across.clone()]
-                .iter()
-                .any(|farthest| greatest > *farthest)
-            {
-                return false;
+            let cells = row * CELLS_ACROSS + across.start..row * CELLS_ACROSS + across.end;
+            for farthest in &target.farthest_surface[cells] {
+                if greatest > *farthest {
+                    return false;
+                }
             }
         }
         true
@@ -199,8 +197,8 @@ impl Interpolated {
                 per_x: mean(e.per_x, f.per_x, g.per_x),
                 per_y: mean(e.per_y, f.per_y, g.per_y),
             },
-            least: a.min(b).min(c),
-            greatest: a.max(b).max(c),
+            least: lesser(lesser(a, b), c),
+            greatest: greater(greater(a, b), c),
         }
     }
 

@@ -7,6 +7,7 @@
 //! as strokes are thin: twice as many of its lanes have something to do.
 
 use glam::Vec2;
+use std::ops::Range;
 
 /// Width of a tile in pixels.
 pub(super) const WIDTH: usize = 32;
@@ -66,7 +67,7 @@ pub(super) struct Stack {
     /// The samples' places for each lane of a cell, from the cell's upper left corner, in pixels.
     pub(super) x: Lanes,
     pub(super) y: Lanes,
-    /// Pixels one below the other that it holds samples of.
+    /// Pixels one below the other that it holds samples of: 1, 2 or 4.
     pub(super) height: usize,
     /// How many of its samples count. Those behind are the first one again, so that they hide and are hidden as it is.
     samples: usize,
@@ -96,6 +97,13 @@ impl Stack {
             }
         };
         samples.chunks(STACK).map(stack).collect()
+    }
+
+    /// The rows of stacks that hold some rows of pixels.
+    #[inline(always)]
+    pub(super) fn rows(&self, pixels: Range<usize>) -> Range<usize> {
+        let shift = self.height.trailing_zeros(); // of a power of 2
+        pixels.start >> shift..(pixels.end + self.height - 1) >> shift
     }
 }
 
@@ -310,25 +318,23 @@ impl Target {
     /// Loops of their own, as one with the sums would be no vector instructions.
     #[inline(always)]
     fn finish(&mut self, stack: &Stack, is_opaque: bool) {
-        let mut counts = [0.0; LANES];
-        for k in 0..LANES {
-            counts[k] = select(k % STACK < stack.samples, 1.0, 0.0);
-        }
         for plane in &mut self.color {
-            for color in plane {
-                for k in 0..LANES {
-                    color[k] = lesser(greater(color[k], 0.0), 1.0) * counts[k];
-                }
+            for value in plane.as_flattened_mut() {
+                *value = lesser(greater(*value, 0.0), 1.0);
             }
         }
-        if is_opaque {
-            self.surface.fill(counts);
-            return;
+        let surface = self.surface.as_flattened_mut();
+        for (surface, strand) in surface.iter_mut().zip(self.strand.as_flattened()) {
+            let shows = is_opaque | (greater(*surface, *strand) > NOTHING);
+            *surface = select(shows, 1.0, 0.0);
         }
-        for (surface, strand) in self.surface.iter_mut().zip(&self.strand) {
-            for k in 0..LANES {
-                let shows = greater(surface[k], strand[k]) > NOTHING;
-                surface[k] = select(shows, counts[k], 0.0);
+        if stack.samples < STACK {
+            for plane in self.color.iter_mut().chain([&mut self.surface]) {
+                for lanes in plane {
+                    for k in 0..LANES {
+                        lanes[k] = select(k % STACK < stack.samples, lanes[k], 0.0);
+                    }
+                }
             }
         }
     }
@@ -544,7 +550,9 @@ impl Samples {
     /// At the samples of a cell.
     #[inline(always)]
     pub(super) fn of(&self, cell: Cell) -> Lanes {
-        let step = cell.column as f32 * self.per_column + cell.row as f32 * self.per_row;
+        // By way of small numbers, as those of 64 bits take a branch.
+        let [column, row] = [cell.column, cell.row].map(|number| f32::from(number as u16));
+        let step = column * self.per_column + row * self.per_row;
         let mut lanes = self.first;
         for k in 0..LANES {
             lanes[k] += step;
