@@ -16,4 +16,8 @@ impl effects::StrokeEffect for Silhouette {
     fn instances(_: &Params) -> u32 {
         effects::CLUMP_DISCS
     }
+
+    fn extent(_: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
+        strand.clump_disc_extent()
+    }
 }

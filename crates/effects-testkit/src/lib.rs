@@ -55,6 +55,7 @@ const CHECKS: &[(&str, Check)] = &[
     ),
     ("it draws something", strokes::something),
     ("where it draws nothing the radius is 0", strokes::nothing),
+    ("its strokes lie where it says", strokes::in_extent),
     (
         "the same joint has the same stroke, bit for bit",
         repeat::check,
