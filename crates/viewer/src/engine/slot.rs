@@ -1,6 +1,6 @@
 //! One look as a scene in motion: what an edit leaves alone is not made again.
 
-use super::painter::Painter;
+use super::painter::{Backend, Painter};
 use super::{Drawn, Facts, Look, Problem, Times, Wish};
 use effects::Registry;
 use effects::preset::PresetErrors;
@@ -19,6 +19,8 @@ pub(super) struct Slot<'r> {
     loaded: Option<Loaded>,
     motion: Motion,
     frames: FrameMaker,
+    /// The last picture, and the backend that was asked for.
+    last: Option<(Backend, Drawn)>,
 }
 
 /// A scene, and what it was loaded from.
@@ -46,6 +48,7 @@ impl<'r> Slot<'r> {
             loaded: None,
             motion: Motion::new(),
             frames: FrameMaker::new(),
+            last: None,
         }
     }
 
@@ -136,7 +139,8 @@ impl<'r> Slot<'r> {
         advanced.map_err(failed)
     }
 
-    /// Draws the scene as it stands, seen by that camera.
+    /// Draws the scene as it stands, seen by that camera. Where nothing changed since the last picture it is that one, with the times
+    /// that it took.
     pub fn draw(
         &mut self,
         wish: &Wish,
@@ -153,6 +157,13 @@ impl<'r> Slot<'r> {
         let mut times = Times::default();
         let started = Instant::now();
         let camera = scene.camera_of_size(size_px).map_err(failed)?;
+        if let Some((backend, last)) = &self.last
+            && *backend == wish.backend
+            && (last.samples, last.size_px) == (samples, size_px)
+            && self.frames.is_as_before(scene, &self.motion, &camera)
+        {
+            return Ok(last.clone());
+        }
         let frame = self
             .frames
             .frame_seen_by(scene, &self.motion, camera)
@@ -165,7 +176,7 @@ impl<'r> Slot<'r> {
             .sum();
         let painted = painter.paint(&frame, wish.backend, samples)?;
         times.painted(&painted);
-        Ok(Drawn {
+        let drawn = Drawn {
             pixels: painted.picture.to_srgb8(),
             size_px,
             samples,
@@ -174,7 +185,9 @@ impl<'r> Slot<'r> {
             strands: loaded.facts.strands - self.frames.culled().min(loaded.facts.strands),
             backend: painted.backend,
             facts: loaded.facts.clone(),
-        })
+        };
+        self.last = Some((wish.backend, drawn.clone()));
+        Ok(drawn)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::common::{LOOK, Looks, viewer, wait_for, wait_for_picture};
 use stage::Hand;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use viewer::engine::{Answer, Backend, Engine, Look, Wish};
+use viewer::engine::{Answer, Backend, Drawn, Engine, Look, Wish};
 
 /// Dynamics that are not at rest, and take steps for hours before their first picture.
 const ENDLESS: &str = "dynamics: (gravity: 0.9, step: 0.00001, warm_up: 600),";
@@ -109,4 +109,37 @@ fn what_was_under_way_of_another_preset_is_not_shown() {
             true
         })
     });
+}
+
+#[test]
+fn a_still_scene_is_drawn_once_however_long_it_plays() {
+    let looks = Looks::new();
+    let mut engine = Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
+    let mut drawn_at = |time_s: f32, text: &str| {
+        engine.wish(Wish {
+            time_s,
+            is_moving: true,
+            ..wish(&looks, text)
+        });
+        let mut answer = next_answer(&mut engine).expect("the wish is drawn");
+        answer.pictures.remove(0).expect("a picture")
+    };
+    // What it took is told with a picture: nothing takes as long twice, to the bit.
+    let took = |drawn: &Drawn| {
+        let times = &drawn.times;
+        [times.paths, times.effects, times.raster].map(f64::to_bits)
+    };
+    let still = LOOK.replace("motion: (file: \"turn.motion.ron\"),", "");
+    let pictures: Vec<Drawn> = (0..12).map(|i| drawn_at(i as f32, &still)).collect();
+    // The first ones find out how large pictures of a moving scene may be.
+    let alike =
+        |pair: &&[Drawn]| (pair[0].size_px, pair[0].samples) == (pair[1].size_px, pair[1].samples);
+    let pairs: Vec<&[Drawn]> = pictures.windows(2).filter(alike).collect();
+    assert!(pairs.len() > 3, "{}", pairs.len());
+    for pair in pairs {
+        assert_eq!(took(&pair[0]), took(&pair[1]));
+        assert!(pair[0].pixels == pair[1].pixels);
+    }
+    let other = drawn_at(12.0, &still.replace("yaw: 40", "yaw: 41"));
+    assert_ne!(took(&pictures[11]), took(&other));
 }
