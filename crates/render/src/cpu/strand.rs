@@ -270,14 +270,8 @@ impl Offer<'_> {
                         placed.measure(cell, &mut stroke);
                     }
                 }
-                self.round(&mut stroke);
-                let wins = target.offer(
-                    cell,
-                    &taken,
-                    &stroke.inv_depth,
-                    &stroke.biased,
-                    self.priority,
-                );
+                let (inv_depth, biased) = self.round(&stroke);
+                let wins = target.offer(cell, &taken, &inv_depth, &biased, self.priority);
                 cell.add_to(shown, &wins);
             }
         }
@@ -285,21 +279,24 @@ impl Offer<'_> {
 
     /// Takes the samples as much deeper as they are far from the stroke's middle.
     #[inline(always)]
-    fn round(&self, stroke: &mut Measured) {
+    fn round(&self, stroke: &Measured) -> (Lanes, Lanes) {
+        let (mut inv_depth, mut biased) = (stroke.inv_depth, stroke.biased);
         if self.roundness == Roundness::Flat {
-            return;
+            return (inv_depth, biased);
         }
+        let mut part = stroke.ratio;
         if self.roundness == Roundness::Outline {
             for k in 0..LANES {
-                stroke.ratio[k] *= stroke.ratio[k];
-                stroke.ratio[k] *= stroke.ratio[k];
+                let square = part[k] * part[k];
+                part[k] = square * square;
             }
         }
         for k in 0..LANES {
-            let deeper_m = self.scene.drawing.edge_depth_m * stroke.ratio[k];
-            stroke.inv_depth[k] = deeper(stroke.inv_depth[k], deeper_m);
-            stroke.biased[k] = deeper(stroke.biased[k], deeper_m);
+            let deeper_m = self.scene.drawing.edge_depth_m * part[k];
+            inv_depth[k] = deeper(inv_depth[k], deeper_m);
+            biased[k] = deeper(biased[k], deeper_m);
         }
+        (inv_depth, biased)
     }
 }
 

@@ -56,9 +56,11 @@ pub(super) fn greater(a: f32, b: f32) -> f32 {
 /// Takes on the new values where `mask` is set.
 #[inline(always)]
 pub(super) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
+    let mut lanes = *old; // a store for each lane might become a branch
     for k in 0..LANES {
-        old[k] = select(mask[k] != 0, new[k], old[k]);
+        lanes[k] = select(mask[k] != 0, new[k], old[k]);
     }
+    *old = lanes;
 }
 
 /// Four samples that lie one below the other, in one pixel or in several.
@@ -112,11 +114,11 @@ pub(super) fn height(stacks: &[Stack]) -> usize {
     ROWS * stacks[0].height
 }
 
-/// One number of each sample.
-pub(super) type Plane = Vec<Lanes>;
+/// One number of each sample. Of fixed length, so that a cell's index is checked once for all planes.
+pub(super) type Plane = Box<[Lanes; CELLS]>;
 
-pub(super) fn plane() -> Plane {
-    vec![[0.0; LANES]; CELLS]
+fn plane() -> Plane {
+    Box::new([[0.0; LANES]; CELLS])
 }
 
 /// Rows of samples in a tile: for each row of stacks those of its four samples.
@@ -266,7 +268,7 @@ pub(super) struct Target {
     /// Nearest strand that no surface hides, 1/m.
     pub(super) strand: Plane,
     /// What decides there among equals: the higher one lies on top.
-    priority: Vec<[u32; LANES]>,
+    priority: Box<[[u32; LANES]; CELLS]>,
     pub(super) color: [Plane; 3],
     /// For each cell the farthest of `strand`.
     farthest_strand: Box<[f32; CELLS]>,
@@ -281,7 +283,7 @@ impl Target {
             surface: plane(),
             margin: plane(),
             strand: plane(),
-            priority: vec![[0; LANES]; CELLS],
+            priority: Box::new([[0; LANES]; CELLS]),
             color: [plane(), plane(), plane()],
             farthest_strand: Box::new([NOTHING; CELLS]),
             farthest_surface: Box::new([NOTHING; CELLS]),
@@ -330,7 +332,7 @@ impl Target {
         }
         if stack.samples < STACK {
             for plane in self.color.iter_mut().chain([&mut self.surface]) {
-                for lanes in plane {
+                for lanes in plane.iter_mut() {
                     for k in 0..LANES {
                         lanes[k] = select(k % STACK < stack.samples, lanes[k], 0.0);
                     }
