@@ -265,7 +265,7 @@ impl Offer<'_> {
                 }
                 let mut stroke = Measured::new();
                 for &(place, reached) in &segments.0 {
-                    if reached >> cell.column & 3 != 0 {
+                    if reached & cell.columns() != 0 {
                         let placed = &self.placed[place];
                         placed.measure(cell, &mut stroke);
                     }
@@ -329,7 +329,7 @@ fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Tar
         for cell in cells(row, wanted) {
             let mut stroke = Shaded::new();
             for &(place, reached) in &segments.0 {
-                if reached >> cell.column & 3 != 0 {
+                if reached & cell.columns() != 0 {
                     let placed = &placed[place];
                     placed.shade(cell, &mut stroke);
                 }
