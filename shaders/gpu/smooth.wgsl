@@ -54,7 +54,9 @@ fn between(run: Run, joint: u32, place: f32, sign: f32) -> f32 {
     let next = after(joint);
     let way = (place - seen(joint)) / (seen(next) - seen(joint));
     let start = size(run, joint, sign);
-    return start + way * (size(run, next, sign) - start);
+    let end = size(run, next, sign);
+    // Rounding may reach beyond.
+    return clamp(start + way * (end - start), min(start, end), max(start, end));
 }
 
 /// The least value from `joint` to the window's length after it. In a closed strand the windows at its end are its last

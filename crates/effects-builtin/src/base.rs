@@ -21,4 +21,8 @@ impl effects::StrokeEffect for Base {
             units: 0.0,
         }
     }
+
+    fn extent(_: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
+        strand.clump_disc_extent()
+    }
 }

@@ -22,7 +22,7 @@ impl effects::StrokeEffect for Cel {
     fn reach(params: &Params) -> effects::Reach {
         // A row of strokes across the clump, or along its flat end.
         effects::Reach {
-            clumps: 2.0 + params.fullness,
+            clumps: 3.0 + params.fullness,
             units: 0.0,
         }
     }

@@ -65,12 +65,18 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let full = saturate(params.full + shift);
     let edge = saturate(params.threshold + shift);
     let sign = select(1.0, -1.0, params.region == 1u);
-    let from_root = select(1.0, smoothstep(0.0, params.root_fade, joint.u), joint.u < params.root_fade);
-    let whole = feather_share(sign * gray, sign * full, sign * edge) * from_root;
-    let share = without_hairlines(whole, basic, 0.5 * params.thinnest * joint.unit);
+    let by_gray = feather_share(sign * gray, sign * full, sign * edge);
+    var radius = 0.0;
+    if (by_gray > 0.0) {
+        var whole = by_gray;
+        if (joint.u < params.root_fade) {
+            whole = by_gray * smoothstep(0.0, params.root_fade, joint.u);
+        }
+        let share = without_hairlines(whole, basic, 0.5 * params.thinnest * joint.unit);
+        radius = share * basic * params.fullness;
+    }
 
     let color = color_or(params.color, params.factor * joint.clump_color);
-    let radius = share * basic * params.fullness;
     let row = joint.clump_radius * place * joint.across;
     // The path on the screen turns back there, and what is across it turns too: across the clump is across its shift.
     let side = clamp(-4.0 * dot(joint.forward, joint.view_direction), -1.0, 1.0);

@@ -23,4 +23,8 @@ impl effects::StrokeEffect for Silhouette {
             units: params.width,
         }
     }
+
+    fn extent(_: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
+        strand.clump_disc_extent()
+    }
 }

@@ -56,6 +56,7 @@ const CHECKS: &[(&str, Check)] = &[
     ("its strokes stay near their strands", strokes::near),
     ("it draws something", strokes::something),
     ("where it draws nothing the radius is 0", strokes::nothing),
+    ("its strokes lie where it says", strokes::in_extent),
     (
         "the same joint has the same stroke, bit for bit",
         repeat::check,

@@ -187,3 +187,39 @@ pub(crate) fn nothing(effect: &dyn AnyEffect) -> Result<(), String> {
     }
     Ok(())
 }
+
+/// Seeds of the layer for which strokes are looked for: which strands have one, and how far it reaches, differs from seed to seed.
+const SEEDS: u32 = 8;
+
+pub(crate) fn in_extent(effect: &dyn AnyEffect) -> Result<(), String> {
+    let ordinary = hair::joints();
+    let strands = ordinary.chunk_by(|a, b| a.strand == b.strand);
+    let hostile = hair::hostile_joints();
+    let alone = hostile.iter().map(|(name, joint)| (*name, vec![*joint]));
+    let strands = strands.map(|joints| ("an ordinary strand", joints.to_vec()));
+    let strands: Vec<(&str, Vec<Joint>)> = strands.chain(alone).collect();
+    let mut cases = extremes(effect);
+    cases.push(defaults(effect));
+    for case in cases {
+        let program = effect.program(&case.values);
+        for (name, joints) in &strands {
+            let lists = list(joints, program.inputs());
+            for instance in some_instances(program.instances()) {
+                for seed in 0..SEEDS {
+                    let extent = program.extent(&lists, 0..joints.len(), instance, seed);
+                    let mut radii = Vec::new();
+                    program.radii(&lists, 0..joints.len(), instance, seed, &mut radii);
+                    let has_size = |joint: &usize| radii[*joint] > 0.0 && !extent.contains(joint);
+                    if let Some(joint) = (0..joints.len()).find(has_size) {
+                        return Err(format!(
+                            "{}, on {name}: its `extent` has the joints {} to {} of stroke {instance}, and at joint {joint} \
+                             the stroke has the radius {}: `extent` must hold every joint with a size",
+                            case.name, extent.start, extent.end, radii[joint]
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
+}

@@ -2,10 +2,12 @@
 
 use effects::wgsl::{Stroke, random, vec2};
 use effects::{
-    Hair, Input, Joints, MadePaths, Param, ParamKind, Parameters as _, StrokeEffect, Values,
+    Hair, Input, Joints, MadePaths, Param, ParamKind, Parameters as _, StrandJoints, StrokeEffect,
+    Values,
 };
 use effects_testkit::{Failures, conforms, steady};
 use std::marker::PhantomData;
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 effects::effect!("good");
@@ -27,6 +29,9 @@ trait Spoil: Send + Sync + 'static {
     }
     fn shortest() -> f32 {
         0.0
+    }
+    fn extent(strand: &StrandJoints) -> Range<usize> {
+        strand.range.clone()
     }
     fn make_paths(_hair: &Hair, _paths: &mut MadePaths) {}
 }
@@ -65,6 +70,9 @@ impl<S: Spoil> StrokeEffect for Spoilt<S> {
     }
     fn shortest(_: &Params) -> f32 {
         S::shortest()
+    }
+    fn extent(_: &Params, strand: &StrandJoints) -> Range<usize> {
+        S::extent(strand)
     }
     fn make_paths(_: &Params, hair: &Hair, _: u32, paths: &mut MadePaths) {
         S::make_paths(hair, paths);
@@ -265,6 +273,17 @@ fn it_draws_something_and_where_it_draws_nothing_the_radius_is_zero() {
         }
     });
     assert_fails::<Blunt>("where it draws nothing", "tips are to be points");
+}
+
+#[test]
+fn strokes_lie_in_their_extent() {
+    spoil!(Cut {
+        fn extent(strand: &StrandJoints) -> Range<usize> {
+            let middle = (strand.range.start + strand.range.end) / 2;
+            middle..middle
+        }
+    });
+    assert_fails::<Cut>("lie where it says", "must hold every joint with a size");
 }
 
 #[test]

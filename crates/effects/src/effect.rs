@@ -6,7 +6,7 @@ use crate::paths::{Hair, MadePaths};
 use crate::program::{Parameters, Program};
 use crate::source::ProgramSource;
 use crate::varied::Varied;
-use crate::wgsl::Stroke;
+use crate::wgsl::{Stroke, hash};
 use std::ops::Range;
 
 /// A stroke effect, as its author writes it.
@@ -55,6 +55,19 @@ pub trait StrokeEffect: Send + Sync + 'static {
         0.0
     }
 
+    /// Of a strand's joints those from the first to behind the last at which a stroke may have a size, by what is cheap to know before it
+    /// is evaluated; nothing where the strand has no such stroke. Beyond them its radius is 0, which is then not worked out. All
+    /// joints, where nothing is said: then radii tell, and a stroke without a size costs those alone.
+    ///
+    /// It is asked where no parameter varies, and reads what the WGSL declares.
+    fn extent(
+        params: &<Self::Program as Parameters>::Params,
+        strand: &StrandJoints,
+    ) -> Range<usize> {
+        let _ = params;
+        strand.range.clone()
+    }
+
     /// Whether the light must have a place: what is measured from a light without one is 1e6 head
     /// heights away.
     fn needs_point_light(params: &<Self::Program as Parameters>::Params) -> bool {
@@ -78,6 +91,50 @@ pub trait StrokeEffect: Send + Sync + 'static {
         paths: &mut MadePaths,
     ) {
         let _ = (params, hair, seed, paths);
+    }
+}
+
+/// The joints of one strand, or of a piece of it, from the root to the tip; and which of its strokes is asked for.
+#[derive(Clone, Debug)]
+pub struct StrandJoints<'a> {
+    /// The joints of all strands.
+    pub joints: &'a Joints,
+    /// Which of them are the strand's; at least one.
+    pub range: Range<usize>,
+    /// Which of its strokes.
+    pub instance: u32,
+    /// `joint.seed`, as the WGSL has it; 0 where it isn't declared.
+    pub seed: u32,
+}
+
+impl StrandJoints<'_> {
+    /// From the first joint for which `may_have_size` to behind the last.
+    pub fn extent(&self, mut may_have_size: impl FnMut(usize) -> bool) -> Range<usize> {
+        let mut rest = self.range.clone();
+        let Some(start) = rest.find(|&joint| may_have_size(joint)) else {
+            return self.range.start..self.range.start;
+        };
+        let last = rest.rfind(|&joint| may_have_size(joint));
+        start..last.unwrap_or(start) + 1
+    }
+
+    /// The extent of one of the discs of [`clump_disc`](crate::wgsl::clump_disc): the first lies everywhere, those at the sides where
+    /// the clump is seen to be flat. `clump_radius` and `clump_shift` are declared.
+    #[must_use]
+    pub fn clump_disc_extent(&self) -> Range<usize> {
+        if self.instance == 0 {
+            return self.range.clone();
+        }
+        let Joints {
+            clump_radius,
+            clump_shift,
+            ..
+        } = self.joints;
+        self.extent(|i| {
+            // A little less than where `clump_disc` has its step, for rounding.
+            let flat = 0.199 * clump_radius[i].max(1e-6);
+            clump_shift[i].dot(clump_shift[i]).0 > flat * flat
+        })
     }
 }
 
@@ -112,9 +169,9 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// What no stroke may exceed: six of the clump's radii and half a head's height, or 150 pixels.
+    /// What no stroke may exceed: eight of the clump's radii and half a head's height, or 150 pixels.
     pub const FARTHEST: Self = Self {
-        clumps: 6.0,
+        clumps: 8.0,
         units: 150.0,
     };
 }
@@ -142,6 +199,14 @@ pub trait LayerProgram: Send + Sync {
     fn inputs(&self) -> InputSet;
     /// The same for a graphics card.
     fn source(&self) -> ProgramSource<'_>;
+    /// [`StrokeEffect::extent`] of stroke `instance` on these joints of one strand. `seed` is the layer's.
+    fn extent(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+    ) -> Range<usize>;
     /// Appends the discs of stroke `instance` at these joints. `seed` is the layer's.
     fn evaluate(
         &self,
@@ -230,6 +295,28 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn source(&self) -> ProgramSource<'_> {
         self.0.source()
+    }
+
+    fn extent(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+    ) -> Range<usize> {
+        if self.0.varies() || range.is_empty() {
+            return range;
+        }
+        let of_strand = joints.seed.get(range.start);
+        let strand = StrandJoints {
+            joints,
+            range: range.clone(),
+            instance,
+            seed: of_strand.map_or(0, |of_strand| hash(seed ^ of_strand)),
+        };
+        let extent = E::extent(self.0.base(), &strand);
+        let start = extent.start.clamp(range.start, range.end);
+        start..extent.end.clamp(start, range.end)
     }
 
     fn evaluate(

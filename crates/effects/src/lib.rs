@@ -53,7 +53,7 @@ mod varied;
 pub mod wgsl;
 
 pub use color::{linear_from_srgb, parse_hex, to_hex};
-pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Reach, StrokeEffect};
+pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Reach, StrandJoints, StrokeEffect};
 pub use joints::{Input, InputSet, Joints};
 pub use layer::{Layer, Units};
 pub use param::{Param, ParamKind, Value, Values};

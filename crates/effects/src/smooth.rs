@@ -57,14 +57,36 @@ impl Smoother {
         // Beyond the next 0 on each side nothing changes.
         let part = start.saturating_sub(1)..(end + 2).min(values.len());
         let (places, values) = (&places[part.clone()], &mut values[part]);
-        values.iter_mut().for_each(|value| *value = -*value);
-        self.open(places, values, length, Ends::Open);
-        values.iter_mut().for_each(|value| *value = -*value);
+        self.find_windows(places, length);
+        // Where there is no gap none is filled.
+        if has_gap(values) {
+            values.iter_mut().for_each(|value| *value = -*value);
+            self.open(places, values, length, Ends::Open);
+            values.iter_mut().for_each(|value| *value = -*value);
+        }
         self.open(places, values, length, Ends::Closed);
     }
 
+    /// For each place the places from it to `length` after it, and those from `length` before it to it.
+    fn find_windows(&mut self, places: &[f32], length: f32) {
+        let (mut start, mut end) = (0, 0);
+        self.to.clear();
+        self.to.extend(places.iter().enumerate().map(|(i, place)| {
+            let before = places[start..i].iter();
+            start += before.take_while(|other| **other < place - length).count();
+            start..i + 1
+        }));
+        self.from.clear();
+        self.from
+            .extend(places.iter().enumerate().map(|(i, place)| {
+                let after = places[end..].iter();
+                end += after.take_while(|other| **other <= place + length).count();
+                i..end
+            }));
+    }
+
     /// At each place the greatest, over all windows of `length` that hold it, of the least value in the
-    /// window. Of the windows only those are looked at that begin or end at a place.
+    /// window. Of the windows only those are looked at that begin or end at a place, [`Self::find_windows`]'.
     fn open(&mut self, places: &[f32], values: &mut [f32], length: f32, ends: Ends) {
         let Self {
             from,
@@ -75,7 +97,6 @@ impl Smoother {
             found,
         } = self;
         let count = places.len();
-        windows(places, length, from, to);
         let is_less = |a: f32, b: f32| a < b;
         extremes.find(values, from, is_less, after);
         extremes.find(values, to, is_less, before);
@@ -112,29 +133,19 @@ impl Smoother {
     }
 }
 
-/// For each place the places from it to `length` after it, and those from `length` before it to it.
-fn windows(places: &[f32], length: f32, from: &mut Vec<Range<usize>>, to: &mut Vec<Range<usize>>) {
-    from.clear();
-    to.clear();
-    let (mut start, mut end) = (0, 0);
-    for (i, place) in places.iter().enumerate() {
-        while places[start] < place - length {
-            start += 1;
-        }
-        while end < places.len() && places[end] <= place + length {
-            end += 1;
-        }
-        from.push(i..end);
-        to.push(start..i + 1);
-    }
+/// Whether values rise again after they fell.
+fn has_gap(values: &[f32]) -> bool {
+    let mut pairs = values.windows(2);
+    let falls = pairs.by_ref().any(|pair| pair[1] < pair[0]);
+    falls && pairs.any(|pair| pair[1] > pair[0])
 }
 
 /// Finds extremes of windows, of which each begins and ends no earlier than the one before. Every value enters and leaves a list
 /// of candidates once (Lemire, "Streaming Maximum-Minimum Filter Using No More than Three Comparisons per Element", 2006).
 #[derive(Clone, Debug, Default)]
 struct Extremes {
-    /// Places in the window of which each is more extreme than all behind it.
-    candidates: Vec<usize>,
+    /// Places in the window, and their values, of which each is more extreme than all behind it.
+    candidates: Vec<(usize, f32)>,
 }
 
 impl Extremes {
@@ -147,32 +158,34 @@ impl Extremes {
         is_more: impl Fn(f32, f32) -> bool,
         extremes: &mut Vec<f32>,
     ) {
-        let candidates = &mut self.candidates;
-        candidates.clear();
+        self.candidates.resize(values.len(), (0, 0.0));
+        let candidates = &mut self.candidates[..];
+        // Those that are left, and the next value to enter.
+        let (mut first, mut end, mut next) = (0, 0, 0);
         extremes.clear();
-        let (mut first, mut next) = (0, 0);
-        for window in windows {
-            while next < window.end {
-                while candidates.len() > first
-                    && !is_more(values[candidates[candidates.len() - 1]], values[next])
-                {
-                    candidates.pop();
+        extremes.extend(windows.iter().map(|window| {
+            for value in &values[next..window.end] {
+                while end > first && !is_more(candidates[end - 1].1, *value) {
+                    end -= 1;
                 }
-                candidates.push(next);
+                candidates[end] = (next, *value);
+                end += 1;
                 next += 1;
             }
-            while candidates[first] < window.start {
+            while candidates[first].0 < window.start {
                 first += 1;
             }
-            extremes.push(values[candidates[first]]);
-        }
+            candidates[first].1
+        }));
     }
 }
 
 /// The value at `place`, between the places `i` and `i + 1`, which differ.
 fn between(places: &[f32], values: &[f32], i: usize, place: f32) -> f32 {
     let way = (place - places[i]) / (places[i + 1] - places[i]);
-    values[i] + way * (values[i + 1] - values[i])
+    let (a, b) = (values[i], values[i + 1]);
+    // Rounding may reach beyond.
+    (a + way * (b - a)).clamp(a.min(b), a.max(b))
 }
 
 #[cfg(test)]
@@ -234,6 +247,7 @@ mod tests {
         let places: Vec<f32> = (0..values.len()).map(|i| i as f32).collect();
         let mut values = values.to_vec();
         let mut smoother = Smoother::default();
+        smoother.find_windows(&places, 1.5);
         values.iter_mut().for_each(|value| *value = -*value);
         smoother.open(&places, &mut values, 1.5, Ends::Open);
         values.iter_mut().for_each(|value| *value = -*value);
@@ -323,10 +337,35 @@ mod tests {
             let ends = if is_closed { Ends::Closed } else { Ends::Open };
             // Twice, with the memory of the first time.
             let mut smoother = Smoother::default();
+            smoother.find_windows(&places, length);
             for values in [values.clone(), values.iter().map(|value| -value).collect()] {
                 let mut fast = values.clone();
                 smoother.open(&places, &mut fast, length, ends);
                 prop_assert_eq!(fast, opened(&places, &values, length, ends));
+            }
+        }
+
+        #[test]
+        fn what_is_left_out_makes_no_difference(
+            (places, mut values) in line(),
+            length in 0.0..3.0f32,
+            has_gaps in any::<bool>(),
+        ) {
+            if !has_gaps {
+                let (rise, fall) = values.split_at_mut(places.len() / 2);
+                rise.sort_by(f32::total_cmp);
+                fall.sort_by(|a, b| b.total_cmp(a));
+            }
+            let mut smooth = values.clone();
+            Smoother::default().smooth(&places, &mut smooth, length);
+            let length = length.min((places[places.len() - 1] - places[0]) / 3.0);
+            let negative: Vec<f32> = values.iter().map(|value| -value).collect();
+            let closed: Vec<f32> = opened(&places, &negative, length, Ends::Open)
+                .iter()
+                .map(|value| -value)
+                .collect();
+            if length > 0.0 {
+                prop_assert_eq!(smooth, opened(&places, &closed, length, Ends::Closed));
             }
         }
 

@@ -72,6 +72,12 @@ impl<P: Parameters> Varied<P> {
         params
     }
 
+    /// Whether any parameter varies.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        !self.varying.is_empty()
+    }
+
     /// What is read of a joint, also to know how parameters vary.
     #[must_use]
     pub fn inputs(&self) -> InputSet {

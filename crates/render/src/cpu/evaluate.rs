@@ -5,7 +5,9 @@ use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
-use effects::{CLUMP_DISCS, Input, InputSet, Joints, Layer, Units, clump, layer_seed};
+use effects::{
+    CLUMP_DISCS, Input, InputSet, Joints, Layer, StrandJoints, Units, clump, layer_seed,
+};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -117,8 +119,17 @@ impl Evaluator {
             Scratch::default,
             |scratch, (object, number, joints)| {
                 let size = |i| clump_disc(number, radii[i], shifts[i]).z;
+                let strand = StrandJoints {
+                    joints: &self.joints,
+                    range: joints.clone(),
+                    instance: number,
+                    seed: 0,
+                };
+                let extent = strand.clump_disc_extent();
                 scratch.radii.clear();
-                scratch.radii.extend(joints.clone().map(size));
+                scratch.radii.resize(extent.start - joints.start, 0.0);
+                scratch.radii.extend(extent.map(size));
+                scratch.radii.resize(joints.len(), 0.0);
                 leave_out_unneeded(&self.needed, &joints, &mut scratch.radii);
                 let mut made = Made::new(number - 1);
                 made.find_stretches(frame.paths, &joints, &scratch.radii);
@@ -487,7 +498,14 @@ impl Part<'_> {
         }
         let radii = &mut scratch.radii;
         radii.clear();
-        program.radii(inputs, self.joints.clone(), number, self.seed, radii);
+        for run in self.runs() {
+            let run = run.joints.clone();
+            let extent = program.extent(inputs, run.clone(), number, self.seed);
+            radii.resize(extent.start - self.joints.start, 0.0);
+            program.radii(inputs, extent, number, self.seed, radii);
+            radii.resize(run.end - self.joints.start, 0.0);
+        }
+        radii.resize(self.joints.len(), 0.0);
         // A stroke that an effect failed to work out is not drawn.
         let size = |radius: f32| {
             if radius.is_finite() {
