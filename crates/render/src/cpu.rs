@@ -3,8 +3,9 @@
 //! A drawing is checked ([`DrawError`]) and taken apart into segments, some strands at a time in parallel, which are
 //! sorted into bands of tile rows and these into tiles. Bands are drawn in parallel; every band sees its segments in the
 //! same order, so threads can't change a bit. In a tile (see `tile`) come first the surfaces, then
-//! strand after strand from the nearest on: what each segment covers (`rows`), the strand's own order
-//! and the strand against what is there (`strand`), then depth and colour (`stroke`) of what shows.
+//! strand after strand from the nearest on. Where a strand may show, its segments get their shapes (`segment`) and what they
+//! cover (`rows`); then comes the strand's own order (`strand`), and cell by cell, eight samples at once, its depth
+//! (`stroke`) against what is there, and the colour of what shows.
 //! All of a band is compiled for several instruction sets (`instructions`); what is called there is
 //! `inline(always)`, or it would be compiled without them.
 

@@ -1,4 +1,5 @@
-//! A drawing's strokes taken apart into segments, in the order in which they are drawn.
+//! A drawing's strokes taken apart into segments, in the order in which they are drawn. All get their bounds and nearest depths, by
+//! which tiles tell what may be seen there; shapes are worked out for those alone.
 
 use super::bin::{Bins, Bounds, cells};
 use super::tile::{greater, lesser};

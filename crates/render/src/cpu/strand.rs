@@ -265,19 +265,13 @@ impl Offer<'_> {
                 }
                 let mut stroke = Measured::new();
                 for &(place, reached) in &segments.0 {
-                    if reached >> cell.column & 3 != 0 {
+                    if reached & cell.columns() != 0 {
                         let placed = &self.placed[place];
                         placed.measure(cell, &mut stroke);
                     }
                 }
-                self.round(&mut stroke);
-                let wins = target.offer(
-                    cell,
-                    &taken,
-                    &stroke.inv_depth,
-                    &stroke.biased,
-                    self.priority,
-                );
+                let (inv_depth, biased) = self.round(&stroke);
+                let wins = target.offer(cell, &taken, &inv_depth, &biased, self.priority);
                 cell.add_to(shown, &wins);
             }
         }
@@ -285,21 +279,24 @@ impl Offer<'_> {
 
     /// Takes the samples as much deeper as they are far from the stroke's middle.
     #[inline(always)]
-    fn round(&self, stroke: &mut Measured) {
+    fn round(&self, stroke: &Measured) -> (Lanes, Lanes) {
+        let (mut inv_depth, mut biased) = (stroke.inv_depth, stroke.biased);
         if self.roundness == Roundness::Flat {
-            return;
+            return (inv_depth, biased);
         }
+        let mut part = stroke.ratio;
         if self.roundness == Roundness::Outline {
             for k in 0..LANES {
-                stroke.ratio[k] *= stroke.ratio[k];
-                stroke.ratio[k] *= stroke.ratio[k];
+                let square = part[k] * part[k];
+                part[k] = square * square;
             }
         }
         for k in 0..LANES {
-            let deeper_m = self.scene.drawing.edge_depth_m * stroke.ratio[k];
-            stroke.inv_depth[k] = deeper(stroke.inv_depth[k], deeper_m);
-            stroke.biased[k] = deeper(stroke.biased[k], deeper_m);
+            let deeper_m = self.scene.drawing.edge_depth_m * part[k];
+            inv_depth[k] = deeper(inv_depth[k], deeper_m);
+            biased[k] = deeper(biased[k], deeper_m);
         }
+        (inv_depth, biased)
     }
 }
 
@@ -332,7 +329,7 @@ fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Tar
         for cell in cells(row, wanted) {
             let mut stroke = Shaded::new();
             for &(place, reached) in &segments.0 {
-                if reached >> cell.column & 3 != 0 {
+                if reached & cell.columns() != 0 {
                     let placed = &placed[place];
                     placed.shade(cell, &mut stroke);
                 }

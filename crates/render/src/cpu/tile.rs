@@ -56,9 +56,11 @@ pub(super) fn greater(a: f32, b: f32) -> f32 {
 /// Takes on the new values where `mask` is set.
 #[inline(always)]
 pub(super) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
+    let mut lanes = *old; // a store for each lane might become a branch
     for k in 0..LANES {
-        old[k] = select(mask[k] != 0, new[k], old[k]);
+        lanes[k] = select(mask[k] != 0, new[k], old[k]);
     }
+    *old = lanes;
 }
 
 /// Four samples that lie one below the other, in one pixel or in several.
@@ -112,11 +114,11 @@ pub(super) fn height(stacks: &[Stack]) -> usize {
     ROWS * stacks[0].height
 }
 
-/// One number of each sample.
-pub(super) type Plane = Vec<Lanes>;
+/// One number of each sample. Of fixed length, so that a cell's index is checked once for all planes.
+pub(super) type Plane = Box<[Lanes; CELLS]>;
 
-pub(super) fn plane() -> Plane {
-    vec![[0.0; LANES]; CELLS]
+fn plane() -> Plane {
+    Box::new([[0.0; LANES]; CELLS])
 }
 
 /// Rows of samples in a tile: for each row of stacks those of its four samples.
@@ -206,6 +208,12 @@ impl Cell {
         }
     }
 
+    /// Its columns, a bit for each.
+    #[inline(always)]
+    pub(super) fn columns(&self) -> u32 {
+        CELL_BITS << self.column
+    }
+
     /// Its samples of a mask.
     #[inline(always)]
     pub(super) fn lanes(&self, mask: &Mask) -> LaneMask {
@@ -266,7 +274,7 @@ pub(super) struct Target {
     /// Nearest strand that no surface hides, 1/m.
     pub(super) strand: Plane,
     /// What decides there among equals: the higher one lies on top.
-    priority: Vec<[u32; LANES]>,
+    priority: Box<[[u32; LANES]; CELLS]>,
     pub(super) color: [Plane; 3],
     /// For each cell the farthest of `strand`.
     farthest_strand: Box<[f32; CELLS]>,
@@ -281,7 +289,7 @@ impl Target {
             surface: plane(),
             margin: plane(),
             strand: plane(),
-            priority: vec![[0; LANES]; CELLS],
+            priority: Box::new([[0; LANES]; CELLS]),
             color: [plane(), plane(), plane()],
             farthest_strand: Box::new([NOTHING; CELLS]),
             farthest_surface: Box::new([NOTHING; CELLS]),
@@ -330,7 +338,7 @@ impl Target {
         }
         if stack.samples < STACK {
             for plane in self.color.iter_mut().chain([&mut self.surface]) {
-                for lanes in plane {
+                for lanes in plane.iter_mut() {
                     for k in 0..LANES {
                         lanes[k] = select(k % STACK < stack.samples, lanes[k], 0.0);
                     }
@@ -558,5 +566,52 @@ impl Samples {
             lanes[k] += step;
         }
         lanes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples::sample_positions;
+
+    #[test]
+    fn stacks_hold_every_sample_of_their_pixels_once() {
+        for samples in [1, 2, 3, 4, 5, 8, 16, 64] {
+            let positions = sample_positions(samples).unwrap();
+            let stacks = Stack::of_pixel(&positions);
+            let height = stacks[0].height;
+            let mut held = Vec::new();
+            for stack in &stacks {
+                assert_eq!(stack.height, height);
+                held.extend((0..stack.samples).map(|k| Vec2::new(stack.x[k], stack.y[k])));
+                for k in 0..STACK {
+                    // The right stack is the left one, a pixel on.
+                    assert_eq!(stack.x[k] + 1.0, stack.x[k + STACK]);
+                    assert_eq!(stack.y[k], stack.y[k + STACK]);
+                }
+            }
+            let below = (0..height).flat_map(|pixel| {
+                let shift = Vec2::new(0.0, pixel as f32);
+                positions.iter().map(move |position| *position + shift)
+            });
+            assert_eq!(held, below.collect::<Vec<_>>(), "{samples} samples");
+        }
+    }
+
+    #[test]
+    fn a_cell_has_the_samples_of_two_columns() {
+        let mut mask = NO_SAMPLES;
+        mask[3 * STACK] = 1 << 6;
+        mask[3 * STACK + 2] = 1 << 7 | 1 << 31;
+        let found: Vec<Cell> = cells(3, columns(&mask, 3)).collect();
+        assert_eq!(found.iter().map(|c| c.column).collect::<Vec<_>>(), [6, 30]);
+        let all = u32::MAX;
+        assert_eq!(found[0].lanes(&mask), [all, 0, 0, 0, 0, 0, all, 0]);
+        assert_eq!(found[1].lanes(&mask), [0, 0, 0, 0, 0, 0, all, 0]);
+        let mut copy = NO_SAMPLES;
+        for cell in found {
+            cell.add_to(&mut copy, &cell.lanes(&mask));
+        }
+        assert_eq!(copy, mask);
     }
 }
