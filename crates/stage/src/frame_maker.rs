@@ -10,9 +10,15 @@ use crate::scene::Scene;
 use effects::wgsl::hash;
 use effects::{HairStrand, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 use render::{Frame, Light, StrandInfo, Surface};
 use std::ops::Range;
-use stroke_path::{Camera, Paths};
+use stroke_path::{Camera, PathError, Paths};
+
+/// How many strands a thread makes the paths of at a time, and how many such parts there are before they are put together, which
+/// keeps the parts of dense hair small.
+const PART: usize = 32;
+const PARTS: usize = 32;
 
 /// Makes frames of scenes.
 #[derive(Default)]
@@ -29,6 +35,8 @@ pub struct FrameMaker {
 /// An object in the last frame.
 struct ObjectFrame {
     of: Object,
+    /// Paths that are made beside each other.
+    parts: Vec<Paths>,
     /// Its hair's strands, and its joints.
     strands: Range<usize>,
     joints: Range<usize>,
@@ -185,6 +193,7 @@ impl ObjectFrame {
         let reads_material = object.look().reads_material();
         Self {
             of: object.clone(),
+            parts: Vec::new(),
             strands: 0..0,
             joints: 0..0,
             made: MadePaths::default(),
@@ -222,14 +231,30 @@ impl ObjectFrame {
         let first = strands.len();
         self.strands = first..first + hair.infos.len();
         self.joints = paths.len()..paths.len();
+        let particles = |i: usize| &points[hair.file.strands.point_range(i)];
         for (i, info) in hair.infos.iter().enumerate() {
-            let particles = &points[hair.file.strands.point_range(i)];
-            let mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
+            let mean = particles(i).iter().sum::<Vec3>() / particles(i).len() as f32;
             strands.push(StrandInfo {
                 mean: self.of.placement().point(mean),
                 ..*info
             });
-            paths.push_pieces(first + i, particles, &self.of.cuts()[i], path, camera)?;
+        }
+        let all: Vec<usize> = (0..hair.infos.len()).collect();
+        self.parts.resize_with(PARTS, Paths::new);
+        for some in all.chunks(PARTS * PART) {
+            let parts = self.parts.par_iter_mut().zip(some.par_chunks(PART));
+            let made: Result<(), PathError> = parts
+                .map(|(part, of_part)| {
+                    part.clear();
+                    (of_part.iter()).try_for_each(|&i| {
+                        let cuts = &self.of.cuts()[i];
+                        part.push_pieces(first + i, particles(i), cuts, path, camera)
+                    })
+                })
+                .collect();
+            made?;
+            let made = self.parts.iter().take(some.len().div_ceil(PART));
+            made.for_each(|part| paths.append(part));
         }
         self.joints.end = paths.len();
         Ok(())
