@@ -322,6 +322,10 @@ fn translate(module: &Module, path: &str) -> Result<Vec<Item>, BuildError> {
         .runtime_path("::effects::rt");
     let rust = naga_rust_back::write_string(module, &info, config)
         .map_err(|e| BuildError(format!("{path}: {e}")))?;
+    // Builtins whose own code compilers don't take into that of their callers: `effects::wgsl` has them once more.
+    let rust = rust
+        .replace(".smoothstep(", ".smooth_step(")
+        .replace(".cast_elem_as_f32(", ".as_f32(");
     let file: syn::File = syn::parse_str(&rust)
         .map_err(|e| BuildError(format!("{path}: the translation is not Rust: {e}")))?;
     Ok(file.items)

@@ -81,8 +81,11 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     // The path on the screen turns back there, and what is across it turns too: across the clump is across its shift.
     let side = clamp(-4.0 * dot(joint.forward, joint.view_direction), -1.0, 1.0);
     let along_side = side * vec2<f32>(moved.y, -moved.x) / max(length(moved), 1e-6);
-    let at_end = at_flat_end(place, radius, along_side, joint.clump_radius, moved);
     let bend = (1.0 - narrow) * sqrt(max(1.0 - place * place, 0.0));
-    let offset = mix(row - bend * moved, at_end, vec2<f32>(end));
+    var offset = row - bend * moved;
+    if (end > 0.0) {
+        let at_end = at_flat_end(place, radius, along_side, joint.clump_radius, moved);
+        offset = mix(offset, at_end, vec2<f32>(end));
+    }
     return Stroke(offset, radius, 0.0, color);
 }

@@ -13,10 +13,16 @@ use crate::script::HeadPose;
 use effects::wgsl::hash;
 use effects::{HairStrand, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
 use render::{Ball, Frame, Light, StrandInfo, Surface};
 use std::ops::Range;
 use std::sync::Arc;
-use stroke_path::{Camera, Paths};
+use stroke_path::{Camera, PathError, Paths};
+
+/// How many strands a thread makes the paths of at a time, and how many such parts there are before they are put together, which
+/// keeps the parts of dense hair small.
+const PART: usize = 32;
+const PARTS: usize = 32;
 
 /// Makes frames of scenes.
 #[derive(Default)]
@@ -42,6 +48,8 @@ struct ObjectFrame {
     points: Vec<Vec3>,
     /// Strands of hair of which nothing can be seen, so that it is left out as a whole.
     unseen: usize,
+    /// Paths that are made beside each other.
+    parts: Vec<Paths>,
     /// Its hair's strands, and its joints.
     strands: Range<usize>,
     joints: Range<usize>,
@@ -236,6 +244,7 @@ impl ObjectFrame {
             pose: HeadPose::REST,
             points: Vec::new(),
             unseen: 0,
+            parts: Vec::new(),
             strands: 0..0,
             joints: 0..0,
             made: MadePaths::default(),
@@ -300,18 +309,34 @@ impl ObjectFrame {
             self.unseen = hair.infos.len();
             return Ok(());
         }
+        let particles = |i: usize| &points[hair.file.strands.point_range(i)];
         for (i, info) in hair.infos.iter().enumerate() {
-            let particles = &points[hair.file.strands.point_range(i)];
-            let cuts = &self.of.cuts()[i];
-            let mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
+            let mean = particles(i).iter().sum::<Vec3>() / particles(i).len() as f32;
             strands.push(StrandInfo {
                 mean: self.of.placement().point(mean),
                 ..*info
             });
-            match sight.may_see(particles, info.size) {
-                true => paths.push_pieces(first + i, particles, cuts, path, sight.camera())?,
-                false => paths.leave_out(cuts),
-            }
+        }
+        let all: Vec<usize> = (0..hair.infos.len()).collect();
+        self.parts.resize_with(PARTS, Paths::new);
+        for some in all.chunks(PARTS * PART) {
+            let parts = self.parts.par_iter_mut().zip(some.par_chunks(PART));
+            let made: Result<(), PathError> = parts
+                .map(|(part, of_part)| {
+                    part.clear();
+                    (of_part.iter()).try_for_each(|&i| {
+                        let cuts = &self.of.cuts()[i];
+                        if !sight.may_see(particles(i), hair.infos[i].size) {
+                            part.leave_out(cuts);
+                            return Ok(());
+                        }
+                        part.push_pieces(first + i, particles(i), cuts, path, sight.camera())
+                    })
+                })
+                .collect();
+            made?;
+            let made = self.parts.iter().take(some.len().div_ceil(PART));
+            made.for_each(|part| paths.append(part));
         }
         self.joints.end = paths.len();
         Ok(())

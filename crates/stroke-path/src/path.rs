@@ -201,6 +201,28 @@ impl Paths {
         self.cut += cuts.len();
     }
 
+    /// Appends all paths of `other`, of strands behind those so far: the same, bit for bit, as if they had been appended here. So
+    /// that parts of many strands can be made beside each other.
+    pub fn append(&mut self, other: &Self) {
+        let joints = self.len();
+        self.runs.extend(other.runs.iter().map(|run| PathRun {
+            piece: run.piece + self.cut,
+            joints: run.joints.start + joints..run.joints.end + joints,
+            ..run.clone()
+        }));
+        self.position.extend_from_slice(&other.position);
+        self.u.extend_from_slice(&other.u);
+        self.arc_length.extend_from_slice(&other.arc_length);
+        self.forward.extend_from_slice(&other.forward);
+        self.backward.extend_from_slice(&other.backward);
+        self.center.extend_from_slice(&other.center);
+        self.depth.extend_from_slice(&other.depth);
+        self.px_per_metre.extend_from_slice(&other.px_per_metre);
+        self.across.extend_from_slice(&other.across);
+        self.dropped += other.dropped;
+        self.cut += other.cut;
+    }
+
     /// Fills `whole` with the strand's joints, but for their directions.
     fn place_joints(
         &mut self,

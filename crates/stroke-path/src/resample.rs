@@ -71,48 +71,68 @@ impl PathKind {
             0 => 0,
             len => (len - 1) * subdivision + 1,
         };
+        let mut curve = Curve::default();
         Ok((0..count).map(move |j| {
             let (interval, step) = (j / subdivision, j % subdivision);
-            match step {
-                0 => particles[interval],
-                _ => self.point(particles, interval, step as f32 / subdivision as f32),
+            let s = step as f32 / subdivision as f32;
+            match (step, self) {
+                (0, _) => particles[interval],
+                (_, Self::Linear { .. }) => particles[interval].lerp(particles[interval + 1], s),
+                (_, Self::CatmullRom { .. }) => {
+                    if step == 1 {
+                        curve = Curve::catmull_rom(particles, interval);
+                    }
+                    curve.at(s)
+                }
             }
         }))
     }
-
-    /// The point of interval `interval` (from particle `interval` to the next) at `s` in 0..1.
-    fn point(self, particles: &[Vec3], interval: usize, s: f32) -> Vec3 {
-        match self {
-            Self::Linear { .. } => particles[interval].lerp(particles[interval + 1], s),
-            Self::CatmullRom { .. } => catmull_rom(particles, interval, s),
-        }
-    }
 }
 
-/// The spline's interval as a cubic Hermite curve, whose end tangents are those of the parabolas
-/// through three particles each, knots being the square roots of the distances apart.
-fn catmull_rom(particles: &[Vec3], interval: usize, s: f32) -> Vec3 {
-    let (p1, p2) = (particles[interval], particles[interval + 1]);
-    let before = interval.checked_sub(1).map(|i| particles[i]);
-    let p0 = before.unwrap_or(2.0 * p1 - p2);
-    let after = particles.get(interval + 2).copied();
-    let p3 = after.unwrap_or(2.0 * p2 - p1);
-    let knots = |from: Vec3, to: Vec3| from.distance(to).sqrt();
-    let (k0, k1, k2) = (knots(p0, p1), knots(p1, p2), knots(p2, p3));
-    // A velocity is a distance over its square root: it tends to 0 with the distance.
-    let velocity = |from: Vec3, to: Vec3, knots: f32| {
-        if knots == 0.0 {
-            Vec3::ZERO
-        } else {
-            (to - from) / knots
+/// A cubic Hermite curve.
+#[derive(Clone, Copy, Debug, Default)]
+struct Curve {
+    ends: [Vec3; 2],
+    tangents: [Vec3; 2],
+}
+
+impl Curve {
+    /// The spline's interval as a cubic Hermite curve, whose end tangents are those of the parabolas
+    /// through three particles each, knots being the square roots of the distances apart.
+    fn catmull_rom(particles: &[Vec3], interval: usize) -> Self {
+        let (p1, p2) = (particles[interval], particles[interval + 1]);
+        let before = interval.checked_sub(1).map(|i| particles[i]);
+        let p0 = before.unwrap_or(2.0 * p1 - p2);
+        let after = particles.get(interval + 2).copied();
+        let p3 = after.unwrap_or(2.0 * p2 - p1);
+        let knots = |from: Vec3, to: Vec3| from.distance(to).sqrt();
+        let (k0, k1, k2) = (knots(p0, p1), knots(p1, p2), knots(p2, p3));
+        // A velocity is a distance over its square root: it tends to 0 with the distance.
+        let velocity = |from: Vec3, to: Vec3, knots: f32| {
+            if knots == 0.0 {
+                Vec3::ZERO
+            } else {
+                (to - from) / knots
+            }
+        };
+        let middle = velocity(p1, p2, k1);
+        let tangent_1 = k1 * (velocity(p0, p1, k0) - velocity(p0, p2, k0 + k1) + middle);
+        let tangent_2 = k1 * (middle - velocity(p1, p3, k1 + k2) + velocity(p2, p3, k2));
+        Self {
+            ends: [p1, p2],
+            tangents: [tangent_1, tangent_2],
         }
-    };
-    let middle = velocity(p1, p2, k1);
-    let tangent_1 = k1 * (velocity(p0, p1, k0) - velocity(p0, p2, k0 + k1) + middle);
-    let tangent_2 = k1 * (middle - velocity(p1, p3, k1 + k2) + velocity(p2, p3, k2));
-    let (s2, s3) = (s * s, s * s * s);
-    // The weights of p1 and p2 add up to 1: relative to p1 there is less to round.
-    p1 + (p2 - p1) * (3.0 * s2 - 2.0 * s3) + tangent_1 * (s3 - 2.0 * s2 + s) + tangent_2 * (s3 - s2)
+    }
+
+    /// The point at `s`, from 0 to 1.
+    fn at(&self, s: f32) -> Vec3 {
+        let ([p1, p2], [tangent_1, tangent_2]) = (self.ends, self.tangents);
+        let (s2, s3) = (s * s, s * s * s);
+        // The weights of p1 and p2 add up to 1: relative to p1 there is less to round.
+        p1 + (p2 - p1) * (3.0 * s2 - 2.0 * s3)
+            + tangent_1 * (s3 - 2.0 * s2 + s)
+            + tangent_2 * (s3 - s2)
+    }
 }
 
 #[cfg(test)]
@@ -150,7 +170,7 @@ mod tests {
     fn two_particles_make_an_even_line() {
         let particles = [Vec3::ZERO, Vec3::new(0.0, -2.0, 1.0)];
         for s in [0.0, 0.25, 0.5, 0.75] {
-            let point = SPLINE.point(&particles, 0, s);
+            let point = Curve::catmull_rom(&particles, 0).at(s);
             assert!(point.distance(particles[1] * s) < 1e-6);
         }
     }
@@ -168,8 +188,8 @@ mod tests {
         };
         for interval in 0..4 {
             for s in [0.0, 0.3, 0.9] {
-                let near = SPLINE.point(&with_gap(1e-10), interval, s);
-                let same = SPLINE.point(&with_gap(0.0), interval, s);
+                let near = Curve::catmull_rom(&with_gap(1e-10), interval).at(s);
+                let same = Curve::catmull_rom(&with_gap(0.0), interval).at(s);
                 assert!(near.distance(same) < 1e-4, "{near} {same}");
             }
         }
@@ -184,11 +204,11 @@ mod tests {
             let points = points.map(Vec3::from);
             prop_assume!(points.windows(2).all(|p| p[0].distance(p[1]) > 0.01));
             let expected = pyramid(points, f64::from(s)).as_vec3();
-            let point = SPLINE.point(&points, 1, s);
+            let point = Curve::catmull_rom(&points, 1).at(s);
             prop_assert!(point.distance(expected) < 2e-5, "{point} {expected}");
             let reflected = [2.0 * points[0] - points[1], points[0], points[1], points[2]];
             let expected = pyramid(reflected, f64::from(s)).as_vec3();
-            let point = SPLINE.point(&points, 0, s);
+            let point = Curve::catmull_rom(&points, 0).at(s);
             prop_assert!(point.distance(expected) < 2e-5, "{point} {expected}");
         }
     }

@@ -521,25 +521,36 @@ impl Part<'_> {
         leave_out_unneeded(self.needed, &self.joints, radii);
         let mut made = Made::new(number);
         made.find_stretches(frame.paths, &self.joints, radii);
+        let count = made.stretches.iter().map(|s| s.joints.len()).sum();
+        made.discs.reserve_exact(count);
+        made.colors.reserve_exact(count);
         for stretch in &made.stretches {
             let joints = stretch.joints.clone();
             strokes.clear();
             program.evaluate(inputs, joints.clone(), number, self.seed, strokes);
-            for (i, stroke) in joints.zip(strokes.iter_mut()) {
-                stroke.radius = radii[i - self.joints.start];
+            let radii = &radii[joints.start - self.joints.start..];
+            for (stroke, radius) in strokes.iter_mut().zip(radii) {
+                stroke.radius = *radius;
                 drop_if_not_finite(stroke);
+            }
+            made.discs.extend(joints.zip(&*strokes).map(|(i, stroke)| {
                 let offset = inputs.clump_shift[i] + stroke.offset;
-                made.discs.push(disc_at(
+                let offset = Vec2::new(offset.x, offset.y);
+                let depth_offset = layer.depth_offset + stroke.depth_offset;
+                let clump_radius = inputs.clump_radius[i];
+                let radius = stroke.radius;
+                disc_at(
                     frame,
                     self.head,
                     i,
-                    Vec2::new(offset.x, offset.y),
-                    stroke.radius,
-                    inputs.clump_radius[i],
-                    layer.depth_offset + stroke.depth_offset,
-                ));
-                made.colors.push(stroke.color.to_array());
-            }
+                    offset,
+                    radius,
+                    clump_radius,
+                    depth_offset,
+                )
+            }));
+            let colors = strokes.iter().map(|stroke| stroke.color.to_array());
+            made.colors.extend(colors);
         }
         if frame.brush == Brush::Semicircle {
             self.go_around_flat_ends(radii, &mut made);

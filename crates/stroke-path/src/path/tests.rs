@@ -359,6 +359,35 @@ proptest! {
         }
     }
 
+    #[test]
+    fn parts_are_put_together_as_if_made_at_once(
+        strands in prop::collection::vec(near_points(0..9), 1..6),
+        first in 0..6usize,
+    ) {
+        let push = |paths: &mut Paths, strand: usize| {
+            let particles = &strands[strand];
+            let middle = (2 * particles.len()).saturating_sub(2) / 2;
+            let cut = Cut { at: middle, overlap: middle..=middle };
+            let cuts = if particles.len() > 2 { vec![cut] } else { Vec::new() };
+            paths.push_pieces(strand, particles, &cuts, SPLINE, &camera(0.5)).unwrap();
+        };
+        let (mut whole, mut start, mut rest) = (Paths::new(), Paths::new(), Paths::new());
+        for strand in 0..strands.len() {
+            push(&mut whole, strand);
+            push(if strand < first { &mut start } else { &mut rest }, strand);
+        }
+        start.append(&rest);
+        prop_assert_eq!(&start.runs, &whole.runs);
+        prop_assert_eq!((start.len(), start.dropped()), (whole.len(), whole.dropped()));
+        prop_assert_eq!(&start.position, &whole.position);
+        prop_assert_eq!(&start.across, &whole.across);
+        prop_assert_eq!(&start.px_per_metre, &whole.px_per_metre);
+        // What is appended behind goes on from there.
+        push(&mut start, strands.len() - 1);
+        push(&mut whole, strands.len() - 1);
+        prop_assert_eq!(start.runs, whole.runs);
+    }
+
     /// Cutting adds joints; it changes none.
     #[test]
     fn clipping_keeps_the_attributes_of_the_whole_strand(particles in near_points(1..9)) {
