@@ -1,0 +1,146 @@
+//! Strands that rest, and cost nothing.
+//!
+//! A strand is quiet that has hardly moved for a while, in which what acts stayed the same. Strands that act on each other, themselves or
+//! by way of others, are an island: they sleep as soon as all of them are quiet, and wake together.
+
+use crate::{
+    lanes::{LANES, Lane, Mask, Quat, Vec3},
+    surroundings::Surroundings,
+};
+
+use super::{
+    batch::{Batch, BatchState},
+    drive::{Drive, roots},
+};
+
+/// Strands that are slower than this (m/s) for so many steps are quiet.
+const QUIET_SPEED: f64 = 1e-7;
+const QUIET_STEPS: u32 = 24;
+
+/// Which strands act on each other: the island of every lane of every batch, by a number below `count`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Islands {
+    of: Vec<[u32; LANES]>,
+    count: usize,
+}
+
+impl Islands {
+    /// Of so many batches with the pairs of places (batch, lane) that act on each other.
+    pub(super) fn new(
+        batches: usize,
+        pairs: impl Iterator<Item = [(usize, usize); 2]>,
+    ) -> Self {
+        let mut parents: Vec<usize> = (0..batches * LANES).collect();
+        for [one, other] in pairs.map(|pair| pair.map(|(batch, lane)| batch * LANES + lane)) {
+            let (one, other) = (first_of(&mut parents, one), first_of(&mut parents, other));
+            parents[one.max(other)] = one.min(other);
+        }
+        let mut of = vec![[0; LANES]; batches];
+        for place in 0..parents.len() {
+            of[place / LANES][place % LANES] = first_of(&mut parents, place) as u32;
+        }
+        Self {
+            of,
+            count: parents.len(),
+        }
+    }
+}
+
+/// The first place of an island; those on the way there come nearer to it.
+fn first_of(parents: &mut [usize], mut place: usize) -> usize {
+    while parents[place] != place {
+        parents[place] = parents[parents[place]];
+        place = parents[place];
+    }
+    place
+}
+
+/// The strands of every batch that sleep in a step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sleepers {
+    pub(super) of: Vec<Mask>,
+    /// The islands in which a strand is awake.
+    awake: Vec<bool>,
+}
+
+impl Sleepers {
+    /// Finds them; none unless the step is `calm`: what acts is the same as in the last step, and does not move.
+    pub(super) fn find(
+        &mut self,
+        batches: &[Batch],
+        states: &[BatchState],
+        surroundings: &Surroundings,
+        calm: bool,
+        islands: Option<&Islands>,
+    ) {
+        self.of.clear();
+        if !calm {
+            self.of.resize(batches.len(), Mask::NONE);
+            return;
+        }
+        let places = batches.iter().zip(states);
+        let Some(islands) = islands else {
+            self.of.extend(
+                places.map(|(batch, state)| state.quiet().and(rest(batch, state, surroundings))),
+            );
+            return;
+        };
+        self.awake.clear();
+        self.awake.resize(islands.count, false);
+        for ((batch, state), islands) in places.clone().zip(&islands.of) {
+            // What is set aside is at rest where its root is.
+            let quiet = state.quiet().or(state.aside());
+            let wakes = (quiet.and(rest(batch, state, surroundings)).not()).and(batch.used);
+            for lane in 0..LANES {
+                self.awake[islands[lane] as usize] |= wakes.get(lane);
+            }
+        }
+        let awake = &self.awake;
+        self.of
+            .extend(places.zip(&islands.of).map(|((batch, state), islands)| {
+                let asleep = Mask::new(islands.map(|island| !awake[island as usize]));
+                asleep.and(batch.used).and(state.aside().not())
+            }));
+    }
+
+    /// Whether no strand that has something to move is awake.
+    pub(super) fn are_all(&self, batches: &[Batch], states: &[BatchState]) -> bool {
+        (self.of.iter().zip(batches).zip(states))
+            .all(|((asleep, batch), state)| *asleep == batch.used.and(state.aside().not()))
+    }
+}
+
+impl BatchState {
+    /// The strands that have hardly moved for a while.
+    fn quiet(&self) -> Mask {
+        Mask::new(self.quiet.map(|steps| steps >= QUIET_STEPS))
+    }
+}
+
+/// The strands whose roots stay where they are.
+fn rest(batch: &Batch, state: &BatchState, surroundings: &Surroundings) -> Mask {
+    let (root, base): (Vec3, Quat) = roots(batch, surroundings);
+    let moves = (root - state.root).length_squared()
+        + (base.v - state.base.v).length_squared()
+        + state.root_velocity.length_squared();
+    // A strand whose root has no pose stays where it is, and is set aside.
+    let lost = moves.is_finite().not().and(state.aside());
+    moves.lt(Lane::splat(1e-26)).or(lost).and(batch.used)
+}
+
+/// Counts for how long the strands of `active` have hardly moved.
+#[inline(always)]
+pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
+    let mut fastest = Lane::ZERO;
+    for k in 0..batch.count() {
+        fastest = fastest.max(state.v[k].length_squared());
+    }
+    let limit = Lane::splat(QUIET_SPEED * QUIET_SPEED);
+    let quiet = fastest.lt(limit).and(Mask::new([drive.calm; LANES]));
+    for lane in 0..LANES {
+        if active.get(lane) {
+            let steps = state.quiet[lane].saturating_add(1);
+            state.quiet[lane] = if quiet.get(lane) { steps } else { 0 };
+        }
+    }
+}
