@@ -276,8 +276,7 @@ impl Solver {
                 most,
             });
         }
-        let (pairs, islands) =
-            neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
+        let (pairs, islands) = neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
         for (pairs, state) in pairs.iter().zip(&mut state.batches) {
             state.broken = vec![[false; LANES]; pairs.len()];
         }

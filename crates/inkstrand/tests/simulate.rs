@@ -230,7 +230,10 @@ fn a_bake_is_made_anew_in_the_place_of_the_one_that_the_preset_names() {
         style.to_str().unwrap()
     );
     let preset = preset.replace("file: \"styles/bob.style.ron\"", &hair);
-    let line = 1 + preset.lines().position(|line| line.contains(&hair)).unwrap();
+    let line = 1 + preset
+        .lines()
+        .position(|line| line.contains(&hair))
+        .unwrap();
     fs::write(folder.path().join("look.ron"), preset).unwrap();
     let run = |line: &[&str]| {
         let mut command = Command::cargo_bin("inkstrand").unwrap();

@@ -472,3 +472,30 @@ fn ordinary_motions_need_no_rescue() {
         }
     }
 }
+
+/// Once hair has come to rest nothing is simulated, with links and volume on.
+#[test]
+fn hair_that_has_come_to_rest_sleeps() {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let turn = folder.path().join("turn.motion.ron");
+    fs::write(&turn, TURN).unwrap();
+    for look in ["twin-tails", "short-ash", "side-braid"] {
+        let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
+        let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+        let files = Files {
+            preset_folder: presets(),
+            motion: Some(turn.clone()),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let asleep = (1..=40).find(|&second| {
+            stage.advance_to(second as f32).unwrap();
+            let stats = stage.simulated();
+            stats.strands == 0 && stats.asleep > 0
+        });
+        println!("{look}: asleep after {asleep:?} s");
+        assert!(asleep.is_some_and(|second| second < 30), "{look}");
+    }
+}

@@ -3,7 +3,7 @@
 use crate::lanes::{Lane, Mask, Number, Quat, Vec3};
 
 use super::{
-    batch::{Batch, BatchState},
+    batch::{Batch, BatchState, CREEP},
     chain::{Chain, chord},
     contact::Contact,
     drive::RootMotion,
@@ -90,6 +90,7 @@ pub(crate) fn finish<T: Number>(
                     state.past[k] = Vec3::pick(which, past[k], state.past[k]);
                 }
                 state.press[k] = which.pick(Lane::ZERO, state.press[k]);
+                state.creep[k] = which.pick(Lane::splat(CREEP), state.creep[k]);
             }
             rods.keep_frames(state, end, which);
             let mut struck = Mask::new(state.restart).and(which.not());
@@ -117,8 +118,11 @@ fn settle_contact(
     let a = state.a[k];
     let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
     state.a[k] = Vec3::pick(which, a - contact.normal * out, a);
-    let is_new = (contact.press.gt(Lane::ZERO).not()).and(press.gt(Lane::ZERO));
-    is_new.and(which)
+    let presses = press.gt(Lane::ZERO).and(which);
+    let is_new = (contact.press.gt(Lane::ZERO).not()).and(presses);
+    let creep = is_new.pick(Lane::ZERO, contact.creep);
+    state.creep[k] = presses.pick(creep, state.creep[k]);
+    is_new
 }
 
 /// Carries the lanes in `which` along with the skin, at rest against it.

@@ -31,7 +31,7 @@ pub(super) fn pairs(
     states: &[BatchState],
     ids: &[u32],
     mutual: &Mutual,
- ) -> (Vec<Vec<Pair>>, Islands) {
+) -> (Vec<Vec<Pair>>, Islands) {
     let mut first = Vec::with_capacity(batches.len());
     let mut total = 0;
     let mut strands = Vec::new();

@@ -1,6 +1,7 @@
 //! Strands that rest, and cost nothing.
 //!
-//! A strand is quiet that has hardly moved for a while, in which what acts stayed the same. Strands that act on each other, themselves or
+//! A strand is quiet whose particles have stayed within a few micrometres for a while, in which what acts stayed the same: no picture
+//! shows more, and what rests on a body may tremble by less for ever. Strands that act on each other, themselves or
 //! by way of others, are an island: they sleep as soon as all of them are quiet, and wake together.
 
 use crate::{
@@ -13,9 +14,11 @@ use super::{
     drive::{Drive, roots},
 };
 
-/// Strands that are slower than this (m/s) for so many steps are quiet.
-const QUIET_SPEED: f64 = 1e-7;
-const QUIET_STEPS: u32 = 24;
+/// Strands of which no particle leaves a ball of this radius (m), or of this part of their length where that is less, for so long (s) are
+/// quiet.
+const QUIET_WAY: f64 = 3e-6;
+const QUIET_SHARE: f64 = 1e-5;
+const QUIET_TIME: f64 = 1.0;
 
 /// Which strands act on each other: the island of every lane of every batch, by a number below `count`.
 #[derive(Clone, Debug, Default)]
@@ -26,10 +29,7 @@ pub(super) struct Islands {
 
 impl Islands {
     /// Of so many batches with the pairs of places (batch, lane) that act on each other.
-    pub(super) fn new(
-        batches: usize,
-        pairs: impl Iterator<Item = [(usize, usize); 2]>,
-    ) -> Self {
+    pub(super) fn new(batches: usize, pairs: impl Iterator<Item = [(usize, usize); 2]>) -> Self {
         let mut parents: Vec<usize> = (0..batches * LANES).collect();
         for [one, other] in pairs.map(|pair| pair.map(|(batch, lane)| batch * LANES + lane)) {
             let (one, other) = (first_of(&mut parents, one), first_of(&mut parents, other));
@@ -113,7 +113,7 @@ impl Sleepers {
 impl BatchState {
     /// The strands that have hardly moved for a while.
     fn quiet(&self) -> Mask {
-        Mask::new(self.quiet.map(|steps| steps >= QUIET_STEPS))
+        self.quiet.gt(Lane::splat(QUIET_TIME))
     }
 }
 
@@ -128,19 +128,25 @@ fn rest(batch: &Batch, state: &BatchState, surroundings: &Surroundings) -> Mask 
     moves.lt(Lane::splat(1e-26)).or(lost).and(batch.used)
 }
 
-/// Counts for how long the strands of `active` have hardly moved.
+/// Measures for how long the strands of `active` have hardly moved.
 #[inline(always)]
 pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
-    let mut fastest = Lane::ZERO;
-    for k in 0..batch.count() {
-        fastest = fastest.max(state.v[k].length_squared());
+    if !drive.calm {
+        state.quiet = active.pick(Lane::ZERO, state.quiet);
+        return;
     }
-    let limit = Lane::splat(QUIET_SPEED * QUIET_SPEED);
-    let quiet = fastest.lt(limit).and(Mask::new([drive.calm; LANES]));
-    for lane in 0..LANES {
-        if active.get(lane) {
-            let steps = state.quiet[lane].saturating_add(1);
-            state.quiet[lane] = if quiet.get(lane) { steps } else { 0 };
+    let mut farthest = Lane::ZERO;
+    for (y, quiet_at) in state.y.iter().zip(&state.quiet_at) {
+        farthest = farthest.max((*y - *quiet_at).length_squared());
+    }
+    let most = (batch.length * QUIET_SHARE).min(Lane::splat(QUIET_WAY));
+    let stays = farthest.lt(most * most);
+    let moved = active.and(stays.not());
+    if moved.any() {
+        for k in 0..batch.count() {
+            state.quiet_at[k] = Vec3::pick(moved, state.y[k], state.quiet_at[k]);
         }
     }
+    let quiet = stays.pick(state.quiet + Lane::splat(drive.dt), Lane::ZERO);
+    state.quiet = active.pick(quiet, state.quiet);
 }
