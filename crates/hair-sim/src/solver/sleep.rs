@@ -1,7 +1,8 @@
 //! Strands that rest, and cost nothing.
 //!
-//! A strand is quiet whose particles have stayed within a few micrometres for a while, in which what acts stayed the same: no picture
-//! shows more, and what rests on a body may tremble by less for ever. Strands that act on each other, themselves or
+//! A strand is quiet that has hardly moved for a while, in which what acts stayed the same. On bodies and among other hair that is a few
+//! micrometres: no picture shows more, and what rests there may tremble by less for ever. A free strand may be about to leave a shape that it
+//! can't keep, and must be quieter. Strands that act on each other, themselves or
 //! by way of others, are an island: they sleep as soon as all of them are quiet, and wake together.
 
 use crate::{
@@ -14,9 +15,10 @@ use super::{
     drive::{Drive, roots},
 };
 
-/// Strands of which no particle leaves a ball of this radius (m), or of this part of their length where that is less, for so long (s) are
+/// Strands of which no particle leaves a ball of this radius (m; the second of free ones), or of this part of their length where that is less, for so long (s) are
 /// quiet.
 const QUIET_WAY: f64 = 3e-6;
+const FREE_WAY: f64 = 1e-7;
 const QUIET_SHARE: f64 = 1e-5;
 const QUIET_TIME: f64 = 1.0;
 
@@ -135,11 +137,17 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
         state.quiet = active.pick(Lane::ZERO, state.quiet);
         return;
     }
-    let mut farthest = Lane::ZERO;
-    for (y, quiet_at) in state.y.iter().zip(&state.quiet_at) {
-        farthest = farthest.max((*y - *quiet_at).length_squared());
+    let (mut farthest, mut press) = (Lane::ZERO, Lane::ZERO);
+    for k in 0..batch.count() {
+        farthest = farthest.max((state.y[k] - state.quiet_at[k]).length_squared());
+        press = press.max(state.press[k]);
     }
-    let most = (batch.length * QUIET_SHARE).min(Lane::splat(QUIET_WAY));
+    let is_free = press
+        .gt(Lane::ZERO)
+        .not()
+        .and(Mask::new([drive.others.is_none(); LANES]));
+    let way = is_free.pick(Lane::splat(FREE_WAY), Lane::splat(QUIET_WAY));
+    let most = (batch.length * QUIET_SHARE).min(way);
     let stays = farthest.lt(most * most);
     let moved = active.and(stays.not());
     if moved.any() {
