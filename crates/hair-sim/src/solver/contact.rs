@@ -388,17 +388,16 @@ impl Path {
     fn surface(&self, shape: &Shape, place: DVec3, distance: f64) -> (DVec3, DVec3) {
         let normal = shape.normal(place);
         let at = place - normal * distance;
-        // The distances of a grid are not exact, and its normals jump from cell to cell: what is far off would lie on another surface
-        // than what is at it.
+        // The distances of a grid are not exact, and its normals jump from cell to cell: what rests would be held now by one plane, now by
+        // another, would they hang on where its motion points to.
         let Shape::Grid(grid) = shape else {
             return (at, normal);
         };
-        let left = grid.distance(at) - self.keep;
-        if left.abs() < TOUCH {
+        let there = shape.normal(at);
+        if distance.abs() > NEAR || there.dot(normal) < 0.9 {
             return (at, normal);
         }
-        let normal = shape.normal(at);
-        (at - normal * left, normal)
+        (at - there * (grid.distance(at) - self.keep), there)
     }
 
     fn plane(&self, at: DVec3, normal: DVec3, end: DVec3) -> Plane {

@@ -251,8 +251,9 @@ impl Dynamics {
         let is_there = !is_seen || self.done == wanted;
         if is_seen && is_there && time > shown + slack {
             shown = time;
-            self.stats = self.drive(time, driver, |strands, scene, dt| {
-                strands.look_ahead(scene, dt)
+            let ahead = time - self.time_of(self.done);
+            self.stats = self.drive(time, driver, |strands, scene| {
+                strands.look_ahead(scene, ahead)
             })?;
         }
         self.shown = shown;
@@ -303,7 +304,9 @@ impl Dynamics {
     /// Takes so many steps as one.
     fn step(&mut self, steps: i64, driver: Driver) -> Result<(), StageError> {
         let end = self.time_of(self.done + steps);
-        self.stats = self.drive(end, driver, |strands, scene, dt| strands.step(scene, dt))?;
+        // Not the difference of two times, whose last bits hang on when it is.
+        let dt = steps as f64 * self.step;
+        self.stats = self.drive(end, driver, |strands, scene| strands.step(scene, dt))?;
         self.done += steps;
         self.taken += 1;
         Ok(())
@@ -331,7 +334,7 @@ impl Dynamics {
         &mut self,
         end: f64,
         driver: Driver,
-        step: impl Fn(&mut (dyn Running + 'static), &Surroundings, f64) -> Result<Stats, DynamicsError>,
+        step: impl Fn(&mut (dyn Running + 'static), &Surroundings) -> Result<Stats, DynamicsError>,
     ) -> Result<Stats, StageError> {
         let begin = self.time_of(self.done);
         let [before, now] = [begin, end].map(|time| self.pose_at(time, driver));
@@ -361,7 +364,7 @@ impl Dynamics {
             colliders: &self.bodies.colliders([before, now], shoulders),
             goal: self.shapes.as_ref().map(|_| &self.goal[..]),
         };
-        Ok(step(&mut *self.strands, &scene, end - begin)?)
+        Ok(step(&mut *self.strands, &scene)?)
     }
 
     /// Takes the goals of the script's own `time` from the key shapes.
