@@ -39,6 +39,8 @@ const MASS_SPRING_SUBSTEPS: u32 = 4;
 
 /// The shortest step in s that is worth one of its own.
 const SHORTEST_STEP: f64 = 2e-6;
+/// Parts of a second that times are told in: as fine as needed for the shortest step's accelerations.
+const MOMENTS: f64 = (1_u64 << 44) as f64;
 /// So many steps of hair that is not seen are taken as one,
 const UNSEEN_STEPS: i64 = 4;
 /// while the head's acceleration is below this, in m/s^2: a long step through a turn of the head would throw hair about.
@@ -379,7 +381,8 @@ impl Dynamics {
 
     /// The script's time after a number of steps.
     fn time_of(&self, steps: i64) -> f64 {
-        (steps - self.warm_up) as f64 * self.step
+        // In fractions that periods are added to without rounding: what sticks or slips hangs on the last bit.
+        ((steps - self.warm_up) as f64 * self.step * MOMENTS).round() / MOMENTS
     }
 
     fn pose_at(&self, time: f64, driver: Driver) -> Pose {
