@@ -113,6 +113,13 @@ fn simulated(
     Ok(Box::new(Run::new((solver, state))))
 }
 
+/// The time of a frame, or a part of it that is at most `longest` s.
+fn part_of_frame(frame: f64, longest: f64) -> f64 {
+    // What a frame's time in single precision can tell from the longest is no reason for another step.
+    let parts = (frame / longest - 1e-6).ceil().max(1.0);
+    frame / parts
+}
+
 impl Dynamics {
     /// The dynamics of hair whose strands have these sizes (1/300 head heights), on a head of this mesh. `hold` is
     /// the pull to its key shapes, where it has some.
@@ -145,14 +152,20 @@ impl Dynamics {
         }
         let (guides, carried) = carried::choose(&free, &parts, section.guides);
         let chosen = free.select(&guides);
-        let params = |i: usize| {
+        let length_m = |i: usize| {
             let links = chosen.strand(i).windows(2);
-            let length_m: f32 = links.map(|link| link[0].distance(link[1])).sum();
-            feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
+            f64::from(links.map(|link| link[0].distance(link[1])).sum::<f32>())
         };
+        let params = |i: usize| feel.params(sizes[chosen.id(i) as usize], length_m(i));
         let strands = simulated(section, hair.head, &chosen, params)?;
+        let gravity = GRAVITY * f64::from(section.gravity);
         let step = match f64::from(section.step) {
-            0.0 => 1.0 / f64::from(fps),
+            0.0 => {
+                let longest = (0..chosen.len())
+                    .map(|i| params(i).longest_step(length_m(i).max(1e-4), gravity))
+                    .fold(f64::INFINITY, f64::min);
+                part_of_frame(1.0 / f64::from(fps), longest)
+            }
             step => step,
         };
         let guides = (0..).zip(&guides).map(|(strand, &part)| Part {
@@ -170,7 +183,7 @@ impl Dynamics {
             strands,
             head: hair.head,
             placement: Placement::default(),
-            gravity: DVec3::new(0.0, -GRAVITY * f64::from(section.gravity), 0.0),
+            gravity: DVec3::new(0.0, -gravity, 0.0),
             seed: u64::from(seed),
             warm_up: (f64::from(section.warm_up) / step).round() as i64,
             step,
