@@ -1,6 +1,6 @@
 //! Hashes that tell whether something has changed.
 
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 
 /// A hash by words: FNV-1a's, turned after each, as a product alone never brings a high bit down, and two signs that change would
 /// leave it as it was.
@@ -30,6 +30,12 @@ impl Hash {
 
     pub(crate) fn add(&mut self, v: DVec3) {
         for number in v.to_array() {
+            self.add_word(number.to_bits());
+        }
+    }
+
+    pub(crate) fn add_turn(&mut self, turn: DQuat) {
+        for number in turn.to_array() {
             self.add_word(number.to_bits());
         }
     }

@@ -8,6 +8,8 @@ pub const GRAVITY: f64 = 9.81;
 /// For how long a swing is followed by [`Params::longest_step`], in s, and after how many times of its decay it is over.
 const SWINGS: f64 = 2.0;
 const FADES: f64 = 1.5;
+/// What goes to and fro less often until then doesn't swing.
+const CYCLES: f64 = 2.0;
 /// The part of a cycle that it may lag by then: large swings lag twice as far, and lose a tenth.
 const LAG: f64 = 0.045;
 
@@ -178,10 +180,10 @@ impl Params {
         let goal = self.goal.at(0.8);
         let frequency = (1.53 * gravity.abs() / length + bends + goal).sqrt();
         let decay = 0.5 * (self.drag + self.damping * bends) + goal.sqrt();
-        if decay >= frequency {
+        let swings = SWINGS.min(FADES / decay);
+        if swings * frequency < CYCLES * TAU {
             return LONGEST_STEP;
         }
-        let swings = SWINGS.min(FADES / decay);
         let lag = LAG * TAU;
         let step = (lag / (0.0404 * frequency.powi(3) * swings)).sqrt();
         step.clamp(SHORTEST_STEP, LONGEST_STEP)

@@ -79,6 +79,8 @@ pub struct Solver {
     points: Vec<usize>,
     first_points: Vec<usize>,
     ids: Vec<u32>,
+    /// Whether every strand has more than a root.
+    have_links: bool,
     interaction: Option<Interaction>,
     /// Of the bodies in the step at hand, and who sleeps in it.
     guards: Vec<Guard>,
@@ -209,6 +211,7 @@ impl Solver {
             points: rest.iter().map(<[Vec3]>::len).collect(),
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
             ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
+            have_links: rest.iter().all(|points| points.len() > 1),
             interaction: None,
             guards: Vec::new(),
             sleepers: Sleepers::default(),
@@ -315,19 +318,26 @@ impl Solver {
     ) -> Result<Stats, DynamicsError> {
         self.check(state, surroundings, dt)?;
         let instructions = self.instructions;
-        let gusts =
-            [GAMMA, 1.0].map(|share| surroundings.wind_at(share).at(state.time + share * dt));
         let acting = surroundings.fingerprint();
         let calm = acting == state.last && surroundings.is_calm();
         state.last = acting;
-        self.guards.clear();
-        self.guards
-            .extend(surroundings.colliders.iter().map(Guard::new));
         let islands = self.interaction.as_ref().map(|all| &all.islands);
         let (batches, states) = (&self.batches, &state.batches);
         (self.sleepers).find(batches, states, surroundings, calm, islands);
-        let all_sleep = calm && self.sleepers.are_all(batches, states);
-        if let Some(interaction) = self.interaction.as_mut().filter(|_| !all_sleep) {
+        if calm && self.have_links && self.sleepers.are_all(batches) {
+            state.time += dt;
+            state.last_dt = dt;
+            return Ok(Stats {
+                asleep: self.len(),
+                ..Stats::default()
+            });
+        }
+        let gusts =
+            [GAMMA, 1.0].map(|share| surroundings.wind_at(share).at(state.time + share * dt));
+        self.guards.clear();
+        self.guards
+            .extend(surroundings.colliders.iter().map(Guard::new));
+        if let Some(interaction) = &mut self.interaction {
             follow(
                 &self.batches,
                 &state.batches,
@@ -393,11 +403,13 @@ impl Solver {
             ..Surroundings::default()
         };
         self.check(state, &surroundings, 1.0)?;
-        for (batch, state) in self.batches.iter().zip(&mut state.batches) {
+        for (batch, batch_state) in self.batches.iter().zip(&mut state.batches) {
             let (root, base) = roots(batch, &surroundings);
-            let (root, base) = whole_poses(state, root, base);
-            state.teleport(root, base);
+            let (root, base) = whole_poses(batch_state, root, base);
+            batch_state.teleport(root, base);
         }
+        // Roots that were elsewhere in the last step have moved.
+        state.last = 0;
         Ok(())
     }
 

@@ -136,7 +136,8 @@ impl Surroundings<'_> {
         }
     }
 
-    /// Whether nothing in it moves but, perhaps, the roots.
+    /// Whether nothing in it moves but, perhaps, roots that have poses of their own: a head that moves tells by its
+    /// [`Self::fingerprint`].
     pub(crate) fn is_calm(&self) -> bool {
         let still = |c: &Collider| c.before == c.now;
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
@@ -159,6 +160,10 @@ impl Surroundings<'_> {
     /// A hash of what acts on strands at rest.
     pub(crate) fn fingerprint(&self) -> u64 {
         let mut hash = Hash::new();
+        if let Roots::Head(pose) = self.roots {
+            hash.add(pose.translation);
+            hash.add_turn(pose.rotation);
+        }
         hash.add(self.gravity);
         hash.add(self.wind.steady);
         for end in self.acceleration.iter().flatten() {
@@ -170,8 +175,7 @@ impl Surroundings<'_> {
         }
         for collider in self.colliders {
             hash.add(collider.now.translation);
-            hash.add(collider.now.rotation * DVec3::X);
-            hash.add(collider.now.rotation * DVec3::Y);
+            hash.add_turn(collider.now.rotation);
             for v in collider.shape.numbers() {
                 hash.add(v);
             }

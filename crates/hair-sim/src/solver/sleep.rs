@@ -7,7 +7,7 @@
 
 use crate::{
     lanes::{LANES, Lane, Mask, Quat, Vec3},
-    surroundings::Surroundings,
+    surroundings::{Roots, Surroundings},
 };
 
 use super::{
@@ -105,10 +105,9 @@ impl Sleepers {
             }));
     }
 
-    /// Whether no strand that has something to move is awake.
-    pub(super) fn are_all(&self, batches: &[Batch], states: &[BatchState]) -> bool {
-        (self.of.iter().zip(batches).zip(states))
-            .all(|((asleep, batch), state)| *asleep == batch.used.and(state.aside().not()))
+    /// Whether all strands that have links sleep.
+    pub(super) fn are_all(&self, batches: &[Batch]) -> bool {
+        (self.of.iter().zip(batches)).all(|(asleep, batch)| *asleep == batch.used)
     }
 }
 
@@ -119,8 +118,11 @@ impl BatchState {
     }
 }
 
-/// The strands whose roots stay where they are.
+/// The strands whose roots stay where they are in a step in which what acts is the same as in the last.
 fn rest(batch: &Batch, state: &BatchState, surroundings: &Surroundings) -> Mask {
+    if let Roots::Head(_) = surroundings.roots {
+        return batch.used;
+    }
     let (root, base): (Vec3, Quat) = roots(batch, surroundings);
     let moves = (root - state.root).length_squared()
         + (base.v - state.base.v).length_squared()
