@@ -126,7 +126,13 @@ fn scene(gamma: f64, count: usize) -> String {
 
 /// Falls first, one strand before many: the order of the scenes in the files.
 fn place_of(scene: &str) -> (usize, String) {
-    let kinds = ["drop-", names::CANTILEVER, "motion-", names::FULL];
+    let kinds = [
+        "drop-",
+        names::CANTILEVER,
+        "motion-",
+        names::FULL,
+        names::REST,
+    ];
     let kind = kinds.iter().position(|kind| scene.starts_with(kind));
     (kind.unwrap_or(kinds.len()), scene.to_owned())
 }
@@ -184,6 +190,7 @@ fn comments(options: &Options, truths: &[(f64, Truth)]) -> Vec<String> {
         "cantilever-GAMMA: the same strand at rest; knob: elements; seconds: for a second; error: of the tip over the length",
         "  steps of inkstrand 1/24 s, mass-spring 1/384 s, xpbd-sweeps 1/1536 s with 20 sweeps",
         "motion-STRANDSxELEMENTS: on a head that shakes; full-: with the head in their way, wind and links; knob: threads",
+        "rest-: those of full- in still air on a head at rest, asleep",
         "  seconds: for a step of 1/60 s of all strands; xpbd-sweeps: 20 sweeps",
     ];
     comments.extend(text.map(str::to_owned));

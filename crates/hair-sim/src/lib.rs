@@ -77,6 +77,7 @@ mod collision;
 pub mod compare;
 mod error;
 mod forces;
+mod hash;
 mod lanes;
 mod math;
 mod params;

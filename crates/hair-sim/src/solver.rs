@@ -8,6 +8,7 @@
 //! - `rods`: the two kinds of strands, `curled` and `straight`, behind one interface
 //! - `scratch`: what a step works with
 //! - `neighbours`; `drive`: what drives a batch in a step
+//! - `sleep`: which strands cost nothing
 //! - `tr_bdf2`, the integrator; `safe`, the one behind it; `energy`, which keeps them from making any; `finish`
 //! - `step`: all of a batch's step
 //!
@@ -30,6 +31,7 @@ mod ring;
 mod rods;
 mod safe;
 mod scratch;
+mod sleep;
 mod stage;
 mod step;
 mod tr_bdf2;
@@ -39,7 +41,7 @@ use glam::{DQuat, DVec3, Vec3};
 use crate::{
     error::{DynamicsError, Fault},
     forces::mutual::{Course, Mutual, Pair},
-    lanes::{LANES, Lane, Quat, Vec3 as LaneVec3, instructions::Instructions},
+    lanes::{LANES, Lane, Vec3 as LaneVec3, instructions::Instructions},
     params::Params,
     rest::RestStrand,
     stats::Stats,
@@ -52,10 +54,11 @@ use crate::{
 use crate::lanes::avx2::Avx2;
 use batch::{Batch, BatchState};
 use contact::Guard;
-use drive::{Drive, Others, whole_poses};
+use drive::{Drive, Others, roots, whole_poses};
 use energy::whole_energy;
 use rods::Rods;
 use scratch::Scratch;
+use sleep::{Islands, Sleepers};
 use stage::GAMMA;
 use step::advance;
 
@@ -76,9 +79,12 @@ pub struct Solver {
     points: Vec<usize>,
     first_points: Vec<usize>,
     ids: Vec<u32>,
+    /// Whether every strand has more than a root.
+    have_links: bool,
     interaction: Option<Interaction>,
-    /// Of the bodies in the step at hand.
+    /// Of the bodies in the step at hand, and who sleeps in it.
     guards: Vec<Guard>,
+    sleepers: Sleepers,
     instructions: Instructions,
 }
 
@@ -90,6 +96,7 @@ struct Interaction {
     pairs: Vec<Vec<Pair>>,
     /// Of every particle: batch by batch, particle by particle, lane by lane.
     courses: Vec<Course>,
+    islands: Islands,
 }
 
 /// Where every particle is, and where its own motion takes it.
@@ -204,8 +211,10 @@ impl Solver {
             points: rest.iter().map(<[Vec3]>::len).collect(),
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
             ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
+            have_links: rest.iter().all(|points| points.len() > 1),
             interaction: None,
             guards: Vec::new(),
+            sleepers: Sleepers::default(),
             instructions: Instructions::best(),
         };
         let mut states = Vec::new();
@@ -270,7 +279,7 @@ impl Solver {
                 most,
             });
         }
-        let pairs = neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
+        let (pairs, islands) = neighbours::pairs(&self.batches, &state.batches, &self.ids, mutual);
         for (pairs, state) in pairs.iter().zip(&mut state.batches) {
             state.broken = vec![[false; LANES]; pairs.len()];
         }
@@ -279,6 +288,7 @@ impl Solver {
             mutual: *mutual,
             pairs,
             courses: vec![Course::default(); total],
+            islands,
         });
         Ok(())
     }
@@ -308,11 +318,22 @@ impl Solver {
     ) -> Result<Stats, DynamicsError> {
         self.check(state, surroundings, dt)?;
         let instructions = self.instructions;
+        let acting = surroundings.fingerprint();
+        let calm = acting == state.last && surroundings.is_calm();
+        state.last = acting;
+        let islands = self.interaction.as_ref().map(|all| &all.islands);
+        let (batches, states) = (&self.batches, &state.batches);
+        (self.sleepers).find(batches, states, surroundings, calm, islands);
+        if calm && self.have_links && self.sleepers.are_all(batches) {
+            state.time += dt;
+            state.last_dt = dt;
+            return Ok(Stats {
+                asleep: self.len(),
+                ..Stats::default()
+            });
+        }
         let gusts =
             [GAMMA, 1.0].map(|share| surroundings.wind_at(share).at(state.time + share * dt));
-        let acting = surroundings.fingerprint();
-        let calm = acting == state.last && self.interaction.is_none() && surroundings.is_calm();
-        state.last = acting;
         self.guards.clear();
         self.guards
             .extend(surroundings.colliders.iter().map(Guard::new));
@@ -327,6 +348,7 @@ impl Solver {
         }
         let interaction = self.interaction.as_ref();
         let (first_points, guards) = (&self.first_points, &self.guards);
+        let sleepers = &self.sleepers;
         let last_dt = if state.last_dt > 0.0 {
             state.last_dt
         } else {
@@ -345,6 +367,7 @@ impl Solver {
                 base,
                 accelerations: accelerations(batch, surroundings),
                 calm,
+                asleep: sleepers.of[index],
                 others: interaction.map(|all| Others {
                     mutual: &all.mutual,
                     pairs: &all.pairs[index],
@@ -380,11 +403,13 @@ impl Solver {
             ..Surroundings::default()
         };
         self.check(state, &surroundings, 1.0)?;
-        for (batch, state) in self.batches.iter().zip(&mut state.batches) {
+        for (batch, batch_state) in self.batches.iter().zip(&mut state.batches) {
             let (root, base) = roots(batch, &surroundings);
-            let (root, base) = whole_poses(state, root, base);
-            state.teleport(root, base);
+            let (root, base) = whole_poses(batch_state, root, base);
+            batch_state.teleport(root, base);
         }
+        // Roots that were elsewhere in the last step have moved.
+        state.last = 0;
         Ok(())
     }
 
@@ -517,23 +542,6 @@ fn layout(places: &[(usize, usize)]) -> u64 {
         .fold(0xcbf2_9ce4_8422_2325, |hash, (batch, lane)| {
             (hash ^ (batch * LANES + lane) as u64).wrapping_mul(0x0100_0000_01b3)
         })
-}
-
-/// Root and frame of the skin of every lane in the world.
-fn roots(batch: &Batch, surroundings: &Surroundings) -> (LaneVec3, Quat) {
-    let (mut root, mut base) = (batch.root, batch.base);
-    for lane in 0..LANES {
-        let Some(strand) = batch.strands[lane] else {
-            continue;
-        };
-        let pose = surroundings.roots.of(strand);
-        root.set(
-            lane,
-            pose.translation + pose.rotation * batch.root.get(lane),
-        );
-        base.set(lane, pose.rotation * batch.base.get(lane));
-    }
-    (root, base)
 }
 
 /// The accelerations of every lane's root at both ends of the step, where they are known.

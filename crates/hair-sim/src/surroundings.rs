@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec3, Vec3};
 
 use crate::{
-    collision::shape::Collider, error::DynamicsError, forces::wind::Wind, params::GRAVITY,
-    pose::Pose,
+    collision::shape::Collider, error::DynamicsError, forces::wind::Wind, hash::Hash,
+    params::GRAVITY, pose::Pose,
 };
 
 /// In s. Velocities are differences of places over the step: below it they would be those of rounding.
@@ -136,11 +136,12 @@ impl Surroundings<'_> {
         }
     }
 
-    /// Whether nothing in it moves but, perhaps, the roots.
+    /// Whether nothing in it moves but, perhaps, roots that have poses of their own: a head that moves tells by its
+    /// [`Self::fingerprint`].
     pub(crate) fn is_calm(&self) -> bool {
         let still = |c: &Collider| c.before == c.now;
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
-        self.wind.gust == 0.0 && is_even && self.goal.is_none() && self.colliders.iter().all(still)
+        self.wind.gust == 0.0 && is_even && self.colliders.iter().all(still)
     }
 
     /// The motion of the air at `share` of the step, 0 to 1.
@@ -158,22 +159,30 @@ impl Surroundings<'_> {
 
     /// A hash of what acts on strands at rest.
     pub(crate) fn fingerprint(&self) -> u64 {
-        let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a, by words
-        let mut add = |v: DVec3| {
-            for bits in v.to_array().map(f64::to_bits) {
-                hash = (hash ^ bits).wrapping_mul(0x0100_0000_01b3);
-            }
-        };
-        add(self.gravity);
-        add(self.wind.steady);
-        for collider in self.colliders {
-            add(collider.now.translation);
-            add(collider.now.rotation * DVec3::X);
-            add(collider.now.rotation * DVec3::Y);
-            for v in collider.shape.numbers() {
-                add(v);
+        let mut hash = Hash::new();
+        if let Roots::Head(pose) = self.roots {
+            hash.add(pose.translation);
+            hash.add_turn(pose.rotation);
+        }
+        hash.add(self.gravity);
+        hash.add(self.wind.steady);
+        for end in self.acceleration.iter().flatten() {
+            hash.add(end.shift);
+            let turn = end.turn;
+            for axis in [turn.x_axis, turn.y_axis, turn.z_axis] {
+                hash.add(axis);
             }
         }
-        hash
+        for collider in self.colliders {
+            hash.add(collider.now.translation);
+            hash.add_turn(collider.now.rotation);
+            for v in collider.shape.numbers() {
+                hash.add(v);
+            }
+        }
+        if let Some(goal) = self.goal {
+            hash.add_all(goal);
+        }
+        hash.sum()
     }
 }

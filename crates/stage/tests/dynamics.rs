@@ -472,3 +472,64 @@ fn ordinary_motions_need_no_rescue() {
         }
     }
 }
+
+/// Few frames a second show the same motion as many: where a frame is too long for hair, it takes some steps in it.
+#[test]
+fn the_rate_of_frames_does_not_show() {
+    let style = "twin-tails.style.ron";
+    let at = |rate: &str, time: f32| {
+        let mut stage = scene(style, Some(TURN), &[("scene.fps", rate)]);
+        let shape = means(&mut stage, time);
+        (shape, stage.steps_taken())
+    };
+    for time in [0.5, 1.0, 2.0] {
+        let (wanted, steps) = at("24", time);
+        assert_eq!(steps, (24.0 * time) as u64);
+        for (rate, parts) in [("8", 3), ("12", 2)] {
+            let (shape, taken) = at(rate, time);
+            let frames = (time * rate.parse::<f32>().unwrap()) as u64;
+            assert_eq!(taken, frames * parts, "{rate}");
+            let apart = farthest(&shape, &wanted);
+            println!("{rate} frames a second, {time} s: {apart:.1e} m from 24");
+            assert!(apart < 1e-4, "{rate}, {time} s: {apart}");
+        }
+    }
+    // Hair that swings long takes more of them than hair that doesn't.
+    let settings = [
+        ("dynamics.feel", "springy"),
+        ("dynamics.damping", "0"),
+        ("dynamics.hold", "0"),
+        ("dynamics.drag", "0"),
+    ];
+    let mut free = scene(style, Some(TURN), &settings);
+    means(&mut free, 1.0);
+    println!("undamped: {} steps in 24 frames", free.steps_taken());
+    assert!(free.steps_taken() > 24);
+}
+
+/// Once hair has come to rest nothing is simulated, with links and volume on.
+#[test]
+fn hair_that_has_come_to_rest_sleeps() {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let turn = folder.path().join("turn.motion.ron");
+    fs::write(&turn, TURN).unwrap();
+    for look in ["twin-tails", "short-ash", "side-braid"] {
+        let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
+        let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+        let files = Files {
+            preset_folder: presets(),
+            motion: Some(turn.clone()),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let asleep = (1..=40).find(|&second| {
+            stage.advance_to(second as f32).unwrap();
+            let stats = stage.simulated();
+            stats.strands == 0 && stats.asleep > 0
+        });
+        println!("{look}: asleep after {asleep:?} s");
+        assert!(asleep.is_some_and(|second| second < 30), "{look}");
+    }
+}

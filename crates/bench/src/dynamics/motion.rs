@@ -137,6 +137,27 @@ impl Full {
         })
     }
 
+    /// A step of a head that goes from one pose to another in this wind.
+    fn take(&mut self, [before, now]: [Pose; 2], wind: Wind) -> Result<Stats, BenchError> {
+        let ball = Shape::Sphere {
+            center: DVec3::ZERO,
+            radius: HEAD,
+        };
+        let colliders = [Collider {
+            shape: ball,
+            before,
+            now,
+        }];
+        let scene = Surroundings {
+            roots: Roots::Head(now),
+            wind,
+            colliders: &colliders,
+            ..Surroundings::default()
+        };
+        let stats = self.solver.step(&mut self.state, &scene, DT);
+        Ok(stats.map_err(|error| error.to_string())?)
+    }
+
     /// What was asked for must have happened.
     fn check(&self, stats: &Stats) -> Result<(), BenchError> {
         let is_all = stats.strands == self.strands
@@ -159,33 +180,56 @@ impl Moving for Full {
     fn step(&mut self) -> Result<(), BenchError> {
         let (before, now) = (head(self.steps), head(self.steps + 1));
         self.steps += 1;
-        let ball = Shape::Sphere {
-            center: DVec3::ZERO,
-            radius: HEAD,
+        let wind = Wind {
+            steady: DVec3::new(0.0, 0.0, -3.0),
+            gust: 2.0,
+            ..Wind::default()
         };
-        let colliders = [Collider {
-            shape: ball,
-            before,
-            now,
-        }];
-        let scene = Surroundings {
-            roots: Roots::Head(now),
-            wind: Wind {
-                steady: DVec3::new(0.0, 0.0, -3.0),
-                gust: 2.0,
-                ..Wind::default()
-            },
-            colliders: &colliders,
-            ..Surroundings::default()
-        };
-        let stats = self.solver.step(&mut self.state, &scene, DT);
-        let stats = stats.map_err(|error| error.to_string())?;
+        let stats = self.take([before, now], wind)?;
         self.fallbacks += stats.fallbacks;
         self.check(&stats)
     }
 
     fn fallback_share(&self) -> Option<f64> {
         Some(self.fallbacks as f64 / (self.strands * self.steps) as f64)
+    }
+}
+
+/// The same strands when all has come to rest.
+struct Resting(Full);
+
+impl Resting {
+    /// The most steps that it takes them.
+    const PATIENCE: usize = 3600;
+
+    fn new(strands: usize, links: usize, params: &Params) -> Result<Self, BenchError> {
+        let mut resting = Self(Full::new(strands, links, params)?);
+        // From a blow of wind on.
+        for step in 0..Self::PATIENCE {
+            let speed = if step < 10 { 3.0 } else { 0.0 };
+            if resting.take(speed)?.asleep == strands {
+                return Ok(resting);
+            }
+        }
+        Err(format!("{strands} x {links} don't come to rest").into())
+    }
+
+    fn take(&mut self, speed: f64) -> Result<Stats, BenchError> {
+        let wind = Wind {
+            steady: DVec3::new(0.0, 0.0, -speed),
+            ..Wind::default()
+        };
+        self.0.take([head(0); 2], wind)
+    }
+}
+
+impl Moving for Resting {
+    fn step(&mut self) -> Result<(), BenchError> {
+        let stats = self.take(0.0)?;
+        if stats.asleep == self.0.strands && stats.strands == 0 {
+            return Ok(());
+        }
+        Err(format!("strands at rest woke up: {stats:?}").into())
     }
 }
 
@@ -261,6 +305,11 @@ pub fn measure(threads: usize, quick: bool, effort: Effort) -> Result<Measured, 
                 let scene = format!("{}{kind}{strands}x{links}", names::FULL);
                 add(&scene, own, Box::new(Full::new(strands, links, &params)?));
             }
+            if strands == 72 {
+                let scene = format!("{}{strands}x{links}", names::REST);
+                let resting = Resting::new(strands, links, &Params::default())?;
+                add(&scene, own, Box::new(resting));
+            }
         }
     }
     // On their way before they are timed.
@@ -333,7 +382,7 @@ mod tests {
             each: std::time::Duration::ZERO,
         };
         let Measured { rows, fallbacks } = measure(2, true, effort).unwrap();
-        assert_eq!((rows.len(), fallbacks.len()), (20, 4));
+        assert_eq!((rows.len(), fallbacks.len()), (22, 4));
         assert!(rows.iter().all(|row| row.seconds > 0.0));
         assert!(fallbacks.iter().all(|(_, share)| *share <= 1.0));
     }

@@ -12,6 +12,8 @@ pub const XPBD_STEPS: &str = "xpbd-steps";
 pub const XPBD_SWEEPS: &str = "xpbd-sweeps";
 /// Starts the names of scenes with everything.
 pub const FULL: &str = "full-";
+/// Starts the names of scenes of the same when all has come to rest.
+pub const REST: &str = "rest-";
 /// Comes next where the hair is straight by nature.
 pub const STRAIGHT: &str = "straight-";
 /// Ends the names of scenes of 72 strands that one strand has too.

@@ -1,6 +1,6 @@
 //! What our strands are held to, by themselves and against others.
 
-use super::names::{CANTILEVER, FULL, GAMMAS, MUJOCO_CHAIN, OWN, STRAIGHT};
+use super::names::{CANTILEVER, FULL, GAMMAS, MUJOCO_CHAIN, OWN, REST, STRAIGHT};
 use crate::results::Row;
 use crate::targets::{Found, Limit, Point, Target, curve, time_at};
 
@@ -158,7 +158,14 @@ fn throughput(rows: &[Row]) -> Vec<Target> {
             },
         ]
     };
-    ["", STRAIGHT].into_iter().flat_map(of_hair).collect()
+    let rest = format!("{REST}72x20");
+    let at_rest = Target {
+        found: best(&rest).map(|s| Found::Is(1e6 * s)),
+        text: format!("{rest}: microseconds a step"),
+        limit: Limit::AtMost(5.0),
+    };
+    let moving = ["", STRAIGHT].into_iter().flat_map(of_hair);
+    moving.chain([at_rest]).collect()
 }
 
 #[cfg(test)]
@@ -201,6 +208,7 @@ mod tests {
             rows.push(row(&format!("{hair}72x20"), "inkstrand", 2, 6e-5, 0.0));
             rows.push(row(&format!("{hair}10000x16"), "inkstrand", 2, 8e-3, 0.0));
         }
+        rows.push(row("rest-72x20", "inkstrand", 1, 4e-6, 0.0));
         rows
     }
 
@@ -214,7 +222,7 @@ mod tests {
         let targets = all(&good());
         assert_eq!(
             targets.len(),
-            5 + 4 + 1 + 2 + 4 + 4 + 1,
+            5 + 4 + 1 + 2 + 4 + 5 + 1,
             "{}",
             report(&targets)
         );
@@ -234,6 +242,7 @@ mod tests {
             ("full-72x20", "inkstrand", 2, 1.3, 1.0, 1),
             ("full-10000x16", "inkstrand", 2, 1.1, 1.0, 1),
             ("full-straight-72x20", "inkstrand", 2, 1.3, 1.0, 1),
+            ("rest-72x20", "inkstrand", 1, 1.3, 1.0, 1),
         ] {
             let mut rows = good();
             let is_it =

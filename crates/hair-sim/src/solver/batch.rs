@@ -27,6 +27,8 @@ pub(crate) struct Batch {
     /// Strands that have drag; a goal.
     pub has_drag: Mask,
     pub has_goal: Mask,
+    /// In m.
+    pub length: Lane,
     /// Mass times length from the root, in m^2: energy at most for a pull.
     pub lever: Lane,
     /// Distance kept from colliders, in m.
@@ -74,6 +76,7 @@ impl Batch {
             drag_along: Lane::ZERO,
             has_drag: mask(&|params| params.drag > 0.0),
             has_goal: mask(&|params| params.has_goal()),
+            length: Lane::ZERO,
             lever: Lane::ZERO,
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
@@ -100,6 +103,7 @@ impl Batch {
         self.root.set(lane, rest.root);
         self.base.set(lane, rest.base);
         let (mut y, mut along) = (DVec3::ZERO, 0.0);
+        self.length[lane] = rest.links.iter().map(|link| link.length).sum();
         for (k, link) in rest.links.iter().enumerate() {
             y += link.frame * DVec3::Z * link.length;
             along += link.length;
@@ -125,6 +129,9 @@ impl Batch {
         self.is_straight || count == self.count()
     }
 }
+
+/// Below this speed in m/s friction is viscous where a particle slides: how fast what should stick creeps at first.
+pub(crate) const CREEP: f64 = 5e-4;
 
 /// Stands for no pull: larger than any.
 pub(crate) const NO_PULL: Vec3 = Vec3::new(
@@ -154,6 +161,8 @@ pub(crate) struct BatchState {
     pub skin_known: bool,
     /// The pressure of bodies on particles in m/s^2.
     pub press: Vec<Lane>,
+    /// The speeds in m/s below which friction with them is viscous; 0 where the pressure is that of a blow, which is over.
+    pub creep: Vec<Lane>,
     /// Where goals were, from the root; empty before the first step with goals.
     pub goal: Vec<Vec3>,
     /// Links to other strands that hold no more: one for every pair of the batch.
@@ -162,8 +171,9 @@ pub(crate) struct BatchState {
     /// have until something does: see [`super::energy`].
     pub pull: Vec3,
     pub ceiling: Lane,
-    /// For how many steps strands have been at rest.
-    pub quiet: [u32; LANES],
+    /// For how long strands have hardly moved, in s, and where their particles were when that began.
+    pub quiet: Lane,
+    pub quiet_at: Vec<Vec3>,
     /// Strands whose accelerations are unknown: the next step starts by backward Euler.
     pub restart: [bool; LANES],
     /// Strands that do not move by themselves, and why.
@@ -186,11 +196,13 @@ impl BatchState {
             skin: vec![Lane::ZERO; count],
             skin_known: false,
             press: vec![Lane::ZERO; count],
+            creep: vec![Lane::splat(CREEP); count],
             goal: Vec::new(),
             broken: Vec::new(),
             pull: NO_PULL,
             ceiling: Lane::ZERO,
-            quiet: [0; LANES],
+            quiet: Lane::ZERO,
+            quiet_at: vec![Vec3::ZERO; count],
             restart: [true; LANES],
             set_aside: [None; LANES],
         };
@@ -232,6 +244,7 @@ impl BatchState {
         self.v.iter_mut().for_each(turned);
         self.a.iter_mut().for_each(turned);
         self.goal.iter_mut().for_each(turned);
+        self.quiet_at.iter_mut().for_each(turned);
         turned(&mut self.root_velocity);
         // The next step finds out anew what energy there is.
         self.pull = NO_PULL;

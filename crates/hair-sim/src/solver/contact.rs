@@ -4,12 +4,12 @@
 use glam::{DMat3, DVec3};
 
 use crate::{
-    collision::shape::Collider,
+    collision::shape::{Collider, Shape},
     lanes::{LANES, Lane, Mask, Number, Sym3, Vec3},
 };
 
 use super::{
-    batch::{Batch, BatchState},
+    batch::{Batch, BatchState, CREEP},
     link::Node,
     stage::GAMMA,
 };
@@ -20,8 +20,10 @@ const SETTLE: f64 = 2e-4;
 /// The speed in m/s at which a strand that is found inside a body is pushed out.
 const PUSH_OUT: f64 = 3.0;
 
-/// Below this speed in m/s friction is viscous: how fast what should stick creeps at most.
-const CREEP: f64 = 5e-4;
+/// Where friction holds a particle, that speed becomes so much less in every step, and this at the least: what sticks creeps a finite way,
+/// about one step's at [`CREEP`], and comes to rest.
+const STICKS: f64 = 0.25;
+const LEAST_CREEP: f64 = 1e-8;
 
 /// Bodies nearer than this, in m, are prepared for, whether or not the free motion meets them.
 const NEAR: f64 = 2e-3;
@@ -43,10 +45,12 @@ pub(crate) struct Contact {
     pub end: Lane,
     /// The surface's velocity from the root, in m/s.
     pub flow: Vec3,
-    /// Rate of friction in 1/s.
+    /// Rate of friction in 1/s, and the speed in m/s below which it is viscous.
     pub slip: Lane,
-    /// The pressure of the last step in m/s^2.
+    pub creep: Lane,
+    /// The pressure of the last step in m/s^2, and that which friction is known to be bound by: nothing where the last step was a blow.
     pub press: Lane,
+    pub bound: Lane,
 }
 
 impl Contact {
@@ -58,7 +62,9 @@ impl Contact {
         end: Lane::ZERO,
         flow: Vec3::ZERO,
         slip: Lane::ZERO,
+        creep: Lane::ZERO,
         press: Lane::ZERO,
+        bound: Lane::ZERO,
     };
 
     /// Where a particle at `y` is behind the plane at `level` and was not held, in the strands that have the plane.
@@ -100,8 +106,50 @@ impl Contact {
     /// The pressure on a particle at `y` at the end of a step, in m/s^2.
     #[inline(always)]
     pub(crate) fn pressure(&self, y: Vec3) -> Lane {
-        let depth = (self.end - self.normal.dot(y)).max(Lane::ZERO);
+        self.pressure_at(self.end, y)
+    }
+
+    /// The same of a stage in which the plane is at `level`.
+    #[inline(always)]
+    fn pressure_at(&self, level: Lane, y: Vec3) -> Lane {
+        let depth = (level - self.normal.dot(y)).max(Lane::ZERO);
         depth * self.holds * (1.0 / (SETTLE * SETTLE))
+    }
+
+    /// Forgets what held, and friction whose bound is not known: every stage finds its own.
+    #[inline(always)]
+    pub(crate) fn forget(&mut self) {
+        self.holds = Lane::ZERO;
+        self.slip = (self.bound.gt(Lane::ZERO)).pick(self.slip, Lane::ZERO);
+    }
+
+    /// Adds friction whose bound is not known to a particle that is held, in the strands of `among`, by the pressure of a stage's
+    /// answer `y`. Returns the strands where it does.
+    #[inline(always)]
+    pub(crate) fn rub(
+        &mut self,
+        node: &mut Node,
+        (friction, mass): (Lane, Lane),
+        (level, d): (Lane, Lane),
+        (y, free_y): (Vec3, Vec3),
+        among: Mask,
+    ) -> Mask {
+        let press = self.pressure_at(level, y);
+        let here = (press * friction).gt(Lane::ZERO).and(among);
+        let new = (here.and(self.bound.gt(Lane::ZERO).not())).and(self.slip.gt(Lane::ZERO).not());
+        if !new.any() {
+            return new;
+        }
+        let carried = free_y + self.flow * d;
+        let way = y - carried;
+        let way = way - self.normal * self.normal.dot(way);
+        let speed = (way.length_squared().sqrt() / d).max(Lane::splat(CREEP));
+        let slip = new.pick(friction * press / speed, Lane::ZERO);
+        self.slip += slip;
+        let slide = mass * d * slip;
+        node.n += Sym3::outer(slide, self.normal, Lane::ZERO - slide);
+        node.b += (carried - self.normal * self.normal.dot(carried)) * slide;
+        new
     }
 }
 
@@ -185,12 +233,15 @@ pub(crate) fn detect<T: Number>(
         #[inline(always)]
         move || {
             let mut count = 0;
+            // What is unknown was a blow, which is over.
+            let known = T::condition(&Mask::new(state.restart).not());
             for k in 0..batch.count() {
                 let contact = &mut contacts[k];
                 contact.on = Lane::ZERO;
                 contact.holds = Lane::ZERO;
                 let y0 = state.y[k].load::<T>();
-                let y1 = y0 + state.v[k].load() * dt + state.a[k].load() * (0.5 * dt * dt);
+                let a = Vec3::choose(known, state.a[k].load(), Vec3::zero());
+                let y1 = y0 + state.v[k].load() * dt + a * (0.5 * dt * dt);
                 let (p0, p1) = (state.root.load() + y0, root.load() + y1);
                 let keep = batch.thickness.load::<T>() + state.skin[k].load();
                 let mut near = Mask::NONE;
@@ -233,8 +284,18 @@ pub(crate) fn detect<T: Number>(
                     contact.flow.set(lane, flow);
                     let velocity = state.v[k].get(lane) - flow;
                     let sliding = (velocity - normal * velocity.dot(normal)).length();
-                    contact.slip[lane] =
-                        batch.friction[lane] * state.press[k][lane] / sliding.max(CREEP);
+                    let known = state.creep[k][lane] > 0.0;
+                    let bound = if known { state.press[k][lane] } else { 0.0 };
+                    let sticks = bound > 0.0 && sliding <= state.creep[k][lane];
+                    let (creep, speed) = if sticks {
+                        let creep = (STICKS * state.creep[k][lane]).max(LEAST_CREEP);
+                        (creep, creep)
+                    } else {
+                        (CREEP, sliding.max(CREEP))
+                    };
+                    contact.bound[lane] = bound;
+                    contact.creep[lane] = creep;
+                    contact.slip[lane] = batch.friction[lane] * bound / speed;
                 }
             }
             count
@@ -291,14 +352,14 @@ impl Path {
         let start = shape.distance(from) - self.keep;
         if start <= TOUCH {
             // It touches already. The surface near the end, where that is the same side.
-            let (first, last) = (shape.normal(from), shape.normal(to));
-            let (at, distance, normal) = if first.dot(last) > 0.5 {
-                (to, end, last)
+            let (first, last) = (shape.normal(from), self.surface(shape, to, end));
+            let (at, normal) = if first.dot(last.1) > 0.5 {
+                last
             } else {
-                (from, start, first)
+                (from - first * start, first)
             };
             let level = (start + PUSH_OUT * self.dt).min(0.0);
-            return Some(self.plane(at - normal * (distance - level), normal, to));
+            return Some(self.plane(at + normal * level, normal, to));
         }
         // Along the path by steps that cannot pass the surface (Hart 1996, sphere tracing).
         let (mut t, mut distance) = (0.0, start);
@@ -319,8 +380,24 @@ impl Path {
             }
         }
         // Not met by the free motion: what the strand does may still bring it there.
-        let normal = shape.normal(to);
-        Some(self.plane(to - normal * end, normal, to))
+        let (at, normal) = self.surface(shape, to, end);
+        Some(self.plane(at, normal, to))
+    }
+
+    /// The surface nearest to a place at this distance from it: a point of it, and its normal there.
+    fn surface(&self, shape: &Shape, place: DVec3, distance: f64) -> (DVec3, DVec3) {
+        let normal = shape.normal(place);
+        let at = place - normal * distance;
+        // The distances of a grid are not exact, and its normals jump from cell to cell: what rests would be held now by one plane, now by
+        // another, would they hang on where its motion points to.
+        let Shape::Grid(grid) = shape else {
+            return (at, normal);
+        };
+        let there = shape.normal(at);
+        if distance.abs() > NEAR || there.dot(normal) < 0.9 {
+            return (at, normal);
+        }
+        (at - there * (grid.distance(at) - self.keep), there)
     }
 
     fn plane(&self, at: DVec3, normal: DVec3, end: DVec3) -> Plane {
@@ -335,7 +412,7 @@ impl Path {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{collision::shape::Shape, pose::Pose};
+    use crate::pose::Pose;
     use glam::DQuat;
 
     #[test]

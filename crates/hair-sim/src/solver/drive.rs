@@ -42,6 +42,8 @@ pub(crate) struct Drive<'a> {
     pub accelerations: Option<[Vec3; 2]>,
     /// Whether what acts is the same as in the last step, and does not move.
     pub calm: bool,
+    /// The strands that sleep.
+    pub asleep: Mask,
     /// The other strands, where they act on each other.
     pub others: Option<Others<'a>>,
 }
@@ -115,6 +117,23 @@ impl RootMotion {
             velocity_end,
         }
     }
+}
+
+/// Root and frame of the skin of every lane in the world.
+pub(crate) fn roots(batch: &Batch, surroundings: &Surroundings) -> (Vec3, Quat) {
+    let (mut root, mut base) = (batch.root, batch.base);
+    for lane in 0..LANES {
+        let Some(strand) = batch.strands[lane] else {
+            continue;
+        };
+        let pose = surroundings.roots.of(strand);
+        root.set(
+            lane,
+            pose.translation + pose.rotation * batch.root.get(lane),
+        );
+        base.set(lane, pose.rotation * batch.base.get(lane));
+    }
+    (root, base)
 }
 
 /// The poses that roots are to have; where one is invalid, the one before, and its strand is set aside.

@@ -1,12 +1,12 @@
-//! The end of a step: which strands it holds for, what the next one starts from, and which strands sleep.
+//! The end of a step: which strands it holds for, what the next one starts from.
 
-use crate::lanes::{LANES, Lane, Mask, Number, Quat, Vec3};
+use crate::lanes::{Lane, Mask, Number, Quat, Vec3};
 
 use super::{
-    batch::{Batch, BatchState},
+    batch::{Batch, BatchState, CREEP},
     chain::{Chain, chord},
     contact::Contact,
-    drive::{Drive, RootMotion},
+    drive::RootMotion,
     rods::Rods,
     scratch::Scratch,
 };
@@ -18,39 +18,6 @@ const LEAST_COSINE: f64 = -0.5;
 /// The share of the end velocity's stretch that is taken out. A backward difference of points that run on an arc points
 /// inside the arc; half of that is the error of the difference.
 const UNSTRETCH: f64 = 0.5;
-
-/// Strands that are slower than this (m/s) for so many steps sleep.
-const QUIET_SPEED: f64 = 1e-7;
-const QUIET_STEPS: u32 = 24;
-
-/// Strands that have not moved for [`QUIET_STEPS`], on roots that do not move, where what acts stays as it is.
-#[inline(always)]
-pub(crate) fn asleep(state: &BatchState, drive: &Drive, used: Mask) -> Mask {
-    if !drive.calm {
-        return Mask::NONE;
-    }
-    let still = (drive.root - state.root).length_squared()
-        + (drive.base.v - state.base.v).length_squared()
-        + state.root_velocity.length_squared();
-    let quiet = Mask::new(state.quiet.map(|steps| steps >= QUIET_STEPS));
-    quiet.and(still.lt(Lane::splat(1e-26))).and(used)
-}
-
-#[inline(always)]
-pub(crate) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
-    let mut fastest = Lane::ZERO;
-    for k in 0..batch.count() {
-        fastest = fastest.max(state.v[k].length_squared());
-    }
-    let limit = Lane::splat(QUIET_SPEED * QUIET_SPEED);
-    let quiet = fastest.lt(limit).and(Mask::new([drive.calm; LANES]));
-    for lane in 0..LANES {
-        if active.get(lane) {
-            let steps = state.quiet[lane].saturating_add(1);
-            state.quiet[lane] = if quiet.get(lane) { steps } else { 0 };
-        }
-    }
-}
 
 /// The strands of which the end stage turned a link further than an ordinary motion does.
 pub(crate) fn turned_too_far<T: Number>(
@@ -123,6 +90,7 @@ pub(crate) fn finish<T: Number>(
                     state.past[k] = Vec3::pick(which, past[k], state.past[k]);
                 }
                 state.press[k] = which.pick(Lane::ZERO, state.press[k]);
+                state.creep[k] = which.pick(Lane::splat(CREEP), state.creep[k]);
             }
             rods.keep_frames(state, end, which);
             let mut struck = Mask::new(state.restart).and(which.not());
@@ -150,8 +118,11 @@ fn settle_contact(
     let a = state.a[k];
     let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
     state.a[k] = Vec3::pick(which, a - contact.normal * out, a);
-    let is_new = (contact.press.gt(Lane::ZERO).not()).and(press.gt(Lane::ZERO));
-    is_new.and(which)
+    let presses = press.gt(Lane::ZERO).and(which);
+    let is_new = (contact.press.gt(Lane::ZERO).not()).and(presses);
+    let creep = is_new.pick(Lane::ZERO, contact.creep);
+    state.creep[k] = presses.pick(creep, state.creep[k]);
+    is_new
 }
 
 /// Carries the lanes in `which` along with the skin, at rest against it.

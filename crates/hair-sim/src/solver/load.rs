@@ -64,7 +64,7 @@ impl Loads {
         }
         if !self.touched.is_empty() {
             for &k in &self.touched {
-                self.contacts[k].holds = Lane::ZERO;
+                self.contacts[k].forget();
             }
             let due = Due::Expected(stage.length);
             self.hold::<T>(batch, stage, chain, due, Mask::NONE.not());
@@ -152,6 +152,35 @@ impl Loads {
                         contact.hold(node, here, mass, level, stage.length, self.free_y[k]);
                         new = new.or(here);
                     }
+                }
+                new
+            },
+        )
+    }
+
+    /// Gives friction to particles that came to touch in this step, in the strands of `among`. Returns the strands where any is new.
+    pub(crate) fn rub<T: Number>(
+        &mut self,
+        batch: &Batch,
+        stage: &Stage,
+        chain: &Chain,
+        among: Mask,
+    ) -> Mask {
+        T::run(
+            #[inline(always)]
+            move || {
+                let mut new = Mask::NONE;
+                for &k in &self.touched {
+                    let contact = &mut self.contacts[k];
+                    let level = if stage.is_mid {
+                        contact.mid
+                    } else {
+                        contact.end
+                    };
+                    let node = &mut self.nodes[k];
+                    let own = (batch.friction, batch.particles[k].mass);
+                    let places = (chain.y[k], self.free_y[k]);
+                    new = new.or(contact.rub(node, own, (level, stage.length), places, among));
                 }
                 new
             },

@@ -13,6 +13,7 @@ use crate::{
 use super::{
     batch::{Batch, BatchState},
     rods::Rods,
+    sleep::Islands,
 };
 
 /// One strand as its neighbours see it.
@@ -24,13 +25,13 @@ struct Strand {
     particles: Vec<DVec3>,
 }
 
-/// The pairs of every batch. Particles are numbered batch by batch, particle by particle, lane by lane.
+/// The pairs of every batch, and who acts on whom by them. Particles are numbered batch by batch, particle by particle, lane by lane.
 pub(super) fn pairs(
     batches: &[Batch],
     states: &[BatchState],
     ids: &[u32],
     mutual: &Mutual,
-) -> Vec<Vec<Pair>> {
+) -> (Vec<Vec<Pair>>, Islands) {
     let mut first = Vec::with_capacity(batches.len());
     let mut total = 0;
     let mut strands = Vec::new();
@@ -64,6 +65,11 @@ pub(super) fn pairs(
     let cells = Cells::new(&strands);
     let mut nearest = vec![Vec::new(); strands.len()];
     cells.find_nearest(&strands, &strands, mutual.neighbours, &mut nearest);
+    let place = |strand: &Strand| (strand.batch, strand.lane);
+    let meet = (strands.iter().zip(&nearest))
+        .flat_map(|(one, nearest)| nearest.iter().map(move |&i| (one, i)))
+        .map(|(one, i)| [place(one), place(&strands[i])]);
+    let islands = Islands::new(batches.len(), meet);
     let frames: Vec<Vec<Quat>> = (batches.iter().zip(states))
         .map(|(batch, state)| {
             let mut frames = Rods::frames_one_by_one(batch, state);
@@ -102,9 +108,10 @@ pub(super) fn pairs(
         }
     }
     // Of a strand's particle, nearest neighbour first, whatever strands are beside it in the batch.
-    (slots.iter().zip(batches).zip(pairs))
+    let pairs = (slots.iter().zip(batches).zip(pairs))
         .map(|((slots, batch), pairs)| in_order(slots, batch.count(), &pairs))
-        .collect()
+        .collect();
+    (pairs, islands)
 }
 
 /// The pairs of a batch by their particles, and of each by its neighbours. `slots` has their places, neighbour by neighbour, for `count`

@@ -11,7 +11,7 @@ use crate::{
 };
 
 use super::{
-    batch::{Batch, BatchState},
+    batch::{Batch, BatchState, CREEP},
     chain::Chain,
     contact::Due,
     drive::{Drive, RootMotion},
@@ -164,6 +164,7 @@ fn take(
             loads.contacts[k].pressure(trial.y[k])
         };
         state.press[k] = good.pick(press, state.press[k]);
+        state.creep[k] = good.pick(Lane::splat(CREEP), state.creep[k]);
         state.a[k] = Vec3::pick(good, a, state.a[k]);
         state.v[k] = Vec3::pick(good, v, state.v[k]);
         state.y[k] = Vec3::pick(good, trial.y[k], state.y[k]);

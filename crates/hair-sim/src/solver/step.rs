@@ -10,10 +10,11 @@ use super::{
     chain::ShapeEnergy,
     drive::{Drive, RootMotion, prepare},
     energy::{take_gain, watch},
-    finish::{asleep, carry, count_quiet, finish, turned_too_far},
+    finish::{carry, finish, turned_too_far},
     rods::Rods,
     safe,
     scratch::Scratch,
+    sleep::count_quiet,
     tr_bdf2,
 };
 
@@ -28,7 +29,7 @@ pub(crate) fn advance<T: Number>(
         #[inline(always)]
         move || {
             let root = RootMotion::new(state, drive);
-            let asleep = asleep(state, drive, batch.used);
+            let asleep = drive.asleep;
             let mut stats = Stats {
                 asleep: asleep.count(),
                 ..Stats::default()

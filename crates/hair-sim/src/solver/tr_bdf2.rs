@@ -202,6 +202,7 @@ fn solve<T: Number>(
                 let among = open.and(broken.not());
                 open = open.and(done.not());
                 if !loads.touched.is_empty() {
+                    open = open.or(loads.rub::<T>(batch, stage, chain, among));
                     open = open.or(loads.hold::<T>(batch, stage, chain, Due::Passed, among));
                 }
             }

@@ -186,3 +186,65 @@ fn a_style_that_starts_inside_a_body_stays_where_it_is() {
     let moved = farthest(&before, &shape(&solver, &state));
     assert!(moved < 1e-9, "{moved}");
 }
+
+#[test]
+fn what_sticks_does_not_creep() {
+    // As above, on for a minute: what friction holds comes to rest.
+    let large = Shape::Sphere {
+        center: DVec3::new(0.0, -2.0, 0.0),
+        radius: 2.0,
+    };
+    let colliders = [Collider::fixed(large, Pose::IDENTITY)];
+    let p = Params {
+        friction: 0.5,
+        ..params(400.0)
+    };
+    let rest = straight(Vec3::new(0.0, 0.002, 0.0), Vec3::X);
+    let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
+    let mut surroundings = among(&colliders);
+    surroundings.gravity.z = 0.2 * 9.81;
+    let mut go_on = |seconds: usize| {
+        run(
+            &mut solver,
+            &mut state,
+            &surroundings,
+            1.0 / 60.0,
+            60 * seconds,
+        );
+        shape(&solver, &state)
+    };
+    let (early, late) = (go_on(5), go_on(55));
+    let crept = farthest(&early, &late);
+    println!("crept {crept:.1e} m in 55 s");
+    assert!(crept < 1e-4, "{crept}");
+}
+
+#[test]
+fn friction_acts_from_the_first_touch() {
+    // A strand falls on a slope: how far it has gone to the side soon after.
+    let slid = |friction: f64, rate: usize| {
+        let large = Shape::Sphere {
+            center: DVec3::new(0.0, -2.0, 0.0),
+            radius: 2.0,
+        };
+        let colliders = [Collider::fixed(large, Pose::IDENTITY)];
+        let p = Params {
+            friction,
+            ..params(400.0)
+        };
+        let rest = straight(Vec3::new(0.0, 0.006, 0.0), Vec3::X);
+        let mut surroundings = among(&colliders);
+        surroundings.gravity.z = 4.0;
+        let end = after(&rest, &p, &surroundings, 1.0 / rate as f64, rate / 6);
+        end.last().unwrap().z
+    };
+    let exact = slid(0.3, 1920);
+    for rate in [24, 60, 120] {
+        let [smooth, rough] = [0.0, 0.3].map(|friction| slid(friction, rate));
+        println!(
+            "1/{rate} s: {smooth:.4} m without friction, {rough:.4} with, {exact:.4} in fine steps"
+        );
+        let error = (rough - exact).abs();
+        assert!(error < 0.3 * (smooth - exact), "1/{rate} s: {error}");
+    }
+}

@@ -5,6 +5,7 @@
 mod bodies;
 mod goals;
 mod mutual;
+mod rate;
 mod roots;
 mod sleep;
 mod wind;

@@ -34,10 +34,9 @@ fn hair_at_rest_stays_at_rest() {
     let before: Vec<DVec3> = (0..8).flat_map(|s| solver.points(&state, s)).collect();
     let mut links = 0;
     for _ in 0..240 {
-        links = solver
-            .step(&mut state, &Surroundings::default(), 1.0 / 24.0)
-            .unwrap()
-            .links;
+        let stats = solver.step(&mut state, &Surroundings::default(), 1.0 / 24.0);
+        // Strands that sleep count none.
+        links = links.max(stats.unwrap().links);
     }
     // 8 strands, 10 particles each, 2 to 4 neighbours within 2 cm.
     assert!(links > 200, "{links}");

@@ -39,6 +39,8 @@ const MASS_SPRING_SUBSTEPS: u32 = 4;
 
 /// The shortest step in s that is worth one of its own.
 const SHORTEST_STEP: f64 = 2e-6;
+/// Parts of a second that times are told in: as fine as needed for the shortest step's accelerations.
+const MOMENTS: f64 = (1_u64 << 44) as f64;
 /// So many steps of hair that is not seen are taken as one,
 const UNSEEN_STEPS: i64 = 4;
 /// while the head's acceleration is below this, in m/s^2: a long step through a turn of the head would throw hair about.
@@ -111,6 +113,13 @@ fn simulated(
     Ok(Box::new(Run::new((solver, state))))
 }
 
+/// The time of a frame, or a part of it that is at most `longest` s.
+fn part_of_frame(frame: f64, longest: f64) -> f64 {
+    // What a frame's time in single precision can tell from the longest is no reason for another step.
+    let parts = (frame / longest - 1e-6).ceil().max(1.0);
+    frame / parts
+}
+
 impl Dynamics {
     /// The dynamics of hair whose strands have these sizes (1/300 head heights), on a head of this mesh. `hold` is
     /// the pull to its key shapes, where it has some.
@@ -143,14 +152,20 @@ impl Dynamics {
         }
         let (guides, carried) = carried::choose(&free, &parts, section.guides);
         let chosen = free.select(&guides);
-        let params = |i: usize| {
+        let length_m = |i: usize| {
             let links = chosen.strand(i).windows(2);
-            let length_m: f32 = links.map(|link| link[0].distance(link[1])).sum();
-            feel.params(sizes[chosen.id(i) as usize], f64::from(length_m))
+            f64::from(links.map(|link| link[0].distance(link[1])).sum::<f32>())
         };
+        let params = |i: usize| feel.params(sizes[chosen.id(i) as usize], length_m(i));
         let strands = simulated(section, hair.head, &chosen, params)?;
+        let gravity = GRAVITY * f64::from(section.gravity);
         let step = match f64::from(section.step) {
-            0.0 => 1.0 / f64::from(fps),
+            0.0 => {
+                let longest = (0..chosen.len())
+                    .map(|i| params(i).longest_step(length_m(i).max(1e-4), gravity))
+                    .fold(f64::INFINITY, f64::min);
+                part_of_frame(1.0 / f64::from(fps), longest)
+            }
             step => step,
         };
         let guides = (0..).zip(&guides).map(|(strand, &part)| Part {
@@ -168,7 +183,7 @@ impl Dynamics {
             strands,
             head: hair.head,
             placement: Placement::default(),
-            gravity: DVec3::new(0.0, -GRAVITY * f64::from(section.gravity), 0.0),
+            gravity: DVec3::new(0.0, -gravity, 0.0),
             seed: u64::from(seed),
             warm_up: (f64::from(section.warm_up) / step).round() as i64,
             step,
@@ -251,8 +266,9 @@ impl Dynamics {
         let is_there = !is_seen || self.done == wanted;
         if is_seen && is_there && time > shown + slack {
             shown = time;
-            self.stats = self.drive(time, driver, |strands, scene, dt| {
-                strands.look_ahead(scene, dt)
+            let ahead = time - self.time_of(self.done);
+            self.stats = self.drive(time, driver, |strands, scene| {
+                strands.look_ahead(scene, ahead)
             })?;
         }
         self.shown = shown;
@@ -303,7 +319,9 @@ impl Dynamics {
     /// Takes so many steps as one.
     fn step(&mut self, steps: i64, driver: Driver) -> Result<(), StageError> {
         let end = self.time_of(self.done + steps);
-        self.stats = self.drive(end, driver, |strands, scene, dt| strands.step(scene, dt))?;
+        // Not the difference of two times, whose last bits hang on when it is.
+        let dt = steps as f64 * self.step;
+        self.stats = self.drive(end, driver, |strands, scene| strands.step(scene, dt))?;
         self.done += steps;
         self.taken += 1;
         Ok(())
@@ -331,7 +349,7 @@ impl Dynamics {
         &mut self,
         end: f64,
         driver: Driver,
-        step: impl Fn(&mut (dyn Running + 'static), &Surroundings, f64) -> Result<Stats, DynamicsError>,
+        step: impl Fn(&mut (dyn Running + 'static), &Surroundings) -> Result<Stats, DynamicsError>,
     ) -> Result<Stats, StageError> {
         let begin = self.time_of(self.done);
         let [before, now] = [begin, end].map(|time| self.pose_at(time, driver));
@@ -361,7 +379,7 @@ impl Dynamics {
             colliders: &self.bodies.colliders([before, now], shoulders),
             goal: self.shapes.as_ref().map(|_| &self.goal[..]),
         };
-        Ok(step(&mut *self.strands, &scene, end - begin)?)
+        Ok(step(&mut *self.strands, &scene)?)
     }
 
     /// Takes the goals of the script's own `time` from the key shapes.
@@ -376,7 +394,8 @@ impl Dynamics {
 
     /// The script's time after a number of steps.
     fn time_of(&self, steps: i64) -> f64 {
-        (steps - self.warm_up) as f64 * self.step
+        // In fractions that periods are added to without rounding: what sticks or slips hangs on the last bit.
+        ((steps - self.warm_up) as f64 * self.step * MOMENTS).round() / MOMENTS
     }
 
     fn pose_at(&self, time: f64, driver: Driver) -> Pose {

@@ -81,7 +81,8 @@ section! {
         curl_radius: f32 = number(0.05, 0.001..=10.0).unit("head heights"),
         /// How far one turn of a curl climbs; below 0 it winds the other way.
         curl_pitch: f32 = number(0.2, -10.0..=10.0).unit("head heights"),
-        /// Time of a step of the simulation, 0.00001 or more; 0 is a frame's.
+        /// Time of a step of the simulation, 0.00001 or more; 0 is a frame's, or a part of it where hair swings too fast or
+        /// too long to be followed in one.
         step: f32 = number(0.0, 0.0..=0.1).unit("s"),
         /// Steps within a step, of solver: xpbd, where fewer make hair softer, and of mass_spring, where fewer
         /// make it swing less; 0 is 64 of xpbd's and 4 of mass_spring's.

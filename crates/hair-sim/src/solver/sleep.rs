@@ -1,0 +1,162 @@
+//! Strands that rest, and cost nothing.
+//!
+//! A strand is quiet that has hardly moved for a while, in which what acts stayed the same. On bodies and among other hair that is a few
+//! micrometres: no picture shows more, and what rests there may tremble by less for ever. A free strand may be about to leave a shape that it
+//! can't keep, and must be quieter. Strands that act on each other, themselves or
+//! by way of others, are an island: they sleep as soon as all of them are quiet, and wake together.
+
+use crate::{
+    lanes::{LANES, Lane, Mask, Quat, Vec3},
+    surroundings::{Roots, Surroundings},
+};
+
+use super::{
+    batch::{Batch, BatchState},
+    drive::{Drive, roots},
+};
+
+/// Strands of which no particle leaves a ball of this radius (m; the second of free ones), or of this part of their length where that is less, for so long (s) are
+/// quiet.
+const QUIET_WAY: f64 = 3e-6;
+const FREE_WAY: f64 = 1e-7;
+const QUIET_SHARE: f64 = 1e-5;
+const QUIET_TIME: f64 = 1.0;
+
+/// Which strands act on each other: the island of every lane of every batch, by a number below `count`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Islands {
+    of: Vec<[u32; LANES]>,
+    count: usize,
+}
+
+impl Islands {
+    /// Of so many batches with the pairs of places (batch, lane) that act on each other.
+    pub(super) fn new(batches: usize, pairs: impl Iterator<Item = [(usize, usize); 2]>) -> Self {
+        let mut parents: Vec<usize> = (0..batches * LANES).collect();
+        for [one, other] in pairs.map(|pair| pair.map(|(batch, lane)| batch * LANES + lane)) {
+            let (one, other) = (first_of(&mut parents, one), first_of(&mut parents, other));
+            parents[one.max(other)] = one.min(other);
+        }
+        let mut of = vec![[0; LANES]; batches];
+        for place in 0..parents.len() {
+            of[place / LANES][place % LANES] = first_of(&mut parents, place) as u32;
+        }
+        Self {
+            of,
+            count: parents.len(),
+        }
+    }
+}
+
+/// The first place of an island; those on the way there come nearer to it.
+fn first_of(parents: &mut [usize], mut place: usize) -> usize {
+    while parents[place] != place {
+        parents[place] = parents[parents[place]];
+        place = parents[place];
+    }
+    place
+}
+
+/// The strands of every batch that sleep in a step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sleepers {
+    pub(super) of: Vec<Mask>,
+    /// The islands in which a strand is awake.
+    awake: Vec<bool>,
+}
+
+impl Sleepers {
+    /// Finds them; none unless the step is `calm`: what acts is the same as in the last step, and does not move.
+    pub(super) fn find(
+        &mut self,
+        batches: &[Batch],
+        states: &[BatchState],
+        surroundings: &Surroundings,
+        calm: bool,
+        islands: Option<&Islands>,
+    ) {
+        self.of.clear();
+        if !calm {
+            self.of.resize(batches.len(), Mask::NONE);
+            return;
+        }
+        let places = batches.iter().zip(states);
+        let Some(islands) = islands else {
+            self.of.extend(
+                places.map(|(batch, state)| state.quiet().and(rest(batch, state, surroundings))),
+            );
+            return;
+        };
+        self.awake.clear();
+        self.awake.resize(islands.count, false);
+        for ((batch, state), islands) in places.clone().zip(&islands.of) {
+            // What is set aside is at rest where its root is.
+            let quiet = state.quiet().or(state.aside());
+            let wakes = (quiet.and(rest(batch, state, surroundings)).not()).and(batch.used);
+            for lane in 0..LANES {
+                self.awake[islands[lane] as usize] |= wakes.get(lane);
+            }
+        }
+        let awake = &self.awake;
+        self.of
+            .extend(places.zip(&islands.of).map(|((batch, state), islands)| {
+                let asleep = Mask::new(islands.map(|island| !awake[island as usize]));
+                asleep.and(batch.used).and(state.aside().not())
+            }));
+    }
+
+    /// Whether all strands that have links sleep.
+    pub(super) fn are_all(&self, batches: &[Batch]) -> bool {
+        (self.of.iter().zip(batches)).all(|(asleep, batch)| *asleep == batch.used)
+    }
+}
+
+impl BatchState {
+    /// The strands that have hardly moved for a while.
+    fn quiet(&self) -> Mask {
+        self.quiet.gt(Lane::splat(QUIET_TIME))
+    }
+}
+
+/// The strands whose roots stay where they are in a step in which what acts is the same as in the last.
+fn rest(batch: &Batch, state: &BatchState, surroundings: &Surroundings) -> Mask {
+    if let Roots::Head(_) = surroundings.roots {
+        return batch.used;
+    }
+    let (root, base): (Vec3, Quat) = roots(batch, surroundings);
+    let moves = (root - state.root).length_squared()
+        + (base.v - state.base.v).length_squared()
+        + state.root_velocity.length_squared();
+    // A strand whose root has no pose stays where it is, and is set aside.
+    let lost = moves.is_finite().not().and(state.aside());
+    moves.lt(Lane::splat(1e-26)).or(lost).and(batch.used)
+}
+
+/// Measures for how long the strands of `active` have hardly moved.
+#[inline(always)]
+pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
+    if !drive.calm {
+        state.quiet = active.pick(Lane::ZERO, state.quiet);
+        return;
+    }
+    let (mut farthest, mut press) = (Lane::ZERO, Lane::ZERO);
+    for k in 0..batch.count() {
+        farthest = farthest.max((state.y[k] - state.quiet_at[k]).length_squared());
+        press = press.max(state.press[k]);
+    }
+    let is_free = press
+        .gt(Lane::ZERO)
+        .not()
+        .and(Mask::new([drive.others.is_none(); LANES]));
+    let way = is_free.pick(Lane::splat(FREE_WAY), Lane::splat(QUIET_WAY));
+    let most = (batch.length * QUIET_SHARE).min(way);
+    let stays = farthest.lt(most * most);
+    let moved = active.and(stays.not());
+    if moved.any() {
+        for k in 0..batch.count() {
+            state.quiet_at[k] = Vec3::pick(moved, state.y[k], state.quiet_at[k]);
+        }
+    }
+    let quiet = stays.pick(state.quiet + Lane::splat(drive.dt), Lane::ZERO);
+    state.quiet = active.pick(quiet, state.quiet);
+}
