@@ -213,14 +213,13 @@ impl<'a> Strand<'a> {
         let clump = parts.flat_map(move |part| {
             let of_base = base.get(part).map(|stroke| {
                 let layer = &drawing.layers[stroke.layer];
-                let stretches = (runs.iter())
+                (runs.iter())
                     .flat_map(move |run| layer.on(stroke.instance, &run.joints))
                     .filter_map(move |stretch| {
                         let (_, discs) = clump_on(drawing, part, &stretch.joints).next()?;
                         let colors = &layer.colors[stretch.places()];
                         Some((discs, Some(colors), (0, drawn_as + part as u32)))
-                    });
-                stretches
+                    })
             });
             let is_bare = of_base.is_none();
             let bare = runs.iter().filter(move |_| is_bare);
