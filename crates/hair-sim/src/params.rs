@@ -167,7 +167,8 @@ impl Params {
     }
 
     /// The longest step in s, 1/144 to 1/24, in which a strand of `length` metres, above 0, swings as in fine ones where gravity is
-    /// `gravity` m/s^2: in two seconds, or as long as it swings at all, its first mode lags by no more than a twentieth of a cycle.
+    /// `gravity` m/s^2: in two seconds, or as long as it swings at all, its first mode lags by no more than a twentieth of a cycle,
+    /// unless that needs less than 1/144 s, as of stiff undamped hair shorter than some 0.1 m.
     ///
     /// That hangs on frequency and damping alone: TR-BDF2 lags by 0.04 radians times the cube of the angle that a mode goes through in a
     /// step. Its amplitude is off by less.

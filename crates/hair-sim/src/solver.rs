@@ -290,6 +290,8 @@ impl Solver {
             courses: vec![Course::default(); total],
             islands,
         });
+        // What sleeps is pulled otherwise now.
+        state.last = 0;
         Ok(())
     }
 

@@ -11,7 +11,7 @@ use crate::reach::Sight;
 use crate::scene::Scene;
 use crate::script::HeadPose;
 use effects::wgsl::hash;
-use effects::{HairStrand, MadePaths, layer_seed};
+use effects::{HairStrand, Layer, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use render::{Ball, Frame, Light, StrandInfo, Surface};
@@ -97,6 +97,8 @@ impl FrameMaker {
         camera: Camera,
     ) -> Result<Frame<'a>, StageError> {
         let shows_all = self.shows_all();
+        // A frame that fails is none that another could be like.
+        self.of = None;
         let Self {
             strands,
             paths,
@@ -229,7 +231,7 @@ impl FrameMaker {
         culled
     }
 
-    /// Strands of the last frame that were left out because they are too far away to be drawn.
+    /// Strands of the last frame that may be seen and were left out because they are too far away to be drawn.
     #[must_use]
     pub fn left_out(&self) -> usize {
         self.paths.dropped()
@@ -302,9 +304,13 @@ impl ObjectFrame {
         self.strands = first..first + hair.infos.len();
         self.joints = paths.len()..paths.len();
         self.unseen = 0;
-        let center = motion.head(&self.of).center;
+        // Paths that effects make may go on where no strand is.
+        let makes_paths = |layer: &Layer| layer.program.has_own_paths();
+        let (center, radius_m) = ball_around(points);
         let sizes = hair.infos.iter().map(|info| info.size);
-        if !sight.may_see_any(center, hair.reach_m, sizes.fold(0.0, f32::max)) {
+        if !sight.may_see_any(center, radius_m, sizes.fold(0.0, f32::max))
+            && !self.of.look().layers.iter().any(makes_paths)
+        {
             self.strands.end = first;
             self.unseen = hair.infos.len();
             return Ok(());
@@ -463,14 +469,16 @@ impl ObjectFrame {
 
     /// The head's surfaces on the screen; none where nothing of the head can be seen.
     fn surfaces(&mut self, motion: &ObjectMotion, sight: &Sight, light: Light) -> Vec<Surface> {
+        self.solid = None;
         let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
             return Vec::new();
         };
         let paint = self.of.look().paint(self.of.hair().head);
         let (pose, placement) = (motion.pose(), self.of.placement());
+        let camera = sight.camera();
         let solid = match sight.shows_all() {
             true => None,
-            false => neck.solid(pose, self.of.hair().head, sight.camera().eye()),
+            false => neck.solid(pose, self.of.hair().head, camera.eye(), camera.near_m()),
         };
         self.solid = solid.map(|ball| placement.ball(ball));
         let (center, radius) = neck.ball(pose);
@@ -481,6 +489,15 @@ impl ObjectFrame {
         let light = self.of.placement().own_light(light);
         head::surfaces(model, &paint, sight.camera(), &light)
     }
+}
+
+/// A ball that paths through these points stay in: its middle and its radius, metres. A path leaves the hull of its points by no more than
+/// a third of a link.
+fn ball_around(points: &[Vec3]) -> (Vec3, f32) {
+    let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+    let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let radius_m = 0.5 * low.distance(high);
+    (0.5 * (low + high), radius_m + 2.0 * radius_m / 3.0)
 }
 
 /// The number that the variations of path `number` of strand `id` hang on.

@@ -51,7 +51,7 @@ impl Motion {
     }
 
     /// As [`Self::advance_to`], for live programs: while this camera cannot see the hair, wherever it may be, and the head is calm, hair
-    /// is simulated in one step of four frames' length every fourth frame, and what is missing is made up for before it is seen
+    /// is simulated in one step in place of four (of a frame each, or of a part of one where frames are long), and what is missing is made up for before it is seen
     /// again. Motion is not quite that of [`Self::advance_to`] then, so pictures that must be the same every time are made
     /// with that.
     ///

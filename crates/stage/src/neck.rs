@@ -71,11 +71,11 @@ impl Neck {
 }
 
 impl Neck {
-    /// A ball within the head in this pose that an eye at this place sees nothing through.
-    pub fn solid(&self, pose: HeadPose, head: Head, eye: Vec3) -> Option<Ball> {
+    /// A ball within the head in this pose that an eye at this place, which sees nothing nearer than `near_m` metres, sees nothing through.
+    pub fn solid(&self, pose: HeadPose, head: Head, eye: Vec3, near_m: f32) -> Option<Ball> {
         let (rotation, translation) = rigid(pose, head);
         let eye = rotation.inverse() * (eye.as_dvec3() - translation);
-        let ball = self.solid.as_ref()?.seen_from(eye.as_vec3())?;
+        let ball = self.solid.as_ref()?.seen_from(eye.as_vec3(), near_m)?;
         let center = rotation * ball.center.as_dvec3() + translation;
         Some(Ball {
             center: center.as_vec3(),

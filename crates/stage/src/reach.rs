@@ -123,7 +123,7 @@ impl Sight {
 /// The largest factor of the look on a strand's own size.
 fn thickest(look: &Look) -> f32 {
     let clump = look.clump.greatest();
-    clump.size * (1.0 + clump.size_variation)
+    clump.size * (1.0 + clump.size_variation) * clump.root_size.max(1.0)
 }
 
 /// Whether any of a ball (metres) may be in the camera's picture.

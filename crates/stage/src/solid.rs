@@ -19,8 +19,8 @@ const STEPS: usize = 24;
 #[derive(Clone, Debug)]
 pub(crate) struct Solid {
     ball: Ball,
-    /// Whether there is skin in the direction of each cell.
-    has_skin: [bool; 6 * CELLS * CELLS],
+    /// How far from the ball's middle the nearest skin in the direction of each cell is, metres; infinite where there is none.
+    skin_m: [f32; 6 * CELLS * CELLS],
 }
 
 impl Solid {
@@ -49,7 +49,7 @@ impl Solid {
                 head.center + (center - head.center).clamp_length_max(FARTHEST * head.height_m);
         }
         let (center, radius) = best;
-        let mut has_skin = [false; 6 * CELLS * CELLS];
+        let mut skin_m = [f32::INFINITY; 6 * CELLS * CELLS];
         for triangle in triangles() {
             let seen = triangle.map(|corner| (corner - center).normalize_or_zero());
             let widest = (0..3).map(|i| seen[i].distance(seen[(i + 1) % 3]));
@@ -59,23 +59,27 @@ impl Solid {
                 for j in 0..=steps - i {
                     let [a, b] = [i, j].map(|k| k as f32 / steps as f32);
                     let point = a * triangle[0] + b * triangle[1] + (1.0 - a - b) * triangle[2];
-                    has_skin[cell(point - center)] = true;
+                    let nearest = &mut skin_m[cell(point - center)];
+                    *nearest = nearest.min(point.distance(center));
                 }
             }
         }
         let radius_m = PART * radius;
         (radius_m > 0.0 && radius_m.is_finite()).then_some(Self {
             ball: Ball { center, radius_m },
-            has_skin,
+            skin_m,
         })
     }
 
-    /// The ball, where an eye at this place sees skin before all of it.
-    pub fn seen_from(&self, eye: Vec3) -> Option<Ball> {
-        let to_eye = (eye - self.ball.center).normalize_or_zero();
-        let is_before = |cell: &usize| middle(*cell).dot(to_eye) > NEAREST;
-        let mut before = (0..self.has_skin.len()).filter(is_before);
-        before.all(|cell| self.has_skin[cell]).then_some(self.ball)
+    /// The ball, where an eye at this place, which sees nothing nearer than `near_m` metres, sees skin before all of it.
+    pub fn seen_from(&self, eye: Vec3, near_m: f32) -> Option<Ball> {
+        let way = eye - self.ball.center;
+        let (distance, to_eye) = (way.length(), way.normalize_or_zero());
+        let mut cells = (0..).zip(&self.skin_m);
+        let is_covered = |(cell, skin_m): (usize, &f32)| {
+            middle(cell).dot(to_eye) <= NEAREST || *skin_m < distance - near_m
+        };
+        cells.all(is_covered).then_some(self.ball)
     }
 }
 
@@ -187,11 +191,14 @@ mod tests {
             height_m: 2.0,
         };
         let solid = Solid::within(&cube(true), head).unwrap();
-        let ball = solid.seen_from(Vec3::new(0.0, 0.0, 9.0)).unwrap();
+        let ball = solid.seen_from(Vec3::new(0.0, 0.0, 9.0), 0.1).unwrap();
         assert!(ball.radius_m > 0.9 && ball.radius_m <= PART, "{ball:?}");
         let open = Solid::within(&cube(false), head).unwrap();
-        assert_eq!(open.seen_from(Vec3::new(0.0, 0.0, 9.0)), None);
-        assert!(open.seen_from(Vec3::new(0.0, 0.0, -9.0)).is_some());
+        assert_eq!(open.seen_from(Vec3::new(0.0, 0.0, 9.0), 0.1), None);
+        assert!(open.seen_from(Vec3::new(0.0, 0.0, -9.0), 0.1).is_some());
+        // Within the cube, and so near that its front is cut.
+        assert_eq!(solid.seen_from(Vec3::new(0.0, 0.0, 0.99), 0.0), None);
+        assert_eq!(solid.seen_from(Vec3::new(0.0, 0.0, 1.5), 0.6), None);
     }
 
     #[test]
@@ -204,7 +211,10 @@ mod tests {
         let solid = Solid::within(&bust.mesh, head).unwrap();
         assert!(solid.ball.radius_m > 0.2 * head.height_m, "{solid:?}");
         for eye in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::Z, Vec3::NEG_Z] {
-            assert!(solid.seen_from(head.center + 3.0 * eye).is_some(), "{eye}");
+            assert!(
+                solid.seen_from(head.center + 3.0 * eye, 0.01).is_some(),
+                "{eye}"
+            );
         }
     }
 }

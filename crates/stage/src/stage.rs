@@ -126,8 +126,13 @@ impl Stage {
     ///
     /// When there is no such camera.
     pub fn is_as_before(&self) -> Result<bool, StageError> {
-        let camera = self.scene.own_camera()?;
-        Ok(self.frames.is_as_before(&self.scene, &self.motion, &camera))
+        Ok(self.is_as_before_seen_by(&self.scene.own_camera()?))
+    }
+
+    /// [`FrameMaker::is_as_before`].
+    #[must_use]
+    pub fn is_as_before_seen_by(&self, camera: &Camera) -> bool {
+        self.frames.is_as_before(&self.scene, &self.motion, camera)
     }
 
     /// [`FrameMaker::frame`].

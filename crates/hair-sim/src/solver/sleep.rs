@@ -17,9 +17,9 @@ use super::{
 
 /// Strands of which no particle leaves a ball of this radius (m; the second of free ones), or of this part of their length where that is less, for so long (s) are
 /// quiet.
-const QUIET_WAY: f64 = 3e-6;
+const QUIET_WAY: f64 = 4e-6;
 const FREE_WAY: f64 = 1e-7;
-const QUIET_SHARE: f64 = 1e-5;
+const QUIET_SHARE: f64 = 2e-5;
 const QUIET_TIME: f64 = 1.0;
 
 /// Which strands act on each other: the island of every lane of every batch, by a number below `count`.

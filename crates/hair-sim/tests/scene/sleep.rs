@@ -282,6 +282,16 @@ fn whatever_changes_wakes_hair_that_sleeps() {
 }
 
 #[test]
+fn other_links_wake_hair_that_sleeps() {
+    let (mut solver, mut state) = hair();
+    come_to_rest(&mut solver, &mut state);
+    let end = [angle(20); 2];
+    assert_eq!(turn(&mut solver, &mut state, end, 0.0).asleep, 72);
+    solver.interact(&mut state, &Mutual::default()).unwrap();
+    assert_eq!(turn(&mut solver, &mut state, end, 0.0).asleep, 0);
+}
+
+#[test]
 fn what_is_asleep_is_the_same_for_any_threads_and_order_and_after_it_is_restored() {
     let bits = |solver: &Solver, state: &State, strand: usize| -> Vec<[u64; 3]> {
         let points = solver.points(state, strand);

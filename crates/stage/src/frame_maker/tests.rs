@@ -129,6 +129,23 @@ fn look(sections: &Sections) -> Look {
 }
 
 #[test]
+fn a_head_that_is_gone_hides_nothing() {
+    let (motion, mut frames) = (Motion::new(), FrameMaker::new());
+    let scene = yardstick("short-ash");
+    assert!(
+        frames.frame(&scene, &motion).unwrap().objects[0]
+            .solid
+            .is_some()
+    );
+    let mut strands = Strands::new();
+    let points = [[0.0, 1.68, 0.06], [0.0, 1.66, 0.11], [0.0, 1.58, 0.13]].map(Vec3::from);
+    strands.push(0, &points, Some(9.0)).unwrap();
+    let hair = HairModel::new(strands, None).unwrap();
+    let bald = Scene::of_one(hair, None, look(&Sections::default())).unwrap();
+    assert_eq!(frames.frame(&bald, &motion).unwrap().objects[0].solid, None);
+}
+
+#[test]
 fn a_frame_is_as_before_until_something_changes() {
     let mut scene = small();
     let (mut motion, mut frames) = (Motion::new(), FrameMaker::new());

@@ -157,12 +157,14 @@ impl<'r> Slot<'r> {
         let mut times = Times::default();
         let started = Instant::now();
         let camera = scene.camera_of_size(size_px).map_err(failed)?;
-        if let Some((backend, last)) = &self.last
-            && *backend == wish.backend
+        // One that fails leaves no picture to be shown once more.
+        if let Some((backend, last)) = self.last.take()
+            && backend == wish.backend
             && (last.samples, last.size_px) == (samples, size_px)
             && self.frames.is_as_before(scene, &self.motion, &camera)
         {
-            return Ok(last.clone());
+            self.last = Some((backend, last.clone()));
+            return Ok(last);
         }
         let frame = self
             .frames
