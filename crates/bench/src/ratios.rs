@@ -1,4 +1,4 @@
-//! Ratios of times as they were, so that worse ones are seen: those of suites `strokes` and `skip`, a line each.
+//! Ratios of times, and of counts, as they were, so that worse ones are seen: those of suites `strokes` and `skip`, a line each.
 
 use crate::BenchError;
 use crate::targets::{Found, Limit, Target};
@@ -26,10 +26,12 @@ fn lines(stored: &str) -> Result<Vec<Line<'_>>, BenchError> {
         .collect()
 }
 
-/// What of a suite can be stored.
+/// What of a suite can be stored. What is nothing has no ratio to what it was; its own target holds it.
 fn ratio(target: &Target) -> Option<f64> {
     match (target.found, target.limit) {
-        (Some(Found::Is(found)), Limit::AtMost(_)) if found.is_finite() => Some(found),
+        (Some(Found::Is(found)), Limit::AtMost(_)) if found.is_finite() && found > 0.0 => {
+            Some(found)
+        }
         _ => None,
     }
 }
@@ -97,7 +99,11 @@ mod tests {
         )
         .unwrap();
         // Another suite leaves it alone; what never came isn't stored.
-        let ours = [target("a, b", 0.5), target("never", f64::INFINITY)];
+        let ours = [
+            target("a, b", 0.5),
+            target("never", f64::INFINITY),
+            target("nothing", 0.0),
+        ];
         let stored = renewed(&before, "strokes", &ours).unwrap();
         assert_eq!(lines(&stored).unwrap().len(), 2);
         let now = [target("far, time", 0.29), target("new", 1.0)];
