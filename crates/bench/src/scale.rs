@@ -223,6 +223,8 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             order: Order::default(),
             edge_depth_m: 0.02 * HEAD_M,
             brush: Brush::Circle,
+            features: render::Features::NONE,
+            roundness: 1.0,
         };
         let (picture, cpu) = backends.on_cpu(&frame)?;
         let card = backends.on_card(&frame)?;

@@ -5,6 +5,7 @@ mod check;
 pub use check::FrameError;
 
 use crate::drawing::{Order, Surface};
+use crate::features::Features;
 use effects::{InputSet, Layer, Reach, Varied, clump};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
@@ -102,6 +103,11 @@ pub struct Frame<'a> {
     pub edge_depth_m: f32,
     /// What strokes are made of.
     pub brush: Brush,
+    /// What samples tell beside their colour; a picture alone needs none of it.
+    pub features: Features,
+    /// How much normals of hair are those of a round tube, for [`Feature::Normal`](crate::Feature::Normal): 0 the clump's, 1 the
+    /// tube's.
+    pub roundness: f32,
 }
 
 /// A ball in the world.

@@ -96,6 +96,8 @@ fn drawing_on(
         order: Order::Rounded,
         edge_depth_m: 0.005,
         brush,
+        features: render::Features::NONE,
+        roundness: 1.0,
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();

@@ -94,6 +94,8 @@ impl Scene {
             order: Order::Rounded,
             edge_depth_m: 0.005,
             brush: Brush::Circle,
+            features: render::Features::NONE,
+            roundness: 1.0,
         }
     }
 }

@@ -102,6 +102,8 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         order,
         edge_depth_m: 0.006,
         brush: Brush::Circle,
+        features: render::Features::NONE,
+        roundness: 1.0,
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();

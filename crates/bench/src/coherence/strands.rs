@@ -176,6 +176,8 @@ impl Animation for Strands {
             order: Order::default(),
             edge_depth_m: EDGE_DEPTH * HEAD.height_m,
             brush: Brush::Circle,
+            features: render::Features::NONE,
+            roundness: 1.0,
         })
     }
 }

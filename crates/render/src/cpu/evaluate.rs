@@ -2,6 +2,7 @@
 
 use super::seen::fill_needed;
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches};
+use crate::features::{DrawnFeatures, Feature};
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
@@ -67,6 +68,8 @@ impl Evaluator {
         self.fill_clump_discs(frame, &mut drawing.clump);
         self.fill_sides(frame, drawing);
 
+        self.fill_features(frame, &mut drawing.features);
+
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
             for (layer, joints) in object.layers.iter().zip(object.layer_joints) {
@@ -95,6 +98,15 @@ impl Evaluator {
         for object in &frame.objects {
             let joints = object.joints.clone().into_par_iter().with_min_len(CHUNK);
             clumps.par_extend(joints.map(|i| self.clump_disc_at(frame, object, i, 0)));
+        }
+    }
+
+    /// What samples are told of joints.
+    fn fill_features(&self, frame: &Frame, features: &mut DrawnFeatures) {
+        features.fill(frame);
+        if features.declared.has(Feature::Normal) {
+            let normals = self.clumps.iter().map(|clump| clump.normal.to_array());
+            features.normal.extend(normals.map(Vec3::from));
         }
     }
 

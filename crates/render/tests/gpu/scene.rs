@@ -282,6 +282,8 @@ impl Scene {
             order: self.order,
             edge_depth_m: 0.005,
             brush: self.brush,
+            features: render::Features::NONE,
+            roundness: 1.0,
         }
     }
 }

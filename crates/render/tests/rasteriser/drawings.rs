@@ -3,7 +3,10 @@
 use glam::Vec2;
 use proptest::collection::vec;
 use proptest::prelude::*;
-use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex};
+use render::{
+    Brush, Disc, Drawing, DrawnFeatures, LayerStrokes, Order, Run, Stretches, Surface,
+    SurfaceVertex,
+};
 
 fn disc_around(extent: f32) -> impl Strategy<Value = Disc> {
     let coordinate =
@@ -63,6 +66,7 @@ fn surface(extent: f32) -> impl Strategy<Value = Surface> {
     )
         .prop_map(|(vertices, triangles, margin_m, light, shadow)| Surface {
             margin_m,
+            mesh: 1,
             vertices,
             triangles,
             light,
@@ -213,6 +217,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                     order,
                     edge_depth_m,
                     brush,
+                    features: DrawnFeatures::default(),
                 }
             },
         )
