@@ -123,6 +123,10 @@ fn assert_is_table(schema: &Value, table: &[Param]) {
             }
             ParamKind::Color { .. } => "color",
             ParamKind::OptionalColor { .. } => "color or none",
+            ParamKind::Texture { repeats, .. } => {
+                assert_eq!(value["repeats"], repeats);
+                "texture"
+            }
             ParamKind::Text => "text",
             ParamKind::Triple { min, max, .. } => {
                 close("min", min);

@@ -3,7 +3,7 @@
 use crate::files::StageError;
 use crate::head::HeadPaint;
 use crate::preset::{BrushChoice, FixedTo, LightKind, OrderChoice, PathChoice, Preset, Sections};
-use effects::{Input, Layer, Parameters, Varied, clump};
+use effects::{Input, Layer, Parameters, SampleInput, Varied, clump};
 use glam::Vec3;
 use render::{Brush, Head, Light, Order};
 use stroke_path::{Camera, PathKind, direction_from_angles};
@@ -74,7 +74,10 @@ impl Look {
 
     /// Whether pictures change with time alone.
     pub(crate) fn reads_time(&self) -> bool {
-        let reads = |layer: &Layer| layer.program.inputs().has(Input::Time);
+        let reads = |layer: &Layer| {
+            let painted = layer.program.paints().unwrap_or_default();
+            layer.program.inputs().has(Input::Time) || painted.has(SampleInput::Time)
+        };
         self.layers.iter().any(reads)
     }
 
