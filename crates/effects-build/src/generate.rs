@@ -48,6 +48,7 @@ pub(crate) fn effect(
     paints: Paints,
 ) -> Result<String, BuildError> {
     repair::for_translation(&mut module);
+    name_entries(&mut module);
     let shared: HashSet<String> = prelude_items()?.iter().filter_map(item_name).collect();
     let mut items = translate(&module, &source.path)?;
     items.retain(|item| item_name(item).is_none_or(|name| !shared.contains(&name)));
@@ -105,7 +106,7 @@ fn effect_program(source: &Source, params: &[Param], paints: Paints) -> TokenStr
                 params: &Params,
             ) -> ::effects::wgsl::Stroke {
                 let _ = (joints, index, seed);
-                translated::stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
+                translated::entry_stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
             }
             #painting
         }
@@ -138,7 +139,7 @@ fn painting(source: &Source, paints: Paints) -> TokenStream {
                     params: &Params,
                 ) -> ::core::option::Option<::effects::wgsl::Lookup> {
                     #sample
-                    Some(translated::place(at, *params))
+                    Some(translated::entry_place(at, *params))
                 }
             };
             (Some(place), Some(quote!(texel,)))
@@ -158,7 +159,7 @@ fn painting(source: &Source, paints: Paints) -> TokenStream {
         ) -> ::effects::wgsl::Vec3<f32> {
             let _ = texel;
             #sample
-            translated::paint(at, #texel *params)
+            translated::entry_paint(at, #texel *params)
         }
     }
 }
@@ -179,11 +180,21 @@ fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
                 seed: u32,
                 params: &Params,
             ) -> ::effects::wgsl::Clump {
-                translated::clump(Inputs { #gather }, *params)
+                translated::entry_clump(Inputs { #gather }, *params)
             }
         }
         impl ::effects::Parameters for Program {
             #common
+        }
+    }
+}
+
+/// Gives the functions that are called from outside names that no variable has: the translator numbers names that are there twice,
+/// over all functions.
+fn name_entries(module: &mut Module) {
+    for (_, function) in module.functions.iter_mut() {
+        if let Some(name @ ("stroke" | "clump" | "place" | "paint")) = function.name.as_deref() {
+            function.name = Some(format!("entry_{name}"));
         }
     }
 }

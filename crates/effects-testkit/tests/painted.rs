@@ -90,7 +90,7 @@ impl Spoil for Negative {
 struct NotANumber;
 impl Spoil for NotANumber {
     fn paint(good: Vec3<f32>, samples: &Samples, index: usize) -> Vec3<f32> {
-        good * vec3([samples.u[index] / samples.u[index]; 3])
+        good * vec3([f32::NAN * samples.u[index]; 3])
     }
 }
 
@@ -168,13 +168,18 @@ fn presets_say_textures_and_programs_look_them_up() {
     let read = program.paints().unwrap();
     assert!(read.has(SampleInput::Level) && !read.has(SampleInput::Depth));
     assert_eq!(program.source().paint.unwrap().textures.len(), 2);
-    let mut samples = Samples::default();
-    samples.color = vec![vec3([1.0; 3]); 2];
-    samples.normal = vec![vec3([0.0, 0.0, 1.0]); 2];
-    samples.tube.clone_from(&samples.normal);
-    samples.light_direction.clone_from(&samples.normal);
-    (samples.u, samples.w) = (vec![0.0; 2], vec![0.0; 2]);
-    (samples.seed, samples.level) = (vec![1; 2], vec![0, 1]);
+    let up = vec![vec3([0.0, 0.0, 1.0]); 2];
+    let samples = Samples {
+        color: vec![vec3([1.0; 3]); 2],
+        normal: up.clone(),
+        tube: up.clone(),
+        light_direction: up,
+        u: vec![0.0; 2],
+        w: vec![0.0; 2],
+        seed: vec![1; 2],
+        level: vec![0, 1],
+        ..Samples::default()
+    };
     let mut colors = Vec::new();
     program.paint(&samples, 0..2, 5, &mut colors);
     let [white, red] = colors[..] else { panic!() };

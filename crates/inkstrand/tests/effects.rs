@@ -11,6 +11,7 @@ use stage::{MOTION_PARTS, ObjectSection, Preset, STYLE_PARTS, Sections};
 fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     registry
 }
 

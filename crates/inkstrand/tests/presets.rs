@@ -13,6 +13,7 @@ use std::path::Path;
 fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     registry
 }
 
