@@ -155,7 +155,7 @@ fn defaults(schema: &Value) -> String {
         let default = &value["default"];
         let text = match value["type"].as_str().unwrap() {
             "number" | "integer" | "true or false" => default.to_string(),
-            "choice" => default.as_str().unwrap().to_owned(),
+            "choice" | "texture" => default.as_str().unwrap().to_owned(),
             "color or none" if default == "none" => "none".to_owned(),
             "color" | "color or none" => default.to_string(),
             "three numbers" | "size" => default.to_string().replace('[', "(").replace(']', ")"),

@@ -20,7 +20,7 @@ const NEAR: f32 = 0.05;
 ///
 /// ```
 /// use hair_sim::Strands;
-/// use stage::{FrameMaker, HairModel, HeadModel, Look, Motion, Object, Preset, Scene, Sections};
+/// use stage::{Files, FrameMaker, HairModel, HeadModel, Look, Motion, Object, Preset, Scene, Sections};
 ///
 /// // Strands of the program's own, in metres, Y up, the face towards +Z; here on the bust that comes with inkstrand.
 /// let head = HeadModel::bust();
