@@ -12,6 +12,7 @@
 mod bin;
 mod evaluate;
 mod instructions;
+mod paint;
 mod rows;
 mod samples;
 mod seen;
@@ -37,6 +38,7 @@ use crate::planes::BandPlanes;
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
 use instructions::Instructions;
+use paint::Painter;
 use rayon::prelude::*;
 use segment::{Segments, Stroke};
 use shown::Shown;
@@ -246,8 +248,9 @@ struct Worker {
     parts: Vec<Part>,
     strand: StrandMasks,
     sums: Sums,
-    /// What samples show; empty where nothing is declared.
+    /// What samples show; empty where nothing is declared or painted.
     shown: Shown,
+    painter: Painter,
 }
 
 impl Worker {
@@ -260,6 +263,7 @@ impl Worker {
             strand: StrandMasks::new(),
             sums: Sums::new(),
             shown: Shown::default(),
+            painter: Painter::default(),
         }
     }
 
@@ -319,7 +323,12 @@ impl Worker {
         scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts);
         for stack in frame.stacks {
             scene.stack = stack;
-            self.draw_stack::<false>(frame, &scene, tile, triangles);
+            if frame.drawing.painting.is_empty() {
+                self.draw_stack::<false>(frame, &scene, tile, triangles);
+            } else {
+                self.draw_stack::<true>(frame, &scene, tile, triangles);
+                self.paint(frame);
+            }
             self.sums.add(&mut self.target, stack, background.is_some());
         }
     }

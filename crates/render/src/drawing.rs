@@ -6,6 +6,7 @@
 //! Colours are linear light, red, green, blue.
 
 use crate::features::DrawnFeatures;
+use crate::painting::Painting;
 use glam::Vec2;
 use std::ops::Range;
 pub use stroke_path::Brush;
@@ -250,6 +251,8 @@ pub struct Drawing {
     pub brush: Brush,
     /// What samples tell beside their colour.
     pub features: DrawnFeatures,
+    /// Layers whose samples are painted.
+    pub painting: Painting,
 }
 
 #[cfg(test)]

@@ -275,7 +275,7 @@ impl DrawnFeatures {
 
 /// The unit normal of a round tube along `forward` at the place `w` across it, from -1 to 1, that is seen from `to_eye`; none where
 /// it is seen along its axis.
-fn tube(forward: Vec3, to_eye: Vec3, w: f32) -> Option<Vec3> {
+pub(crate) fn tube(forward: Vec3, to_eye: Vec3, w: f32) -> Option<Vec3> {
     let across = forward.cross(to_eye).try_normalize()?;
     let facing = across.cross(forward).try_normalize()?;
     Some(w * across + (1.0 - w * w).max(0.0).sqrt() * facing)

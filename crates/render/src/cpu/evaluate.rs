@@ -4,6 +4,7 @@ use super::seen::fill_needed;
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches};
 use crate::features::{DrawnFeatures, Feature};
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
+use crate::painting;
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
 use effects::{
@@ -69,6 +70,7 @@ impl Evaluator {
         self.fill_sides(frame, drawing);
 
         self.fill_features(frame, &mut drawing.features);
+        drawing.painting.fill(frame, &self.joints);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
@@ -392,7 +394,7 @@ impl Evaluator {
 /// What clumps and active layers read of joints.
 fn inputs(frame: &Frame) -> InputSet {
     let read = (frame.objects.iter())
-        .map(Object::inputs)
+        .map(|object| object.inputs().union(painting::inputs(object)))
         .fold(InputSet::default(), InputSet::union);
     if read.has(Input::Gray) {
         // It is made of that.

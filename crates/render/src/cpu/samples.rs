@@ -116,6 +116,9 @@ impl Worker {
             let scene = frame.tile_at([left, top]);
             scene.strands(segments, &mut self.parts);
             self.draw_stack::<true>(frame, &scene, tile, triangles);
+            if !frame.drawing.painting.is_empty() {
+                self.paint(frame);
+            }
             let size = [(width - left).min(tile::WIDTH), height - top];
             self.tell(frame, size, left, &mut planes);
         }

@@ -4,7 +4,7 @@ use glam::Vec2;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use render::{
-    Brush, Disc, Drawing, DrawnFeatures, LayerStrokes, Order, Run, Stretches, Surface,
+    Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches, Surface,
     SurfaceVertex,
 };
 
@@ -217,7 +217,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                     order,
                     edge_depth_m,
                     brush,
-                    features: DrawnFeatures::default(),
+                    ..Drawing::default()
                 }
             },
         )
