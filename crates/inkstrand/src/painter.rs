@@ -129,7 +129,7 @@ impl Painter {
         let cpu = self.cpu()?;
         cpu.evaluator.evaluate(&frame, &mut cpu.drawing)?;
         stats.milliseconds.effects = lap.passed();
-        let picture = cpu.rasterizer.draw(&cpu.drawing)?;
+        let picture = cpu.rasterizer.draw_frame(&frame, &cpu.drawing)?;
         stats.milliseconds.raster = lap.passed();
         stats.backend = "cpu";
         stats.layers = drawing_counts(&cpu.drawing);

@@ -199,6 +199,9 @@ pub enum DrawError {
         /// How many the surface has.
         vertices: usize,
     },
+    /// Samples are painted by the effects of the frame that a drawing was made of.
+    #[error("the drawing was made of another frame")]
+    OtherFrame,
     /// A list that a declared feature needs has another length.
     #[error("features: the list `{list}` has {length} entries, where there are {needed}")]
     FeatureList {

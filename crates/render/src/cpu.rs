@@ -12,6 +12,7 @@
 mod bin;
 mod evaluate;
 mod instructions;
+mod paint;
 mod rows;
 mod samples;
 mod seen;
@@ -37,7 +38,9 @@ use crate::planes::BandPlanes;
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
 use instructions::Instructions;
+use paint::{PaintScratch, Painting};
 use rayon::prelude::*;
+use samples::runs_of_joints;
 use segment::{Segments, Stroke};
 use shown::Shown;
 use std::ops::Range;
@@ -120,6 +123,29 @@ impl Rasterizer {
     /// When the drawing is invalid (see [`DrawError`]); then nothing has been drawn.
     #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn draw(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
+        self.draw_painted(drawing, None)
+    }
+
+    /// Draws the picture of a frame, of which `drawing` was made: layers whose effects paint colour the samples that they show. Without
+    /// such layers it is what [`Self::draw`] draws.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::draw`], and when the drawing was made of another frame.
+    #[inline(never)]
+    pub fn draw_frame(
+        &mut self,
+        frame: &crate::Frame,
+        drawing: &Drawing,
+    ) -> Result<Picture, DrawError> {
+        self.draw_painted(drawing, Some(frame))
+    }
+
+    fn draw_painted(
+        &mut self,
+        drawing: &Drawing,
+        made_of: Option<&crate::Frame>,
+    ) -> Result<Picture, DrawError> {
         let Self {
             pool,
             samples,
@@ -130,6 +156,14 @@ impl Rasterizer {
         } = self;
         let mut draw = || {
             check::check(drawing)?;
+            let painting = made_of
+                .map(|frame| Painting::new(frame, drawing))
+                .transpose()?;
+            let painting = painting.flatten();
+            let runs_of_joints = match painting {
+                Some(_) => runs_of_joints(drawing),
+                None => Vec::new(),
+            };
             let mut picture = empty_picture(drawing, *samples)?;
             let strokes = segment::strokes_in_order(drawing);
             let tile_height = tile::height(stacks);
@@ -140,7 +174,8 @@ impl Rasterizer {
                 parts,
                 samples: *samples,
                 stacks,
-                runs_of_joints: &[],
+                runs_of_joints: &runs_of_joints,
+                painting: painting.as_ref(),
             };
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
@@ -213,6 +248,8 @@ struct Frame<'a> {
     stacks: &'a [Stack],
     /// For each joint its run, where samples tell what they show.
     runs_of_joints: &'a [u32],
+    /// How samples are painted, where layers do so.
+    painting: Option<&'a Painting<'a>>,
 }
 
 impl Frame<'_> {
@@ -248,6 +285,7 @@ struct Worker {
     sums: Sums,
     /// What samples show; empty where nothing is declared.
     shown: Shown,
+    paint: PaintScratch,
 }
 
 impl Worker {
@@ -260,6 +298,7 @@ impl Worker {
             strand: StrandMasks::new(),
             sums: Sums::new(),
             shown: Shown::default(),
+            paint: PaintScratch::default(),
         }
     }
 
@@ -319,8 +358,20 @@ impl Worker {
         scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts);
         for stack in frame.stacks {
             scene.stack = stack;
-            self.draw_stack::<false>(frame, &scene, tile, triangles);
+            if frame.painting.is_some() {
+                self.draw_stack::<true>(frame, &scene, tile, triangles);
+                self.paint(frame);
+            } else {
+                self.draw_stack::<false>(frame, &scene, tile, triangles);
+            }
             self.sums.add(&mut self.target, stack, background.is_some());
+        }
+    }
+
+    /// Lets layers that paint colour what the target shows.
+    fn paint(&mut self, frame: &Frame) {
+        if let (Some(painting), Some(shown)) = (frame.painting, self.shown.planes()) {
+            painting.paint(frame, shown, &mut self.target, &mut self.paint);
         }
     }
 

@@ -1,5 +1,6 @@
 //! What samples tell: a tile drawn four samples at a time, and for each of them the features that are declared.
 
+use super::paint::Painting;
 use super::segment::{Segment, strokes_in_order};
 use super::shown::{NOTHING, Planes, TRIANGLE};
 use super::tile::{self, CELL_WIDTH, CELLS_ACROSS, STACK, Stack};
@@ -15,7 +16,8 @@ impl Rasterizer {
     /// Draws the samples of a picture, each with the features that the drawing declares: up to four of every pixel at a time, which
     /// `take` is given, from the first to the last.
     ///
-    /// They are those that [`Self::draw`] takes the means of. `planes` is working memory.
+    /// They are those that [`Self::draw`] takes the means of, or [`Self::draw_frame`] where the frame is given that the drawing was made
+    /// of. `planes` is working memory.
     ///
     /// # Errors
     ///
@@ -23,6 +25,7 @@ impl Rasterizer {
     pub fn draw_samples(
         &mut self,
         drawing: &Drawing,
+        made_of: Option<&crate::Frame>,
         planes: &mut SamplePlanes,
         mut take: impl FnMut(&mut SamplePlanes) + Send,
     ) -> Result<(), DrawError> {
@@ -41,10 +44,11 @@ impl Rasterizer {
             parts.collect(drawing, &strokes, tile_height);
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
-            let mut runs_of_joints = vec![0; drawing.clump.len()];
-            for (run, number) in drawing.runs.iter().zip(0..) {
-                runs_of_joints[run.joints.clone()].fill(number);
-            }
+            let painting = made_of
+                .map(|frame| Painting::new(frame, drawing))
+                .transpose()?;
+            let painting = painting.flatten();
+            let runs_of_joints = runs_of_joints(drawing);
             let mut first = 0;
             for stack in stacks.iter() {
                 let count = stack.samples / stack.height;
@@ -67,6 +71,7 @@ impl Rasterizer {
                     samples: *samples,
                     stacks: std::slice::from_ref(stack),
                     runs_of_joints: &runs_of_joints,
+                    painting: painting.as_ref(),
                 };
                 let declared = planes.declared;
                 let [ids, numbers] = planes.of_band();
@@ -99,6 +104,15 @@ impl Rasterizer {
     }
 }
 
+/// For each joint of a checked drawing its run.
+pub(super) fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
+    let mut runs_of_joints = vec![0; drawing.clump.len()];
+    for (run, number) in drawing.runs.iter().zip(0..) {
+        runs_of_joints[run.joints.clone()].fill(number);
+    }
+    runs_of_joints
+}
+
 impl Worker {
     /// Draws the samples of a band.
     #[inline(always)] // compiled for each set of `Instructions`
@@ -116,6 +130,7 @@ impl Worker {
             let scene = frame.tile_at([left, top]);
             scene.strands(segments, &mut self.parts);
             self.draw_stack::<true>(frame, &scene, tile, triangles);
+            self.paint(frame);
             let size = [(width - left).min(tile::WIDTH), height - top];
             self.tell(frame, size, left, &mut planes);
         }
@@ -153,7 +168,7 @@ impl Worker {
             return None;
         }
         let [red, green, blue] = &self.target.color;
-        let color = [red, green, blue].map(|plane| plane[cell][lane].clamp(0.0, 1.0));
+        let color = [red, green, blue].map(|plane| plane[cell][lane].max(0.0).min(1.0));
         let color = [color[0], color[1], color[2], 1.0];
         if what & TRIANGLE != 0 {
             let inv_depth = self.target.surface[cell][lane];
@@ -179,6 +194,12 @@ fn place_of(stack: &Stack, row: usize, column: usize, picture: usize, count: usi
 }
 
 impl Frame<'_> {
+    /// The layer whose colour a segment has.
+    pub(super) fn layer_of(&self, segment: &Segment) -> Option<usize> {
+        let stroke = segment.colored().checked_sub(1)?;
+        Some(self.strokes[stroke as usize].layer)
+    }
+
     fn sample_of_triangle(&self, triangle: u32, inv_depth: f32, color: [f32; 4]) -> Sample {
         let triangle = &self.parts.triangles[triangle as usize];
         let features = &self.drawing.features;
@@ -202,14 +223,10 @@ impl Frame<'_> {
     /// Adds to a sample what the axis of a stroke tells at the way `way` along a segment.
     fn sample_of_strand(&self, segment: &Segment, way: f32, sample: Sample) -> Sample {
         let (drawing, features) = (self.drawing, &self.drawing.features);
-        let joint = segment.joint as usize;
-        let next = joint + usize::from(!segment.is_dot);
+        let [joint, next] = segment.joints();
         let run = self.runs_of_joints[joint] as usize;
         let info = &features.runs[run];
-        let layer = match segment.colored() {
-            0 => NO_ID,
-            number => self.strokes[number as usize - 1].layer as u32,
-        };
+        let layer = self.layer_of(segment).map_or(NO_ID, |layer| layer as u32);
         // Of what isn't declared the list is empty.
         let mixed = |list: &[f32]| match (list.get(joint), list.get(next)) {
             (Some(a), Some(b)) => a + way * (b - a),

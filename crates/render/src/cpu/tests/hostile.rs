@@ -304,6 +304,7 @@ proptest! {
             order: Order::ALL[order],
             edge_depth_m: 1e30,
             brush: Brush::default(),
+            ..Drawing::default()
         };
         let picture = draw(&drawing, 2);
         prop_assert_eq!(picture.pixels.len(), (size[0] * size[1]) as usize);
