@@ -129,6 +129,8 @@ impl MadeHair {
             mean: Vec3::ZERO,
             size,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         };
         Self {
             particles: vec![Vec3::ZERO; count * POINTS],

@@ -217,7 +217,7 @@ impl DrawnFeatures {
             RunInfo {
                 object: object as u32,
                 strand: frame.strands[run.strand].id,
-                level: 0,
+                level: frame.strands[run.strand].level,
             }
         }));
         if self.declared.has(Feature::U) {
@@ -237,8 +237,8 @@ impl DrawnFeatures {
         if self.declared.has(Feature::Normal) {
             self.position.extend_from_slice(&paths.position);
             let ways = paths.forward.iter().zip(&paths.backward);
-            let tangent = |(ahead, back): (&Vec3, &Vec3)| (*ahead - *back).normalize_or(*ahead);
-            self.forward.extend(ways.map(tangent));
+            self.forward
+                .extend(ways.map(|(ahead, back)| tangent(*ahead, *back)));
         }
     }
 
@@ -267,15 +267,20 @@ impl DrawnFeatures {
         let mixed = |list: &[Vec3]| list[joint].lerp(list[next], way);
         let clump = mixed(&self.normal);
         let to_eye = camera.eye() - mixed(&self.position);
-        let tube = tube(mixed(&self.forward), to_eye, w);
+        let tube = tube_normal(mixed(&self.forward), to_eye, w);
         let normal = clump.lerp(tube.unwrap_or(clump), self.roundness);
         normal.normalize_or(tube.unwrap_or(Vec3::Y))
     }
 }
 
+/// The unit vector along a strand at a joint, of those to its neighbours.
+pub(crate) fn tangent(forward: Vec3, backward: Vec3) -> Vec3 {
+    (forward - backward).normalize_or(forward)
+}
+
 /// The unit normal of a round tube along `forward` at the place `w` across it, from -1 to 1, that is seen from `to_eye`; none where
 /// it is seen along its axis.
-pub(crate) fn tube(forward: Vec3, to_eye: Vec3, w: f32) -> Option<Vec3> {
+pub(crate) fn tube_normal(forward: Vec3, to_eye: Vec3, w: f32) -> Option<Vec3> {
     let across = forward.cross(to_eye).try_normalize()?;
     let facing = across.cross(forward).try_normalize()?;
     Some(w * across + (1.0 - w * w).max(0.0).sqrt() * facing)
@@ -327,13 +332,13 @@ mod tests {
 
     #[test]
     fn a_tube_faces_the_eye_in_its_middle_and_away_at_its_edges() {
-        let normal = |w| tube(Vec3::NEG_Y, Vec3::Z, w).unwrap();
+        let normal = |w| tube_normal(Vec3::NEG_Y, Vec3::Z, w).unwrap();
         assert_eq!(normal(0.0), Vec3::Z);
         // Hair that hangs down has the left of the screen to its right.
         assert_eq!(normal(1.0), Vec3::NEG_X);
         assert_eq!(normal(-1.0), Vec3::X);
         assert!((normal(0.6) - Vec3::new(-0.6, 0.0, 0.8)).length() < 1e-6);
-        assert_eq!(tube(Vec3::Z, Vec3::Z, 0.5), None);
+        assert_eq!(tube_normal(Vec3::Z, Vec3::Z, 0.5), None);
     }
 
     #[test]

@@ -23,6 +23,10 @@ pub struct StrandInfo {
     /// Its own size at the root and start of shrinking (x in 5.1), both 0 to 1, in place of the clump section's; below 0 the
     /// section's: [`NO_TAPER`].
     pub taper: Vec2,
+    /// Its level, 0 the lowest: what is of a higher one lies on top.
+    pub level: u32,
+    /// How much nearer than it is the strand is ordered among strands, head heights; against surfaces it counts nothing.
+    pub lift: f32,
 }
 
 /// The taper of a strand that has none of its own.

@@ -161,8 +161,14 @@ impl Painting {
             SampleInput::LightDistance => lists.light_distance.clone_from(&known.light_distance),
             SampleInput::ViewDirection => lists.view_direction.clone_from(&known.view_direction),
             SampleInput::Time => lists.time.clone_from(&known.time),
-            // There are no levels yet.
-            SampleInput::Level => lists.level.resize(paths.len(), 0),
+            SampleInput::Level => {
+                let runs = paths.runs.iter();
+                let levels = runs.flat_map(|run| {
+                    let level = frame.strands[run.strand].level;
+                    run.joints.clone().map(move |_| level)
+                });
+                lists.level.extend(levels);
+            }
             SampleInput::S => {
                 for Object { head, joints, .. } in &frame.objects {
                     let lengths = paths.arc_length[joints.clone()].iter();
@@ -239,7 +245,7 @@ pub(crate) fn gather(joints: &Samples, points: &[Beside], read: SampleSet, sampl
                 .extend(points.map(|p| unit(&joints.normal, p))),
             SampleInput::Tube => samples.tube.extend(points.map(|p| {
                 let to_eye = mixed(&joints.view_direction, p);
-                let tube = crate::features::tube(mixed(&joints.forward, p), to_eye, p.w);
+                let tube = crate::features::tube_normal(mixed(&joints.forward, p), to_eye, p.w);
                 vec3(tube.unwrap_or(to_eye.normalize_or(Vec3::Z)).to_array())
             })),
             SampleInput::U => samples.u.extend(points.map(|p| number(&joints.u, p))),

@@ -58,6 +58,8 @@ fn drawing_on(
         mean: Vec3::ZERO,
         size: 20.0,
         taper: NO_TAPER,
+        level: 0,
+        lift: 0.0,
     };
     let mut values = Values::defaults(clump::Program::PARAMS);
     let plain = [

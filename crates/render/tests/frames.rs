@@ -45,6 +45,8 @@ impl Scene {
             mean: Vec3::ZERO,
             size: 10.0,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         };
         let mut registry = Registry::new();
         effects_builtin::register(&mut registry).unwrap();

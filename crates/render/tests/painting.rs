@@ -51,6 +51,8 @@ fn drawing(list: &str, features: Features) -> Drawing {
             mean: Vec3::ZERO,
             size: 14.0,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         })
         .collect();
     let clump = Varied::new(&Values::defaults(clump::Program::PARAMS));

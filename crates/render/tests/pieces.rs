@@ -81,6 +81,8 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
             mean: Vec3::ZERO,
             size: SIZE,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         }],
         objects: vec![Object {
             joints,

@@ -104,6 +104,8 @@ impl Strands {
             mean: Vec3::ZERO,
             size: SIZE,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         };
         let cuts = (0..count as usize).map(|i| {
             let overlap_m = 3.0 * SIZE * HEAD.unit_m();

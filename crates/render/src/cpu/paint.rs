@@ -68,20 +68,19 @@ impl Painter {
                     continue;
                 }
                 let segment = &segments[what as usize];
-                let Some(stroke) = segment.colored().checked_sub(1) else {
+                let Some(layer) = frame.layer_of(segment) else {
                     continue;
                 };
-                let layer = frame.strokes[stroke as usize].layer;
                 let Ok(painted) = layers.binary_search_by_key(&layer, |painted| painted.layer)
                 else {
                     continue;
                 };
-                let joint = segment.joint as usize;
+                let [joint, next] = segment.joints();
                 let (places, points) = &mut self.layers[painted];
                 places.push([cell, lane]);
                 points.push(Beside {
                     joint,
-                    next: joint + usize::from(!segment.is_dot),
+                    next,
                     way: shown.way[cell][lane],
                     v: shown.v[cell][lane],
                     w: shown.w[cell][lane],

@@ -41,10 +41,7 @@ impl Rasterizer {
             parts.collect(drawing, &strokes, tile_height);
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
-            let mut runs_of_joints = vec![0; drawing.clump.len()];
-            for (run, number) in drawing.runs.iter().zip(0..) {
-                runs_of_joints[run.joints.clone()].fill(number);
-            }
+            let runs_of_joints = runs_of_joints(drawing);
             let mut first = 0;
             for stack in stacks.iter() {
                 let count = stack.samples / stack.height;
@@ -97,6 +94,15 @@ impl Rasterizer {
             None => draw(),
         }
     }
+}
+
+/// For each joint of a checked drawing its run.
+fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
+    let mut runs_of_joints = vec![0; drawing.clump.len()];
+    for (run, number) in drawing.runs.iter().zip(0..) {
+        runs_of_joints[run.joints.clone()].fill(number);
+    }
+    runs_of_joints
 }
 
 impl Worker {
@@ -182,6 +188,12 @@ fn place_of(stack: &Stack, row: usize, column: usize, picture: usize, count: usi
 }
 
 impl Frame<'_> {
+    /// The layer whose colour a segment has.
+    pub(super) fn layer_of(&self, segment: &Segment) -> Option<usize> {
+        let stroke = segment.colored().checked_sub(1)?;
+        Some(self.strokes[stroke as usize].layer)
+    }
+
     fn sample_of_triangle(&self, triangle: u32, inv_depth: f32, color: [f32; 4]) -> Sample {
         let triangle = &self.parts.triangles[triangle as usize];
         let features = &self.drawing.features;
@@ -205,14 +217,10 @@ impl Frame<'_> {
     /// Adds to a sample what the axis of a stroke tells at the way `way` along a segment.
     fn sample_of_strand(&self, segment: &Segment, way: f32, sample: Sample) -> Sample {
         let (drawing, features) = (self.drawing, &self.drawing.features);
-        let joint = segment.joint as usize;
-        let next = joint + usize::from(!segment.is_dot);
+        let [joint, next] = segment.joints();
         let run = self.runs_of_joints[joint] as usize;
         let info = &features.runs[run];
-        let layer = match segment.colored() {
-            0 => NO_ID,
-            number => self.strokes[number as usize - 1].layer as u32,
-        };
+        let layer = self.layer_of(segment).map_or(NO_ID, |layer| layer as u32);
         // Of what isn't declared the list is empty.
         let mixed = |list: &[f32]| match (list.get(joint), list.get(next)) {
             (Some(a), Some(b)) => a + way * (b - a),

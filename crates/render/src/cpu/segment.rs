@@ -65,7 +65,7 @@ pub(super) struct Segment {
     /// One of the clump's sides.
     is_side: bool,
     /// There is no other joint: a segment from the first to itself.
-    pub(super) is_dot: bool,
+    is_dot: bool,
     pub(super) bounds: Bounds,
     /// No disc of it is nearer than these.
     pub(super) inv_depth: f32,
@@ -434,6 +434,12 @@ fn bounds(a: &Disc, b: &Disc, size: [u32; 2]) -> Option<Bounds> {
 }
 
 impl Segment {
+    /// Its joints, from the root's side on.
+    pub(super) fn joints(&self) -> [usize; 2] {
+        let first = self.joint as usize;
+        [first, first + usize::from(!self.is_dot)]
+    }
+
     /// 1 more than the place of the stroke whose colour it has, in [`strokes_in_order`]; 0 where it has none.
     #[inline(always)]
     pub(super) fn colored(&self) -> u32 {
