@@ -26,6 +26,16 @@ struct Clump {
     shift: vec3<f32>,
 }
 
+/// Where a painted sample looks a texture up.
+struct Lookup {
+    /// The parameter that is the texture.
+    texture: u32,
+    /// Place in it: 0 to 1 from left to right and from top to bottom; of a gradient the place of its stops, and of its rows.
+    at: vec2<f32>,
+    /// How much of a picture's width a pixel covers: what is smaller is blurred. 0 blurs nothing.
+    size: f32,
+}
+
 const PI: f32 = 3.1415927;
 
 /// A well mixed number from `value` (a 32-bit finaliser in the family of Murmur's).
@@ -155,6 +165,11 @@ fn unit_or(v: vec3<f32>, otherwise: vec3<f32>) -> vec3<f32> {
         return v / sqrt(squared);
     }
     return otherwise;
+}
+
+/// A normal between the clump's, at `roundness` 0, and that of the stroke as a round tube, at 1.
+fn rounded(normal: vec3<f32>, tube: vec3<f32>, roundness: f32) -> vec3<f32> {
+    return unit_or(mix(normal, tube, vec3<f32>(roundness)), normal);
 }
 
 /// Where stroke `instance` of `count` side by side lies across the clump, in its radius: from -1 to 1.

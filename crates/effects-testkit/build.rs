@@ -3,4 +3,5 @@
 fn main() {
     effects_build::effect("tests/good.wgsl");
     effects_build::effect("tests/kinds.wgsl");
+    effects_build::effect("tests/painted.wgsl");
 }

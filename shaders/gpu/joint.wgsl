@@ -4,7 +4,7 @@
 
 @group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
 @group(0) @binding(1) var<storage, read> gpu_joints: array<u32>;
-/// Id, mean of the particles, size, taper.
+/// Id, mean of the particles, size, taper, how much nearer it is ordered.
 @group(0) @binding(2) var<storage, read> gpu_strands: array<u32>;
 /// What the layer or the clump is and on which head (the places below), its parameters, and how they vary.
 @group(0) @binding(3) var<storage, read> gpu_words: array<u32>;
@@ -23,6 +23,8 @@ const GPU_HEAD_CENTER: u32 = 8u;
 const GPU_HEAD_HEIGHT: u32 = 11u;
 /// Metres in 1/300 of the head's height.
 const GPU_UNIT: u32 = 12u;
+
+const GPU_STRAND_WORDS: u32 = 8u;
 
 /// Where the discs of one of the layer's strokes would begin, if the frame's first joint had one.
 fn gpu_first_disc(instance: u32) -> u32 {
@@ -43,7 +45,7 @@ fn gpu_vec3(joint: u32, at: u32) -> vec3<f32> {
 
 /// A word of the strand's record.
 fn gpu_of_strand(joint: u32, word: u32) -> u32 {
-    return gpu_strands[gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_STRAND] * 7u + word];
+    return gpu_strands[gpu_joints[joint * GPU_JOINT_WORDS + GPU_AT_STRAND] * GPU_STRAND_WORDS + word];
 }
 
 fn gpu_strand_mean(joint: u32) -> vec3<f32> {
@@ -146,7 +148,8 @@ const GPU_LARGEST_PX: f32 = 1e8;
 fn gpu_disc(joint: u32, offset: vec2<f32>, radius: f32, scale: f32, clump_radius: f32, depth_offset: f32) -> GpuDisc {
     let depth = gpu_scalar(joint, GPU_AT_DEPTH);
     // No depth is nearer than the near plane, whatever is taken from it.
-    let shifted = max(depth + depth_offset * gpu_word(GPU_HEAD_HEIGHT), gpu_frame.near_m);
+    let lift = bitcast<f32>(gpu_of_strand(joint, 7u));
+    let shifted = max(depth + (depth_offset - lift) * gpu_word(GPU_HEAD_HEIGHT), gpu_frame.near_m);
     let biased = max(depth - clump_radius * gpu_word(GPU_UNIT), gpu_frame.near_m);
     return GpuDisc(
         gpu_vec2(joint, GPU_AT_CENTER) + offset * gpu_unit_px(joint),

@@ -16,6 +16,7 @@ const TABLE: &[Row] = &[
     Row(1, "effects", Only(&["stroke-path"]), &[BUILD_TOOL]),
     Row(2, "document", Only(&["hair-io"]), &[]),
     Row(2, "effects-builtin", Only(&["effects"]), &[BUILD_TOOL]),
+    Row(2, "effects-cartoon", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "effects-testkit", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "render", Only(&["effects", "stroke-path"]), &[]),
     Row(3, "reference", Only(&["render"]), &[]),

@@ -129,6 +129,8 @@ impl MadeHair {
             mean: Vec3::ZERO,
             size,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         };
         Self {
             particles: vec![Vec3::ZERO; count * POINTS],
@@ -223,6 +225,8 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             order: Order::default(),
             edge_depth_m: 0.02 * HEAD_M,
             brush: Brush::Circle,
+            features: render::Features::NONE,
+            roundness: 1.0,
         };
         let (picture, cpu) = backends.on_cpu(&frame)?;
         let card = backends.on_card(&frame)?;

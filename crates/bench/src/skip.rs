@@ -210,7 +210,7 @@ fn back_of_a_head(preset: &Preset) -> Result<Scene, BenchError> {
             let figure = HeadModel::figure(&Figure::default());
             HairModel::new(strands, Some(&figure)).map_err(|error| error.to_string().into())
         };
-    let look = Look::new(preset).map_err(|error| error.to_string())?;
+    let look = Look::new(preset, &Files::default()).map_err(|error| error.to_string())?;
     let figure = HeadModel::figure(&Figure::default());
     let bald = Object::new(
         hair(&mut [Vec3::ZERO].into_iter(), 0.1)?,
@@ -230,7 +230,7 @@ fn back_of_a_head(preset: &Preset) -> Result<Scene, BenchError> {
     });
     let object = bald.with_hair(hair(&mut roots, 0.15 * head.height_m)?);
     let object = object.map_err(|error| error.to_string())?;
-    let look = Look::new(preset).map_err(|error| error.to_string())?;
+    let look = Look::new(preset, &Files::default()).map_err(|error| error.to_string())?;
     let mut scene = Scene::new(vec![object], look).map_err(|error| error.to_string())?;
     scene.camera.target = [0.0; 3];
     scene.camera.pitch = 0.0;
@@ -246,7 +246,7 @@ fn crowd(scene: &Scene, preset: &Preset) -> Result<(Scene, Scene), BenchError> {
     });
     let all: Vec<Object> = places.map(|place| girl.placed(0.0, place)).collect();
     let of = |objects: Vec<Object>| -> Result<Scene, BenchError> {
-        let look = Look::new(preset).map_err(|error| error.to_string())?;
+        let look = Look::new(preset, &Files::default()).map_err(|error| error.to_string())?;
         let mut scene = Scene::new(objects, look).map_err(|error| error.to_string())?;
         // Before the first row, close to its middle one.
         let girl = girl.head();

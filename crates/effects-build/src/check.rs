@@ -5,7 +5,9 @@ use crate::compose::{Entry, Source};
 use crate::error::BuildError;
 use crate::places;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{BinaryOperator, Expression, Handle, MathFunction as Math, Module, Span, TypeInner};
+use naga::{
+    BinaryOperator, Expression, Handle, MathFunction as Math, Module, Scalar, Span, TypeInner,
+};
 
 /// Parses and validates a composed source, and tells its expressions' types. Errors begin with the
 /// author's place, naga's own text and the source line follow.
@@ -45,61 +47,133 @@ pub(crate) fn named_type(module: &Module, name: &str) -> Option<Handle<naga::Typ
         .map(|(handle, _)| handle)
 }
 
-/// Checks that the entry function is there, with the arguments that the callers give.
-pub(crate) fn entry_point(
+/// A function that callers know: name, arguments with their types, type of the result.
+struct Signature(
+    &'static str,
+    &'static [(&'static str, &'static str)],
+    &'static str,
+);
+
+const STROKE: Signature = Signature(
+    "stroke",
+    &[
+        ("joint", "Inputs"),
+        ("instance", "u32"),
+        ("params", "Params"),
+    ],
+    "Stroke",
+);
+const CLUMP: Signature = Signature(
+    "clump",
+    &[("joint", "Inputs"), ("params", "Params")],
+    "Clump",
+);
+const PLACE: Signature = Signature("place", &[("at", "Sample"), ("params", "Params")], "Lookup");
+const PAINT: Signature = Signature(
+    "paint",
+    &[("at", "Sample"), ("params", "Params")],
+    "vec3<f32>",
+);
+const PAINT_WITH_TEXEL: Signature = Signature(
+    "paint",
+    &[
+        ("at", "Sample"),
+        ("texel", "vec4<f32>"),
+        ("params", "Params"),
+    ],
+    "vec3<f32>",
+);
+
+impl std::fmt::Display for Signature {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self(name, arguments, result) = self;
+        let arguments = arguments.iter().map(|(name, ty)| format!("{name}: {ty}"));
+        let arguments = arguments.collect::<Vec<_>>().join(", ");
+        write!(f, "fn {name}({arguments}) -> {result}")
+    }
+}
+
+/// What an effect does beside its strokes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Paints {
+    No,
+    /// `paint` alone.
+    Plainly,
+    /// `place` says where a texture is looked up, `paint` gets what is there.
+    WithTexture,
+}
+
+/// Checks that the entry functions are there, with the arguments that the callers give.
+pub(crate) fn entry_points(
     module: &Module,
     source: &Source,
     entry: Entry,
-) -> Result<(), BuildError> {
-    let (name, arguments, result) = match entry {
-        Entry::Effect => ("stroke", &["Inputs", "u32", "Params"][..], "Stroke"),
-        Entry::Clump => ("clump", &["Inputs", "Params"][..], "Clump"),
+) -> Result<Paints, BuildError> {
+    let signature = match entry {
+        Entry::Effect => STROKE,
+        Entry::Clump => CLUMP,
     };
-    let names = ["joint", "instance", "params"];
-    let expected = || {
-        let list = arguments.iter().map(|ty| {
-            let name = if *ty == "Params" {
-                names[2]
-            } else if *ty == "u32" {
-                names[1]
-            } else {
-                names[0]
-            };
-            format!("{name}: {ty}")
-        });
-        format!(
-            "fn {name}({}) -> {result}",
-            list.collect::<Vec<_>>().join(", ")
-        )
-    };
+    if !has(module, source, &signature)? {
+        return Err(BuildError(format!(
+            "{}:1:1: an effect needs the function `{signature}`",
+            source.path
+        )));
+    }
+    if source.sample_inputs.is_none() {
+        // What is no paint may be called so.
+        return Ok(Paints::No);
+    }
+    let places = has(module, source, &PLACE)?;
+    let paint = if places { PAINT_WITH_TEXEL } else { PAINT };
+    if !has(module, source, &paint)? {
+        return Err(BuildError(format!(
+            "{}:1:1: an effect that reads samples needs the function `{paint}`",
+            source.path
+        )));
+    }
+    Ok(if places {
+        Paints::WithTexture
+    } else {
+        Paints::Plainly
+    })
+}
+
+/// Whether there is a function of this name, which then must have these arguments and this result.
+fn has(module: &Module, source: &Source, signature: &Signature) -> Result<bool, BuildError> {
+    let Signature(name, arguments, result) = signature;
     let Some((handle, function)) = module
         .functions
         .iter()
-        .find(|(_, f)| f.name.as_deref() == Some(name))
+        .find(|(_, f)| f.name.as_deref() == Some(*name))
     else {
-        return Err(BuildError(format!(
-            "{}:1:1: an effect needs the function `{}`",
-            source.path,
-            expected()
-        )));
+        return Ok(false);
     };
-    let type_name = |ty: Handle<naga::Type>| match &module.types[ty] {
+    let found = function.arguments.iter().map(|a| type_name(module, a.ty));
+    let returned = function.result.as_ref().map(|r| type_name(module, r.ty));
+    if !found.eq(arguments.iter().map(|(_, ty)| (*ty).to_owned()))
+        || returned.as_deref() != Some(*result)
+    {
+        let span = module.functions.get_span(handle);
+        return Err(source.error(span, format!("this function must be `{signature}`")));
+    }
+    Ok(true)
+}
+
+/// The name of a type, of those that entry functions have.
+fn type_name(module: &Module, ty: Handle<naga::Type>) -> String {
+    match &module.types[ty] {
         naga::Type {
             name: Some(name), ..
         } => name.clone(),
-        naga::Type {
-            inner: TypeInner::Scalar(naga::Scalar::U32),
-            ..
-        } => "u32".to_owned(),
-        _ => "another type".to_owned(),
-    };
-    let found: Vec<String> = function.arguments.iter().map(|a| type_name(a.ty)).collect();
-    let returned = function.result.as_ref().map(|r| type_name(r.ty));
-    if found != arguments || returned.as_deref() != Some(result) {
-        let span = module.functions.get_span(handle);
-        return Err(source.error(span, format!("this function must be `{}`", expected())));
+        naga::Type { inner, .. } => match *inner {
+            TypeInner::Scalar(Scalar::U32) => "u32".to_owned(),
+            TypeInner::Vector {
+                size,
+                scalar: Scalar::F32,
+            } => format!("vec{}<f32>", size as u8),
+            _ => "another type".to_owned(),
+        },
     }
-    Ok(())
 }
 
 /// Refuses what the CPU would answer differently, or not at all.

@@ -1,8 +1,8 @@
 //! The text that naga sees: the author's source first, so that lines and columns are the author's own,
-//! then the declared inputs, then the prelude. WGSL does not care about order.
+//! then the declared inputs, of joints and of samples, then the prelude. WGSL does not care about order.
 
 use crate::error::BuildError;
-use crate::inputs::{INPUTS, Input, Offered};
+use crate::inputs::{INPUTS, Input, Offered, SAMPLE_INPUTS};
 use naga::Span;
 use std::fmt::Write as _;
 
@@ -37,6 +37,8 @@ pub(crate) struct Source {
     pub author_length: usize,
     /// The declared inputs, in the order of [`INPUTS`].
     pub inputs: Vec<&'static Input>,
+    /// What is declared of a sample, in the order of [`SAMPLE_INPUTS`]; nothing where the effect doesn't paint.
+    pub sample_inputs: Option<Vec<&'static Input>>,
 }
 
 impl Source {
@@ -51,61 +53,78 @@ impl Source {
 }
 
 pub(crate) fn compose(author: &str, path: &str, entry: Entry) -> Result<Source, BuildError> {
-    let inputs = declared_inputs(author, path, entry)?;
+    let offered = INPUTS.iter().filter(|input| entry.offers(input)).collect();
+    let Some(inputs) = declared(author, path, "inputs", offered)? else {
+        return Err(BuildError(format!(
+            "{path}:1:1: the first line must declare what is read of a joint, such as \
+             `//! inputs: clump_radius, clump_color`; there are: {}",
+            names(INPUTS.iter().filter(|input| entry.offers(input)))
+        )));
+    };
+    let sample_inputs = match entry {
+        Entry::Effect => declared(author, path, "sample", SAMPLE_INPUTS.iter().collect())?,
+        Entry::Clump => None,
+    };
     let mut text = String::from(author);
-    text.push_str("\nstruct Inputs {\n");
-    for input in &inputs {
-        let _ = writeln!(text, "    {}: {},", input.name, input.ty.in_wgsl());
+    structure(&mut text, "Inputs", &inputs);
+    if let Some(inputs) = &sample_inputs {
+        structure(&mut text, "Sample", inputs);
     }
-    text.push_str("}\n");
     text.push_str(PRELUDE);
     Ok(Source {
         path: path.to_owned(),
         text,
         author_length: author.len(),
         inputs,
+        sample_inputs,
     })
 }
 
-/// The inputs named by the author's line `//! inputs: a, b`.
-fn declared_inputs(
+fn structure(text: &mut String, name: &str, inputs: &[&Input]) {
+    let _ = writeln!(text, "\nstruct {name} {{");
+    for input in inputs {
+        let _ = writeln!(text, "    {}: {},", input.name, input.ty.in_wgsl());
+    }
+    text.push_str("}\n");
+}
+
+/// The inputs named by the author's line `//! inputs: a, b` or `//! sample: a, b`, in the order of those offered.
+fn declared(
     author: &str,
     path: &str,
-    entry: Entry,
-) -> Result<Vec<&'static Input>, BuildError> {
+    key: &str,
+    offered: Vec<&'static Input>,
+) -> Result<Option<Vec<&'static Input>>, BuildError> {
     let declaration = author.lines().enumerate().find_map(|(number, line)| {
-        let names = line
-            .trim_start()
-            .strip_prefix("//!")?
-            .trim_start()
-            .strip_prefix("inputs:")?;
+        let words = line.trim_start().strip_prefix("//!")?.trim_start();
+        let names = words.strip_prefix(key)?.strip_prefix(':')?;
         Some((number + 1, line, names))
     });
-    let offered = || INPUTS.iter().filter(|input| entry.offers(input));
-    let all_names = || {
-        offered()
-            .map(|input| input.name)
-            .collect::<Vec<_>>()
-            .join(", ")
+    let Some((line_number, line, listed)) = declaration else {
+        return Ok(None);
     };
-    let Some((line_number, line, names)) = declaration else {
-        return Err(BuildError(format!(
-            "{path}:1:1: the first line must declare what is read of a joint, such as \
-             `//! inputs: clump_radius, clump_color`; there are: {}",
-            all_names()
-        )));
-    };
-    let names: Vec<&str> = names.split(',').map(str::trim).collect();
-    for name in &names {
-        if !offered().any(|input| input.name == *name) {
+    let listed: Vec<&str> = listed.split(',').map(str::trim).collect();
+    for name in &listed {
+        if !offered.iter().any(|input| input.name == *name) {
             let column = line.find(name).unwrap_or(0) + 1;
+            let what = if key == "inputs" {
+                "input"
+            } else {
+                "sample input"
+            };
             return Err(BuildError(format!(
-                "{path}:{line_number}:{column}: there is no input `{name}`; there are: {}",
-                all_names()
+                "{path}:{line_number}:{column}: there is no {what} `{name}`; there are: {}",
+                names(offered.into_iter())
             )));
         }
     }
-    Ok(offered()
-        .filter(|input| names.contains(&input.name))
-        .collect())
+    let is_listed = |input: &&'static Input| listed.contains(&input.name);
+    Ok(Some(offered.into_iter().filter(is_listed).collect()))
+}
+
+fn names(inputs: impl Iterator<Item = &'static Input>) -> String {
+    inputs
+        .map(|input| input.name)
+        .collect::<Vec<_>>()
+        .join(", ")
 }

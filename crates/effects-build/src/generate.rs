@@ -1,13 +1,14 @@
 //! The Rust source of an effect: the translator's output less what the prelude gives to all, and an
 //! implementation of `effects::Program` over it.
 
-use crate::check;
+use crate::check::{self, Paints};
 use crate::compose::{Entry, PRELUDE, Source};
 use crate::error::BuildError;
+use crate::inputs::Input;
 use crate::params::{Kind, Param};
 use crate::repair;
 use naga::Module;
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::HashSet;
 use syn::Item;
@@ -44,8 +45,10 @@ pub(crate) fn effect(
     source: &Source,
     params: &[Param],
     entry: Entry,
+    paints: Paints,
 ) -> Result<String, BuildError> {
     repair::for_translation(&mut module);
+    name_entries(&mut module);
     let shared: HashSet<String> = prelude_items()?.iter().filter_map(item_name).collect();
     let mut items = translate(&module, &source.path)?;
     items.retain(|item| item_name(item).is_none_or(|name| !shared.contains(&name)));
@@ -59,7 +62,7 @@ pub(crate) fn effect(
     let own = quote! { #(#items)* };
     let choices = choices(params);
     let program = match entry {
-        Entry::Effect => effect_program(source, params),
+        Entry::Effect => effect_program(source, params, paints),
         Entry::Clump => clump_program(source, params),
     };
     let file: syn::File = syn::parse2(quote! {
@@ -82,8 +85,10 @@ pub(crate) fn effect(
     Ok(prettyplease::unparse(&file))
 }
 
-fn effect_program(source: &Source, params: &[Param]) -> TokenStream {
-    let (common, gather) = (program_items(source, params), gather(source));
+fn effect_program(source: &Source, params: &[Param], paints: Paints) -> TokenStream {
+    let common = program_items(source, params);
+    let gather = gather(&source.inputs, &format_ident!("joints"));
+    let painting = painting(source, paints);
     quote! {
         /// The effect's WGSL, and the same in Rust.
         #[derive(Clone, Copy, Debug)]
@@ -101,14 +106,67 @@ fn effect_program(source: &Source, params: &[Param]) -> TokenStream {
                 params: &Params,
             ) -> ::effects::wgsl::Stroke {
                 let _ = (joints, index, seed);
-                translated::stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
+                translated::entry_stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
             }
+            #painting
+        }
+    }
+}
+
+/// What an effect that paints has beside its strokes.
+fn painting(source: &Source, paints: Paints) -> TokenStream {
+    let (Some(inputs), true) = (&source.sample_inputs, paints != Paints::No) else {
+        return TokenStream::new();
+    };
+    let variants = inputs.iter().map(|input| {
+        let variant = input.variant();
+        quote!(::effects::SampleInput::#variant)
+    });
+    let gather = gather(inputs, &format_ident!("samples"));
+    let sample = quote! {
+        let _ = (samples, index, seed);
+        let at = translated::Sample { #gather };
+    };
+    let (place, texel) = match paints {
+        Paints::WithTexture => {
+            let place = quote! {
+                const PLACES: bool = true;
+                #[inline]
+                fn place(
+                    samples: &::effects::Samples,
+                    index: usize,
+                    seed: u32,
+                    params: &Params,
+                ) -> ::core::option::Option<::effects::wgsl::Lookup> {
+                    #sample
+                    Some(translated::entry_place(at, *params))
+                }
+            };
+            (Some(place), Some(quote!(texel,)))
+        }
+        Paints::Plainly | Paints::No => (None, None),
+    };
+    quote! {
+        const PAINTS: ::core::option::Option<&'static [::effects::SampleInput]> = Some(&[#(#variants),*]);
+        #place
+        #[inline]
+        fn paint(
+            samples: &::effects::Samples,
+            index: usize,
+            seed: u32,
+            texel: ::effects::wgsl::Vec4<f32>,
+            params: &Params,
+        ) -> ::effects::wgsl::Vec3<f32> {
+            let _ = texel;
+            #sample
+            translated::entry_paint(at, #texel *params)
         }
     }
 }
 
 fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
-    let (common, gather) = (program_items(source, params), gather(source));
+    let common = program_items(source, params);
+    let gather = gather(&source.inputs, &format_ident!("joints"));
     quote! {
         /// The clump's WGSL, and the same in Rust.
         #[derive(Clone, Copy, Debug)]
@@ -122,7 +180,7 @@ fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
                 seed: u32,
                 params: &Params,
             ) -> ::effects::wgsl::Clump {
-                translated::clump(Inputs { #gather }, *params)
+                translated::entry_clump(Inputs { #gather }, *params)
             }
         }
         impl ::effects::Parameters for Program {
@@ -131,10 +189,27 @@ fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
     }
 }
 
+/// Gives the functions that are called from outside names that no variable has: the translator numbers names that are there twice,
+/// over all functions.
+fn name_entries(module: &mut Module) {
+    for (_, function) in module.functions.iter_mut() {
+        if let Some(name @ ("stroke" | "clump" | "place" | "paint")) = function.name.as_deref() {
+            function.name = Some(format!("entry_{name}"));
+        }
+    }
+}
+
 /// What both kinds of source share: the parameters, the inputs and the text for the GPU.
 fn program_items(source: &Source, params: &[Param]) -> TokenStream {
     let text = &source.text;
-    let inputs = source.inputs.iter().map(|input| input.in_rust());
+    let inputs = source.inputs.iter().map(|input| {
+        let variant = input.variant();
+        quote!(::effects::Input::#variant)
+    });
+    let textures = params
+        .iter()
+        .filter(|p| matches!(p.kind, Kind::Texture { .. }));
+    let textures: Vec<&str> = textures.map(|param| param.name.as_str()).collect();
     let table = params.iter().map(table_row);
     let fields = params.iter().map(|p| {
         let (field, name) = (format_ident!("{}", p.name), &p.name);
@@ -149,6 +224,11 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
             Kind::Color { .. } => quote!(::effects::wgsl::vec3(values.color(#name))),
             Kind::OptionalColor { .. } => {
                 quote!(::effects::wgsl::color_or_none(values.optional_color(#name)))
+            }
+            Kind::Texture { .. } => {
+                let index = textures.iter().position(|texture| texture == name);
+                let index = index.unwrap_or_default() as u32;
+                quote!(#index)
             }
         };
         quote!(#field: #value)
@@ -206,6 +286,9 @@ fn table_row(param: &Param) -> TokenStream {
         Kind::OptionalColor { default: Some(hex) } => {
             quote!(OptionalColor { default: Some(#hex) })
         }
+        Kind::Texture { default, repeats } => {
+            quote!(Texture { default: #default, repeats: #repeats })
+        }
     };
     quote!(::effects::Param {
         name: #name,
@@ -244,10 +327,10 @@ fn choices(params: &[Param]) -> TokenStream {
     }
 }
 
-/// The declared inputs' values at joint `index`.
-fn gather(source: &Source) -> TokenStream {
-    let fields = source.inputs.iter().map(|input| {
-        let (field, value) = (format_ident!("{}", input.name), input.value());
+/// The declared inputs' values at `index` of the lists.
+fn gather(inputs: &[&Input], lists: &Ident) -> TokenStream {
+    let fields = inputs.iter().map(|input| {
+        let (field, value) = (format_ident!("{}", input.name), input.value(lists));
         match input.name {
             // The list has the strand's part.
             "seed" => quote!(seed: ::effects::wgsl::hash(seed ^ #value)),
@@ -289,6 +372,7 @@ fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
         text: PRELUDE.to_owned(),
         author_length: PRELUDE.len(),
         inputs: Vec::new(),
+        sample_inputs: None,
     };
     let (module, _) = check::parse(&source)?;
     let Some(comments) = &module.doc_comments else {

@@ -1,17 +1,17 @@
-//! What a joint offers: the one table of all inputs. WGSL's `struct Inputs` is made from it, and in Rust `effects::Input`,
-//! the lists of `effects::Joints` and what tests of effects need.
+//! What a joint offers, and a painted sample: the tables of all inputs. WGSL's `struct Inputs` and `struct Sample` are made from them,
+//! and in Rust `effects::Input`, the lists of `effects::Joints`, their like for samples, and what tests of effects need.
 //!
 //! A new input is a row here, and what works it out: the compiler asks for that in `render`, on the CPU in
 //! `cpu/evaluate.rs` and on a graphics card in `gpu/inputs.rs`, and for values to try it with in `effects-testkit`.
 
 use Offered::{Both, ToEffects};
 use Type::{F32, U32, Vec2, Vec3};
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
-/// Something that a joint offers. What an effect does not declare is not there.
+/// Something that a joint or a sample offers. What an effect does not declare is not there.
 pub(crate) struct Input {
-    /// The field's name in WGSL and in `effects::Joints`.
+    /// The field's name in WGSL, and the list's in Rust.
     pub name: &'static str,
     pub ty: Type,
     pub offered: Offered,
@@ -112,10 +112,42 @@ pub(crate) const INPUTS: &[Input] = &[
     input("gray", F32, ToEffects, "max(light . normal, 0)"),
 ];
 
-/// `for_each_input!`, which gives the table to a macro of another crate: for each input its comment, its name in `effects::Input`
-/// and in `effects::Joints`, and its type.
+/// What a painted sample offers, in the order in which it stands in `struct Sample`.
+#[rustfmt::skip]
+pub(crate) const SAMPLE_INPUTS: &[Input] = &[
+    input("color", Vec3, ToEffects, "the stroke's own colour here, linear"),
+    input("position", Vec3, ToEffects, "place in the world of the stroke's axis beside the sample, metres"),
+    input("forward", Vec3, ToEffects, "unit vector along the strand, to its tip"),
+    input("normal", Vec3, ToEffects, "the clump's unit normal (5.4)"),
+    input("tube", Vec3, ToEffects, "unit normal of the stroke as a round tube: `rounded(normal, tube, roundness)` is between both"),
+    input("u", F32, ToEffects, "place along the strand, 0 at the root, 1 at the tip"),
+    input("s", F32, ToEffects, "length of the strand up to here, head heights"),
+    input("v", F32, ToEffects, "place across the stroke, -1 to 1"),
+    input("w", F32, ToEffects, "place across the clump, -1 to 1"),
+    input("strand", U32, ToEffects, "the strand's stable id"),
+    input("seed", U32, ToEffects, "for `random`: a hash of style seed, layer name and strand"),
+    input("level", U32, ToEffects, "0 back, 1 middle, 2 front, where the clump has levels; else 0"),
+    input("depth", F32, ToEffects, "distance from the eye along the view's axis, head heights"),
+    input("head_depth", F32, ToEffects, "the same of the head's centre, head heights"),
+    input("light_direction", Vec3, ToEffects, "unit vector to the light"),
+    input("light_distance", F32, ToEffects, "distance to the light, head heights; 1e6 for a direction"),
+    input("view_direction", Vec3, ToEffects, "unit vector to the eye"),
+    input("pixels", F32, ToEffects, "pixels that a head's height takes at this depth"),
+    input("time", F32, ToEffects, "time of the scene, seconds: what reads it changes while nothing moves"),
+];
+
+/// `for_each_input!` and `for_each_sample_input!`, which give the tables to a macro of another crate: for each input its comment, its
+/// name as an enum's and as a list's, and its type.
 pub(crate) fn for_each_input() -> TokenStream {
-    let rows = INPUTS.iter().map(|input| {
+    let (joints, samples) = (
+        for_each(&format_ident!("for_each_input"), INPUTS),
+        for_each(&format_ident!("for_each_sample_input"), SAMPLE_INPUTS),
+    );
+    quote!(#joints #samples)
+}
+
+fn for_each(name: &Ident, table: &[Input]) -> TokenStream {
+    let rows = table.iter().map(|input| {
         let (variant, name) = (
             format_ident!("{}", variant(input.name)),
             format_ident!("{}", input.name),
@@ -126,28 +158,27 @@ pub(crate) fn for_each_input() -> TokenStream {
     quote! {
         #[doc(hidden)]
         #[macro_export]
-        macro_rules! for_each_input {
+        macro_rules! #name {
             ($rows:ident) => { $rows! { #(#rows)* } };
         }
     }
 }
 
 impl Input {
-    /// `effects::Input` for it.
-    pub fn in_rust(&self) -> TokenStream {
-        let variant = format_ident!("{}", variant(self.name));
-        quote!(::effects::Input::#variant)
+    /// Its name in `effects::Input` or `effects::SampleInput`.
+    pub fn variant(&self) -> Ident {
+        format_ident!("{}", variant(self.name))
     }
 
-    /// Its value at joint `index` of `joints`.
-    pub fn value(&self) -> TokenStream {
+    /// Its value at `index` of the `lists`: `effects::Joints` or `effects::Samples`.
+    pub fn value(&self, lists: &Ident) -> TokenStream {
         let name = format_ident!("{}", self.name);
         match self.where_empty {
             Some(value) => {
                 let value = value();
-                quote!(joints.#name.get(index).copied().unwrap_or(#value))
+                quote!(#lists.#name.get(index).copied().unwrap_or(#value))
             }
-            None => quote!(joints.#name[index]),
+            None => quote!(#lists.#name[index]),
         }
     }
 }

@@ -116,8 +116,8 @@ pub fn translate_effect(author: &str, path: &str) -> Result<String, BuildError> 
 fn translate(author: &str, path: &str, entry: compose::Entry) -> Result<String, BuildError> {
     let source = compose::compose(author, path, entry)?;
     let (module, info) = check::parse(&source)?;
-    check::entry_point(&module, &source, entry)?;
+    let paints = check::entry_points(&module, &source, entry)?;
     check::builtins(&module, &info, &source)?;
     let params = params::read(&module, &source)?;
-    generate::effect(module, &source, &params, entry)
+    generate::effect(module, &source, &params, entry, paints)
 }

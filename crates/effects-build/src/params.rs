@@ -9,7 +9,8 @@
 //! A `vec3<f32>` is a colour (`@default "RRGGBB"`), a `vec4<f32>` a colour or none (`@default none`),
 //! whose last component is 1 where there is one. A `vec2<f32>`, and a `vec3<f32>` with a range, are numbers
 //! (`@range -1..1 @default 0 1`). A `bool` is `true` or `false`. A `u32` is a whole number or, with `@choices a b c`,
-//! one of these names; an `i32` is one whose range begins below 0. An `f32` may vary along a strand and from strand to strand, but for those marked
+//! one of these names; with `@texture` it is a picture or a gradient (`@default none` or a gradient as presets have it), which clamps at its
+//! edges or, with `@texture repeat`, goes on from the other one; an `i32` is one whose range begins below 0. An `f32` may vary along a strand and from strand to strand, but for those marked
 //! `@constant`, which the effect's Rust reads.
 
 use crate::check::named_type;
@@ -66,6 +67,12 @@ pub(crate) enum Kind {
     },
     OptionalColor {
         default: Option<String>,
+    },
+    /// A `u32` with `@texture`.
+    Texture {
+        /// As presets have it.
+        default: String,
+        repeats: bool,
     },
 }
 
@@ -152,6 +159,9 @@ fn member_span(source: &Source, structure: Span, name: &str) -> Span {
     structure
 }
 
+/// What a comment may say after an `@`.
+const KEYS: &[&str] = &["unit", "range", "default", "choices", "constant", "texture"];
+
 fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, String> {
     if name.ends_with(|c: char| c.is_ascii_digit()) {
         return Err("a parameter's name can't end in a digit".to_owned());
@@ -159,13 +169,10 @@ fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, St
     if notes.words.is_empty() {
         return Err("a `///` comment must say what it does".to_owned());
     }
-    if let Some((key, _)) = notes
-        .keys
-        .iter()
-        .find(|(k, _)| !["unit", "range", "default", "choices", "constant"].contains(&k.as_str()))
-    {
+    if let Some((key, _)) = notes.keys.iter().find(|(k, _)| !KEYS.contains(&k.as_str())) {
         return Err(format!(
-            "there is no `@{key}`; there are @unit, @range, @default, @choices, @constant"
+            "there is no `@{key}`; there are @{}",
+            KEYS.join(", @")
         ));
     }
     let default = notes
@@ -182,6 +189,17 @@ fn read_one(name: &str, ty: &TypeInner, notes: &Annotations) -> Result<Param, St
                 varies: notes.get("constant").is_none(),
             }
         }
+        TypeInner::Scalar(Scalar::U32) if notes.get("texture").is_some() => Kind::Texture {
+            default: default.to_owned(),
+            repeats: match notes.get("texture") {
+                Some("repeat") => true,
+                Some("" | "clamp") => false,
+                other => {
+                    let other = other.unwrap_or_default();
+                    return Err(format!("@texture {other}: it is clamp or repeat"));
+                }
+            },
+        },
         TypeInner::Scalar(Scalar::U32) => match notes.get("choices") {
             Some(choices) => {
                 let names: Vec<String> = choices.split_whitespace().map(str::to_owned).collect();

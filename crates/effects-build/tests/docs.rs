@@ -8,11 +8,11 @@ fn document(path: &str) -> String {
     fs::read_to_string(root.join(path)).unwrap()
 }
 
-/// The rows of the table of inputs: name, type, meaning.
-fn rows(text: &str) -> Vec<[String; 3]> {
-    let table = text.split("## Inputs").nth(1).unwrap();
-    let table = table.split("## Parameters").next().unwrap();
-    let rows = table.lines().filter(|line| line.starts_with("| `"));
+/// The rows of the table under a heading: name, type, meaning.
+fn rows(text: &str, heading: &str) -> Vec<[String; 3]> {
+    let part = text.split(heading).nth(1).unwrap();
+    let part = part.split("\n## ").next().unwrap();
+    let rows = part.lines().filter(|line| line.starts_with("| `"));
     rows.map(|row| {
         let mut cells = row.trim_matches('|').split(" | ").map(str::trim);
         [(); 3].map(|()| {
@@ -26,26 +26,42 @@ fn rows(text: &str) -> Vec<[String; 3]> {
     .collect()
 }
 
+/// What a message says of an input that there isn't: all that there are.
+fn message(first_line: &str) -> String {
+    let source = format!("{first_line}\nfn stroke() {{}}");
+    let error = effects_build::translate_effect(&source, "a.wgsl").unwrap_err();
+    error.to_string()
+}
+
 #[test]
 fn each_input_is_documented_as_it_is() {
-    let rows = rows(&document("docs/effects.md"));
-    // The message about an input that there isn't names all that there are.
-    let source = "//! inputs: nonsense\nfn stroke() {}";
-    let error = effects_build::translate_effect(source, "a.wgsl").unwrap_err();
-    let error = error.to_string();
-    for [name, ..] in &rows {
-        let mut words = error.split(|c: char| !c.is_alphanumeric() && c != '_');
-        assert!(words.any(|word| word == name), "{name}: {error}");
+    let text = document("docs/effects.md");
+    let source = document("crates/effects-build/src/inputs.rs");
+    let (joints, samples) = source.split_once("SAMPLE_INPUTS: &[Input]").unwrap();
+    for (heading, table, message) in [
+        ("## Inputs", joints, message("//! inputs: nonsense")),
+        (
+            "## Paint",
+            samples,
+            message("//! inputs: u\n//! sample: nonsense"),
+        ),
+    ] {
+        let rows = rows(&text, heading);
+        for [name, ty, meaning] in &rows {
+            let mut words = message.split(|c: char| !c.is_alphanumeric() && c != '_');
+            assert!(words.any(|word| word == name), "{name}: {message}");
+            let start = format!("input(\"{name}\", ");
+            let row = table.lines().find(|line| line.contains(&start)).unwrap();
+            assert!(row.contains(&format!("\"{meaning}\"")), "{name}: {meaning}");
+            let kind = row.split(", ").nth(1).unwrap().to_lowercase();
+            assert!(ty.starts_with(&kind), "{name}: {ty} for {kind}");
+        }
+        assert_eq!(
+            rows.len(),
+            table.matches("    input(\"").count(),
+            "{heading}"
+        );
     }
-    let table = document("crates/effects-build/src/inputs.rs");
-    for [name, ty, meaning] in &rows {
-        let start = format!("input(\"{name}\", ");
-        let row = table.lines().find(|line| line.contains(&start)).unwrap();
-        assert!(row.contains(&format!("\"{meaning}\"")), "{name}: {meaning}");
-        let kind = row.split(", ").nth(1).unwrap().to_lowercase();
-        assert!(ty.starts_with(&kind), "{name}: {ty} for {kind}");
-    }
-    assert_eq!(rows.len(), table.matches("    input(\"").count());
 }
 
 #[test]

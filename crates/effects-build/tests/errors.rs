@@ -227,3 +227,80 @@ fn nothing_outside_functions() {
     let source = format!("{}var<private> state: f32;\n", with_radius("1.0"));
     assert_error(&source, &["src/mine.wgsl:", "no variables outside"]);
 }
+
+/// An effect that paints with these lines.
+fn painting(sample: &str, functions: &str) -> String {
+    format!("{}{functions}", with_radius("joint.u")).replacen('\n', &format!("\n{sample}\n"), 1)
+}
+
+#[test]
+fn effects_that_paint_are_translated() {
+    let source = painting(
+        "//! sample: u, w",
+        "fn paint(at: Sample, params: Params) -> vec3<f32> { return vec3<f32>(at.w * params.width, at.u, 0.0); }\n",
+    );
+    let rust = effects_build::translate_effect(&source, "a.wgsl").unwrap();
+    assert!(
+        rust.contains("SampleInput::U") && rust.contains("samples.w[index]"),
+        "{rust}"
+    );
+    assert!(!rust.contains("fn place"), "{rust}");
+}
+
+#[test]
+fn mistakes_of_painting_are_told() {
+    let paint = "fn paint(at: Sample, params: Params) -> vec3<f32> { return vec3<f32>(at.u); }\n";
+    let place = "fn place(at: Sample, params: Params) -> Lookup { return Lookup(0u, vec2<f32>(at.u), 0.0); }\n";
+    let sample = "//! sample: u";
+    assert_error(
+        &painting(sample, ""),
+        &["needs the function `fn paint(at: Sample, params: Params) -> vec3<f32>`"],
+    );
+    assert_error(
+        &painting(sample, place),
+        &[
+            "needs the function `fn paint(at: Sample, texel: vec4<f32>, params: Params) -> vec3<f32>`",
+        ],
+    );
+    assert_error(
+        &painting(sample, &format!("{place}{paint}")),
+        &[
+            "src/mine.wgsl:",
+            "must be `fn paint(at: Sample, texel: vec4<f32>,",
+        ],
+    );
+    assert_error(
+        &painting(sample, &paint.replace("vec3<f32>", "f32")),
+        &["must be `fn paint("],
+    );
+    assert_error(&painting("", paint), &["`Sample`", "src/mine.wgsl:"]);
+    assert_error(
+        &painting("//! sample: u, gray", paint),
+        &[
+            "src/mine.wgsl:2:16",
+            "no sample input `gray`",
+            "color, position",
+        ],
+    );
+}
+
+#[test]
+fn mistakes_of_textures_are_told() {
+    let with = |tags: &str| {
+        with_radius("joint.u").replace(
+            "    width: f32,",
+            &format!("    width: f32,\n    /// A tone.\n    /// {tags}\n    tone: u32,"),
+        )
+    };
+    assert!(
+        effects_build::translate_effect(&with("@texture repeat @default none"), "a.wgsl").is_ok()
+    );
+    assert_error(
+        &with("@texture"),
+        &["Params.tone: its comment needs `@default VALUE`"],
+    );
+    assert_error(
+        &with("@texture wrap @default none"),
+        &["@texture wrap: it is clamp or repeat"],
+    );
+}

@@ -1,7 +1,7 @@
 //! What an effect says of itself, in lists, messages and the parser.
 
 use crate::values::{extreme_values, text};
-use effects::preset::LAYER;
+use effects::preset::{LAYER, read_value};
 use effects::{AnyEffect, Param, ParamKind, Values, parse_hex};
 use std::collections::BTreeSet;
 
@@ -106,6 +106,7 @@ fn default_is_allowed(kind: &ParamKind) -> Result<(), String> {
         ParamKind::Triple { min, max, default } => default
             .iter()
             .try_for_each(|number| in_range((*number).into(), min.into(), max.into())),
+        ParamKind::Texture { default, .. } => read_value(default, kind).map(|_| ()),
         ParamKind::Text | ParamKind::Size { .. } => {
             Err("an effect has no parameters of this kind".to_owned())
         }

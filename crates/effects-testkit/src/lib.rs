@@ -24,8 +24,10 @@ mod descriptor;
 mod hair;
 mod joint;
 mod motion;
+mod paint;
 mod paths;
 mod repeat;
+mod sample;
 mod strokes;
 mod undeclared;
 mod unread;
@@ -45,6 +47,7 @@ const CHECKS: &[(&str, Check)] = &[
         descriptor::parameters,
     ),
     (READS, undeclared::check),
+    (READS_OF_SAMPLES, paint::reads_what_it_declares),
     (
         "its strokes are finite and not negative, whatever the joint",
         strokes::on_any_joint,
@@ -62,6 +65,14 @@ const CHECKS: &[(&str, Check)] = &[
         repeat::check,
     ),
     (
+        "what it paints is a colour, whatever the sample and the parameters",
+        paint::is_a_color,
+    ),
+    (
+        "the same sample has the same colour, bit for bit",
+        paint::is_the_same,
+    ),
+    (
         "its paths are finite, and the same ones in every frame, and none jumps",
         paths::check,
     ),
@@ -71,10 +82,16 @@ const CHECKS: &[(&str, Check)] = &[
     ),
     ("it declares what it reads, and no more", unread::check),
     ("its Rust is its WGSL", wgsl::check),
+    (
+        "what it paints in Rust is what its WGSL says",
+        wgsl::check_paint,
+    ),
 ];
 
 /// Where this fails the other checks would say nothing but the same.
 const READS: &str = "it reads what it declares, and nothing else";
+
+const READS_OF_SAMPLES: &str = "it reads of a sample what it declares, and nothing else";
 
 type Check = fn(&dyn AnyEffect) -> Result<(), String>;
 
@@ -134,7 +151,10 @@ pub fn conforms<E: StrokeEffect>() -> Result<(), Failures> {
         let mut failures = Vec::new();
         for (check, run) in CHECKS {
             failures.extend(failure(check, || run(effect)));
-            if failures.last().is_some_and(|last| last.check == READS) {
+            if failures
+                .last()
+                .is_some_and(|last| [READS, READS_OF_SAMPLES].contains(&last.check))
+            {
                 break;
             }
         }

@@ -9,22 +9,27 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
     let wrong = |message: String| format!("WGSL is not WGSL: {message}");
     let module = naga::front::wgsl::parse_str(effect.wgsl())
         .map_err(|error| wrong(error.emit_to_string(effect.wgsl())))?;
-    let unread = unread(&module).map_err(wrong)?;
-    if unread.is_empty() {
-        return Ok(());
+    for (structure, of, line) in [
+        ("Inputs", "joint", "`//! inputs:`"),
+        ("Sample", "sample", "`//! sample:`"),
+    ] {
+        let unread = unread(&module, structure).map_err(wrong)?;
+        if !unread.is_empty() {
+            return Err(format!(
+                "{} declared and never read, and worked out for every {of}: take {} out of the line {line}",
+                unread.join(", ") + if unread.len() == 1 { " is" } else { " are" },
+                if unread.len() == 1 { "it" } else { "them" }
+            ));
+        }
     }
-    Err(format!(
-        "{} declared and never read, and worked out for every joint: take {} out of the first line",
-        unread.join(", ") + if unread.len() == 1 { " is" } else { " are" },
-        if unread.len() == 1 { "it" } else { "them" }
-    ))
+    Ok(())
 }
 
-/// The fields of `Inputs` that no expression takes.
-fn unread(module: &Module) -> Result<Vec<String>, String> {
+/// The fields of a struct that no expression takes.
+fn unread(module: &Module, structure: &str) -> Result<Vec<String>, String> {
     let mut types = module.types.iter();
     let Some((inputs, Type { inner, .. })) =
-        types.find(|(_, ty)| ty.name.as_deref() == Some("Inputs"))
+        types.find(|(_, ty)| ty.name.as_deref() == Some(structure))
     else {
         return Ok(Vec::new());
     };

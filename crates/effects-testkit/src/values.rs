@@ -1,6 +1,10 @@
 //! Parameters to try effects with.
 
-use effects::{AnyEffect, ParamKind, Section as _, Value, Values, Variation};
+use effects::preset::edit::written;
+use effects::{
+    AnyEffect, Image, ParamKind, Ramp, Row, Section as _, Texture, Value, Values, Variation,
+};
+use std::sync::Arc;
 
 /// Parameters, and what to call them in a message.
 pub(crate) struct Case {
@@ -113,9 +117,37 @@ pub(crate) fn extreme_values(kind: &ParamKind) -> Vec<Value> {
                 .map(Value::Triple)
                 .to_vec()
         }
+        ParamKind::Texture { .. } => textures(),
         // No effect has these: they are for sections of presets.
         ParamKind::Text | ParamKind::Size { .. } => Vec::new(),
     }
+}
+
+/// None, gradients, and a picture of which some texels aren't there.
+fn textures() -> Vec<Value> {
+    let row = |v, steps| Row {
+        v,
+        steps,
+        stops: vec![(0.2, [0.0; 3]), (0.7, [1.0, 0.5, 0.0])],
+    };
+    let ramp = |rows| Ramp::new(rows).expect("a gradient");
+    let texels = [
+        0, 0, 0, 0, 65535, 0, 9000, 65535, 1, 2, 3, 4, 65535, 65535, 65535, 65535,
+    ];
+    let image = Image::from_srgb([2, 2], &texels).expect("a picture");
+    let image = Texture::Image {
+        file: "four.png".to_owned(),
+        image: Arc::new(image),
+    };
+    vec![
+        Value::Texture(Texture::None),
+        Value::Texture(Texture::Ramp(Arc::new(ramp(vec![row(0.0, false)])))),
+        Value::Texture(Texture::Ramp(Arc::new(ramp(vec![
+            row(0.0, true),
+            row(1.0, false),
+        ])))),
+        Value::Texture(image),
+    ]
 }
 
 /// Zeros, which have no direction, or what of a range is nearest to them.
@@ -139,6 +171,7 @@ pub(crate) fn text(value: &Value, kind: &ParamKind) -> String {
             [0.0, 0.0, 0.0] => "000000".to_owned(),
             _ => "FFFFFF".to_owned(),
         },
+        (Value::Texture(_), _) => written(value, kind),
         (other, _) => format!("{other:?}"),
     }
 }

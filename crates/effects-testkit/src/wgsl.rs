@@ -7,10 +7,15 @@ mod value;
 
 use crate::hair;
 use crate::joint::{InputValue, Joint};
+use crate::paint::paint;
+use crate::sample::{self, Sample};
 use crate::strokes::evaluate;
 use crate::values::{Case, extremes, some_instances};
-use effects::wgsl::Stroke;
-use effects::{AnyEffect, Input, Section as _, Value as Setting, Values};
+use effects::wgsl::{Lookup, Stroke, vec2};
+use effects::{
+    AnyEffect, Input, LayerProgram, PaintSource, Param, ParamKind, SampleInput, Section as _,
+    Value as Setting, Values,
+};
 use interpret::Interpreter;
 use naga::TypeInner;
 use value::Value;
@@ -61,6 +66,88 @@ fn is_varied(values: &Values) -> bool {
         .any(|value| matches!(value, Setting::Varying(_)))
 }
 
+/// The same of what is painted.
+pub(crate) fn check_paint(effect: &dyn AnyEffect) -> Result<(), String> {
+    if effect.paints().is_none() {
+        return Ok(());
+    }
+    let module = naga::front::wgsl::parse_str(effect.wgsl())
+        .map_err(|error| format!("WGSL is not WGSL: {}", error.emit_to_string(effect.wgsl())))?;
+    let interpreter = Interpreter::new(&module);
+    let mut samples: Vec<Sample> = sample::samples().into_iter().step_by(11).collect();
+    samples.extend(sample::hostile_samples().iter().map(|(_, sample)| sample));
+    let cases = extremes(effect);
+    let plain = |case: &&Case| !is_varied(&case.values);
+    let step = cases.len().div_ceil(CASES);
+    for case in cases.iter().filter(plain).step_by(step) {
+        let program = effect.program(&case.values);
+        let params = params(&module, &case.values)?;
+        for (sample, rust) in samples.iter().zip(paint(&*program, &samples)) {
+            let mut arguments = vec![sample_inputs(&module, sample)?];
+            if let Some(texel) = texel(&*program, &interpreter, &arguments[0], &params)? {
+                arguments.push(texel);
+            }
+            arguments.push(params.clone());
+            let wgsl = interpreter.call("paint", &arguments)?.numbers();
+            let same = rust.to_array().iter().zip(&wgsl).all(|(rust, wgsl)| {
+                (rust - wgsl).abs() <= 1e-5 * (1.0 + wgsl.abs()) || rust.is_nan() && wgsl.is_nan()
+            });
+            if !same {
+                return Err(format!(
+                    "{}: the colour is {rust:?} in Rust and {wgsl:?} in WGSL; is the Rust made by effects_build?",
+                    case.name
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What `place` finds, of an effect that has it.
+fn texel(
+    program: &dyn LayerProgram,
+    interpreter: &Interpreter,
+    at: &Value,
+    params: &Value,
+) -> Result<Option<Value>, String> {
+    let Some(PaintSource {
+        places: true,
+        textures,
+        ..
+    }) = program.source().paint
+    else {
+        return Ok(None);
+    };
+    let place = interpreter.call("place", &[at.clone(), params.clone()])?;
+    let Value::List(fields) = &place else {
+        return Err(format!("`place` gives {place:?}"));
+    };
+    let (Some(Value::U32(texture)), &[x, y, size]) = (fields.first(), &place.numbers()[..]) else {
+        return Err(format!("`place` gives {place:?}"));
+    };
+    let lookup = Lookup {
+        texture: *texture,
+        at: vec2([x, y]),
+        size,
+    };
+    let texture = textures.get(*texture as usize);
+    let texel = texture.map_or([0.0; 4], |(texture, repeats)| {
+        texture.texel(&lookup, *repeats).to_array()
+    });
+    Ok(Some(Value::list(texel)))
+}
+
+/// The WGSL's `Sample` of a sample.
+fn sample_inputs(module: &naga::Module, sample: &Sample) -> Result<Value, String> {
+    structure(module, "Sample", |name| {
+        let mut inputs = SampleInput::ALL.iter().filter(|input| input.name() == name);
+        let input = inputs
+            .next()
+            .ok_or_else(|| format!("a sample has no `{name}`"))?;
+        Ok(sample.get(*input, SEED).into())
+    })
+}
+
 /// The WGSL's `Inputs` at a joint.
 fn inputs(module: &naga::Module, joint: &Joint) -> Result<Value, String> {
     structure(module, "Inputs", |name| {
@@ -86,6 +173,11 @@ fn params(module: &naga::Module, values: &Values) -> Result<Value, String> {
             Setting::Pair(pair) => Value::list(*pair),
             Setting::Triple(triple) => Value::list(*triple),
             Setting::Choice(index) => Value::U32(*index),
+            Setting::Texture(_) => {
+                let is_texture = |param: &&Param| matches!(param.kind, ParamKind::Texture { .. });
+                let before = values.table().iter().take_while(|param| param.name != name);
+                Value::U32(before.filter(is_texture).count() as u32)
+            }
             Setting::Color(color) if is_four(module, name) => {
                 let present = color.map_or(0.0, |_| 1.0);
                 let [red, green, blue] = color.unwrap_or_default();

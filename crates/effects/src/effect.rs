@@ -1,12 +1,14 @@
 //! What an effect is.
 
 use crate::joints::{Input, InputSet, Joints};
-use crate::param::{Param, Values};
+use crate::param::{Param, ParamKind, Values};
 use crate::paths::{Hair, MadePaths};
 use crate::program::{Parameters, Program};
-use crate::source::ProgramSource;
+use crate::samples::{SampleInput, SampleSet, Samples};
+use crate::source::{PaintSource, ProgramSource};
+use crate::texture::Texture;
 use crate::varied::Varied;
-use crate::wgsl::{Stroke, hash};
+use crate::wgsl::{Stroke, Vec3, Vec4, hash};
 use std::ops::Range;
 
 /// A stroke effect, as its author writes it.
@@ -152,6 +154,8 @@ pub trait AnyEffect: Send + Sync {
     fn params(&self) -> &'static [Param];
     /// [`Parameters::INPUTS`].
     fn inputs(&self) -> &'static [Input];
+    /// [`Program::PAINTS`].
+    fn paints(&self) -> Option<&'static [SampleInput]>;
     /// [`Parameters::WGSL`].
     fn wgsl(&self) -> &'static str;
     /// The effect with these values.
@@ -216,6 +220,10 @@ pub trait LayerProgram: Send + Sync {
         seed: u32,
         strokes: &mut Vec<Stroke>,
     );
+    /// What is read of each sample that the layer shows, where its effect paints them; nothing where samples have their strokes' colours.
+    fn paints(&self) -> Option<SampleSet>;
+    /// Appends the linear colours of these samples, all of them shown by this layer. `seed` is the layer's.
+    fn paint(&self, samples: &Samples, range: Range<usize>, seed: u32, colors: &mut Vec<Vec3<f32>>);
     /// Appends their radii alone, bit for bit the same: most strokes have none on most joints, and what else is made of them need
     /// not be worked out.
     fn radii(
@@ -250,27 +258,43 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
     fn inputs(&self) -> &'static [Input] {
         E::Program::INPUTS
     }
+    fn paints(&self) -> Option<&'static [SampleInput]> {
+        E::Program::PAINTS
+    }
     fn wgsl(&self) -> &'static str {
         E::Program::WGSL
     }
     fn program(&self, values: &Values) -> Box<dyn LayerProgram> {
-        Box::new(WithParams::<E>(Varied::new(values)))
+        let textures = E::Program::PARAMS.iter().filter_map(|param| {
+            let ParamKind::Texture { repeats, .. } = param.kind else {
+                return None;
+            };
+            Some((values.texture(param.name).clone(), repeats))
+        });
+        Box::new(WithParams::<E> {
+            params: Varied::new(values),
+            textures: textures.collect(),
+        })
     }
 }
 
-struct WithParams<E: StrokeEffect>(Varied<E::Program>);
+struct WithParams<E: StrokeEffect> {
+    params: Varied<E::Program>,
+    /// By the number that their parameters have, and whether they repeat.
+    textures: Vec<(Texture, bool)>,
+}
 
 impl<E: StrokeEffect> LayerProgram for WithParams<E> {
     fn instances(&self) -> u32 {
-        E::instances(self.0.base()).max(1)
+        E::instances(self.params.base()).max(1)
     }
 
     fn shortest(&self) -> f32 {
-        E::shortest(self.0.base())
+        E::shortest(self.params.base())
     }
 
     fn needs_point_light(&self) -> bool {
-        E::needs_point_light(self.0.base())
+        E::needs_point_light(self.params.base())
     }
 
     fn has_own_paths(&self) -> bool {
@@ -282,19 +306,27 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
     }
 
     fn reach(&self) -> Reach {
-        E::reach(&self.0.greatest())
+        E::reach(&self.params.greatest())
     }
 
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths) {
-        E::make_paths(self.0.base(), hair, seed, paths);
+        E::make_paths(self.params.base(), hair, seed, paths);
     }
 
     fn inputs(&self) -> InputSet {
-        self.0.inputs()
+        self.params.inputs()
     }
 
     fn source(&self) -> ProgramSource<'_> {
-        self.0.source()
+        let paint = E::Program::PAINTS.map(|inputs| PaintSource {
+            inputs,
+            places: E::Program::PLACES,
+            textures: &self.textures,
+        });
+        ProgramSource {
+            paint,
+            ..self.params.source()
+        }
     }
 
     fn extent(
@@ -304,7 +336,7 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         instance: u32,
         seed: u32,
     ) -> Range<usize> {
-        if self.0.varies() || range.is_empty() {
+        if self.params.varies() || range.is_empty() {
             return range;
         }
         let of_strand = joints.seed.get(range.start);
@@ -314,7 +346,7 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
             instance,
             seed: of_strand.map_or(0, |of_strand| hash(seed ^ of_strand)),
         };
-        let extent = E::extent(self.0.base(), &strand);
+        let extent = E::extent(self.params.base(), &strand);
         let start = extent.start.clamp(range.start, range.end);
         start..extent.end.clamp(start, range.end)
     }
@@ -328,9 +360,43 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         strokes: &mut Vec<Stroke>,
     ) {
         strokes.reserve(range.len());
-        self.0.for_each(joints, range, seed, |i, params| {
+        self.params.for_each(joints, range, seed, |i, params| {
             strokes.push(E::Program::stroke(joints, i, instance, seed, params));
         });
+    }
+
+    fn paints(&self) -> Option<SampleSet> {
+        let own = SampleSet::of(E::Program::PAINTS?);
+        Some(if self.params.varies() {
+            own.union(SampleSet::of(&[SampleInput::U, SampleInput::Seed]))
+        } else {
+            own
+        })
+    }
+
+    fn paint(
+        &self,
+        samples: &Samples,
+        range: Range<usize>,
+        seed: u32,
+        colors: &mut Vec<Vec3<f32>>,
+    ) {
+        colors.reserve(range.len());
+        self.params
+            .for_each_sample(samples, range, seed, |i, params| {
+                let lookup = E::Program::place(samples, i, seed, params);
+                let texture = lookup.and_then(|lookup| {
+                    let (texture, repeats) = self.textures.get(lookup.texture as usize)?;
+                    Some(texture.texel(&lookup, *repeats))
+                });
+                let texel = texture.unwrap_or(Vec4 {
+                    x: 0.0,
+                    y: 0.0,
+                    z: 0.0,
+                    w: 0.0,
+                });
+                colors.push(E::Program::paint(samples, i, seed, texel, params));
+            });
     }
 
     fn radii(
@@ -342,7 +408,7 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         radii: &mut Vec<f32>,
     ) {
         radii.reserve(range.len());
-        self.0.for_each(joints, range, seed, |i, params| {
+        self.params.for_each(joints, range, seed, |i, params| {
             radii.push(E::Program::stroke(joints, i, instance, seed, params).radius);
         });
     }

@@ -1,9 +1,6 @@
 //! What joints offer to effects, and the joints of all strands: one list per input, empty where nobody reads it.
 
-// `for_each_input!`: the table of `crates/effects-build/src/inputs.rs`.
-include!(concat!(env!("OUT_DIR"), "/inputs.rs"));
-
-/// Makes [`Input`] and [`Joints`] of the table.
+/// Makes [`Input`] and [`Joints`] of the table in `crates/effects-build/src/inputs.rs`.
 macro_rules! inputs {
     ($($(#[$doc:meta])* $input:ident $name:ident: $ty:ty,)*) => {
         /// Something that a joint offers to effects.

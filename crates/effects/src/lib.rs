@@ -27,12 +27,15 @@
 //! ```
 //!
 //! Modules, each made of those before it alone: [`wgsl`] (the prelude), `color`, [`smooth`], `paths`, `joints` (what a joint
-//! offers), `seed`, `variation`; `param` (tables and values),
+//! offers), `samples` (what one that is painted offers), `texture`, `seed`, `variation`; `param` (tables and values),
 //! [`mod@section`] (typed ones), `program` (what translated code implements), `source` (the same for a
 //! graphics card), `varied` (a program with its values), [`clump`]; `effect`, `layer`, `registry`; [`preset`].
 
 // The translated WGSL names this crate by its name, here as everywhere.
 extern crate self as effects;
+
+// `for_each_input!` and `for_each_sample_input!`: the tables of `crates/effects-build/src/inputs.rs`.
+include!(concat!(env!("OUT_DIR"), "/inputs.rs"));
 
 pub mod clump;
 mod color;
@@ -44,10 +47,12 @@ mod paths;
 pub mod preset;
 mod program;
 mod registry;
+mod samples;
 pub mod section;
 mod seed;
 pub mod smooth;
 mod source;
+mod texture;
 mod variation;
 mod varied;
 pub mod wgsl;
@@ -60,9 +65,11 @@ pub use param::{Param, ParamKind, Value, Values};
 pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
 pub use program::{Parameters, Program};
 pub use registry::{Registry, RegistryError};
+pub use samples::{SampleInput, SampleSet, Samples};
 pub use section::Section;
 pub use seed::{layer_seed, strand_seed};
-pub use source::ProgramSource;
+pub use source::{PaintSource, ProgramSource};
+pub use texture::{Image, ImageError, Ramp, Row, Texture};
 pub use variation::Variation;
 pub use varied::Varied;
 

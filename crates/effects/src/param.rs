@@ -2,7 +2,9 @@
 //! error messages, `inkstrand effects` and the documentation.
 
 use crate::color::parse_hex;
+use crate::texture::{Image, Ramp, Texture};
 use crate::variation::Variation;
+use std::sync::Arc;
 
 /// One parameter of an effect or of a section of a preset.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +64,13 @@ pub enum ParamKind {
         /// Value where the preset says nothing.
         default: Option<&'static str>,
     },
+    /// A picture or a gradient, or `none`.
+    Texture {
+        /// Value where the preset says nothing, as a preset has it.
+        default: &'static str,
+        /// Whether a picture goes on from its other edge beyond one, in place of going on as it is there.
+        repeats: bool,
+    },
     /// A text, such as a file's name; `None` where the preset says nothing.
     Text,
     /// Three numbers `(x, y, z)`, each in the range.
@@ -108,6 +117,8 @@ pub enum Value {
     Choice(u32),
     /// For both kinds of colour: linear light.
     Color(Option<[f32; 3]>),
+    /// For [`ParamKind::Texture`].
+    Texture(Texture),
     /// For [`ParamKind::Text`].
     Text(Option<String>),
     /// For [`ParamKind::Triple`].
@@ -129,6 +140,7 @@ impl ParamKind {
             Self::Choice { default, .. } => Value::Choice(default as u32),
             Self::Color { default } => Value::Color(parse_hex(default)),
             Self::OptionalColor { default } => Value::Color(default.and_then(parse_hex)),
+            Self::Texture { default, .. } => Value::Texture(default_texture(default)),
             Self::Text => Value::Text(None),
             Self::Triple { default, .. } => Value::Triple(default),
             Self::Pair { default, .. } => Value::Pair(default),
@@ -149,7 +161,9 @@ impl ParamKind {
             (Self::Integer { min, max, .. }, Value::Integer(number)) => {
                 (*min..=*max).contains(number)
             }
-            (Self::Flag { .. }, Value::Flag(_)) | (Self::Text, Value::Text(_)) => true,
+            (Self::Flag { .. }, Value::Flag(_))
+            | (Self::Text, Value::Text(_))
+            | (Self::Texture { .. }, Value::Texture(_)) => true,
             (Self::Choice { names, .. }, Value::Choice(index)) => (*index as usize) < names.len(),
             (Self::Color { .. } | Self::OptionalColor { .. }, Value::Color(Some(color)))
             | (Self::Color { .. }, Value::Triple(color)) => is_light(color),
@@ -178,6 +192,9 @@ impl ParamKind {
             Self::Choice { names, .. } => format!("one of {}", names.join(", ")),
             Self::Color { .. } => "a colour such as \"3FC1C0\"".to_owned(),
             Self::OptionalColor { .. } => "a colour such as \"3FC1C0\", or none".to_owned(),
+            Self::Texture { .. } => {
+                "a PNG file such as \"tone.png\", a gradient such as [(0, \"2A8F9D\"), (1, \"3FC1C0\")], or none".to_owned()
+            }
             Self::Text => "a text in double quotes".to_owned(),
             Self::Triple { min, max, .. } => {
                 format!("three numbers (x, y, z), each from {min} to {max}")
@@ -190,6 +207,11 @@ impl ParamKind {
             }
         }
     }
+}
+
+/// The texture of a table's default, which `effects-testkit` holds to be one.
+fn default_texture(text: &str) -> Texture {
+    Ramp::parse(text).map_or(Texture::None, |ramp| Texture::Ramp(Arc::new(ramp)))
 }
 
 /// The values of an effect's parameters: every parameter of its table has one.
@@ -245,6 +267,36 @@ impl Values {
             Value::Flag(value) => *value,
             other => panic!("`{name}` is {other:?}, not a flag"),
         }
+    }
+
+    /// A texture.
+    #[must_use]
+    pub fn texture(&self, name: &str) -> &Texture {
+        match self.value(name) {
+            Value::Texture(value) => value,
+            other => panic!("`{name}` is {other:?}, not a texture"),
+        }
+    }
+
+    /// Puts the picture of each file in place of its name.
+    ///
+    /// # Errors
+    ///
+    /// The first that `read` has; what is behind it is left as it was.
+    pub fn read_textures<E>(
+        &mut self,
+        mut read: impl FnMut(&str) -> Result<Arc<Image>, E>,
+    ) -> Result<(), E> {
+        for value in &mut self.values {
+            if let Value::Texture(texture) = value
+                && let Texture::File(file) = texture
+            {
+                let image = read(file)?;
+                let file = std::mem::take(file);
+                *texture = Texture::Image { file, image };
+            }
+        }
+        Ok(())
     }
 
     /// Two numbers.

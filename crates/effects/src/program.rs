@@ -2,7 +2,8 @@
 
 use crate::joints::{Input, Joints};
 use crate::param::{Param, Values};
-use crate::wgsl::Stroke;
+use crate::samples::{SampleInput, Samples};
+use crate::wgsl::{Lookup, Stroke, Vec3, Vec4};
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
 pub trait Parameters: Send + Sync + 'static {
@@ -32,4 +33,34 @@ pub trait Program: Parameters {
         seed: u32,
         params: &Self::Params,
     ) -> Stroke;
+
+    /// What is read of a sample, in the order of the fields of `struct Sample`, by an effect that paints what its strokes show;
+    /// nothing where it doesn't.
+    const PAINTS: Option<&'static [SampleInput]> = None;
+
+    /// Where sample `index` looks a texture up; nothing where the effect has no `place`.
+    fn place(samples: &Samples, index: usize, seed: u32, params: &Self::Params) -> Option<Lookup> {
+        let _ = (samples, index, seed, params);
+        None
+    }
+
+    /// Whether there is a [`Self::place`].
+    const PLACES: bool = false;
+
+    /// The linear colour of sample `index`. `texel` is what [`Self::place`] found, linear and with its coverage. Only asked where
+    /// [`Self::PAINTS`].
+    fn paint(
+        samples: &Samples,
+        index: usize,
+        seed: u32,
+        texel: Vec4<f32>,
+        params: &Self::Params,
+    ) -> Vec3<f32> {
+        let _ = (samples, index, seed, texel, params);
+        Vec3 {
+            x: 0.0,
+            y: 0.0,
+            z: 0.0,
+        }
+    }
 }

@@ -3,10 +3,12 @@
 use crate::joints::{Input, InputSet, Joints};
 use crate::param::{ParamKind, Value, Values};
 use crate::program::Parameters;
+use crate::samples::Samples;
 use crate::seed::layer_seed;
 use crate::source::{self, ProgramSource};
 use crate::variation::Varying;
 use crate::wgsl::hash;
+use std::ops::Range;
 
 /// The parameters `P` of one layer, or of the clump, of which some may vary.
 #[derive(Clone, Debug)]
@@ -53,6 +55,7 @@ impl<P: Parameters> Varied<P> {
             params: P::PARAMS,
             words: &self.words,
             varying: &self.indices,
+            paint: None,
         }
     }
 
@@ -95,7 +98,30 @@ impl<P: Parameters> Varied<P> {
     pub fn for_each(
         &self,
         joints: &Joints,
-        range: std::ops::Range<usize>,
+        range: Range<usize>,
+        seed: u32,
+        evaluate: impl FnMut(usize, &P::Params),
+    ) {
+        self.for_each_at((&joints.u, &joints.seed), range, seed, evaluate);
+    }
+
+    /// [`Self::for_each`] of samples.
+    #[inline]
+    pub fn for_each_sample(
+        &self,
+        samples: &Samples,
+        range: Range<usize>,
+        seed: u32,
+        evaluate: impl FnMut(usize, &P::Params),
+    ) {
+        self.for_each_at((&samples.u, &samples.seed), range, seed, evaluate);
+    }
+
+    #[inline]
+    fn for_each_at(
+        &self,
+        (u, seeds): (&[f32], &[u32]),
+        range: Range<usize>,
         seed: u32,
         mut evaluate: impl FnMut(usize, &P::Params),
     ) {
@@ -104,7 +130,7 @@ impl<P: Parameters> Varied<P> {
         }
         let mut params = self.base.clone();
         for i in range {
-            let (u, strand) = (joints.u[i], hash(seed ^ joints.seed[i]));
+            let (u, strand) = (u[i], hash(seed ^ seeds[i]));
             for varying in &self.varying {
                 P::set_number(&mut params, varying.index, varying.at(u, strand));
             }

@@ -66,6 +66,7 @@ pub fn command() -> clap::Command {
 pub fn builtin_effects() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).expect("no two of them have one id");
+    effects_cartoon::register(&mut registry).expect("nor have these");
     registry
 }
 

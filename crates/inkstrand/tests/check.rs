@@ -21,6 +21,7 @@ fn folder() -> TempDir {
         ("cut.tfx", "TFX"),
         ("cut.obj", "v 0 0 zero\n"),
         ("cut.glb", "glTF"),
+        ("tones.png", "not a PNG file"),
         ("nodd.motion.ron", "(version: 1, moves: [(move: nodd)])"),
         (
             "shape.motion.ron",
@@ -61,6 +62,8 @@ fn check_and_render_say_the_same() {
     let folder = folder();
     let hair = "hair: (file: \"small.strands.ron\"),";
     let base = "(effect: \"hair.base\")";
+    let missing = "(effect: \"hair.toon\", params: (tones: \"tone.png\"))";
+    let broken = "(effect: \"hair.toon\", params: (tones: \"tones.png\"))";
     let distance = "(effect: \"hair.highlight\", params: (kind: distance))";
     for (sections, layer, found) in [
         (
@@ -118,6 +121,16 @@ fn check_and_render_say_the_same() {
             "hair: (file: \"small.strands.ron\"), dynamics: (step: 0.000001),",
             base,
             "look.ron:2:47: step: expected 0, which is a frame's, or a number from 0.00001 to 0.1",
+        ),
+        (
+            hair,
+            missing,
+            "look.ron:3:48: tones: there is no `tone.png`, did you mean `tones.png`?",
+        ),
+        (
+            hair,
+            broken,
+            "look.ron:3:48: tones: tones.png: it is no PNG file, or a broken one",
         ),
     ] {
         let text = format!("(version: 1,\n{sections}\nlayers: [{layer}])");

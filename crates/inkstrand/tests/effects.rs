@@ -11,6 +11,7 @@ use stage::{MOTION_PARTS, ObjectSection, Preset, STYLE_PARTS, Sections};
 fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     registry
 }
 
@@ -123,6 +124,10 @@ fn assert_is_table(schema: &Value, table: &[Param]) {
             }
             ParamKind::Color { .. } => "color",
             ParamKind::OptionalColor { .. } => "color or none",
+            ParamKind::Texture { repeats, .. } => {
+                assert_eq!(value["repeats"], repeats);
+                "texture"
+            }
             ParamKind::Text => "text",
             ParamKind::Triple { min, max, .. } => {
                 close("min", min);
@@ -150,7 +155,7 @@ fn defaults(schema: &Value) -> String {
         let default = &value["default"];
         let text = match value["type"].as_str().unwrap() {
             "number" | "integer" | "true or false" => default.to_string(),
-            "choice" => default.as_str().unwrap().to_owned(),
+            "choice" | "texture" => default.as_str().unwrap().to_owned(),
             "color or none" if default == "none" => "none".to_owned(),
             "color" | "color or none" => default.to_string(),
             "three numbers" | "size" => default.to_string().replace('[', "(").replace(']', ")"),

@@ -13,6 +13,7 @@ use std::path::Path;
 fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     registry
 }
 
@@ -71,6 +72,7 @@ fn default(kind: &ParamKind) -> String {
         ParamKind::OptionalColor { default } => {
             default.map_or("none".to_owned(), |hex| format!("\"{hex}\""))
         }
+        ParamKind::Texture { default, .. } => default.to_owned(),
         ParamKind::Text => "\"x\"".to_owned(),
         ParamKind::Triple {
             default: [x, y, z], ..
@@ -267,6 +269,7 @@ fn is_legal(kind: &ParamKind, text: &str) -> bool {
         ParamKind::Choice { names, .. } => names.contains(&text),
         ParamKind::Color { .. } => is_color(quoted),
         ParamKind::OptionalColor { .. } => text == "none" || is_color(quoted),
+        ParamKind::Texture { .. } => effects::preset::read_value(text, kind).is_ok(),
         ParamKind::Text => quoted.is_some_and(|text| !text.is_empty()),
         ParamKind::Triple { min, max, .. } => numbers(text).is_some_and(|numbers| {
             numbers.len() == 3

@@ -3,9 +3,8 @@
 use crate::segment::{Depth, Segment};
 use crate::triangle::{Hit, Triangle};
 use glam::DVec2;
-use render::{Brush, Disc, Drawing, Order};
+use render::{Brush, Disc, Drawing, Order, Stretch};
 use std::cmp::Reverse;
-use std::ops::Range;
 
 /// What may cover the samples of one part of the screen.
 #[derive(Debug)]
@@ -17,6 +16,53 @@ pub struct Candidates {
     order: Order,
     /// [`Drawing::edge_depth_m`].
     edge_depth_m: f64,
+}
+
+/// What a point shows.
+pub enum Shown<'a> {
+    Nothing,
+    Mesh(Hit, &'a Triangle),
+    Hair(Hair<'a>),
+}
+
+/// A stroke that a point shows.
+pub struct Hair<'a> {
+    /// Where it is ordered.
+    pub depth: Depth,
+    stroke: &'a Stroke,
+    /// The segments of its strand's clump; where there are no clumps its own.
+    clump: &'a [Segment],
+}
+
+impl Hair<'_> {
+    /// The index of its layer.
+    pub fn layer(&self) -> usize {
+        self.stroke.precedence.layer
+    }
+
+    /// The axis point that lends it its colour: joints, the way between them, the place across.
+    pub fn place(&self, point: DVec2) -> ([usize; 2], f64, f64) {
+        let (across, t, segment) =
+            nearest(&self.stroke.segments, point).unwrap_or((0.0, 0.0, &self.stroke.segments[0]));
+        (segment.joints, t, across)
+    }
+
+    /// The place across its clump: -1 or 1 outside of it, by `side`.
+    pub fn across_clump(&self, point: DVec2, side: f64) -> f64 {
+        nearest(self.clump, point).map_or(1.0_f64.copysign(side), |(across, ..)| across)
+    }
+}
+
+/// The nearest axis point of the segments that cover `point`: distance over radius, at most 1 and below 0 to the left, the way along its
+/// segment, and that.
+fn nearest(segments: &[Segment], point: DVec2) -> Option<(f64, f64, &Segment)> {
+    let covering = segments.iter().filter(|s| s.depth(point).is_some());
+    let nearest = covering.map(|segment| {
+        let (ratio, t) = segment.nearest_axis_point(point);
+        (ratio, t, segment)
+    });
+    let first = nearest.reduce(|best, next| if next.0 < best.0 { next } else { best });
+    first.map(|(ratio, t, segment)| (ratio.min(1.0) * segment.side(point), t, segment))
 }
 
 #[derive(Debug)]
@@ -67,22 +113,34 @@ impl Candidates {
 
     /// The colour at `point`, or nothing where the picture is transparent.
     pub fn color(&self, point: DVec2) -> Option<[f64; 3]> {
+        match self.shown(point) {
+            Shown::Hair(hair) => hair.stroke.color(point).or(self.background),
+            Shown::Mesh(hit, _) => Some(hit.color),
+            Shown::Nothing => self.background,
+        }
+    }
+
+    /// What `point` shows.
+    pub fn shown(&self, point: DVec2) -> Shown<'_> {
         let surface = self.nearest_surface(point);
-        let stroke = match self.order {
-            Order::Rounded | Order::StrandFirst => self.nearest_strand(point, surface.as_ref()),
-            Order::Shifted => self.nearest_stroke(point, surface.as_ref()),
+        let hit = surface.as_ref().map(|(hit, _)| hit);
+        let hair = match self.order {
+            Order::Rounded | Order::StrandFirst => self.nearest_strand(point, hit),
+            Order::Shifted => self.nearest_stroke(point, hit),
         };
-        stroke
-            .and_then(|stroke| stroke.color(point))
-            .or(surface.map(|hit| hit.color))
-            .or(self.background)
+        match (hair, surface) {
+            (Some(hair), _) => Shown::Hair(hair),
+            (None, Some((hit, triangle))) => Shown::Mesh(hit, triangle),
+            (None, None) => Shown::Nothing,
+        }
     }
 
     /// The nearest triangle, the first among equals.
-    fn nearest_surface(&self, point: DVec2) -> Option<Hit> {
-        let hits = self.triangles.iter().filter_map(|t| t.hit(point));
+    fn nearest_surface(&self, point: DVec2) -> Option<(Hit, &Triangle)> {
+        let hits = self.triangles.iter();
+        let hits = hits.filter_map(|triangle| Some((triangle.hit(point)?, triangle)));
         hits.reduce(|best, next| {
-            if next.inv_depth > best.inv_depth {
+            if next.0.inv_depth > best.0.inv_depth {
                 next
             } else {
                 best
@@ -92,39 +150,47 @@ impl Candidates {
 
     /// All orders but [`Order::Shifted`]: each strand settles what it shows, then the nearest
     /// strand is seen, the lower id among equals. Strands that `surface` hides are not.
-    fn nearest_strand(&self, point: DVec2, surface: Option<&Hit>) -> Option<&Stroke> {
+    fn nearest_strand(&self, point: DVec2, surface: Option<&Hit>) -> Option<Hair<'_>> {
         let shown = self.strands.iter().filter_map(|strand| {
             let (depth, part, stroke) = strand.shown(point)?;
             let part = match self.order {
                 Order::Rounded => part,
                 Order::StrandFirst | Order::Shifted => 0.0,
             };
-            Some((depth.deeper(self.edge_depth_m * part), stroke))
+            Some(Hair {
+                depth: depth.deeper(self.edge_depth_m * part),
+                stroke,
+                clump: &strand.clump,
+            })
         });
         shown
-            .filter(|(depth, _)| is_seen(depth, surface))
+            .filter(|hair| is_seen(&hair.depth, surface))
             .reduce(|best, next| {
-                if next.0.inv_depth > best.0.inv_depth {
+                if next.depth.inv_depth > best.depth.inv_depth {
                     next
                 } else {
                     best
                 }
             })
-            .map(|(_, stroke)| stroke)
     }
 
     /// [`Order::Shifted`]: the nearest stroke; among equals the one with precedence, then of the
     /// lower id. Strokes that `surface` hides are not seen.
-    fn nearest_stroke(&self, point: DVec2, surface: Option<&Hit>) -> Option<&Stroke> {
+    fn nearest_stroke(&self, point: DVec2, surface: Option<&Hit>) -> Option<Hair<'_>> {
         let strokes = self.strands.iter().flat_map(|strand| &strand.strokes);
         strokes
-            .filter_map(|stroke| Some((depth(&stroke.segments, point)?, stroke)))
-            .filter(|(depth, _)| is_seen(depth, surface))
+            .filter_map(|stroke| {
+                Some(Hair {
+                    depth: depth(&stroke.segments, point)?,
+                    stroke,
+                    clump: &stroke.segments,
+                })
+            })
+            .filter(|hair| is_seen(&hair.depth, surface))
             .reduce(|best, next| {
-                let key = |(depth, stroke): &(Depth, &Stroke)| (depth.inv_depth, stroke.precedence);
+                let key = |hair: &Hair| (hair.depth.inv_depth, hair.stroke.precedence);
                 if key(&next) > key(&best) { next } else { best }
             })
-            .map(|(_, stroke)| stroke)
     }
 }
 
@@ -135,8 +201,7 @@ impl Strand {
         for (layer, strokes_of_layer) in drawing.layers.iter().enumerate() {
             for instance in 0..strokes_of_layer.instances {
                 let on = |run: &render::Run| strokes_of_layer.on(instance, &run.joints);
-                let drawn: Vec<Range<usize>> =
-                    runs.iter().flat_map(on).map(|s| s.places()).collect();
+                let drawn: Vec<Stretch> = runs.iter().flat_map(on).collect();
                 strokes.push(Stroke {
                     precedence: Precedence {
                         rank: strokes_of_layer.rank,
@@ -154,11 +219,15 @@ impl Strand {
         }
         strokes.sort_by_key(|stroke| Reverse(stroke.precedence));
         let no_colors = vec![[0.0; 3]; drawing.clump.len().max(drawing.sides.len())];
-        let middles: Vec<Range<usize>> = runs.iter().map(|run| run.joints.clone()).collect();
+        let middle = |run: &render::Run| Stretch {
+            joints: run.joints.clone(),
+            first: run.joints.start,
+        };
+        let middles: Vec<Stretch> = runs.iter().map(middle).collect();
         let mut clump = segments(&middles, &drawing.clump, &no_colors, drawing.brush);
         for side in 0..2 {
             let on = |run: &render::Run| drawing.side_on(side, &run.joints);
-            let drawn: Vec<Range<usize>> = runs.iter().flat_map(on).map(|s| s.places()).collect();
+            let drawn: Vec<Stretch> = runs.iter().flat_map(on).collect();
             clump.extend(segments(&drawn, &drawing.sides, &no_colors, drawing.brush));
         }
         Self { clump, strokes }
@@ -202,37 +271,26 @@ impl Stroke {
     /// The colour of the axis point nearest to `point`: least distance over radius, of the segments that
     /// cover it (with whole discs the least of all does).
     fn color(&self, point: DVec2) -> Option<[f64; 3]> {
-        let covering = self.segments.iter().filter(|s| s.depth(point).is_some());
-        let nearest = covering.map(|segment| {
-            let (ratio, t) = segment.nearest_axis_point(point);
-            (ratio, t, segment)
-        });
-        nearest
-            .reduce(|best, next| if next.0 < best.0 { next } else { best })
-            .map(|(_, t, segment)| segment.color(t))
+        nearest(&self.segments, point).map(|(_, t, segment)| segment.color(t))
     }
 }
 
-/// The segments of all `runs`, ranges of the discs, in order along the strand.
-fn segments(
-    runs: &[Range<usize>],
-    discs: &[Disc],
-    colors: &[[f32; 3]],
-    brush: Brush,
-) -> Vec<Segment> {
-    let segment = |from, to| {
-        Segment::new(
-            [&discs[from], &discs[to]],
-            [colors[from], colors[to]],
-            brush,
-        )
-    };
+/// The segments of all `runs`, stretches of the discs, in order along the strand.
+fn segments(runs: &[Stretch], discs: &[Disc], colors: &[[f32; 3]], brush: Brush) -> Vec<Segment> {
     let mut segments = Vec::new();
     for run in runs {
-        match run.len() {
-            0 => {}
-            1 => segments.push(segment(run.start, run.start)),
-            _ => segments.extend((run.start + 1..run.end).map(|to| segment(to - 1, to))),
+        let last = run.joints.len().saturating_sub(1);
+        // One joint alone is a segment from itself to itself.
+        for from in 0..last.max(1) {
+            let ends = [from, (from + 1).min(last)];
+            let [a, b] = ends.map(|end| run.first + end);
+            let joints = ends.map(|end| run.joints.start + end);
+            segments.push(Segment::new(
+                [&discs[a], &discs[b]],
+                [colors[a], colors[b]],
+                joints,
+                brush,
+            ));
         }
     }
     segments

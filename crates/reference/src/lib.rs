@@ -47,10 +47,12 @@
 
 mod candidates;
 pub mod compare;
+mod features;
 mod segment;
 mod triangle;
 
 use candidates::Candidates;
+pub use features::samples_at;
 use glam::DVec2;
 use rayon::prelude::*;
 use render::{Drawing, Picture};

@@ -65,12 +65,14 @@ pub struct Segment {
     from: ColoredDisc,
     to: ColoredDisc,
     brush: Brush,
+    /// The joints of the drawing that it runs between.
+    pub joints: [usize; 2],
 }
 
 impl Segment {
     /// From one disc to the next. The same disc twice is that disc alone, whatever the brush: half a
     /// disc needs a direction.
-    pub fn new(discs: [&Disc; 2], colors: [[f32; 3]; 2], brush: Brush) -> Self {
+    pub fn new(discs: [&Disc; 2], colors: [[f32; 3]; 2], joints: [usize; 2], brush: Brush) -> Self {
         let is_somewhere_else = discs[0].center != discs[1].center;
         Self {
             from: ColoredDisc::new(discs[0], colors[0]),
@@ -80,6 +82,7 @@ impl Segment {
             } else {
                 Brush::Circle
             },
+            joints,
         }
     }
 
@@ -175,6 +178,14 @@ impl Segment {
             .unwrap_or((f64::INFINITY, 0.0))
     }
 
+    /// Which side of the axis `point` lies on: 1 to the right of who walks along the segment, on a screen whose y points down, or on
+    /// the axis; else -1.
+    pub fn side(&self, point: DVec2) -> f64 {
+        let (p, d, ..) = self.relative_to_start(point);
+        let d = if d == DVec2::ZERO { DVec2::X } else { d };
+        if d.perp_dot(p) < 0.0 { -1.0 } else { 1.0 }
+    }
+
     /// The colour of the axis at `t`.
     pub fn color(&self, t: f64) -> [f64; 3] {
         std::array::from_fn(|i| mix(self.from.color[i], self.to.color[i], t))
@@ -219,7 +230,12 @@ mod tests {
     }
 
     fn segment(from: Disc, to: Disc) -> Segment {
-        Segment::new([&from, &to], [[0.0; 3], [1.0, 2.0, 4.0]], Brush::Circle)
+        Segment::new(
+            [&from, &to],
+            [[0.0; 3], [1.0, 2.0, 4.0]],
+            [0, 1],
+            Brush::Circle,
+        )
     }
 
     fn half(segment: Segment) -> Segment {

@@ -1,6 +1,6 @@
 //! One triangle of a surface.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use render::{Surface, SurfaceVertex};
 
 /// A triangle in two tones, seen from both sides, its edges included.
@@ -10,6 +10,8 @@ pub struct Triangle {
     margin_m: f64,
     light: [f64; 3],
     shadow: [f64; 3],
+    /// [`Surface::mesh`].
+    pub mesh: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +50,19 @@ impl Triangle {
             margin_m: surface.margin_m.into(),
             light: surface.light.map(f64::from),
             shadow: surface.shadow.map(f64::from),
+            mesh: surface.mesh,
         })
+    }
+
+    /// The unit normal towards the eye, in view space (right, up, depth), of a picture with its middle there and an eye so many pixels
+    /// before it.
+    pub fn normal(&self, middle: DVec2, focal_px: f64) -> DVec3 {
+        let [a, b, c] = self.corners.map(|corner| {
+            let seen = (corner.position - middle) / focal_px;
+            DVec3::new(seen.x, -seen.y, 1.0) / corner.inv_depth
+        });
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        -normal * normal.dot(a).signum()
     }
 
     /// Whether the triangle may touch the box from `min` to `max`.
@@ -98,6 +112,7 @@ mod tests {
         };
         let surface = Surface {
             margin_m: 0.0,
+            mesh: 0,
             vertices: vec![
                 vertex(0.0, 0.0, 1.0, -1.0),
                 vertex(8.0, 0.0, 2.0, 1.0),

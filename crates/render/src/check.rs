@@ -199,6 +199,29 @@ pub enum DrawError {
         /// How many the surface has.
         vertices: usize,
     },
+    /// A list that a declared feature needs has another length.
+    #[error("features: the list `{list}` has {length} entries, where there are {needed}")]
+    FeatureList {
+        /// Which list.
+        list: &'static str,
+        /// Its length.
+        length: usize,
+        /// How many joints or runs there are.
+        needed: usize,
+    },
+    /// A layer is to be painted that isn't there, or not behind the one before.
+    #[error("painting: layer {0} is not there, or not behind the one before")]
+    PaintedLayer(usize),
+    /// A list that painted layers need has another length.
+    #[error("painting: the list `{list}` has {length} entries, where there are {needed} joints")]
+    PaintingList {
+        /// Which list.
+        list: &'static str,
+        /// Its length.
+        length: usize,
+        /// How many joints there are.
+        needed: usize,
+    },
     /// Only so many triangles can be numbered.
     #[error("{0} triangles are more than can be drawn")]
     TriangleCount(usize),
@@ -219,7 +242,53 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     for layer in &drawing.layers {
         check_layer(layer, drawing)?;
     }
+    check_features(drawing)?;
+    check_painting(drawing)?;
     check_surfaces(&drawing.surfaces)
+}
+
+fn check_features(drawing: &Drawing) -> Result<(), DrawError> {
+    let features = &drawing.features;
+    if features.declared.is_empty() {
+        return Ok(());
+    }
+    let joints = drawing.clump.len();
+    let of_joints = features
+        .needed_lists()
+        .map(|(list, length)| (list, length, joints));
+    let runs = ("runs", features.runs.len(), drawing.runs.len());
+    match of_joints
+        .chain([runs])
+        .find(|(_, length, needed)| length != needed)
+    {
+        None => Ok(()),
+        Some((list, length, needed)) => Err(DrawError::FeatureList {
+            list,
+            length,
+            needed,
+        }),
+    }
+}
+
+fn check_painting(drawing: &Drawing) -> Result<(), DrawError> {
+    let painting = &drawing.painting;
+    let mut after = 0;
+    for painted in &painting.layers {
+        if !(after..drawing.layers.len()).contains(&painted.layer) {
+            return Err(DrawError::PaintedLayer(painted.layer));
+        }
+        after = painted.layer + 1;
+    }
+    let needed = drawing.clump.len();
+    let lists = painting.needed_lists().into_iter();
+    match lists.into_iter().find(|(_, length)| *length != needed) {
+        None => Ok(()),
+        Some((list, length)) => Err(DrawError::PaintingList {
+            list,
+            length,
+            needed,
+        }),
+    }
 }
 
 /// Looks at what a picture is, whatever is in it.

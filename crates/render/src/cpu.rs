@@ -12,9 +12,12 @@
 mod bin;
 mod evaluate;
 mod instructions;
+mod paint;
 mod rows;
+mod samples;
 mod seen;
 mod segment;
+mod shown;
 mod stamp;
 mod strand;
 mod stroke;
@@ -31,16 +34,19 @@ pub use stamp::Stamper;
 use crate::check;
 use crate::drawing::Drawing;
 use crate::picture::Picture;
+use crate::planes::BandPlanes;
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
 use instructions::Instructions;
+use paint::Painter;
 use rayon::prelude::*;
 use segment::{Segments, Stroke};
+use shown::Shown;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use strand::{Part, StrandMasks, TileContext};
 use surface::Triangle;
-use tile::{Stack, Sums, Target};
+use tile::{LaneMask, Stack, Sums, Target};
 
 /// Most threads of a rasteriser.
 pub const MAX_THREADS: usize = 1024;
@@ -136,6 +142,7 @@ impl Rasterizer {
                 parts,
                 samples: *samples,
                 stacks,
+                runs_of_joints: &[],
             };
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
@@ -150,7 +157,7 @@ impl Rasterizer {
                     let mut worker = workers[thread]
                         .lock()
                         .unwrap_or_else(PoisonError::into_inner);
-                    instructions.draw_band(&mut worker, &frame, band, pixels);
+                    instructions.draw_band(&mut worker, &frame, band, Output::Pixels(pixels));
                 });
             Ok(picture)
         };
@@ -206,6 +213,30 @@ struct Frame<'a> {
     /// In a pixel.
     samples: usize,
     stacks: &'a [Stack],
+    /// For each joint its run, where samples tell what they show.
+    runs_of_joints: &'a [u32],
+}
+
+impl Frame<'_> {
+    /// What strands of the tile at `origin` are drawn in.
+    #[inline(always)]
+    fn tile_at(&self, origin: [usize; 2]) -> TileContext<'_> {
+        TileContext {
+            drawing: self.drawing,
+            strokes: self.strokes,
+            segments: self.parts.segments.list(),
+            origin,
+            stack: &self.stacks[0],
+        }
+    }
+}
+
+/// Where a band's samples go.
+enum Output<'a> {
+    /// Their means, as the band's pixels.
+    Pixels(&'a mut [[f32; 4]]),
+    /// What the samples of one stack tell.
+    Samples(BandPlanes<'a>),
 }
 
 /// A thread's own memory.
@@ -217,6 +248,9 @@ struct Worker {
     parts: Vec<Part>,
     strand: StrandMasks,
     sums: Sums,
+    /// What samples show; empty where nothing is declared or painted.
+    shown: Shown,
+    painter: Painter,
 }
 
 impl Worker {
@@ -228,29 +262,42 @@ impl Worker {
             parts: Vec::new(),
             strand: StrandMasks::new(),
             sums: Sums::new(),
+            shown: Shown::default(),
+            painter: Painter::default(),
         }
     }
 
-    /// Draws a row of tiles into its pixels.
+    /// Draws a row of tiles into its pixels, or into planes of its samples.
     #[inline(always)] // compiled for each set of `Instructions`
-    fn draw_band(&mut self, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
-        let width = frame.drawing.size[0] as usize;
-        let tiles = width.div_ceil(tile::WIDTH);
-        let Parts {
-            segments,
-            triangles_of_tiles,
-            ..
-        } = frame.parts;
+    fn draw_band(&mut self, frame: &Frame, band: usize, output: Output) {
+        self.sort_into_tiles(frame, band);
+        match output {
+            Output::Pixels(pixels) => self.draw_pixels(frame, band, pixels),
+            Output::Samples(planes) => self.draw_samples(frame, band, planes),
+        }
+    }
+
+    /// Finds the segments of each of the band's tiles.
+    #[inline(always)]
+    fn sort_into_tiles(&mut self, frame: &Frame, band: usize) {
+        let segments = &frame.parts.segments;
         self.columns.clear();
         self.columns.extend(segments.of_band(band).map(|i| {
             let columns = segments.list()[i as usize].bounds.x;
             (i, cells(columns, tile::WIDTH))
         }));
+        let tiles = (frame.drawing.size[0] as usize).div_ceil(tile::WIDTH);
         self.segments_of_tiles
             .fill(tiles, self.columns.iter().cloned());
+    }
+
+    #[inline(always)]
+    fn draw_pixels(&mut self, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
+        let width = frame.drawing.size[0] as usize;
+        let tiles = width.div_ceil(tile::WIDTH);
         for tile in 0..tiles {
             let x = tile * tile::WIDTH;
-            let triangles = triangles_of_tiles.bin(band * tiles + tile);
+            let triangles = frame.parts.triangles_of_tiles.bin(band * tiles + tile);
             if triangles.is_empty() && self.segments_of_tiles.bin(tile).is_empty() {
                 continue;
             }
@@ -272,30 +319,56 @@ impl Worker {
     fn draw_tile(&mut self, frame: &Frame, tile: usize, triangles: &[u32], origin: [usize; 2]) {
         self.sums.clear(tile::height(frame.stacks));
         let background = frame.drawing.background;
-        let segments_of_tile = self.segments_of_tiles.bin(tile);
-        let mut scene = TileContext {
-            drawing: frame.drawing,
-            strokes: frame.strokes,
-            segments: frame.parts.segments.list(),
-            origin,
-            stack: &frame.stacks[0],
-        };
-        scene.strands(segments_of_tile, &mut self.parts);
+        let mut scene = frame.tile_at(origin);
+        scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts);
         for stack in frame.stacks {
             scene.stack = stack;
-            self.target.clear(background);
-            if !triangles.is_empty() {
-                for &triangle in triangles {
-                    let triangle = &frame.parts.triangles[triangle as usize];
-                    triangle.draw(frame.drawing, origin, stack, &mut self.target);
-                }
-                self.target.finish_surfaces();
-            }
-            for part in &self.parts {
-                self.strand
-                    .draw(&scene, segments_of_tile, part, &mut self.target);
+            if frame.drawing.painting.is_empty() {
+                self.draw_stack::<false>(frame, &scene, tile, triangles);
+            } else {
+                self.draw_stack::<true>(frame, &scene, tile, triangles);
+                self.paint(frame);
             }
             self.sums.add(&mut self.target, stack, background.is_some());
+        }
+    }
+
+    /// Draws four samples of all pixels of a tile into the target. Where it `TELLS`, what they show is noted.
+    #[inline(always)]
+    fn draw_stack<const TELLS: bool>(
+        &mut self,
+        frame: &Frame,
+        scene: &TileContext,
+        tile: usize,
+        triangles: &[u32],
+    ) {
+        self.target.clear(frame.drawing.background);
+        if TELLS {
+            self.shown.clear();
+        }
+        if !triangles.is_empty() {
+            for &index in triangles {
+                let triangle = &frame.parts.triangles[index as usize];
+                let shown = &mut self.shown;
+                let shows = |cell, lanes: &LaneMask| {
+                    if TELLS {
+                        shown.put_triangle(cell, index, lanes);
+                    }
+                };
+                let (origin, stack) = (scene.origin, scene.stack);
+                triangle.draw(frame.drawing, origin, stack, &mut self.target, shows);
+            }
+            self.target.finish_surfaces();
+        }
+        let segments_of_tile = self.segments_of_tiles.bin(tile);
+        for part in &self.parts {
+            self.strand.draw::<TELLS>(
+                scene,
+                segments_of_tile,
+                part,
+                &mut self.target,
+                &mut self.shown,
+            );
         }
     }
 }

@@ -5,6 +5,8 @@
 //! axis, because that is what runs linearly along a projected segment; larger is nearer.
 //! Colours are linear light, red, green, blue.
 
+use crate::features::DrawnFeatures;
+use crate::painting::Painting;
 use glam::Vec2;
 use std::ops::Range;
 pub use stroke_path::Brush;
@@ -104,6 +106,8 @@ pub struct Surface {
     /// For the head's inside, seen through an opening (an eye's, the neck's), on whose other side hair
     /// grows, and for its outline, which hair behind it must not eat.
     pub margin_m: f32,
+    /// The mesh that it is part of, for [`Feature::Object`](crate::Feature::Object): several surfaces may be one thing.
+    pub mesh: u32,
     /// Linear colour where the tone is 0 or more.
     pub light: [f32; 3],
     /// Linear colour where the tone is below 0.
@@ -245,6 +249,10 @@ pub struct Drawing {
     pub edge_depth_m: f32,
     /// What strokes are made of.
     pub brush: Brush,
+    /// What samples tell beside their colour.
+    pub features: DrawnFeatures,
+    /// Layers whose samples are painted.
+    pub painting: Painting,
 }
 
 #[cfg(test)]

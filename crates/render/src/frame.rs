@@ -5,6 +5,7 @@ mod check;
 pub use check::FrameError;
 
 use crate::drawing::{Order, Surface};
+use crate::features::Features;
 use effects::{InputSet, Layer, Reach, Varied, clump};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
@@ -22,6 +23,10 @@ pub struct StrandInfo {
     /// Its own size at the root and start of shrinking (x in 5.1), both 0 to 1, in place of the clump section's; below 0 the
     /// section's: [`NO_TAPER`].
     pub taper: Vec2,
+    /// Its level, 0 the lowest: what is of a higher one lies on top.
+    pub level: u32,
+    /// How much nearer than it is the strand is ordered among strands, head heights; against surfaces it counts nothing.
+    pub lift: f32,
 }
 
 /// The taper of a strand that has none of its own.
@@ -102,6 +107,11 @@ pub struct Frame<'a> {
     pub edge_depth_m: f32,
     /// What strokes are made of.
     pub brush: Brush,
+    /// What samples tell beside their colour; a picture alone needs none of it.
+    pub features: Features,
+    /// How much normals of hair are those of a round tube, for [`Feature::Normal`](crate::Feature::Normal): 0 the clump's, 1 the
+    /// tube's.
+    pub roundness: f32,
 }
 
 /// A ball in the world.

@@ -44,10 +44,13 @@
 mod check;
 pub mod cpu;
 mod drawing;
+mod features;
 mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod painting;
 mod picture;
+mod planes;
 mod samples;
 
 pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
@@ -55,6 +58,11 @@ pub use drawing::{
     Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface, SurfaceVertex,
     scatter,
 };
+pub use features::{
+    DrawnFeatures, Feature, Features, NO_ID, RunInfo, object_of_hair, object_of_mesh,
+};
 pub use frame::{Ball, Frame, FrameError, Head, Light, NO_TAPER, Object, StrandInfo, reach_of};
+pub use painting::{PaintedLayer, Painting};
 pub use picture::Picture;
+pub use planes::{Sample, SamplePlanes};
 pub use samples::{MAX_SAMPLES, SampleCountError, sample_positions};

@@ -58,6 +58,8 @@ fn drawing_on(
         mean: Vec3::ZERO,
         size: 20.0,
         taper: NO_TAPER,
+        level: 0,
+        lift: 0.0,
     };
     let mut values = Values::defaults(clump::Program::PARAMS);
     let plain = [
@@ -96,6 +98,8 @@ fn drawing_on(
         order: Order::Rounded,
         edge_depth_m: 0.005,
         brush,
+        features: render::Features::NONE,
+        roundness: 1.0,
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();

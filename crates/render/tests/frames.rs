@@ -45,6 +45,8 @@ impl Scene {
             mean: Vec3::ZERO,
             size: 10.0,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         };
         let mut registry = Registry::new();
         effects_builtin::register(&mut registry).unwrap();
@@ -94,6 +96,8 @@ impl Scene {
             order: Order::Rounded,
             edge_depth_m: 0.005,
             brush: Brush::Circle,
+            features: render::Features::NONE,
+            roundness: 1.0,
         }
     }
 }

@@ -81,6 +81,8 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
             mean: Vec3::ZERO,
             size: SIZE,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         }],
         objects: vec![Object {
             joints,
@@ -102,6 +104,8 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         order,
         edge_depth_m: 0.006,
         brush: Brush::Circle,
+        features: render::Features::NONE,
+        roundness: 1.0,
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();

@@ -6,6 +6,7 @@ use crate::preset::{Preset, missing};
 use crate::script;
 use crate::stage::Stage;
 use crate::style;
+use crate::textures;
 use effects::Registry;
 use effects::preset::{Place, PresetError, PresetErrors, Reader};
 use hair_io::{BoneMotion, HairOptions};
@@ -78,6 +79,9 @@ impl<'r> Preset<'r> {
             let character = files.preset_folder.join(character);
             paths.extend(BoneMotion::files(&character).into_iter().flatten());
         }
+        for layer in &self.layers {
+            paths.extend(textures::named(layer, files).map(|(_, path)| path));
+        }
         paths.extend(self.files_of_objects(files));
         paths
     }
@@ -114,6 +118,19 @@ impl<'r> Preset<'r> {
         for file in self.named(files) {
             if !file.is_given && file.path.is_file() {
                 found.add(self.check_file(files, &file));
+            }
+        }
+        for layer in &self.layers {
+            for (param, path) in textures::named(layer, files) {
+                let place = layer.textures.iter().find(|(name, _)| *name == param);
+                if let (Some((_, place)), true) = (place, path.is_file())
+                    && let Some(fault) = textures::fault(&path, files)
+                {
+                    found.add(Err(PresetErrors(vec![PresetError {
+                        place: place.clone(),
+                        message: format!("{param}: {fault}"),
+                    }])));
+                }
             }
         }
         found.all()
@@ -188,6 +205,7 @@ impl<'r> Preset<'r> {
             _ if !self.objects.is_empty() => "objects",
             StageError::NoPointLight(_) | StageError::Camera(_) => "light",
             StageError::Shapes(_) => "motion",
+            StageError::Texture { .. } => "layers",
             StageError::Path(_) => "path",
             _ => "dynamics",
         };

@@ -1,5 +1,6 @@
 //! What the caller gives a scene beside the preset, and why there is none.
 
+use crate::textures::Textures;
 use hair_io::{MOST_OF_TEXT, ReadError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -21,6 +22,8 @@ pub struct Files {
     /// Texts in place of those that styles and motion scripts have on the disk: what an editor has not saved yet. Paths are as a scene
     /// reads them: the folder of what names the file, and the name.
     pub texts: BTreeMap<PathBuf, Arc<str>>,
+    /// Pictures of textures that were read, for whoever makes many looks: copies share them.
+    pub textures: Textures,
 }
 
 impl Files {
@@ -102,6 +105,14 @@ pub enum StageError {
         layer: String,
         /// What is wrong with them.
         what: String,
+    },
+    /// A picture that a layer names can't be used.
+    #[error("layer `{layer}`: {message}")]
+    Texture {
+        /// The layer's name.
+        layer: String,
+        /// The file, and what is wrong with it.
+        message: String,
     },
     /// Two strands of a program's own have this id.
     #[error("two strands have the id {0}")]

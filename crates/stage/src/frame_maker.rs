@@ -165,6 +165,8 @@ impl FrameMaker {
             order: scene.look().order(),
             edge_depth_m: section.edge_depth * scene.head().height_m,
             brush: scene.brush(),
+            features: render::Features::NONE,
+            roundness: 1.0,
         })
     }
 

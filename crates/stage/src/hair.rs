@@ -117,6 +117,8 @@ impl HairModel {
             mean: Vec3::ZERO,
             size: given(i).unwrap_or(size),
             taper: self.tapers[i],
+            level: 0,
+            lift: 0.0,
         });
         self.infos = infos.collect();
         self.keep(&guides.kept);

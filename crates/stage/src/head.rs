@@ -414,6 +414,7 @@ fn surface(
         vertices: Vec::new(),
         triangles: Vec::new(),
         margin_m: 0.0,
+        mesh: 0,
         light,
         shadow,
     };

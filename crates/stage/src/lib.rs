@@ -27,6 +27,7 @@ mod shapes;
 mod solid;
 mod stage;
 mod style;
+mod textures;
 
 pub use bake::{Bake, is_bake};
 pub use check::{check_hair, check_motion, check_style};
@@ -52,3 +53,4 @@ pub use scene::Scene;
 pub use script::MOTION_PARTS;
 pub use stage::Stage;
 pub use style::STYLE_PARTS;
+pub use textures::Textures;

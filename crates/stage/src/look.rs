@@ -1,9 +1,10 @@
 //! The look: how hair and head are drawn and move, whatever hair and head they are.
 
-use crate::files::StageError;
+use crate::files::{Files, StageError};
 use crate::head::HeadPaint;
 use crate::preset::{BrushChoice, FixedTo, LightKind, OrderChoice, PathChoice, Preset, Sections};
-use effects::{Input, Layer, Parameters, Varied, clump};
+use crate::textures::with_textures;
+use effects::{Input, Layer, Parameters, SampleInput, Varied, clump};
 use glam::Vec3;
 use render::{Brush, Head, Light, Order};
 use stroke_path::{Camera, PathKind, direction_from_angles};
@@ -27,13 +28,13 @@ pub struct Look {
 }
 
 impl Look {
-    /// The look of a preset, read or made by a program. Files that it names play no part.
+    /// The look of a preset, read or made by a program. Of the files that it names it reads those of textures, in `files`' folder.
     ///
     /// # Errors
     ///
-    /// When a value is outside of its range, the solver can't do what the section `dynamics` asks for, or a layer needs another
-    /// light.
-    pub fn new(preset: &Preset) -> Result<Self, StageError> {
+    /// When a value is outside of its range, the solver can't do what the section `dynamics` asks for, a layer needs another
+    /// light, or a texture can't be read.
+    pub fn new(preset: &Preset, files: &Files) -> Result<Self, StageError> {
         let sections = preset.sections.clone();
         sections
             .check()
@@ -43,11 +44,16 @@ impl Look {
         }
         let light = &sections.light;
         let light_direction = direction_from_angles(light.yaw, light.pitch)?;
+        let layers = preset.layers.iter().map(|layer| {
+            let values = with_textures(layer, files)?;
+            Ok(layer.build_with(&values))
+        });
+        let layers = layers.collect::<Result<_, StageError>>()?;
         let look = Self {
             seed: preset.seed,
             clump: Varied::new(&sections.clump.0),
             sections,
-            layers: preset.layers.iter().map(|layer| layer.build()).collect(),
+            layers,
             light_direction,
         };
         look.lights(&look)?;
@@ -74,7 +80,10 @@ impl Look {
 
     /// Whether pictures change with time alone.
     pub(crate) fn reads_time(&self) -> bool {
-        let reads = |layer: &Layer| layer.program.inputs().has(Input::Time);
+        let reads = |layer: &Layer| {
+            let painted = layer.program.paints().unwrap_or_default();
+            layer.program.inputs().has(Input::Time) || painted.has(SampleInput::Time)
+        };
         self.layers.iter().any(reads)
     }
 

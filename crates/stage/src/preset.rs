@@ -11,7 +11,7 @@ use effects::preset::{
     Field, LayerSpec, Place, PresetError, PresetErrors, Reader, SetError, nearest, set_text,
     suggestion,
 };
-use effects::{Param, Registry};
+use effects::{Param, Registry, Texture};
 use std::path::Path;
 
 /// The newest version of presets that this build reads.
@@ -188,6 +188,16 @@ impl<'r> Preset<'r> {
             Some(PresetError { place, message })
         };
         let mut errors: Vec<PresetError> = self.named.iter().filter_map(missing_file).collect();
+        for layer in &self.layers {
+            for (param, place) in &layer.textures {
+                if let Texture::File(name) = layer.values.texture(param)
+                    && let Some(message) = missing(&files.preset_folder, param, name)
+                {
+                    let place = place.clone();
+                    errors.push(PresetError { place, message });
+                }
+            }
+        }
         let objects = self.objects.iter();
         errors.extend(objects.filter_map(|object| object.missing(&files.preset_folder)));
         PresetErrors::report(errors)

@@ -20,7 +20,7 @@ const NEAR: f32 = 0.05;
 ///
 /// ```
 /// use hair_sim::Strands;
-/// use stage::{FrameMaker, HairModel, HeadModel, Look, Motion, Object, Preset, Scene, Sections};
+/// use stage::{Files, FrameMaker, HairModel, HeadModel, Look, Motion, Object, Preset, Scene, Sections};
 ///
 /// // Strands of the program's own, in metres, Y up, the face towards +Z; here on the bust that comes with inkstrand.
 /// let head = HeadModel::bust();
@@ -36,12 +36,12 @@ const NEAR: f32 = 0.05;
 /// let mut sections = Sections::default();
 /// sections.scene.size = [320, 240];
 /// let preset = Preset::new(1, sections.clone(), Vec::new()); // with effects in a list of layers, strokes are drawn
-/// let girl = Object::new(hair, Some(head), Look::new(&preset)?)?;
+/// let girl = Object::new(hair, Some(head), Look::new(&preset, &Files::default())?)?;
 ///
 /// // Two of her, who look at each other. Nothing is made twice.
 /// let left = girl.placed(60.0, glam::Vec3::new(-0.2, 0.0, 0.0));
 /// let right = girl.placed(-60.0, glam::Vec3::new(0.2, 0.0, 0.0));
-/// let scene = Scene::new(vec![left, right], Look::new(&preset)?)?;
+/// let scene = Scene::new(vec![left, right], Look::new(&preset, &Files::default())?)?;
 ///
 /// let mut motion = Motion::new();
 /// let mut frames = FrameMaker::new();
@@ -51,7 +51,7 @@ const NEAR: f32 = 0.05;
 ///
 /// // Another look for the left one: hair and head aren't made again, and the other stays as she is.
 /// sections.head.light = [0.2, 0.1, 0.05];
-/// let tanned = Look::new(&Preset::new(1, sections, Vec::new()))?;
+/// let tanned = Look::new(&Preset::new(1, sections, Vec::new()), &Files::default())?;
 /// let other = scene.with_object(0, scene.objects()[0].with_look(tanned)?)?;
 /// assert!(std::ptr::eq(scene.objects()[0].hair(), other.objects()[0].hair()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -102,7 +102,7 @@ impl Scene {
         if preset.sections.scene.order == OrderChoice::Scattered {
             notes.push("scene: order `scattered` is no more; `rounded` is drawn".to_owned());
         }
-        let look = Arc::new(Look::new(preset)?);
+        let look = Arc::new(Look::new(preset, files)?);
         let objects = match &preset.objects[..] {
             [] => vec![Object::load(preset, files, look.clone(), &mut notes)?],
             _ => preset.load_objects(files, &mut notes)?,

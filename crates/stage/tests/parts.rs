@@ -85,7 +85,9 @@ fn another_look_is_as_if_it_had_been_there_from_the_start() {
     ];
     for change in changes {
         let preset = preset(&registry, change);
-        let changed = scene.with_look(Look::new(&preset).unwrap()).unwrap();
+        let changed = scene
+            .with_look(Look::new(&preset, &Files::default()).unwrap())
+            .unwrap();
         assert!(std::ptr::eq(
             changed.objects()[0].hair(),
             scene.objects()[0].hair()
@@ -107,7 +109,9 @@ fn hair_that_moves_in_another_way_begins_anew() {
     let before = shown(&scene, &mut motion, &mut frames, 0.3);
     for change in [("dynamics.feel", "gel"), ("scene.fps", "48"), ("seed", "7")] {
         let preset = preset(&registry, &[change]);
-        let changed = scene.with_look(Look::new(&preset).unwrap()).unwrap();
+        let changed = scene
+            .with_look(Look::new(&preset, &Files::default()).unwrap())
+            .unwrap();
         let found = shown(&changed, &mut motion, &mut frames, 0.3);
         let mut fresh = Stage::new(&preset, &files()).unwrap();
         fresh.advance_to(0.3).unwrap();
@@ -156,7 +160,7 @@ fn what_cannot_be_a_scene_is_refused() {
 
     let mut sections = Sections::default();
     sections.camera.fov = f32::NAN;
-    let error = Look::new(&Preset::new(1, sections, Vec::new()))
+    let error = Look::new(&Preset::new(1, sections, Vec::new()), &Files::default())
         .err()
         .unwrap();
     assert_eq!(

@@ -208,6 +208,9 @@ fn defaults_are_within_their_own_ranges() {
             ParamKind::OptionalColor { default } => {
                 default.is_none_or(|hex| effects::parse_hex(hex).is_some())
             }
+            ParamKind::Texture { default, .. } => {
+                effects::preset::read_value(default, &param.kind).is_ok()
+            }
             ParamKind::Text => true,
             ParamKind::Triple { min, max, default } => {
                 default.iter().all(|x| (min..=max).contains(x))

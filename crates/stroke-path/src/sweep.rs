@@ -167,6 +167,13 @@ impl Sweep {
         self.flat_end
     }
 
+    /// Whether its circles are apart, so that it points somewhere.
+    #[inline(always)]
+    #[must_use]
+    pub fn has_direction(&self) -> bool {
+        self.length > 0.0
+    }
+
     /// A screen position in the segment's frame.
     #[must_use]
     pub fn local(&self, position: DVec2) -> DVec2 {

@@ -104,6 +104,8 @@ impl Strands {
             mean: Vec3::ZERO,
             size: SIZE,
             taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
         };
         let cuts = (0..count as usize).map(|i| {
             let overlap_m = 3.0 * SIZE * HEAD.unit_m();
@@ -176,6 +178,8 @@ impl Animation for Strands {
             order: Order::default(),
             edge_depth_m: EDGE_DEPTH * HEAD.height_m,
             brush: Brush::Circle,
+            features: render::Features::NONE,
+            roundness: 1.0,
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The layers of a preset.
 
-use super::error::suggestion;
+use super::error::{Place, suggestion};
 use super::reader::{Field, Reader};
 use super::set::{SetError, set_text, unknown};
 use super::value::{parse_value, shown};
@@ -9,6 +9,7 @@ use crate::layer::{Layer, Units};
 use crate::param::{Param, ParamKind, Value, Values};
 use crate::registry::Registry;
 use crate::section;
+use crate::texture::Texture;
 use std::collections::HashSet;
 
 section! {
@@ -47,6 +48,8 @@ pub struct LayerSpec<'r> {
     pub units: Units,
     /// The effect's parameters.
     pub values: Values,
+    /// Where the file names its textures' files: their parameters, and the place of each value.
+    pub textures: Vec<(&'static str, Place)>,
 }
 
 impl LayerSpec<'_> {
@@ -58,6 +61,8 @@ impl LayerSpec<'_> {
     /// When there is no such parameter, or the text is not one of its values.
     pub fn set(&mut self, param: &str, text: &str) -> Result<(), SetError> {
         let own = ["rank", "depth_offset", "units"];
+        // What the file says is no longer what is meant.
+        self.textures.retain(|(name, _)| *name != param);
         let is_own = own.contains(&param) && self.effect.params().iter().all(|p| p.name != param);
         if !is_own {
             return set_text(&mut self.values, &self.name, param, text);
@@ -76,13 +81,19 @@ impl LayerSpec<'_> {
     /// The layer, ready to be evaluated.
     #[must_use]
     pub fn build(&self) -> Layer {
+        self.build_with(&self.values)
+    }
+
+    /// The layer with other values than its own: such as those with pictures in place of their files' names.
+    #[must_use]
+    pub fn build_with(&self, values: &Values) -> Layer {
         Layer {
             name: self.name.clone(),
             effect: self.effect.id(),
             rank: self.rank,
             depth_offset: self.depth_offset,
             units: self.units,
-            program: self.effect.program(&self.values),
+            program: self.effect.program(values).into(),
         }
     }
 }
@@ -154,9 +165,9 @@ impl<'a> Reader<'a> {
             )
         });
         let effect = effect?;
-        let values = match params.first() {
+        let (values, textures) = match params.first() {
             Some(field) => self.params(field.value, effect),
-            None => Values::defaults(effect.params()),
+            None => (Values::defaults(effect.params()), Vec::new()),
         };
         Some(LayerSpec {
             name: layer.name.unwrap_or_else(|| effect.id().to_owned()),
@@ -165,6 +176,7 @@ impl<'a> Reader<'a> {
             depth_offset: layer.depth_offset.unwrap_or(effect.depth_offset()),
             units: layer.units,
             values,
+            textures,
         })
     }
 
@@ -194,7 +206,12 @@ impl<'a> Reader<'a> {
         effect
     }
 
-    fn params(&mut self, section: &'a str, effect: &dyn AnyEffect) -> Values {
+    /// The effect's parameters, and where textures' files are named.
+    fn params(
+        &mut self,
+        section: &'a str,
+        effect: &dyn AnyEffect,
+    ) -> (Values, Vec<(&'static str, Place)>) {
         let fields = self.fields(section, effect.id());
         let mut values = Values::defaults(effect.params());
         self.fill_or(&fields, &mut values, |field| {
@@ -204,7 +221,13 @@ impl<'a> Reader<'a> {
                 unknown(field.name, effect.params(), effect.id())
             }
         });
-        values
+        let textures = effect.params().iter().filter_map(|param| {
+            let field = fields.iter().find(|field| field.name == param.name)?;
+            let is_file = matches!(values.value(param.name), Value::Texture(Texture::File(_)));
+            is_file.then(|| (param.name, self.place(field.value)))
+        });
+        let textures = textures.collect();
+        (values, textures)
     }
 }
 

@@ -3,7 +3,9 @@
 use super::error::suggestion;
 use crate::color::parse_hex;
 use crate::param::{ParamKind, Value};
+use crate::texture::{Ramp, Texture};
 use crate::variation::Variation;
+use std::sync::Arc;
 
 /// The value that `text`, as it stands in a preset, gives a parameter of this kind.
 ///
@@ -87,6 +89,15 @@ fn read(text: &str, kind: &ParamKind) -> Option<Value> {
             let hex = ron::from_str::<String>(text).ok()?;
             Some(Value::Color(Some(parse_hex(&hex)?)))
         }
+        ParamKind::Texture { .. } if text == "none" => Some(Value::Texture(Texture::None)),
+        ParamKind::Texture { .. } if text.starts_with('"') => {
+            let file = ron::from_str::<String>(text).ok()?;
+            (!file.is_empty()).then_some(Value::Texture(Texture::File(file)))
+        }
+        ParamKind::Texture { .. } => {
+            let ramp = Ramp::parse(text).ok()?;
+            Some(Value::Texture(Texture::Ramp(Arc::new(ramp))))
+        }
         ParamKind::Text => {
             let text = ron::from_str::<String>(text).ok()?;
             (!text.is_empty()).then_some(Value::Text(Some(text)))
@@ -166,12 +177,22 @@ fn hint(text: &str, kind: &ParamKind) -> Option<String> {
             }
             Some("a colour is six hexadecimal digits RRGGBB in double quotes".to_owned())
         }
-        ParamKind::Text if double_quotes && bare.is_empty() => Some("it is empty".to_owned()),
-        ParamKind::Text if double_quotes && text.contains('\\') => {
+        ParamKind::Texture { .. } if text.starts_with(['(', '[']) => {
+            let write = "write [(0, \"2A8F9D\"), (1, \"3FC1C0\")], (steps: [..]), or rows [(v: 0, stops: [..]), ..]";
+            let message = Ramp::parse(text).err()?;
+            Some(format!("{message}; {write}"))
+        }
+        ParamKind::Texture { .. } if bare.to_lowercase() == "none" => {
+            Some("write none, in lower case and without quotes".to_owned())
+        }
+        ParamKind::Text | ParamKind::Texture { .. } if double_quotes && bare.is_empty() => {
+            Some("it is empty".to_owned())
+        }
+        ParamKind::Text | ParamKind::Texture { .. } if double_quotes && text.contains('\\') => {
             Some("write / for each \\ in it".to_owned())
         }
         ParamKind::Text if text.starts_with(['(', '[', '{']) => None,
-        ParamKind::Text => Some(format!("write \"{}\"", shown(bare))),
+        ParamKind::Text | ParamKind::Texture { .. } => Some(format!("write \"{}\"", shown(bare))),
         ParamKind::Triple { .. } | ParamKind::Pair { .. } | ParamKind::Size { .. } => {
             if text.starts_with(['[', '{']) {
                 return Some("write it in ( )".to_owned());

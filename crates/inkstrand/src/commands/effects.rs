@@ -182,6 +182,7 @@ fn default(param: &Param) -> String {
         ParamKind::Color { default } => format!("\"{default}\""),
         ParamKind::OptionalColor { default: Some(hex) } => format!("\"{hex}\""),
         ParamKind::OptionalColor { default: None } => "none".to_owned(),
+        ParamKind::Texture { default, .. } => default.to_owned(),
         ParamKind::Text => "nothing".to_owned(),
         ParamKind::Triple {
             default: [x, y, z], ..

@@ -59,7 +59,7 @@ impl SceneOptions {
             head: self.head.clone(),
             motion: self.motion.clone(),
             bake: None,
-            texts: Default::default(),
+            ..Files::default()
         }
     }
 

@@ -112,6 +112,10 @@ fn parameter(param: &Param) -> Value {
         }
         ParamKind::Color { default } => ("color", json!(default)),
         ParamKind::OptionalColor { default } => ("color or none", json!(default.unwrap_or("none"))),
+        ParamKind::Texture { default, repeats } => {
+            value["repeats"] = json!(repeats);
+            ("texture", json!(default))
+        }
         ParamKind::Text => ("text", Value::Null),
         ParamKind::Triple { min, max, default } => {
             range(number(min), number(max));

@@ -2,7 +2,9 @@
 
 use super::seen::fill_needed;
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches};
+use crate::features::{DrawnFeatures, Feature};
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
+use crate::painting;
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
 use effects::{
@@ -24,6 +26,8 @@ pub struct Evaluator {
     seen_length: Vec<f32>,
     /// Whether strokes make a difference at each joint; empty where they do everywhere.
     needed: Vec<bool>,
+    /// How much nearer each joint is ordered among strands, head heights; empty where none is.
+    lift: Vec<f32>,
     is_everywhere: bool,
 }
 
@@ -49,6 +53,7 @@ impl Evaluator {
         self.fill_inputs(frame, read);
         self.fill_clumps(frame, read);
         self.fill_seen_length(frame);
+        self.fill_lift(frame);
         if !self.is_everywhere {
             fill_needed(frame, &self.joints, &mut self.needed);
         }
@@ -66,6 +71,9 @@ impl Evaluator {
         }));
         self.fill_clump_discs(frame, &mut drawing.clump);
         self.fill_sides(frame, drawing);
+
+        self.fill_features(frame, &mut drawing.features);
+        drawing.painting.fill(frame, &self.joints);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
@@ -95,6 +103,15 @@ impl Evaluator {
         for object in &frame.objects {
             let joints = object.joints.clone().into_par_iter().with_min_len(CHUNK);
             clumps.par_extend(joints.map(|i| self.clump_disc_at(frame, object, i, 0)));
+        }
+    }
+
+    /// What samples are told of joints.
+    fn fill_features(&self, frame: &Frame, features: &mut DrawnFeatures) {
+        features.fill(frame);
+        if features.declared.has(Feature::Normal) {
+            let normals = self.clumps.iter().map(|clump| clump.normal.to_array());
+            features.normal.extend(normals.map(Vec3::from));
         }
     }
 
@@ -159,7 +176,8 @@ impl Evaluator {
         let size = if self.is_needed(joint) { size } else { 0.0 };
         let place = shift + vec2([x, y]);
         let place = Vec2::new(place.x, place.y);
-        disc_at(frame, object.head, joint, place, size, radius, 0.0)
+        let depth_offset = -self.lift.get(joint).copied().unwrap_or(0.0);
+        disc_at(frame, object.head, joint, place, size, radius, depth_offset)
     }
 
     /// The strokes of one layer on the joints `drawn`; `lists` are reused.
@@ -181,6 +199,7 @@ impl Evaluator {
             joints,
             seen_length: &self.seen_length,
             needed: &self.needed,
+            lift: &self.lift,
             seed: layer_seed(object.seed, &layer.name),
         };
         let of_stroke = |number| pieces(frame.paths, drawn).map(move |joints| (number, joints));
@@ -363,6 +382,18 @@ impl Evaluator {
         seen_lengths(frame.paths, &mut self.seen_length);
     }
 
+    fn fill_lift(&mut self, frame: &Frame) {
+        self.lift.clear();
+        if frame.strands.iter().any(|strand| strand.lift != 0.0) {
+            let runs = frame.paths.runs.iter();
+            let lifts = runs.flat_map(|run| {
+                let lift = frame.strands[run.strand].lift;
+                run.joints.clone().map(move |_| lift)
+            });
+            self.lift.extend(lifts);
+        }
+    }
+
     /// The size of a pixel at 720 lines, for layers whose widths are pixels, on the joints `drawn`.
     fn fill_unit(&mut self, frame: &Frame, head: Head, drawn: &Range<usize>, units: Units) {
         let unit = &mut self.joints.unit;
@@ -380,7 +411,7 @@ impl Evaluator {
 /// What clumps and active layers read of joints.
 fn inputs(frame: &Frame) -> InputSet {
     let read = (frame.objects.iter())
-        .map(Object::inputs)
+        .map(|object| object.inputs().union(painting::inputs(object)))
         .fold(InputSet::default(), InputSet::union);
     if read.has(Input::Gray) {
         // It is made of that.
@@ -481,6 +512,7 @@ struct Part<'a> {
     joints: Range<usize>,
     seen_length: &'a [f32],
     needed: &'a [bool],
+    lift: &'a [f32],
     seed: u32,
 }
 
@@ -536,7 +568,8 @@ impl Part<'_> {
             made.discs.extend(joints.zip(&*strokes).map(|(i, stroke)| {
                 let offset = inputs.clump_shift[i] + stroke.offset;
                 let offset = Vec2::new(offset.x, offset.y);
-                let depth_offset = layer.depth_offset + stroke.depth_offset;
+                let lift = self.lift.get(i).copied().unwrap_or(0.0);
+                let depth_offset = layer.depth_offset + stroke.depth_offset - lift;
                 let clump_radius = inputs.clump_radius[i];
                 let radius = stroke.radius;
                 disc_at(

@@ -7,7 +7,7 @@
 //! instructions which not every machine has. Measured on the benchmark `raster`, 84 thick strands at
 //! 16 samples, when cells were eight pixels of one sample: 96 ms as compiled (SSE2), 67 ms with AVX2, 55 ms with AVX-512.
 
-use super::{Frame, Worker};
+use super::{Frame, Output, Worker};
 
 /// Vector instructions that this machine has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,32 +45,26 @@ impl Instructions {
 
     /// [`Worker::draw_band`] in these instructions.
     #[allow(unsafe_code, reason = "a third to a half of the time, see above")]
-    pub(super) fn draw_band(
-        self,
-        worker: &mut Worker,
-        frame: &Frame,
-        band: usize,
-        pixels: &mut [[f32; 4]],
-    ) {
+    pub(super) fn draw_band(self, worker: &mut Worker, frame: &Frame, band: usize, output: Output) {
         match self {
-            Self::Compiled => worker.draw_band(frame, band, pixels),
+            Self::Compiled => worker.draw_band(frame, band, output),
             // SAFETY: a value of this type is made by `available` only, which looked for each.
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => unsafe { avx2(worker, frame, band, pixels) },
+            Self::Avx2 => unsafe { avx2(worker, frame, band, output) },
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => unsafe { avx512(worker, frame, band, pixels) },
+            Self::Avx512 => unsafe { avx512(worker, frame, band, output) },
         }
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn avx2(worker: &mut Worker, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
-    worker.draw_band(frame, band, pixels);
+fn avx2(worker: &mut Worker, frame: &Frame, band: usize, output: Output) {
+    worker.draw_band(frame, band, output);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
-fn avx512(worker: &mut Worker, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
-    worker.draw_band(frame, band, pixels);
+fn avx512(worker: &mut Worker, frame: &Frame, band: usize, output: Output) {
+    worker.draw_band(frame, band, output);
 }

@@ -58,7 +58,8 @@ pub(super) struct Segment {
     /// Of a clump's segment: the stroke that is the same discs, and has no segments of its own. 0 if
     /// there is none. The colour is that stroke's.
     pub(super) drawn_as: u32,
-    /// Where the first joint's disc lies in its list, and the colour in the layer's. The other joint's are the next.
+    /// The first joint, and where its disc lies in its list, and the colour in the layer's. The other joint's are the next.
+    pub(super) joint: u32,
     disc: u32,
     color: u32,
     /// One of the clump's sides.
@@ -78,6 +79,8 @@ pub(super) struct Shape {
     pub(super) inv_depth: Ramp,
     pub(super) inv_depth_biased: Ramp,
     pub(super) color: [Ramp; 3],
+    /// The way from the first joint to the next: rises where the path runs to the smaller disc.
+    pub(super) way: Ramp,
 }
 
 /// The strokes that a strand has, lowest first.
@@ -204,6 +207,8 @@ struct Drawn {
     stroke: u32,
     drawn_as: u32,
     is_side: bool,
+    /// The first joint.
+    joint: usize,
     /// Their places in their list: the clump's, the sides' or a layer's.
     discs: Range<usize>,
     /// The place of the first one's colour.
@@ -239,11 +244,12 @@ impl<'a> Strand<'a> {
         let (base, drawn_as) = base.map_or((&[][..], 0), |(base, number)| (base, number));
         let parts = 0..if has_clump { clumps(drawing) } else { 0 };
         let clump = parts.flat_map(move |part| {
-            let of_clump = move |discs, drawn_as, first_color| Drawn {
+            let of_clump = move |stretch: Stretch, drawn_as, first_color| Drawn {
                 stroke: 0,
                 drawn_as,
                 is_side: part > 0,
-                discs,
+                joint: stretch.joints.start,
+                discs: stretch.places(),
                 first_color,
             };
             let of_base = base.get(part).map(|stroke| {
@@ -252,17 +258,13 @@ impl<'a> Strand<'a> {
                     .flat_map(move |run| layer.on(stroke.instance, &run.joints))
                     .filter_map(move |stretch| {
                         let clump = clump_on(drawing, part, &stretch.joints).next()?;
-                        Some(of_clump(
-                            clump.places(),
-                            drawn_as + part as u32,
-                            stretch.first,
-                        ))
+                        Some(of_clump(clump, drawn_as + part as u32, stretch.first))
                     })
             });
             let is_bare = of_base.is_none();
             let bare = runs.iter().filter(move |_| is_bare);
             let bare = bare.flat_map(move |run| clump_on(drawing, part, &run.joints));
-            let bare = bare.map(move |stretch| of_clump(stretch.places(), 0, 0));
+            let bare = bare.map(move |stretch| of_clump(stretch, 0, 0));
             of_base.into_iter().flatten().chain(bare)
         });
         let as_clump = drawn_as..drawn_as + base.len() as u32;
@@ -276,6 +278,7 @@ impl<'a> Strand<'a> {
                 stroke: number,
                 drawn_as: 0,
                 is_side: false,
+                joint: stretch.joints.start,
                 discs: stretch.places(),
                 first_color: stretch.first,
             })
@@ -305,6 +308,7 @@ impl<'a> Strand<'a> {
                         strand,
                         stroke: part.stroke,
                         drawn_as: part.drawn_as,
+                        joint: (part.joint + i) as u32,
                         disc: (part.discs.start + i) as u32,
                         color: (part.first_color + i) as u32,
                         is_side: part.is_side,
@@ -430,6 +434,22 @@ fn bounds(a: &Disc, b: &Disc, size: [u32; 2]) -> Option<Bounds> {
 }
 
 impl Segment {
+    /// Its joints, from the root's side on.
+    pub(super) fn joints(&self) -> [usize; 2] {
+        let first = self.joint as usize;
+        [first, first + usize::from(!self.is_dot)]
+    }
+
+    /// 1 more than the place of the stroke whose colour it has, in [`strokes_in_order`]; 0 where it has none.
+    #[inline(always)]
+    pub(super) fn colored(&self) -> u32 {
+        if self.stroke > 0 {
+            self.stroke
+        } else {
+            self.drawn_as
+        }
+    }
+
     /// Its shape, as far as it may be seen.
     #[inline(always)]
     pub(super) fn shape(&self, drawing: &Drawing, strokes: &[Stroke]) -> Option<Shape> {
@@ -437,11 +457,7 @@ impl Segment {
         let first = self.disc as usize;
         let next = usize::from(!self.is_dot);
         let mut colors = [[0.0; 3]; 2];
-        let colored = if self.stroke > 0 {
-            self.stroke
-        } else {
-            self.drawn_as
-        };
+        let colored = self.colored();
         if colored > 0 {
             let layer = &drawing.layers[strokes[colored as usize - 1].layer];
             let first = self.color as usize;
@@ -460,6 +476,7 @@ impl Shape {
         let (a, b) = (between(a, b, from), between(a, b, to));
         let shrinks = a.0.radius >= b.0.radius;
         let (large, small) = if shrinks { (a, b) } else { (b, a) };
+        let way = if shrinks { [from, to] } else { [to, from] };
         let sweep = Sweep::new(circle(&large.0), circle(&small.0))?;
         let sweep = match brush {
             Brush::Circle => sweep,
@@ -474,6 +491,7 @@ impl Shape {
                 Ramp::new(large.1[1], small.1[1]),
                 Ramp::new(large.1[2], small.1[2]),
             ],
+            way: Ramp::new(way[0] as f32, way[1] as f32),
         })
     }
 

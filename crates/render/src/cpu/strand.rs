@@ -6,7 +6,8 @@
 //! goes there; only that gets a colour.
 
 use super::segment::{Segment, Stroke};
-use super::stroke::{Measured, Placed, Shaded};
+use super::shown::Shown;
+use super::stroke::{Measured, Placed, Places, Shaded};
 use super::tile::{
     LANES, LaneMask, Lanes, Mask, NO_SAMPLES, ROWS, Stack, Target, add, any, both, cells, columns,
     greater, is_empty, overwrite, without,
@@ -63,14 +64,15 @@ impl StrandMasks {
         }
     }
 
-    /// Draws a strand of the tile with those segments.
+    /// Draws a strand of the tile with those segments. Where it `TELLS`, what shows of it is noted.
     #[inline(always)]
-    pub(super) fn draw(
+    pub(super) fn draw<const TELLS: bool>(
         &mut self,
         scene: &TileContext,
         tile: &[u32],
         part: &Part,
         target: &mut Target,
+        shown: &mut Shown,
     ) {
         let strand = &tile[part.segments.clone()];
         let open = scene.open(part, target);
@@ -81,9 +83,9 @@ impl StrandMasks {
         match scene.drawing.order {
             Order::Rounded | Order::StrandFirst => {
                 let id = scene.segments[strand[0] as usize].strand;
-                self.draw_as_one(scene, u32::MAX - id, target);
+                self.draw_as_one::<TELLS>(scene, u32::MAX - id, target, shown);
             }
-            Order::Shifted => self.draw_each(scene, target),
+            Order::Shifted => self.draw_each::<TELLS>(scene, target, shown),
         }
     }
 
@@ -97,8 +99,7 @@ impl StrandMasks {
             let first = self.placed.len();
             let mut samples = NO_SAMPLES;
             for &index in stroke {
-                let segment = &scene.segments[index as usize];
-                let placed = Placed::new(scene, segment, open);
+                let placed = Placed::new(scene, index, open);
                 if let Some(placed) = placed {
                     add(&mut samples, &placed.covered);
                     self.placed.push(placed);
@@ -148,7 +149,13 @@ impl StrandMasks {
     /// Within the clump at the clump's depth, outside it strokes of negative rank at their own; then
     /// all of it against what is there.
     #[inline(always)]
-    fn draw_as_one(&mut self, scene: &TileContext, priority: u32, target: &mut Target) {
+    fn draw_as_one<const TELLS: bool>(
+        &mut self,
+        scene: &TileContext,
+        priority: u32,
+        target: &mut Target,
+        told: &mut Shown,
+    ) {
         let (clump, strokes) = match self.strokes.split_first_mut() {
             Some((clump, strokes)) if clump.number == 0 => (Some(clump), strokes),
             _ => (None, &mut self.strokes[..]),
@@ -179,7 +186,7 @@ impl StrandMasks {
             };
             offer.make(&outside, &mut self.row, target, &mut shown);
         }
-        if let Some(clump) = clump {
+        if let Some(clump) = &clump {
             let placed = &self.placed[clump.segments.clone()];
             let inside = both(&drawn, &clump_samples);
             let offer = Offer {
@@ -194,12 +201,29 @@ impl StrandMasks {
             let placed = &self.placed[stroke.segments.clone()];
             let samples = both(&stroke.samples, &shown);
             shade(placed, &samples, &mut self.row, target);
+            if TELLS {
+                tell(placed, &samples, &mut self.row, |cell, places, lanes| {
+                    told.put_stroke(cell, places, lanes);
+                });
+            }
+        }
+        if TELLS && let Some(clump) = clump {
+            let placed = &self.placed[clump.segments.clone()];
+            let samples = both(&clump_samples, &shown);
+            tell(placed, &samples, &mut self.row, |cell, places, lanes| {
+                told.put_clump(cell, places, lanes);
+            });
         }
     }
 
     /// Each stroke by itself against what is there.
     #[inline(always)]
-    fn draw_each(&mut self, scene: &TileContext, target: &mut Target) {
+    fn draw_each<const TELLS: bool>(
+        &mut self,
+        scene: &TileContext,
+        target: &mut Target,
+        told: &mut Shown,
+    ) {
         for stroke in &self.strokes {
             let placed = &self.placed[stroke.segments.clone()];
             let offer = Offer {
@@ -211,6 +235,12 @@ impl StrandMasks {
             let mut shown = NO_SAMPLES;
             offer.make(&stroke.samples, &mut self.row, target, &mut shown);
             shade(placed, &shown, &mut self.row, target);
+            if TELLS {
+                tell(placed, &shown, &mut self.row, |cell, places, lanes| {
+                    told.put_stroke(cell, places, lanes);
+                    told.put_clump(cell, places, lanes);
+                });
+            }
         }
     }
 }
@@ -335,6 +365,32 @@ fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Tar
                 }
             }
             paint(target, cell.index, &stroke.color, &cell.lanes(samples));
+        }
+    }
+}
+
+/// Finds the axis points of the samples, which the segments cover, and gives them cell by cell.
+#[inline(always)]
+fn tell(
+    placed: &[Placed],
+    samples: &Mask,
+    segments: &mut Row,
+    mut give: impl FnMut(usize, &Places, &LaneMask),
+) {
+    for row in 0..ROWS {
+        let wanted = columns(samples, row);
+        if wanted == 0 {
+            continue;
+        }
+        segments.find(placed, row, wanted);
+        for cell in cells(row, wanted) {
+            let mut places = Places::new();
+            for &(place, reached) in &segments.0 {
+                if reached & cell.columns() != 0 {
+                    placed[place].find_place(cell, &mut places);
+                }
+            }
+            give(cell.index, &places, &cell.lanes(samples));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! One segment in one tile: which samples it covers, how near, in which colour.
 
 use super::rows::{self, ROWS_AT_ONCE};
-use super::segment::{Segment, Shape};
+use super::segment::Shape;
 use super::strand::TileContext;
 use super::tile::{
     Cell, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, greater, lesser,
@@ -12,7 +12,9 @@ use glam::DVec2;
 /// A segment seen from a tile.
 pub(super) struct Placed {
     pub(super) shape: Shape,
-    /// As [`Segment::drawn_as`].
+    /// Its place in the list of segments.
+    pub(super) index: u32,
+    /// As [`Segment::drawn_as`](super::segment::Segment::drawn_as).
     pub(super) drawn_as: u32,
     /// The samples that it covers.
     pub(super) covered: Mask,
@@ -25,8 +27,9 @@ impl Placed {
     /// Nothing where the segment reaches none of the open samples, which are given
     /// as columns of the rows of stacks.
     #[inline(always)]
-    pub(super) fn new(scene: &TileContext, segment: &Segment, open: &[u32; ROWS]) -> Option<Self> {
+    pub(super) fn new(scene: &TileContext, index: u32, open: &[u32; ROWS]) -> Option<Self> {
         let TileContext { origin, stack, .. } = *scene;
+        let segment = &scene.segments[index as usize];
         let rows = segment.bounds.rows_in(origin[1], stack);
         let mut reached = 0;
         for row in rows.clone() {
@@ -61,6 +64,7 @@ impl Placed {
         };
         Some(Self {
             shape,
+            index,
             drawn_as: segment.drawn_as,
             covered,
             x: x.at_samples(stack),
@@ -117,6 +121,64 @@ impl Placed {
             }
             overwrite(color, &new, &wins);
         }
+    }
+}
+
+impl Placed {
+    /// Where on its axis, and where across it, the samples of a cell lie that the segment covers, where its ratio is the least so far:
+    /// of the same axis points as [`Self::shade`] takes colours from.
+    #[inline(always)]
+    pub(super) fn find_place(&self, cell: Cell, places: &mut Places) {
+        let covered = cell.lanes(&self.covered);
+        let (x, y) = (self.x.of(cell), self.y.of(cell));
+        // Seen from root to tip, whichever end is larger.
+        let Shape { sweep, way, .. } = &self.shape;
+        let side = select((way.rise < 0.0) & sweep.has_direction(), -1.0, 1.0);
+        let mut index = places.index;
+        for k in 0..LANES {
+            let (at, ratio) = sweep.attribute_point(x[k], y[k]);
+            let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
+            let is_less = (covered[k] != 0) & (ratio < places.ratio[k]);
+            index[k] = select(is_less, self.index, index[k]);
+            places.ratio[k] = select(is_less, ratio, places.ratio[k]);
+            places.way[k] = select(is_less, way.at(at), places.way[k]);
+            places.side[k] = select(is_less, select(y[k] < 0.0, -side, side), places.side[k]);
+        }
+        places.index = index;
+    }
+}
+
+/// The axis points of a stroke that samples of a cell lie beside.
+pub(super) struct Places {
+    /// The segments, by their places in the list.
+    pub(super) index: [u32; LANES],
+    /// The way from the segment's first joint to the next.
+    pub(super) way: Lanes,
+    /// The square of distance over radius; infinite where no segment covers the sample.
+    ratio: Lanes,
+    /// 1 to the right of who walks from root to tip, else -1.
+    side: Lanes,
+}
+
+impl Places {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self {
+            index: [0; LANES],
+            way: [0.0; LANES],
+            ratio: [f32::INFINITY; LANES],
+            side: [1.0; LANES],
+        }
+    }
+
+    /// Places across the stroke, -1 to 1.
+    #[inline(always)]
+    pub(super) fn across(&self) -> Lanes {
+        let mut across = self.side;
+        for k in 0..LANES {
+            across[k] *= lesser(self.ratio[k], 1.0).sqrt();
+        }
+        across
     }
 }
 

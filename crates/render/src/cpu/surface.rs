@@ -2,8 +2,8 @@
 
 use super::bin::{Bounds, clip};
 use super::tile::{
-    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, Slope, Stack, Target, WIDTH, any, greater, least,
-    lesser, overwrite, select,
+    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, LaneMask, Slope, Stack, Target, WIDTH, any, greater,
+    least, lesser, overwrite, select,
 };
 use crate::drawing::{Drawing, SurfaceVertex};
 use glam::DVec2;
@@ -13,8 +13,8 @@ use std::ops::Range;
 /// A triangle of a drawing that may be seen.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
-    corners: [SurfaceVertex; 3],
-    surface: u32,
+    pub(super) corners: [SurfaceVertex; 3],
+    pub(super) surface: u32,
     pub(super) bounds: Bounds,
 }
 
@@ -44,7 +44,7 @@ fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
 }
 
 impl Triangle {
-    /// Draws the triangle's part of the tile at `origin` into the target's samples.
+    /// Draws the triangle's part of the tile at `origin` into the target's samples. Gives the cells' samples where it shows.
     #[inline(always)]
     pub(super) fn draw(
         &self,
@@ -52,6 +52,7 @@ impl Triangle {
         origin: [usize; 2],
         stack: &Stack,
         target: &mut Target,
+        mut shows: impl FnMut(usize, &LaneMask),
     ) {
         let rows = self.bounds.rows_in(origin[1], stack);
         let columns = clip(self.bounds.x, origin[0], WIDTH);
@@ -102,6 +103,7 @@ impl Triangle {
                 if !any(&wins) {
                     continue;
                 }
+                shows(cell.index, &wins);
                 target.surface[cell.index] = nearest;
                 target.farthest_surface[cell.index] = least(&nearest);
                 overwrite(

@@ -289,6 +289,7 @@ fn vertex(x: f32, y: f32, inv_depth: f32, tone: f32) -> SurfaceVertex {
 fn square(inv_depth: f32) -> Surface {
     Surface {
         margin_m: 0.0,
+        mesh: 0,
         vertices: vec![
             vertex(0.0, 0.0, inv_depth, 1.0),
             vertex(20.0, 0.0, inv_depth, -1.0),
@@ -325,6 +326,7 @@ fn a_sample_on_an_edge_is_inside_and_a_flat_triangle_is_nothing() {
     drawing.runs.clear();
     let surface = |a, b, c| Surface {
         margin_m: 0.0,
+        mesh: 0,
         vertices: vec![a, b, c],
         triangles: vec![[0, 1, 2]],
         light: GREEN,

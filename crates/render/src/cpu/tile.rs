@@ -53,6 +53,13 @@ pub(super) fn greater(a: f32, b: f32) -> f32 {
     select(a > b, a, b)
 }
 
+/// A number for each sample of a tile that stands for something.
+pub(super) type IdPlane = Box<[[u32; LANES]; CELLS]>;
+
+pub(super) fn id_plane() -> IdPlane {
+    Box::new([[0; LANES]; CELLS])
+}
+
 /// Takes on the new values where `mask` is set.
 #[inline(always)]
 pub(super) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
@@ -72,7 +79,7 @@ pub(super) struct Stack {
     /// Pixels one below the other that it holds samples of: 1, 2 or 4.
     pub(super) height: usize,
     /// How many of its samples count. Those behind are the first one again, so that they hide and are hidden as it is.
-    samples: usize,
+    pub(super) samples: usize,
 }
 
 impl Stack {
@@ -117,7 +124,7 @@ pub(super) fn height(stacks: &[Stack]) -> usize {
 /// One number of each sample. Of fixed length, so that a cell's index is checked once for all planes.
 pub(super) type Plane = Box<[Lanes; CELLS]>;
 
-fn plane() -> Plane {
+pub(super) fn plane() -> Plane {
     Box::new([[0.0; LANES]; CELLS])
 }
 

@@ -105,7 +105,7 @@ fn gather(source: &ProgramSource, layout: &JointLayout) -> String {
                 params.push(format!("bitcast<i32>(gpu_words[{at}u])"));
                 1
             }
-            ParamKind::Integer { .. } | ParamKind::Choice { .. } => {
+            ParamKind::Integer { .. } | ParamKind::Choice { .. } | ParamKind::Texture { .. } => {
                 params.push(format!("gpu_words[{at}u]"));
                 1
             }

@@ -182,7 +182,8 @@ impl SceneWords {
         for strand in frame.strands {
             let [x, y, z] = strand.mean.to_array();
             let [root_size, shrink_start] = strand.taper.to_array();
-            let numbers = [x, y, z, strand.size, root_size, shrink_start].map(f32::to_bits);
+            let numbers = [x, y, z, strand.size, root_size, shrink_start, strand.lift];
+            let numbers = numbers.map(f32::to_bits);
             self.strands.push(strand.id);
             self.strands.extend(numbers);
         }

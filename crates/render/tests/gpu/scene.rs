@@ -131,6 +131,8 @@ impl Scene {
                 mean,
                 size: numbers.around(9.0, 8.0),
                 taper: tapers[i % tapers.len()],
+                level: 0,
+                lift: 0.0,
             });
         }
         // The last strands are an effect's own.
@@ -161,6 +163,7 @@ impl Scene {
             tone,
         };
         let surface = |margin_m, triangles| Surface {
+            mesh: 0,
             vertices: vec![
                 corner(-20.0, 10.0, 0.8, 1.0),
                 corner(80.0, 5.0, 1.1, -1.0),
@@ -282,6 +285,8 @@ impl Scene {
             order: self.order,
             edge_depth_m: 0.005,
             brush: self.brush,
+            features: render::Features::NONE,
+            roundness: 1.0,
         }
     }
 }

@@ -53,7 +53,7 @@ pub fn wrong(picture: &Picture, drawing: &Drawing, samples: u32) -> (usize, Opti
 }
 
 /// Every run's strokes nearer than the run's before by a share of their depth, so that no two are at the same.
-fn nudged(drawing: &Drawing, by: f32) -> Drawing {
+pub fn nudged(drawing: &Drawing, by: f32) -> Drawing {
     let mut nudged = drawing.clone();
     let joints = nudged.clump.len();
     for (i, run) in drawing.runs.iter().enumerate() {

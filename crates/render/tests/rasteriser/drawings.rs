@@ -63,6 +63,7 @@ fn surface(extent: f32) -> impl Strategy<Value = Surface> {
     )
         .prop_map(|(vertices, triangles, margin_m, light, shadow)| Surface {
             margin_m,
+            mesh: 1,
             vertices,
             triangles,
             light,
@@ -213,6 +214,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                     order,
                     edge_depth_m,
                     brush,
+                    ..Drawing::default()
                 }
             },
         )

@@ -5,5 +5,6 @@ mod agreement;
 mod card;
 mod drawings;
 mod exact;
+mod features;
 mod portrait;
 mod stamping;

@@ -156,6 +156,7 @@ pub fn portrait(size: [u32; 2], order: Order) -> Drawing {
         side_stretches: Stretches::Everywhere,
         edge_depth_m: 0.02,
         brush: Brush::Circle,
+        ..Drawing::default()
     }
 }
 

@@ -69,10 +69,9 @@ fn stamped(drawing: &Drawing, per_interval: usize) -> Drawing {
         surfaces: drawing.surfaces.clone(),
         background: drawing.background,
         order: Order::Shifted,
-        sides: Vec::new(),
-        side_stretches: Stretches::Everywhere,
         edge_depth_m: 0.0,
         brush: Brush::Circle,
+        ..Drawing::default()
     }
 }
 

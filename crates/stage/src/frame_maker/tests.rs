@@ -125,7 +125,11 @@ fn small() -> Scene {
 }
 
 fn look(sections: &Sections) -> Look {
-    Look::new(&Preset::new(1, sections.clone(), Vec::new())).unwrap()
+    Look::new(
+        &Preset::new(1, sections.clone(), Vec::new()),
+        &Files::default(),
+    )
+    .unwrap()
 }
 
 #[test]

@@ -97,7 +97,7 @@ impl Loaded<'_> {
     /// The same with variations of another seed. A bake that it has is of its own.
     fn with_seed(&mut self, seed: u32) -> Result<Object, StageError> {
         let own = std::mem::replace(&mut self.preset.seed, seed);
-        let look = Look::new(&self.preset);
+        let look = Look::new(&self.preset, &beside(&self.path));
         self.preset.seed = own;
         self.object.with_look(look?)
     }
@@ -161,7 +161,7 @@ impl<'r> Preset<'r> {
         let files = beside(&path);
         preset.check_files(&files)?;
         let first = notes.len();
-        let look = Arc::new(Look::new(&preset)?);
+        let look = Arc::new(Look::new(&preset, &files)?);
         let object = Object::load(&preset, &files, look, notes)?;
         for note in &mut notes[first..] {
             *note = format!("{}: {note}", path.display());

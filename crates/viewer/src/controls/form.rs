@@ -251,6 +251,16 @@ fn control(ui: &mut Ui, row: &Row, shown: &Shown, value: &Value, width: f32) -> 
             });
             (Some(response), new)
         }
+        (ParamKind::Texture { default, .. }, Value::Texture(_)) => {
+            let new = text_line(ui, row, "", written.unwrap_or(default), width, None);
+            let new = new.map(|new| match new.trim() {
+                "" => Asked::Default,
+                // A gradient, none, or a name in quotes; else a file's name without them.
+                text if read_value(text, kind).is_ok() => Asked::Text(text.to_owned()),
+                text => written_text(text),
+            });
+            (None, new)
+        }
         (ParamKind::Text, Value::Text(old)) => {
             let old = old.as_deref().unwrap_or_default();
             let new = text_line(ui, row, "", old, width, None);

@@ -4,7 +4,9 @@ use super::painter::{Backend, Painter};
 use super::{Drawn, Facts, Look, Problem, Times, Wish};
 use effects::Registry;
 use effects::preset::PresetErrors;
-use stage::{CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections, StageError};
+use stage::{
+    CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections, StageError, Textures,
+};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,6 +21,7 @@ pub(super) struct Slot<'r> {
     loaded: Option<Loaded>,
     motion: Motion,
     frames: FrameMaker,
+    textures: Textures,
     /// The last picture, and the backend that was asked for.
     last: Option<(Backend, Drawn)>,
 }
@@ -48,6 +51,7 @@ impl<'r> Slot<'r> {
             loaded: None,
             motion: Motion::new(),
             frames: FrameMaker::new(),
+            textures: Textures::default(),
             last: None,
         }
     }
@@ -75,6 +79,7 @@ impl<'r> Slot<'r> {
         let files = Files {
             preset_folder: look.folder.clone(),
             texts: look.texts.clone(),
+            textures: self.textures.clone(),
             ..Files::default()
         };
         let layers = preset
@@ -87,7 +92,7 @@ impl<'r> Slot<'r> {
             .retain(|layer| look.layers.is_shown(&layer.name));
         let from = From::of(&preset, &files, look);
         let made = match self.loaded.take() {
-            Some(loaded) if loaded.from == from => stage::Look::new(&preset)
+            Some(loaded) if loaded.from == from => stage::Look::new(&preset, &files)
                 .and_then(|own| loaded.scene.with_look(own))
                 .map_err(|error| (error, Some(loaded))),
             loaded => Scene::load(&preset, &files).map_err(|error| (error, loaded)),

@@ -2,6 +2,7 @@
 
 use crate::color::to_hex;
 use crate::param::{ParamKind, Value};
+use crate::texture::Texture;
 use crate::variation::Variation;
 use std::fmt::Write as _;
 
@@ -29,6 +30,9 @@ pub fn written(value: &Value, kind: &ParamKind) -> String {
         | (Value::Triple(color), ParamKind::Color { .. } | ParamKind::OptionalColor { .. }) => {
             format!("\"{}\"", to_hex(*color))
         }
+        (Value::Texture(Texture::None), _) => "none".to_owned(),
+        (Value::Texture(Texture::Ramp(ramp)), _) => ramp.written(),
+        (Value::Texture(Texture::File(file) | Texture::Image { file, .. }), _) => quoted(file),
         (Value::Text(value), _) => quoted(value.as_deref().unwrap_or_default()),
         (Value::Triple(values), _) => in_brackets(values.iter().map(|value| number(*value))),
         (Value::Pair(values), _) => in_brackets(values.iter().map(|value| number(*value))),

@@ -271,6 +271,7 @@ fn any_surface() -> impl Strategy<Value = Surface> {
     let triangles = proptest::collection::vec([0..5_u32, 0..5, 0..5], 0..4);
     (proptest::collection::vec(corner, 5), triangles).prop_map(|(vertices, triangles)| Surface {
         margin_m: if triangles.len() == 1 { f32::MAX } else { 0.0 },
+        mesh: 0,
         vertices,
         triangles,
         light: RED,
@@ -303,6 +304,7 @@ proptest! {
             order: Order::ALL[order],
             edge_depth_m: 1e30,
             brush: Brush::default(),
+            ..Drawing::default()
         };
         let picture = draw(&drawing, 2);
         prop_assert_eq!(picture.pixels.len(), (size[0] * size[1]) as usize);

@@ -1,0 +1,25 @@
+//! Effects of cartoon hair that paint what their strokes show, sample by sample: after Shin, Haller and Mukundan, "A Stylized Cartoon
+//! Hair Renderer" (2006), and Barla, Thollot and Markosian, "X-Toon" (2006).
+//!
+//! ```
+//! let mut registry = effects::Registry::new();
+//! effects_cartoon::register(&mut registry)?;
+//! let toon = registry.get("hair.toon").unwrap();
+//! assert!(toon.paints().is_some());
+//! # Ok::<(), effects::RegistryError>(())
+//! ```
+
+mod toon;
+
+pub use toon::Toon;
+
+use effects::{Registry, RegistryError};
+
+/// Registers all of them.
+///
+/// # Errors
+///
+/// When the registry already has an effect of the same id.
+pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
+    registry.register::<Toon>()
+}

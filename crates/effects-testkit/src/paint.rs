@@ -1,0 +1,111 @@
+//! What an effect paints is a colour, the same for the same sample, of what it declares alone.
+
+use crate::sample::{Sample, hostile_samples, list, samples};
+use crate::values::{Case, defaults, extremes};
+use effects::wgsl::Vec3;
+use effects::{AnyEffect, LayerProgram, ParamKind, SampleInput, SampleSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// The colours of these samples; none where the effect doesn't paint. The layer's seed is 1.
+pub(crate) fn paint(program: &dyn LayerProgram, samples: &[Sample]) -> Vec<Vec3<f32>> {
+    let Some(read) = program.paints() else {
+        return Vec::new();
+    };
+    let mut colors = Vec::new();
+    program.paint(&list(samples, read), 0..samples.len(), 1, &mut colors);
+    colors
+}
+
+pub(crate) fn reads_what_it_declares(effect: &dyn AnyEffect) -> Result<(), String> {
+    let program = effect.program(&defaults(effect).values);
+    let Some(declared) = program.paints() else {
+        let is_texture = |kind: &ParamKind| matches!(kind, ParamKind::Texture { .. });
+        return match effect.params().iter().find(|param| is_texture(&param.kind)) {
+            Some(param) => Err(format!(
+                "`{}` is a texture, which `place` looks up and `paint` reads: the effect has neither",
+                param.name
+            )),
+            None => Ok(()),
+        };
+    };
+    let samples = samples();
+    let works = |read: SampleSet| {
+        let run = AssertUnwindSafe(|| {
+            let mut colors = Vec::new();
+            program.paint(&list(&samples, read), 0..samples.len(), 1, &mut colors);
+        });
+        catch_unwind(run).is_ok()
+    };
+    if !works(declared) && works(SampleSet::of(SampleInput::ALL)) {
+        let names: Vec<_> = declared.iter().map(SampleInput::name).collect();
+        return Err(format!(
+            "it reads what of a sample it doesn't declare; it declares {}",
+            names.join(", ")
+        ));
+    }
+    Ok(())
+}
+
+pub(crate) fn is_a_color(effect: &dyn AnyEffect) -> Result<(), String> {
+    let mut tried = hostile_samples();
+    tried.extend(
+        samples()
+            .iter()
+            .step_by(9)
+            .map(|s| ("an ordinary sample", *s)),
+    );
+    for case in extremes(effect) {
+        let program = effect.program(&case.values);
+        look_at(&*program, &case, &tried)?;
+    }
+    Ok(())
+}
+
+fn look_at(
+    program: &dyn LayerProgram,
+    case: &Case,
+    tried: &[(&'static str, Sample)],
+) -> Result<(), String> {
+    let samples: Vec<Sample> = tried.iter().map(|(_, sample)| *sample).collect();
+    let colors = paint(program, &samples);
+    if program.paints().is_some() && colors.len() != samples.len() {
+        return Err(format!(
+            "{} samples give {} colours",
+            samples.len(),
+            colors.len()
+        ));
+    }
+    for (color, (what, _)) in colors.iter().zip(tried) {
+        let channels = ["red", "green", "blue"].into_iter().zip(color.to_array());
+        let mut wrong = channels.filter(|(_, light)| !(light.is_finite() && *light >= 0.0));
+        if let Some((channel, light)) = wrong.next() {
+            return Err(format!(
+                "{}, on {what}: `paint` gives {channel} {light}",
+                case.name
+            ));
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn is_the_same(effect: &dyn AnyEffect) -> Result<(), String> {
+    let program = effect.program(&defaults(effect).values);
+    let samples = samples();
+    let whole = paint(&*program, &samples);
+    let reversed: Vec<Sample> = samples.iter().rev().copied().collect();
+    let mut again = paint(&*program, &reversed);
+    again.reverse();
+    let alone = samples
+        .iter()
+        .flat_map(|sample| paint(&*program, &[*sample]));
+    let bits = |color: &Vec3<f32>| color.to_array().map(f32::to_bits);
+    for (how, colors) in [
+        ("at another place in the list", again),
+        ("painted alone", alone.collect()),
+    ] {
+        if !whole.iter().map(bits).eq(colors.iter().map(bits)) {
+            return Err(format!("{how} a sample has another colour"));
+        }
+    }
+    Ok(())
+}

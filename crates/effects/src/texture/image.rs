@@ -1,0 +1,335 @@
+//! Pictures as textures: linear light in half precision, with ever smaller copies for what is small on the screen.
+
+use crate::color::linear_from_srgb;
+use crate::wgsl::log_to_two;
+use half::f16;
+use std::sync::LazyLock;
+
+/// The texels of a picture, and of copies of half the size each down to one texel. Colours are multiplied by coverage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    levels: Vec<Level>,
+}
+
+/// One of the copies.
+#[derive(Clone, Debug, PartialEq)]
+struct Level {
+    size: [usize; 2],
+    /// Row by row from the top.
+    texels: Vec<[f16; 4]>,
+}
+
+/// Why a picture is no texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImageError {
+    /// It has no texels, or too many.
+    #[error("it is {} x {} texels; a texture has 1 to {MOST_TEXELS} on a side", .0[0], .0[1])]
+    Size([usize; 2]),
+    /// The list of texels is too long or too short.
+    #[error("it has {found} numbers in place of {expected}")]
+    Length {
+        /// How many there are.
+        found: usize,
+        /// Four a texel.
+        expected: usize,
+    },
+}
+
+/// Texels on a side at most: with its copies such a picture takes 180 MB.
+const MOST_TEXELS: usize = 4096;
+
+/// The linear value of each number from 0 to 65535 in sRGB.
+static LINEAR: LazyLock<Vec<f32>> = LazyLock::new(|| {
+    let values = 0..=u16::MAX;
+    values
+        .map(|x| linear_from_srgb(f64::from(x) / 65535.0) as f32)
+        .collect()
+});
+
+impl Image {
+    /// Texels on a side at most.
+    pub const MOST_TEXELS: usize = MOST_TEXELS;
+
+    /// A picture in sRGB: width and height, and red, green, blue and coverage of each texel, row by row from the top, from 0 to 65535
+    /// (eight bits times 257).
+    ///
+    /// # Errors
+    ///
+    /// When it has no texels or too many, or the list isn't four numbers each.
+    pub fn from_srgb(size: [usize; 2], rgba: &[u16]) -> Result<Self, ImageError> {
+        if !size.iter().all(|side| (1..=MOST_TEXELS).contains(side)) {
+            return Err(ImageError::Size(size));
+        }
+        let expected = 4 * size[0] * size[1];
+        if rgba.len() != expected {
+            return Err(ImageError::Length {
+                found: rgba.len(),
+                expected,
+            });
+        }
+        let texel = |rgba: &[u16]| {
+            let alpha = f32::from(rgba[3]) / 65535.0;
+            let color = |i: usize| LINEAR[usize::from(rgba[i])] * alpha;
+            [color(0), color(1), color(2), alpha]
+        };
+        let mut whole: Vec<[f32; 4]> = rgba.chunks_exact(4).map(texel).collect();
+        let mut size = size;
+        let mut levels = vec![Level::of(size, &whole)];
+        while size != [1, 1] {
+            let half = size.map(|side| (side / 2).max(1));
+            whole = smaller(&whole, size, half);
+            size = half;
+            levels.push(Level::of(size, &whole));
+        }
+        Ok(Self { levels })
+    }
+
+    /// Width and height in texels.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        self.levels[0].size
+    }
+
+    /// How many copies there are, with the whole, the largest first.
+    #[must_use]
+    pub fn levels(&self) -> usize {
+        self.levels.len()
+    }
+
+    /// Width, height and texels of a copy, row by row from the top: red, green and blue, linear and multiplied by coverage, and
+    /// coverage, in half precision.
+    ///
+    /// # Panics
+    ///
+    /// When there is no such copy.
+    #[must_use]
+    pub fn level(&self, level: usize) -> ([usize; 2], &[[f16; 4]]) {
+        let level = &self.levels[level];
+        (level.size, &level.texels)
+    }
+
+    /// The texel at a place, 0 to 1 from left to right and from top to bottom, blurred over `size` of the width: between the four
+    /// nearest of the two copies nearest in size. Colour, and coverage.
+    #[must_use]
+    pub fn at(&self, place: [f32; 2], size: f32, repeats: bool) -> [f32; 4] {
+        let last = (self.levels.len() - 1) as f32;
+        let texels = size.max(0.0) * self.size()[0] as f32;
+        // No size, or one that is no number, is the whole's.
+        let level = if texels > 1.0 {
+            log_to_two(texels).min(last)
+        } else {
+            0.0
+        };
+        let finer = level.floor();
+        let share = level - finer;
+        let mut texel = self.levels[finer as usize].at(place, repeats);
+        if share > 0.0 {
+            let coarser = self.levels[finer as usize + 1].at(place, repeats);
+            texel = mix(texel, coarser, share);
+        }
+        let [red, green, blue, alpha] = texel;
+        if alpha <= 0.0 {
+            return [0.0; 4];
+        }
+        [red / alpha, green / alpha, blue / alpha, alpha]
+    }
+}
+
+impl Level {
+    fn of(size: [usize; 2], texels: &[[f32; 4]]) -> Self {
+        let texels = texels.iter().map(|texel| texel.map(f16::from_f32));
+        Self {
+            size,
+            texels: texels.collect(),
+        }
+    }
+
+    /// Between the middles of the four nearest texels.
+    fn at(&self, place: [f32; 2], repeats: bool) -> [f32; 4] {
+        let [across, down] = [0, 1].map(|i| nearest(place[i], self.size[i], repeats));
+        let row = |y: usize| {
+            let texel = |x: usize| self.texels[y * self.size[0] + x].map(f16::to_f32);
+            mix(texel(across.0), texel(across.1), across.2)
+        };
+        mix(row(down.0), row(down.1), down.2)
+    }
+}
+
+/// The two texels nearest to a place along a side, and how far it is from the first's middle to the second's.
+fn nearest(place: f32, side: usize, repeats: bool) -> (usize, usize, f32) {
+    let place = if repeats {
+        place - place.floor()
+    } else {
+        place.clamp(0.0, 1.0)
+    };
+    let texel = place * side as f32 - 0.5;
+    let first = texel.floor();
+    let share = texel - first;
+    let last = side as i32 - 1;
+    let index = |i: i32| match i {
+        _ if (0..=last).contains(&i) => i as usize,
+        _ if repeats => i.rem_euclid(side as i32) as usize,
+        _ => i.clamp(0, last) as usize,
+    };
+    (index(first as i32), index(first as i32 + 1), share)
+}
+
+/// A copy of another size: each texel is the mean of what it covers.
+fn smaller(texels: &[[f32; 4]], from: [usize; 2], to: [usize; 2]) -> Vec<[f32; 4]> {
+    let columns = shares(from[0], to[0]);
+    let rows = shares(from[1], to[1]);
+    let mut narrow = Vec::with_capacity(to[0] * from[1]);
+    for row in texels.chunks_exact(from[0]) {
+        narrow.extend(columns.iter().map(|share| mean(share, |x| row[x])));
+    }
+    let of_row = |row: &Vec<(usize, f32)>| -> Vec<[f32; 4]> {
+        (0..to[0])
+            .map(|x| mean(row, |y| narrow[y * to[0] + x]))
+            .collect()
+    };
+    rows.iter().flat_map(of_row).collect()
+}
+
+/// Of each texel of a side the texels of the longer one that it covers, with their shares, whose sum is 1.
+fn shares(from: usize, to: usize) -> Vec<Vec<(usize, f32)>> {
+    let length = from as f64 / to as f64;
+    let covered = |i: usize| {
+        let (start, end) = (i as f64 * length, (i + 1) as f64 * length);
+        let share = |x: usize| {
+            let part = end.min((x + 1) as f64) - start.max(x as f64);
+            (x, (part / length) as f32)
+        };
+        let last = (end.ceil() as usize).min(from);
+        (start as usize..last)
+            .map(share)
+            .filter(|(_, share)| *share > 0.0)
+            .collect()
+    };
+    (0..to).map(covered).collect()
+}
+
+fn mean(shares: &[(usize, f32)], texel: impl Fn(usize) -> [f32; 4]) -> [f32; 4] {
+    let mut sum = [0.0; 4];
+    for &(index, share) in shares {
+        let texel = texel(index);
+        for (sum, x) in sum.iter_mut().zip(texel) {
+            *sum += share * x;
+        }
+    }
+    sum
+}
+
+fn mix(from: [f32; 4], to: [f32; 4], share: f32) -> [f32; 4] {
+    std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const WHITE: [u16; 4] = [65535; 4];
+    const BLACK: [u16; 4] = [0, 0, 0, 65535];
+
+    fn image(size: [usize; 2], texels: &[[u16; 4]]) -> Image {
+        Image::from_srgb(size, texels.as_flattened()).unwrap()
+    }
+
+    #[test]
+    fn between_the_middles_of_texels_colour_is_linear() {
+        let two = image([2, 1], &[BLACK, WHITE]);
+        for (x, light) in [
+            (0.0, 0.0),
+            (0.25, 0.0),
+            (0.5, 0.5),
+            (0.625, 0.75),
+            (0.75, 1.0),
+            (1.0, 1.0),
+            (7.0, 1.0),
+        ] {
+            assert_eq!(
+                two.at([x, 0.5], 0.0, false),
+                [light, light, light, 1.0],
+                "{x}"
+            );
+        }
+        // At the edge of what repeats it is between the last and the first.
+        assert_eq!(two.at([1.0, 0.5], 0.0, true), [0.5, 0.5, 0.5, 1.0]);
+        assert_eq!(
+            two.at([-3.25, 0.5], 0.0, true),
+            two.at([0.75, 0.5], 0.0, true)
+        );
+    }
+
+    #[test]
+    fn what_is_not_there_colours_nothing() {
+        let two = image([2, 1], &[[0; 4], WHITE]);
+        assert_eq!(two.at([0.5, 0.5], 0.0, false), [1.0, 1.0, 1.0, 0.5]);
+        assert_eq!(two.at([0.0, 0.5], 0.0, false), [0.0; 4]);
+    }
+
+    #[test]
+    fn what_is_small_is_blurred() {
+        let stripes: Vec<_> = (0..64)
+            .map(|x| if x % 2 == 0 { BLACK } else { WHITE })
+            .collect();
+        let stripes = image([64, 1], &stripes);
+        assert_eq!(stripes.levels(), 7);
+        for size in [2.0 / 64.0, 0.5, 1.0, 100.0] {
+            let [light, .., alpha] = stripes.at([0.3, 0.5], size, true);
+            assert!(
+                (light - 0.5).abs() < 1e-3 && alpha == 1.0,
+                "{size}: {light}"
+            );
+        }
+        for size in [f32::NAN, f32::INFINITY, -1.0] {
+            assert!(
+                stripes
+                    .at([0.3, 0.5], size, true)
+                    .iter()
+                    .all(|x| x.is_finite())
+            );
+        }
+    }
+
+    #[test]
+    fn sizes_are_limited() {
+        let error = |size, length| Image::from_srgb(size, &vec![0; length]).unwrap_err();
+        for size in [[0, 1], [1, 0], [30_000, 1]] {
+            assert_eq!(error(size, 0), ImageError::Size(size));
+        }
+        assert!(error([30_000, 1], 0).to_string().contains("1 to 4096"));
+        assert_eq!(
+            error([2, 1], 4),
+            ImageError::Length {
+                found: 4,
+                expected: 8
+            }
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn copies_keep_the_mean(width in 1_usize..12, height in 1_usize..12, seed: u64) {
+            let count = width * height;
+            let texels: Vec<[f32; 4]> = (0..count).map(|i| {
+                let hash = seed.wrapping_mul(i as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+                [(hash >> 40) as f32 / 16_777_216.0; 4]
+            }).collect();
+            let to = [(width / 2).max(1), (height / 2).max(1)];
+            let mean = |texels: &[[f32; 4]]| texels.iter().map(|t| t[0]).sum::<f32>() / texels.len() as f32;
+            let copy = smaller(&texels, [width, height], to);
+            prop_assert_eq!(copy.len(), to[0] * to[1]);
+            prop_assert!((mean(&copy) - mean(&texels)).abs() < 1e-5);
+        }
+
+        #[test]
+        fn any_place_has_a_texel(x: f32, y: f32, size: f32, repeats: bool) {
+            let image = image([3, 2], &[WHITE, BLACK, WHITE, BLACK, [0; 4], WHITE]);
+            let place = [x, y].map(|x| if x.is_finite() { x } else { 0.0 });
+            let texel = image.at(place, size, repeats);
+            prop_assert!(texel.iter().all(|x| (0.0..=1.0001).contains(x)), "{:?}", texel);
+        }
+    }
+}

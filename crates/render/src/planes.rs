@@ -1,0 +1,306 @@
+//! What the samples of a picture tell: for each feature a plane of numbers.
+
+use crate::features::{Feature, Features, NO_ID};
+use glam::Vec3;
+
+/// Up to four samples of each pixel of a picture, with the features that are declared.
+///
+/// Sample k of all pixels is a picture of its own, shifted by less than a pixel: neighbours are a pixel away. Planes are kept row by
+/// row, in bands of rows that are drawn beside each other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SamplePlanes {
+    pub(crate) size: [u32; 2],
+    pub(crate) declared: Features,
+    /// The number of the first sample, and how many there are.
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+    /// Rows of a band.
+    pub(crate) band: usize,
+    /// Band after band; in each sample after sample, in that plane after plane, in that row after row.
+    pub(crate) ids: Vec<u32>,
+    pub(crate) numbers: Vec<f32>,
+}
+
+/// One sample. What isn't declared is as where nothing is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// [`Feature::Object`].
+    pub object: u32,
+    /// [`Feature::Strand`].
+    pub strand: u32,
+    /// [`Feature::Piece`].
+    pub piece: u32,
+    /// [`Feature::Layer`].
+    pub layer: u32,
+    /// [`Feature::Level`].
+    pub level: u32,
+    /// [`Feature::InvDepth`], 1/m.
+    pub inv_depth: f32,
+    /// [`Feature::U`].
+    pub u: f32,
+    /// [`Feature::S`], head heights.
+    pub s: f32,
+    /// [`Feature::V`].
+    pub v: f32,
+    /// [`Feature::W`].
+    pub w: f32,
+    /// [`Feature::Pixels`].
+    pub pixels: f32,
+    /// [`Feature::Normal`].
+    pub normal: Vec3,
+    /// [`Feature::Color`]: red, green, blue, and whether anything is there.
+    pub color: [f32; 4],
+}
+
+impl Sample {
+    /// What a sample tells that shows nothing.
+    pub const NOTHING: Self = Self {
+        object: 0,
+        strand: NO_ID,
+        piece: NO_ID,
+        layer: NO_ID,
+        level: NO_ID,
+        inv_depth: 0.0,
+        u: 0.0,
+        s: 0.0,
+        v: 0.0,
+        w: 0.0,
+        pixels: 0.0,
+        normal: Vec3::ZERO,
+        color: [0.0; 4],
+    };
+
+    /// An id.
+    #[must_use]
+    pub fn id(&self, feature: Feature) -> u32 {
+        match feature {
+            Feature::Object => self.object,
+            Feature::Strand => self.strand,
+            Feature::Piece => self.piece,
+            Feature::Layer => self.layer,
+            Feature::Level => self.level,
+            _ => NO_ID,
+        }
+    }
+
+    /// A component of a feature that is no id.
+    #[must_use]
+    pub fn number(&self, feature: Feature, component: usize) -> f32 {
+        match feature {
+            Feature::InvDepth => self.inv_depth,
+            Feature::U => self.u,
+            Feature::S => self.s,
+            Feature::V => self.v,
+            Feature::W => self.w,
+            Feature::Pixels => self.pixels,
+            Feature::Normal => self
+                .normal
+                .to_array()
+                .get(component)
+                .copied()
+                .unwrap_or(0.0),
+            Feature::Color => self.color.get(component).copied().unwrap_or(0.0),
+            _ => 0.0,
+        }
+    }
+}
+
+/// What is there of every picture: whether anything is shown, and how near.
+const ALWAYS: Features = Features::of(&[Feature::Object, Feature::InvDepth]);
+
+impl SamplePlanes {
+    /// Where the planes of a feature begin among those of its kind, in a sample's; none where it isn't declared.
+    fn plane(declared: Features, feature: Feature) -> Option<usize> {
+        let before = declared
+            .iter()
+            .take_while(|other| *other != feature)
+            .filter(|other| other.is_id() == feature.is_id());
+        let place = before.map(Feature::components).sum();
+        declared.has(feature).then_some(place)
+    }
+
+    /// How many planes a sample has: of ids, and of numbers.
+    fn planes(declared: Features) -> [usize; 2] {
+        [true, false].map(|ids| {
+            let of_kind = declared.iter().filter(|feature| feature.is_id() == ids);
+            of_kind.map(Feature::components).sum()
+        })
+    }
+
+    /// Makes room for samples that show nothing, with a background's colour; `None` where there isn't enough memory.
+    /// [`Feature::Object`] and [`Feature::InvDepth`] are always there.
+    pub(crate) fn reset(
+        &mut self,
+        size: [u32; 2],
+        declared: Features,
+        [first, count]: [usize; 2],
+        band: usize,
+        background: Option<[f32; 3]>,
+    ) -> Option<()> {
+        let declared = declared.union(ALWAYS);
+        (self.size, self.declared) = (size, declared);
+        (self.first, self.count, self.band) = (first, count, band);
+        let bands = (size[1] as usize).div_ceil(band);
+        let [ids, numbers] = self.of_band();
+        self.ids.clear();
+        self.ids.try_reserve_exact(bands * ids).ok()?;
+        self.numbers.clear();
+        self.numbers.try_reserve_exact(bands * numbers).ok()?;
+        let color = background.map_or([0.0; 4], |[red, green, blue]| {
+            [
+                red.clamp(0.0, 1.0),
+                green.clamp(0.0, 1.0),
+                blue.clamp(0.0, 1.0),
+                1.0,
+            ]
+        });
+        let nothing = Sample {
+            color,
+            ..Sample::NOTHING
+        };
+        let plane = size[0] as usize * band;
+        for _ in 0..bands * count {
+            for feature in declared.iter() {
+                if feature.is_id() {
+                    self.ids.resize(self.ids.len() + plane, nothing.id(feature));
+                    continue;
+                }
+                for component in 0..feature.components() {
+                    let value = nothing.number(feature, component);
+                    self.numbers.resize(self.numbers.len() + plane, value);
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Ids and numbers of a band.
+    pub(crate) fn of_band(&self) -> [usize; 2] {
+        let plane = self.size[0] as usize * self.band;
+        Self::planes(self.declared).map(|planes| planes * plane * self.count)
+    }
+
+    /// Width and height, pixels.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// What is declared, [`Feature::Object`] and [`Feature::InvDepth`] always.
+    #[must_use]
+    pub fn declared(&self) -> Features {
+        self.declared
+    }
+
+    /// The numbers of its samples, as [`sample_positions`](crate::sample_positions) counts them.
+    #[must_use]
+    pub fn samples(&self) -> std::ops::Range<usize> {
+        self.first..self.first + self.count
+    }
+
+    /// Where a row of a plane is.
+    fn row(&self, picture: usize, plane: usize, planes: usize, y: usize) -> std::ops::Range<usize> {
+        let width = self.size[0] as usize;
+        let band = y / self.band;
+        let of_sample = (band * self.count + picture) * planes + plane;
+        let start = (of_sample * self.band + y % self.band) * width;
+        start..start + width
+    }
+
+    /// Row `y` of an id, of the `picture`th of its samples; empty where it isn't declared.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such row or sample.
+    #[must_use]
+    pub fn ids(&self, picture: usize, feature: Feature, y: usize) -> &[u32] {
+        assert!(picture < self.count && y < self.size[1] as usize);
+        let [planes, _] = Self::planes(self.declared);
+        match Self::plane(self.declared, feature).filter(|_| feature.is_id()) {
+            Some(plane) => &self.ids[self.row(picture, plane, planes, y)],
+            None => &[],
+        }
+    }
+
+    /// Row `y` of a component of a feature that is no id, of the `picture`th of its samples; empty where it isn't declared.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such row, sample or component.
+    #[must_use]
+    pub fn numbers(&self, picture: usize, feature: Feature, component: usize, y: usize) -> &[f32] {
+        assert!(picture < self.count && y < self.size[1] as usize);
+        assert!(component < feature.components());
+        let [_, planes] = Self::planes(self.declared);
+        match Self::plane(self.declared, feature).filter(|_| !feature.is_id()) {
+            Some(plane) => &self.numbers[self.row(picture, plane + component, planes, y)],
+            None => &[],
+        }
+    }
+
+    /// A sample, by its place among those that are kept.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no such sample.
+    #[must_use]
+    pub fn sample(&self, picture: usize, x: usize, y: usize) -> Sample {
+        let id = |feature| {
+            self.ids(picture, feature, y)
+                .get(x)
+                .copied()
+                .unwrap_or(NO_ID)
+        };
+        let number = |feature, component| {
+            let row = self.numbers(picture, feature, component, y);
+            row.get(x).copied().unwrap_or(0.0)
+        };
+        let of = |feature| number(feature, 0);
+        Sample {
+            object: id(Feature::Object),
+            strand: id(Feature::Strand),
+            piece: id(Feature::Piece),
+            layer: id(Feature::Layer),
+            level: id(Feature::Level),
+            inv_depth: of(Feature::InvDepth),
+            u: of(Feature::U),
+            s: of(Feature::S),
+            v: of(Feature::V),
+            w: of(Feature::W),
+            pixels: of(Feature::Pixels),
+            normal: Vec3::from_array([0, 1, 2].map(|i| number(Feature::Normal, i))),
+            color: [0, 1, 2, 3].map(|i| number(Feature::Color, i)),
+        }
+    }
+}
+
+/// The samples of a band as they are drawn.
+pub(crate) struct BandPlanes<'a> {
+    pub(crate) width: usize,
+    pub(crate) declared: Features,
+    /// Rows of the band, and samples of each pixel.
+    pub(crate) band: usize,
+    pub(crate) ids: &'a mut [u32],
+    pub(crate) numbers: &'a mut [f32],
+}
+
+impl BandPlanes<'_> {
+    /// Puts in a sample at a row of the band.
+    pub(crate) fn put(&mut self, picture: usize, x: usize, row: usize, sample: &Sample) {
+        let [ids, numbers] = SamplePlanes::planes(self.declared);
+        let (mut id, mut number) = (picture * ids, picture * numbers);
+        let plane = self.band * self.width;
+        let place = row * self.width + x;
+        for feature in self.declared.iter() {
+            if feature.is_id() {
+                self.ids[id * plane + place] = sample.id(feature);
+                id += 1;
+                continue;
+            }
+            for component in 0..feature.components() {
+                self.numbers[number * plane + place] = sample.number(feature, component);
+                number += 1;
+            }
+        }
+    }
+}
