@@ -4,7 +4,7 @@
 use crate::Outcome;
 use crate::program::{cargo, on_ci, succeed};
 
-/// Writes `docs/images/styling` and `docs/images/gallery`.
+/// Writes `docs/images/styling`, `docs/images/gallery` and `docs/images/motion`.
 ///
 /// # Errors
 /// A page doesn't hold, or this is a machine that tests by itself: new pictures are to be looked at.
@@ -16,7 +16,7 @@ pub fn run() -> Outcome {
     test.env("INKSTRAND_PICTURES", "draw");
     succeed(test)?;
     println!(
-        "  docs/images/styling and docs/images/gallery are drawn: look at them before they are kept"
+        "  docs/images/styling, docs/images/gallery and docs/images/motion are drawn: look at them before they are kept"
     );
     Ok(())
 }

@@ -30,6 +30,7 @@
 //! ```
 
 use crate::param::{Param, ParamKind, Value, Values};
+use crate::variation::Variation;
 use std::marker::PhantomData;
 use std::ops::RangeInclusive;
 
@@ -166,6 +167,17 @@ pub const fn number(default: f32, range: RangeInclusive<f32>) -> Spec<f32> {
     })
 }
 
+/// A number that may vary along a strand and from strand to strand.
+#[must_use]
+pub const fn varying(default: f32, range: RangeInclusive<f32>) -> Spec<Variation> {
+    Spec::new(ParamKind::Number {
+        min: *range.start(),
+        max: *range.end(),
+        default,
+        varies: true,
+    })
+}
+
 /// A whole number, 0 or more.
 #[must_use]
 pub const fn whole(default: u32, range: RangeInclusive<u32>) -> Spec<u32> {
@@ -260,6 +272,23 @@ param_type!(Option<String>: Value::Text(text) => text, own => Value::Text(own.cl
 // More than an `i32` holds is outside of any range.
 param_type!(u32: Value::Integer(number) => number.unsigned_abs(),
     own => Value::Integer(i32::try_from(*own).unwrap_or(i32::MIN)));
+
+impl ParamType for Variation {
+    fn from_value(value: Value) -> Self {
+        match value {
+            Value::Number(number) => Self::constant(number),
+            Value::Varying(variation) => variation,
+            other => wrong_kind(&other),
+        }
+    }
+
+    fn to_value(&self) -> Option<Value> {
+        Some(match self.as_constant() {
+            Some(number) => Value::Number(number),
+            None => Value::Varying(self.clone()),
+        })
+    }
+}
 
 impl ParamType for [f32; 3] {
     fn from_value(value: Value) -> Self {

@@ -62,6 +62,23 @@ impl Variation {
         Ok(Self { curve, vary })
     }
 
+    /// The same everywhere.
+    #[must_use]
+    pub fn constant(value: f32) -> Self {
+        Self {
+            curve: vec![(0.0, value)],
+            vary: 0.0,
+        }
+    }
+
+    /// The value where it is the same everywhere.
+    #[must_use]
+    pub fn as_constant(&self) -> Option<f32> {
+        let (_, first) = self.curve[0];
+        let is_same = self.curve.iter().all(|(_, value)| *value == first);
+        (is_same && self.vary == 0.0).then_some(first)
+    }
+
     /// The value at `u` along the strand.
     #[must_use]
     pub fn at(&self, u: f32) -> f32 {

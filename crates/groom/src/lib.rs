@@ -53,5 +53,5 @@ pub use guides::Guides;
 pub use shell::{Place, Shell, direction};
 pub use style::{
     Accessory, AccessoryKind, Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, OrnamentMesh, Scalp,
-    Style, Taper, Tie, TieKind, Zone, grow,
+    Style, Taper, Tie, TieKind, Zone, grow, zone_of,
 };

@@ -2,4 +2,5 @@
 
 pub(crate) mod mutual;
 pub(crate) mod springs;
+pub(crate) mod stream;
 pub(crate) mod wind;

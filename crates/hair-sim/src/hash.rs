@@ -34,6 +34,10 @@ impl Hash {
         }
     }
 
+    pub(crate) fn add_number(&mut self, number: f64) {
+        self.add_word(number.to_bits());
+    }
+
     pub(crate) fn add_turn(&mut self, turn: DQuat) {
         for number in turn.to_array() {
             self.add_word(number.to_bits());

@@ -96,7 +96,11 @@ pub use collision::{
     shape::{Collider, Shape},
 };
 pub use error::{DynamicsError, Fault, Reason};
-pub use forces::{mutual::Mutual, wind::Wind};
+pub use forces::{
+    mutual::Mutual,
+    stream::{Flow, Stream, Turbulence},
+    wind::Wind,
+};
 pub use params::{GRAVITY, Material, Natural, Params, Profile};
 pub use point_cache::{PointCache, PointCacheError, spline::key_weights};
 pub use pose::Pose;

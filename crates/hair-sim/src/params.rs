@@ -134,6 +134,10 @@ pub struct Params {
     pub damping: f64,
     /// Drag of the air across the strand in 1/s, 0 to 1e4: the rate at which a strand takes on the wind's speed.
     pub drag: f64,
+    /// A factor on the drag along the strand, 0 to 1e4.
+    pub drag_at: Profile,
+    /// The share of the wind's speed that reaches it along the strand, 0 to 1e3: the rest is kept off by hair around it.
+    pub wind: Profile,
     /// Drag along the strand over that across it, 0 to 1. A slender cylinder has 0.5.
     pub drag_along: f64,
     /// Pull of every particle towards its place in the goal shape, in 1/s^2, 0 to 1e9: acceleration per
@@ -153,6 +157,8 @@ impl Default for Params {
             natural: Natural::Balanced,
             damping: 0.005,
             drag: 2.0,
+            drag_at: Profile::constant(1.0),
+            wind: Profile::constant(1.0),
             drag_along: 0.5,
             goal: Profile::constant(0.0),
             thickness: 1e-3,
@@ -180,7 +186,7 @@ impl Params {
         let bends = 12.36 * bending / length.powi(4);
         let goal = self.goal.at(0.8);
         let frequency = (1.53 * gravity.abs() / length + bends + goal).sqrt();
-        let decay = 0.5 * (self.drag + self.damping * bends) + goal.sqrt();
+        let decay = 0.5 * (self.drag * self.drag_at.at(0.8) + self.damping * bends) + goal.sqrt();
         let swings = SWINGS.min(FADES / decay);
         if swings * frequency < CYCLES * TAU {
             return LONGEST_STEP;
@@ -213,6 +219,8 @@ impl Params {
             ("torsion", torsion, -1e4, 1e4),
             ("damping", self.damping, 0.0, 10.0),
             ("drag", self.drag, 0.0, 1e4),
+            ("drag_at", profile(&self.drag_at, 0.0, 1e4), 0.0, 1e4),
+            ("wind", profile(&self.wind, 0.0, 1e3), 0.0, 1e3),
             ("drag_along", self.drag_along, 0.0, 1.0),
             ("goal", profile(&self.goal, 0.0, 1e9), 0.0, 1e9),
             ("thickness", self.thickness, 0.0, 0.1),

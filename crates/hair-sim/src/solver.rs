@@ -334,8 +334,7 @@ impl Solver {
                 ..Stats::default()
             });
         }
-        let gusts =
-            [GAMMA, 1.0].map(|share| surroundings.wind_at(share).at(state.time + share * dt));
+        let gusts = [GAMMA, 1.0].map(|share| surroundings.air_at(share, state.time + share * dt));
         self.guards.clear();
         self.guards
             .extend(surroundings.colliders.iter().map(Guard::new));

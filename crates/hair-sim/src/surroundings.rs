@@ -3,8 +3,13 @@
 use glam::{DMat3, DVec3, Vec3};
 
 use crate::{
-    collision::shape::Collider, error::DynamicsError, forces::wind::Wind, hash::Hash,
-    params::GRAVITY, pose::Pose,
+    collision::shape::Collider,
+    error::DynamicsError,
+    forces::stream::Stream,
+    forces::wind::{Gusts, Wind},
+    hash::Hash,
+    params::GRAVITY,
+    pose::Pose,
 };
 
 /// In s. Velocities are differences of places over the step: below it they would be those of rounding.
@@ -71,6 +76,8 @@ pub struct Surroundings<'a> {
     pub wind: Wind,
     /// And when it starts, where it is another: steady wind and gusts change evenly in between.
     pub wind_before: Option<Wind>,
+    /// Streams of air beside the wind.
+    pub streams: &'a [Stream],
     /// What hair cannot enter.
     pub colliders: &'a [Collider<'a>],
     /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; `None`
@@ -86,6 +93,7 @@ impl Default for Surroundings<'_> {
             gravity: DVec3::new(0.0, -GRAVITY, 0.0),
             wind: Wind::default(),
             wind_before: None,
+            streams: &[],
             colliders: &[],
             goal: None,
         }
@@ -112,6 +120,9 @@ impl Surroundings<'_> {
         }
         if !(self.wind.is_finite() && self.wind_before.is_none_or(|wind| wind.is_finite())) {
             return Err(DynamicsError::Surroundings("wind"));
+        }
+        if !self.streams.iter().all(Stream::is_finite) {
+            return Err(DynamicsError::Surroundings("stream"));
         }
         if !self.colliders.iter().all(Collider::is_finite) {
             return Err(DynamicsError::Surroundings("collider"));
@@ -141,11 +152,16 @@ impl Surroundings<'_> {
     pub(crate) fn is_calm(&self) -> bool {
         let still = |c: &Collider| c.before == c.now;
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
-        self.wind.gust == 0.0 && is_even && self.colliders.iter().all(still)
+        let steady = self.streams.iter().all(Stream::is_steady);
+        self.wind.gust == 0.0 && is_even && steady && self.colliders.iter().all(still)
     }
 
-    /// The motion of the air at `share` of the step, 0 to 1.
-    pub(crate) fn wind_at(&self, share: f64) -> Wind {
+    /// The motion of the air at `share` of the step, 0 to 1, which is at `time` seconds.
+    pub(crate) fn air_at(&self, share: f64, time: f64) -> Gusts<'_> {
+        self.wind_at(share).at(time).with(self.streams, share)
+    }
+
+    fn wind_at(&self, share: f64) -> Wind {
         let now = self.wind;
         let Some(before) = self.wind_before else {
             return now;
@@ -172,6 +188,9 @@ impl Surroundings<'_> {
             for axis in [turn.x_axis, turn.y_axis, turn.z_axis] {
                 hash.add(axis);
             }
+        }
+        for number in self.streams.iter().flat_map(Stream::numbers) {
+            hash.add_number(number);
         }
         for collider in self.colliders {
             hash.add(collider.now.translation);

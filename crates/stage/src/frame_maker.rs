@@ -450,7 +450,7 @@ impl ObjectFrame {
         let (rotation, _) = rigid(motion.pose(), hair.head);
         material.turn(rest.points(), strands(), hair.head.center, rotation);
         match motion.dynamics() {
-            _ if hair.file.motion.is_some() => {
+            _ if hair.file.motion.is_some() || motion.has_points_alone(&self.of) => {
                 material.follow(rest.points(), points, strands(), rotation);
             }
             None if hair.shapes.is_some() => {

@@ -1,5 +1,6 @@
 //! Hair as a scene has it: strands with their sizes, what the head holds of them, and the shapes that are wanted of them.
 
+use crate::dynamics::ZoneDynamics;
 use crate::files::StageError;
 use crate::head::HeadModel;
 use crate::preset::HairSection;
@@ -27,6 +28,8 @@ pub struct HairModel {
     pub(crate) shapes: Option<PointCache>,
     /// The bake that its file's motion is of.
     pub(crate) bake: Option<PathBuf>,
+    /// How the hair of each zone of its style moves, where the style says so.
+    pub(crate) zone_dynamics: Vec<Option<ZoneDynamics>>,
     /// The ties that gather it, and what lies on it.
     pub(crate) ornaments: Vec<OrnamentMesh>,
     /// The head that it stands on.
@@ -76,6 +79,7 @@ impl HairModel {
             infos: Vec::new(),
             shapes: None,
             bake: None,
+            zone_dynamics: Vec::new(),
             ornaments: Vec::new(),
             head: match head {
                 Some(head) => head.frame(&all_roots),
@@ -133,6 +137,14 @@ impl HairModel {
         self.undercoat = indices.iter().filter(is_undercoat).count();
         self.held = indices.iter().map(|&i| self.held[i]).collect();
         self.tapers = indices.iter().map(|&i| self.tapers[i]).collect();
+    }
+
+    /// How the strand of this id moves by its zone, where that says so.
+    pub(crate) fn zone_dynamics(&self, id: u32) -> Option<&ZoneDynamics> {
+        if self.zone_dynamics.is_empty() {
+            return None;
+        }
+        self.zone_dynamics.get(groom::zone_of(id)?)?.as_ref()
     }
 
     /// How many points from its root a strand keeps on the head, at least its root.

@@ -3,6 +3,7 @@
 
 mod bake;
 mod check;
+mod closed;
 mod dynamics;
 mod files;
 mod frame_maker;
@@ -30,6 +31,7 @@ mod textures;
 
 pub use bake::{Bake, is_bake};
 pub use check::{check_hair, check_motion, check_style};
+pub use closed::Return;
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 pub use files::{Files, StageError};
 pub use frame_maker::FrameMaker;
@@ -43,7 +45,7 @@ pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
     BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, ExpressionChoice,
-    EyesChoice, FixedTo, HairSection, HeadSection, HeadShape, LightKind, LightSection,
+    EyesChoice, FixedTo, HairSection, HeadSection, HeadShape, HeldChoice, LightKind, LightSection,
     MotionSection, NamedObject, ObjectSection, OrderChoice, PathChoice, PathSection, Preset,
     SceneSection, Sections, TopSection, UpAxis, VERSION,
 };

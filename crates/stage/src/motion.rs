@@ -1,11 +1,13 @@
 //! The motion of a scene: where its heads are, and their hair.
 
 use crate::bake::Bake;
+use crate::closed::{Closed, Return, move_by, off_head};
 use crate::dynamics::Dynamics;
 use crate::files::StageError;
 use crate::hand::{Driver, Hand};
 use crate::neck::rigid;
 use crate::object::Object;
+use crate::preset::{HeldChoice, MotionSection};
 use crate::reach::may_see;
 use crate::scene::{Scene, mean_head};
 use crate::script::HeadPose;
@@ -27,6 +29,8 @@ pub(crate) struct ObjectMotion {
     pose: HeadPose,
     points: Vec<Vec3>,
     dynamics: Option<Dynamics>,
+    /// In place of dynamics where the script goes round.
+    closed: Option<Closed>,
     /// What this is the motion of, and the scene's frames a second.
     of: Option<(Object, f32)>,
 }
@@ -117,11 +121,16 @@ impl Motion {
             let came_to = motion.advance(object, scene.fps(), time, camera, hand, goes_on)?;
             reached = reached.min(came_to);
         }
-        self.time_s = reached as f32;
+        // What hangs on time alone is held with the rest.
+        let held = held_time(&scene.look().sections.motion, scene.fps(), reached);
+        self.time_s = match scene.look().sections.motion.held {
+            HeldChoice::All => held as f32,
+            HeldChoice::Hair => reached as f32,
+        };
         Ok(reached == time)
     }
 
-    /// The time that it was last moved to, seconds.
+    /// The time that it was last moved to, seconds: that of the pose, where poses are held.
     #[must_use]
     pub fn time_s(&self) -> f32 {
         self.time_s
@@ -149,6 +158,23 @@ impl Motion {
     #[must_use]
     pub fn steps_taken(&self) -> u64 {
         self.dynamics().map(Dynamics::taken).sum()
+    }
+
+    /// The points of all strands of the object of that index as they stand, one strand after the other, metres, where its files have it; none
+    /// where the scene has no such object.
+    #[must_use]
+    pub fn points<'a>(&'a self, scene: &'a Scene, index: usize) -> &'a [Vec3] {
+        let object = scene.objects().get(index);
+        object.map_or(&[], |object| self.of(index, object).points(object))
+    }
+
+    /// How well hair whose script goes round came back to where it was, of each object that has such.
+    pub fn returns(&self) -> impl Iterator<Item = Return> {
+        let closed = self
+            .objects
+            .iter()
+            .filter_map(|object| object.closed.as_ref());
+        closed.filter_map(Closed::came_back)
     }
 
     fn dynamics(&self) -> impl Iterator<Item = &Dynamics> {
@@ -183,6 +209,7 @@ impl ObjectMotion {
             pose: HeadPose::REST,
             points: Vec::new(),
             dynamics: None,
+            closed: None,
             of: None,
         }
     }
@@ -200,10 +227,35 @@ impl ObjectMotion {
         let is_same = |(of, at): &(Object, f32)| of.moves_as(object) && *at == fps;
         if !self.of.as_ref().is_some_and(is_same) {
             self.dynamics = None;
+            self.closed = None;
             self.of = Some((object.clone(), fps));
         }
-        let (hair, script) = (object.hair(), object.script());
+        let script = object.script();
         let driver = Driver { script, hand };
+        let section = &object.look().sections.motion;
+        let held = held_time(section, fps, time);
+        let reached = self.pose_at(object, fps, (held, driver), camera, goes_on)?;
+        if section.held == HeldChoice::Hair && held != time {
+            off_head(object, self.pose, &mut self.points);
+            self.pose = driver.head_at(time);
+            move_by(object, self.pose, &mut self.points);
+        }
+        Ok(match reached == held {
+            true => time,
+            false => reached,
+        })
+    }
+
+    /// Moves head and hair to where a driver has them at a time (seconds), or as far as they come.
+    fn pose_at(
+        &mut self,
+        object: &Object,
+        fps: f32,
+        (time, driver): (f64, Driver),
+        camera: Option<&Camera>,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<f64, StageError> {
+        let hair = object.hair();
         self.pose = driver.head_at(time);
         self.points
             .resize(hair.file.strands.points().len(), Vec3::ZERO);
@@ -215,6 +267,28 @@ impl ObjectMotion {
             self.dynamics = None;
             self.place(object, driver, time);
             return Ok(time);
+        }
+        let is_by_hand = driver.hand.is_some_and(|hand| !hand.is_idle());
+        if let Some(period) = driver.script.period
+            && driver.script.closes
+            && !is_by_hand
+        {
+            let mut closed = match self.closed.take() {
+                Some(closed) => closed,
+                None => {
+                    let mut dynamics = Self::dynamics_of(object, fps)?;
+                    dynamics.stand(object.placement());
+                    Closed::new(object, dynamics, period, fps)
+                }
+            };
+            self.place(object, driver, time);
+            let is_closed = closed.close(object, driver, goes_on)?;
+            if is_closed {
+                closed.sample(object, self.pose, time, &mut self.points);
+            }
+            self.closed = Some(closed);
+            // Before all that is shown, as none of it is there.
+            return Ok(if is_closed { time } else { time.min(0.0) - 1.0 });
         }
         let center = object.placement().point(self.head(object).center);
         let is_seen = camera.is_none_or(|camera| may_see(camera, center, hair.reach_m));
@@ -256,10 +330,7 @@ impl ObjectMotion {
             _ => self.points.copy_from_slice(hair.file.strands.points()),
         }
         self.pose = driver.head_at(time);
-        let (rotation, translation) = rigid(self.pose, hair.head);
-        for point in &mut self.points {
-            *point = (rotation * point.as_dvec3() + translation).as_vec3();
-        }
+        move_by(object, self.pose, &mut self.points);
     }
 
     /// Its head where it is now.
@@ -280,6 +351,12 @@ impl ObjectMotion {
         self.dynamics.as_ref()
     }
 
+    /// Whether what is shown tells how links have turned by its points alone: it is of a loop, or held while the head moves.
+    pub(crate) fn has_points_alone(&self, object: &Object) -> bool {
+        let section = &object.look().sections.motion;
+        self.closed.is_some() || (section.on > 1 && section.held == HeldChoice::Hair)
+    }
+
     /// The points of the object's strands, as they stand; at rest where no motion of it has begun.
     pub(crate) fn points<'a>(&'a self, object: &'a Object) -> &'a [Vec3] {
         let at_rest = object.hair().file.strands.points();
@@ -288,4 +365,17 @@ impl ObjectMotion {
             false => at_rest,
         }
     }
+}
+
+/// The time (seconds) of the frame whose pose is shown at `time`, in a scene of so many frames a second.
+fn held_time(section: &MotionSection, fps: f32, time: f64) -> f64 {
+    if section.on <= 1 {
+        return time;
+    }
+    let (fps, on) = (f64::from(fps), f64::from(section.on));
+    // What a time in single precision can tell from a frame's is no earlier one.
+    let slack = time.abs() * f64::from(f32::EPSILON) * fps + 1e-6;
+    let frame = ((time * fps + slack) / on).floor() * on;
+    // As precise as the time of a frame that a program asks for.
+    f64::from(frame as f32 / fps as f32).min(time)
 }

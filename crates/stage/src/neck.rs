@@ -176,6 +176,7 @@ mod tests {
             turn: DVec3::new(70.0, -20.0, 10.0),
             shift: DVec3::new(0.0, 0.5, 0.0),
             base: DQuat::from_rotation_y(0.3),
+            spin: 0.0,
         };
         let (rotation, translation) = rigid(pose, head);
         let turned_head = posed.in_pose(&neck, pose).clone();

@@ -1,6 +1,7 @@
 //! A scene with its motion and its frames.
 
 use crate::bake::Bake;
+use crate::closed::Return;
 use crate::files::{Files, StageError};
 use crate::frame_maker::FrameMaker;
 use crate::motion::Motion;
@@ -100,6 +101,11 @@ impl Stage {
     #[must_use]
     pub fn simulated(&self) -> hair_sim::Stats {
         self.motion.simulated()
+    }
+
+    /// [`Motion::returns`].
+    pub fn returns(&self) -> impl Iterator<Item = Return> {
+        self.motion.returns()
     }
 
     /// [`Motion::steps_taken`].

@@ -62,6 +62,14 @@ impl Grown {
     }
 }
 
+/// The zone, by its place in the style's list, of the clump of this id; none of undercoat and hand-drawn clumps.
+#[must_use]
+pub fn zone_of(id: u32) -> Option<usize> {
+    (id / IDS_A_ZONE)
+        .checked_sub(FIRST_ZONE)
+        .map(|zone| zone as usize)
+}
+
 /// Grows a style on a head.
 #[must_use]
 pub fn grow(style: &Style, shell: &Shell) -> Grown {

@@ -19,7 +19,7 @@ mod undercoat;
 
 pub use description::{Form, Style, Taper, Zone};
 pub use edit::{Drawn, Edit};
-pub use grow::{Grown, MOST_CLUMPS, grow};
+pub use grow::{Grown, MOST_CLUMPS, grow, zone_of};
 pub use line::Line;
 pub use ornament::{Accessory, AccessoryKind, OrnamentMesh, Tie, TieKind};
 pub use scalp::Scalp;

@@ -98,7 +98,7 @@ pub(super) fn teleport<S: Strand>(
 /// What acts on all particles in a substep.
 pub(super) struct Acting<'a> {
     pub gravity: DVec3,
-    pub gusts: Option<&'a Gusts>,
+    pub gusts: Option<&'a Gusts<'a>>,
     pub colliders: &'a [Collider<'a>],
     /// The share of the step that is done at the end of the substep.
     pub share: f64,

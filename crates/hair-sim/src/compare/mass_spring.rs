@@ -105,6 +105,8 @@ pub struct Zigzag {
     /// Pull of the strand's particles behind the root to their goals, in 1/s^2.
     pulls: Vec<f64>,
     drag: f64,
+    /// The share of the wind that reaches it.
+    wind: f64,
     thickness: f64,
     friction: f64,
     /// Of its points in the list of all strands'.
@@ -157,7 +159,7 @@ impl Zigzag {
             return set_aside;
         }
         // In the middle of the step.
-        let gusts = surroundings.wind_at(0.5).at(self.time + 0.5 * dt);
+        let gusts = surroundings.air_at(0.5, self.time + 0.5 * dt);
         self.time += dt;
         let goals = self.goals_at(surroundings, head);
         let felt = gusts.blows && self.drag > 0.0;
@@ -239,7 +241,7 @@ impl Zigzag {
             mass * (slow + slowing)
         };
         let push = |i: usize, mass: f64| {
-            let air = acting.air(points[i]) * self.drag;
+            let air = acting.air(points[i]) * (self.drag * self.wind);
             let pulled = pull(i).map_or(DVec3::ZERO, |pull| pull.push(points[i]) * 2.0);
             (velocities[i] + (acting.gravity + air + pulled) * dt) * mass
         };
@@ -350,7 +352,8 @@ impl Strand for Zigzag {
         Self {
             truss,
             pulls: pulls.collect(),
-            drag: params.drag,
+            drag: params.drag * params.drag_at.at(0.5),
+            wind: params.wind.at(0.5),
             thickness: params.thickness,
             friction: params.friction,
             first_point,

@@ -96,6 +96,8 @@ pub struct Rod {
     pulls: Vec<f64>,
     styled: Vec<DVec3>,
     drag: f64,
+    /// The share of the wind that reaches it.
+    wind: f64,
     thickness: f64,
     friction: f64,
     /// Of its points in the list of all strands'.
@@ -176,7 +178,7 @@ impl Rod {
             };
         }
         // In the middle of the step.
-        let gusts = surroundings.wind_at(0.5).at(self.time + 0.5 * dt);
+        let gusts = surroundings.air_at(0.5, self.time + 0.5 * dt);
         self.time += dt;
         let goals = self.goals_at(surroundings, head);
         let mut stats = Stats {
@@ -249,7 +251,7 @@ impl Rod {
                 acting.share,
                 whole,
             );
-            let air = acting.air(*point) * self.drag;
+            let air = acting.air(*point) * (self.drag * self.wind);
             let push = acting.gravity + air + pull.push(*point);
             // Implicit by itself.
             let slower = 1.0 + dt * self.drag + pull.slowing(dt);
@@ -409,7 +411,8 @@ impl Strand for Rod {
             links,
             lightness,
             pulls,
-            drag: params.drag,
+            drag: params.drag * params.drag_at.at(0.5),
+            wind: params.wind.at(0.5),
             thickness: params.thickness,
             friction: params.friction,
             first_point,

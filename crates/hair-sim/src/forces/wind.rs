@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::stream::{Stream, in_turns};
 use crate::{
     lanes::{Number, Vec3},
     math::{cos, sin},
@@ -22,6 +23,8 @@ pub struct Wind {
     pub size: f64,
     /// Another seed, other gusts.
     pub seed: u64,
+    /// Seconds after which gusts come again; 0 never.
+    pub period: f64,
 }
 
 impl Default for Wind {
@@ -31,6 +34,7 @@ impl Default for Wind {
             gust: 0.0,
             size: 0.5,
             seed: 0,
+            period: 0.0,
         }
     }
 }
@@ -39,12 +43,15 @@ impl Default for Wind {
 /// wind carries along (Taylor's frozen turbulence) and which change by themselves. Continuous with all their derivatives in
 /// space and time.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Gusts {
+pub(crate) struct Gusts<'a> {
     steady: DVec3,
     waves: [Wave; WAVES],
     /// Whether there is any wind; any gust.
     pub blows: bool,
     gusts: bool,
+    streams: &'a [Stream],
+    share: f64,
+    time: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -63,10 +70,11 @@ impl Wind {
             && self.gust.is_finite()
             && self.size.is_finite()
             && self.size >= 1e-3
+            && self.period.is_finite()
     }
 
     /// The field at `time` seconds.
-    pub(crate) fn at(&self, time: f64) -> Gusts {
+    pub(crate) fn at(&self, time: f64) -> Gusts<'static> {
         let mut waves = [Wave {
             number: DVec3::ZERO,
             phase: 0.0,
@@ -84,7 +92,8 @@ impl Wind {
                 // Wavelengths from 0.6 to 1.6 of the size.
                 let number = along / (self.size * (0.6 + (j as f64 + random(4)) / WAVES as f64));
                 let change = self.gust.abs() * number.length() * 0.5;
-                let phase = random(5) - time * (number.dot(self.steady) + change);
+                let rate = in_turns(number.dot(self.steady) + change, self.period);
+                let phase = random(5) - time * rate;
                 // A sine's mean square is a half.
                 let speed = self.gust * (2.0 / WAVES as f64).sqrt();
                 *wave = Wave {
@@ -99,11 +108,25 @@ impl Wind {
             waves,
             blows: gusts || self.steady != DVec3::ZERO,
             gusts,
+            streams: &[],
+            share: 1.0,
+            time,
         }
     }
 }
 
-impl Gusts {
+impl<'a> Gusts<'a> {
+    /// The same with these streams, at `share` of the step.
+    pub(crate) fn with(self, streams: &'a [Stream], share: f64) -> Self {
+        let blows = |stream: &Stream| stream.speed != [0.0; 2];
+        Self {
+            blows: self.blows || streams.iter().any(blows),
+            streams,
+            share,
+            ..self
+        }
+    }
+
     /// The air's velocity at a place in the world.
     #[inline(always)]
     pub(crate) fn velocity<T: Number>(&self, at: Vec3<T>) -> Vec3<T> {
@@ -114,13 +137,16 @@ impl Gusts {
                 sum += Vec3::all(wave.amplitude).scale(sine_of_turns(turns));
             }
         }
+        for stream in self.streams {
+            sum += stream.velocity(at, self.share, self.time);
+        }
         sum
     }
 }
 
 /// sin(2 pi x) within 0.1 %, continuous: a gust needs no more.
 #[inline(always)]
-fn sine_of_turns<T: Number>(x: T) -> T {
+pub(super) fn sine_of_turns<T: Number>(x: T) -> T {
     // Adding this leaves no fraction: rounding to the nearest whole number, on every processor.
     let round = T::splat(6_755_399_441_055_744.0);
     let r = x - ((x + round) - round);
@@ -131,7 +157,7 @@ fn sine_of_turns<T: Number>(x: T) -> T {
 }
 
 /// A hash of (seed, index) in 0 to 1 (SplitMix64, Steele et al. 2014).
-fn unit(seed: u64, index: u64) -> f64 {
+pub(super) fn unit(seed: u64, index: u64) -> f64 {
     let mut z = seed.wrapping_add((index + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
@@ -139,7 +165,7 @@ fn unit(seed: u64, index: u64) -> f64 {
 }
 
 /// A direction, uniform on the sphere, from two numbers in 0 to 1.
-fn sphere(u: f64, v: f64) -> DVec3 {
+pub(super) fn sphere(u: f64, v: f64) -> DVec3 {
     let z = 2.0 * u - 1.0;
     let level = (1.0 - z * z).max(0.0).sqrt();
     let angle = std::f64::consts::TAU * v;

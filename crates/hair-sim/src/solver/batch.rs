@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::{
     error::Reason,
     lanes::{LANES, Lane, Mask, Quat, Vec3},
-    params::Params,
+    params::{Params, Profile},
     rest::RestStrand,
 };
 
@@ -27,6 +27,8 @@ pub(crate) struct Batch {
     /// Strands that have drag; a goal.
     pub has_drag: Mask,
     pub has_goal: Mask,
+    /// Whether the wind reaches all of all strands as it is.
+    pub is_open: bool,
     /// In m.
     pub length: Lane,
     /// Mass times length from the root, in m^2: energy at most for a pull.
@@ -61,6 +63,7 @@ impl Batch {
             mass: Lane::ZERO,
             drag: Lane::ZERO,
             goal: Lane::ZERO,
+            wind: Lane::ONE,
         };
         let mask = |has: &dyn Fn(&Params) -> bool| {
             Mask::new(std::array::from_fn(|lane| {
@@ -76,6 +79,7 @@ impl Batch {
             drag_along: Lane::ZERO,
             has_drag: mask(&|params| params.drag > 0.0),
             has_goal: mask(&|params| params.has_goal()),
+            is_open: members.iter().all(|m| m.2.wind == Profile::constant(1.0)),
             length: Lane::ZERO,
             lever: Lane::ZERO,
             thickness: Lane::ZERO,
@@ -115,7 +119,8 @@ impl Batch {
             self.links[k].natural.set(lane, link.natural);
             self.links[k].counts[lane] = 1.0;
             self.particles[k].mass[lane] = link.mass;
-            self.particles[k].drag[lane] = params.drag;
+            self.particles[k].drag[lane] = params.drag * params.drag_at.at(link.end_at);
+            self.particles[k].wind[lane] = params.wind.at(link.end_at);
             self.particles[k].goal[lane] = params.goal.at(link.end_at);
         }
     }

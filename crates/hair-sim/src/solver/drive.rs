@@ -32,7 +32,7 @@ pub(crate) struct Drive<'a> {
     /// Of its colliders.
     pub guards: &'a [Guard],
     /// The air at the middle stage and at the end.
-    pub gusts: &'a [Gusts; 2],
+    pub gusts: &'a [Gusts<'a>; 2],
     /// The index of every strand's first point in the list of all.
     pub first_points: &'a [usize],
     /// Root and frame of the skin in the world at the end of the step.

@@ -28,8 +28,15 @@ pub(crate) struct Particle<T = Lane> {
     pub drag: T,
     /// In 1/s^2.
     pub goal: T,
+    /// The share of the wind that reaches it.
+    pub wind: T,
 }
-stored!(Particle { mass, drag, goal });
+stored!(Particle {
+    mass,
+    drag,
+    goal,
+    wind
+});
 
 /// The quadratic model of what acts on one particle: its gradient at y is N y - b.
 #[derive(Clone, Copy, Debug)]

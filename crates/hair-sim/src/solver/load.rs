@@ -85,6 +85,10 @@ impl Loads {
                     let less = batch.drag_along.load::<T>() - T::splat(1.0);
                     let n = Sym3::outer(rate, tangents[k].load(), rate * less);
                     let air = stage.gusts.velocity(stage.root.load::<T>() + y[k].load());
+                    let air = match batch.is_open {
+                        true => air,
+                        false => air.scale(particle.wind),
+                    };
                     let air = air - stage.velocity.load();
                     let carried = free_y[k].load() + air.scale(d);
                     let node = nodes[k].load();

@@ -26,7 +26,7 @@ pub(crate) struct Stage<'a> {
     /// The root, its velocity, and the air.
     pub root: Vec3,
     pub velocity: Vec3,
-    pub gusts: &'a Gusts,
+    pub gusts: &'a Gusts<'a>,
     /// Whether it is that in the middle of a step; else the step's end is its own.
     pub is_mid: bool,
 }

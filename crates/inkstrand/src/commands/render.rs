@@ -11,7 +11,7 @@ use crate::say::say;
 use crate::stats::Lines;
 use effects::Registry;
 use hair_io::try_to_write;
-use stage::{Files, Preset, SceneSection, Sections};
+use stage::{Files, Preset, SceneSection, Sections, Stage};
 use std::path::Path;
 
 /// Draws, and tells what was written. Who watches is told of each frame, and may end it.
@@ -82,6 +82,9 @@ fn draw(
     }
     output.finish()?;
     bar.finish();
+    if !options.quiet {
+        say_returns(&stage);
+    }
     if !options.quiet && stage.left_out() > 0 {
         say(format_args!(
             "hair: {} strands reach too far away to be drawn and are left out",
@@ -97,6 +100,18 @@ fn draw(
         say(&written);
     }
     Ok(written)
+}
+
+/// How well hair came back to where it was, where it goes round.
+fn say_returns(stage: &Stage) {
+    for returned in stage.returns() {
+        let [left, mean] =
+            [returned.left_m, returned.mean_left_m].map(|left_m| left_m / stage.head().height_m);
+        say(format_args!(
+            "loop: {} frames; after {} rounds hair is within {left:.4} head heights of the round before, {mean:.4} on average, and the rest is blended",
+            returned.frames, returned.rounds
+        ));
+    }
 }
 
 /// Refuses what cannot be written, and what would be written over by another file or over one that is read.

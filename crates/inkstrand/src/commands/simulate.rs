@@ -18,6 +18,8 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
     options.scene.apply(&mut preset).map_err(Failure::Usage)?;
     // A new one is made in its place.
     preset.sections.hair.bake = None;
+    // Poses are held when they are drawn.
+    preset.sections.motion.on = 1;
     let files = options.scene.files(&options.preset);
     check_output(&options.output, &options.preset, &preset, &files)?;
     // From now on its folder takes it.

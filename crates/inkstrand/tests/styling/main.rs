@@ -1,4 +1,4 @@
-//! The pages for those who make looks, docs/styling.md and docs/gallery.md, work as they stand there: every snippet is
+//! The pages for those who make looks, docs/styling.md, docs/gallery.md and docs/motion.md, work as they stand there: every snippet is
 //! taken, every command done, every picture what its command draws. `cargo xtask pictures` draws the pictures again.
 
 mod page;
@@ -104,8 +104,11 @@ impl Folder {
                     for file in files {
                         let name = file.strip_prefix(&format!("{images}/"));
                         let name = name.unwrap_or_else(|| panic!("{file} is not in {images}"));
-                        if self.drawn.iter().any(|drawn| drawn == name) {
-                            shown.hold(name, &self.path(name));
+                        // Pages show what moves under the ending of all pictures, which every site serves as one.
+                        let moving = name.replace(".png", ".apng");
+                        let is_drawn = |drawn: &&String| *drawn == name || **drawn == moving;
+                        if let Some(drawn) = self.drawn.iter().find(is_drawn) {
+                            shown.hold(name, &self.path(drawn));
                             ahead.remove(name);
                         } else {
                             ahead.insert(name.to_owned());
@@ -147,6 +150,13 @@ fn copy(from: &Path, to: &Path) {
             fs::copy(entry.path(), to).unwrap();
         }
     }
+}
+
+#[test]
+fn motion_is_drawn_from_the_root_of_the_project() {
+    let mut folder = Folder::new();
+    copy(&root().join("presets"), &folder.path("presets"));
+    folder.follow(&Page::read("motion.md"), "images/motion");
 }
 
 /// Each preset, style and script that is shipped.

@@ -129,6 +129,11 @@ fn hair_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Cause {
     for point in strands.points() {
         hash.numbers(point.as_ref());
     }
+    for (zone, dynamics) in hair.zone_dynamics.iter().enumerate() {
+        if let Some(dynamics) = dynamics {
+            hash.bytes(format!("{zone}: {dynamics:?}").as_bytes());
+        }
+    }
     let own = preset.sections.hair.file.as_ref();
     let file = chosen(files.hair.as_ref(), own, &files.preset_folder);
     let name = file.map_or_else(String::new, |path| format!(" of {}", file_name(&path)));

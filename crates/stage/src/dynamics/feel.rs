@@ -1,9 +1,37 @@
 //! How hair feels: a preset's words and factors as physical numbers.
 
 use super::section::{DynamicsSection, FeelChoice, ShapeChoice};
+use effects::{Variation, layer_seed, strand_seed};
 use hair_sim::{Material, Mutual, Natural, Params, Profile};
 use render::Head;
 use std::f64::consts::TAU;
+
+/// How the hair of a zone moves, beside what the look says of all hair.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ZoneDynamics {
+    /// In place of the look's.
+    pub feel: Option<FeelChoice>,
+    /// Factors on the look's.
+    pub stiffness: Variation,
+    pub damping: f32,
+    pub drag: Variation,
+    pub hold: Variation,
+    pub wind: Variation,
+}
+
+impl Default for ZoneDynamics {
+    fn default() -> Self {
+        let same = || Variation::constant(1.0);
+        Self {
+            feel: None,
+            stiffness: same(),
+            damping: 1.0,
+            drag: same(),
+            hold: same(),
+            wind: same(),
+        }
+    }
+}
 
 /// What a word means.
 ///
@@ -87,28 +115,36 @@ pub(crate) fn mutual(section: &DynamicsSection, head: Head) -> Option<Mutual> {
     })
 }
 
-/// The solver's parameters, but for what a strand's size decides.
+/// The solver's parameters, but for what a strand's size and zone decide.
 pub(crate) struct Feel {
     params: Params,
-    /// Weight against stiffness.
-    gamma: f64,
+    section: DynamicsSection,
+    /// The pull to key shapes, in place of the word's.
+    hold: Option<[f64; 3]>,
     /// The distance from the skin in metres, for a size of 1.
     distance: f64,
+    seed: u32,
+}
+
+/// A strand whose parameters are asked for.
+#[derive(Clone, Copy)]
+pub(crate) struct Strand<'a> {
+    pub id: u32,
+    /// In 1/300 head heights.
+    pub size: f32,
+    pub length_m: f64,
+    pub zone: Option<&'a ZoneDynamics>,
 }
 
 impl Feel {
-    /// The section `dynamics` on a head; `hold` is in place of the word's where hair has key shapes.
-    pub fn new(section: &DynamicsSection, head: Head, hold: Option<[f64; 3]>) -> Self {
-        let word = section.feel.word();
-        let hold = hold.unwrap_or(word.hold);
-        let hold = hold.map(|pull| pull * f64::from(section.hold));
+    /// The section `dynamics` on a head; `hold` is in place of the word's where hair has key shapes. What varies from strand to strand
+    /// hangs on the seed.
+    pub fn new(section: &DynamicsSection, head: Head, hold: Option<[f64; 3]>, seed: u32) -> Self {
         let radius = f64::from(section.curl_radius) * f64::from(head.height_m);
         let climb = f64::from(section.curl_pitch) * f64::from(head.height_m) / TAU;
         let helix = radius * radius + climb * climb;
-        let damping = f64::from(section.damping.unwrap_or(1.0));
         Self {
             params: Params {
-                stiffness: ALONG,
                 natural: match section.shape {
                     ShapeChoice::Styled => Natural::Balanced,
                     ShapeChoice::Sagging => Natural::Styled,
@@ -121,27 +157,107 @@ impl Feel {
                         torsion: 0.0,
                     },
                 },
-                damping: (word.damping * damping).min(10.0),
-                drag: word.drag * f64::from(section.drag),
-                goal: Profile {
-                    root: hold[0],
-                    middle: hold[1],
-                    tip: hold[2],
-                },
                 friction: f64::from(section.friction),
                 ..Params::default()
             },
-            gamma: word.gamma / f64::from(section.stiffness),
+            hold,
             distance: f64::from(section.distance) * f64::from(head.unit_m()),
+            section: section.clone(),
+            seed,
         }
     }
 
-    /// The parameters of a strand of this size (1/300 head heights) and length (metres).
-    pub fn params(&self, size: f32, length_m: f64) -> Params {
+    /// The parameters of a strand.
+    pub fn params(&self, strand: Strand) -> Params {
+        let own = |name: &str| strand_seed(layer_seed(self.seed, name), strand.id);
+        let section = &self.section;
+        let zone = |of: fn(&ZoneDynamics) -> &Variation| strand.zone.map(of);
+        let stiffness = Factor::new(&section.stiffness, own("dynamics.stiffness"))
+            .times(zone(|zone| &zone.stiffness), own("zones.stiffness"));
+        let drag = Factor::new(&section.drag, own("dynamics.drag"))
+            .times(zone(|zone| &zone.drag), own("zones.drag"));
+        let hold = Factor::new(&section.hold, own("dynamics.hold"))
+            .times(zone(|zone| &zone.hold), own("zones.hold"));
+        let wind = Factor::new(&section.wind, own("dynamics.wind"))
+            .times(zone(|zone| &zone.wind), own("zones.wind"));
+        let damping = f64::from(section.damping.unwrap_or(1.0))
+            * strand.zone.map_or(1.0, |zone| f64::from(zone.damping));
+        let feel = strand.zone.and_then(|zone| zone.feel);
+        let word = feel.unwrap_or(section.feel).word();
+        let [root, middle, tip] = self.hold.unwrap_or(word.hold);
+        let gamma = word.gamma / stiffness.whole.max(LEAST_STIFFNESS);
         Params {
-            material: Material::from_gamma(self.gamma, length_m.max(1e-4)),
-            thickness: (self.distance * f64::from(size)).clamp(1e-4, 0.1),
+            material: Material::from_gamma(gamma, strand.length_m.max(1e-4)),
+            stiffness: stiffness.along(ALONG, LEAST_STIFFNESS),
+            damping: (word.damping * damping).min(10.0),
+            drag: word.drag * drag.whole,
+            drag_at: drag.along(Profile::constant(1.0), 0.0),
+            wind: wind.all_along(Profile::constant(1.0)),
+            goal: hold.all_along(Profile { root, middle, tip }),
+            thickness: (self.distance * f64::from(strand.size)).clamp(1e-4, 0.1),
             ..self.params
         }
     }
+}
+
+/// The least factor on a stiffness: one that differs from strand to strand may come to nothing.
+const LEAST_STIFFNESS: f64 = 0.001;
+
+/// A factor of one strand: of all of it, and on top of that at root, middle and tip.
+struct Factor {
+    whole: f64,
+    at: [f64; 3],
+}
+
+impl Factor {
+    fn new(variation: &Variation, seed: u32) -> Self {
+        match variation.as_constant() {
+            Some(value) => Self {
+                whole: f64::from(value),
+                at: [1.0; 3],
+            },
+            None => Self {
+                whole: 1.0,
+                at: values(variation, seed),
+            },
+        }
+    }
+
+    /// The same times that of a zone.
+    fn times(mut self, zone: Option<&Variation>, seed: u32) -> Self {
+        if let Some(zone) = zone {
+            for (own, zone) in self.at.iter_mut().zip(values(zone, seed)) {
+                *own *= zone;
+            }
+        }
+        self
+    }
+
+    /// A profile times what is along the strand.
+    fn along(&self, profile: Profile, least: f64) -> Profile {
+        let [root, middle, tip] = self.at.map(|factor| factor.max(least));
+        Profile {
+            root: profile.root * root,
+            middle: profile.middle * middle,
+            tip: profile.tip * tip,
+        }
+    }
+
+    /// A profile times all of the factor.
+    fn all_along(&self, profile: Profile) -> Profile {
+        let whole = Profile {
+            root: profile.root * self.whole,
+            middle: profile.middle * self.whole,
+            tip: profile.tip * self.whole,
+        };
+        self.along(whole, 0.0)
+    }
+}
+
+/// A variation at root, middle and tip of the strand with this seed.
+fn values(variation: &Variation, seed: u32) -> [f64; 3] {
+    // From -1 to 1.
+    let own = f64::from(seed) / f64::from(u32::MAX) * 2.0 - 1.0;
+    let factor = 1.0 + f64::from(variation.vary) * own;
+    [0.0, 0.5, 1.0].map(|u| f64::from(variation.at(u)) * factor)
 }

@@ -3,6 +3,7 @@
 //! What a style holds on the head moves with it; the rest of each strand is simulated from there. Of
 //! many strands some are guides, and carry the others.
 
+mod air;
 mod bodies;
 mod carried;
 mod feel;
@@ -14,11 +15,12 @@ pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::hand::Driver;
-use crate::neck::rigid;
+use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
 use bodies::Bodies;
 use carried::Carried;
-use feel::Feel;
+pub(crate) use feel::ZoneDynamics;
+use feel::{Feel, Strand};
 use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 #[cfg(feature = "compare")]
@@ -137,7 +139,7 @@ impl Dynamics {
         seed: u32,
     ) -> Result<Self, StageError> {
         let hold = hair.shapes.as_ref().map(|_| hold);
-        let feel = Feel::new(section, hair.head, hold);
+        let feel = Feel::new(section, hair.head, hold, seed);
         let all = &hair.file.strands;
         let mut free = Strands::new();
         let mut parts = Vec::new();
@@ -156,7 +158,16 @@ impl Dynamics {
             let links = chosen.strand(i).windows(2);
             f64::from(links.map(|link| link[0].distance(link[1])).sum::<f32>())
         };
-        let params = |i: usize| feel.params(sizes[chosen.id(i) as usize], length_m(i));
+        let params = |i: usize| {
+            let strand = chosen.id(i) as usize;
+            let id = hair.infos[strand].id;
+            feel.params(Strand {
+                id,
+                size: sizes[strand],
+                length_m: length_m(i),
+                zone: hair.zone_dynamics(id),
+            })
+        };
         let strands = simulated(section, hair.head, &chosen, params)?;
         let gravity = GRAVITY * f64::from(section.gravity);
         let step = match f64::from(section.step) {
@@ -361,8 +372,10 @@ impl Dynamics {
                 gust,
                 size: 2.0 * f64::from(self.head.height_m),
                 seed: self.seed,
+                period: air::period(driver.script),
             }
         });
+        let streams = air::streams(driver, &self.placement, self.head, [begin, end]);
         self.aim(driver.script.within(end));
         // Over whole steps, so that what jumps in a script is felt whole, however it lies between the steps.
         let accelerations = [(begin, before), (end, now)].map(|(time, pose)| {
@@ -376,6 +389,7 @@ impl Dynamics {
             gravity: self.gravity,
             wind,
             wind_before: Some(wind_before),
+            streams: &streams,
             colliders: &self.bodies.colliders([before, now], shoulders),
             goal: self.shapes.as_ref().map(|_| &self.goal[..]),
         };
@@ -406,12 +420,20 @@ impl Dynamics {
         }
     }
 
-    /// Where the shoulders are: they follow the head's shift, not its turns.
+    /// Where the shoulders are: they follow the head's shift and the whole figure's turn, not the head's.
     fn shoulders_at(&self, time: f64, driver: Driver) -> Pose {
-        let shift = driver.head_at(time).shift;
+        let pose = driver.head_at(time);
+        let shift = pose.shift * f64::from(self.head.height_m);
+        if pose.spin == 0.0 {
+            return Pose {
+                rotation: DQuat::IDENTITY,
+                translation: shift,
+            };
+        }
+        let (rotation, pivot) = (pose.spun(), pivot(self.head).as_dvec3());
         Pose {
-            rotation: DQuat::IDENTITY,
-            translation: shift * f64::from(self.head.height_m),
+            rotation,
+            translation: pivot + shift - rotation * pivot,
         }
     }
 }

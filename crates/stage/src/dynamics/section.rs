@@ -1,6 +1,6 @@
 //! The section `dynamics`, and what its solver can't do.
 
-use effects::{choices, section};
+use effects::{Variation, choices, section};
 
 choices! {
     /// What moves the hair.
@@ -55,14 +55,17 @@ section! {
         solver: SolverChoice = SolverChoice::Rods.or_another(),
         /// What the hair is like; the factors below change it.
         feel: FeelChoice = FeelChoice::Soft.or_another(),
-        /// Factor on the stiffness against bending and twisting.
-        stiffness: f32 = number(1.0, 0.001..=1000.0),
+        /// Factor on the stiffness against bending and twisting. What varies along a strand is taken at its root, half way and its tip, with a
+        /// quadratic between.
+        stiffness: Variation = varying(1.0, 0.001..=1000.0),
         /// Factor on how soon swinging dies down in the hair itself.
         damping: Option<f32> = number(1.0, 0.0..=100.0).optional(),
         /// Factor on the drag of the air, and so on the pull of the wind.
-        drag: f32 = number(1.0, 0.0..=100.0),
+        drag: Variation = varying(1.0, 0.0..=100.0),
         /// Factor on the pull back to the style, or to the script's `shapes`.
-        hold: f32 = number(1.0, 0.0..=100.0),
+        hold: Variation = varying(1.0, 0.0..=100.0),
+        /// Share of the wind's speed that reaches the hair.
+        wind: Variation = varying(1.0, 0.0..=10.0),
         /// Factor on the links that hold neighbouring clumps together until they are pulled apart; 0 has none.
         links: Option<f32> = number(1.0, 0.0..=100.0).optional(),
         /// Factor on how clumps keep each other at a distance; 0: they pass through each other.

@@ -258,6 +258,16 @@ section! {
     }
 }
 
+choices! {
+    /// What of a pose is held.
+    pub enum HeldChoice {
+        /// Head and hair.
+        All = "all",
+        /// Hair, on a head that moves.
+        Hair = "hair",
+    }
+}
+
 section! {
     /// How head, wind and hair move.
     pub struct MotionSection {
@@ -271,6 +281,10 @@ section! {
         animation: Option<String> = text(),
         /// Whether the character's animation starts again at its end.
         repeat: bool = flag(false),
+        /// Frames that each pose is held: 1 on ones, 2 on twos, 3 on threes. The simulation goes on underneath.
+        on: u32 = whole(1, 1..=24),
+        /// What is held: all, or hair alone on a head that moves in each frame.
+        held: HeldChoice = HeldChoice::All.or_another(),
     }
 }
 

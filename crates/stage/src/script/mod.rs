@@ -36,6 +36,10 @@ pub(crate) struct MotionScript {
     pub moves: Vec<Move>,
     /// Winds; their speeds add up.
     pub winds: Vec<Wind>,
+    /// Whether the head keeps the wind from what is behind it.
+    pub has_wake: bool,
+    /// Whether hair comes back to where it was when the script starts again; it has a period then.
+    pub closes: bool,
 }
 
 /// Where the head is at a time.
@@ -77,6 +81,8 @@ choices! {
         Nod = "nod",
         /// Bobs and sways as in walking.
         Walk = "walk",
+        /// Turns the whole figure once, and stays: to its left.
+        Spin = "spin",
     }
 }
 
@@ -109,6 +115,32 @@ pub(crate) struct Wind {
     pub speed: f64,
     /// Speed of the gusts on top, m/s.
     pub gusts: f64,
+    /// Its shape.
+    pub kind: WindKind,
+    /// Where its middle is, from the head's at rest; head heights.
+    pub place: DVec3,
+    /// Where a point's or a vortex's wind is fastest; head heights.
+    pub radius: f64,
+    /// The longest waves of turbulence; head heights.
+    pub size: f64,
+    /// How fast turbulence is carried along, m/s.
+    pub drift: f64,
+    /// Another one, other turbulence.
+    pub seed: u32,
+}
+
+choices! {
+    /// The shape of a wind.
+    pub(crate) enum WindKind {
+        /// The same everywhere, from a direction.
+        Direction = "direction",
+        /// Away from a place.
+        Point = "point",
+        /// Around an axis.
+        Vortex = "vortex",
+        /// Every way, and another one at each place and time.
+        Turbulence = "turbulence",
+    }
 }
 
 /// Seconds in which a wind rises and falls.
@@ -123,20 +155,31 @@ impl MotionScript {
 
     /// The head's pose at `time` (seconds).
     pub fn head_at(&self, time: f64) -> HeadPose {
-        let time = self.within(time);
+        self.head_before(self.within(time))
+    }
+
+    /// The head's pose at the script's own `time`, which may be its end.
+    pub fn head_before(&self, time: f64) -> HeadPose {
         let (mut turn, mut shift) = self.keyed(time);
         let mut base = DQuat::IDENTITY;
+        let mut spin = 0.0;
         if let Some(bone) = &self.bone {
             let (rotation, moved) = bone.at(time);
             base = rotation;
             shift += moved;
         }
         for part in &self.moves {
-            let (t, s) = part.at(time);
+            let (t, s) = part.at(time, self.goes_round(part.start, part.length));
             turn += t;
             shift += s;
+            spin += part.spin_at(time);
         }
-        HeadPose { base, turn, shift }
+        HeadPose {
+            base,
+            spin,
+            turn,
+            shift,
+        }
     }
 
     /// The steady wind and the speed of gusts at `time`: m/s.
@@ -144,13 +187,28 @@ impl MotionScript {
         let time = self.within(time);
         let mut steady = DVec3::ZERO;
         let mut gusts = 0.0;
-        for wind in &self.winds {
-            let strength = smooth((time - wind.start) / WIND_RISE)
-                * smooth((wind.start + wind.length - time) / WIND_RISE);
+        let even = |wind: &&Wind| wind.kind == WindKind::Direction;
+        for wind in self.winds.iter().filter(even) {
+            let strength = self.strength_of(wind, time);
             steady += wind.direction * (wind.speed * strength);
             gusts += wind.gusts * strength;
         }
         (steady, gusts)
+    }
+
+    /// How much of a wind blows at the script's own `time`, 0 to 1.
+    pub fn strength_of(&self, wind: &Wind, time: f64) -> f64 {
+        if self.goes_round(wind.start, wind.length) {
+            return 1.0;
+        }
+        smooth((time - wind.start) / WIND_RISE)
+            * smooth((wind.start + wind.length - time) / WIND_RISE)
+    }
+
+    /// Whether what begins and lasts so goes on from the script's end to its start.
+    fn goes_round(&self, start: f64, length: f64) -> bool {
+        let is_over = |period: f64| length < period;
+        self.closes && start <= 0.0 && !self.period.is_some_and(is_over)
     }
 
     /// The script's own time at `time`.
@@ -173,19 +231,31 @@ impl MotionScript {
 }
 
 impl Move {
-    /// Its turn (degrees) and shift (head heights) at `time`.
-    fn at(&self, time: f64) -> (DVec3, DVec3) {
+    /// Its turn of the figure at `time`, degrees.
+    fn spin_at(&self, time: f64) -> f64 {
+        match self.kind {
+            MoveKind::Spin => self.angle * smooth((time - self.start) / self.length),
+            _ => 0.0,
+        }
+    }
+
+    /// Its turn (degrees) and shift (head heights) at `time`; `goes_round` where it neither rises nor falls.
+    fn at(&self, time: f64, goes_round: bool) -> (DVec3, DVec3) {
         let since = time - self.start;
         let still = (DVec3::ZERO, DVec3::ZERO);
         let once = self.angle * smooth(since / self.length);
         // Swings rise and fall within a quarter of their length, or half a swing.
         let rise = (0.25 * self.length).min(0.5 / self.rate);
-        let strength = smooth(since / rise) * smooth((self.length - since) / rise);
+        let strength = match goes_round {
+            true => 1.0,
+            false => smooth(since / rise) * smooth((self.length - since) / rise),
+        };
         let swing = |share: f64| strength * sin_cos_degrees(360.0 * self.rate * share * since).0;
         match self.kind {
             MoveKind::Turn => (DVec3::X * once, DVec3::ZERO),
             MoveKind::Lift => (DVec3::Y * once, DVec3::ZERO),
             MoveKind::Lean => (DVec3::Z * once, DVec3::ZERO),
+            MoveKind::Spin => still,
             _ if strength <= 0.0 => still,
             MoveKind::Shake => (DVec3::X * (self.angle * swing(1.0)), DVec3::ZERO),
             MoveKind::Nod => (DVec3::Y * (self.angle * swing(1.0)), DVec3::ZERO),
@@ -199,7 +269,7 @@ impl Move {
 }
 
 /// From 0 to 1 without a jump of acceleration at either end.
-fn smooth(t: f64) -> f64 {
+pub(crate) fn smooth(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * t * (10.0 - 15.0 * t + 6.0 * t * t)
 }
@@ -298,6 +368,12 @@ mod tests {
                 direction: DVec3::X,
                 speed: 5.0,
                 gusts: 2.0,
+                kind: WindKind::Direction,
+                place: DVec3::ZERO,
+                radius: 1.0,
+                size: 1.0,
+                drift: 0.0,
+                seed: 0,
             }],
             ..MotionScript::default()
         };

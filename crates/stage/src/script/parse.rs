@@ -1,6 +1,6 @@
 //! Scripts of motion as text.
 
-use super::{Key, KeyShape, MotionScript, Move, MoveKind, Wind};
+use super::{HeadPose, Key, KeyShape, MotionScript, Move, MoveKind, Wind, WindKind};
 use crate::part::FilePart;
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::section;
@@ -23,6 +23,11 @@ section! {
         /// between: acceleration per metre, damped critically. (0, 0, 0) leaves it to dynamics; from
         /// about (10000, 10000, 10000) on it is where the shapes have it.
         hold: [f32; 3] = triple([400.0, 200.0, 100.0], 0.0..=1e7).unit("1/s^2"),
+        /// Whether hair is, at the end of the `period`, where and as fast as it was at its start: a loop without a seam. It is simulated
+        /// until it repeats itself, and what is left is blended over the loop.
+        closes as "loop": bool = flag(false),
+        /// Whether the head keeps winds of a direction from the hair behind it.
+        wake: bool = flag(false),
     }
 }
 
@@ -54,8 +59,8 @@ section! {
 section! {
     /// A move of the head.
     struct MoveFields {
-        /// turn (to the left), lift (look up) and lean (to the left shoulder) happen once and stay;
-        /// shake, nod and walk swing.
+        /// turn (to the left), lift (look up), lean (to the left shoulder) and spin (the whole figure, to its left)
+        /// happen once and stay; shake, nod and walk swing.
         kind as "move": MoveKind = MoveKind::Turn.or_another(),
         /// When it begins.
         start: f32 = number(0.0, 0.0..=FOREVER).unit("s"),
@@ -73,20 +78,51 @@ section! {
 section! {
     /// A wind.
     struct WindFields {
+        /// direction: the same everywhere; point: away from a place, as from a fan; vortex: around an axis; turbulence:
+        /// every way, another one at each place and time.
+        kind: WindKind = WindKind::Direction.or_another(),
         /// When it begins.
         start: f32 = number(0.0, 0.0..=FOREVER).unit("s"),
         /// How long it blows.
         length: f32 = number(FOREVER, 0.001..=FOREVER).unit("s"),
-        /// Its steady speed: 1 a breath, 5 a breeze, 20 a gale.
+        /// Its speed: 1 a breath, 5 a breeze, 20 a gale. Of a point and a vortex that at their `radius`, of turbulence the root mean square.
         speed: f32 = number(4.0, 0.0..=200.0).unit("m/s"),
-        /// Speed of the gusts on top.
+        /// Speed of the gusts on top, of a direction.
         gusts: f32 = number(1.5, 0.0..=200.0).unit("m/s"),
-        /// Where it comes from: 0 the front, 90 the viewer's right.
+        /// Where it comes from: 0 the front, 90 the viewer's right. A vortex turns about that axis, with the clock as seen along it
+        /// from there; turbulence is carried along from there.
         yaw: f32 = number(90.0, -360.0..=360.0).unit("degrees"),
         /// Positive comes from above.
         pitch: f32 = number(0.0, -90.0..=90.0).unit("degrees"),
+        /// Middle of a point or a vortex, from the head's at rest: left, up, forwards.
+        place: [f32; 3] = triple([0.0; 3], -1000.0..=1000.0).unit("head heights"),
+        /// How far from its middle a point or a vortex is fastest.
+        radius: f32 = number(1.0, 0.05..=1000.0).unit("head heights"),
+        /// Largest eddies of turbulence; the smallest are a quarter of that.
+        size: f32 = number(2.0, 0.05..=1000.0).unit("head heights"),
+        /// How fast turbulence is carried along.
+        drift: f32 = number(2.0, 0.0..=200.0).unit("m/s"),
+        /// Another seed, other turbulence.
+        seed: u32 = whole(0, 0..=i32::MAX as u32),
     }
 }
+
+/// What not every kind of wind has, and which have it.
+const OF_KINDS: [(&str, &[WindKind]); 7] = [
+    ("gusts", &[WindKind::Direction]),
+    (
+        "yaw",
+        &[WindKind::Direction, WindKind::Vortex, WindKind::Turbulence],
+    ),
+    (
+        "pitch",
+        &[WindKind::Direction, WindKind::Vortex, WindKind::Turbulence],
+    ),
+    ("place", &[WindKind::Point, WindKind::Vortex]),
+    ("radius", &[WindKind::Point, WindKind::Vortex]),
+    ("size", &[WindKind::Turbulence]),
+    ("drift", &[WindKind::Turbulence]),
+];
 
 /// The parts of a motion script.
 pub const MOTION_PARTS: &[FilePart] = &[
@@ -149,6 +185,8 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
     let mut script = MotionScript {
         period: Some(f64::from(top.period)).filter(|period| *period > 0.0),
         hold: top.hold.map(f64::from),
+        has_wake: top.wake,
+        closes: top.closes,
         ..MotionScript::default()
     };
     for list in lists {
@@ -169,7 +207,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
                     script.shapes.push(shape);
                 }
                 "moves" => script.moves.push(moved(&reader.section(item, "a move"))),
-                _ => script.winds.push(wind(&reader.section(item, "a wind"))),
+                _ => script.winds.push(wind(&mut reader, item)),
             }
         }
     }
@@ -180,8 +218,64 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
             "hold: the script has no `shapes` to pull hair to",
         );
     }
+    if top.closes {
+        check_loop(&mut reader, &plain, &script);
+    }
     reader.report()?;
     Ok(script)
+}
+
+/// Reports what keeps a script from going round.
+fn check_loop<'a>(reader: &mut Reader<'a>, plain: &[Field<'a>], script: &MotionScript) {
+    let field = plain.iter().find(|field| field.name == "loop");
+    let place = field.map_or("", |field| field.name);
+    let Some(period) = script.period else {
+        reader.error(
+            place,
+            "loop: how long is it? The script needs a `period` in seconds, such as period: 2",
+        );
+        return;
+    };
+    let beyond = |(start, length): (f64, f64)| start > 0.0 && start + length > period;
+    let winds = script.winds.iter().map(|wind| (wind.start, wind.length));
+    if let Some(number) = winds.map(beyond).position(|is| is) {
+        reader.error(
+            place,
+            format!(
+                "loop: wind {} begins within the period of {period} s and blows beyond it; let it begin at 0, or end in time",
+                number + 1
+            ),
+        );
+    }
+    let begin = script.head_at(0.0);
+    let end = script.head_before(period);
+    if !is_alike(begin, end) {
+        reader.error(
+            place,
+            format!(
+                "loop: the head ends elsewhere than it begins: turned by {}, moved by {} where it was {} and {}; what turns and \
+                 stays needs another that turns it back, and a swing from 0 to the end a whole number of swings in {period} s \
+                 (a walk of two steps)",
+                shown(end.turn),
+                shown(end.shift),
+                shown(begin.turn),
+                shown(begin.shift)
+            ),
+        );
+    }
+}
+
+/// Whether two poses look the same: within a hundredth of a degree, and of a hundredth of a head height.
+fn is_alike(one: HeadPose, other: HeadPose) -> bool {
+    let spin = (one.spin - other.spin).rem_euclid(360.0);
+    one.turn.abs_diff_eq(other.turn, 0.01)
+        && one.shift.abs_diff_eq(other.shift, 1e-4)
+        && spin.min(360.0 - spin) < 0.01
+}
+
+fn shown(v: DVec3) -> String {
+    let [x, y, z] = v.to_array().map(|x| (x * 100.0).round() / 100.0 + 0.0);
+    format!("({x}, {y}, {z})")
 }
 
 fn shape<'a>(reader: &mut Reader<'a>, item: &'a str) -> KeyShape {
@@ -221,7 +315,23 @@ fn moved(fields: &MoveFields) -> Move {
     }
 }
 
-fn wind(fields: &WindFields) -> Wind {
+fn wind<'a>(reader: &mut Reader<'a>, item: &'a str) -> Wind {
+    let given = reader.fields(item, "a wind");
+    let fields: WindFields = reader.section_of(&given, "a wind");
+    for field in &given {
+        let of = OF_KINDS.iter().find(|(name, _)| *name == field.name);
+        if let Some((name, kinds)) = of.filter(|(_, kinds)| !kinds.contains(&fields.kind)) {
+            let kinds: Vec<&str> = kinds.iter().map(|kind| kind.name()).collect();
+            reader.error(
+                field.name,
+                format!(
+                    "{name}: a wind of kind {} has none, only {}",
+                    fields.kind.name(),
+                    kinds.join(" and ")
+                ),
+            );
+        }
+    }
     // The angles are within their ranges, so there is a direction.
     let from = direction_from_angles(fields.yaw, fields.pitch).map_or(DVec3::X, Vec3::as_dvec3);
     Wind {
@@ -230,5 +340,11 @@ fn wind(fields: &WindFields) -> Wind {
         direction: -from,
         speed: f64::from(fields.speed),
         gusts: f64::from(fields.gusts),
+        kind: fields.kind,
+        place: Vec3::from(fields.place).as_dvec3(),
+        radius: f64::from(fields.radius),
+        size: f64::from(fields.size),
+        drift: f64::from(fields.drift),
+        seed: fields.seed,
     }
 }

@@ -8,6 +8,8 @@ use stroke_path::sin_cos_degrees;
 pub(crate) struct HeadPose {
     /// The turn of an animation's bone, outside the others; a unit quaternion.
     pub base: DQuat,
+    /// The turn of the whole figure to its left, outside all others; degrees.
+    pub spin: f64,
     /// Turns in degrees: towards the character's left, up, towards the left shoulder; in this order from
     /// the outermost.
     pub turn: DVec3,
@@ -19,6 +21,7 @@ impl HeadPose {
     /// Where the file has it.
     pub const REST: Self = Self {
         base: DQuat::IDENTITY,
+        spin: 0.0,
         turn: DVec3::ZERO,
         shift: DVec3::ZERO,
     };
@@ -32,10 +35,20 @@ impl HeadPose {
         };
         // Looking up turns the face (+Z) to +Y: backwards about +X. Leaning to the left shoulder (+X) turns +Y
         // to +X: backwards about +Z.
-        part_of(self.base, share)
+        let turn = part_of(self.base, share)
             * about(DVec3::Y, self.turn.x)
             * about(DVec3::NEG_X, self.turn.y)
-            * about(DVec3::NEG_Z, self.turn.z)
+            * about(DVec3::NEG_Z, self.turn.z);
+        if self.spin == 0.0 {
+            return turn;
+        }
+        self.spun() * turn
+    }
+
+    /// The turn of the whole figure, a unit quaternion.
+    pub fn spun(&self) -> DQuat {
+        let (sin, cos) = sin_cos_degrees(0.5 * self.spin);
+        DQuat::from_xyzw(0.0, sin, 0.0, cos)
     }
 }
 

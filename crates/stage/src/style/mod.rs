@@ -8,6 +8,7 @@ mod clumps;
 mod lines;
 mod zone;
 
+use crate::dynamics::ZoneDynamics;
 use crate::part::FilePart;
 use accessories::AccessoryFields;
 use clumps::{DrawnFields, EditFields};
@@ -120,12 +121,20 @@ const LISTS: [&str; 7] = [
     "accessories",
 ];
 
+/// A style as its file has it.
+pub(crate) struct Written {
+    /// What grows.
+    pub style: Style,
+    /// How the hair of each zone moves, where it says so.
+    pub dynamics: Vec<Option<ZoneDynamics>>,
+}
+
 /// Reads the style `text`, which messages call `file`.
 ///
 /// # Errors
 ///
 /// All mistakes of the file, each with its line and column.
-pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
+pub(crate) fn parse(file: &str, text: &str) -> Result<Written, PresetErrors> {
     let mut reader = Reader::new(file, text);
     let fields = reader.fields(text, "the style");
     reader.report()?;
@@ -150,8 +159,10 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
         drawn: Vec::new(),
         accessories: Vec::new(),
     };
+    let mut dynamics = Vec::new();
     for item in items(&mut reader, &lists, "zones") {
-        let zone = zone::zone(&mut reader, item);
+        let (zone, moved) = zone::zone(&mut reader, item);
+        dynamics.push(moved);
         if style.zones.iter().any(|other| other.name == zone.name) {
             reader.error(item, format!("there is already a zone `{:.40}`", zone.name));
         }
@@ -185,7 +196,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Style, PresetErrors> {
             .extend(accessories::accessory(&mut reader, item));
     }
     reader.report()?;
-    Ok(style)
+    Ok(Written { style, dynamics })
 }
 
 /// The items of one of the style's lists.

@@ -1,8 +1,9 @@
 //! A zone of a style: what it may say, and what it means.
 
 use super::lines::line;
+use crate::dynamics::{FeelChoice, ZoneDynamics};
 use effects::preset::{Field, Reader};
-use effects::{choices, section};
+use effects::{Variation, choices, section};
 use groom::{Form, Line, MOST_CLUMPS, Taper, TieKind, Zone};
 
 /// Most rows of a zone.
@@ -33,6 +34,37 @@ choices! {
         Scrunchie = "scrunchie",
         /// A band with a bow on it.
         Bow = "bow",
+    }
+}
+
+choices! {
+    /// What the hair of a zone is like.
+    pub(super) enum ZoneFeelChoice {
+        /// As the look says.
+        Look = "look",
+        /// It hangs.
+        Limp = "limp",
+        /// It swings, and comes to rest.
+        Soft = "soft",
+        /// It swings long.
+        Springy = "springy",
+        /// It keeps its style.
+        Stiff = "stiff",
+        /// It all but stands.
+        Gel = "gel",
+    }
+}
+
+impl ZoneFeelChoice {
+    fn feel(self) -> Option<FeelChoice> {
+        match self {
+            Self::Look => None,
+            Self::Limp => Some(FeelChoice::Limp),
+            Self::Soft => Some(FeelChoice::Soft),
+            Self::Springy => Some(FeelChoice::Springy),
+            Self::Stiff => Some(FeelChoice::Stiff),
+            Self::Gel => Some(FeelChoice::Gel),
+        }
     }
 }
 
@@ -115,11 +147,23 @@ section! {
         root_size: f32 = number(-1.0, -1.0..=1.0),
         /// Where along the clumps they begin to shrink to a point, in place of the look's; below 0 the look's.
         shrink_start: f32 = number(-1.0, -1.0..=1.0).unit("0 root to 1 tip"),
+        /// What its hair is like when it moves: as the look's `dynamics` says, or in place of that.
+        feel: ZoneFeelChoice = ZoneFeelChoice::Look.or_another(),
+        /// Factor on the stiffness of the look's `dynamics`, as those below on what they are called there.
+        stiffness: Variation = varying(1.0, 0.001..=1000.0),
+        /// Factor on the damping.
+        damping: f32 = number(1.0, 0.0..=100.0),
+        /// Factor on the drag of the air.
+        drag: Variation = varying(1.0, 0.0..=100.0),
+        /// Factor on the pull back to the style.
+        hold: Variation = varying(1.0, 0.0..=100.0),
+        /// Factor on the share of the wind that reaches it.
+        wind: Variation = varying(1.0, 0.0..=10.0),
     }
 }
 
-/// Reads one zone.
-pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> Zone {
+/// Reads one zone, and how its hair moves where it says so.
+pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> (Zone, Option<ZoneDynamics>) {
     let fields = reader.fields(item, "a zone");
     let (places, plain): (Vec<Field>, Vec<Field>) = fields
         .into_iter()
@@ -144,7 +188,19 @@ pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> Zone {
             "a zone needs `tips` to lead to, or a length to `hang`",
         );
     }
-    as_grown(fields, roots.unwrap_or(Line::Whorl), tips)
+    let dynamics = ZoneDynamics {
+        feel: fields.feel.feel(),
+        stiffness: fields.stiffness.clone(),
+        damping: fields.damping,
+        drag: fields.drag.clone(),
+        hold: fields.hold.clone(),
+        wind: fields.wind.clone(),
+    };
+    let zone = as_grown(fields, roots.unwrap_or(Line::Whorl), tips);
+    (
+        zone,
+        (dynamics != ZoneDynamics::default()).then_some(dynamics),
+    )
 }
 
 /// The zone as it is grown.
