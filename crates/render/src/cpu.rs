@@ -34,7 +34,7 @@ pub use stamp::Stamper;
 use crate::check;
 use crate::drawing::Drawing;
 use crate::picture::Picture;
-use crate::planes::BandPlanes;
+use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
 use instructions::Instructions;
@@ -78,6 +78,8 @@ pub struct Rasterizer {
     instructions: Instructions,
     /// One for each thread, once it has drawn.
     workers: Vec<Mutex<Worker>>,
+    /// Samples of the last picture with passes.
+    planes: SamplePlanes,
 }
 
 /// What the drawing is taken apart into.
@@ -111,6 +113,7 @@ impl Rasterizer {
             instructions: *available.last().unwrap_or(&Instructions::Compiled),
             parts: Parts::default(),
             workers: Vec::new(),
+            planes: SamplePlanes::default(),
         })
     }
 
@@ -126,8 +129,8 @@ impl Rasterizer {
         self.draw_painted(drawing, None)
     }
 
-    /// Draws the picture of a frame, of which `drawing` was made: layers whose effects paint colour the samples that they show. Without
-    /// such layers it is what [`Self::draw`] draws.
+    /// Draws the picture of a frame, of which `drawing` was made: layers whose effects paint colour the samples that they show, and its
+    /// passes go over the samples of the whole picture. Without either it is what [`Self::draw`] draws.
     ///
     /// # Errors
     ///
@@ -138,7 +141,29 @@ impl Rasterizer {
         frame: &crate::Frame,
         drawing: &Drawing,
     ) -> Result<Picture, DrawError> {
-        self.draw_painted(drawing, Some(frame))
+        if frame.passes.is_empty() {
+            return self.draw_painted(drawing, Some(frame));
+        }
+        check::check(drawing)?;
+        let samples = self.samples;
+        let mut picture = empty_picture(drawing, samples)?;
+        picture.pixels.fill([0.0; 4]);
+        let mut planes = std::mem::take(&mut self.planes);
+        let drawn = self.draw_samples(drawing, Some(frame), &mut planes, |planes| {
+            for pass in &frame.passes {
+                pass.draw(planes, samples);
+            }
+            planes.add_to(&mut picture.pixels);
+        });
+        self.planes = planes;
+        drawn?;
+        let count = samples as f32;
+        picture
+            .pixels
+            .par_iter_mut()
+            .with_min_len(1024)
+            .for_each(|pixel| *pixel = pixel.map(|sum| sum / count));
+        Ok(picture)
     }
 
     fn draw_painted(
@@ -153,6 +178,7 @@ impl Rasterizer {
             parts,
             instructions,
             workers,
+            planes: _,
         } = self;
         let mut draw = || {
             check::check(drawing)?;

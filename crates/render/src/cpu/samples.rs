@@ -36,6 +36,7 @@ impl Rasterizer {
             parts,
             instructions,
             workers,
+            planes: _,
         } = self;
         let mut draw = || {
             check::check(drawing)?;
