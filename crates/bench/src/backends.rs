@@ -91,7 +91,7 @@ impl Backends {
         let effects = start.elapsed().as_secs_f64();
         let picture = self
             .rasterizer
-            .draw_frame(frame, &self.drawing)
+            .draw(&self.drawing)
             .map_err(|e| e.to_string())?;
         let raster = start.elapsed().as_secs_f64() - effects;
         Ok((picture, CpuTimes { effects, raster }))

@@ -12,6 +12,10 @@ struct Params {
     /// How much each lock is shaded as a round one: 0 shades the head as a whole, 1 every lock.
     /// @range 0..1 @default 0.5
     roundness: f32,
+    /// Over how much of the strand light falls on it fully at the root: roots leave the scalp every which way, and would shade the crown in
+    /// patches.
+    /// @unit 0 root to 1 tip @range 0..1 @default 0.12
+    root_fade: f32,
     /// What chooses the row, from 0 to 1: nothing, the place along the strand from its root, the place across the lock, how near the hair is, how
     /// much it faces the eye, or a highlight.
     /// @choices none along across depth facing blinn weighted @default none
@@ -86,7 +90,10 @@ fn place(at: Sample, params: Params) -> Lookup {
         case 6u: { row = weighted(at, normal, params); }
         default: {}
     }
-    let lit = max(dot(normal, at.light_direction), 0.0);
+    var lit = max(dot(normal, at.light_direction), 0.0);
+    if (at.u < params.root_fade) {
+        lit = max(lit, 1.0 - at.u / params.root_fade);
+    }
     return Lookup(params.tones, vec2<f32>(lit, row), 0.0);
 }
 

@@ -2,6 +2,7 @@
 
 use crate::choices;
 use crate::effect::LayerProgram;
+use std::sync::Arc;
 
 choices! {
     /// What a layer's widths are measured in.
@@ -28,5 +29,5 @@ pub struct Layer {
     /// What widths are measured in.
     pub units: Units,
     /// The effect with its parameters.
-    pub program: Box<dyn LayerProgram>,
+    pub program: Arc<dyn LayerProgram>,
 }

@@ -27,7 +27,7 @@ macro_rules! inputs {
         /// others are empty.
         ///
         /// Of `seed` it has the strand's part, as [`Joints`](crate::Joints) has.
-        #[derive(Clone, Debug, Default)]
+        #[derive(Clone, Debug, Default, PartialEq)]
         pub struct Samples {
             $($(#[$doc])* pub $name: Vec<$ty>,)*
         }
@@ -36,6 +36,14 @@ macro_rules! inputs {
             /// Empties all lists, and keeps their memory.
             pub fn clear(&mut self) {
                 $(self.$name.clear();)*
+            }
+
+            /// The length of a list.
+            #[must_use]
+            pub fn count(&self, input: SampleInput) -> usize {
+                match input {
+                    $(SampleInput::$input => self.$name.len(),)*
+                }
             }
         }
     };
@@ -68,6 +76,12 @@ impl SampleSet {
         Self(self.0 | other.0)
     }
 
+    /// What is in this set and not in the other.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
     /// Whether the input is in the set.
     #[must_use]
     pub const fn has(self, input: SampleInput) -> bool {
@@ -98,6 +112,10 @@ mod tests {
         assert_eq!(
             set.iter().map(SampleInput::name).collect::<Vec<_>>(),
             ["color", "w"]
+        );
+        assert_eq!(
+            set.without(SampleSet::of(&[SampleInput::W])),
+            SampleSet::of(&[SampleInput::Color])
         );
         assert!(SampleSet::default().is_empty());
     }

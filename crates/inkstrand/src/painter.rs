@@ -154,7 +154,7 @@ impl Painter {
             planes,
             ..
         } = cpu;
-        rasterizer.draw_samples(drawing, None, planes, |planes| gathered.add(planes))?;
+        rasterizer.draw_samples(drawing, planes, |planes| gathered.add(planes))?;
         stats.milliseconds.raster = lap.passed();
         stats.layers = drawing_counts(drawing);
         stats.bytes = Bytes {
@@ -191,7 +191,7 @@ impl Painter {
         let cpu = self.cpu()?;
         cpu.evaluator.evaluate(&frame, &mut cpu.drawing)?;
         stats.milliseconds.effects = lap.passed();
-        let picture = cpu.rasterizer.draw_frame(&frame, &cpu.drawing)?;
+        let picture = cpu.rasterizer.draw(&cpu.drawing)?;
         stats.milliseconds.raster = lap.passed();
         stats.backend = "cpu";
         stats.layers = drawing_counts(&cpu.drawing);

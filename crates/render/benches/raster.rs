@@ -103,6 +103,7 @@ impl Hair {
             order: Order::Rounded,
             edge_depth_m: 0.005,
             brush: render::Brush::Circle,
+            ..Drawing::default()
         }
     }
 }

@@ -1,6 +1,8 @@
 //! What a drawing must be before anything is drawn.
 
 use crate::drawing::{Disc, Drawing, LayerStrokes, Run, Stretch, Stretches, Surface};
+use crate::edges::Edges;
+use crate::features::{Feature, Features};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -199,9 +201,9 @@ pub enum DrawError {
         /// How many the surface has.
         vertices: usize,
     },
-    /// Samples are painted by the effects of the frame that a drawing was made of.
-    #[error("the drawing was made of another frame")]
-    OtherFrame,
+    /// A pass needs a feature that isn't declared.
+    #[error("a pass needs the feature {0:?}, which is not declared")]
+    Undeclared(Feature),
     /// A list that a declared feature needs has another length.
     #[error("features: the list `{list}` has {length} entries, where there are {needed}")]
     FeatureList {
@@ -210,6 +212,19 @@ pub enum DrawError {
         /// Its length.
         length: usize,
         /// How many joints or runs there are.
+        needed: usize,
+    },
+    /// A layer is to be painted that isn't there, or not behind the one before.
+    #[error("painting: layer {0} is not there, or not behind the one before")]
+    PaintedLayer(usize),
+    /// A list that painted layers need has another length.
+    #[error("painting: the list `{list}` has {length} entries, where there are {needed} joints")]
+    PaintingList {
+        /// Which list.
+        list: &'static str,
+        /// Its length.
+        length: usize,
+        /// How many joints there are.
         needed: usize,
     },
     /// Only so many triangles can be numbered.
@@ -233,11 +248,19 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
         check_layer(layer, drawing)?;
     }
     check_features(drawing)?;
+    check_painting(drawing)?;
     check_surfaces(&drawing.surfaces)
 }
 
 fn check_features(drawing: &Drawing) -> Result<(), DrawError> {
     let features = &drawing.features;
+    let of_passes = drawing.passes.iter().map(Edges::features);
+    let missing = of_passes
+        .flat_map(Features::iter)
+        .find(|feature| !features.declared.has(*feature));
+    if let Some(feature) = missing {
+        return Err(DrawError::Undeclared(feature));
+    }
     if features.declared.is_empty() {
         return Ok(());
     }
@@ -252,6 +275,27 @@ fn check_features(drawing: &Drawing) -> Result<(), DrawError> {
     {
         None => Ok(()),
         Some((list, length, needed)) => Err(DrawError::FeatureList {
+            list,
+            length,
+            needed,
+        }),
+    }
+}
+
+fn check_painting(drawing: &Drawing) -> Result<(), DrawError> {
+    let painting = &drawing.painting;
+    let mut after = 0;
+    for painted in &painting.layers {
+        if !(after..drawing.layers.len()).contains(&painted.layer) {
+            return Err(DrawError::PaintedLayer(painted.layer));
+        }
+        after = painted.layer + 1;
+    }
+    let needed = drawing.clump.len();
+    let lists = painting.needed_lists().into_iter();
+    match lists.into_iter().find(|(_, length)| *length != needed) {
+        None => Ok(()),
+        Some((list, length)) => Err(DrawError::PaintingList {
             list,
             length,
             needed,

@@ -38,9 +38,8 @@ use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
 use instructions::Instructions;
-use paint::{PaintScratch, Painting};
+use paint::Painter;
 use rayon::prelude::*;
-use samples::runs_of_joints;
 use segment::{Segments, Stroke};
 use shown::Shown;
 use std::ops::Range;
@@ -126,51 +125,13 @@ impl Rasterizer {
     /// When the drawing is invalid (see [`DrawError`]); then nothing has been drawn.
     #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn draw(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
-        self.draw_painted(drawing, None)
-    }
-
-    /// Draws the picture of a frame, of which `drawing` was made: layers whose effects paint colour the samples that they show, and its
-    /// passes go over the samples of the whole picture. Without either it is what [`Self::draw`] draws.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::draw`], and when the drawing was made of another frame.
-    #[inline(never)]
-    pub fn draw_frame(
-        &mut self,
-        frame: &crate::Frame,
-        drawing: &Drawing,
-    ) -> Result<Picture, DrawError> {
-        if frame.passes.is_empty() {
-            return self.draw_painted(drawing, Some(frame));
+        match drawing.passes.is_empty() {
+            true => self.draw_means(drawing),
+            false => self.draw_with_passes(drawing),
         }
-        check::check(drawing)?;
-        let samples = self.samples;
-        let mut picture = empty_picture(drawing, samples)?;
-        picture.pixels.fill([0.0; 4]);
-        let mut planes = std::mem::take(&mut self.planes);
-        let drawn = self.draw_samples(drawing, Some(frame), &mut planes, |planes| {
-            for pass in &frame.passes {
-                pass.draw(planes, samples);
-            }
-            planes.add_to(&mut picture.pixels);
-        });
-        self.planes = planes;
-        drawn?;
-        let count = samples as f32;
-        picture
-            .pixels
-            .par_iter_mut()
-            .with_min_len(1024)
-            .for_each(|pixel| *pixel = pixel.map(|sum| sum / count));
-        Ok(picture)
     }
 
-    fn draw_painted(
-        &mut self,
-        drawing: &Drawing,
-        made_of: Option<&crate::Frame>,
-    ) -> Result<Picture, DrawError> {
+    fn draw_means(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
         let Self {
             pool,
             samples,
@@ -182,14 +143,6 @@ impl Rasterizer {
         } = self;
         let mut draw = || {
             check::check(drawing)?;
-            let painting = made_of
-                .map(|frame| Painting::new(frame, drawing))
-                .transpose()?;
-            let painting = painting.flatten();
-            let runs_of_joints = match painting {
-                Some(_) => runs_of_joints(drawing),
-                None => Vec::new(),
-            };
             let mut picture = empty_picture(drawing, *samples)?;
             let strokes = segment::strokes_in_order(drawing);
             let tile_height = tile::height(stacks);
@@ -200,8 +153,7 @@ impl Rasterizer {
                 parts,
                 samples: *samples,
                 stacks,
-                runs_of_joints: &runs_of_joints,
-                painting: painting.as_ref(),
+                runs_of_joints: &[],
             };
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
@@ -274,8 +226,6 @@ struct Frame<'a> {
     stacks: &'a [Stack],
     /// For each joint its run, where samples tell what they show.
     runs_of_joints: &'a [u32],
-    /// How samples are painted, where layers do so.
-    painting: Option<&'a Painting<'a>>,
 }
 
 impl Frame<'_> {
@@ -309,9 +259,9 @@ struct Worker {
     parts: Vec<Part>,
     strand: StrandMasks,
     sums: Sums,
-    /// What samples show; empty where nothing is declared.
+    /// What samples show; empty where nothing is declared or painted.
     shown: Shown,
-    paint: PaintScratch,
+    painter: Painter,
 }
 
 impl Worker {
@@ -324,7 +274,7 @@ impl Worker {
             strand: StrandMasks::new(),
             sums: Sums::new(),
             shown: Shown::default(),
-            paint: PaintScratch::default(),
+            painter: Painter::default(),
         }
     }
 
@@ -384,20 +334,13 @@ impl Worker {
         scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts);
         for stack in frame.stacks {
             scene.stack = stack;
-            if frame.painting.is_some() {
+            if frame.drawing.painting.is_empty() {
+                self.draw_stack::<false>(frame, &scene, tile, triangles);
+            } else {
                 self.draw_stack::<true>(frame, &scene, tile, triangles);
                 self.paint(frame);
-            } else {
-                self.draw_stack::<false>(frame, &scene, tile, triangles);
             }
             self.sums.add(&mut self.target, stack, background.is_some());
-        }
-    }
-
-    /// Lets layers that paint colour what the target shows.
-    fn paint(&mut self, frame: &Frame) {
-        if let (Some(painting), Some(shown)) = (frame.painting, self.shown.planes()) {
-            painting.paint(frame, shown, &mut self.target, &mut self.paint);
         }
     }
 

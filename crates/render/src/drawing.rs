@@ -5,7 +5,9 @@
 //! axis, because that is what runs linearly along a projected segment; larger is nearer.
 //! Colours are linear light, red, green, blue.
 
+use crate::edges::Edges;
 use crate::features::DrawnFeatures;
+use crate::painting::Painting;
 use glam::Vec2;
 use std::ops::Range;
 pub use stroke_path::Brush;
@@ -250,6 +252,11 @@ pub struct Drawing {
     pub brush: Brush,
     /// What samples tell beside their colour.
     pub features: DrawnFeatures,
+    /// Layers whose samples are painted.
+    pub painting: Painting,
+    /// What is done with the samples of the whole picture, one after the other, before their means are taken. What they need is to be
+    /// declared by the features.
+    pub passes: Vec<Edges>,
 }
 
 #[cfg(test)]

@@ -49,6 +49,7 @@ mod features;
 mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod painting;
 mod picture;
 mod planes;
 mod samples;
@@ -63,6 +64,7 @@ pub use features::{
     DrawnFeatures, Feature, Features, NO_ID, RunInfo, object_of_hair, object_of_mesh,
 };
 pub use frame::{Ball, Frame, FrameError, Head, Light, NO_TAPER, Object, StrandInfo, reach_of};
+pub use painting::{PaintedLayer, Painting};
 pub use picture::Picture;
 pub use planes::{Sample, SamplePlanes};
 pub use samples::{MAX_SAMPLES, SampleCountError, sample_positions};

@@ -362,6 +362,7 @@ fn drawing(strands: impl Iterator<Item = (u32, Vec<ClumpPoint>)>, layers: &[Laye
         order: Order::Rounded,
         edge_depth_m: EDGE_DEPTH_M,
         brush: Brush::Circle,
+        ..Drawing::default()
     }
 }
 

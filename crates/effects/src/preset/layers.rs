@@ -93,7 +93,7 @@ impl LayerSpec<'_> {
             rank: self.rank,
             depth_offset: self.depth_offset,
             units: self.units,
-            program: self.effect.program(values),
+            program: self.effect.program(values).into(),
         }
     }
 }

@@ -4,11 +4,11 @@ use super::seen::fill_needed;
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches};
 use crate::features::{DrawnFeatures, Feature};
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
+use crate::painting;
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
 use effects::{
-    CLUMP_DISCS, Input, InputSet, Joints, Layer, SampleInput, SampleSet, StrandJoints, Units,
-    clump, layer_seed,
+    CLUMP_DISCS, Input, InputSet, Joints, Layer, StrandJoints, Units, clump, layer_seed,
 };
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -63,6 +63,7 @@ impl Evaluator {
         drawing.order = frame.order;
         drawing.edge_depth_m = frame.edge_depth_m;
         drawing.brush = frame.brush;
+        drawing.passes.clone_from(&frame.passes);
         drawing.surfaces.clone_from(&frame.surfaces);
         drawing.runs.clear();
         drawing.runs.extend(frame.paths.runs.iter().map(|run| Run {
@@ -73,6 +74,7 @@ impl Evaluator {
         self.fill_sides(frame, drawing);
 
         self.fill_features(frame, &mut drawing.features);
+        drawing.painting.fill(frame, &self.joints);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
@@ -108,10 +110,7 @@ impl Evaluator {
     /// What samples are told of joints.
     fn fill_features(&self, frame: &Frame, features: &mut DrawnFeatures) {
         features.fill(frame);
-        let layers = || frame.objects.iter().flat_map(|object| object.layers);
-        let paints = |layer: &Layer| layer.program.paints();
-        let reads = |set: SampleSet| set.has(SampleInput::Normal);
-        if features.declared.has(Feature::Normal) || layers().filter_map(paints).any(reads) {
+        if features.declared.has(Feature::Normal) {
             let normals = self.clumps.iter().map(|clump| clump.normal.to_array());
             features.normal.extend(normals.map(Vec3::from));
         }
@@ -413,7 +412,7 @@ impl Evaluator {
 /// What clumps and active layers read of joints.
 fn inputs(frame: &Frame) -> InputSet {
     let read = (frame.objects.iter())
-        .map(Object::inputs)
+        .map(|object| object.inputs().union(painting::inputs(object)))
         .fold(InputSet::default(), InputSet::union);
     if read.has(Input::Gray) {
         // It is made of that.

@@ -1,13 +1,13 @@
 //! What samples tell: a tile drawn four samples at a time, and for each of them the features that are declared.
 
-use super::paint::Painting;
 use super::segment::{Segment, strokes_in_order};
 use super::shown::{NOTHING, Planes, TRIANGLE};
 use super::tile::{self, CELL_WIDTH, CELLS_ACROSS, STACK, Stack};
-use super::{DrawError, Frame, Output, Rasterizer, Worker};
+use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture};
 use crate::check;
 use crate::drawing::Drawing;
 use crate::features::{Feature, NO_ID, normal_of_triangle, object_of_hair, object_of_mesh};
+use crate::picture::Picture;
 use crate::planes::{BandPlanes, Sample, SamplePlanes};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -16,8 +16,7 @@ impl Rasterizer {
     /// Draws the samples of a picture, each with the features that the drawing declares: up to four of every pixel at a time, which
     /// `take` is given, from the first to the last.
     ///
-    /// They are those that [`Self::draw`] takes the means of, or [`Self::draw_frame`] where the frame is given that the drawing was made
-    /// of. `planes` is working memory.
+    /// They are those that [`Self::draw`] takes the means of. `planes` is working memory.
     ///
     /// # Errors
     ///
@@ -25,7 +24,6 @@ impl Rasterizer {
     pub fn draw_samples(
         &mut self,
         drawing: &Drawing,
-        made_of: Option<&crate::Frame>,
         planes: &mut SamplePlanes,
         mut take: impl FnMut(&mut SamplePlanes) + Send,
     ) -> Result<(), DrawError> {
@@ -45,10 +43,6 @@ impl Rasterizer {
             parts.collect(drawing, &strokes, tile_height);
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
-            let painting = made_of
-                .map(|frame| Painting::new(frame, drawing))
-                .transpose()?;
-            let painting = painting.flatten();
             let runs_of_joints = runs_of_joints(drawing);
             let mut first = 0;
             for stack in stacks.iter() {
@@ -72,7 +66,6 @@ impl Rasterizer {
                     samples: *samples,
                     stacks: std::slice::from_ref(stack),
                     runs_of_joints: &runs_of_joints,
-                    painting: painting.as_ref(),
                 };
                 let declared = planes.declared;
                 let [ids, numbers] = planes.of_band();
@@ -105,8 +98,31 @@ impl Rasterizer {
     }
 }
 
+impl Rasterizer {
+    /// Draws a picture whose passes go over all its samples before their means are taken.
+    pub(super) fn draw_with_passes(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
+        check::check(drawing)?;
+        let samples = self.samples;
+        let mut picture = empty_picture(drawing, samples)?;
+        picture.pixels.fill([0.0; 4]);
+        let mut planes = std::mem::take(&mut self.planes);
+        let drawn = self.draw_samples(drawing, &mut planes, |planes| {
+            for pass in &drawing.passes {
+                pass.draw(planes, samples);
+            }
+            planes.add_to(&mut picture.pixels);
+        });
+        self.planes = planes;
+        drawn?;
+        let count = samples as f32;
+        let pixels = picture.pixels.par_iter_mut().with_min_len(1024);
+        pixels.for_each(|pixel| *pixel = pixel.map(|sum| sum / count));
+        Ok(picture)
+    }
+}
+
 /// For each joint of a checked drawing its run.
-pub(super) fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
+fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
     let mut runs_of_joints = vec![0; drawing.clump.len()];
     for (run, number) in drawing.runs.iter().zip(0..) {
         runs_of_joints[run.joints.clone()].fill(number);
@@ -131,7 +147,9 @@ impl Worker {
             let scene = frame.tile_at([left, top]);
             scene.strands(segments, &mut self.parts);
             self.draw_stack::<true>(frame, &scene, tile, triangles);
-            self.paint(frame);
+            if !frame.drawing.painting.is_empty() {
+                self.paint(frame);
+            }
             let size = [(width - left).min(tile::WIDTH), height - top];
             self.tell(frame, size, left, &mut planes);
         }
@@ -169,7 +187,7 @@ impl Worker {
             return None;
         }
         let [red, green, blue] = &self.target.color;
-        let color = [red, green, blue].map(|plane| plane[cell][lane].max(0.0).min(1.0));
+        let color = [red, green, blue].map(|plane| plane[cell][lane].clamp(0.0, 1.0));
         let color = [color[0], color[1], color[2], 1.0];
         if what & TRIANGLE != 0 {
             let inv_depth = self.target.surface[cell][lane];

@@ -3,10 +3,7 @@
 use glam::Vec2;
 use proptest::collection::vec;
 use proptest::prelude::*;
-use render::{
-    Brush, Disc, Drawing, DrawnFeatures, LayerStrokes, Order, Run, Stretches, Surface,
-    SurfaceVertex,
-};
+use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex};
 
 fn disc_around(extent: f32) -> impl Strategy<Value = Disc> {
     let coordinate =
@@ -217,7 +214,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                     order,
                     edge_depth_m,
                     brush,
-                    features: DrawnFeatures::default(),
+                    ..Drawing::default()
                 }
             },
         )

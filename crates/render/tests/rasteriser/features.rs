@@ -67,7 +67,7 @@ fn samples(drawing: &Drawing, count: u32, threads: usize) -> Vec<Vec<Sample>> {
     let mut told = Vec::new();
     Rasterizer::new(count, Some(threads))
         .unwrap()
-        .draw_samples(drawing, None, &mut SamplePlanes::default(), |planes| {
+        .draw_samples(drawing, &mut SamplePlanes::default(), |planes| {
             assert_eq!(planes.samples().start, told.len());
             for picture in 0..planes.samples().len() {
                 let of_row = |y| (0..width).map(move |x| (x, y));
@@ -211,7 +211,7 @@ fn lists_of_another_length_are_refused() {
     drawing.features.u.pop();
     let draw = |drawing: &Drawing| {
         let mut rasterizer = Rasterizer::new(1, Some(1)).unwrap();
-        rasterizer.draw_samples(drawing, None, &mut SamplePlanes::default(), |_| {})
+        rasterizer.draw_samples(drawing, &mut SamplePlanes::default(), |_| {})
     };
     let error = draw(&drawing).unwrap_err().to_string();
     assert!(error.contains("the list `u`"), "{error}");

@@ -134,7 +134,7 @@ impl Painter {
         };
         let (_, rasterizer) = self.rasterizer.insert((samples, rasterizer));
         let picture = rasterizer
-            .draw_frame(frame, &self.drawing)
+            .draw(&self.drawing)
             .map_err(|error| failed(&error))?;
         Ok(Painted {
             picture,

@@ -1,0 +1,205 @@
+//! Layers that paint: each sample that they show has the colour that the effect says, and no other sample changes.
+
+use effects::preset::Reader;
+use effects::{Layer, Parameters, Registry, Values, Varied, clump};
+use glam::Vec3;
+use render::cpu::{Evaluator, Rasterizer};
+use render::{
+    Brush, Drawing, Feature, Features, Frame, Head, Light, NO_TAPER, Object, Order, Picture,
+    Sample, SamplePlanes, StrandInfo,
+};
+use stroke_path::{Camera, OrbitView, PathKind, Paths};
+
+const STRANDS: usize = 24;
+const SIZE: [u32; 2] = [120, 160];
+
+fn layers(text: &str) -> Vec<Layer> {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
+    let mut reader = Reader::new("test", text);
+    let specs = reader.layers(text, &registry, &[]);
+    reader.report().unwrap();
+    specs.iter().map(|spec| spec.build()).collect()
+}
+
+/// Strands that hang from a circle around the head's top and curl, drawn by these layers.
+fn drawing(list: &str, features: Features) -> Drawing {
+    let view = OrbitView {
+        target: Vec3::ZERO,
+        yaw_degrees: 20.0,
+        pitch_degrees: 10.0,
+        distance_m: 1.6,
+        vertical_fov_degrees: 20.0,
+    };
+    let camera = Camera::orbit(view, SIZE, 0.01).unwrap();
+    let mut paths = Paths::new();
+    let kind = PathKind::CatmullRom { subdivision: 4 };
+    for strand in 0..STRANDS {
+        let (sine, cosine) = (0.3 * strand as f32).sin_cos();
+        let out = Vec3::new(sine, 0.0, cosine);
+        let point = |i: usize| {
+            let down = 0.05 * i as f32;
+            0.1 * out * (1.0 + 0.2 * (8.0 * down).sin()) + Vec3::Y * (0.15 - down)
+        };
+        let points: Vec<Vec3> = (0..6).map(point).collect();
+        paths.push_strand(strand, &points, kind, &camera).unwrap();
+    }
+    let strands: Vec<StrandInfo> = (0..STRANDS as u32)
+        .map(|id| StrandInfo {
+            id,
+            mean: Vec3::ZERO,
+            size: 14.0,
+            taper: NO_TAPER,
+            level: 0,
+            lift: 0.0,
+        })
+        .collect();
+    let clump = Varied::new(&Values::defaults(clump::Program::PARAMS));
+    let layers = layers(list);
+    let all = vec![0..paths.len(); layers.len()];
+    let frame = Frame {
+        camera: &camera,
+        paths: &paths,
+        strands: &strands,
+        objects: vec![Object {
+            joints: 0..paths.len(),
+            head: Head {
+                center: Vec3::ZERO,
+                height_m: 0.24,
+            },
+            solid: None,
+            clump: &clump,
+            seed: 1,
+            layers: &layers,
+            layer_joints: &all,
+        }],
+        light: Light::Direction(Vec3::new(0.4, 0.6, 0.7).normalize()),
+        time_s: 0.0,
+        material_normals: &[],
+        surfaces: Vec::new(),
+        background: Some([0.5; 3]),
+        order: Order::Rounded,
+        edge_depth_m: 0.005,
+        brush: Brush::Circle,
+        features,
+        roundness: 1.0,
+    };
+    let mut drawing = Drawing::default();
+    Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
+    drawing
+}
+
+fn draw(drawing: &Drawing, samples: u32, threads: usize) -> Picture {
+    let mut rasterizer = Rasterizer::new(samples, Some(threads)).unwrap();
+    rasterizer.draw(drawing).unwrap()
+}
+
+/// All samples of a drawing.
+fn samples(drawing: &Drawing) -> Vec<Sample> {
+    let mut told = Vec::new();
+    let mut rasterizer = Rasterizer::new(4, Some(1)).unwrap();
+    let mut planes = SamplePlanes::default();
+    let take = |planes: &mut SamplePlanes| {
+        for picture in 0..planes.samples().len() {
+            for y in 0..SIZE[1] as usize {
+                told.extend((0..SIZE[0] as usize).map(|x| planes.sample(picture, x, y)));
+            }
+        }
+    };
+    rasterizer.draw_samples(drawing, &mut planes, take).unwrap();
+    told
+}
+
+const LINE: &str = "(effect: \"hair.silhouette\", params: (color: \"0000FF\"))";
+
+/// A layer that paints with these parameters.
+fn toon(params: &str) -> String {
+    format!("(effect: \"hair.toon\", params: (root_fade: 0, rim_width: 0, {params}))")
+}
+
+#[test]
+fn paint_that_changes_nothing_is_the_same_picture_bit_for_bit() {
+    let plain = drawing(
+        &format!("[{LINE}, (effect: \"hair.base\")]"),
+        Features::NONE,
+    );
+    let painted = drawing(
+        &format!("[{LINE}, {}]", toon("tones: none")),
+        Features::NONE,
+    );
+    assert!(plain.painting.is_empty() && !painted.painting.is_empty());
+    for count in [1, 2, 3, 4, 16] {
+        assert_eq!(
+            draw(&plain, count, 1),
+            draw(&painted, count, 1),
+            "{count} samples"
+        );
+    }
+}
+
+#[test]
+fn a_sample_is_painted_by_what_it_shows() {
+    let told = Features::of(&[Feature::Layer, Feature::Color, Feature::U, Feature::W]);
+    for (detail, place) in [
+        ("along", (|sample| sample.u) as fn(&Sample) -> f32),
+        ("across", |sample| 0.5 + 0.5 * sample.w),
+    ] {
+        let rows = "[(v: 0, stops: [(0, \"000000\")]), (v: 1, stops: [(0, \"FFFFFF\")])]";
+        let layer = toon(&format!("mode: replace, detail: {detail}, tones: {rows}"));
+        let samples = samples(&drawing(&format!("[{LINE}, {layer}]"), told));
+        let (painted, others): (Vec<&Sample>, Vec<&Sample>) =
+            samples.iter().partition(|sample| sample.layer == 1);
+        assert!(painted.len() > 3000 && others.len() > 3000);
+        for sample in painted {
+            let expected = place(sample);
+            for light in &sample.color[..3] {
+                assert!((light - expected).abs() < 1e-5, "{detail}: {sample:?}");
+            }
+        }
+        for sample in others {
+            let line = [0.0, 0.0, 1.0, 1.0];
+            assert!(
+                [line, [0.5, 0.5, 0.5, 1.0]].contains(&sample.color),
+                "{sample:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn threads_change_no_bit() {
+    let layer = toon(
+        "detail: blinn, exponent: 20, mode: add, tones: [(v: 0, stops: [(0, \"000000\")]), (v: 1, stops: [(0, \"FFFFFF\")])]",
+    );
+    let drawing = drawing(&format!("[{LINE}, {layer}]"), Features::NONE);
+    let one = draw(&drawing, 4, 1);
+    for threads in [2, 5] {
+        assert_eq!(draw(&drawing, 4, threads), one);
+    }
+    // Light from the front has highlights: something is painted.
+    let dark = toon("tones: [(0, \"000000\")]");
+    assert_ne!(
+        draw(
+            &self::drawing(&format!("[{LINE}, {dark}]"), Features::NONE),
+            4,
+            1
+        ),
+        one
+    );
+}
+
+#[test]
+fn lists_that_do_not_fit_are_refused() {
+    let mut drawing = drawing(
+        &format!("[{LINE}, {}]", toon("detail: along")),
+        Features::NONE,
+    );
+    let mut rasterizer = Rasterizer::new(1, Some(1)).unwrap();
+    drawing.painting.joints.u.pop();
+    let error = rasterizer.draw(&drawing).unwrap_err().to_string();
+    assert!(error.contains("painting: the list `u` has"), "{error}");
+    drawing.painting.layers[0].layer = 2;
+    let error = rasterizer.draw(&drawing).unwrap_err().to_string();
+    assert!(error.contains("layer 2 is not there"), "{error}");
+}
