@@ -171,7 +171,7 @@ impl Gathered {
             [0, 1, 2].map(|i: usize| planes.numbers(picture, feature, i.min(components - 1), y));
         for (x, sum) in self.sums[row].iter_mut().enumerate() {
             let object = objects[x];
-            if object == 0 || (object % 2 == 0 && self.pass.is_of_hair()) {
+            if object == 0 || (object.is_multiple_of(2) && self.pass.is_of_hair()) {
                 continue;
             }
             let sample = match self.pass {
