@@ -43,6 +43,15 @@ struct Params {
     /// the strand twists.
     /// @choices outward material @default outward
     normal: u32,
+    /// How many levels strands lie in, one over the other, as cartoonists draw hair; 1 orders them by depth alone.
+    /// @range 1..8 @default 1
+    levels: u32,
+    /// How much nearer than the level below each level is taken to be, against other hair alone.
+    /// @unit head heights @range 0..10 @default 0.1
+    level_depth: f32,
+    /// Which strand is in which level: any, or another one than the strands beside it.
+    /// @choices random apart @default random
+    level_choice: u32,
     /// Basic colour.
     /// @default "3FC1C0"
     color: vec3<f32>,

@@ -227,6 +227,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             brush: Brush::Circle,
             features: render::Features::NONE,
             roundness: 1.0,
+            passes: Vec::new(),
         };
         let (picture, cpu) = backends.on_cpu(&frame)?;
         let card = backends.on_card(&frame)?;

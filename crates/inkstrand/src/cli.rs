@@ -1,5 +1,6 @@
 //! The command line: what there is, and what it says about itself.
 
+use crate::pass::Pass;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -41,6 +42,9 @@ Examples:
       a quick look
   inkstrand render look.ron --background none --only hair.base
       the flat colour alone, on nothing
+  inkstrand render look.ron --pass strand -o strands.png
+      a colour for each strand, for a selection in a paint program; --pass depth, normal, u, ..
+      are others, also of sequences
   inkstrand render look.ron --set hair.silhouette.width=3 --set clump.color=C9804B
       thicker lines, other hair
   inkstrand render look.ron --hair groom.tfx --head head.obj --guides 150
@@ -160,6 +164,10 @@ pub(crate) struct RenderOptions {
     /// What draws
     #[arg(long, value_enum, default_value = "auto")]
     pub backend: Backend,
+
+    /// Write what samples show in place of the picture, for compositing: the CPU draws it
+    #[arg(long, value_enum, value_name = "PASS")]
+    pub pass: Option<Pass>,
 
     /// Where the eye stands: 0,0 looks at the face; positive degrees move it right and up; distance in head heights [default: the preset's]
     #[arg(long, value_name = "YAW,PITCH[,DISTANCE]", allow_hyphen_values = true, value_parser = parse_numbers)]

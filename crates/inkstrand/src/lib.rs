@@ -22,6 +22,7 @@ mod commands;
 mod embed;
 mod output;
 mod painter;
+mod pass;
 mod paths;
 mod quiet_drivers;
 mod say;

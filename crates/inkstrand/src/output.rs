@@ -1,6 +1,7 @@
 //! Picture files: their names and their bytes.
 
 use crate::animation::{Animation, color, pixels};
+use crate::pass::PassPicture;
 use crate::paths::place;
 use hair_io::{folder_of, write_whole};
 use render::Picture;
@@ -150,6 +151,16 @@ impl Output {
                 Ok(())
             }
         }
+    }
+
+    /// Writes a picture of a pass, of which there is no animation.
+    pub fn write_pass(&mut self, picture: &PassPicture, frame: u32) -> io::Result<()> {
+        write_whole(&self.path(frame), &picture.encode()?)
+    }
+
+    /// Whether all frames go into one file.
+    pub fn is_moving(&self) -> bool {
+        matches!(self.name, Name::Moving(_))
     }
 
     /// Writes what is written when all frames are there.

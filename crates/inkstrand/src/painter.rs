@@ -8,10 +8,12 @@ mod card;
 
 use crate::Failure;
 use crate::cli::Backend;
+use crate::pass::{Gathered, Pass, PassPicture, Scale};
 use crate::stats::{Bytes, FrameStats, StrandCounts, buffer_bytes, drawing_counts};
 use card::Card;
+use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Drawing, Picture};
+use render::{Drawing, Picture, SamplePlanes};
 use stage::Stage;
 use std::sync::Arc;
 use std::time::Instant;
@@ -39,6 +41,7 @@ struct Cpu {
     evaluator: Evaluator,
     rasterizer: Rasterizer,
     drawing: Drawing,
+    planes: SamplePlanes,
 }
 
 impl Painter {
@@ -108,6 +111,65 @@ impl Painter {
         Ok((picture, stats))
     }
 
+    /// Draws a pass of the scene at `time`, in seconds, on the CPU, seen from so many head heights.
+    pub(crate) fn paint_pass(
+        &mut self,
+        stage: &mut Stage,
+        number: u32,
+        time: f32,
+        pass: Pass,
+        distance: f32,
+    ) -> Result<(PassPicture, FrameStats), Failure> {
+        let started = Instant::now();
+        let mut lap = Lap(started);
+        let mut stats = FrameStats {
+            frame: number,
+            samples: self.samples,
+            backend: "cpu",
+            ..FrameStats::default()
+        };
+        stage.advance_to(time)?;
+        stats.milliseconds.simulate = lap.passed();
+        let (head, samples) = (stage.head(), self.samples);
+        let cpu = self.cpu()?;
+        let mut frame = stage.frame()?;
+        frame.features = pass.features();
+        stats.milliseconds.paths = lap.passed();
+        cpu.evaluator.evaluate(&frame, &mut cpu.drawing)?;
+        stats.milliseconds.effects = lap.passed();
+        let axis = |x, y, z| frame.camera.world_from_view_direction(Vec3::new(x, y, z));
+        let scale = Scale {
+            head_m: head.height_m,
+            distance_m: distance * head.height_m,
+            axes: [
+                axis(1.0, 0.0, 0.0),
+                axis(0.0, 1.0, 0.0),
+                axis(0.0, 0.0, -1.0),
+            ],
+        };
+        let mut gathered = Gathered::new(pass, scale, cpu.drawing.size, samples);
+        let Cpu {
+            rasterizer,
+            drawing,
+            planes,
+            ..
+        } = cpu;
+        rasterizer.draw_samples(drawing, planes, |planes| gathered.add(planes))?;
+        stats.milliseconds.raster = lap.passed();
+        stats.layers = drawing_counts(drawing);
+        stats.bytes = Bytes {
+            buffers: buffer_bytes(drawing),
+        };
+        stats.size = drawing.size;
+        stats.milliseconds.total = started.elapsed().as_secs_f64() * 1e3;
+        stats.strands = StrandCounts {
+            total: stage.strand_count(),
+            culled: stage.culled(),
+            asleep: stage.simulated().asleep,
+        };
+        Ok((gathered.finish(), stats))
+    }
+
     fn draw(
         &mut self,
         stage: &mut Stage,
@@ -146,6 +208,7 @@ impl Painter {
                 evaluator: Evaluator::default(),
                 rasterizer: Rasterizer::new(self.samples, None)?,
                 drawing: Drawing::default(),
+                planes: SamplePlanes::default(),
             },
         };
         Ok(self.cpu.insert(cpu))

@@ -1,6 +1,8 @@
 //! What a drawing must be before anything is drawn.
 
 use crate::drawing::{Disc, Drawing, LayerStrokes, Run, Stretch, Stretches, Surface};
+use crate::edges::Edges;
+use crate::features::{Feature, Features};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -199,6 +201,9 @@ pub enum DrawError {
         /// How many the surface has.
         vertices: usize,
     },
+    /// A pass needs a feature that isn't declared.
+    #[error("a pass needs the feature {0:?}, which is not declared")]
+    Undeclared(Feature),
     /// A list that a declared feature needs has another length.
     #[error("features: the list `{list}` has {length} entries, where there are {needed}")]
     FeatureList {
@@ -249,6 +254,13 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
 
 fn check_features(drawing: &Drawing) -> Result<(), DrawError> {
     let features = &drawing.features;
+    let of_passes = drawing.passes.iter().map(Edges::features);
+    let missing = of_passes
+        .flat_map(Features::iter)
+        .find(|feature| !features.declared.has(*feature));
+    if let Some(feature) = missing {
+        return Err(DrawError::Undeclared(feature));
+    }
     if features.declared.is_empty() {
         return Ok(());
     }

@@ -34,7 +34,7 @@ pub use stamp::Stamper;
 use crate::check;
 use crate::drawing::Drawing;
 use crate::picture::Picture;
-use crate::planes::BandPlanes;
+use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
 use instructions::Instructions;
@@ -77,6 +77,8 @@ pub struct Rasterizer {
     instructions: Instructions,
     /// One for each thread, once it has drawn.
     workers: Vec<Mutex<Worker>>,
+    /// Samples of the last picture with passes.
+    planes: SamplePlanes,
 }
 
 /// What the drawing is taken apart into.
@@ -110,6 +112,7 @@ impl Rasterizer {
             instructions: *available.last().unwrap_or(&Instructions::Compiled),
             parts: Parts::default(),
             workers: Vec::new(),
+            planes: SamplePlanes::default(),
         })
     }
 
@@ -122,6 +125,13 @@ impl Rasterizer {
     /// When the drawing is invalid (see [`DrawError`]); then nothing has been drawn.
     #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn draw(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
+        match drawing.passes.is_empty() {
+            true => self.draw_means(drawing),
+            false => self.draw_with_passes(drawing),
+        }
+    }
+
+    fn draw_means(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
         let Self {
             pool,
             samples,
@@ -129,6 +139,7 @@ impl Rasterizer {
             parts,
             instructions,
             workers,
+            planes: _,
         } = self;
         let mut draw = || {
             check::check(drawing)?;

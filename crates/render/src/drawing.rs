@@ -5,6 +5,7 @@
 //! axis, because that is what runs linearly along a projected segment; larger is nearer.
 //! Colours are linear light, red, green, blue.
 
+use crate::edges::Edges;
 use crate::features::DrawnFeatures;
 use crate::painting::Painting;
 use glam::Vec2;
@@ -253,6 +254,9 @@ pub struct Drawing {
     pub features: DrawnFeatures,
     /// Layers whose samples are painted.
     pub painting: Painting,
+    /// What is done with the samples of the whole picture, one after the other, before their means are taken. What they need is to be
+    /// declared by the features.
+    pub passes: Vec<Edges>,
 }
 
 #[cfg(test)]

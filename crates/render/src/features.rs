@@ -202,7 +202,7 @@ impl DrawnFeatures {
     /// Takes on what a checked frame declares, in place of what was there; but for the clumps' normals.
     pub(crate) fn fill(&mut self, frame: &Frame) {
         self.clear();
-        self.declared = frame.features;
+        self.declared = frame.all_features();
         if self.declared.is_empty() {
             return;
         }

@@ -5,6 +5,7 @@ mod check;
 pub use check::FrameError;
 
 use crate::drawing::{Order, Surface};
+use crate::edges::Edges;
 use crate::features::Features;
 use effects::{InputSet, Layer, Reach, Varied, clump};
 use glam::{Vec2, Vec3};
@@ -112,6 +113,17 @@ pub struct Frame<'a> {
     /// How much normals of hair are those of a round tube, for [`Feature::Normal`](crate::Feature::Normal): 0 the clump's, 1 the
     /// tube's.
     pub roundness: f32,
+    /// What is done with the samples of the whole picture, one after the other, before their means are taken.
+    pub passes: Vec<Edges>,
+}
+
+impl Frame<'_> {
+    /// What its samples tell: what is declared, and what its passes need.
+    #[must_use]
+    pub fn all_features(&self) -> Features {
+        let of_passes = self.passes.iter().map(Edges::features);
+        of_passes.fold(self.features, Features::union)
+    }
 }
 
 /// A ball in the world.

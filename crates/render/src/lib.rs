@@ -44,6 +44,7 @@
 mod check;
 pub mod cpu;
 mod drawing;
+mod edges;
 mod features;
 mod frame;
 #[cfg(feature = "gpu")]
@@ -58,6 +59,7 @@ pub use drawing::{
     Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface, SurfaceVertex,
     scatter,
 };
+pub use edges::{EdgeChannel, Edges};
 pub use features::{
     DrawnFeatures, Feature, Features, NO_ID, RunInfo, object_of_hair, object_of_mesh,
 };

@@ -2,6 +2,7 @@
 
 use crate::features::{Feature, Features, NO_ID};
 use glam::Vec3;
+use rayon::prelude::*;
 
 /// Up to four samples of each pixel of a picture, with the features that are declared.
 ///
@@ -178,6 +179,58 @@ impl SamplePlanes {
     pub(crate) fn of_band(&self) -> [usize; 2] {
         let plane = self.size[0] as usize * self.band;
         Self::planes(self.declared).map(|planes| planes * plane * self.count)
+    }
+
+    /// Gives the samples that are set, 64 in a word for each row of each sample, a colour.
+    pub(crate) fn set_color(&mut self, set: &[Vec<Vec<u64>>], color: [f32; 3]) {
+        let [_, planes] = Self::planes(self.declared);
+        let Some(first) = Self::plane(self.declared, Feature::Color) else {
+            return;
+        };
+        let [red, green, blue] = color;
+        let [width, height] = self.size.map(|side| side as usize);
+        let (count, band) = (self.count, self.band);
+        let [_, of_band] = self.of_band();
+        let bands = self.numbers.par_chunks_mut(of_band).enumerate();
+        bands.for_each(|(number, numbers)| {
+            for (picture, rows) in set.iter().enumerate().take(count) {
+                for y in number * band..((number + 1) * band).min(height) {
+                    for (component, value) in [red, green, blue, 1.0].into_iter().enumerate() {
+                        let plane = picture * planes + first + component;
+                        let start = (plane * band + y % band) * width;
+                        let row = &mut numbers[start..start + width];
+                        for (bits, pixels) in rows[y].iter().zip(row.chunks_mut(64)) {
+                            let mut left = *bits;
+                            while left != 0 {
+                                let x = left.trailing_zeros() as usize;
+                                if let Some(pixel) = pixels.get_mut(x) {
+                                    *pixel = value;
+                                }
+                                left &= left - 1;
+                            }
+                        }
+                    }
+                }
+            }
+        });
+    }
+
+    /// Adds the colours of all samples to the pixels of a picture of that size.
+    pub(crate) fn add_to(&self, pixels: &mut [[f32; 4]]) {
+        let width = self.size[0] as usize;
+        pixels
+            .par_chunks_mut(width)
+            .enumerate()
+            .for_each(|(y, pixels)| {
+                for picture in 0..self.count {
+                    for component in 0..4 {
+                        let row = self.numbers(picture, Feature::Color, component, y);
+                        for (pixel, value) in pixels.iter_mut().zip(row) {
+                            pixel[component] += value;
+                        }
+                    }
+                }
+            });
     }
 
     /// Width and height, pixels.

@@ -100,6 +100,7 @@ fn drawing_on(
         brush,
         features: render::Features::NONE,
         roundness: 1.0,
+        passes: Vec::new(),
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();

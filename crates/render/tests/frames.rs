@@ -98,6 +98,7 @@ impl Scene {
             brush: Brush::Circle,
             features: render::Features::NONE,
             roundness: 1.0,
+            passes: Vec::new(),
         }
     }
 }

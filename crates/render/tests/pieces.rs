@@ -106,6 +106,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         brush: Brush::Circle,
         features: render::Features::NONE,
         roundness: 1.0,
+        passes: Vec::new(),
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();

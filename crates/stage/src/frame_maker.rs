@@ -2,6 +2,7 @@
 
 use crate::files::StageError;
 use crate::head;
+use crate::levels::levels;
 use crate::look::Look;
 use crate::material::Material;
 use crate::motion::{Motion, ObjectMotion};
@@ -46,6 +47,8 @@ struct ObjectFrame {
     of: Object,
     pose: HeadPose,
     points: Vec<Vec3>,
+    /// The level of each strand of its hair; empty where there is one level.
+    levels: Vec<u32>,
     /// Strands of hair of which nothing can be seen, so that it is left out as a whole.
     unseen: usize,
     /// Paths that are made beside each other.
@@ -133,7 +136,7 @@ impl FrameMaker {
             object
                 .placement()
                 .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
-            surfaces.extend(frame.surfaces(motion, &sight, light));
+            surfaces.extend(frame.surfaces(index, motion, &sight, light));
         }
         let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
             let look = object.look();
@@ -167,6 +170,7 @@ impl FrameMaker {
             brush: scene.brush(),
             features: render::Features::NONE,
             roundness: 1.0,
+            passes: scene.look().passes(scene.head(), camera.size_px()[1]),
         })
     }
 
@@ -247,6 +251,7 @@ impl ObjectFrame {
             of: object.clone(),
             pose: HeadPose::REST,
             points: Vec::new(),
+            levels: levels_of(object),
             unseen: 0,
             parts: Vec::new(),
             strands: 0..0,
@@ -265,6 +270,11 @@ impl ObjectFrame {
         if !self.of.has_hair_and_head_of(object) {
             self.material = None;
             self.head = object.neck().map(PosedHead::new);
+        }
+        if !self.of.has_hair_and_head_of(object)
+            || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
+        {
+            self.levels = levels_of(object);
         }
         if object.look().reads_material() {
             self.material.get_or_insert_default();
@@ -317,11 +327,15 @@ impl ObjectFrame {
             self.unseen = hair.infos.len();
             return Ok(());
         }
+        let level_depth = self.of.look().clump.base().level_depth;
         let particles = |i: usize| &points[hair.file.strands.point_range(i)];
         for (i, info) in hair.infos.iter().enumerate() {
             let mean = particles(i).iter().sum::<Vec3>() / particles(i).len() as f32;
+            let level = self.levels.get(i).copied().unwrap_or(0);
             strands.push(StrandInfo {
                 mean: self.of.placement().point(mean),
+                level,
+                lift: level as f32 * level_depth,
                 ..*info
             });
         }
@@ -470,12 +484,19 @@ impl ObjectFrame {
     }
 
     /// The head's surfaces on the screen; none where nothing of the head can be seen.
-    fn surfaces(&mut self, motion: &ObjectMotion, sight: &Sight, light: Light) -> Vec<Surface> {
+    fn surfaces(
+        &mut self,
+        index: usize,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        light: Light,
+    ) -> Vec<Surface> {
         self.solid = None;
         let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
             return Vec::new();
         };
         let paint = self.of.look().paint(self.of.hair().head);
+        let first_mesh = head::MESHES * index as u32;
         let (pose, placement) = (motion.pose(), self.of.placement());
         let camera = sight.camera();
         let solid = match sight.shows_all() {
@@ -489,8 +510,25 @@ impl ObjectFrame {
         }
         let model = posed.in_pose(neck, motion.pose());
         let light = self.of.placement().own_light(light);
-        head::surfaces(model, &paint, sight.camera(), &light)
+        let mut surfaces = head::surfaces(model, &paint, sight.camera(), &light);
+        for surface in &mut surfaces {
+            surface.mesh += first_mesh;
+        }
+        surfaces
     }
+}
+
+/// The levels of an object's strands; none where there is one.
+fn levels_of(object: &Object) -> Vec<u32> {
+    let (hair, look) = (object.hair(), object.look());
+    let params = look.clump.base();
+    if params.levels <= 1 {
+        return Vec::new();
+    }
+    let rest = &hair.file.strands;
+    let roots = (0..rest.len()).map(|i| rest.strand(i)[0] - hair.head.center);
+    let ids: Vec<u32> = hair.infos.iter().map(|info| info.id).collect();
+    levels(params, look.seed, &ids, &roots.collect::<Vec<_>>())
 }
 
 /// A ball that paths through these points stay in: its middle and its radius, metres. A path leaves the hull of its points by no more than

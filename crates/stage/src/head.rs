@@ -224,6 +224,11 @@ struct Corner {
     tone: f32,
 }
 
+/// What of a head is told apart as a mesh of its own ([`Surface::mesh`]): itself, its clothes, ornaments.
+pub(crate) const MESHES: u32 = 3;
+const CLOTHES: u32 = 1;
+const ORNAMENTS: u32 = 2;
+
 /// How much nearer than a band hair must be to hide it, metres: next to nothing.
 const BAND_MARGIN_M: f32 = 1e-5;
 
@@ -301,8 +306,12 @@ pub(crate) fn surfaces(
     for (cloth, triangles) in clothes {
         let [light, shadow, _] = paint.of_cloth(*cloth);
         let (front, back) = (Facing::Front, Facing::Back);
-        surfaces.push(surface(camera, triangles, &corners, front, light, shadow));
         surfaces.push(Surface {
+            mesh: CLOTHES,
+            ..surface(camera, triangles, &corners, front, light, shadow)
+        });
+        surfaces.push(Surface {
+            mesh: CLOTHES,
             margin_m: paint.inside_margin_m,
             ..surface(camera, triangles, &corners, back, shadow, shadow)
         });
@@ -312,8 +321,10 @@ pub(crate) fn surfaces(
         let skin = once((Cloth::Skin, skin));
         let clothes = clothes.iter().map(|(cloth, triangles)| (*cloth, triangles));
         for (cloth, triangles) in skin.chain(clothes) {
+            let is_skin = cloth == Cloth::Skin;
             let [.., line] = paint.of_cloth(cloth);
             surfaces.push(Surface {
+                mesh: if is_skin { 0 } else { CLOTHES },
                 margin_m: -paint.outline_margin_m,
                 ..surface(camera, triangles, &hull, Facing::Back, line, line)
             });
@@ -388,6 +399,7 @@ fn worn(ornaments: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> 
     }
     for surface in &mut worn {
         surface.margin_m = BAND_MARGIN_M;
+        surface.mesh = ORNAMENTS;
     }
     worn
 }

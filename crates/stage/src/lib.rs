@@ -10,6 +10,7 @@ mod frame_maker;
 mod hair;
 mod hand;
 mod head;
+mod levels;
 mod load;
 mod look;
 mod material;
@@ -44,10 +45,10 @@ pub use motion::Motion;
 pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
-    BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, ExpressionChoice,
-    EyesChoice, FixedTo, HairSection, HeadSection, HeadShape, HeldChoice, LightKind, LightSection,
-    MotionSection, NamedObject, ObjectSection, OrderChoice, PathChoice, PathSection, Preset,
-    SceneSection, Sections, TopSection, UpAxis, VERSION,
+    BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
+    ExpressionChoice, EyesChoice, FixedTo, HairSection, HeadSection, HeadShape, HeldChoice,
+    LightKind, LightSection, MotionSection, NamedObject, ObjectSection, OrderChoice, PassesSection,
+    PathChoice, PathSection, Preset, SceneSection, Sections, TopSection, UpAxis, VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;

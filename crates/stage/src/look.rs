@@ -2,11 +2,13 @@
 
 use crate::files::{Files, StageError};
 use crate::head::HeadPaint;
-use crate::preset::{BrushChoice, FixedTo, LightKind, OrderChoice, PathChoice, Preset, Sections};
+use crate::preset::{
+    BrushChoice, EdgesChoice, FixedTo, LightKind, OrderChoice, PathChoice, Preset, Sections,
+};
 use crate::textures::with_textures;
 use effects::{Input, Layer, Parameters, SampleInput, Varied, clump};
 use glam::Vec3;
-use render::{Brush, Head, Light, Order};
+use render::{Brush, EdgeChannel, Edges, Head, Light, Order};
 use stroke_path::{Camera, PathKind, direction_from_angles};
 
 /// How much nearer than the inside of the head hair must be to be seen through an opening, in head
@@ -100,6 +102,28 @@ impl Look {
             BrushChoice::Circle => Brush::Circle,
             BrushChoice::Semicircle => Brush::Semicircle,
         }
+    }
+
+    /// What is done with the samples of a picture so many pixels high.
+    pub(crate) fn passes(&self, head: Head, height_px: u32) -> Vec<Edges> {
+        let section = &self.sections.passes;
+        let channel = match section.edges {
+            EdgesChoice::None => return Vec::new(),
+            EdgesChoice::Level => EdgeChannel::Level,
+            EdgesChoice::Strand => EdgeChannel::Strand,
+            EdgesChoice::Object => EdgeChannel::Object,
+            EdgesChoice::Normal => EdgeChannel::Normal,
+            EdgesChoice::Depth => EdgeChannel::Depth,
+            EdgesChoice::Color => EdgeChannel::Color,
+        };
+        vec![Edges {
+            channel,
+            threshold: section.edges_threshold,
+            step_m: section.edges_depth * head.height_m,
+            width_px: section.edges_width * height_px as f32 / 720.0,
+            fade_to: section.edges_fade,
+            color: section.edges_color,
+        }]
     }
 
     pub(crate) fn order(&self) -> Order {

@@ -180,6 +180,7 @@ impl Animation for Strands {
             brush: Brush::Circle,
             features: render::Features::NONE,
             roundness: 1.0,
+            passes: Vec::new(),
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::progress::{Bar, Watch};
 use super::scene::{Source, check};
 use crate::Failure;
-use crate::cli::{Background, Numbers, RenderOptions};
+use crate::cli::{Backend, Background, Numbers, RenderOptions};
 use crate::output::Output;
 use crate::painter::Painter;
 use crate::paths::is_same;
@@ -53,6 +53,11 @@ fn draw(
         background.is_none(),
     )
     .map_err(Failure::Usage)?;
+    if options.pass.is_some() && output.is_moving() {
+        let message =
+            "--pass: numbers in 16 bits are no frames of an .apng: -o must be a name in .png";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     check_outputs(options, &output, &preset, &files)?;
 
     let mut stage = source.open(&preset, &files, options.quiet)?;
@@ -61,7 +66,11 @@ fn draw(
     for time in [first, last].map(time_of) {
         stage.scene.check_time(time)?;
     }
-    let mut painter = Painter::new(options.backend, samples, options.quiet)?;
+    let (backend, samples) = match options.pass {
+        Some(pass) => (Backend::Cpu, pass.samples(samples)),
+        None => (options.backend, samples),
+    };
+    let mut painter = Painter::new(backend, samples, options.quiet)?;
 
     let mut bar = Bar::from_first_frame(
         options.quiet,
@@ -73,8 +82,20 @@ fn draw(
     )?;
     let mut stats = options.stats.as_deref().map(Lines::create).transpose()?;
     for frame in first..=last {
-        let (picture, line) = painter.paint(&mut stage, frame, time_of(frame))?;
-        output.write(&picture, frame)?;
+        let line = match options.pass {
+            Some(pass) => {
+                let distance = preset.sections.camera.distance;
+                let (picture, line) =
+                    painter.paint_pass(&mut stage, frame, time_of(frame), pass, distance)?;
+                output.write_pass(&picture, frame)?;
+                line
+            }
+            None => {
+                let (picture, line) = painter.paint(&mut stage, frame, time_of(frame))?;
+                output.write(&picture, frame)?;
+                line
+            }
+        };
         if let Some(stats) = &mut stats {
             stats.push(&line)?;
         }

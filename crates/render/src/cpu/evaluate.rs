@@ -63,6 +63,7 @@ impl Evaluator {
         drawing.order = frame.order;
         drawing.edge_depth_m = frame.edge_depth_m;
         drawing.brush = frame.brush;
+        drawing.passes.clone_from(&frame.passes);
         drawing.surfaces.clone_from(&frame.surfaces);
         drawing.runs.clear();
         drawing.runs.extend(frame.paths.runs.iter().map(|run| Run {

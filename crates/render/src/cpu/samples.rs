@@ -3,10 +3,11 @@
 use super::segment::{Segment, strokes_in_order};
 use super::shown::{NOTHING, Planes, TRIANGLE};
 use super::tile::{self, CELL_WIDTH, CELLS_ACROSS, STACK, Stack};
-use super::{DrawError, Frame, Output, Rasterizer, Worker};
+use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture};
 use crate::check;
 use crate::drawing::Drawing;
 use crate::features::{Feature, NO_ID, normal_of_triangle, object_of_hair, object_of_mesh};
+use crate::picture::Picture;
 use crate::planes::{BandPlanes, Sample, SamplePlanes};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -33,6 +34,7 @@ impl Rasterizer {
             parts,
             instructions,
             workers,
+            planes: _,
         } = self;
         let mut draw = || {
             check::check(drawing)?;
@@ -93,6 +95,29 @@ impl Rasterizer {
             Some(pool) => pool.install(draw),
             None => draw(),
         }
+    }
+}
+
+impl Rasterizer {
+    /// Draws a picture whose passes go over all its samples before their means are taken.
+    pub(super) fn draw_with_passes(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
+        check::check(drawing)?;
+        let samples = self.samples;
+        let mut picture = empty_picture(drawing, samples)?;
+        picture.pixels.fill([0.0; 4]);
+        let mut planes = std::mem::take(&mut self.planes);
+        let drawn = self.draw_samples(drawing, &mut planes, |planes| {
+            for pass in &drawing.passes {
+                pass.draw(planes, samples);
+            }
+            planes.add_to(&mut picture.pixels);
+        });
+        self.planes = planes;
+        drawn?;
+        let count = samples as f32;
+        let pixels = picture.pixels.par_iter_mut().with_min_len(1024);
+        pixels.for_each(|pixel| *pixel = pixel.map(|sum| sum / count));
+        Ok(picture)
     }
 }
 

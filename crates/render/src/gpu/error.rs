@@ -52,6 +52,9 @@ pub enum GpuError {
         /// The reason.
         message: String,
     },
+    /// The frame has what the CPU alone draws: layers that paint samples, or passes.
+    #[error("{0} is drawn by the CPU alone")]
+    Unsupported(String),
     /// There is no memory left.
     #[error("the graphics card has no memory left")]
     Memory,

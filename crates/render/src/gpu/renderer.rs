@@ -68,6 +68,19 @@ pub struct Renderer {
     stats: GpuStats,
 }
 
+/// Refuses what no compute shader draws yet.
+fn check_supported(frame: &Frame) -> Result<(), GpuError> {
+    let mut layers = frame.objects.iter().flat_map(|object| object.layers);
+    if let Some(layer) = layers.find(|layer| layer.program.paints().is_some()) {
+        let what = format!("the layer \"{}\", which paints samples,", layer.name);
+        return Err(GpuError::Unsupported(what));
+    }
+    if !frame.passes.is_empty() {
+        return Err(GpuError::Unsupported("the section `passes`".to_owned()));
+    }
+    Ok(())
+}
+
 /// What the passes bind. Made anew where a buffer is.
 struct Groups {
     clumps: Vec<BindGroup>,
@@ -191,6 +204,7 @@ impl Renderer {
             Source::Frame(frame) => {
                 let size = frame.camera.size_px();
                 frame.check()?;
+                check_supported(frame)?;
                 self.scene.fill(frame);
                 self.follow(frame)?;
                 (size, frame.order, GpuFrame::of_frame(frame))

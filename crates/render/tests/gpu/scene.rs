@@ -287,6 +287,7 @@ impl Scene {
             brush: self.brush,
             features: render::Features::NONE,
             roundness: 1.0,
+            passes: Vec::new(),
         }
     }
 }

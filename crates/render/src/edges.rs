@@ -1,0 +1,482 @@
+//! `edges`: lines where neighbouring samples show something else, as image filters draw them, at any width.
+//!
+//! Each sample of all pixels is a picture of its own, whose neighbours are a pixel away: lines found in each, and the mean of all, are
+//! smooth. Lines lie on what is in front. They are grown by discs, whose rows are shifted words of 64 pixels, so that wide lines take
+//! hardly longer than thin ones.
+
+use crate::features::{Feature, Features};
+use crate::planes::SamplePlanes;
+use portable_math::sin_cos_degrees_f32;
+use rayon::prelude::*;
+
+/// What lines are drawn between.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EdgeChannel {
+    /// The clump's levels.
+    Level,
+    /// Strands, and hair and what else there is.
+    Strand,
+    /// Hair, heads, clothes, ornaments and the background.
+    Object,
+    /// Normals: where a Sobel filter of them exceeds [`Edges::threshold`].
+    Normal,
+    /// Depths: where what lies behind is more than [`Edges::step_m`] farther.
+    Depth,
+    /// Colours: where a Sobel filter of linear light exceeds [`Edges::threshold`].
+    Color,
+}
+
+/// Lines where neighbouring samples show something else.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edges {
+    /// What they are drawn between.
+    pub channel: EdgeChannel,
+    /// Of normals and colours, by Sobel's kernels (1 2 1): the root of the sum of the squares of all differences.
+    pub threshold: f32,
+    /// Of depths, metres.
+    pub step_m: f32,
+    /// Width in pixels, 0 or more. Below 1 some samples have no line.
+    pub width_px: f32,
+    /// Place along the strand, 0 root to 1 tip, up to which lines of hair grow to their width, by (1 - cos(t pi)) / 2; 0 has all full.
+    pub fade_to: f32,
+    /// Linear colour.
+    pub color: [f32; 3],
+}
+
+/// Widest radius that lines are grown by, pixels.
+const LARGEST: f32 = 1024.0;
+/// Steps of a radius in a pixel.
+const STEPS: f32 = 4.0;
+
+/// Some pixels of a row, 64 in a word.
+type Bits = Vec<u64>;
+
+impl Edges {
+    /// What samples must tell for it.
+    #[must_use]
+    pub fn features(&self) -> Features {
+        let own = match self.channel {
+            EdgeChannel::Level => Feature::Level,
+            EdgeChannel::Strand => Feature::Strand,
+            EdgeChannel::Object => Feature::Object,
+            EdgeChannel::Normal => Feature::Normal,
+            EdgeChannel::Depth => Feature::InvDepth,
+            EdgeChannel::Color => Feature::Color,
+        };
+        let always = Features::of(&[own, Feature::Object, Feature::InvDepth, Feature::Color]);
+        match self.fade_to > 0.0 {
+            true => always.union(Features::of(&[Feature::U])),
+            false => always,
+        }
+    }
+
+    /// Draws the lines into samples of a picture that has so many a pixel.
+    pub(crate) fn draw(&self, planes: &mut SamplePlanes, samples: usize) {
+        let numbers: Vec<usize> = planes.samples().enumerate().map(|(i, _)| i).collect();
+        let first = planes.samples().start;
+        let masks: Vec<Vec<Bits>> = numbers
+            .into_par_iter()
+            .map(|picture| {
+                // A little less than the middle, so that half a pixel is none where there is one sample.
+                let share = ((first + picture) as f32 + 0.499) / samples as f32;
+                self.lines(planes, picture, share)
+            })
+            .collect();
+        planes.set_color(&masks, self.color);
+    }
+
+    /// The pixels of one sample that lines cover; `share` is the sample's place among all, 0 to 1.
+    fn lines(&self, planes: &SamplePlanes, picture: usize, share: f32) -> Vec<Bits> {
+        let [width, height] = planes.size().map(|side| side as usize);
+        let words = width.div_ceil(64);
+        let mut lines = vec![vec![0; words]; height];
+        let mut found = vec![false; width];
+        let mut classes: Vec<(usize, Bits)> = Vec::new();
+        let mut grown = vec![0; words];
+        for y in 0..height {
+            found.fill(false);
+            self.find(planes, picture, y, &mut found);
+            classes.clear();
+            let along = planes.numbers(picture, Feature::U, 0, y);
+            let objects = planes.ids(picture, Feature::Object, y);
+            for x in (0..width).filter(|x| found[*x]) {
+                let is_hair = objects[x] % 2 == 1;
+                let place = along.get(x).filter(|_| is_hair).copied();
+                let Some(class) = self.class(place, share) else {
+                    continue;
+                };
+                let index = classes.iter().position(|(other, _)| *other == class);
+                let index = index.unwrap_or_else(|| {
+                    classes.push((class, vec![0; words]));
+                    classes.len() - 1
+                });
+                classes[index].1[x / 64] |= 1 << (x % 64);
+            }
+            for (class, bits) in &classes {
+                grown.copy_from_slice(bits);
+                grow(&mut grown, *class as f32 / STEPS, y, &mut lines);
+            }
+        }
+        lines
+    }
+
+    /// The radius that a line is grown by there, in [`STEPS`]; nothing where the sample has no line.
+    fn class(&self, along: Option<f32>, share: f32) -> Option<usize> {
+        let fade = match along {
+            Some(u) if self.fade_to > 0.0 => {
+                let t = (u / self.fade_to).clamp(0.0, 1.0);
+                let (_, cos) = sin_cos_degrees_f32(180.0 * t);
+                0.5 * (1.0 - cos)
+            }
+            _ => 1.0,
+        };
+        let width = self.width_px * fade;
+        if width < 1.0 {
+            return (share < width).then_some(0);
+        }
+        let radius = (0.5 * (width - 1.0) + share).min(LARGEST);
+        Some((radius * STEPS) as usize)
+    }
+
+    /// Marks the pixels of a row where a line begins.
+    fn find(&self, planes: &SamplePlanes, picture: usize, y: usize, found: &mut [bool]) {
+        match self.channel {
+            EdgeChannel::Level => find_ids(planes, picture, Feature::Level, y, found),
+            EdgeChannel::Strand => find_ids(planes, picture, Feature::Strand, y, found),
+            EdgeChannel::Object => find_ids(planes, picture, Feature::Object, y, found),
+            EdgeChannel::Depth => self.find_steps(planes, picture, y, found),
+            EdgeChannel::Normal => self.find_sobel(planes, picture, Feature::Normal, y, found),
+            EdgeChannel::Color => self.find_sobel(planes, picture, Feature::Color, y, found),
+        }
+    }
+
+    fn find_steps(&self, planes: &SamplePlanes, picture: usize, y: usize, found: &mut [bool]) {
+        let row = |y: usize| planes.numbers(picture, Feature::InvDepth, 0, y);
+        let own = row(y);
+        for y in around(y, planes) {
+            let other = row(y);
+            for step in [-1, 0, 1] {
+                for_pairs(found, own, other, step, |found, own, other| {
+                    // Farther than own / (1 + own * step), in inverse depths; nothing is infinitely far.
+                    *found |= other * (1.0 + own * self.step_m) < own;
+                });
+            }
+        }
+    }
+
+    fn find_sobel(
+        &self,
+        planes: &SamplePlanes,
+        picture: usize,
+        feature: Feature,
+        y: usize,
+        found: &mut [bool],
+    ) {
+        let height = planes.size()[1] as usize;
+        let width = found.len();
+        let rows = [y.saturating_sub(1), y, (y + 1).min(height - 1)];
+        let threshold = self.threshold * self.threshold;
+        let channels = [0, 1, 2].map(|i| rows.map(|y| planes.numbers(picture, feature, i, y)));
+        for (x, found) in found.iter_mut().enumerate() {
+            let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
+            let squares = channels.iter().map(|[above, own, below]| {
+                let across = |row: &[f32]| row[right] - row[left];
+                let down = |x: usize| below[x] - above[x];
+                let h = across(above) + 2.0 * across(own) + across(below);
+                let v = down(left) + 2.0 * down(x) + down(right);
+                h * h + v * v
+            });
+            *found = squares.sum::<f32>() > threshold;
+        }
+    }
+}
+
+/// The row and those beside it.
+fn around(y: usize, planes: &SamplePlanes) -> std::ops::Range<usize> {
+    y.saturating_sub(1)..(y + 2).min(planes.size()[1] as usize)
+}
+
+/// Goes through the pixels of a row with those of a row beside it, `step` to the right.
+fn for_pairs<T: Copy>(
+    found: &mut [bool],
+    own: &[T],
+    other: &[T],
+    step: isize,
+    mut give: impl FnMut(&mut bool, T, T),
+) {
+    let (skip, ahead) = match step {
+        ..0 => (1, 0),
+        0 => (0, 0),
+        _ => (0, 1),
+    };
+    let other = other.iter().skip(ahead);
+    let pixels = found.iter_mut().zip(own).skip(skip);
+    for ((found, own), other) in pixels.zip(other) {
+        give(found, *own, *other);
+    }
+}
+
+/// Marks pixels beside others of another id that aren't in front of them. What is equally near belongs to the greater id.
+fn find_ids(planes: &SamplePlanes, picture: usize, feature: Feature, y: usize, found: &mut [bool]) {
+    struct Row<'a> {
+        ids: &'a [u32],
+        objects: &'a [u32],
+        depths: &'a [f32],
+    }
+    let row = |y: usize| Row {
+        ids: planes.ids(picture, feature, y),
+        objects: planes.ids(picture, Feature::Object, y),
+        depths: planes.numbers(picture, Feature::InvDepth, 0, y),
+    };
+    let own = row(y);
+    let rows = around(y, planes);
+    for y in rows.clone() {
+        let other = row(y);
+        for step in [-1, 0, 1] {
+            for_pairs(found, own.ids, other.ids, step, |found, a, b| {
+                *found |= a != b
+            });
+            for_pairs(found, own.objects, other.objects, step, |found, a, b| {
+                *found |= a != b;
+            });
+        }
+    }
+    let has_hair_alone = feature != Feature::Object;
+    for x in (0..found.len()).filter(|x| found[*x]).collect::<Vec<_>>() {
+        let key = |row: &Row, x: usize| (row.objects[x], row.ids[x]);
+        let is_hair = |object: u32| object % 2 == 1;
+        let (own_key, own_depth) = (key(&own, x), own.depths[x]);
+        let mut beside = rows.clone().flat_map(|y| {
+            let columns = x.saturating_sub(1)..(x + 2).min(found.len());
+            columns.map(move |x| (x, y))
+        });
+        found[x] = beside.any(|(x, y)| {
+            let other = row(y);
+            let (other_key, other_depth) = (key(&other, x), other.depths[x]);
+            let is_drawn = !has_hair_alone || is_hair(own_key.0) || is_hair(other_key.0);
+            let is_front = (own_depth, own_key) > (other_depth, other_key);
+            is_drawn && own_key != other_key && is_front
+        });
+    }
+}
+
+/// Adds to the lines of all rows what a row becomes when each pixel is a disc of that radius.
+fn grow(row: &mut [u64], radius: f32, y: usize, lines: &mut [Bits]) {
+    let reach = radius as usize;
+    let mut done = 0;
+    for down in (0..=reach).rev() {
+        let square = radius * radius - (down * down) as f32;
+        let wide = square.max(0.0).sqrt() as usize;
+        while done < wide {
+            widen(row);
+            done += 1;
+        }
+        let above = y.checked_sub(down);
+        let below = Some(y + down).filter(|y| down > 0 && *y < lines.len());
+        for y in above.into_iter().chain(below) {
+            for (line, grown) in lines[y].iter_mut().zip(&*row) {
+                *line |= grown;
+            }
+        }
+    }
+}
+
+/// Adds the pixels to the left and to the right.
+fn widen(row: &mut [u64]) {
+    let mut before = 0;
+    for i in 0..row.len() {
+        let own = row[i];
+        let after = row.get(i + 1).copied().unwrap_or(0);
+        row[i] = own | own << 1 | own >> 1 | before >> 63 | after << 63;
+        before = own;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planes::{BandPlanes, Sample};
+
+    const EDGES: Edges = Edges {
+        channel: EdgeChannel::Strand,
+        threshold: 0.5,
+        step_m: 0.1,
+        width_px: 1.0,
+        fade_to: 0.0,
+        color: [1.0, 0.0, 0.0],
+    };
+
+    /// One sample of each pixel, where `sample` says something; a band has 16 rows.
+    fn planes(size: [u32; 2], sample: impl Fn(usize, usize) -> Sample) -> SamplePlanes {
+        let declared = Features::of(Feature::ALL);
+        let mut planes = SamplePlanes::default();
+        planes.reset(size, declared, [0, 1], 16, None).unwrap();
+        let [ids, numbers] = planes.of_band();
+        let bands = planes
+            .ids
+            .chunks_mut(ids)
+            .zip(planes.numbers.chunks_mut(numbers));
+        for (band, (ids, numbers)) in bands.enumerate() {
+            let mut planes = BandPlanes {
+                width: size[0] as usize,
+                declared: planes.declared,
+                band: 16,
+                ids,
+                numbers,
+            };
+            for row in 0..16.min(size[1] as usize - 16 * band) {
+                for x in 0..size[0] as usize {
+                    planes.put(0, x, row, &sample(x, 16 * band + row));
+                }
+            }
+        }
+        planes
+    }
+
+    fn strand(strand: u32, inv_depth: f32) -> Sample {
+        Sample {
+            object: 1,
+            strand,
+            level: strand % 3,
+            inv_depth,
+            u: 0.5,
+            color: [0.0, 0.0, 0.0, 1.0],
+            ..Sample::NOTHING
+        }
+    }
+
+    fn drawn(edges: Edges, planes: &SamplePlanes) -> Vec<(usize, usize)> {
+        let mut planes = planes.clone();
+        edges.draw(&mut planes, 1);
+        let [width, height] = planes.size().map(|side| side as usize);
+        let all = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        all.filter(|&(x, y)| planes.sample(0, x, y).color == [1.0, 0.0, 0.0, 1.0])
+            .collect()
+    }
+
+    #[test]
+    fn lines_lie_on_what_is_in_front() {
+        // 65,537 and 1 have the same lower 16 bits.
+        for (left, right, column) in [(2.0, 1.0, 4), (1.0, 2.0, 5), (1.0, 1.0, 5)] {
+            let planes = planes([10, 20], |x, _| match x {
+                0..5 => strand(1, left),
+                _ => strand(65_537, right),
+            });
+            let expected: Vec<_> = (0..20).map(|y| (column, y)).collect();
+            assert_eq!(drawn(EDGES, &planes), expected);
+        }
+    }
+
+    #[test]
+    fn equal_levels_and_meshes_have_no_line_between_them() {
+        let channel = EdgeChannel::Level;
+        let equal = planes([8, 8], |x, _| strand(if x < 4 { 0 } else { 3 }, 1.0));
+        assert_eq!(drawn(Edges { channel, ..EDGES }, &equal), []);
+        assert_eq!(drawn(EDGES, &equal).len(), 8);
+        let mesh = |object| Sample {
+            object,
+            inv_depth: 1.0,
+            ..Sample::NOTHING
+        };
+        let meshes = planes([8, 8], |x, _| mesh(if x < 4 { 2 } else { 4 }));
+        assert_eq!(drawn(EDGES, &meshes), []);
+        let channel = EdgeChannel::Object;
+        assert_eq!(drawn(Edges { channel, ..EDGES }, &meshes).len(), 8);
+    }
+
+    #[test]
+    fn a_picture_without_neighbours_has_no_lines() {
+        let one = planes([1, 1], |_, _| strand(3, 1.0));
+        for channel in [
+            EdgeChannel::Level,
+            EdgeChannel::Strand,
+            EdgeChannel::Object,
+            EdgeChannel::Normal,
+            EdgeChannel::Depth,
+            EdgeChannel::Color,
+        ] {
+            let edges = Edges {
+                channel,
+                width_px: 9.0,
+                ..EDGES
+            };
+            assert_eq!(drawn(edges, &one), []);
+        }
+        let all = planes([9, 9], |_, _| strand(3, 1.0));
+        assert_eq!(drawn(EDGES, &all), [], "the picture's border is no edge");
+    }
+
+    #[test]
+    fn lines_grow_by_discs_across_words() {
+        let dot = planes([140, 40], |x, y| match (x, y) {
+            (66, 20) => strand(1, 2.0),
+            _ => strand(2, 1.0),
+        });
+        for width_px in [1.0, 2.0, 3.0, 5.0, 12.0, 40.0] {
+            let edges = Edges { width_px, ..EDGES };
+            let radius = ((0.5 * (width_px - 1.0) + 0.499) * STEPS).floor() / STEPS;
+            let is_in = |&(x, y): &(usize, usize)| {
+                let (dx, dy) = (x as f32 - 66.0, y as f32 - 20.0);
+                dx * dx + dy * dy <= radius * radius
+            };
+            let all = (0..40).flat_map(|y| (0..140).map(move |x| (x, y)));
+            assert_eq!(
+                drawn(edges, &dot),
+                all.filter(is_in).collect::<Vec<_>>(),
+                "{width_px}"
+            );
+        }
+    }
+
+    #[test]
+    fn depths_normals_and_colors_have_thresholds() {
+        let steps = planes([8, 8], |x, _| strand(1, if x < 4 { 1.0 } else { 0.8 }));
+        let depth = |step_m| Edges {
+            channel: EdgeChannel::Depth,
+            step_m,
+            ..EDGES
+        };
+        // From 1 m to 1.25 m.
+        assert_eq!(drawn(depth(0.24), &steps).len(), 8);
+        assert_eq!(drawn(depth(0.26), &steps).len(), 0);
+        let tones = planes([8, 8], |x, _| {
+            let gray = if x < 4 { 0.2 } else { 0.4 };
+            Sample {
+                color: [0.0, gray, 0.0, 1.0],
+                normal: glam::Vec3::new(gray, 0.0, 0.0),
+                ..strand(1, 1.0)
+            }
+        });
+        for channel in [EdgeChannel::Color, EdgeChannel::Normal] {
+            // (1 + 2 + 1) times 0.2, on both sides.
+            let with = |threshold| Edges {
+                channel,
+                threshold,
+                ..EDGES
+            };
+            assert_eq!(drawn(with(0.79), &tones).len(), 16);
+            assert_eq!(drawn(with(0.81), &tones).len(), 0);
+        }
+    }
+
+    #[test]
+    fn lines_fade_towards_the_root() {
+        let along = |u| {
+            planes([8, 8], move |x, _| Sample {
+                u,
+                ..strand(u32::from(x < 4), 1.0)
+            })
+        };
+        let faded = |fade_to, u| {
+            let edges = Edges {
+                width_px: 5.0,
+                fade_to,
+                ..EDGES
+            };
+            drawn(edges, &along(u)).len()
+        };
+        assert_eq!(faded(0.0, 0.0), faded(0.5, 0.6));
+        assert_eq!(faded(0.5, 0.0), 0);
+        assert!(faded(0.5, 0.25) < faded(0.5, 0.4) && faded(0.5, 0.25) > 0);
+    }
+}
