@@ -273,6 +273,7 @@ fn params(rng: &mut Rng, rest: &Strands, strand: usize, has_goals: bool) -> Para
         },
         thickness: one_of(rng, &[0.0, 1e-3, 0.02]),
         friction: one_of(rng, &[0.0, 0.3, 5.0]),
+        ..Params::default()
     }
 }
 

@@ -163,6 +163,7 @@ impl<'a> Run<'a> {
             gravity: frame.gravity,
             wind: frame.wind,
             wind_before: None,
+            streams: &[],
             colliders: &colliders,
             goal: goal.as_deref(),
         };
