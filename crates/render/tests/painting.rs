@@ -84,6 +84,7 @@ fn drawing(list: &str, features: Features) -> Drawing {
         brush: Brush::Circle,
         features,
         roundness: 1.0,
+        passes: Vec::new(),
     };
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
