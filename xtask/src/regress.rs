@@ -82,6 +82,11 @@ pub fn run(filter: &str, backend: Backend, bless: bool) -> Outcome {
     }
     if backend == Backend::Cpu {
         cases = all;
+    } else {
+        for case in cases.iter().filter(|case| case.cpu_alone) {
+            println!("  {}: graphics cards refuse it", case.name);
+        }
+        cases.retain(|case| !case.cpu_alone);
     }
     cases.retain(|case| case.name.contains(filter));
     if cases.is_empty() {
@@ -272,6 +277,7 @@ mod tests {
 
     fn case(name: &str) -> Case {
         Case {
+            cpu_alone: false,
             name: name.to_owned(),
             args: vec!["presets/made.ron".to_owned()],
             cells: Vec::new(),

@@ -26,6 +26,9 @@ struct Sheet {
     of: String,
     /// What `inkstrand render` gets, the preset first.
     args: Vec<String>,
+    /// Whether graphics cards refuse it.
+    #[serde(default)]
+    cpu_alone: bool,
     /// What a parameter needs to be seen: it does nothing where another is not set.
     #[serde(default)]
     with: BTreeMap<String, Vec<String>>,
@@ -65,6 +68,7 @@ fn sheets(text: &str, schema: &Value) -> Outcome<Vec<Case>> {
         cases.push(Case {
             name: format!("extremes-{}", sheet.of.replace('.', "-")),
             args: sheet.args.iter().cloned().chain([size]).collect(),
+            cpu_alone: sheet.cpu_alone,
             cells: cells(sheet, parameters)?,
         });
     }
@@ -132,6 +136,7 @@ fn values(parameter: &Value) -> Outcome<Vec<String>> {
             .flatten()
             .map(text)
             .collect(),
+        "texture" => vec![format!("[(0, \"{OTHER_COLOR}\"), (1, \"FFFFFF\")]")],
         "color" | "color or none" => vec![OTHER_COLOR.to_owned()],
         other => return Err(format!("no sheet shows a parameter of type {other:?}").into()),
     };

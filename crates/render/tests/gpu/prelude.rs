@@ -128,6 +128,17 @@ const CASES: &[Case] = &[
         tolerance: 1e-4,
     },
     Case {
+        name: "rounded",
+        wgsl: "vec4<f32>(rounded(unit_or(v.xyz, vec3<f32>(0.0, 1.0, 0.0)), unit_or(v.yzx, vec3<f32>(1.0, 0.0, 0.0)), abs(v.w)), 0.0)",
+        rust: |v| {
+            let normal = wgsl::unit_or(vec3([v[0], v[1], v[2]]), vec3([0.0, 1.0, 0.0]));
+            let tube = wgsl::unit_or(vec3([v[1], v[2], v[0]]), vec3([1.0, 0.0, 0.0]));
+            three(wgsl::rounded(normal, tube, v[3].abs()))
+        },
+        // Normals against each other leave little of their sum.
+        tolerance: 1e-4,
+    },
+    Case {
         name: "feather_place",
         wgsl: "vec4<f32>(feather_place(u32(abs(v.x) * 32.0), 32u), 0.0, 0.0, 0.0)",
         rust: |v| one(wgsl::feather_place((v[0].abs() * 32.0) as u32, 32)),
