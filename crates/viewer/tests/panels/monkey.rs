@@ -153,12 +153,12 @@ fn scripts_stay_scripts() {
         let pane = play(Kind::Motion, text, seed, 60);
         assert!(pane.edits.len() > 10, "{}", pane.edits.len());
         if let Err(errors) = stage::check_motion(Path::new("a.motion.ron"), &pane.text) {
-            // Files of shapes that somebody typed are not there.
-            let missing = errors
-                .0
-                .iter()
-                .all(|error| error.message.contains("hair: there is no"));
-            assert!(missing, "seed {seed}: {errors}\n{}", pane.text);
+            // Files of shapes that somebody typed are not there; a wind that becomes of another kind keeps what only the old one has, and
+            // a loop is asked for before the head comes round. The window says so until the author goes on.
+            let between = ["hair: there is no", ": a wind of kind", "loop: "];
+            let is_between = |message: &str| between.iter().any(|part| message.contains(part));
+            let all = errors.0.iter().all(|error| is_between(&error.message));
+            assert!(all, "seed {seed}: {errors}\n{}", pane.text);
         }
     }
 }
