@@ -187,13 +187,34 @@ const LINES: &[(&str, &[&str])] = &[
         &["render", "small.ron", "--stats", "stats.jsonl"],
     ),
     ("render --quiet", &["render", "small.ron", "--quiet"]),
-    ("render --pass depth", &["render", "small.ron", "--pass", "depth"]),
-    ("render --pass normal", &["render", "small.ron", "--pass", "normal"]),
-    ("render --pass object", &["render", "small.ron", "--pass", "object"]),
-    ("render --pass strand", &["render", "small.ron", "--pass", "strand"]),
-    ("render --pass piece", &["render", "small.ron", "--pass", "piece"]),
-    ("render --pass layer", &["render", "small.ron", "--pass", "layer"]),
-    ("render --pass level", &["render", "small.ron", "--pass", "level"]),
+    (
+        "render --pass depth",
+        &["render", "small.ron", "--pass", "depth"],
+    ),
+    (
+        "render --pass normal",
+        &["render", "small.ron", "--pass", "normal"],
+    ),
+    (
+        "render --pass object",
+        &["render", "small.ron", "--pass", "object"],
+    ),
+    (
+        "render --pass strand",
+        &["render", "small.ron", "--pass", "strand"],
+    ),
+    (
+        "render --pass piece",
+        &["render", "small.ron", "--pass", "piece"],
+    ),
+    (
+        "render --pass layer",
+        &["render", "small.ron", "--pass", "layer"],
+    ),
+    (
+        "render --pass level",
+        &["render", "small.ron", "--pass", "level"],
+    ),
     ("render --pass u", &["render", "small.ron", "--pass", "u"]),
     ("render --pass s", &["render", "small.ron", "--pass", "s"]),
     ("render --pass v", &["render", "small.ron", "--pass", "v"]),

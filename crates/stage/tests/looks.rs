@@ -182,7 +182,11 @@ fn eye_pixels(name: &str, text: &str) -> [usize; 2] {
         }
         preset.set("clump.size", size).unwrap();
         if size == "0" {
-            preset.keep_only(&["hair.base".to_owned()]).unwrap();
+            let is_hair = |name: &&str| ["hair.base", "hair.toon"].contains(name);
+            let layers = preset.layers.iter().map(|layer| layer.name.as_str());
+            let hair = layers.filter(is_hair).map(str::to_owned);
+            let hair: Vec<String> = hair.collect();
+            preset.keep_only(&hair).unwrap();
         }
         let mut stage = stage(&preset);
         let mut drawing = Drawing::default();
