@@ -42,44 +42,9 @@ macro_rules! inputs {
 
 for_each_input!(inputs);
 
-/// A set of inputs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct InputSet(u64);
-
-const _: () = assert!(Input::ALL.len() <= u64::BITS as usize);
-
-impl InputSet {
-    /// These inputs.
-    #[must_use]
-    pub const fn of(inputs: &[Input]) -> Self {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < inputs.len() {
-            bits |= 1 << inputs[i] as u64;
-            i += 1;
-        }
-        Self(bits)
-    }
-
-    /// Both sets' inputs.
-    #[must_use]
-    pub const fn union(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// Whether the input is in the set.
-    #[must_use]
-    pub const fn has(self, input: Input) -> bool {
-        self.0 >> input as u64 & 1 == 1
-    }
-
-    /// Its inputs, in the order of [`Input::ALL`].
-    pub fn iter(self) -> impl Iterator<Item = Input> {
-        Input::ALL
-            .iter()
-            .copied()
-            .filter(move |input| self.has(*input))
-    }
+set! {
+    /// A set of inputs.
+    pub struct InputSet of Input;
 }
 
 #[cfg(test)]

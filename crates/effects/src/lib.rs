@@ -37,6 +37,9 @@ extern crate self as effects;
 // `for_each_input!` and `for_each_sample_input!`: the tables of `crates/effects-build/src/inputs.rs`.
 include!(concat!(env!("OUT_DIR"), "/inputs.rs"));
 
+#[macro_use]
+mod set;
+
 pub mod clump;
 mod color;
 mod effect;

@@ -51,54 +51,9 @@ macro_rules! inputs {
 
 for_each_sample_input!(inputs);
 
-/// A set of what samples offer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SampleSet(u32);
-
-const _: () = assert!(SampleInput::ALL.len() <= u32::BITS as usize);
-
-impl SampleSet {
-    /// These.
-    #[must_use]
-    pub const fn of(inputs: &[SampleInput]) -> Self {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < inputs.len() {
-            bits |= 1 << inputs[i] as u32;
-            i += 1;
-        }
-        Self(bits)
-    }
-
-    /// What is in either set.
-    #[must_use]
-    pub const fn union(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// What is in this set and not in the other.
-    #[must_use]
-    pub const fn without(self, other: Self) -> Self {
-        Self(self.0 & !other.0)
-    }
-
-    /// Whether the input is in the set.
-    #[must_use]
-    pub const fn has(self, input: SampleInput) -> bool {
-        self.0 >> input as u32 & 1 == 1
-    }
-
-    /// Whether nothing is.
-    #[must_use]
-    pub const fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-
-    /// Its inputs, in the order of [`SampleInput::ALL`].
-    pub fn iter(self) -> impl Iterator<Item = SampleInput> {
-        let all = SampleInput::ALL.iter().copied();
-        all.filter(move |input| self.has(*input))
-    }
+set! {
+    /// A set of what samples offer.
+    pub struct SampleSet of SampleInput;
 }
 
 #[cfg(test)]

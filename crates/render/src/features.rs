@@ -78,57 +78,9 @@ impl Feature {
     }
 }
 
-/// A set of features. By default none.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Features(u16);
-
-const _: () = assert!(Feature::ALL.len() <= u16::BITS as usize);
-
-impl Features {
-    /// None.
-    pub const NONE: Self = Self(0);
-
-    /// These features.
-    #[must_use]
-    pub const fn of(features: &[Feature]) -> Self {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < features.len() {
-            bits |= 1 << features[i] as u16;
-            i += 1;
-        }
-        Self(bits)
-    }
-
-    /// Both sets' features.
-    #[must_use]
-    pub const fn union(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// Whether the feature is in the set.
-    #[must_use]
-    pub const fn has(self, feature: Feature) -> bool {
-        self.0 >> feature as u16 & 1 == 1
-    }
-
-    /// Whether one of them is.
-    #[must_use]
-    pub const fn has_any(self, features: &[Feature]) -> bool {
-        self.0 & Self::of(features).0 != 0
-    }
-
-    /// Whether there is none.
-    #[must_use]
-    pub const fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-
-    /// Its features, in the order of [`Feature::ALL`].
-    pub fn iter(self) -> impl Iterator<Item = Feature> + Clone {
-        let all = Feature::ALL.iter().copied();
-        all.filter(move |feature| self.has(*feature))
-    }
+effects::set! {
+    /// A set of features. By default none.
+    pub struct Features of Feature;
 }
 
 /// Stands for no strand, piece, layer or level.
@@ -316,7 +268,6 @@ mod tests {
         let all: Vec<_> = set.union(Features::of(&[Feature::Color])).iter().collect();
         assert_eq!(all, [Feature::Object, Feature::V, Feature::Color]);
         assert!(Features::default().is_empty() && Features::NONE.iter().next().is_none());
-        assert!(set.has_any(&[Feature::W, Feature::V]) && !set.has_any(&[Feature::W]));
     }
 
     #[test]

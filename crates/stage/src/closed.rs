@@ -19,6 +19,9 @@ const MOST_ROUNDS: usize = 12;
 /// A round that is no farther from the one before, in head heights, repeats it: a twentieth of a pixel of a head 1000 high.
 const ALIKE: f32 = 5e-5;
 
+/// Points of all frames of a loop at most: both rounds that are kept take 960 MB then.
+const MOST_POINTS: usize = 40_000_000;
+
 /// How well hair came back to where it was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Return {
@@ -50,18 +53,32 @@ pub(crate) struct Closed {
 
 impl Closed {
     /// The loop of an object whose hair `dynamics` moves, in so many frames a second; `period` is in seconds.
-    pub fn new(object: &Object, dynamics: Dynamics, period: f64, fps: f32) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// When that is more than is kept.
+    pub fn new(
+        object: &Object,
+        dynamics: Dynamics,
+        period: f64,
+        fps: f32,
+    ) -> Result<Self, StageError> {
         let strands = &object.hair().file.strands;
-        Self {
+        let frames = (period * f64::from(fps)).round().max(2.0) as usize;
+        let points = strands.points().len();
+        if frames.saturating_mul(points) > MOST_POINTS {
+            return Err(StageError::Loop { frames, points });
+        }
+        Ok(Self {
             period,
-            frames: (period * f64::from(fps)).round().max(2.0) as usize,
+            frames,
             strands: (0..strands.len()).map(|i| strands.point_range(i)).collect(),
             dynamics: Some(dynamics),
             shapes: Vec::new(),
             rounds: 0,
             left_m: 0.0,
             mean_left_m: 0.0,
-        }
+        })
     }
 
     /// How well hair came back; nothing while that isn't known.

@@ -106,6 +106,16 @@ pub enum StageError {
         /// What is wrong with them.
         what: String,
     },
+    /// A loop of too many frames.
+    #[error(
+        "loop: {frames} frames of {points} points are more than are kept; a shorter `period`, fewer frames a second or fewer `guides` help"
+    )]
+    Loop {
+        /// How many frames.
+        frames: usize,
+        /// Points of each.
+        points: usize,
+    },
     /// A picture that a layer names can't be used.
     #[error("layer `{layer}`: {message}")]
     Texture {

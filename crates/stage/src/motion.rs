@@ -278,7 +278,7 @@ impl ObjectMotion {
                 None => {
                     let mut dynamics = Self::dynamics_of(object, fps)?;
                     dynamics.stand(object.placement());
-                    Closed::new(object, dynamics, period, fps)
+                    Closed::new(object, dynamics, period, fps)?
                 }
             };
             self.place(object, driver, time);

@@ -141,6 +141,17 @@ fn a_look_may_vary_along_its_strands_and_from_one_to_the_other() {
 }
 
 #[test]
+fn a_loop_without_end_is_refused() {
+    let scene = scene("", "(version: 1, period: 1000000, loop: true, winds: [(speed: 2)])", &[]);
+    let error = Motion::new().advance_to(&scene, 0.0).unwrap_err();
+    let error = error.to_string();
+    assert!(
+        error.contains("loop: 24000000 frames of") && error.contains("shorter `period`"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_loop_ends_where_it_begins_and_as_fast() {
     let breeze = presets().join("motions/breeze-loop.motion.ron");
     let script = fs::read_to_string(breeze).unwrap();

@@ -68,7 +68,7 @@ impl Painter {
         self.problem.clone()
     }
 
-    /// Draws a frame. Where a graphics card fails the CPU draws, from then on until another backend is asked for.
+    /// Draws a frame. Where a graphics card fails the CPU draws, from then on until another backend is asked for; where it refuses a frame, that one.
     pub fn paint(
         &mut self,
         frame: &Frame,
@@ -84,6 +84,7 @@ impl Painter {
             let started = Instant::now();
             match card.as_mut().map(|card| (card.draw(frame, samples), card)) {
                 Some((Ok(picture), card)) => {
+                    self.problem = None;
                     let whole = started.elapsed().as_secs_f64() * 1e3;
                     let effects_ms = card
                         .stats()
@@ -98,7 +99,10 @@ impl Painter {
                 }
                 Some((Err(error), _)) => {
                     self.problem = Some(falls_back(&error));
-                    *card = None;
+                    // What it can't draw of one look it may draw of the next.
+                    if !matches!(error, GpuError::Unsupported(_)) {
+                        *card = None;
+                    }
                 }
                 None => {}
             }
