@@ -18,7 +18,12 @@ const TABLE: &[Row] = &[
     Row(2, "effects-builtin", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "effects-cartoon", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "effects-testkit", Only(&["effects"]), &[BUILD_TOOL]),
-    Row(2, "render", Only(&["effects", "stroke-path"]), &[]),
+    Row(
+        2,
+        "render",
+        Only(&["effects", "stroke-path", "portable-math"]),
+        &[],
+    ),
     Row(3, "reference", Only(&["render"]), &[]),
     Row(3, "stage", AllBelow, &[]),
     Row(4, "inkstrand", AllBelow, &[]),
@@ -262,6 +267,7 @@ mod tests {
             ("effect-vendor", "inkstrand", "dev"),
             ("effect-vendor", "inkstrand", "optional"),
             ("render", "effects", ""),
+            ("render", "portable-math", ""),
             ("render", "effects-builtin", "dev"),
             ("render", "reference", "dev"),
             ("reference", "render", ""),
@@ -316,7 +322,7 @@ mod tests {
     fn a_violation_says_what_is_allowed() {
         assert_eq!(
             between("render", "hair-sim", ""),
-            ["render -> hair-sim (dependencies): it may use effects, stroke-path"]
+            ["render -> hair-sim (dependencies): it may use effects, stroke-path, portable-math"]
         );
     }
 

@@ -81,7 +81,10 @@ fn numbers_are_in_16_bits() {
     let x = (0..60).max_by_key(|x| shown(&pixels, *x).len()).unwrap();
     let column = shown(&pixels, x);
     assert!(column.len() > 20 && column.is_sorted(), "{column:?}");
-    assert!(column[0] < 10_000 && column[column.len() - 1] > 60_000, "{column:?}");
+    assert!(
+        column[0] < 10_000 && column[column.len() - 1] > 60_000,
+        "{column:?}"
+    );
     assert!(column.iter().any(|u| u % 257 != 0), "8 bits would do");
     // The nearer strand is lighter.
     let (pixels, _) = pass(&folder, "depth", &[]);

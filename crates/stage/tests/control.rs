@@ -142,7 +142,11 @@ fn a_look_may_vary_along_its_strands_and_from_one_to_the_other() {
 
 #[test]
 fn a_loop_without_end_is_refused() {
-    let scene = scene("", "(version: 1, period: 1000000, loop: true, winds: [(speed: 2)])", &[]);
+    let scene = scene(
+        "",
+        "(version: 1, period: 1000000, loop: true, winds: [(speed: 2)])",
+        &[],
+    );
     let error = Motion::new().advance_to(&scene, 0.0).unwrap_err();
     let error = error.to_string();
     assert!(
