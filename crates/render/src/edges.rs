@@ -78,6 +78,12 @@ impl Edges {
         all
     }
 
+    /// How far a line reaches from the pixel where it begins, in pixels.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn reach_px(&self) -> u32 {
+        (0.5 * (self.width_px - 1.0).max(0.0) + 1.0).min(LARGEST) as u32
+    }
+
     /// Draws the lines into samples of a picture that has so many a pixel.
     pub(crate) fn draw(&self, planes: &mut SamplePlanes, samples: usize) {
         let numbers: Vec<usize> = planes.samples().enumerate().map(|(i, _)| i).collect();

@@ -5,7 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3, vec2};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
 use render::{
-    Brush, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo, Surface, SurfaceVertex,
+    Brush, Edges, Features, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo, Surface,
+    SurfaceVertex,
 };
 use std::iter;
 use std::ops::Range;
@@ -27,6 +28,8 @@ pub struct Scene {
     pub background: Option<[f32; 3]>,
     pub order: Order,
     pub brush: Brush,
+    pub features: Features,
+    pub passes: Vec<Edges>,
     pub seed: u32,
 }
 
@@ -38,6 +41,11 @@ pub struct Second {
 }
 
 impl Second {
+    /// How many layers it has.
+    pub fn layers(&self) -> usize {
+        self.layer_joints.len()
+    }
+
     /// Takes a layer away, which the first object has no more.
     pub fn drop_layer(&mut self, layer: usize) {
         self.layer_joints.remove(layer);
@@ -56,6 +64,7 @@ pub const ALL_EFFECTS: &str = "[
 pub fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     registry
 }
 
@@ -131,7 +140,7 @@ impl Scene {
                 mean,
                 size: numbers.around(9.0, 8.0),
                 taper: tapers[i % tapers.len()],
-                level: 0,
+                level: i as u32 % 3,
                 lift: 0.0,
             });
         }
@@ -204,6 +213,8 @@ impl Scene {
             } else {
                 Brush::Semicircle
             },
+            features: Features::NONE,
+            passes: Vec::new(),
             seed,
         }
     }
@@ -285,9 +296,9 @@ impl Scene {
             order: self.order,
             edge_depth_m: 0.005,
             brush: self.brush,
-            features: render::Features::NONE,
-            roundness: 1.0,
-            passes: Vec::new(),
+            features: self.features,
+            roundness: 0.7,
+            passes: self.passes.clone(),
         }
     }
 }
