@@ -1,5 +1,5 @@
 // Lines where one sample of neighbouring pixels shows something else: crates/render/src/edges.rs tells what they are. Composed behind
-// frame.wgsl, with the places of the planes that tell.wgsl has filled.
+// the prelude and frame.wgsl, with the places of the planes that tell.wgsl has filled.
 //
 // A line is the union of discs around the pixels where it begins. A pixel lies in one of them where the greatest radius squared less distance
 // squared is 0 or more, and that is found along rows first, then along columns.
@@ -10,10 +10,18 @@ struct Edges {
     channel: u32,
     threshold: f32,
     step_m: f32,
-    width_px: f32,
     fade_to: f32,
     /// No disc reaches further, in pixels.
     reach: u32,
+    seed: u32,
+    /// The share by which strands' widths differ.
+    vary: f32,
+    /// Pixels, of what is no hair.
+    widest: f32,
+    /// How many widths there are.
+    count: u32,
+    /// Places along the strand, 0 to 1, with widths in pixels.
+    widths: array<vec2<f32>>,
 }
 
 @group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
@@ -24,7 +32,7 @@ struct Edges {
 @group(0) @binding(3) var<storage, read_write> rows: array<f32>;
 /// The samples' colours, and their inverse depths, 0 where nothing is.
 @group(0) @binding(4) var<storage, read_write> samples: array<vec4<f32>>;
-@group(0) @binding(5) var<uniform> edges: Edges;
+@group(0) @binding(5) var<storage, read> edges: Edges;
 /// Which sample.
 @group(0) @binding(6) var<uniform> gpu_sample: vec4<u32>;
 
@@ -39,7 +47,6 @@ const LARGEST: f32 = 1024.0;
 /// Steps of a radius in a pixel.
 const STEPS: f32 = 4.0;
 const NO_DISC: f32 = -1.0;
-const PI: f32 = 3.1415927;
 
 fn pixel_at(place: vec2<u32>) -> u32 {
     return place.y * gpu_frame.size.x + place.x;
@@ -139,15 +146,41 @@ fn exceeds_threshold(place: vec2<u32>) -> bool {
     return dot(across, across) + dot(down, down) > edges.threshold * edges.threshold;
 }
 
+/// The width of a line on hair, pixels.
+fn width_of_hair(u: f32, strand: u32) -> f32 {
+    let count = edges.count;
+    var next = 0u;
+    while (next < count && edges.widths[next].x <= u) {
+        next++;
+    }
+    var width = edges.widths[max(next, 1u) - 1u].y;
+    if (next > 0u && next < count) {
+        let before = edges.widths[next - 1u];
+        width += (edges.widths[next].y - width) * (u - before.x) / (edges.widths[next].x - before.x);
+    }
+    width *= 1.0 + edges.vary * random_signed(hash(edges.seed ^ hash(strand)), 0u);
+    if (edges.fade_to > 0.0) {
+        width *= 0.5 * (1.0 - cos(PI * clamp(u / edges.fade_to, 0.0, 1.0)));
+    }
+    return width;
+}
+
 /// The radius squared that a line has there, below 0 where the sample has none.
 fn disc_at(place: vec2<u32>) -> f32 {
-    var fade = 1.0;
-    if (GPU_PLANE_U != GPU_NO_PLANE && edges.fade_to > 0.0 && is_hair(id_in(GPU_PLANE_OBJECT, place))) {
-        let t = clamp(number_in(GPU_PLANE_U, place) / edges.fade_to, 0.0, 1.0);
-        fade = 0.5 * (1.0 - cos(PI * t));
+    var width = edges.widest;
+    if (is_hair(id_in(GPU_PLANE_OBJECT, place))) {
+        // Not there where no width needs them.
+        var u = 0.0;
+        var strand = 0u;
+        if (GPU_PLANE_U != GPU_NO_PLANE) {
+            u = number_in(GPU_PLANE_U, place);
+        }
+        if (GPU_PLANE_STRAND != GPU_NO_PLANE) {
+            strand = id_in(GPU_PLANE_STRAND, place);
+        }
+        width = width_of_hair(u, strand);
     }
     let share = (f32(gpu_sample.x) + 0.499) / f32(gpu_frame.samples);
-    let width = edges.width_px * fade;
     if (width < 1.0) {
         return select(NO_DISC, 0.0, share < width);
     }

@@ -63,9 +63,9 @@ impl EdgePasses {
         passes: &[Edges],
         size: [u32; 2],
     ) -> Result<usize, GpuError> {
-        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
         self.settings
-            .resize_with(passes.len(), || Growing::new("a pass", uniform));
+            .resize_with(passes.len(), || Growing::new("a pass", usage));
         let mut made = 0;
         for (edges, buffer) in passes.iter().zip(&mut self.settings) {
             made += usize::from(buffer.write(device, queue, &words(edges))?);
@@ -113,7 +113,7 @@ impl EdgePasses {
 }
 
 /// `struct Edges` of the shader.
-fn words(edges: &Edges) -> [u32; 12] {
+fn words(edges: &Edges) -> Vec<u32> {
     let channel = match edges.channel {
         EdgeChannel::Level => 0,
         EdgeChannel::Strand => 1,
@@ -123,20 +123,13 @@ fn words(edges: &Edges) -> [u32; 12] {
         EdgeChannel::Color => 5,
     };
     let [red, green, blue] = edges.color.map(f32::to_bits);
-    let [threshold, step, width, fade] =
-        [edges.threshold, edges.step_m, edges.width_px, edges.fade_to].map(f32::to_bits);
-    [
-        red,
-        green,
-        blue,
-        channel,
-        threshold,
-        step,
-        width,
-        fade,
-        edges.reach_px(),
-        0,
-        0,
-        0,
-    ]
+    let mut words = vec![red, green, blue, channel];
+    words.extend([edges.threshold, edges.step_m, edges.fade_to].map(f32::to_bits));
+    words.extend([edges.reach_px(), edges.seed]);
+    words.extend([edges.width_px.vary, edges.widest()].map(f32::to_bits));
+    words.push(edges.width_px.curve.len() as u32);
+    for (place, width) in &edges.width_px.curve {
+        words.extend([place, width].map(|x| x.to_bits()));
+    }
+    words
 }

@@ -42,7 +42,7 @@ pub(super) const PAINT: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Sh
 /// `tell`: frame, joints, strands, words, clumps, samples, what they show, planes, which sample.
 pub(super) const TELL: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Shown, Write, Part];
 /// `edges`: frame, planes, discs, rows, samples, settings, which sample.
-pub(super) const EDGES: &[Binding] = &[Uniform, Read, Write, Write, Write, Uniform, Part];
+pub(super) const EDGES: &[Binding] = &[Uniform, Read, Write, Write, Write, Read, Part];
 /// `mean`: frame, samples, means.
 pub(super) const MEAN: &[Binding] = &[Uniform, Read, Write];
 

@@ -113,7 +113,7 @@ pub(super) fn tell(features: Features, layout: &JointLayout) -> String {
 
 /// What draws lines by the planes of those features: entry points `find`, `grow_along_rows` and `draw_along_columns`, in that order.
 pub(super) fn edges(features: Features) -> String {
-    [FRAME, &planes(features), EDGES].join("\n")
+    [PRELUDE, FRAME, &planes(features), EDGES].join("\n")
 }
 
 /// What takes the means of samples: entry point `take_means`.

@@ -356,13 +356,11 @@ impl Renderer {
         wanted: Option<Wanted>,
         keeps: Keeps,
     ) -> Result<(), GpuError> {
-        let before = self.samples.take();
-        // What the tiles bind is another with and without samples that are kept.
+        // What the tiles bind is another with and without samples that are kept; should those not fit, it is made anew.
+        let (before, groups) = (self.samples.take(), self.groups.take());
         let had_samples = before.is_some();
         let Some(wanted) = wanted else {
-            if had_samples {
-                self.groups = None;
-            }
+            self.groups = groups.filter(|_| !had_samples);
             return Ok(());
         };
         let mut stage = match before {
@@ -376,9 +374,8 @@ impl Renderer {
         let was_shown = stage.shown().clone();
         let (device, queue) = (&self.device, &self.queue);
         let made = stage.follow(device, queue, frame, passes, &self.scene, wanted)?;
-        if !had_samples || *stage.shown() != was_shown {
-            self.groups = None;
-        }
+        let is_same = had_samples && *stage.shown() == was_shown;
+        self.groups = groups.filter(|_| is_same);
         self.stats.made += made + usize::from(!had_samples);
         self.samples = Some(stage);
         Ok(())

@@ -2,11 +2,13 @@
 
 use crate::agree::{on_cpu, share_beyond};
 use crate::scene::{Scene, driver, noop, registry};
-use effects::Image;
+use effects::{Image, Variation};
+use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
-use render::gpu::Offscreen;
+use render::gpu::{GpuError, Offscreen, PassFormat, Renderer};
 use render::{Drawing, EdgeChannel, Edges, Feature, Features, Sample, SamplePlanes};
 use std::sync::Arc;
+use stroke_path::{Camera, OrbitView};
 
 const SAMPLES: u32 = 4;
 
@@ -191,14 +193,17 @@ fn paint_agrees() {
     }
 }
 
-const EDGES: Edges = Edges {
-    channel: EdgeChannel::Strand,
-    threshold: 0.5,
-    step_m: 0.01,
-    width_px: 1.5,
-    fade_to: 0.0,
-    color: [0.8, 0.1, 0.0],
-};
+fn edges(width_px: f32) -> Edges {
+    Edges {
+        channel: EdgeChannel::Strand,
+        threshold: 0.5,
+        step_m: 0.01,
+        width_px: Variation::constant(width_px),
+        seed: 3,
+        fade_to: 0.0,
+        color: [0.8, 0.1, 0.0],
+    }
+}
 
 const CHANNELS: [EdgeChannel; 6] = [
     EdgeChannel::Level,
@@ -218,9 +223,8 @@ fn lines_agree() {
             let plain = on_cpu(&scene, SAMPLES);
             scene.passes = vec![Edges {
                 channel,
-                width_px,
                 fade_to,
-                ..EDGES
+                ..edges(width_px)
             }];
             let cpu = on_cpu(&scene, SAMPLES);
             let gpu = card.draw(&scene.frame(), SAMPLES).unwrap();
@@ -236,20 +240,21 @@ fn lines_agree() {
     }
 }
 
-/// The second goes over what the first has drawn, and both over what is painted.
+/// The second goes over what the first has drawn, whose width varies, and both over what is painted.
 #[test]
 fn passes_follow_each_other_and_paint() {
     let Some(mut card) = driver() else { return };
     let mut scene = Scene::random_pair(1);
     paint(&mut scene, ROWS);
-    let first = Edges {
-        width_px: 3.0,
-        ..EDGES
+    let mut first = edges(3.0);
+    first.width_px = Variation {
+        curve: vec![(0.1, 0.5), (0.4, 6.0), (0.9, 2.0)],
+        vary: 0.5,
     };
     let second = Edges {
         channel: EdgeChannel::Color,
         color: [0.0, 0.0, 1.0],
-        ..EDGES
+        ..edges(1.5)
     };
     scene.passes = vec![first, second];
     for samples in [1, 3, 5] {
@@ -270,7 +275,7 @@ fn nothing_is_there_for_samples_that_show_colours_alone() {
     card.draw(&plain.frame(), SAMPLES).unwrap();
     let before = card.stats();
     let mut scene = Scene::random(3);
-    scene.passes = vec![EDGES];
+    scene.passes = vec![edges(1.5)];
     paint(&mut scene, "tones: \"a.png\"");
     card.draw(&scene.frame(), SAMPLES).unwrap();
     assert!(card.stats().made > 8 && card.stats().bytes > before.bytes);
@@ -287,4 +292,74 @@ fn nothing_is_there_for_samples_that_show_colours_alone() {
         (before.pipelines, before.buffers),
         "a picture needs no features"
     );
+}
+
+/// In somebody's pass samples are painted and drawn on, too, and each is kept.
+#[test]
+fn a_painted_frame_is_prepared_for_a_pass() {
+    let gpu = noop(wgpu::Limits::default());
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue).unwrap();
+    let mut scene = Scene::random(3);
+    paint(&mut scene, "tones: \"a.png\"");
+    scene.passes = vec![edges(2.0)];
+    for samples in [4, 1] {
+        let format = PassFormat {
+            color: wgpu::TextureFormat::Rgba8UnormSrgb,
+            depth: None,
+            samples,
+        };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let prepared = renderer.prepare(&mut encoder, &scene.frame(), SAMPLES, format);
+        prepared.unwrap();
+        gpu.queue.submit([encoder.finish()]);
+        gpu.check().unwrap();
+    }
+}
+
+#[test]
+fn what_a_card_cannot_draw_is_told() {
+    let limits = wgpu::Limits {
+        max_texture_dimension_2d: 64,
+        max_texture_dimension_1d: 64,
+        ..wgpu::Limits::default()
+    };
+    let mut card = Offscreen::on(noop(limits)).unwrap();
+    let mut scene = Scene::random(3);
+    scene.passes = vec![edges(2.0)];
+    let view = OrbitView {
+        target: Vec3::ZERO,
+        yaw_degrees: 0.0,
+        pitch_degrees: 0.0,
+        distance_m: 0.7,
+        vertical_fov_degrees: 40.0,
+    };
+    let small = Camera::orbit(view, [60, 50], 0.05).unwrap();
+    let whole = std::mem::replace(&mut scene.camera, small);
+    card.draw(&scene.frame(), SAMPLES).unwrap();
+    scene.camera = whole;
+    let error = card.draw(&scene.frame(), SAMPLES).unwrap_err();
+    let is_limit = matches!(
+        error,
+        GpuError::Limit {
+            has: 64,
+            needs: 97,
+            ..
+        }
+    );
+    assert!(is_limit, "{error}");
+    // And without them again.
+    scene.passes.clear();
+    card.draw(&scene.frame(), SAMPLES).unwrap();
+
+    let drawing = Drawing {
+        size: [8, 8],
+        passes: vec![edges(2.0)],
+        features: render::DrawnFeatures {
+            declared: edges(2.0).features(),
+            ..render::DrawnFeatures::default()
+        },
+        ..Drawing::default()
+    };
+    let error = card.draw_strokes(&drawing, SAMPLES).unwrap_err();
+    assert!(matches!(error, GpuError::Unsupported(_)), "{error}");
 }
