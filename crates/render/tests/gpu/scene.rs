@@ -124,7 +124,9 @@ impl Scene {
             let cuts = stroke_path::cuts(&points, kind, 0.02).unwrap();
             assert_eq!(cuts.is_empty(), i != 7, "strand {i}: {} cuts", cuts.len());
             let mean = points.iter().sum::<Vec3>() / points.len() as f32;
-            paths.push_pieces(i, &points, &cuts, kind, &camera).unwrap();
+            paths
+                .push_pieces(i, &points, &cuts, None, kind, &camera)
+                .unwrap();
             let tapers = [NO_TAPER, vec2(0.3, -1.0), vec2(-1.0, 0.6), vec2(0.2, 0.5)];
             strands.push(StrandInfo {
                 id: 3 * i as u32 + 5,
