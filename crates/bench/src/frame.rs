@@ -15,6 +15,8 @@ use std::time::Instant;
 const SAMPLES: u32 = 4;
 /// Frames a second of the animation and of the target.
 const FPS: f64 = 60.0;
+/// Milliseconds of a frame that a look's simulation may take.
+const SIMULATION_MS: f64 = 1.5;
 /// Frames that are drawn before any is counted.
 const WARM_UP: u32 = 3;
 
@@ -37,7 +39,7 @@ pub struct Options {
 pub struct Measured {
     /// A row a look and stage.
     pub rows: Vec<Row>,
-    /// Whole frames against 60 frames a second.
+    /// Whole frames against 60 frames a second, and their simulation.
     pub targets: Vec<Target>,
     /// The graphics card that was measured, if any.
     pub card: Option<String>,
@@ -74,6 +76,12 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         let mut stage = open(preset, &options.root)?;
         let mut backends = Backends::new(SAMPLES, options.threads, options.card)?;
         let rows = pool.install(|| look(&name, &mut stage, &mut backends, frames))?;
+        let simulate = rows.iter().find(|row| row.method == BEFORE[0]);
+        measured.targets.extend(simulate.map(|row| Target {
+            text: format!("{name}: milliseconds of simulation a frame"),
+            found: Some(Found::Is(1e3 * row.seconds)),
+            limit: Limit::AtMost(SIMULATION_MS),
+        }));
         for method in ["cpu", "gpu"] {
             let whole = rows.iter().find(|row| row.method == method);
             measured.targets.extend(whole.map(|row| Target {

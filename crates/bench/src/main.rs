@@ -298,6 +298,7 @@ fn peers() -> Result<Peers, BenchError> {
 fn dynamics(options: &DynamicsOptions) -> Result<Finished, BenchError> {
     let common = &options.common;
     let suite = dynamics::Options {
+        root: root(),
         out: common.out.clone(),
         quick: common.quick,
         threads: common.threads(),
@@ -306,6 +307,10 @@ fn dynamics(options: &DynamicsOptions) -> Result<Finished, BenchError> {
     };
     let measured = with_progress(|progress| dynamics::run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
+    for sentence in dynamics::motion::particle_steps(&measured.rows) {
+        println!("{sentence}");
+    }
+    println!();
     println!("{}", report(&measured.targets));
     if options.store {
         let path = root().join("crates/bench/stored/dynamics.csv");

@@ -424,7 +424,7 @@ impl Solver {
         let fits = state.layout == layout(&self.places)
             && state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches))
-                .all(|(b, s)| s.y.len() == b.count() && b.does_with(s.frames.len()))
+                .all(|(b, s)| s.has_lengths(b.count()) && b.does_with(s.frames.len()))
             && self.interaction.as_ref().is_none_or(|all| {
                 (all.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
             });

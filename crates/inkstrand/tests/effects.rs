@@ -6,7 +6,7 @@ use effects::{Param, ParamKind, Registry, Section};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
-use stage::{MOTION_PARTS, ObjectSection, Preset, STYLE_PARTS, Sections};
+use stage::{MOTION_PARTS, ObjectSection, PassSection, Preset, STYLE_PARTS, Sections};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -174,7 +174,7 @@ fn the_schema_is_the_tables() {
     let schema = schema(&[]);
     assert_eq!(schema["version"], stage::VERSION);
     let sections = schema["sections"].as_array().unwrap();
-    assert_eq!(sections.len(), Sections::ALL.len() + 3);
+    assert_eq!(sections.len(), Sections::ALL.len() + 4);
     assert_eq!(sections[0]["id"], "preset");
     assert_is_table(&sections[0], Preset::TOP);
     for (section, (name, doc, table)) in sections[1..].iter().zip(Sections::ALL) {
@@ -187,7 +187,10 @@ fn the_schema_is_the_tables() {
     let layers = &sections[Sections::ALL.len() + 1];
     assert_eq!(layers["id"], "layers");
     assert_is_table(layers, LAYER);
-    let objects = &sections[Sections::ALL.len() + 2];
+    let passes = &sections[Sections::ALL.len() + 2];
+    assert_eq!(passes["id"], "passes");
+    assert_is_table(passes, PassSection::TABLE);
+    let objects = &sections[Sections::ALL.len() + 3];
     assert_eq!(objects["id"], "objects");
     assert_is_table(objects, ObjectSection::TABLE);
     for value in layers["parameters"].as_array().unwrap() {
@@ -251,6 +254,7 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
         match section["id"].as_str().unwrap() {
             "preset" => text += &format!("{fields}, "),
             "layers" => layer_fields = fields,
+            "passes" => text += &format!("passes: [({fields})], "),
             // In place of most sections.
             "objects" => {}
             name => text += &format!("{name}: ({fields}), "),
@@ -276,6 +280,7 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
     let small = format!("(version: 1, layers: [{layers}])");
     let small = Preset::parse("small.ron", &small, &registry).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(preset.seed, small.seed);
+    assert_eq!(preset.passes, [PassSection::default()]);
     let (mut all, mut none) = (preset.sections.clone(), small.sections.clone());
     for (name, ..) in Sections::ALL {
         let [all, none] = [&mut all, &mut none].map(|sections| sections.by_name(name).unwrap());

@@ -5,7 +5,7 @@ use effects::preset::{LAYER, Reader};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
-use stage::{ObjectSection, Preset, Sections};
+use stage::{ObjectSection, PassSection, Preset, Sections};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -49,6 +49,8 @@ fn everything(registry: &Registry) -> String {
     for (name, _, table) in Sections::ALL {
         let _ = writeln!(text, "    {name}: (\n{}    ),", list(table, "        "));
     }
+    let pass = list(PassSection::TABLE, "            ");
+    let _ = writeln!(text, "    passes: [\n        (\n{pass}        ),\n    ],");
     text += "    layers: [\n";
     for effect in registry.iter() {
         let fields = list(LAYER, "            ").replace("effect: \"x\"", "effect: \"ID\"");
@@ -115,6 +117,13 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
         if let Some((_, _, table)) = Sections::ALL.iter().find(|(name, ..)| *name == field.name) {
             for inner in reader.fields(field.value, "a section") {
                 add(inner.name, inner.value, table);
+            }
+        }
+        if field.name == "passes" {
+            for pass in reader.list(field.value, "passes") {
+                for inner in reader.fields(pass, "a pass") {
+                    add(inner.name, inner.value, PassSection::TABLE);
+                }
             }
         }
         if field.name == "objects" {
@@ -322,8 +331,8 @@ fn every_wrong_value_is_an_error_at_its_line() {
                     && name != "effect"
                     || place.kind.is_none()
                         && value == "()"
-                        && !["layers", "objects"].contains(&name)
-                    || name == "layers" && value == "[]";
+                        && !["layers", "passes", "objects"].contains(&name)
+                    || ["layers", "passes"].contains(&name) && value == "[]";
                 match Preset::parse("look.ron", &spoilt, &registry) {
                     Ok(_) => assert!(legal, "{} is accepted", what()),
                     // Two layers of one name are the layer's mistake, not its name's; and substeps are

@@ -6,6 +6,8 @@
 
 use crate::features::{Feature, Features};
 use crate::planes::SamplePlanes;
+use effects::wgsl::random_signed;
+use effects::{Variation, strand_seed};
 use portable_math::sin_cos_degrees_f32;
 use rayon::prelude::*;
 
@@ -27,7 +29,7 @@ pub enum EdgeChannel {
 }
 
 /// Lines where neighbouring samples show something else.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Edges {
     /// What they are drawn between.
     pub channel: EdgeChannel,
@@ -35,8 +37,11 @@ pub struct Edges {
     pub threshold: f32,
     /// Of depths, metres.
     pub step_m: f32,
-    /// Width in pixels, 0 or more. Below 1 some samples have no line.
-    pub width_px: f32,
+    /// Width in pixels along the strand that a line is on, each 0 or more; below 1 some samples have no line. What is no hair has the
+    /// curve's largest.
+    pub width_px: Variation,
+    /// Seed of the widths that vary from strand to strand.
+    pub seed: u32,
     /// Place along the strand, 0 root to 1 tip, up to which lines of hair grow to their width, by (1 - cos(t pi)) / 2; 0 has all full.
     pub fade_to: f32,
     /// Linear colour.
@@ -63,11 +68,14 @@ impl Edges {
             EdgeChannel::Depth => Feature::InvDepth,
             EdgeChannel::Color => Feature::Color,
         };
-        let always = Features::of(&[own, Feature::Object, Feature::InvDepth, Feature::Color]);
-        match self.fade_to > 0.0 {
-            true => always.union(Features::of(&[Feature::U])),
-            false => always,
+        let mut all = Features::of(&[own, Feature::Object, Feature::InvDepth, Feature::Color]);
+        if self.fade_to > 0.0 || self.width_px.curve.len() > 1 {
+            all = all.union(Features::of(&[Feature::U]));
         }
+        if self.width_px.vary > 0.0 {
+            all = all.union(Features::of(&[Feature::Strand]));
+        }
+        all
     }
 
     /// Draws the lines into samples of a picture that has so many a pixel.
@@ -93,16 +101,24 @@ impl Edges {
         let mut found = vec![false; width];
         let mut classes: Vec<(usize, Bits)> = Vec::new();
         let mut grown = vec![0; words];
+        let widest = self.widest();
         for y in 0..height {
             found.fill(false);
             self.find(planes, picture, y, &mut found);
             classes.clear();
-            let along = planes.numbers(picture, Feature::U, 0, y);
             let objects = planes.ids(picture, Feature::Object, y);
+            // Empty where no width needs them.
+            let along = planes.numbers(picture, Feature::U, 0, y);
+            let strands = planes.ids(picture, Feature::Strand, y);
             for x in (0..width).filter(|x| found[*x]) {
-                let is_hair = objects[x] % 2 == 1;
-                let place = along.get(x).filter(|_| is_hair).copied();
-                let Some(class) = self.class(place, share) else {
+                let width = match objects[x] % 2 == 1 {
+                    true => {
+                        let of = |strands: &[u32]| strands.get(x).copied().unwrap_or(0);
+                        self.width_of_hair(along.get(x).copied().unwrap_or(0.0), of(strands))
+                    }
+                    false => widest,
+                };
+                let Some(class) = class(width, share) else {
                     continue;
                 };
                 let index = classes.iter().position(|(other, _)| *other == class);
@@ -120,22 +136,25 @@ impl Edges {
         lines
     }
 
-    /// The radius that a line is grown by there, in [`STEPS`]; nothing where the sample has no line.
-    fn class(&self, along: Option<f32>, share: f32) -> Option<usize> {
-        let fade = match along {
-            Some(u) if self.fade_to > 0.0 => {
-                let t = (u / self.fade_to).clamp(0.0, 1.0);
-                let (_, cos) = sin_cos_degrees_f32(180.0 * t);
-                0.5 * (1.0 - cos)
-            }
-            _ => 1.0,
-        };
-        let width = self.width_px * fade;
-        if width < 1.0 {
-            return (share < width).then_some(0);
+    /// The width of a line on hair, pixels.
+    fn width_of_hair(&self, u: f32, strand: u32) -> f32 {
+        let mut width = self.width_px.at(u);
+        if self.width_px.vary > 0.0 {
+            let random = random_signed(strand_seed(self.seed, strand), 0);
+            width *= 1.0 + self.width_px.vary * random;
         }
-        let radius = (0.5 * (width - 1.0) + share).min(LARGEST);
-        Some((radius * STEPS) as usize)
+        if self.fade_to > 0.0 {
+            let t = (u / self.fade_to).clamp(0.0, 1.0);
+            let (_, cos) = sin_cos_degrees_f32(180.0 * t);
+            width *= 0.5 * (1.0 - cos);
+        }
+        width
+    }
+
+    /// The width of lines on what is no hair, pixels.
+    fn widest(&self) -> f32 {
+        let widths = self.width_px.curve.iter().map(|(_, width)| *width);
+        widths.fold(0.0, f32::max)
     }
 
     /// Marks the pixels of a row where a line begins.
@@ -189,6 +208,15 @@ impl Edges {
             *found = squares.sum::<f32>() > threshold;
         }
     }
+}
+
+/// The radius that a line of that width is grown by, in [`STEPS`]; nothing where the sample has no line.
+fn class(width: f32, share: f32) -> Option<usize> {
+    if width < 1.0 {
+        return (share < width).then_some(0);
+    }
+    let radius = (0.5 * (width - 1.0) + share).min(LARGEST);
+    Some((radius * STEPS) as usize)
 }
 
 /// The row and those beside it.
@@ -297,14 +325,17 @@ mod tests {
     use super::*;
     use crate::planes::{BandPlanes, Sample};
 
-    const EDGES: Edges = Edges {
-        channel: EdgeChannel::Strand,
-        threshold: 0.5,
-        step_m: 0.1,
-        width_px: 1.0,
-        fade_to: 0.0,
-        color: [1.0, 0.0, 0.0],
-    };
+    fn edges() -> Edges {
+        Edges {
+            channel: EdgeChannel::Strand,
+            threshold: 0.5,
+            step_m: 0.1,
+            width_px: Variation::constant(1.0),
+            seed: 7,
+            fade_to: 0.0,
+            color: [1.0, 0.0, 0.0],
+        }
+    }
 
     /// One sample of each pixel, where `sample` says something; a band has 16 rows.
     fn planes(size: [u32; 2], sample: impl Fn(usize, usize) -> Sample) -> SamplePlanes {
@@ -363,7 +394,7 @@ mod tests {
                 _ => strand(65_537, right),
             });
             let expected: Vec<_> = (0..20).map(|y| (column, y)).collect();
-            assert_eq!(drawn(EDGES, &planes), expected);
+            assert_eq!(drawn(edges(), &planes), expected);
         }
     }
 
@@ -371,17 +402,17 @@ mod tests {
     fn equal_levels_and_meshes_have_no_line_between_them() {
         let channel = EdgeChannel::Level;
         let equal = planes([8, 8], |x, _| strand(if x < 4 { 0 } else { 3 }, 1.0));
-        assert_eq!(drawn(Edges { channel, ..EDGES }, &equal), []);
-        assert_eq!(drawn(EDGES, &equal).len(), 8);
+        assert_eq!(drawn(Edges { channel, ..edges() }, &equal), []);
+        assert_eq!(drawn(edges(), &equal).len(), 8);
         let mesh = |object| Sample {
             object,
             inv_depth: 1.0,
             ..Sample::NOTHING
         };
         let meshes = planes([8, 8], |x, _| mesh(if x < 4 { 2 } else { 4 }));
-        assert_eq!(drawn(EDGES, &meshes), []);
+        assert_eq!(drawn(edges(), &meshes), []);
         let channel = EdgeChannel::Object;
-        assert_eq!(drawn(Edges { channel, ..EDGES }, &meshes).len(), 8);
+        assert_eq!(drawn(Edges { channel, ..edges() }, &meshes).len(), 8);
     }
 
     #[test]
@@ -397,13 +428,13 @@ mod tests {
         ] {
             let edges = Edges {
                 channel,
-                width_px: 9.0,
-                ..EDGES
+                width_px: Variation::constant(9.0),
+                ..edges()
             };
             assert_eq!(drawn(edges, &one), []);
         }
         let all = planes([9, 9], |_, _| strand(3, 1.0));
-        assert_eq!(drawn(EDGES, &all), [], "the picture's border is no edge");
+        assert_eq!(drawn(edges(), &all), [], "the picture's border is no edge");
     }
 
     #[test]
@@ -413,7 +444,10 @@ mod tests {
             _ => strand(2, 1.0),
         });
         for width_px in [1.0, 2.0, 3.0, 5.0, 12.0, 40.0] {
-            let edges = Edges { width_px, ..EDGES };
+            let edges = Edges {
+                width_px: Variation::constant(width_px),
+                ..edges()
+            };
             let radius = ((0.5 * (width_px - 1.0) + 0.499) * STEPS).floor() / STEPS;
             let is_in = |&(x, y): &(usize, usize)| {
                 let (dx, dy) = (x as f32 - 66.0, y as f32 - 20.0);
@@ -434,7 +468,7 @@ mod tests {
         let depth = |step_m| Edges {
             channel: EdgeChannel::Depth,
             step_m,
-            ..EDGES
+            ..edges()
         };
         // From 1 m to 1.25 m.
         assert_eq!(drawn(depth(0.24), &steps).len(), 8);
@@ -452,7 +486,7 @@ mod tests {
             let with = |threshold| Edges {
                 channel,
                 threshold,
-                ..EDGES
+                ..edges()
             };
             assert_eq!(drawn(with(0.79), &tones).len(), 16);
             assert_eq!(drawn(with(0.81), &tones).len(), 0);
@@ -469,14 +503,60 @@ mod tests {
         };
         let faded = |fade_to, u| {
             let edges = Edges {
-                width_px: 5.0,
+                width_px: Variation::constant(5.0),
                 fade_to,
-                ..EDGES
+                ..edges()
             };
             drawn(edges, &along(u)).len()
         };
         assert_eq!(faded(0.0, 0.0), faded(0.5, 0.6));
         assert_eq!(faded(0.5, 0.0), 0);
         assert!(faded(0.5, 0.25) < faded(0.5, 0.4) && faded(0.5, 0.25) > 0);
+    }
+    #[test]
+    fn widths_follow_curves_and_vary_from_strand_to_strand() {
+        let pair = |right: u32, u: f32| {
+            planes([41, 41], move |x, _| Sample {
+                u,
+                ..strand(
+                    if x < 20 { right } else { 1 },
+                    if x < 20 { 2.0 } else { 1.0 },
+                )
+            })
+        };
+        let columns = |width_px: Variation, planes: &SamplePlanes| {
+            let edges = Edges {
+                width_px,
+                ..edges()
+            };
+            let columns: std::collections::BTreeSet<usize> =
+                drawn(edges, planes).into_iter().map(|(x, _)| x).collect();
+            columns.len()
+        };
+        let curve = Variation {
+            curve: vec![(0.0, 0.0), (0.5, 9.0), (1.0, 3.0)],
+            vary: 0.0,
+        };
+        let widths = [0.0, 0.25, 0.5, 0.75, 1.0].map(|u| columns(curve.clone(), &pair(5, u)));
+        // Radii are whole quarters of a pixel, rounded down.
+        assert_eq!(widths, [0, 5, 9, 5, 3]);
+        let vary = Variation {
+            vary: 1.0,
+            ..Variation::constant(9.0)
+        };
+        let widths: std::collections::BTreeSet<usize> = (2..40)
+            .map(|id| columns(vary.clone(), &pair(id, 0.5)))
+            .collect();
+        assert!(*widths.first().unwrap() < 4 && *widths.last().unwrap() > 14);
+        // A mesh has the curve's largest.
+        let mesh = planes([41, 41], |x, _| match x < 20 {
+            true => Sample {
+                object: 2,
+                inv_depth: 2.0,
+                ..Sample::NOTHING
+            },
+            false => strand(1, 1.0),
+        });
+        assert_eq!(columns(curve, &mesh), 9);
     }
 }

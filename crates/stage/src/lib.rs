@@ -47,8 +47,9 @@ pub use part::FilePart;
 pub use preset::{
     BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
     ExpressionChoice, EyesChoice, FixedTo, HairSection, HeadSection, HeadShape, HeldChoice,
-    LightKind, LightSection, MotionSection, NamedObject, ObjectSection, OrderChoice, PassesSection,
-    PathChoice, PathSection, Preset, SceneSection, Sections, TopSection, UpAxis, VERSION,
+    LightKind, LightSection, MotionSection, NamedObject, ObjectSection, OrderChoice, PASSES,
+    PassSection, PathChoice, PathSection, Preset, SceneSection, Sections, TopSection, UpAxis,
+    VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;

@@ -3,10 +3,12 @@
 use crate::files::{Files, StageError};
 use crate::head::HeadPaint;
 use crate::preset::{
-    BrushChoice, EdgesChoice, FixedTo, LightKind, OrderChoice, PathChoice, Preset, Sections,
+    BrushChoice, EdgesChoice, FixedTo, LightKind, OrderChoice, PassSection, PathChoice, Preset,
+    Sections,
 };
 use crate::textures::with_textures;
-use effects::{Input, Layer, Parameters, SampleInput, Varied, clump};
+use effects::section::Section;
+use effects::{Input, Layer, Parameters, SampleInput, Varied, clump, layer_seed};
 use glam::Vec3;
 use render::{Brush, EdgeChannel, Edges, Head, Light, Order};
 use stroke_path::{Camera, PathKind, direction_from_angles};
@@ -25,6 +27,7 @@ pub struct Look {
     pub(crate) sections: Sections,
     pub(crate) clump: Varied<clump::Program>,
     pub(crate) layers: Vec<Layer>,
+    passes: Vec<PassSection>,
     /// Unit vector to the light, where the camera stands at yaw 0.
     light_direction: Vec3,
 }
@@ -41,6 +44,11 @@ impl Look {
         sections
             .check()
             .map_err(|(section, error)| StageError::Section { section, error })?;
+        for pass in &preset.passes {
+            let section = "passes";
+            pass.check()
+                .map_err(|error| StageError::Section { section, error })?;
+        }
         if let Some((_, message)) = sections.dynamics.unsupported() {
             return Err(StageError::Unsupported(message));
         }
@@ -56,6 +64,7 @@ impl Look {
             clump: Varied::new(&sections.clump.0),
             sections,
             layers,
+            passes: preset.passes.clone(),
             light_direction,
         };
         look.lights(&look)?;
@@ -106,24 +115,31 @@ impl Look {
 
     /// What is done with the samples of a picture so many pixels high.
     pub(crate) fn passes(&self, head: Head, height_px: u32) -> Vec<Edges> {
-        let section = &self.sections.passes;
-        let channel = match section.edges {
-            EdgesChoice::None => return Vec::new(),
-            EdgesChoice::Level => EdgeChannel::Level,
-            EdgesChoice::Strand => EdgeChannel::Strand,
-            EdgesChoice::Object => EdgeChannel::Object,
-            EdgesChoice::Normal => EdgeChannel::Normal,
-            EdgesChoice::Depth => EdgeChannel::Depth,
-            EdgesChoice::Color => EdgeChannel::Color,
+        let edges = |pass: &PassSection| {
+            let channel = match pass.edges {
+                EdgesChoice::None => return None,
+                EdgesChoice::Level => EdgeChannel::Level,
+                EdgesChoice::Strand => EdgeChannel::Strand,
+                EdgesChoice::Object => EdgeChannel::Object,
+                EdgesChoice::Normal => EdgeChannel::Normal,
+                EdgesChoice::Depth => EdgeChannel::Depth,
+                EdgesChoice::Color => EdgeChannel::Color,
+            };
+            let mut width_px = pass.width.clone();
+            for (_, width) in &mut width_px.curve {
+                *width *= height_px as f32 / 720.0;
+            }
+            Some(Edges {
+                channel,
+                threshold: pass.threshold,
+                step_m: pass.depth * head.height_m,
+                width_px,
+                seed: layer_seed(self.seed, "passes"),
+                fade_to: pass.fade,
+                color: pass.color,
+            })
         };
-        vec![Edges {
-            channel,
-            threshold: section.edges_threshold,
-            step_m: section.edges_depth * head.height_m,
-            width_px: section.edges_width * height_px as f32 / 720.0,
-            fade_to: section.edges_fade,
-            color: section.edges_color,
-        }]
+        self.passes.iter().filter_map(edges).collect()
     }
 
     pub(crate) fn order(&self) -> Order {

@@ -1,9 +1,11 @@
 //! Presets: one RON file that says what is drawn and how.
 
 mod objects;
+mod passes;
 mod sections;
 
 pub use objects::{NamedObject, ObjectSection};
+pub use passes::{EdgesChoice, PASSES, PassSection};
 pub use sections::*;
 
 use crate::files::Files;
@@ -27,6 +29,8 @@ pub struct Preset<'r> {
     pub layers: Vec<LayerSpec<'r>>,
     /// The objects that it names. Without any it describes one itself.
     pub objects: Vec<NamedObject>,
+    /// What is done with the whole picture's samples, in the order of the file.
+    pub passes: Vec<PassSection>,
     /// The effects that it was read with, and that its objects' presets are read with.
     registry: Option<&'r Registry>,
     /// Where the file names other files.
@@ -62,6 +66,7 @@ impl<'r> Preset<'r> {
             sections,
             layers,
             objects: Vec::new(),
+            passes: Vec::new(),
             registry: None,
             named: Vec::new(),
         }
@@ -91,7 +96,7 @@ impl<'r> Preset<'r> {
         let names = Sections::ALL.iter().map(|(name, ..)| *name);
         let known: Vec<&str> = (Self::TOP.iter().map(|param| param.name))
             .chain(names)
-            .chain(["layers", "objects"])
+            .chain(["layers", "passes", "objects"])
             .collect();
         let mut preset = Self {
             registry: Some(registry),
@@ -104,6 +109,8 @@ impl<'r> Preset<'r> {
             let is_section = Sections::ALL.iter().any(|(name, ..)| *name == field.name);
             if field.name == "objects" {
                 preset.objects = NamedObject::read_list(reader, field.value);
+            } else if field.name == "passes" {
+                preset.passes = PassSection::read_list(reader, field.value);
             } else if objects.is_some()
                 && (field.name == "layers" || is_section && objects::is_of_objects(field.name))
             {
@@ -209,7 +216,8 @@ impl<'r> Preset<'r> {
         self.named.iter().find(is_it).map(|named| &named.place)
     }
 
-    /// Sets a layer's parameter, one of a section, or the seed, from its text: `hair.silhouette.width`, `3`.
+    /// Sets a layer's parameter, one of a section, of a pass by its number from 1 on, or the seed, from its text: `hair.silhouette.width`, `3`;
+    /// `passes.1.width`, `2`.
     ///
     /// # Errors
     ///
@@ -220,6 +228,9 @@ impl<'r> Preset<'r> {
         };
         if let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == owner) {
             return layer.set(param, text);
+        }
+        if let Some(number) = owner.strip_prefix("passes.") {
+            return set_text(self.pass(number)?, owner, param, text);
         }
         let Some(section) = self.sections.by_name(owner) else {
             return Err(SetError::Unknown(self.no_layer(owner)));
@@ -232,6 +243,23 @@ impl<'r> Preset<'r> {
         self.named
             .retain(|named| (named.section, named.param) != (owner, param));
         Ok(())
+    }
+
+    /// The pass of that number, from 1 on.
+    fn pass(&mut self, number: &str) -> Result<&mut PassSection, SetError> {
+        let count = self.passes.len();
+        let index = number.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
+        index
+            .and_then(|index| self.passes.get_mut(index))
+            .ok_or_else(|| {
+                SetError::Unknown(match count {
+                    0 => "the preset has no passes".to_owned(),
+                    1 => format!("there is no pass `{number}`: the preset has one, passes.1"),
+                    _ => {
+                        format!("there is no pass `{number}`: they are passes.1 to passes.{count}")
+                    }
+                })
+            })
     }
 
     /// Sets what stands beside the sections: the seed, as the version is the file's.

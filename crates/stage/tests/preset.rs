@@ -236,3 +236,68 @@ fn defaults_are_within_their_own_ranges() {
         }
     }
 }
+
+#[test]
+fn passes_are_a_list_whose_lines_are_set_by_number() {
+    let registry = registry();
+    let text = "(version: 1, layers: [], passes: [(width: 2), (edges: object, width: (curve: [(0, 0), (1, 3)]), fade: 0.4)])";
+    let mut preset = Preset::parse("look.ron", text, &registry).unwrap();
+    assert_eq!(preset.passes.len(), 2);
+    assert_eq!(preset.passes[0].edges, stage::EdgesChoice::Strand);
+    assert_eq!(preset.passes[1].width.at(0.5), 1.5);
+    preset.set("passes.2.fade", "0.1").unwrap();
+    preset.set("passes.1.edges", "level").unwrap();
+    assert_eq!(preset.passes[1].fade, 0.1);
+    assert_eq!(preset.passes[0].edges, stage::EdgesChoice::Level);
+    for (name, message) in [
+        (
+            "passes.3.fade",
+            "no pass `3`: they are passes.1 to passes.2",
+        ),
+        ("passes.0.fade", "no pass `0`"),
+        ("passes.one.fade", "no pass `one`"),
+        (
+            "passes.1.fad",
+            "passes.1 has no `fad`, did you mean `fade`?",
+        ),
+        ("passes.fade", "no layer `passes`"),
+    ] {
+        let error = preset.set(name, "1").unwrap_err().to_string();
+        assert!(error.contains(message), "{name}: {error}");
+    }
+}
+
+#[test]
+fn mistakes_in_passes_are_told_at_their_place() {
+    for (passes, message) in [
+        (
+            "(edges: strand, edges_width: 2)",
+            "2:9: passes is a list, of one set of lines too: passes: [(edges: strand, width: 1.5",
+        ),
+        ("3", "2:9: passes is a list, written [..., ...], found `3`"),
+        (
+            "[(edges: strands)]",
+            "2:18: edges: there is no `strands`, did you mean `strand`?",
+        ),
+        (
+            "[(), (widht: 2)]",
+            "2:15: a pass has no `widht`, did you mean `width`?",
+        ),
+        (
+            "[(fade: (curve: [(0, 1)]))]",
+            "2:17: fade: expected a number from 0 to 1",
+        ),
+    ] {
+        let errors = errors(&format!("(version: 1, layers: [],\npasses: {passes})"));
+        assert!(
+            errors.starts_with(&format!("look.ron:{message}")),
+            "{errors}"
+        );
+    }
+    let many = "(),".repeat(65);
+    let errors = errors(&format!("(version: 1, layers: [], passes: [{many}])"));
+    assert!(
+        errors.contains("there are 65, and at most 64 are drawn"),
+        "{errors}"
+    );
+}

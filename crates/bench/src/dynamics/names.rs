@@ -14,6 +14,8 @@ pub const XPBD_SWEEPS: &str = "xpbd-sweeps";
 pub const FULL: &str = "full-";
 /// Starts the names of scenes of the same when all has come to rest.
 pub const REST: &str = "rest-";
+/// Ten thousand strands that are shown, of which some are simulated and carry the others.
+pub const SHOWN: &str = "shown-10000x16";
 /// Comes next where the hair is straight by nature.
 pub const STRAIGHT: &str = "straight-";
 /// Ends the names of scenes of 72 strands that one strand has too.

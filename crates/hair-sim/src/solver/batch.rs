@@ -231,6 +231,15 @@ impl BatchState {
 }
 
 impl BatchState {
+    /// Whether all lists of particles have `count` of them, which what was read from a file may not.
+    pub(crate) fn has_lengths(&self, count: usize) -> bool {
+        let vectors = [&self.y, &self.v, &self.a, &self.past, &self.quiet_at];
+        let numbers = [&self.skin, &self.press, &self.creep];
+        vectors.iter().all(|list| list.len() == count)
+            && numbers.iter().all(|list| list.len() == count)
+            && (self.goal.is_empty() || self.goal.len() == count)
+    }
+
     /// The strands that are set aside.
     #[inline(always)]
     pub(crate) fn aside(&self) -> Mask {

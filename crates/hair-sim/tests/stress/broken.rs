@@ -315,3 +315,23 @@ fn a_state_can_be_saved_whatever_is_set_aside() {
     let named: Vec<u32> = solver.faults(&state).iter().map(|f| f.id).collect();
     assert_eq!(named, [0, 1, 2, 3, 4, 5]);
 }
+
+#[test]
+fn a_state_whose_lists_are_too_short_is_refused() {
+    let rest = style(3, 10, 0.2);
+    let (mut solver, state) = Solver::new(&rest, &Params::default()).unwrap();
+    let whole = serde_json::to_value(&state).unwrap();
+    for list in [
+        "y", "v", "a", "past", "skin", "press", "creep", "quiet_at", "frames",
+    ] {
+        let mut saved = whole.clone();
+        let numbers = saved["batches"][0][list].as_array_mut().unwrap();
+        if numbers.pop().is_none() {
+            // Straight strands have no frames.
+            continue;
+        }
+        let mut cut: State = serde_json::from_value(saved).unwrap();
+        let step = solver.step(&mut cut, &Surroundings::default(), 1.0 / 24.0);
+        assert_eq!(step.unwrap_err(), DynamicsError::State, "{list}");
+    }
+}

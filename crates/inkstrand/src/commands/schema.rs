@@ -3,7 +3,7 @@
 use effects::preset::{LAYER, OF_THE_EFFECT};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use serde_json::{Value, json};
-use stage::{FilePart, MOTION_PARTS, ObjectSection, Preset, STYLE_PARTS, Sections};
+use stage::{FilePart, MOTION_PARTS, ObjectSection, PassSection, Preset, STYLE_PARTS, Sections};
 
 /// A section of a preset as `inkstrand effects` shows it.
 pub(super) struct Section {
@@ -12,19 +12,20 @@ pub(super) struct Section {
     pub table: &'static [Param],
 }
 
-/// The sections in their order: what stands beside them, their own, and a layer's fields.
+/// The sections in their order: what stands beside them, their own, and the fields of layers, passes and objects.
 pub(super) fn sections() -> Vec<Section> {
     let top = ("preset", "What stands beside the sections.", Preset::TOP);
     let layers = ("layers", "What is drawn: effects, in a list.", LAYER);
+    let passes = ("passes", PassSection::DOC, PassSection::TABLE);
     let objects = (
         "objects",
-        "Heads of hair of other presets in one picture, a list in place of all sections but scene, camera and light.",
+        "Heads of hair of other presets in one picture, a list in place of all sections but scene, camera, light and passes.",
         ObjectSection::TABLE,
     );
     [top]
         .iter()
         .chain(Sections::ALL)
-        .chain(&[layers, objects])
+        .chain(&[layers, passes, objects])
         .map(|&(name, doc, table)| Section { name, doc, table })
         .collect()
 }

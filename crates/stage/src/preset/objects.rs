@@ -20,7 +20,7 @@ section! {
     /// A head of hair in the picture, as another preset describes it.
     pub struct ObjectSection {
         /// Its preset, relative to this one. Hair, head, motion, dynamics, path, clump and layers are taken from it, not its scene,
-        /// camera and light.
+        /// camera, light and passes.
         preset: Option<String> = text(),
         /// Where it stands: how far its 0 is shifted.
         at: [f32; 3] = triple([0.0; 3], -1000.0..=1000.0).unit("m"),

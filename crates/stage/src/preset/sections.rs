@@ -320,45 +320,6 @@ section! {
     }
 }
 
-choices! {
-    /// What lines of the whole picture are drawn between.
-    pub enum EdgesChoice {
-        /// Nothing: there are no lines.
-        None = "none",
-        /// The clump's levels.
-        Level = "level",
-        /// Strands.
-        Strand = "strand",
-        /// Hair, heads, clothes and ornaments.
-        Object = "object",
-        /// Normals.
-        Normal = "normal",
-        /// Depths.
-        Depth = "depth",
-        /// Colours.
-        Color = "color",
-    }
-}
-
-section! {
-    /// What is done with the whole picture's samples when it is known what they show.
-    pub struct PassesSection {
-        /// What lines are drawn between: what is of different levels of the clump, strands or things, or differs in normal, depth or colour. They lie
-        /// on what is in front.
-        edges: EdgesChoice = EdgesChoice::None.or_another(),
-        /// Width of these lines.
-        edges_width: f32 = number(1.5, 0.0..=64.0).unit("pixels of 720 lines"),
-        /// Between normals or colours: how much they differ, by Sobel's filter; small draws more lines.
-        edges_threshold: f32 = number(0.5, 0.0..=10.0),
-        /// Between depths: how much farther what is behind lies.
-        edges_depth: f32 = number(0.05, 0.0..=100.0).unit("head heights"),
-        /// How far along the strand lines grow, as half a cosine, from nothing to their width; 0 has them full from the root on.
-        edges_fade: f32 = number(0.0, 0.0..=1.0).unit("0 root to 1 tip"),
-        /// Colour of these lines.
-        edges_color: [f32; 3] = color("1A1A1A"),
-    }
-}
-
 section! {
     /// What stands in a preset beside its sections and layers.
     pub struct TopSection {
@@ -445,5 +406,4 @@ sections! {
     dynamics: DynamicsSection,
     path: PathSection,
     clump: ClumpSection,
-    passes: PassesSection,
 }

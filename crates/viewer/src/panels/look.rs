@@ -3,12 +3,13 @@
 
 use super::fold::fold;
 use super::items::{Change, List};
+use super::parts::{Asked, Parts, items_of, value_of};
 use crate::controls::{Form, Search};
 use crate::edit::{Edit, Place};
-use effects::Param;
 use effects::preset::edit;
+use effects::{Param, ParamKind, Value};
 use eframe::egui::{RichText, Ui};
-use stage::{ObjectSection, Preset, Sections};
+use stage::{ObjectSection, PASSES, Preset, Sections};
 
 /// The name of what stands in a preset beside its sections: its version and seed.
 pub const PRESET: &str = "preset";
@@ -25,7 +26,47 @@ pub fn look(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
     for name in std::iter::once(PRESET).chain(names) {
         section(ui, text, name, search, edits);
     }
+    passes(ui, text, search, edits);
     objects(ui, text, search, edits);
+}
+
+/// The passes of the preset `text`, each with what lines it draws.
+fn passes(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
+    let search = Search::new(search);
+    let items = items_of(text, PASSES.name);
+    let title = |(index, item): (usize, &&str)| {
+        let kind = PASSES.table.iter().find(|param| param.name == "edges");
+        let names = match kind.map(|param| param.kind) {
+            Some(ParamKind::Choice { names, .. }) => names,
+            _ => &[],
+        };
+        let between = match value_of(item, PASSES.table, "edges") {
+            Some(Value::Choice(choice)) => names.get(choice as usize).copied(),
+            _ => None,
+        };
+        format!("{}: {}", index + 1, between.unwrap_or_default())
+    };
+    let parts = Parts {
+        part: &PASSES,
+        noun: "pass",
+        titles: items.iter().enumerate().map(title).collect(),
+        fields: &[],
+        needed: &[],
+        refusal: &|_, _, _| None,
+        is_movable: true,
+        may_remove: true,
+        may_add: true,
+    };
+    let place = parts.place();
+    let asked = parts.show(ui, text, &search, |_| PASSES.table.to_vec(), edits);
+    edits.extend(asked.map(|asked| match asked {
+        Asked::Add => parts.add(text, "(edges: strand)"),
+        Asked::Of(Change::Remove(index)) => Edit::Remove(place.item(index)),
+        Asked::Of(Change::Move(from, to)) => Edit::Move(place, from, to),
+        Asked::Of(Change::Duplicate(index)) => {
+            Edit::Insert(place, index + 1, items[index].to_owned())
+        }
+    }));
 }
 
 /// A section of the preset `text`, one of [`Sections::ALL`] or [`PRESET`], as a part to open; nothing where a search finds
@@ -45,7 +86,7 @@ pub fn section(ui: &mut Ui, text: &str, name: &str, search: &str, edits: &mut Ve
     let mut form = Form::new(name, table, section, place).about(doc);
     if name == PRESET {
         let sections = Sections::ALL.iter().map(|(name, ..)| *name);
-        let others: Vec<&str> = sections.chain(["layers", "objects"]).collect();
+        let others: Vec<&str> = sections.chain(["layers", "passes", "objects"]).collect();
         form = form.without(&others).needed(&["version"]);
     }
     if search.is_active() && !form.matches(&search) {

@@ -255,3 +255,29 @@ fn moves_and_winds_are_added_and_changed() {
     type_into(&mut harness, "move 1: nod at 2 s angle", "12");
     says(&harness, "(move: nod, start: 2, angle: 12)");
 }
+
+#[test]
+fn passes_of_a_look_are_added_set_moved_and_removed() {
+    let look = "(\n    version: 1,\n    layers: [],\n)\n";
+    let mut harness = shown(Kind::Look, look);
+    let passes = |harness: &Harness<Pane>| {
+        let Pane { text, refused, .. } = harness.state();
+        assert_eq!(*refused, Vec::<String>::new());
+        let registry = inkstrand::builtin_effects();
+        match stage::Preset::parse("look.ron", text, &registry) {
+            Ok(preset) => preset.passes,
+            Err(errors) => panic!("{errors}\n{text}"),
+        }
+    };
+    assert!(passes(&harness).is_empty());
+    click(&mut harness, "add pass");
+    click(&mut harness, "add pass");
+    open_all(&mut harness);
+    type_into(&mut harness, "pass 2: strand width", "4");
+    assert_eq!(passes(&harness)[1].width.as_constant(), Some(4.0));
+    click(&mut harness, "move pass 2: strand up");
+    assert_eq!(passes(&harness)[0].width.as_constant(), Some(4.0));
+    click(&mut harness, "remove pass 2: strand");
+    let left = passes(&harness);
+    assert_eq!((left.len(), left[0].width.as_constant()), (1, Some(4.0)));
+}
