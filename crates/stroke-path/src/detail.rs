@@ -16,6 +16,10 @@ const TOLERANCE_PX: f32 = 0.05;
 /// place, as its strokes' radii do, is not known here. 8 px.
 const WIDEST: f32 = 160.0;
 
+/// A strand is divided where it is farthest from a line so many times, and twice for each doubling of its joints; then in its middle, or there are
+/// shapes that would be taken apart joint by joint.
+const LEVELS: u32 = 8;
+
 /// How much each joint of a strand's path matters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Detail {
@@ -52,7 +56,8 @@ impl Detail {
         let mut ends: Vec<usize> = of_cuts.chain([0, places.len().saturating_sub(1)]).collect();
         ends.sort_unstable();
         for pair in ends.windows(2) {
-            divide(&places, &mut joints, [pair[0], pair[1]]);
+            let levels = 2 * (pair[1] - pair[0]).max(1).ilog2() + LEVELS;
+            divide(&places, &mut joints, [pair[0], pair[1]], levels);
         }
         Ok(Self { joints })
     }
@@ -93,7 +98,12 @@ impl Detail {
 }
 
 /// Finds what the joints between two lie between, and returns the greatest error of any.
-fn divide(places: &[Vec3], joints: &mut [JointDetail], [start, end]: [usize; 2]) -> f32 {
+fn divide(
+    places: &[Vec3],
+    joints: &mut [JointDetail],
+    [start, end]: [usize; 2],
+    levels: u32,
+) -> f32 {
     if end - start < 2 {
         return 0.0;
     }
@@ -108,13 +118,18 @@ fn divide(places: &[Vec3], joints: &mut [JointDetail], [start, end]: [usize; 2])
         let by_error = error(i).total_cmp(&error(j));
         by_error.then(from_middle(j).cmp(&from_middle(i)))
     });
-    let Some(i) = farthest else {
+    let Some(farthest) = farthest else {
         return 0.0;
+    };
+    let i = match levels {
+        0 => start.midpoint(end),
+        _ => farthest,
     };
     let length = |links: &[Vec3]| -> f32 { links.windows(2).map(|l| l[0].distance(l[1])).sum() };
     let too_wide = length(&places[start..=end]) / WIDEST;
-    let within = divide(places, joints, [start, i]).max(divide(places, joints, [i, end]));
-    let error_m = error(i).max(too_wide).max(within);
+    let levels = levels.saturating_sub(1);
+    let [before, after] = [[start, i], [i, end]].map(|part| divide(places, joints, part, levels));
+    let error_m = error(farthest).max(too_wide).max(before).max(after);
     joints[i] = JointDetail {
         error_m,
         between: [start as u32, end as u32],
@@ -198,6 +213,19 @@ mod tests {
             before = now;
         }
         assert!(changes > 10);
+    }
+
+    #[test]
+    fn no_shape_is_taken_apart_joint_by_joint() {
+        // To and fro by ever less: the farthest joint is always the next one.
+        const COUNT: usize = 200_000;
+        let to_and_fro = |i: usize| {
+            let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+            Vec3::new(side * (COUNT - i) as f32, 0.0, 0.0)
+        };
+        let strand: Vec<Vec3> = (0..COUNT).map(to_and_fro).collect();
+        let detail = Detail::of(&strand, PathKind::Linear { subdivision: 1 }, &[]).unwrap();
+        assert!(kept(&detail, 1.0).len() > COUNT / 2);
     }
 
     #[test]
