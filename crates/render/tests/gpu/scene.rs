@@ -133,7 +133,9 @@ impl Scene {
             let cuts = stroke_path::cuts(&points, kind, 0.02).unwrap();
             assert_eq!(cuts.is_empty(), i != 7, "strand {i}: {} cuts", cuts.len());
             let mean = points.iter().sum::<Vec3>() / points.len() as f32;
-            paths.push_pieces(i, &points, &cuts, kind, &camera).unwrap();
+            paths
+                .push_pieces(i, &points, &cuts, None, kind, &camera)
+                .unwrap();
             let [red, blue] = [Vec3::new(0.8, 0.1, 0.1), Vec3::new(0.1, 0.2, 0.7)];
             let colors = [
                 [NO_COLOR; 2],
