@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{
-    Brush, Disc, Drawing, Frame, Head, LayerStrokes, Light, NO_TAPER, Object, Order, Picture,
-    StrandInfo,
+    Brush, Disc, Drawing, Frame, Head, LayerStrokes, Light, NO_COLOR, NO_TAPER, Object, Order,
+    Picture, StrandInfo,
 };
 use stroke_path::{Camera, OrbitView, PathKind, Paths, cuts};
 
@@ -83,6 +83,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
             mean: Vec3::ZERO,
             size: SIZE,
             taper: NO_TAPER,
+            colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
         }],

@@ -5,7 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3, vec2};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
 use render::{
-    Brush, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo, Surface, SurfaceVertex,
+    Brush, Edges, Features, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo,
+    Surface, SurfaceVertex,
 };
 use std::iter;
 use std::ops::Range;
@@ -27,6 +28,8 @@ pub struct Scene {
     pub background: Option<[f32; 3]>,
     pub order: Order,
     pub brush: Brush,
+    pub features: Features,
+    pub passes: Vec<Edges>,
     pub seed: u32,
 }
 
@@ -38,6 +41,11 @@ pub struct Second {
 }
 
 impl Second {
+    /// How many layers it has.
+    pub fn layers(&self) -> usize {
+        self.layer_joints.len()
+    }
+
     /// Takes a layer away, which the first object has no more.
     pub fn drop_layer(&mut self, layer: usize) {
         self.layer_joints.remove(layer);
@@ -56,6 +64,7 @@ pub const ALL_EFFECTS: &str = "[
 pub fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     registry
 }
 
@@ -127,13 +136,21 @@ impl Scene {
             paths
                 .push_pieces(i, &points, &cuts, None, kind, &camera)
                 .unwrap();
+            let [red, blue] = [Vec3::new(0.8, 0.1, 0.1), Vec3::new(0.1, 0.2, 0.7)];
+            let colors = [
+                [NO_COLOR; 2],
+                [red, NO_COLOR],
+                [NO_COLOR, blue],
+                [blue, red],
+            ];
             let tapers = [NO_TAPER, vec2(0.3, -1.0), vec2(-1.0, 0.6), vec2(0.2, 0.5)];
             strands.push(StrandInfo {
                 id: 3 * i as u32 + 5,
                 mean,
                 size: numbers.around(9.0, 8.0),
                 taper: tapers[i % tapers.len()],
-                level: 0,
+                colors: colors[i % colors.len()],
+                level: i as u32 % 3,
                 lift: 0.0,
             });
         }
@@ -206,6 +223,8 @@ impl Scene {
             } else {
                 Brush::Semicircle
             },
+            features: Features::NONE,
+            passes: Vec::new(),
             seed,
         }
     }
@@ -287,9 +306,9 @@ impl Scene {
             order: self.order,
             edge_depth_m: 0.005,
             brush: self.brush,
-            features: render::Features::NONE,
-            roundness: 1.0,
-            passes: Vec::new(),
+            features: self.features,
+            roundness: 0.7,
+            passes: self.passes.clone(),
         }
     }
 }
