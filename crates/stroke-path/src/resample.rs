@@ -69,8 +69,8 @@ impl PathKind {
         self,
         particles: &[Vec3],
     ) -> Result<impl ExactSizeIterator<Item = Vec3>, PathError> {
-        let mut joint_at = self.joint_at(particles)?;
-        Ok((0..self.count(particles)?).map(move |joint| joint_at(joint)))
+        let joint_at = self.joint_at(particles)?;
+        Ok((0..self.count(particles)?).map(joint_at))
     }
 
     /// How many joints a path has.

@@ -26,9 +26,9 @@ impl Places {
         }
     }
 
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.along.len()
+    /// Their numbers.
+    pub fn joints(&self) -> std::ops::Range<usize> {
+        0..self.along.len()
     }
 
     /// How far the joint of that number has come since `before`, in pixels; nothing where the strand wasn't seen there.

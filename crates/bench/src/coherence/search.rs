@@ -227,7 +227,7 @@ impl Motion {
     fn add(&mut self, before: &Moment, half: &Moment, after: &Moment) {
         let pairs = [(0, before, after), (1, before, half), (1, half, after)];
         for (i, from, to) in pairs {
-            let joints = 0..to.places.len();
+            let joints = to.places.joints();
             let moved = joints.filter_map(|joint| to.places.moved_since(&from.places, joint));
             let farthest = moved.map(Vec2::length).fold(0.0, f32::max);
             self.0[i] = self.0[i].max(f64::from(farthest));
