@@ -1,4 +1,4 @@
-//! inputs: position, forward, backward, u, strand_mean, head_center, head_height, strand_size, strand_taper, light_direction, view_direction, seed, material_normal
+//! inputs: position, forward, backward, u, strand_mean, head_center, head_height, strand_size, strand_taper, strand_color, strand_tip_color, light_direction, view_direction, seed, material_normal
 // The clump: what all layers share of a strand. Size 5.1 to 5.3, normal 5.4, basic colour.
 
 struct Params {
@@ -55,6 +55,12 @@ struct Params {
     /// Basic colour.
     /// @default "3FC1C0"
     color: vec3<f32>,
+    /// Colour at the tips, which the basic colour runs into, or none.
+    /// @default none
+    tip_color: vec4<f32>,
+    /// Over how much of the strand, from its tip, the colours run into each other.
+    /// @unit share of the strand @range 0..1 @default 0.6
+    tip_length: f32,
     /// One colour everywhere, or Phong's diffuse light on it.
     /// @choices pure diffuse @default pure
     shading: u32,
@@ -91,6 +97,25 @@ fn lies_flat(joint: Inputs) -> f32 {
     return 1.0 - smoothstep(FLAT_TO, ROUND_FROM, away);
 }
 
+/// The hair's colour, without light: from root to tip, the strand's own where it has one.
+fn own_color(joint: Inputs, params: Params) -> vec3<f32> {
+    var color = params.color;
+    if (joint.strand_color.x >= 0.0) {
+        color = joint.strand_color;
+    }
+    var tip = params.tip_color;
+    if (joint.strand_tip_color.x >= 0.0) {
+        let own = joint.strand_tip_color;
+        tip = vec4<f32>(own.x, own.y, own.z, 1.0);
+    }
+    let start = 1.0 - params.tip_length;
+    if (tip.w > 0.0 && joint.u > start) {
+        let share = smoothstep(start, 1.0, joint.u);
+        color = mix(color, vec3<f32>(tip.x, tip.y, tip.z), vec3<f32>(share));
+    }
+    return color;
+}
+
 fn clump(joint: Inputs, params: Params) -> Clump {
     let weight = saturate(params.mix + params.mix_variation * random_signed(joint.seed, 0u));
     let taper = vec2<f32>(params.root_size, params.shrink_start);
@@ -108,10 +133,10 @@ fn clump(joint: Inputs, params: Params) -> Clump {
     if (params.normal == 1u && dot(joint.material_normal, joint.material_normal) > 0.0) {
         normal = joint.material_normal;
     }
-    var color = params.color;
+    var color = own_color(joint, params);
     if (params.shading == 1u) {
         let gray = max(dot(joint.light_direction, normal), 0.0);
-        color = params.color * (params.ambient + (1.0 - params.ambient) * gray);
+        color = color * (params.ambient + (1.0 - params.ambient) * gray);
     }
     // A root stands up from the scalp: moved, it would leave a gap.
     let flatness = params.flatness * from_root * lies_flat(joint);

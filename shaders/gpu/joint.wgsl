@@ -26,8 +26,9 @@ const GPU_UNIT: u32 = 12u;
 /// Where the words begin that paint_main.wgsl reads.
 const GPU_PAINT: u32 = 13u;
 
-const GPU_STRAND_WORDS: u32 = 9u;
-const GPU_STRAND_LEVEL: u32 = 8u;
+/// A strand: its id, mean place, size, taper, lift, colours at root and tip, level.
+const GPU_STRAND_WORDS: u32 = 15u;
+const GPU_STRAND_LEVEL: u32 = 14u;
 
 /// Where the discs of one of the layer's strokes would begin, if the frame's first joint had one.
 fn gpu_first_disc(instance: u32) -> u32 {
@@ -61,6 +62,15 @@ fn gpu_strand_mean(joint: u32) -> vec3<f32> {
 
 fn gpu_strand_taper(joint: u32) -> vec2<f32> {
     return vec2<f32>(bitcast<f32>(gpu_of_strand(joint, 5u)), bitcast<f32>(gpu_of_strand(joint, 6u)));
+}
+
+/// A colour that begins at that word of the strand's record.
+fn gpu_strand_color(joint: u32, word: u32) -> vec3<f32> {
+    return vec3<f32>(
+        bitcast<f32>(gpu_of_strand(joint, word)),
+        bitcast<f32>(gpu_of_strand(joint, word + 1u)),
+        bitcast<f32>(gpu_of_strand(joint, word + 2u)),
+    );
 }
 
 /// The seed of the joint's strand in this layer, whose own seed comes first among the words.

@@ -8,7 +8,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use indicatif::ProgressBar;
-use render::{Brush, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo};
+use render::{Brush, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo};
 use std::path::PathBuf;
 use std::time::Instant;
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
@@ -129,6 +129,7 @@ impl MadeHair {
             mean: Vec3::ZERO,
             size,
             taper: NO_TAPER,
+            colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
         };

@@ -94,6 +94,10 @@ pub(crate) const INPUTS: &[Input] = &[
     input("strand_taper", Vec2, Both, "the strand's own root size and start of shrinking, in place of the clump's; below 0 the clump's")
         // Where no strand has one.
         .where_empty(|| quote!(::effects::wgsl::vec2([-1.0; 2]))),
+    input("strand_color", Vec3, Both, "the strand's own colour, linear, in place of the clump's; below 0 the clump's")
+        .where_empty(|| quote!(::effects::wgsl::vec3([-1.0; 3]))),
+    input("strand_tip_color", Vec3, Both, "the strand's own colour at its tip, linear, in place of the clump's; below 0 the clump's")
+        .where_empty(|| quote!(::effects::wgsl::vec3([-1.0; 3]))),
     input("light_direction", Vec3, Both, "unit vector to the light"),
     input("light_distance", F32, Both, "distance to the light, head heights; 1e6 for a direction"),
     input("view_direction", Vec3, Both, "unit vector to the eye"),

@@ -74,6 +74,8 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         head_height: HEAD_M,
         strand_size: 18.0,
         strand_taper: vec2([0.3, -1.0]),
+        strand_color: vec3([0.6, 0.3, 0.1]),
+        strand_tip_color: vec3([-1.0; 3]),
         light_direction: vec3(light.to_array()),
         light_distance: to_light.length() / HEAD_M,
         view_direction: vec3(view.to_array()),

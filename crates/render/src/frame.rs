@@ -24,11 +24,16 @@ pub struct StrandInfo {
     /// Its own size at the root and start of shrinking (x in 5.1), both 0 to 1, in place of the clump section's; below 0 the
     /// section's: [`NO_TAPER`].
     pub taper: Vec2,
+    /// Its own colours at root and tip, linear, in place of the clump section's; below 0 the section's: [`NO_COLOR`].
+    pub colors: [Vec3; 2],
     /// Its level, 0 the lowest: what is of a higher one lies on top.
     pub level: u32,
     /// How much nearer than it is the strand is ordered among strands, head heights; against surfaces it counts nothing.
     pub lift: f32,
 }
+
+/// The colour of a strand that has none of its own.
+pub const NO_COLOR: Vec3 = Vec3::NEG_ONE;
 
 /// The taper of a strand that has none of its own.
 pub const NO_TAPER: Vec2 = Vec2::NEG_ONE;

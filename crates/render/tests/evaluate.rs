@@ -4,7 +4,7 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3};
 use render::cpu::Evaluator;
-use render::{Brush, Drawing, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo};
+use render::{Brush, Drawing, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo};
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
 /// The picture is 200 x 360, the eye 2 m in front of the origin, a 0.3 m head: a unit is 1 mm.
@@ -38,13 +38,25 @@ fn drawing_with(list: &str, clump: &[(&str, &str)], seed: u32, brush: Brush) -> 
     drawing_on(list, clump, seed, brush, &vec![0..4; layers])
 }
 
-/// `layer_joints` are the joints that each layer draws on.
 fn drawing_on(
     list: &str,
     clump: &[(&str, &str)],
     seed: u32,
     brush: Brush,
     layer_joints: &[std::ops::Range<usize>],
+) -> (Drawing, Camera) {
+    let colors = [[NO_COLOR; 2]; 2];
+    drawing_of(list, clump, seed, brush, layer_joints, colors)
+}
+
+/// `layer_joints` are the joints that each layer draws on, `colors` the strands' own.
+fn drawing_of(
+    list: &str,
+    clump: &[(&str, &str)],
+    seed: u32,
+    brush: Brush,
+    layer_joints: &[std::ops::Range<usize>],
+    colors: [[Vec3; 2]; 2],
 ) -> (Drawing, Camera) {
     let camera = camera();
     let mut paths = Paths::new();
@@ -53,11 +65,12 @@ fn drawing_on(
         let points = [Vec3::new(x, 0.1, 0.0), Vec3::new(x, 0.0, 0.5)];
         paths.push_strand(i, &points, kind, &camera).unwrap();
     }
-    let strand = |id| StrandInfo {
+    let strand = |id, colors| StrandInfo {
         id,
         mean: Vec3::ZERO,
         size: 20.0,
         taper: NO_TAPER,
+        colors,
         level: 0,
         lift: 0.0,
     };
@@ -77,7 +90,7 @@ fn drawing_on(
     let frame = Frame {
         camera: &camera,
         paths: &paths,
-        strands: &[strand(3), strand(8)],
+        strands: &[strand(3, colors[0]), strand(8, colors[1])],
         objects: vec![Object {
             joints: 0..4,
             head: Head {
@@ -265,4 +278,27 @@ fn numbers_vary_along_the_strand_and_from_strand_to_strand() {
         let width = [2.0, 6.0][joint % 2] / 20.0 * full;
         assert_near(outline[joint].radius - clump[joint].radius, width);
     }
+}
+
+#[test]
+fn strands_have_colors_of_their_own_from_root_to_tip() {
+    let [red, blue] = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 0.0, 1.0)];
+    let colors = |clump: &[(&str, &str)], own: [[Vec3; 2]; 2]| {
+        let clump = [&[("color", "000000")], clump].concat();
+        let layer = "[(effect: \"hair.base\")]";
+        let (drawing, _) = drawing_of(layer, &clump, 1, Brush::Circle, &[0..4], own);
+        drawing.layers[0].colors[..4].to_vec()
+    };
+    let [black, r, b] = [[0.0; 3], red.to_array(), blue.to_array()];
+    let none = [NO_COLOR; 2];
+    assert_eq!(colors(&[], [none; 2]), [black; 4]);
+    assert_eq!(colors(&[], [none, [red, NO_COLOR]]), [black, black, r, r]);
+    // Roots and tips: there are no other joints.
+    let dyed = [("tip_color", "0000FF")];
+    assert_eq!(colors(&dyed, [none, [red, NO_COLOR]]), [black, b, r, b]);
+    assert_eq!(colors(&dyed, [[NO_COLOR, red], [red; 2]]), [black, r, r, r]);
+    assert_eq!(
+        colors(&[("tip_color", "0000FF"), ("tip_length", "0")], [none; 2]),
+        [black; 4]
+    );
 }

@@ -4,7 +4,9 @@ use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use render::cpu::Evaluator;
-use render::{Brush, Drawing, Frame, FrameError, Head, Light, NO_TAPER, Object, Order, StrandInfo};
+use render::{
+    Brush, Drawing, Frame, FrameError, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo,
+};
 use std::ops::Range;
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
@@ -45,6 +47,7 @@ impl Scene {
             mean: Vec3::ZERO,
             size: 10.0,
             taper: NO_TAPER,
+            colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
         };

@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{
-    Brush, Drawing, Feature, Features, Frame, Head, Light, NO_TAPER, Object, Order, Picture,
-    Sample, SamplePlanes, StrandInfo,
+    Brush, Drawing, Feature, Features, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order,
+    Picture, Sample, SamplePlanes, StrandInfo,
 };
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
@@ -51,6 +51,7 @@ fn drawing(list: &str, features: Features) -> Drawing {
             mean: Vec3::ZERO,
             size: 14.0,
             taper: NO_TAPER,
+            colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
         })

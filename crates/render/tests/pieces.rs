@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{
-    Brush, Disc, Drawing, Frame, Head, LayerStrokes, Light, NO_TAPER, Object, Order, Picture,
-    StrandInfo,
+    Brush, Disc, Drawing, Frame, Head, LayerStrokes, Light, NO_COLOR, NO_TAPER, Object, Order,
+    Picture, StrandInfo,
 };
 use stroke_path::{Camera, OrbitView, PathKind, Paths, cuts};
 
@@ -59,7 +59,9 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
     };
     assert!(!is_cut || cuts.len() >= 2);
     let mut paths = Paths::new();
-    paths.push_pieces(0, strand, &cuts, SPLINE, camera).unwrap();
+    paths
+        .push_pieces(0, strand, &cuts, None, SPLINE, camera)
+        .unwrap();
     let mut values = Values::defaults(clump::Program::PARAMS);
     let plain = [
         ("size_variation", "0"),
@@ -81,6 +83,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
             mean: Vec3::ZERO,
             size: SIZE,
             taper: NO_TAPER,
+            colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
         }],

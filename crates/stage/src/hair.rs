@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use groom::{Guides, OrnamentMesh};
 use hair_io::{HairFile, HeadFrame};
 use hair_sim::{PointCache, Strands};
-use render::{Head, NO_TAPER, StrandInfo};
+use render::{Head, NO_COLOR, NO_TAPER, StrandInfo};
 use std::path::PathBuf;
 
 /// Hair that was read, grown, or made by a program.
@@ -30,6 +30,8 @@ pub struct HairModel {
     pub(crate) bake: Option<PathBuf>,
     /// How the hair of each zone of its style moves, where the style says so.
     pub(crate) zone_dynamics: Vec<Option<ZoneDynamics>>,
+    /// The colours of each zone of its style at root and tip: see [`StrandInfo`].
+    pub(crate) zone_colors: Vec<[Vec3; 2]>,
     /// The ties that gather it, and what lies on it.
     pub(crate) ornaments: Vec<OrnamentMesh>,
     /// The head that it stands on.
@@ -80,6 +82,7 @@ impl HairModel {
             shapes: None,
             bake: None,
             zone_dynamics: Vec::new(),
+            zone_colors: Vec::new(),
             ornaments: Vec::new(),
             head: match head {
                 Some(head) => head.frame(&all_roots),
@@ -117,6 +120,7 @@ impl HairModel {
             mean: Vec3::ZERO,
             size: given(i).unwrap_or(size),
             taper: self.tapers[i],
+            colors: self.colors(strands.id(i)),
             level: 0,
             lift: 0.0,
         });
@@ -145,6 +149,12 @@ impl HairModel {
             return None;
         }
         self.zone_dynamics.get(groom::zone_of(id)?)?.as_ref()
+    }
+
+    /// The colours of the strand of this id by its zone.
+    fn colors(&self, id: u32) -> [Vec3; 2] {
+        let of_zone = groom::zone_of(id).and_then(|zone| self.zone_colors.get(zone));
+        of_zone.copied().unwrap_or([NO_COLOR; 2])
     }
 
     /// How many points from its root a strand keeps on the head, at least its root.

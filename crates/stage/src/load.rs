@@ -233,7 +233,11 @@ fn taper(own: &Taper) -> Vec2 {
 fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairModel, StageError> {
     let model = head.ok_or_else(|| StageError::NoHead(path.to_owned()))?;
     let text = files.read_text(path)?;
-    let style::Written { style, dynamics } = style::parse(&path.display().to_string(), &text)?;
+    let style::Written {
+        style,
+        dynamics,
+        colors,
+    } = style::parse(&path.display().to_string(), &text)?;
     // The mesh alone: the hair that grows on a head must not change its size.
     let (mesh, head) = (&model.mesh, model.frame(&[]));
     let shell = groom::Shell::new(
@@ -264,6 +268,7 @@ fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairMode
         bake: None,
         ornaments: grown.ornaments,
         zone_dynamics: dynamics,
+        zone_colors: colors,
         head,
     })
 }

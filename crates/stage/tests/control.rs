@@ -367,3 +367,22 @@ fn mistakes_are_told_at_their_places() {
     let whole = "(version: 1, loop: true, period: 2, moves: [(move: spin, length: 2, angle: 360)])";
     assert_eq!(script(whole), "");
 }
+
+#[test]
+fn a_zone_has_colors_of_its_own() {
+    let own = r#", color: "FF0000", tip_color: "FFFFFF""#;
+    let scene = scene_of(&style(own), "(version: 1)", &[]).unwrap();
+    let mut frames = stage::FrameMaker::new();
+    let motion = Motion::new();
+    let frame = frames.frame(&scene, &motion).unwrap();
+    let colors: Vec<_> = frame.strands.iter().map(|strand| strand.colors).collect();
+    let none = [render::NO_COLOR; 2];
+    let red = [Vec3::X, Vec3::ONE];
+    assert_eq!(colors, [none, none, red, red]);
+    let wrong = scene_of(&style(", color: red"), "(version: 1)", &[]);
+    let message = wrong.err().unwrap();
+    assert!(
+        message.contains("color: expected a colour such as"),
+        "{message}"
+    );
+}

@@ -5,7 +5,7 @@ use super::animation::{Animation, Kind, TICKS, Tick, seconds};
 use crate::BenchError;
 use effects::{Layer, Registry, Varied, clump};
 use glam::{DVec3, Vec3};
-use render::{Brush, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo};
+use render::{Brush, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo};
 use stage::Preset;
 use stroke_path::{Camera, Cut, OrbitView, PathKind, Paths, sin_cos_degrees};
 
@@ -104,6 +104,7 @@ impl Strands {
             mean: Vec3::ZERO,
             size: SIZE,
             taper: NO_TAPER,
+            colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
         };
@@ -145,9 +146,9 @@ impl Animation for Strands {
         for (i, info) in self.infos.iter_mut().enumerate() {
             let particles = particles(self.motion, i, time);
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
-            let pushed = self
-                .paths
-                .push_pieces(i, &particles, &self.cuts[i], PATH, &self.camera);
+            let pushed =
+                self.paths
+                    .push_pieces(i, &particles, &self.cuts[i], None, PATH, &self.camera);
             pushed.map_err(|error| error.to_string())?;
         }
         let style = match &self.change {

@@ -3,7 +3,7 @@
 use super::seen::fill_needed;
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches};
 use crate::features::{DrawnFeatures, Feature};
-use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_TAPER, Object, seen_lengths};
+use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_COLOR, NO_TAPER, Object, seen_lengths};
 use crate::painting;
 use effects::smooth::Smoother;
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
@@ -214,6 +214,10 @@ impl Evaluator {
         let mut stretches = vec![Vec::new(); instances as usize];
         discs.clear();
         colors.clear();
+        // Dense hair has many: they don't grow by doubling.
+        let count = made.iter().map(|made| made.discs.len()).sum();
+        discs.reserve_exact(count);
+        colors.reserve_exact(count);
         for made in made {
             made.append(&mut stretches, &mut discs, &mut colors);
         }
@@ -266,6 +270,16 @@ impl Evaluator {
             Input::StrandTaper => {
                 let tapers = strands().map(|s| vec2(s.taper.to_array()));
                 joints.strand_taper.extend(tapers);
+            }
+            Input::StrandColor => {
+                if frame.strands.iter().any(|s| s.colors[0] != NO_COLOR) {
+                    (joints.strand_color).extend(strands().map(|s| world(&s.colors[0])));
+                }
+            }
+            Input::StrandTipColor => {
+                if frame.strands.iter().any(|s| s.colors[1] != NO_COLOR) {
+                    (joints.strand_tip_color).extend(strands().map(|s| world(&s.colors[1])));
+                }
             }
             Input::HeadCenter => {
                 for Object {

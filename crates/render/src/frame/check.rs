@@ -77,7 +77,7 @@ pub enum FrameError {
     },
     /// A strand's numbers make no stroke.
     #[error(
-        "strand {strand}: its mean, taper and lift must be finite, and its size ({size}) finite and 0 or more"
+        "strand {strand}: its mean, taper, colours and lift must be finite, and its size ({size}) finite and 0 or more"
     )]
     StrandNumbers {
         /// Index of the strand.
@@ -262,7 +262,8 @@ impl Frame<'_> {
         for (index, strand) in self.strands.iter().enumerate() {
             let is_size = (0.0..=f32::MAX).contains(&strand.size);
             let is_placed = strand.mean.is_finite() && strand.lift.is_finite();
-            if !is_size || !is_placed || !strand.taper.is_finite() {
+            let is_colored = strand.colors.iter().all(|color| color.is_finite());
+            if !is_size || !is_placed || !is_colored || !strand.taper.is_finite() {
                 return Err(FrameError::StrandNumbers {
                     strand: index,
                     size: strand.size,

@@ -33,6 +33,8 @@ impl InputSource {
             Input::StrandMean => Wgsl("gpu_strand_mean(joint)"),
             Input::StrandSize => Wgsl("bitcast<f32>(gpu_of_strand(joint, 4u))"),
             Input::StrandTaper => Wgsl("gpu_strand_taper(joint)"),
+            Input::StrandColor => Wgsl("gpu_strand_color(joint, 8u)"),
+            Input::StrandTipColor => Wgsl("gpu_strand_color(joint, 11u)"),
             Input::HeadCenter => Wgsl("gpu_head_center()"),
             Input::HeadHeight => Wgsl("gpu_word(GPU_HEAD_HEIGHT)"),
             Input::LightDirection => Wgsl("gpu_light_direction(joint)"),

@@ -194,6 +194,8 @@ impl SceneWords {
             let numbers = numbers.map(f32::to_bits);
             self.strands.push(strand.id);
             self.strands.extend(numbers);
+            let colors = strand.colors.iter().flat_map(|color| color.to_array());
+            self.strands.extend(colors.map(f32::to_bits));
             self.strands.push(strand.level);
         }
     }

@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3, vec2};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
 use render::{
-    Brush, Edges, Features, Frame, Head, Light, NO_TAPER, Object, Order, StrandInfo, Surface,
-    SurfaceVertex,
+    Brush, Edges, Features, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo,
+    Surface, SurfaceVertex,
 };
 use std::iter;
 use std::ops::Range;
@@ -133,13 +133,23 @@ impl Scene {
             let cuts = stroke_path::cuts(&points, kind, 0.02).unwrap();
             assert_eq!(cuts.is_empty(), i != 7, "strand {i}: {} cuts", cuts.len());
             let mean = points.iter().sum::<Vec3>() / points.len() as f32;
-            paths.push_pieces(i, &points, &cuts, kind, &camera).unwrap();
+            paths
+                .push_pieces(i, &points, &cuts, None, kind, &camera)
+                .unwrap();
+            let [red, blue] = [Vec3::new(0.8, 0.1, 0.1), Vec3::new(0.1, 0.2, 0.7)];
+            let colors = [
+                [NO_COLOR; 2],
+                [red, NO_COLOR],
+                [NO_COLOR, blue],
+                [blue, red],
+            ];
             let tapers = [NO_TAPER, vec2(0.3, -1.0), vec2(-1.0, 0.6), vec2(0.2, 0.5)];
             strands.push(StrandInfo {
                 id: 3 * i as u32 + 5,
                 mean,
                 size: numbers.around(9.0, 8.0),
                 taper: tapers[i % tapers.len()],
+                colors: colors[i % colors.len()],
                 level: i as u32 % 3,
                 lift: 0.0,
             });

@@ -14,8 +14,9 @@ use accessories::AccessoryFields;
 use clumps::{DrawnFields, EditFields};
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::section;
+use glam::Vec3;
 use groom::{Scalp, Style};
-use zone::ZoneFields;
+use zone::{ReadZone, ZoneFields};
 
 /// The newest version of styles that this build reads.
 const VERSION: u32 = 1;
@@ -127,6 +128,8 @@ pub(crate) struct Written {
     pub style: Style,
     /// How the hair of each zone moves, where it says so.
     pub dynamics: Vec<Option<ZoneDynamics>>,
+    /// The colours of the hair of each zone at root and tip: see [`render::StrandInfo`].
+    pub colors: Vec<[Vec3; 2]>,
 }
 
 /// Reads the style `text`, which messages call `file`.
@@ -159,10 +162,15 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Written, PresetErrors> {
         drawn: Vec::new(),
         accessories: Vec::new(),
     };
-    let mut dynamics = Vec::new();
+    let (mut dynamics, mut colors) = (Vec::new(), Vec::new());
     for item in items(&mut reader, &lists, "zones") {
-        let (zone, moved) = zone::zone(&mut reader, item);
+        let ReadZone {
+            zone,
+            dynamics: moved,
+            colors: own,
+        } = zone::zone(&mut reader, item);
         dynamics.push(moved);
+        colors.push(own);
         if style.zones.iter().any(|other| other.name == zone.name) {
             reader.error(item, format!("there is already a zone `{:.40}`", zone.name));
         }
@@ -196,7 +204,11 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Written, PresetErrors> {
             .extend(accessories::accessory(&mut reader, item));
     }
     reader.report()?;
-    Ok(Written { style, dynamics })
+    Ok(Written {
+        style,
+        dynamics,
+        colors,
+    })
 }
 
 /// The items of one of the style's lists.

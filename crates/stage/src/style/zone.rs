@@ -4,7 +4,9 @@ use super::lines::line;
 use crate::dynamics::{FeelChoice, ZoneDynamics};
 use effects::preset::{Field, Reader};
 use effects::{Variation, choices, section};
+use glam::Vec3;
 use groom::{Form, Line, MOST_CLUMPS, Taper, TieKind, Zone};
+use render::NO_COLOR;
 
 /// Most rows of a zone.
 const MOST_ROWS: u32 = 32;
@@ -147,6 +149,10 @@ section! {
         root_size: f32 = number(-1.0, -1.0..=1.0),
         /// Where along the clumps they begin to shrink to a point, in place of the look's; below 0 the look's.
         shrink_start: f32 = number(-1.0, -1.0..=1.0).unit("0 root to 1 tip"),
+        /// Colour of its hair in place of the look's, or none.
+        color: Option<[f32; 3]> = optional_color(None),
+        /// Colour of its tips in place of the look's, or none.
+        tip_color: Option<[f32; 3]> = optional_color(None),
         /// What its hair is like when it moves: as the look's `dynamics` says, or in place of that.
         feel: ZoneFeelChoice = ZoneFeelChoice::Look.or_another(),
         /// Factor on the stiffness of the look's `dynamics`, as those below on what they are called there.
@@ -162,8 +168,18 @@ section! {
     }
 }
 
-/// Reads one zone, and how its hair moves where it says so.
-pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> (Zone, Option<ZoneDynamics>) {
+/// A zone as its file has it.
+pub(super) struct ReadZone {
+    /// What grows.
+    pub zone: Zone,
+    /// How its hair moves, where it says so.
+    pub dynamics: Option<ZoneDynamics>,
+    /// The colours of its hair at root and tip: see [`render::StrandInfo`].
+    pub colors: [Vec3; 2],
+}
+
+/// Reads one zone.
+pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> ReadZone {
     let fields = reader.fields(item, "a zone");
     let (places, plain): (Vec<Field>, Vec<Field>) = fields
         .into_iter()
@@ -196,11 +212,12 @@ pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> (Zone, Option<
         hold: fields.hold.clone(),
         wind: fields.wind.clone(),
     };
-    let zone = as_grown(fields, roots.unwrap_or(Line::Whorl), tips);
-    (
-        zone,
-        (dynamics != ZoneDynamics::default()).then_some(dynamics),
-    )
+    let or_none = |color: Option<[f32; 3]>| color.map_or(NO_COLOR, Vec3::from);
+    ReadZone {
+        dynamics: (dynamics != ZoneDynamics::default()).then_some(dynamics),
+        colors: [fields.color, fields.tip_color].map(or_none),
+        zone: as_grown(fields, roots.unwrap_or(Line::Whorl), tips),
+    }
 }
 
 /// The zone as it is grown.
