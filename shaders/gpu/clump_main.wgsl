@@ -8,7 +8,7 @@ fn gpu_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     let index = gpu_index(group, groups, local);
     if (index >= gpu_words[GPU_JOINT_COUNT]) { return; }
     let joint = gpu_words[GPU_FIRST_JOINT] + index;
-    let made = clump(gpu_inputs(joint), gpu_params(joint));
+    let made = clump(gpu_inputs(joint), gpu_params(joint, gpu_scalar(joint, GPU_AT_U)));
     let gray = max(dot(made.normal, gpu_light_direction(joint)), 0.0);
     let shift = vec2<f32>(dot(gpu_frame.right, made.shift), -dot(gpu_frame.up, made.shift));
     gpu_clumps[joint] = GpuClump(made.normal, made.radius, made.color, gray, shift);

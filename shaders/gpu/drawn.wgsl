@@ -33,6 +33,10 @@ const STROKE_IS_CLIPPED: u32 = 2u;
 /// In place of a stroke's record: a stroke that draws on other runs of the strand, and not on this chunk's.
 const NO_STROKE: u32 = 0u;
 
+/// In place of a disc where a sample shows no stroke: set in the number of a triangle; or nothing.
+const SHOWS_TRIANGLE: u32 = 0x80000000u;
+const SHOWS_NOTHING: u32 = 0xffffffffu;
+
 /// A surface's record in the tables: colour where the tone is 0 or more, colour below, margin.
 const SURFACE_WORDS: u32 = 7u;
 

@@ -4,7 +4,7 @@
 
 @group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
 @group(0) @binding(1) var<storage, read> gpu_joints: array<u32>;
-/// Id, mean of the particles, size, taper, how much nearer it is ordered.
+/// Id, mean of the particles, size, taper, how much nearer it is ordered, level.
 @group(0) @binding(2) var<storage, read> gpu_strands: array<u32>;
 /// What the layer or the clump is and on which head (the places below), its parameters, and how they vary.
 @group(0) @binding(3) var<storage, read> gpu_words: array<u32>;
@@ -23,8 +23,12 @@ const GPU_HEAD_CENTER: u32 = 8u;
 const GPU_HEAD_HEIGHT: u32 = 11u;
 /// Metres in 1/300 of the head's height.
 const GPU_UNIT: u32 = 12u;
+/// Where the words begin that paint_main.wgsl reads.
+const GPU_PAINT: u32 = 13u;
 
-const GPU_STRAND_WORDS: u32 = 14u;
+/// A strand: its id, mean place, size, taper, lift, colours at root and tip, level.
+const GPU_STRAND_WORDS: u32 = 15u;
+const GPU_STRAND_LEVEL: u32 = 14u;
 
 /// Where the discs of one of the layer's strokes would begin, if the frame's first joint had one.
 fn gpu_first_disc(instance: u32) -> u32 {

@@ -7,6 +7,8 @@ struct Paint {
     ratio: vec4<f32>,
     disc: vec4<u32>,
     way: vec4<f32>,
+    /// Where `TELLS`: 1 to the right of who walks from root to tip, else -1.
+    side: vec4<f32>,
 }
 
 /// One strand at the samples; in `SHIFTED`, where strokes are on their own, one of its strokes, as `outer`.
@@ -15,6 +17,8 @@ struct Strand {
     depth: vec4<f32>,
     biased: vec4<f32>,
     ratio: vec4<f32>,
+    /// Where `TELLS`, as that of a `Paint`; 0 outside of it.
+    side: vec4<f32>,
     /// The highest stroke that shows outside the clump too, with its own depth.
     outer_depth: vec4<f32>,
     outer_biased: vec4<f32>,
@@ -24,12 +28,12 @@ struct Strand {
 }
 
 fn no_paint() -> Paint {
-    return Paint(vec4<u32>(0u), vec4<f32>(FAR_RATIO), vec4<u32>(0u), vec4<f32>(0.0));
+    return Paint(vec4<u32>(0u), vec4<f32>(FAR_RATIO), vec4<u32>(0u), vec4<f32>(0.0), vec4<f32>(1.0));
 }
 
 fn no_strand() -> Strand {
     let nothing = vec4<f32>(NOTHING);
-    return Strand(nothing, nothing, vec4<f32>(1.0), nothing, nothing, no_paint(), no_paint());
+    return Strand(nothing, nothing, vec4<f32>(1.0), vec4<f32>(0.0), nothing, nothing, no_paint(), no_paint());
 }
 
 /// The inverse depth of what lies so many metres deeper. There is nothing deeper than 0 or below.
@@ -37,7 +41,18 @@ fn deeper(inv_depth: vec4<f32>, metres: vec4<f32>) -> vec4<f32> {
     return inv_depth / (1.0 + metres * max(inv_depth, vec4<f32>(0.0)));
 }
 
-fn paint(p: ptr<function, Paint>, s: Segment, at: Nearest, covered: vec4<bool>) -> vec4<bool> {
+/// On which side of a segment points lie, seen from root to tip, whichever end is larger.
+fn side_of(s: Segment, p: Local) -> vec4<f32> {
+    let side = select(1.0, -1.0, s.way.y < 0.0 && s.sweep.length > 0.0);
+    return select(vec4<f32>(side), vec4<f32>(-side), p.y < vec4<f32>(0.0));
+}
+
+/// Places across a stroke, -1 to 1.
+fn across(side: vec4<f32>, ratio: vec4<f32>) -> vec4<f32> {
+    return side * sqrt(min(ratio, vec4<f32>(1.0)));
+}
+
+fn paint(p: ptr<function, Paint>, s: Segment, local: Local, at: Nearest, covered: vec4<bool>) -> vec4<bool> {
     let number = vec4<u32>(s.number);
     let is_higher = covered & (number > (*p).number);
     let is_nearer = is_higher | (covered & (number == (*p).number) & (at.ratio < (*p).ratio));
@@ -45,6 +60,9 @@ fn paint(p: ptr<function, Paint>, s: Segment, at: Nearest, covered: vec4<bool>) 
     (*p).ratio = select((*p).ratio, at.ratio, is_nearer);
     (*p).disc = select((*p).disc, vec4<u32>(s.disc), is_nearer);
     (*p).way = select((*p).way, s.way.x + at.u * s.way.y, is_nearer);
+    if (TELLS) {
+        (*p).side = select((*p).side, side_of(s, local), is_nearer);
+    }
     return is_higher;
 }
 
@@ -62,11 +80,15 @@ fn add(strand: ptr<function, Strand>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
         let biased = max(s.biased.x + part.low * s.biased.y, s.biased.x + part.high * s.biased.y);
         (*strand).depth = select((*strand).depth, max((*strand).depth, depth), covered);
         (*strand).biased = select((*strand).biased, max((*strand).biased, biased), covered);
+        if (TELLS) {
+            let is_nearer = covered & ((at.ratio < (*strand).ratio) | ((*strand).side == vec4<f32>(0.0)));
+            (*strand).side = select((*strand).side, side_of(s, p), is_nearer);
+        }
         (*strand).ratio = select((*strand).ratio, min((*strand).ratio, at.ratio), covered);
     } else if (s.is_clipped) {
         // A copy, because a pointer to a part of what a pointer points to is not for every compiler.
         var inner = (*strand).inner;
-        paint(&inner, s, at, covered);
+        paint(&inner, s, p, at, covered);
         (*strand).inner = inner;
     } else {
         let part = interval(s.sweep, p);
@@ -74,7 +96,7 @@ fn add(strand: ptr<function, Strand>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
         let biased = max(s.biased.x + part.low * s.biased.y, s.biased.x + part.high * s.biased.y);
         let is_same = covered & (vec4<u32>(s.number) == (*strand).outer.number);
         var outer_paint = (*strand).outer;
-        let is_higher = paint(&outer_paint, s, at, covered);
+        let is_higher = paint(&outer_paint, s, p, at, covered);
         (*strand).outer = outer_paint;
         let outer = (*strand).outer_depth;
         (*strand).outer_depth = select(select(outer, max(outer, depth), is_same), depth, is_higher);
@@ -138,10 +160,23 @@ fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32) {
     (*samples).stroke = select((*samples).stroke, stroke, wins);
     (*samples).owner = select((*samples).owner, vec4<u32>(number), wins);
     (*samples).strand = select((*samples).strand, depth, wins);
-    set_colors(
-        samples,
-        select(strand.outer.disc, strand.inner.disc, is_inner),
-        select(strand.outer.way, strand.inner.way, is_inner),
-        wins,
-    );
+    let disc = select(strand.outer.disc, strand.inner.disc, is_inner);
+    let way = select(strand.outer.way, strand.inner.way, is_inner);
+    set_colors(samples, disc, way, wins);
+    if (TELLS) {
+        let v = across(
+            select(strand.outer.side, strand.inner.side, is_inner),
+            select(strand.outer.ratio, strand.inner.ratio, is_inner),
+        );
+        // Outside of the clump, or where there is none.
+        var w = v;
+        if (ORDER != SHIFTED) {
+            let outside = select(vec4<f32>(1.0), vec4<f32>(-1.0), v < vec4<f32>(0.0));
+            w = select(outside, across(strand.side, strand.ratio), in_clump);
+        }
+        (*samples).disc = select((*samples).disc, disc, wins);
+        (*samples).way = select((*samples).way, way, wins);
+        (*samples).v = select((*samples).v, v, wins);
+        (*samples).w = select((*samples).w, w, wins);
+    }
 }

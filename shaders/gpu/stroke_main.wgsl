@@ -9,7 +9,7 @@ fn gpu_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     if (index >= gpu_words[GPU_JOINT_COUNT]) { return; }
     let joint = gpu_words[GPU_FIRST_JOINT] + index;
     let at = gpu_first_disc(group.z) + joint;
-    var made = stroke(gpu_inputs(joint), group.z, gpu_params(joint));
+    var made = stroke(gpu_inputs(joint), group.z, gpu_params(joint, gpu_scalar(joint, GPU_AT_U)));
     if (!gpu_is_whole(made)) {
         // A stroke that an effect failed to work out is not drawn.
         made = Stroke(vec2<f32>(0.0), 0.0, 0.0, vec3<f32>(0.0));

@@ -1,5 +1,6 @@
 // Draws the tiles: a workgroup a tile, an invocation a pixel, four samples of it at a time. What each sample shows is
-// told at render::Order; ORDER is written before this text.
+// told at render::Order; ORDER is written before this text, and so is told.wgsl or untold.wgsl, which say whether samples
+// are kept with what they show.
 //
 // All invocations together look at a batch of a tile's triangles or segments, each at one, and keep what
 // reaches the tile, ready to be drawn, in the memory that they share. Then each draws them all into its own samples.
@@ -50,6 +51,11 @@ struct Samples {
     red: vec4<f32>,
     green: vec4<f32>,
     blue: vec4<f32>,
+    /// Where `TELLS`: the disc that its stroke's segment begins at, the way to the next, and the places across stroke and clump.
+    disc: vec4<u32>,
+    way: vec4<f32>,
+    v: vec4<f32>,
+    w: vec4<f32>,
 }
 
 /// Whether a pixel of the tile is outside of a kept thing's box: most are, and that is all they need to know.
@@ -113,6 +119,9 @@ fn write_samples(at: vec2<u32>, first_sample: u32, samples: Samples) -> vec4<f32
     var sum = vec4<f32>(0.0);
     let is_drawn = (samples.strand > vec4<f32>(NOTHING)) | (samples.surface > vec4<f32>(NOTHING));
     for (var k = 0u; k < min(4u, gpu_frame.samples - first_sample); k++) {
+        if (TELLS && all(at < gpu_frame.size)) {
+            tell(at, first_sample + k, what_shows(samples, k));
+        }
         let color = clamp(vec3<f32>(samples.red[k], samples.green[k], samples.blue[k]), vec3<f32>(0.0), vec3<f32>(1.0));
         sum += vec4<f32>(color, select(gpu_frame.background.w, 1.0, is_drawn[k]));
         if (gpu_frame.writes_samples != 0u && all(at < gpu_frame.size)) {
@@ -122,6 +131,18 @@ fn write_samples(at: vec2<u32>, first_sample: u32, samples: Samples) -> vec4<f32
         }
     }
     return sum;
+}
+
+/// What a sample shows, as shown.wgsl reads it.
+fn what_shows(samples: Samples, k: u32) -> vec4<u32> {
+    if (samples.strand[k] > NOTHING) {
+        let places = pack2x16snorm(vec2<f32>(samples.v[k], samples.w[k]));
+        return vec4<u32>(samples.disc[k], bitcast<u32>(samples.way[k]), places, bitcast<u32>(samples.strand[k]));
+    }
+    if (samples.surface[k] > NOTHING) {
+        return vec4<u32>(SHOWS_TRIANGLE | samples.triangle[k], 0u, 0u, bitcast<u32>(samples.surface[k]));
+    }
+    return vec4<u32>(SHOWS_NOTHING, 0u, 0u, 0u);
 }
 
 /// The tile's list: where it begins, its length, and whether it is a list at all.

@@ -13,6 +13,24 @@ pub fn names() -> Outcome<Vec<String>> {
     names_in(&program::root().join("presets"))
 }
 
+/// The names of those that paint samples or have passes.
+///
+/// # Errors
+/// As [`names`], or a preset can't be read.
+pub fn of_samples() -> Outcome<Vec<String>> {
+    let mut found = names()?;
+    let mut texts = Vec::new();
+    for name in &found {
+        let path = program::root().join(format!("presets/{name}.ron"));
+        texts.push(fs::read_to_string(path)?);
+    }
+    let mut is_one = texts
+        .iter()
+        .map(|text| text.contains("passes:") || text.contains("hair.toon"));
+    found.retain(|_| is_one.next() == Some(true));
+    Ok(found)
+}
+
 fn names_in(folder: &Path) -> Outcome<Vec<String>> {
     let failed = |error| format!("{}: {error}", folder.display());
     let mut names = Vec::new();

@@ -5,7 +5,7 @@
 //! of the list, which show the engine on `tests/yardsticks`, there is a contact sheet for each effect,
 //! with a cell for each end of each parameter, and a picture of each look of `presets`.
 //!
-//! A graphics card draws the same cases but the looks, and its pictures must agree with the golden ones but for
+//! A graphics card draws the same cases, of the looks those whose samples are painted or have passes, and its pictures must agree with the golden ones but for
 //! rounding (`agree`), on a sheet in each cell.
 
 mod agree;
@@ -83,10 +83,8 @@ pub fn run(filter: &str, backend: Backend, bless: bool) -> Outcome {
     if backend == Backend::Cpu {
         cases = all;
     } else {
-        for case in cases.iter().filter(|case| case.cpu_alone) {
-            println!("  {}: graphics cards refuse it", case.name);
-        }
-        cases.retain(|case| !case.cpu_alone);
+        let drawn = looks::of_samples()?;
+        cases.extend(case::looks(&drawn));
     }
     cases.retain(|case| case.name.contains(filter));
     if cases.is_empty() {
@@ -277,7 +275,6 @@ mod tests {
 
     fn case(name: &str) -> Case {
         Case {
-            cpu_alone: false,
             name: name.to_owned(),
             args: vec!["presets/made.ron".to_owned()],
             cells: Vec::new(),

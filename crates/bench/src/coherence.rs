@@ -4,6 +4,7 @@ pub mod animation;
 pub mod looks;
 pub mod painter;
 pub mod pictures;
+pub mod places;
 pub mod scenes;
 pub mod search;
 pub mod strands;

@@ -19,6 +19,13 @@ impl effects::StrokeEffect for Cel {
         params.shortest
     }
 
+    fn extent(params: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
+        match params.fullness > 0.0 {
+            true => strand.range.clone(),
+            false => strand.range.start..strand.range.start,
+        }
+    }
+
     fn reach(params: &Params) -> effects::Reach {
         // A row of strokes across the clump, or along its flat end.
         effects::Reach {

@@ -13,7 +13,7 @@ use crate::stats::{Bytes, FrameStats, StrandCounts, buffer_bytes, drawing_counts
 use card::Card;
 use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Drawing, Picture, SamplePlanes};
+use render::{Drawing, Frame, Picture, SamplePlanes};
 use stage::Stage;
 use std::sync::Arc;
 use std::time::Instant;
@@ -111,7 +111,7 @@ impl Painter {
         Ok((picture, stats))
     }
 
-    /// Draws a pass of the scene at `time`, in seconds, on the CPU, seen from so many head heights.
+    /// Draws a pass of the scene at `time`, in seconds, seen from so many head heights.
     pub(crate) fn paint_pass(
         &mut self,
         stage: &mut Stage,
@@ -125,18 +125,14 @@ impl Painter {
         let mut stats = FrameStats {
             frame: number,
             samples: self.samples,
-            backend: "cpu",
             ..FrameStats::default()
         };
         stage.advance_to(time)?;
         stats.milliseconds.simulate = lap.passed();
-        let (head, samples) = (stage.head(), self.samples);
-        let cpu = self.cpu()?;
+        let head = stage.head();
         let mut frame = stage.frame()?;
         frame.features = pass.features();
         stats.milliseconds.paths = lap.passed();
-        cpu.evaluator.evaluate(&frame, &mut cpu.drawing)?;
-        stats.milliseconds.effects = lap.passed();
         let axis = |x, y, z| frame.camera.world_from_view_direction(Vec3::new(x, y, z));
         let scale = Scale {
             head_m: head.height_m,
@@ -147,20 +143,8 @@ impl Painter {
                 axis(0.0, 0.0, -1.0),
             ],
         };
-        let mut gathered = Gathered::new(pass, scale, cpu.drawing.size, samples);
-        let Cpu {
-            rasterizer,
-            drawing,
-            planes,
-            ..
-        } = cpu;
-        rasterizer.draw_samples(drawing, planes, |planes| gathered.add(planes))?;
-        stats.milliseconds.raster = lap.passed();
-        stats.layers = drawing_counts(drawing);
-        stats.bytes = Bytes {
-            buffers: buffer_bytes(drawing),
-        };
-        stats.size = drawing.size;
+        let gathered = self.gather(&frame, pass, scale, &mut stats, &mut lap)?;
+        stats.size = frame.camera.size_px();
         stats.milliseconds.total = started.elapsed().as_secs_f64() * 1e3;
         stats.strands = StrandCounts {
             total: stage.strand_count(),
@@ -168,6 +152,47 @@ impl Painter {
             asleep: stage.simulated().asleep,
         };
         Ok((gathered.finish(), stats))
+    }
+
+    /// Draws the samples of a pass.
+    fn gather(
+        &mut self,
+        frame: &Frame,
+        pass: Pass,
+        scale: Scale,
+        stats: &mut FrameStats,
+        lap: &mut Lap,
+    ) -> Result<Gathered, Failure> {
+        let samples = self.samples;
+        let begin = || Gathered::new(pass, scale, frame.camera.size_px(), samples);
+        if let Some(card) = &mut self.card {
+            let mut gathered = begin();
+            match card.draw_samples(frame, samples, &mut gathered, stats, lap) {
+                Ok(()) => return Ok(gathered),
+                Err(error) if self.may_fall_back => {
+                    card::tell(self.is_quiet, &error);
+                    self.card = None;
+                }
+                Err(error) => return Err(card::explained(error)),
+            }
+        }
+        let mut gathered = begin();
+        let Cpu {
+            evaluator,
+            rasterizer,
+            drawing,
+            planes,
+        } = self.cpu()?;
+        evaluator.evaluate(frame, drawing)?;
+        stats.milliseconds.effects = lap.passed();
+        rasterizer.draw_samples(drawing, planes, |planes| gathered.add(planes))?;
+        stats.milliseconds.raster = lap.passed();
+        stats.backend = "cpu";
+        stats.layers = drawing_counts(drawing);
+        stats.bytes = Bytes {
+            buffers: buffer_bytes(drawing),
+        };
+        Ok(gathered)
     }
 
     fn draw(

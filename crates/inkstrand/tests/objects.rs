@@ -60,6 +60,11 @@ fn both_are_drawn_and_counted() {
             "cpu",
             "--samples",
             "1",
+            // As large as in the pair's picture, which takes the joints that it needs.
+            "--size",
+            "80x60",
+            "--set",
+            "camera.distance=7",
         ],
     );
     let lines = alone.success().get_output().stdout.clone();

@@ -1,6 +1,8 @@
 //! What a drawing must be before anything is drawn.
 
-use crate::drawing::{Disc, Drawing, LayerStrokes, Run, Stretch, Stretches, Surface};
+use crate::drawing::{
+    Disc, Drawing, LayerStrokes, Run, Stretch, Stretches, Surface, SurfaceVertex,
+};
 use crate::edges::Edges;
 use crate::features::{Feature, Features};
 use rayon::prelude::*;
@@ -531,28 +533,35 @@ fn check_surface(index: usize, surface: &Surface) -> Result<(), DrawError> {
             margin_m: surface.margin_m,
         });
     }
-    let bad_vertex = surface.vertices.iter().position(|v| {
-        let at_hand = v.position.abs().max_element() <= MAX_COORDINATE;
-        !(v.position.is_finite() && at_hand && v.inv_depth.is_finite() && v.tone.is_finite())
-    });
-    if let Some(vertex) = bad_vertex {
+    if let Some(vertex) = first_that_is_not(&surface.vertices, is_vertex) {
         return Err(DrawError::Vertex {
             surface: index,
             vertex,
         });
     }
     let vertices = surface.vertices.len();
-    for (triangle, corners) in surface.triangles.iter().enumerate() {
-        if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
-            return Err(DrawError::TriangleIndex {
-                surface: index,
-                triangle,
-                vertex,
-                vertices,
-            });
-        }
+    let is_there = |corner: u32| (corner as usize) < vertices;
+    let is_triangle = |&[a, b, c]: &[u32; 3]| is_there(a) & is_there(b) & is_there(c);
+    if let Some(triangle) = first_that_is_not(&surface.triangles, is_triangle) {
+        let corners = surface.triangles[triangle];
+        let vertex = corners.into_iter().find(|corner| !is_there(*corner));
+        return Err(DrawError::TriangleIndex {
+            surface: index,
+            triangle,
+            vertex: vertex.unwrap_or_default(),
+            vertices,
+        });
     }
     Ok(())
+}
+
+fn is_vertex(vertex: &SurfaceVertex) -> bool {
+    let [x, y] = vertex.position.to_array();
+    // Each comparison is false for NaN.
+    (x.abs() <= MAX_COORDINATE)
+        & (y.abs() <= MAX_COORDINATE)
+        & vertex.inv_depth.is_finite()
+        & vertex.tone.is_finite()
 }
 
 fn is_disc(disc: &Disc) -> bool {

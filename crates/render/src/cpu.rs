@@ -146,7 +146,7 @@ impl Rasterizer {
             let mut picture = empty_picture(drawing, *samples)?;
             let strokes = segment::strokes_in_order(drawing);
             let tile_height = tile::height(stacks);
-            parts.collect(drawing, &strokes, tile_height);
+            parts.collect(drawing, &strokes, stacks);
             let frame = Frame {
                 drawing,
                 strokes: &strokes,
@@ -187,7 +187,9 @@ fn empty_picture(drawing: &Drawing, samples: usize) -> Result<Picture, DrawError
     pixels
         .try_reserve_exact(length)
         .map_err(|_| DrawError::Memory(width, height))?;
-    pixels.resize(length, tile::empty_pixel(drawing.background, samples));
+    // In parallel, as most of the time goes by while the system gives the memory.
+    let empty = tile::empty_pixel(drawing.background, samples);
+    pixels.par_extend(rayon::iter::repeat_n(empty, length));
     Ok(Picture {
         width,
         height,
@@ -196,9 +198,10 @@ fn empty_picture(drawing: &Drawing, samples: usize) -> Result<Picture, DrawError
 }
 
 impl Parts {
-    fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], tile_height: usize) {
+    fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], stacks: &[Stack]) {
+        let tile_height = tile::height(stacks);
         self.segments.collect(drawing, strokes, tile_height);
-        surface::collect(drawing, &mut self.triangles);
+        surface::collect(drawing, stacks, &mut self.triangles);
         let [width, height] = drawing.size.map(|side| side as usize);
         let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
         let rows_of_tiles = |(triangle, i): (&Triangle, u32)| {
@@ -293,10 +296,10 @@ impl Worker {
     fn sort_into_tiles(&mut self, frame: &Frame, band: usize) {
         let segments = &frame.parts.segments;
         self.columns.clear();
-        self.columns.extend(segments.of_band(band).map(|i| {
+        segments.of_band(band).for_each(|i| {
             let columns = segments.list()[i as usize].bounds.x;
-            (i, cells(columns, tile::WIDTH))
-        }));
+            self.columns.push((i, cells(columns, tile::WIDTH)));
+        });
         let tiles = (frame.drawing.size[0] as usize).div_ceil(tile::WIDTH);
         self.segments_of_tiles
             .fill(tiles, self.columns.iter().cloned());
@@ -358,17 +361,21 @@ impl Worker {
             self.shown.clear();
         }
         if !triangles.is_empty() {
-            for &index in triangles {
-                let triangle = &frame.parts.triangles[index as usize];
-                let shown = &mut self.shown;
-                let shows = |cell, lanes: &LaneMask| {
-                    if TELLS {
-                        shown.put_triangle(cell, index, lanes);
-                    }
-                };
-                let (origin, stack) = (scene.origin, scene.stack);
-                triangle.draw(frame.drawing, origin, stack, &mut self.target, shows);
-            }
+            let shown = &mut self.shown;
+            let shows = |cell, index, lanes: &LaneMask| {
+                if TELLS {
+                    shown.put_triangle(cell, index, lanes);
+                }
+            };
+            surface::draw_all(
+                &frame.parts.triangles,
+                triangles,
+                frame.drawing,
+                scene.origin,
+                scene.stack,
+                &mut self.target,
+                shows,
+            );
             self.target.finish_surfaces();
         }
         let segments_of_tile = self.segments_of_tiles.bin(tile);

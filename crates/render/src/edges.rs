@@ -78,6 +78,13 @@ impl Edges {
         all
     }
 
+    /// How far a line reaches from the pixel where it begins, in pixels.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn reach_px(&self) -> u32 {
+        let widest = self.widest() * (1.0 + self.width_px.vary.abs());
+        (0.5 * (widest - 1.0).max(0.0) + 1.0).min(LARGEST) as u32
+    }
+
     /// Draws the lines into samples of a picture that has so many a pixel.
     pub(crate) fn draw(&self, planes: &mut SamplePlanes, samples: usize) {
         let numbers: Vec<usize> = planes.samples().enumerate().map(|(i, _)| i).collect();
@@ -152,7 +159,7 @@ impl Edges {
     }
 
     /// The width of lines on what is no hair, pixels.
-    fn widest(&self) -> f32 {
+    pub(crate) fn widest(&self) -> f32 {
         let widths = self.width_px.curve.iter().map(|(_, width)| *width);
         widths.fold(0.0, f32::max)
     }

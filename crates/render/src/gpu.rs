@@ -15,6 +15,10 @@
 //! 3. `tiles`: a workgroup a tile: what of its list reaches the tile, then each pixel's samples by
 //!    [`Order`](crate::Order), with the formulae of `stroke_path::sweep`.
 //!
+//! 4. Where a layer paints or a frame has passes, `tiles` keeps what each sample shows (`told`), and after it come `paint_main`, once for
+//!    such a layer, with the effect's own text; for each pass and sample `tell`, which fills planes of features, and `edges`, which draws
+//!    lines by them; and `mean`.
+//!
 //! Whatever the samples, the order or the surfaces, the rules are those of the CPU's rasteriser, and so is the
 //! picture but for rounding. Pipelines and buffers exist for the layers that are on, and stay from frame to
 //! frame; buffers only ever grow.
@@ -22,7 +26,9 @@
 mod adapter;
 mod buffer;
 mod compose;
+mod edges;
 mod error;
+mod images;
 mod inputs;
 mod layout;
 mod offscreen;
@@ -31,6 +37,7 @@ mod program;
 mod programs;
 mod renderer;
 mod report;
+mod samples;
 mod scene;
 
 pub use adapter::{AdapterKind, Gpu};

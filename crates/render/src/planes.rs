@@ -107,7 +107,7 @@ impl Sample {
 }
 
 /// What is there of every picture: whether anything is shown, and how near.
-const ALWAYS: Features = Features::of(&[Feature::Object, Feature::InvDepth]);
+pub(crate) const ALWAYS: Features = Features::of(&[Feature::Object, Feature::InvDepth]);
 
 impl SamplePlanes {
     /// Where the planes of a feature begin among those of its kind, in a sample's; none where it isn't declared.
@@ -121,7 +121,7 @@ impl SamplePlanes {
     }
 
     /// How many planes a sample has: of ids, and of numbers.
-    fn planes(declared: Features) -> [usize; 2] {
+    pub(crate) fn planes(declared: Features) -> [usize; 2] {
         [true, false].map(|ids| {
             let of_kind = declared.iter().filter(|feature| feature.is_id() == ids);
             of_kind.map(Feature::components).sum()
@@ -173,6 +173,39 @@ impl SamplePlanes {
             }
         }
         Some(())
+    }
+
+    /// Begins anew with no samples, in one band, for as many as [`Self::push_sample`] adds; `None` where there isn't enough memory.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn begin(
+        &mut self,
+        size: [u32; 2],
+        declared: Features,
+        [first, count]: [usize; 2],
+    ) -> Option<()> {
+        (self.size, self.declared) = (size, declared.union(ALWAYS));
+        (self.first, self.count, self.band) = (first, count, size[1] as usize);
+        let [ids, numbers] = self.of_band();
+        self.ids.clear();
+        self.ids.try_reserve_exact(ids).ok()?;
+        self.numbers.clear();
+        self.numbers.try_reserve_exact(numbers).ok()
+    }
+
+    /// Words of a sample: plane after plane of ids, then of numbers.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn words_of_sample(&self) -> usize {
+        self.of_band().iter().sum::<usize>() / self.count
+    }
+
+    /// Adds the next sample by its words.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn push_sample(&mut self, words: &[u32]) {
+        let [ids, _] = self.of_band().map(|words| words / self.count);
+        let (ids, numbers) = words.split_at(ids);
+        self.ids.extend_from_slice(ids);
+        self.numbers
+            .extend(numbers.iter().map(|word| f32::from_bits(*word)));
     }
 
     /// Ids and numbers of a band.

@@ -59,7 +59,9 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
     };
     assert!(!is_cut || cuts.len() >= 2);
     let mut paths = Paths::new();
-    paths.push_pieces(0, strand, &cuts, SPLINE, camera).unwrap();
+    paths
+        .push_pieces(0, strand, &cuts, None, SPLINE, camera)
+        .unwrap();
     let mut values = Values::defaults(clump::Program::PARAMS);
     let plain = [
         ("size_variation", "0"),

@@ -1,13 +1,14 @@
 //! Frames of a scene in motion. What a frame needs is kept and reused.
 
 use crate::files::StageError;
+use crate::hair::HairModel;
 use crate::head;
 use crate::levels::levels;
 use crate::look::Look;
 use crate::material::Material;
 use crate::motion::{Motion, ObjectMotion};
 use crate::neck::{PosedHead, rigid};
-use crate::object::Object;
+use crate::object::{Object, PathShape};
 use crate::reach::Sight;
 use crate::scene::Scene;
 use crate::script::HeadPose;
@@ -18,7 +19,7 @@ use rayon::prelude::*;
 use render::{Ball, Frame, Light, StrandInfo, Surface};
 use std::ops::Range;
 use std::sync::Arc;
-use stroke_path::{Camera, PathError, Paths};
+use stroke_path::{Camera, Detail, PathError, PathKind, Paths};
 
 /// How many strands a thread makes the paths of at a time, and how many such parts there are before they are put together, which
 /// keeps the parts of dense hair small.
@@ -57,6 +58,8 @@ struct ObjectFrame {
     strands: Range<usize>,
     joints: Range<usize>,
     made: MadePaths,
+    /// Of each layer that makes paths those that it makes of the hair at rest; found where they are first drawn.
+    at_rest: Vec<Vec<MadeAtRest>>,
     /// The strand of its hair that each made path belongs to.
     made_of: Vec<usize>,
     layer_joints: Vec<Range<usize>>,
@@ -65,6 +68,13 @@ struct ObjectFrame {
     head: Option<PosedHead>,
     /// What hides hair, in the world.
     solid: Option<Ball>,
+}
+
+/// A path that a layer makes of the hair at rest.
+struct MadeAtRest {
+    /// Its strand, its number there, and how many points it has.
+    name: (usize, u32, usize),
+    detail: Detail,
 }
 
 impl FrameMaker {
@@ -257,6 +267,7 @@ impl ObjectFrame {
             strands: 0..0,
             joints: 0..0,
             made: MadePaths::default(),
+            at_rest: Vec::new(),
             made_of: Vec::new(),
             layer_joints: Vec::new(),
             material: reads_material.then(Material::default),
@@ -267,6 +278,9 @@ impl ObjectFrame {
 
     /// Drops what was kept of another object.
     fn follow(&mut self, object: &Object) {
+        if !self.of.is_drawn_as(object) {
+            self.at_rest.clear();
+        }
         if !self.of.has_hair_and_head_of(object) {
             self.material = None;
             self.head = object.neck().map(PosedHead::new);
@@ -347,12 +361,13 @@ impl ObjectFrame {
                 .map(|(part, of_part)| {
                     part.clear();
                     (of_part.iter()).try_for_each(|&i| {
-                        let cuts = &self.of.cuts()[i];
+                        let PathShape { cuts, detail } = &self.of.shapes()[i];
                         if !sight.may_see(particles(i), hair.infos[i].size) {
                             part.leave_out(cuts);
                             return Ok(());
                         }
-                        part.push_pieces(first + i, particles(i), cuts, path, sight.camera())
+                        let (strand, detail) = (first + i, Some(detail));
+                        part.push_pieces(strand, particles(i), cuts, detail, path, sight.camera())
                     })
                 })
                 .collect();
@@ -391,6 +406,7 @@ impl ObjectFrame {
             .last()
             .map_or(of_hair.start, |run| run.joints.end);
         let head = motion.head(&self.of);
+        let mut making = 0;
         for layer in &look.layers {
             if !layer.program.has_own_paths() {
                 let start = match layer.program.is_on_undercoat() {
@@ -400,21 +416,20 @@ impl ObjectFrame {
                 self.layer_joints.push(start..of_hair.end);
                 continue;
             }
-            let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
-                id: info.id,
-                particles: &points[hair.file.strands.point_range(i)],
-                at_rest: hair.file.strands.strand(i),
-                size: info.size,
-            };
-            let above = hair.infos.iter().enumerate().skip(hair.undercoat);
-            let above: Vec<HairStrand> = above.map(of_strand).collect();
+            let above = strands_above(hair, points);
+            let seed = layer_seed(look.seed, &layer.name);
+            if self.at_rest.len() == making {
+                let at_rest = made_at_rest(hair, layer, seed, look.path())?;
+                self.at_rest.push(at_rest);
+            }
+            let at_rest = &self.at_rest[making];
+            making += 1;
             let of_effects = effects::Hair {
                 strands: &above,
                 head_center: head.center,
                 head_height_m: head.height_m,
             };
             self.made.clear();
-            let seed = layer_seed(look.seed, &layer.name);
             layer.program.make_paths(&of_effects, seed, &mut self.made);
             let fault = |what: String| StageError::MadePaths {
                 layer: layer.name.clone(),
@@ -424,7 +439,7 @@ impl ObjectFrame {
                 return Err(fault(what.to_owned()));
             }
             let start = paths.len();
-            for (strand, number, points) in self.made.iter() {
+            for (i, (strand, number, points)) in self.made.iter().enumerate() {
                 if strand >= above.len() {
                     let what = format!("a path of strand {strand}, and there are {}", above.len());
                     return Err(fault(what));
@@ -437,7 +452,11 @@ impl ObjectFrame {
                     ..parent
                 });
                 if sight.may_see(points, parent.size) {
-                    paths.push_strand(index, points, look.path(), sight.camera())?;
+                    let name = (strand, number, points.len());
+                    let detail = at_rest.get(i).filter(|path| path.name == name);
+                    let detail = detail.map(|path| &path.detail);
+                    let (kind, camera) = (look.path(), sight.camera());
+                    paths.push_pieces(index, points, &[], detail, kind, camera)?;
                 }
             }
             self.layer_joints.push(start..paths.len());
@@ -529,6 +548,41 @@ fn levels_of(object: &Object) -> Vec<u32> {
     let roots = (0..rest.len()).map(|i| rest.strand(i)[0] - hair.head.center);
     let ids: Vec<u32> = hair.infos.iter().map(|info| info.id).collect();
     levels(params, look.seed, &ids, &roots.collect::<Vec<_>>())
+}
+
+/// The strands that layers make paths of: those above the undercoat.
+fn strands_above<'a>(hair: &'a HairModel, points: &'a [Vec3]) -> Vec<HairStrand<'a>> {
+    let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
+        id: info.id,
+        particles: &points[hair.file.strands.point_range(i)],
+        at_rest: hair.file.strands.strand(i),
+        size: info.size,
+    };
+    let above = hair.infos.iter().enumerate().skip(hair.undercoat);
+    above.map(of_strand).collect()
+}
+
+/// The paths that a layer makes of hair at rest: as a path keeps its name, they tell which of its joints a picture needs.
+fn made_at_rest(
+    hair: &HairModel,
+    layer: &Layer,
+    seed: u32,
+    path: PathKind,
+) -> Result<Vec<MadeAtRest>, StageError> {
+    let of_effects = effects::Hair {
+        strands: &strands_above(hair, hair.file.strands.points()),
+        head_center: hair.head.center,
+        head_height_m: hair.head.height_m,
+    };
+    let mut made = MadePaths::default();
+    layer.program.make_paths(&of_effects, seed, &mut made);
+    let with_detail = |(strand, number, points): (usize, u32, &[Vec3])| {
+        Ok(MadeAtRest {
+            name: (strand, number, points.len()),
+            detail: Detail::of(points, path, &[])?,
+        })
+    };
+    made.iter().map(with_detail).collect()
 }
 
 /// A ball that paths through these points stay in: its middle and its radius, metres. A path leaves the hull of its points by no more than

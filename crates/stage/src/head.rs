@@ -5,6 +5,7 @@ use crate::scalp;
 use glam::{Vec2, Vec3};
 use groom::{Bust, Cloth, Figure, Ink, OrnamentMesh, Patch};
 use hair_io::{HeadFrame, Mesh};
+use rayon::prelude::*;
 use render::{Head, Light, Surface, SurfaceVertex};
 use std::iter::{once, repeat};
 use stroke_path::Camera;
@@ -232,13 +233,6 @@ const ORNAMENTS: u32 = 2;
 /// How much nearer than a band hair must be to hide it, metres: next to nothing.
 const BAND_MARGIN_M: f32 = 1e-5;
 
-/// Which way a triangle must face to be taken.
-#[derive(Clone, Copy, PartialEq)]
-enum Facing {
-    Front,
-    Back,
-}
-
 /// What the camera sees of the head: its outside, its inside through openings, its outline, what is drawn
 /// on it.
 pub(crate) fn surfaces(
@@ -278,58 +272,62 @@ pub(crate) fn surfaces(
         true => skin,
         false => bare,
     };
-    let mut surfaces = vec![
-        surface(
-            camera,
-            bare,
-            &corners,
-            Facing::Front,
-            paint.light,
-            paint.shadow,
-        ),
-        Surface {
-            margin_m: paint.inside_margin_m,
-            ..surface(
-                camera,
-                skin,
-                &corners,
-                Facing::Back,
-                paint.shadow,
-                paint.shadow,
-            )
-        },
-    ];
+    let hull = match paint.width_m > 0.0 {
+        true => hull(mesh, &model.outline, paint, camera),
+        false => Vec::new(),
+    };
+    let inside = Side {
+        light: paint.shadow,
+        shadow: paint.shadow,
+        margin_m: paint.inside_margin_m,
+    };
+    let part = |triangles, light, shadow, mesh| Part {
+        triangles,
+        corners: &corners,
+        front: Some(Side {
+            light,
+            shadow,
+            margin_m: 0.0,
+        }),
+        back: Some(inside),
+        mesh,
+    };
+    let mut parts = vec![part(bare, paint.light, paint.shadow, 0)];
     if !scalp.is_empty() {
-        let (front, color) = (Facing::Front, paint.scalp);
-        surfaces.push(surface(camera, scalp, &corners, front, color, color));
+        parts.push(part(scalp, paint.scalp, paint.scalp, 0));
     }
     for (cloth, triangles) in clothes {
         let [light, shadow, _] = paint.of_cloth(*cloth);
-        let (front, back) = (Facing::Front, Facing::Back);
-        surfaces.push(Surface {
-            mesh: CLOTHES,
-            ..surface(camera, triangles, &corners, front, light, shadow)
-        });
-        surfaces.push(Surface {
-            mesh: CLOTHES,
-            margin_m: paint.inside_margin_m,
-            ..surface(camera, triangles, &corners, back, shadow, shadow)
+        parts.push(Part {
+            back: Some(Side {
+                light: shadow,
+                shadow,
+                ..inside
+            }),
+            ..part(triangles, light, shadow, CLOTHES)
         });
     }
     if paint.width_m > 0.0 {
-        let hull = hull(mesh, &model.outline, paint, camera);
         let skin = once((Cloth::Skin, skin));
         let clothes = clothes.iter().map(|(cloth, triangles)| (*cloth, triangles));
         for (cloth, triangles) in skin.chain(clothes) {
             let is_skin = cloth == Cloth::Skin;
             let [.., line] = paint.of_cloth(cloth);
-            surfaces.push(Surface {
+            parts.push(Part {
+                triangles,
+                corners: &hull,
+                front: None,
+                back: Some(Side {
+                    light: line,
+                    shadow: line,
+                    margin_m: -paint.outline_margin_m,
+                }),
                 mesh: if is_skin { 0 } else { CLOTHES },
-                margin_m: -paint.outline_margin_m,
-                ..surface(camera, triangles, &hull, Facing::Back, line, line)
             });
         }
     }
+    let surfaces = parts.par_iter().flat_map_iter(|part| part.seen_by(camera));
+    let mut surfaces: Vec<Surface> = surfaces.collect();
     if !ornaments.triangles.is_empty() {
         surfaces.extend(worn(ornaments, paint, camera, light));
     }
@@ -338,15 +336,25 @@ pub(crate) fn surfaces(
         let lit = |away: Vec3| away.dot(light.seen_from(center).0) >= paint.threshold;
         !patch.away_from.is_some_and(lit)
     };
-    surfaces.extend(patches.iter().filter(is_drawn).map(|patch| {
+    surfaces.extend(patches.iter().filter(is_drawn).flat_map(|patch| {
         let corner = |position: &Vec3| Corner {
             view: camera.view_from_world(*position),
             tone: 0.0,
         };
         let corners: Vec<Corner> = patch.positions.iter().map(corner).collect();
         let color = paint.of(patch.ink);
-        let triangles = &patch.triangles;
-        surface(camera, triangles, &corners, Facing::Front, color, color)
+        let part = Part {
+            triangles: &patch.triangles,
+            corners: &corners,
+            front: Some(Side {
+                light: color,
+                shadow: color,
+                margin_m: 0.0,
+            }),
+            back: None,
+            mesh: 0,
+        };
+        part.seen_by(camera)
     }));
     surfaces
 }
@@ -376,116 +384,181 @@ fn worn(ornaments: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> 
             tone: normal.dot(light.seen_from(*position).0) - paint.threshold,
         })
         .collect();
-    let front = surface(
-        camera,
-        &ornaments.triangles,
-        &corners,
-        Facing::Front,
-        paint.tie,
-        paint.tie_shadow,
-    );
-    let mut worn = vec![front];
+    let ties = Part {
+        triangles: &ornaments.triangles,
+        corners: &corners,
+        front: Some(Side {
+            light: paint.tie,
+            shadow: paint.tie_shadow,
+            margin_m: BAND_MARGIN_M,
+        }),
+        back: None,
+        mesh: ORNAMENTS,
+    };
+    let mut worn: Vec<Surface> = ties.seen_by(camera).collect();
     if paint.width_m > 0.0 {
-        let hull = hull(ornaments, &[], paint, camera);
-        let (back, line) = (Facing::Back, paint.line);
-        worn.push(surface(
-            camera,
-            &ornaments.triangles,
-            &hull,
-            back,
-            line,
-            line,
-        ));
-    }
-    for surface in &mut worn {
-        surface.margin_m = BAND_MARGIN_M;
-        surface.mesh = ORNAMENTS;
+        let outline = Part {
+            corners: &hull(ornaments, &[], paint, camera),
+            front: None,
+            back: Some(Side {
+                light: paint.line,
+                shadow: paint.line,
+                margin_m: BAND_MARGIN_M,
+            }),
+            ..ties
+        };
+        worn.extend(outline.seen_by(camera));
     }
     worn
 }
 
-/// The triangles that face this way, cut at the near plane.
-fn surface(
-    camera: &Camera,
-    triangles: &[[u32; 3]],
-    corners: &[Corner],
-    facing: Facing,
+/// Some triangles of a mesh, and what they are painted as where they face the eye, and where they face away; nothing leaves them out.
+struct Part<'a> {
+    triangles: &'a [[u32; 3]],
+    /// Of the whole mesh.
+    corners: &'a [Corner],
+    front: Option<Side>,
+    back: Option<Side>,
+    /// As [`Surface`] has it.
+    mesh: u32,
+}
+
+/// What one side of a part is painted as; as [`Surface`] has them.
+#[derive(Clone, Copy)]
+struct Side {
     light: [f32; 3],
     shadow: [f32; 3],
-) -> Surface {
-    let near = camera.near_m();
-    let project = |corner: &Corner| {
-        let inv_depth = 1.0 / corner.view.z;
-        SurfaceVertex {
-            position: camera.project(corner.view),
-            inv_depth,
-            tone: corner.tone * inv_depth,
-        }
-    };
-    let mut surface = Surface {
-        vertices: Vec::new(),
-        triangles: Vec::new(),
-        margin_m: 0.0,
-        mesh: 0,
-        light,
-        shadow,
-    };
-    // Only corners that are seen are projected; this is where they went.
-    let mut entered = vec![u32::MAX; corners.len()];
-    for triangle in triangles {
-        let seen = triangle.map(|i| corners[i as usize]);
-        if faces(&seen) != facing {
-            continue;
-        }
-        let first = surface.vertices.len();
-        let polygon: Vec<u32> = if seen.iter().all(|corner| corner.view.z >= near) {
-            let enter = |i: &u32| {
-                let index = &mut entered[*i as usize];
-                if *index == u32::MAX {
-                    *index = surface.vertices.len() as u32;
-                    surface.vertices.push(project(&corners[*i as usize]));
-                }
-                *index
+    margin_m: f32,
+}
+
+impl Part<'_> {
+    /// Its triangles on the screen, cut at the near plane: a surface for each side that is painted, the front first.
+    fn seen_by(&self, camera: &Camera) -> impl Iterator<Item = Surface> + use<> {
+        let near = camera.near_m();
+        let on = |side: &Option<Side>| side.map(|side| OnScreen::new(side, self));
+        let (mut front, mut back) = (on(&self.front), on(&self.back));
+        for triangle in self.triangles {
+            let seen = triangle.map(|i| self.corners[i as usize]);
+            let side = if is_front(&seen) {
+                &mut front
+            } else {
+                &mut back
             };
-            triangle.iter().map(enter).collect()
-        } else {
-            surface
-                .vertices
-                .extend(cut(&seen, near).iter().map(project));
-            (first as u32..surface.vertices.len() as u32).collect()
-        };
-        let is_at_hand = |i: &u32| {
-            let position = surface.vertices[*i as usize].position;
-            position.abs().max_element() <= FARTHEST_PX
-        };
-        // No picture can mean a corner that far away.
-        if polygon.iter().all(is_at_hand) {
-            for pair in polygon.windows(2).skip(1) {
-                surface.triangles.push([polygon[0], pair[0], pair[1]]);
+            let Some(side) = side else {
+                continue;
+            };
+            if seen.iter().all(|corner| corner.view.z >= near) {
+                side.push(*triangle, &seen, camera);
+            } else {
+                side.push_polygon(&cut(&seen, near), camera);
             }
         }
+        front.into_iter().chain(back).map(OnScreen::finish)
     }
-    // What no triangle uses any more may lie anywhere.
-    for vertex in &mut surface.vertices {
-        if vertex.position.abs().max_element() > FARTHEST_PX || !vertex.position.is_finite() {
-            vertex.position = Vec2::ZERO;
+}
+
+/// A side of a part on the screen, in the making.
+struct OnScreen {
+    surface: Surface,
+    /// For each corner of the mesh its vertex: only those that are seen are projected.
+    entered: Vec<u32>,
+}
+
+impl OnScreen {
+    fn new(side: Side, part: &Part) -> Self {
+        Self {
+            surface: Surface {
+                vertices: Vec::new(),
+                triangles: Vec::new(),
+                margin_m: side.margin_m,
+                mesh: part.mesh,
+                light: side.light,
+                shadow: side.shadow,
+            },
+            entered: vec![u32::MAX; part.corners.len()],
         }
     }
-    surface
+
+    /// Adds a triangle of the mesh, whose corners those are.
+    #[inline]
+    fn push(&mut self, mut triangle: [u32; 3], seen: &[Corner; 3], camera: &Camera) {
+        let vertices = &mut self.surface.vertices;
+        for (index, corner) in triangle.iter_mut().zip(seen) {
+            let entered = &mut self.entered[*index as usize];
+            if *entered == u32::MAX {
+                *entered = vertices.len() as u32;
+                vertices.push(corner.project(camera));
+            }
+            *index = *entered;
+        }
+        self.surface.triangles.push(triangle);
+    }
+
+    /// Adds what is left of a triangle that was cut.
+    fn push_polygon(&mut self, corners: &[Corner], camera: &Camera) {
+        let Surface {
+            vertices,
+            triangles,
+            ..
+        } = &mut self.surface;
+        let first = vertices.len() as u32;
+        vertices.extend(corners.iter().map(|corner| corner.project(camera)));
+        let others = first + 1..vertices.len() as u32;
+        triangles.extend(
+            others
+                .clone()
+                .zip(others.skip(1))
+                .map(|(a, b)| [first, a, b]),
+        );
+    }
+
+    /// Without triangles that no picture can mean.
+    fn finish(self) -> Surface {
+        let mut surface = self.surface;
+        if !surface.vertices.iter().all(is_at_hand) {
+            let vertices = &surface.vertices;
+            let is_meant = |triangle: &[u32; 3]| {
+                let mut corners = triangle.iter().map(|i| &vertices[*i as usize]);
+                corners.all(is_at_hand)
+            };
+            surface.triangles.retain(is_meant);
+            // What no triangle uses any more may lie anywhere.
+            for vertex in &mut surface.vertices {
+                if !is_at_hand(vertex) {
+                    vertex.position = Vec2::ZERO;
+                }
+            }
+        }
+        surface
+    }
+}
+
+impl Corner {
+    #[inline]
+    fn project(&self, camera: &Camera) -> SurfaceVertex {
+        let inv_depth = 1.0 / self.view.z;
+        SurfaceVertex {
+            position: camera.project(self.view),
+            inv_depth,
+            tone: self.tone * inv_depth,
+        }
+    }
+}
+
+#[inline]
+fn is_at_hand(vertex: &SurfaceVertex) -> bool {
+    vertex.position.abs().cmple(Vec2::splat(FARTHEST_PX)).all()
 }
 
 /// Triangles with a corner farther from the picture's corner are left out, px.
 const FARTHEST_PX: f32 = 1e8;
 
-/// Which side of the triangle the eye, at the origin of view space, is on.
-fn faces([a, b, c]: &[Corner; 3]) -> Facing {
+/// Whether the eye, at the origin of view space, is on the triangle's outer side.
+#[inline]
+fn is_front([a, b, c]: &[Corner; 3]) -> bool {
     // View space is left-handed (z is depth), so outside triangles wind the other way around.
     let normal = (b.view - a.view).cross(c.view - a.view);
-    if normal.dot(a.view) > 0.0 {
-        Facing::Front
-    } else {
-        Facing::Back
-    }
+    normal.dot(a.view) > 0.0
 }
 
 /// The part of a triangle at depth `near` or beyond: three or four corners.

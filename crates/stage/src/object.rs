@@ -14,7 +14,7 @@ use glam::Vec3;
 use hair_io::Mesh;
 use render::{Head, StrandInfo};
 use std::sync::Arc;
-use stroke_path::Cut;
+use stroke_path::{Cut, Detail};
 
 /// How far the pieces of a strand that curls go on beyond where they meet, in parts of its full radius.
 const OVERLAP: f32 = 3.0;
@@ -29,9 +29,17 @@ pub struct Object {
     neck: Option<Arc<Neck>>,
     script: Arc<MotionScript>,
     look: Arc<Look>,
-    /// Where each strand's path is cut.
-    cuts: Arc<Vec<Vec<Cut>>>,
+    /// What each strand's path is like.
+    shapes: Arc<Vec<PathShape>>,
     placement: Placement,
+}
+
+/// What a strand's path is like, by the strand at rest.
+pub(crate) struct PathShape {
+    /// Where it is cut.
+    pub cuts: Vec<Cut>,
+    /// Which of its joints a picture needs.
+    pub detail: Detail,
 }
 
 impl Object {
@@ -71,7 +79,7 @@ impl Object {
             neck: head
                 .as_deref()
                 .map(|head| Arc::new(neck(head, &hair, &look))),
-            cuts: Arc::new(cuts(&hair, &look)?),
+            shapes: Arc::new(shapes(&hair, &look)?),
             bare_head: head,
             hair: Arc::new(hair),
             script: Arc::new(script),
@@ -92,7 +100,7 @@ impl Object {
     pub(crate) fn in_look(&self, look: Arc<Look>) -> Result<Self, StageError> {
         let mut object = self.clone();
         if look.path() != self.look.path() {
-            object.cuts = Arc::new(cuts(&self.hair, &look)?);
+            object.shapes = Arc::new(shapes(&self.hair, &look)?);
         }
         if look.sections.head.scalp != self.look.sections.head.scalp {
             let bare = self.bare_head.as_deref();
@@ -110,7 +118,7 @@ impl Object {
     pub fn with_hair(&self, hair: HairModel) -> Result<Self, StageError> {
         let bare = self.bare_head.as_deref();
         Ok(Self {
-            cuts: Arc::new(cuts(&hair, &self.look)?),
+            shapes: Arc::new(shapes(&hair, &self.look)?),
             neck: bare.map(|head| Arc::new(neck(head, &hair, &self.look))),
             hair: Arc::new(hair),
             ..self.clone()
@@ -162,8 +170,8 @@ impl Object {
         self.neck.as_deref()
     }
 
-    pub(crate) fn cuts(&self) -> &[Vec<Cut>] {
-        &self.cuts
+    pub(crate) fn shapes(&self) -> &[PathShape] {
+        &self.shapes
     }
 
     pub(crate) fn placement(&self) -> Placement {
@@ -183,7 +191,7 @@ impl Object {
     pub(crate) fn is_drawn_as(&self, other: &Self) -> bool {
         self.has_hair_and_head_of(other)
             && Arc::ptr_eq(&self.look, &other.look)
-            && Arc::ptr_eq(&self.cuts, &other.cuts)
+            && Arc::ptr_eq(&self.shapes, &other.shapes)
             && self.placement == other.placement
     }
 
@@ -209,11 +217,13 @@ fn neck(head: &HeadModel, hair: &HairModel, look: &Look) -> Neck {
     Neck::new(model, hair.head)
 }
 
-fn cuts(hair: &HairModel, look: &Look) -> Result<Vec<Vec<Cut>>, StageError> {
-    let cut = |(i, info): (usize, &StrandInfo)| {
+fn shapes(hair: &HairModel, look: &Look) -> Result<Vec<PathShape>, StageError> {
+    let shape = |(i, info): (usize, &StrandInfo)| {
         let overlap_m = OVERLAP * info.size * hair.head.unit_m();
-        stroke_path::cuts(hair.file.strands.strand(i), look.path(), overlap_m)
+        let rest = hair.file.strands.strand(i);
+        let cuts = stroke_path::cuts(rest, look.path(), overlap_m)?;
+        let detail = Detail::of(rest, look.path(), &cuts)?;
+        Ok(PathShape { cuts, detail })
     };
-    let strands = hair.infos.iter().enumerate();
-    Ok(strands.map(cut).collect::<Result<_, _>>()?)
+    hair.infos.iter().enumerate().map(shape).collect()
 }

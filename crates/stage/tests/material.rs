@@ -23,6 +23,7 @@ fn scene(style: &str, settings: &[(&str, &str)]) -> Stage {
     for (name, value) in settings {
         preset.set(name, value).unwrap();
     }
+    take_all_joints(&mut preset);
     let files = Files {
         preset_folder: presets(),
         hair: Some(presets().join("styles").join(style)),
@@ -30,6 +31,12 @@ fn scene(style: &str, settings: &[(&str, &str)]) -> Stage {
         ..Files::default()
     };
     Stage::new(&preset, &files).unwrap()
+}
+
+/// Makes the picture so large, and joints so few, that each of them is there in every frame.
+fn take_all_joints(preset: &mut Preset) {
+    preset.sections.scene.size = [7680, 5760];
+    preset.sections.path.subdivision = 2;
 }
 
 const READ: &[(&str, &str)] = &[("clump.normal", "material")];
@@ -135,6 +142,7 @@ fn a_bake_gives_nearly_those_of_its_simulation() {
     let text = fs::read_to_string(presets().join("twin-tails.ron")).unwrap();
     let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
     preset.set("clump.normal", "material").unwrap();
+    take_all_joints(&mut preset);
     let files = Files {
         preset_folder: presets(),
         bake: Some(path),

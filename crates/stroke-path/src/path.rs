@@ -2,6 +2,7 @@
 
 use crate::camera::Camera;
 use crate::cuts::Cut;
+use crate::detail::Detail;
 use crate::resample::{PathError, PathKind};
 use glam::{Quat, Vec2, Vec3};
 use std::ops::Range;
@@ -70,6 +71,9 @@ pub struct Paths {
     cut: usize,
     /// The strand in work, before clipping.
     whole: Vec<WorldJoint>,
+    /// Which joints of it there are, by number, and how much of each; and where they are.
+    kept: Vec<(usize, f32)>,
+    places: Vec<Vec3>,
 }
 
 /// What is known of a joint before it is projected.
@@ -152,28 +156,34 @@ impl Paths {
         kind: PathKind,
         camera: &Camera,
     ) -> Result<(), PathError> {
-        self.push_pieces(strand, particles, &[], kind, camera)
+        self.push_pieces(strand, particles, &[], None, kind, camera)
     }
 
     /// As [`Self::push_strand`], for a strand that is cut into pieces; [`cuts`](crate::cuts()) says where, from the strand
-    /// at rest. Joints of an overlap are in both pieces.
+    /// at rest. Joints of an overlap are in both pieces. With a `detail`, which is of the same strand, path and cuts, there are
+    /// the joints that a picture needs, else all.
     ///
     /// # Errors
     ///
-    /// When the subdivision is not within 1 to 64, or a cut is beyond the strand's end. Nothing is appended
-    /// then.
+    /// When the subdivision is not within 1 to 64, or a cut is beyond the strand's end, or the detail is of another number of joints. Nothing
+    /// is appended then.
     pub fn push_pieces(
         &mut self,
         strand: usize,
         particles: &[Vec3],
         cuts: &[Cut],
+        detail: Option<&Detail>,
         kind: PathKind,
         camera: &Camera,
     ) -> Result<(), PathError> {
-        self.place_joints(particles, kind, camera)?;
-        if (cuts.iter()).any(|cut| *cut.overlap.end() >= self.whole.len()) {
+        let count = kind.count(particles)?;
+        if (cuts.iter()).any(|cut| *cut.overlap.end() >= count) {
             return Err(PathError::Cut);
         }
+        if detail.is_some_and(|detail| detail.len() != count) {
+            return Err(PathError::Detail);
+        }
+        self.place_joints(particles, detail, kind, camera)?;
         self.find_directions();
         let (runs, joints) = (self.runs.len(), self.len());
         let mut finite = self.whole.iter().all(WorldJoint::is_finite);
@@ -227,19 +237,38 @@ impl Paths {
     fn place_joints(
         &mut self,
         particles: &[Vec3],
+        detail: Option<&Detail>,
         kind: PathKind,
         camera: &Camera,
     ) -> Result<(), PathError> {
-        let positions = kind.joints(particles)?;
-        let last = positions.len().saturating_sub(1);
+        let count = kind.count(particles)?;
+        let depths = particles.iter().map(|particle| camera.depth(*particle));
+        match detail {
+            Some(detail) => {
+                let nearest = depths.fold(f32::INFINITY, f32::min);
+                detail.keep(camera.px_per_metre(nearest), &mut self.kept);
+            }
+            None => {
+                self.kept.clear();
+                self.kept.extend((0..count).map(|joint| (joint, 1.0)));
+            }
+        }
+        let mut joint_at = kind.joint_at(particles)?;
+        self.places.clear();
+        self.places
+            .extend(self.kept.iter().map(|(joint, _)| joint_at(*joint)));
+        if let Some(detail) = detail {
+            detail.blend(&self.kept, &mut self.places);
+        }
+        let last = count.saturating_sub(1).max(1) as f64;
         self.whole.clear();
-        for (j, position) in positions.enumerate() {
+        for ((joint, _), position) in self.kept.iter().zip(&self.places) {
             let before = self.whole.last();
-            let arc_length = before.map_or(0.0, |b| b.arc_length + b.position.distance(position));
+            let arc_length = before.map_or(0.0, |b| b.arc_length + b.position.distance(*position));
             self.whole.push(WorldJoint {
-                position,
-                view: camera.view_from_world(position),
-                u: (j as f64 / last.max(1) as f64) as f32,
+                position: *position,
+                view: camera.view_from_world(*position),
+                u: (*joint as f64 / last) as f32,
                 arc_length,
                 forward: Vec3::NEG_Y,
                 backward: Vec3::Y,
@@ -287,12 +316,13 @@ impl Paths {
 
     /// Lets the joints of `whole` between two cuts sink where they go on beyond them, and returns which they are.
     fn piece(&mut self, [before, after]: [Option<&Cut>; 2]) -> Range<usize> {
-        let joints = &mut self.whole;
-        let start = before.map_or(0, |cut| *cut.overlap.start());
-        let end = after.map_or(joints.len(), |cut| *cut.overlap.end() + 1);
+        let (joints, kept) = (&mut self.whole, &self.kept);
+        let place = |joint: usize| kept.partition_point(|(other, _)| *other < joint);
+        let start = before.map_or(0, |cut| place(*cut.overlap.start()));
+        let end = after.map_or(joints.len(), |cut| place(*cut.overlap.end()) + 1);
         if before.or(after).is_some() {
-            let from = before.map_or(0.0, |cut| joints[cut.at].arc_length);
-            let to = after.map_or(f32::INFINITY, |cut| joints[cut.at].arc_length);
+            let from = before.map_or(0.0, |cut| joints[place(cut.at)].arc_length);
+            let to = after.map_or(f32::INFINITY, |cut| joints[place(cut.at)].arc_length);
             for joint in &mut joints[start..end] {
                 let beyond = (from - joint.arc_length).max(joint.arc_length - to);
                 joint.sink = beyond.max(0.0);

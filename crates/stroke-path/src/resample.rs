@@ -37,6 +37,9 @@ pub enum PathError {
     /// A strand's cuts are within its joints.
     #[error("a strand is to be cut beyond its end")]
     Cut,
+    /// A detail is of the path that it is used for.
+    #[error("the detail is of a path with another number of joints")]
+    Detail,
 }
 
 impl PathKind {
@@ -66,26 +69,48 @@ impl PathKind {
         self,
         particles: &[Vec3],
     ) -> Result<impl ExactSizeIterator<Item = Vec3>, PathError> {
+        let mut joint_at = self.joint_at(particles)?;
+        Ok((0..self.count(particles)?).map(move |joint| joint_at(joint)))
+    }
+
+    /// How many joints a path has.
+    ///
+    /// # Errors
+    ///
+    /// When the subdivision is not within 1 to 64.
+    pub(crate) fn count(self, particles: &[Vec3]) -> Result<usize, PathError> {
         let subdivision = self.subdivision()? as usize;
-        let count = match particles.len() {
+        Ok(match particles.len() {
             0 => 0,
             len => (len - 1) * subdivision + 1,
-        };
-        let mut curve = Curve::default();
-        Ok((0..count).map(move |j| {
-            let (interval, step) = (j / subdivision, j % subdivision);
+        })
+    }
+
+    /// What gives the joint of each number. Quickest where those of one interval follow each other.
+    ///
+    /// # Errors
+    ///
+    /// When the subdivision is not within 1 to 64.
+    pub(crate) fn joint_at(
+        self,
+        particles: &[Vec3],
+    ) -> Result<impl FnMut(usize) -> Vec3, PathError> {
+        let subdivision = self.subdivision()? as usize;
+        let (mut curve, mut of) = (Curve::default(), usize::MAX);
+        Ok(move |joint: usize| {
+            let (interval, step) = (joint / subdivision, joint % subdivision);
             let s = step as f32 / subdivision as f32;
             match (step, self) {
                 (0, _) => particles[interval],
                 (_, Self::Linear { .. }) => particles[interval].lerp(particles[interval + 1], s),
                 (_, Self::CatmullRom { .. }) => {
-                    if step == 1 {
-                        curve = Curve::catmull_rom(particles, interval);
+                    if of != interval {
+                        (curve, of) = (Curve::catmull_rom(particles, interval), interval);
                     }
                     curve.at(s)
                 }
             }
-        }))
+        })
     }
 }
 

@@ -21,9 +21,6 @@ pub struct Case {
     pub name: String,
     /// What `inkstrand render` gets, the preset first.
     pub args: Vec<String>,
-    /// Whether graphics cards refuse it.
-    #[serde(default)]
-    pub cpu_alone: bool,
     /// The cells of a contact sheet; none for a single picture.
     #[serde(skip)]
     pub cells: Vec<Cell>,
@@ -51,7 +48,6 @@ pub fn looks(names: &[String]) -> Vec<Case> {
             "--size=240x180".to_owned(),
             "--samples=4".to_owned(),
         ],
-        cpu_alone: false,
         cells: Vec::new(),
     };
     names.iter().map(case).collect()

@@ -26,9 +26,6 @@ struct Sheet {
     of: String,
     /// What `inkstrand render` gets, the preset first.
     args: Vec<String>,
-    /// Whether graphics cards refuse it.
-    #[serde(default)]
-    cpu_alone: bool,
     /// What a parameter needs to be seen: it does nothing where another is not set.
     #[serde(default)]
     with: BTreeMap<String, Vec<String>>,
@@ -68,7 +65,6 @@ fn sheets(text: &str, schema: &Value) -> Outcome<Vec<Case>> {
         cases.push(Case {
             name: format!("extremes-{}", sheet.of.replace('.', "-")),
             args: sheet.args.iter().cloned().chain([size]).collect(),
-            cpu_alone: sheet.cpu_alone,
             cells: cells(sheet, parameters)?,
         });
     }

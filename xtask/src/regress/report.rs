@@ -107,7 +107,6 @@ mod tests {
     #[test]
     fn wrong_cases_come_first_with_three_pictures() {
         let case = |name: &str| Case {
-            cpu_alone: false,
             name: name.to_owned(),
             args: vec!["presets/<a>.ron".to_owned()],
             cells: Vec::new(),

@@ -6,6 +6,7 @@
 
 use super::animation::Tick;
 use super::painter::Painter;
+use super::places::Places;
 use super::scenes::Subject;
 use super::tiles::{HairTiles, TILE, corner, difference};
 use crate::BenchError;
@@ -204,8 +205,7 @@ struct Moment {
     pictures: Vec<Picture>,
     /// Which pixels show hair.
     hair: Vec<bool>,
-    /// Where joints are on the screen.
-    joints: Vec<Vec2>,
+    places: Places,
 }
 
 impl Moment {
@@ -218,7 +218,7 @@ impl Moment {
         Ok(Self {
             pictures,
             hair: painters.hair.hair(&mut frame)?,
-            joints: frame.paths.center.clone(),
+            places: Places::new(frame.paths, frame.paths.center.clone()),
         })
     }
 }
@@ -227,8 +227,9 @@ impl Motion {
     fn add(&mut self, before: &Moment, half: &Moment, after: &Moment) {
         let pairs = [(0, before, after), (1, before, half), (1, half, after)];
         for (i, from, to) in pairs {
-            let moved = from.joints.iter().zip(&to.joints);
-            let farthest = moved.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+            let joints = 0..to.places.len();
+            let moved = joints.filter_map(|joint| to.places.moved_since(&from.places, joint));
+            let farthest = moved.map(Vec2::length).fold(0.0, f32::max);
             self.0[i] = self.0[i].max(f64::from(farthest));
         }
     }

@@ -146,9 +146,9 @@ impl Animation for Strands {
         for (i, info) in self.infos.iter_mut().enumerate() {
             let particles = particles(self.motion, i, time);
             info.mean = particles.iter().sum::<Vec3>() / particles.len() as f32;
-            let pushed = self
-                .paths
-                .push_pieces(i, &particles, &self.cuts[i], PATH, &self.camera);
+            let pushed =
+                self.paths
+                    .push_pieces(i, &particles, &self.cuts[i], None, PATH, &self.camera);
             pushed.map_err(|error| error.to_string())?;
         }
         let style = match &self.change {

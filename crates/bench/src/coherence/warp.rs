@@ -3,6 +3,7 @@
 use super::NamedOrder;
 use super::animation::{TICKS, Tick};
 use super::painter::Painter;
+use super::places::Places;
 use super::scenes::Subject;
 use crate::BenchError;
 use glam::Vec2;
@@ -45,14 +46,11 @@ pub fn measure(scene: &mut Subject, threads: usize) -> Result<Vec<[Option<f64>; 
                 &mut motion_painter,
                 &mut painters,
             )?;
-            // Strands that enter or leave the view have no motion from one to the other.
-            if before.centers.len() == after.centers.len() {
-                for (i, (_, order)) in scene.orders.iter().enumerate() {
-                    let moved = motion(&mut frame, *order, &before, &after, &mut motion_painter)?;
-                    for sampling in 0..SAMPLES.len() {
-                        let pictures = [&before, &after].map(|of| &of.pictures[i][sampling]);
-                        errors[i][sampling].add(pictures, &moved);
-                    }
+            for (i, (_, order)) in scene.orders.iter().enumerate() {
+                let moved = motion(&mut frame, *order, &before, &after, &mut motion_painter)?;
+                for sampling in 0..SAMPLES.len() {
+                    let pictures = [&before, &after].map(|of| &of.pictures[i][sampling]);
+                    errors[i][sampling].add(pictures, &moved);
                 }
             }
             before = after;
@@ -64,8 +62,8 @@ pub fn measure(scene: &mut Subject, threads: usize) -> Result<Vec<[Option<f64>; 
 
 /// What a frame shows.
 struct Shown {
-    /// Of the clumps' joints on the screen.
-    centers: Vec<Vec2>,
+    /// Of the clumps' joints.
+    places: Places,
     /// By order and sampling.
     pictures: Vec<Vec<Picture>>,
 }
@@ -79,13 +77,14 @@ impl Shown {
     ) -> Result<Self, BenchError> {
         let drawing = centers.strokes(frame, Order::default())?;
         let centers = drawing.clump.iter().map(|disc| disc.center).collect();
+        let places = Places::new(frame.paths, centers);
         let mut pictures = Vec::new();
         for (_, order) in orders {
             let of_order = painters.iter_mut();
             let of_order = of_order.map(|painter| painter.picture(frame, *order));
             pictures.push(of_order.collect::<Result<_, _>>()?);
         }
-        Ok(Self { centers, pictures })
+        Ok(Self { places, pictures })
     }
 }
 
@@ -98,9 +97,11 @@ fn motion(
     after: &Shown,
     painter: &mut Painter,
 ) -> Result<Vec<Option<Vec2>>, BenchError> {
-    // Colours can hold 0 to 1.
+    // Colours can hold 0 to 1. Strands that enter the view have no motion.
     let color = |joint: usize| {
-        let moved = after.centers[joint] - before.centers[joint];
+        let Some(moved) = after.places.moved_since(&before.places, joint) else {
+            return [0.0; 3];
+        };
         let shares = (moved / (2.0 * REACH) + 0.5).clamp(Vec2::ZERO, Vec2::ONE);
         [shares.x, shares.y, 1.0]
     };

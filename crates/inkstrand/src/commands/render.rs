@@ -3,7 +3,7 @@
 use super::progress::{Bar, Watch};
 use super::scene::{Source, check};
 use crate::Failure;
-use crate::cli::{Backend, Background, Numbers, RenderOptions};
+use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
 use crate::painter::Painter;
 use crate::paths::is_same;
@@ -66,11 +66,8 @@ fn draw(
     for time in [first, last].map(time_of) {
         stage.scene.check_time(time)?;
     }
-    let (backend, samples) = match options.pass {
-        Some(pass) => (Backend::Cpu, pass.samples(samples)),
-        None => (options.backend, samples),
-    };
-    let mut painter = Painter::new(backend, samples, options.quiet)?;
+    let samples = options.pass.map_or(samples, |pass| pass.samples(samples));
+    let mut painter = Painter::new(options.backend, samples, options.quiet)?;
 
     let mut bar = Bar::from_first_frame(
         options.quiet,

@@ -2,26 +2,38 @@
 
 use super::Lap;
 use crate::Failure;
+use crate::pass::Gathered;
 use crate::say::say;
 use crate::stats::{Bytes, FrameStats, frame_counts};
 use render::gpu::{AdapterKind, GpuError, Offscreen};
-use render::{Frame, Picture};
+use render::{Frame, Picture, SamplePlanes};
 
 /// A graphics card that draws.
-pub(super) struct Card(pub Offscreen);
+pub(super) struct Card {
+    pub offscreen: Offscreen,
+    planes: SamplePlanes,
+}
 
 impl Card {
+    /// What draws there.
+    pub fn on(offscreen: Offscreen) -> Self {
+        Self {
+            offscreen,
+            planes: SamplePlanes::default(),
+        }
+    }
+
     /// A graphics card, or a driver that draws in software where there is none.
     pub fn any() -> Result<Self, Failure> {
         Offscreen::open(AdapterKind::Any)
-            .map(Self)
+            .map(Self::on)
             .map_err(explained)
     }
 
     /// A graphics card, where there is one that can draw.
     pub fn hardware(is_quiet: bool) -> Option<Self> {
         match Offscreen::open(AdapterKind::Hardware) {
-            Ok(gpu) => Some(Self(gpu)),
+            Ok(gpu) => Some(Self::on(gpu)),
             Err(GpuError::NoAdapter { .. }) => None,
             Err(error) => {
                 tell(is_quiet, &error);
@@ -38,9 +50,30 @@ impl Card {
         stats: &mut FrameStats,
         lap: &mut Lap,
     ) -> Result<Picture, GpuError> {
-        let picture = self.0.draw(frame, samples)?;
-        let whole = lap.passed();
-        let card = self.0.stats();
+        let picture = self.offscreen.draw(frame, samples)?;
+        self.note(frame, stats, lap.passed());
+        Ok(picture)
+    }
+
+    /// Draws the samples of a pass, and says what it took.
+    pub fn draw_samples(
+        &mut self,
+        frame: &Frame,
+        samples: u32,
+        gathered: &mut Gathered,
+        stats: &mut FrameStats,
+        lap: &mut Lap,
+    ) -> Result<(), GpuError> {
+        let add = |planes: &mut SamplePlanes| gathered.add(planes);
+        self.offscreen
+            .draw_samples(frame, samples, &mut self.planes, add)?;
+        self.note(frame, stats, lap.passed());
+        Ok(())
+    }
+
+    /// Notes what a frame took, of so many milliseconds.
+    fn note(&self, frame: &Frame, stats: &mut FrameStats, whole: f64) {
+        let card = self.offscreen.stats();
         let strokes = card.milliseconds.map_or(0.0, |[strokes, ..]| strokes);
         stats.backend = "gpu";
         stats.milliseconds.effects = strokes;
@@ -50,7 +83,6 @@ impl Card {
         stats.bytes = Bytes {
             buffers: card.bytes as usize,
         };
-        Ok(picture)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::Lap;
 use crate::Failure;
+use crate::pass::Gathered;
 use crate::stats::FrameStats;
 use render::{Frame, Picture};
 use std::convert::Infallible;
@@ -28,6 +29,17 @@ impl Card {
         _stats: &mut FrameStats,
         _lap: &mut Lap,
     ) -> Result<Picture, Infallible> {
+        match *self {}
+    }
+
+    pub fn draw_samples(
+        &mut self,
+        _frame: &Frame,
+        _samples: u32,
+        _gathered: &mut Gathered,
+        _stats: &mut FrameStats,
+        _lap: &mut Lap,
+    ) -> Result<(), Infallible> {
         match *self {}
     }
 }

@@ -37,7 +37,7 @@ fn on_card(may_fall_back: bool) -> Option<(Painter, impl FnOnce())> {
     let device = gpu.device.clone();
     let painter = Painter {
         samples: 1,
-        card: Some(Card(Offscreen::on(gpu).unwrap())),
+        card: Some(Card::on(Offscreen::on(gpu).unwrap())),
         may_fall_back,
         cpu: None,
         is_quiet: true,

@@ -5,7 +5,7 @@ use glam::Vec2;
 use std::ops::Range;
 
 /// A margin for rounding around everything that is drawn, in pixels.
-const MARGIN: f32 = 0.01;
+pub(super) const MARGIN: f32 = 0.01;
 
 /// The pixels that something may reach: a range of columns and one of rows. By default none.
 ///
@@ -97,21 +97,23 @@ impl Bins {
         self.first.clear();
         self.first.resize(bins + 2, 0);
         let ahead = &mut self.first[2..];
-        for (_, range) in items.clone() {
+        // By `for_each`, which chained iterators do in loops of their own.
+        (items.clone()).for_each(|(_, range)| {
             ahead[range].iter_mut().for_each(|count| *count += 1);
-        }
+        });
         for bin in 2..bins + 2 {
             self.first[bin] += self.first[bin - 1];
         }
         self.items.clear();
         self.items.resize(self.first[bins + 1], 0);
         let places = &mut self.first[1..];
-        for (item, range) in items {
+        let sorted = &mut self.items[..];
+        items.for_each(|(item, range)| {
             for place in &mut places[range] {
-                self.items[*place] = item;
+                sorted[*place] = item;
                 *place += 1;
             }
-        }
+        });
     }
 
     /// The items of a bin.

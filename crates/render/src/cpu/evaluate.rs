@@ -214,6 +214,10 @@ impl Evaluator {
         let mut stretches = vec![Vec::new(); instances as usize];
         discs.clear();
         colors.clear();
+        // Dense hair has many: they don't grow by doubling.
+        let count = made.iter().map(|made| made.discs.len()).sum();
+        discs.reserve_exact(count);
+        colors.reserve_exact(count);
         for made in made {
             made.append(&mut stretches, &mut discs, &mut colors);
         }

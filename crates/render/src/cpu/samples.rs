@@ -40,7 +40,7 @@ impl Rasterizer {
             check::check(drawing)?;
             let strokes = strokes_in_order(drawing);
             let tile_height = tile::height(stacks);
-            parts.collect(drawing, &strokes, tile_height);
+            parts.collect(drawing, &strokes, stacks);
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
             let runs_of_joints = runs_of_joints(drawing);
@@ -223,9 +223,8 @@ impl Frame<'_> {
         let triangle = &self.parts.triangles[triangle as usize];
         let features = &self.drawing.features;
         let surface = &self.drawing.surfaces[triangle.surface as usize];
-        let corners = triangle
-            .corners
-            .map(|corner| (corner.position, corner.inv_depth));
+        let corners = triangle.corners(self.drawing);
+        let corners = corners.map(|corner| (corner.position, corner.inv_depth));
         let camera = features.camera.as_ref();
         let camera = camera.filter(|_| features.declared.has(Feature::Normal));
         Sample {

@@ -131,12 +131,15 @@ impl Segments {
     pub(super) fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], tile_height: usize) {
         let bands = (drawing.size[1] as usize).div_ceil(tile_height);
         let strands: Vec<&[Run]> = drawing.runs.chunk_by(|a, b| a.strand == b.strand).collect();
+        let strands = strands.into_par_iter().with_min_len(GROUP);
+        let strands = strands.map(|runs| Strand::new(drawing, strokes, runs));
+        let strands: Vec<Strand> = strands.collect();
         let groups = &mut self.groups;
         groups.resize_with(strands.len().div_ceil(GROUP), Group::default);
         let of_groups = strands.par_chunks(GROUP);
         let counts = of_groups.clone().map(|strands| {
-            let of_strand = |runs: &&[Run]| Strand::new(drawing, strokes, runs).most_segments();
-            strands.iter().map(of_strand).sum::<usize>()
+            let counts = strands.iter().map(Strand::most_segments);
+            counts.sum::<usize>()
         });
         groups
             .par_iter_mut()
@@ -158,8 +161,8 @@ impl Segments {
         let groups = groups.par_iter_mut().zip(lists).zip(of_groups);
         groups.for_each(|((group, list), strands)| {
             let mut number = 0;
-            for runs in strands {
-                Strand::new(drawing, strokes, runs).for_each(|segment| {
+            for strand in strands {
+                strand.for_each(|segment| {
                     list[number] = segment;
                     number += 1;
                 });

@@ -1,42 +1,92 @@
 //! One triangle in one tile: both sides, edges included, the nearest first.
 
-use super::bin::{Bounds, clip};
+use super::bin::{Bounds, MARGIN, clip};
 use super::tile::{
-    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, LaneMask, Slope, Stack, Target, WIDTH, any, greater,
-    least, lesser, overwrite, select,
+    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, LaneMask, NOTHING, Slope, Stack, Target, WIDTH, any,
+    greater, least, lesser, overwrite, select,
 };
 use crate::drawing::{Drawing, SurfaceVertex};
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// A triangle of a drawing that may be seen.
+/// A triangle of a drawing. One that can't be seen lies in no bounds.
 #[derive(Clone, Debug)]
 pub(super) struct Triangle {
-    pub(super) corners: [SurfaceVertex; 3],
+    /// The surface's number, and its own among that one's.
     pub(super) surface: u32,
+    pub(super) number: u32,
     pub(super) bounds: Bounds,
+    /// Of its nearest corner, 1/m.
+    nearest: f32,
 }
 
-/// Replaces `triangles` by those of a checked drawing, in its order, that may be seen.
-pub(super) fn collect(drawing: &Drawing, triangles: &mut Vec<Triangle>) {
-    triangles.clear();
-    for (surface, number) in drawing.surfaces.iter().zip(0..) {
-        triangles.par_extend(surface.triangles.par_iter().with_min_len(1024).filter_map(
-            |indices| {
-                let corners = indices.map(|i| surface.vertices[i as usize]);
-                let [a, b, c] = corners.map(|corner| corner.position);
-                let bounds = Bounds::of_box(a.min(b).min(c), a.max(b).max(c), drawing.size)?;
-                // Without area it would have no inside.
-                (twice_area([a, b, c].map(|corner| corner.as_dvec2())) != 0.0).then_some(Triangle {
-                    corners,
-                    surface: number,
-                    bounds,
-                })
-            },
-        ));
+/// Draws those of a tile, in the drawing's order, into the target's samples. Gives the cells' samples where each triangle shows.
+#[inline(always)]
+pub(super) fn draw_all(
+    all: &[Triangle],
+    of_tile: &[u32],
+    drawing: &Drawing,
+    origin: [usize; 2],
+    stack: &Stack,
+    target: &mut Target,
+    mut shows: impl FnMut(usize, u32, &LaneMask),
+) {
+    // What all of the tile shows is as near as this: most of a head's inside and outline is hidden at once.
+    let (mut surface, mut farthest) = (0, NOTHING);
+    for &number in of_tile {
+        let triangle = &all[number as usize];
+        if triangle.surface != surface {
+            surface = triangle.surface;
+            farthest = target.farthest_surface();
+        }
+        if triangle.nearest > farthest {
+            let shows = |cell, lanes: &LaneMask| shows(cell, number, lanes);
+            triangle.draw(drawing, origin, stack, target, shows);
+        }
     }
 }
+
+/// Replaces `triangles` by those of a checked drawing, in its order. The pixels' samples are those of `stacks`.
+pub(super) fn collect(drawing: &Drawing, stacks: &[Stack], triangles: &mut Vec<Triangle>) {
+    triangles.clear();
+    for (surface, surface_number) in drawing.surfaces.iter().zip(0..) {
+        let all = surface.triangles.par_iter().enumerate().with_min_len(1024);
+        triangles.par_extend(all.map(|(number, indices)| {
+            let [a, b, c] = indices.map(|i| &surface.vertices[i as usize]);
+            let low = a.position.min(b.position).min(c.position);
+            let high = a.position.max(b.position).max(c.position);
+            let bounds = Bounds::of_box(low, high, drawing.size);
+            Triangle {
+                surface: surface_number,
+                number: number as u32,
+                bounds: bounds
+                    .filter(|_| may_hold_sample(low, high, stacks))
+                    .unwrap_or_default(),
+                nearest: greater(greater(a.inv_depth, b.inv_depth), c.inv_depth),
+            }
+        }));
+    }
+}
+
+/// Whether any sample may lie in a box. A mesh that is far away has many triangles between two samples.
+#[inline]
+fn may_hold_sample(low: Vec2, high: Vec2, stacks: &[Stack]) -> bool {
+    let size = high - low;
+    if size.x * size.y > SMALL_PX2 || size.max_element() >= 1.0 {
+        return true;
+    }
+    stacks.iter().any(|stack| {
+        (0..stack.samples).any(|k| {
+            let sample = Vec2::new(stack.x[k], stack.y[k]);
+            let first = (low - MARGIN - sample).ceil();
+            first.cmple(high + MARGIN - sample).all()
+        })
+    })
+}
+
+/// Larger boxes are taken to hold a sample, square pixels.
+const SMALL_PX2: f32 = 0.25;
 
 #[inline(always)]
 fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
@@ -44,9 +94,21 @@ fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
 }
 
 impl Triangle {
+    #[inline(always)]
+    pub(super) fn corners<'a>(&self, drawing: &'a Drawing) -> [&'a SurfaceVertex; 3] {
+        let surface = &drawing.surfaces[self.surface as usize];
+        let [a, b, c] = surface.triangles[self.number as usize];
+        // Without closures, which are not sure to be compiled for their caller's instruction set.
+        [
+            &surface.vertices[a as usize],
+            &surface.vertices[b as usize],
+            &surface.vertices[c as usize],
+        ]
+    }
+
     /// Draws the triangle's part of the tile at `origin` into the target's samples. Gives the cells' samples where it shows.
     #[inline(always)]
-    pub(super) fn draw(
+    fn draw(
         &self,
         drawing: &Drawing,
         origin: [usize; 2],
@@ -57,16 +119,19 @@ impl Triangle {
         let rows = self.bounds.rows_in(origin[1], stack);
         let columns = clip(self.bounds.x, origin[0], WIDTH);
         let across = columns.start / CELL_WIDTH..columns.end.div_ceil(CELL_WIDTH);
-        if self.is_hidden(&rows, &across, target) {
+        if is_hidden(self.nearest, &rows, &across, target) {
             return;
         }
         let surface = &drawing.surfaces[self.surface as usize];
+        let [a, b, c] = self.corners(drawing);
         let corner = DVec2::new(origin[0] as f64, origin[1] as f64);
         // Without closures, which are not sure to be compiled for their caller's instruction set.
-        let [a, b, c] = &self.corners;
         let seen = |vertex: &SurfaceVertex| vertex.position.as_dvec2() - corner;
         let points = [seen(a), seen(b), seen(c)];
         let area = twice_area(points);
+        if area == 0.0 {
+            return; // it has no inside
+        }
         let edges = [
             Edge::new(points[1], points[2]),
             Edge::new(points[2], points[0]),
@@ -79,8 +144,20 @@ impl Triangle {
             edges[2].slope(side).at_samples(stack),
         ];
         let depths = Interpolated::new([a.inv_depth, b.inv_depth, c.inv_depth], &edges, area);
-        let tones = Interpolated::new([a.tone, b.tone, c.tone], &edges, area);
         let depth_at = depths.slope.at_samples(stack);
+        // Between corners that are all in light, or all in shadow, nothing else is.
+        let is_lit = (a.tone >= 0.0) & (b.tone >= 0.0) & (c.tone >= 0.0);
+        let is_dark = (a.tone < 0.0) & (b.tone < 0.0) & (c.tone < 0.0);
+        let is_one_color = is_lit | is_dark | (surface.light == surface.shadow);
+        let one_color = if is_dark {
+            &surface.shadow
+        } else {
+            &surface.light
+        };
+        let tones = match is_one_color {
+            true => Interpolated::NONE,
+            false => Interpolated::new([a.tone, b.tone, c.tone], &edges, area),
+        };
         let tone_at = tones.slope.at_samples(stack);
         for row in rows {
             for cell in across.clone() {
@@ -111,6 +188,12 @@ impl Triangle {
                     &[surface.margin_m; LANES],
                     &wins,
                 );
+                if is_one_color {
+                    for (plane, light) in target.color.iter_mut().zip(one_color) {
+                        overwrite(&mut plane[cell.index], &[*light; LANES], &wins);
+                    }
+                    continue;
+                }
                 let tone = tone_at.of(cell);
                 for (channel, plane) in target.color.iter_mut().enumerate() {
                     let (light, shadow) = (surface.light[channel], surface.shadow[channel]);
@@ -123,22 +206,20 @@ impl Triangle {
             }
         }
     }
+}
 
-    /// Whether all that the triangle may reach in the tile shows a surface that is nearer, or as near and earlier.
-    #[inline(always)]
-    fn is_hidden(&self, rows: &Range<usize>, across: &Range<usize>, target: &Target) -> bool {
-        let [a, b, c] = &self.corners;
-        let greatest = greater(greater(a.inv_depth, b.inv_depth), c.inv_depth);
-        for row in rows.clone() {
-            let cells = row * CELLS_ACROSS + across.start..row * CELLS_ACROSS + across.end;
-            for farthest in &target.farthest_surface[cells] {
-                if greatest > *farthest {
-                    return false;
-                }
+/// Whether all of some cells shows a surface that is no farther than something.
+#[inline(always)]
+fn is_hidden(inv_depth: f32, rows: &Range<usize>, across: &Range<usize>, target: &Target) -> bool {
+    for row in rows.clone() {
+        let cells = row * CELLS_ACROSS + across.start..row * CELLS_ACROSS + across.end;
+        for farthest in &target.farthest_surface[cells] {
+            if inv_depth > *farthest {
+                return false;
             }
         }
-        true
     }
+    true
 }
 
 /// The signed, doubled area between an edge and a point: above 0 on the edge's one side. Worked out
@@ -185,6 +266,17 @@ struct Interpolated {
 }
 
 impl Interpolated {
+    /// A value that nobody asks for.
+    const NONE: Self = Self {
+        slope: Slope {
+            corner: 0.0,
+            per_x: 0.0,
+            per_y: 0.0,
+        },
+        least: 0.0,
+        greatest: 0.0,
+    };
+
     #[inline(always)]
     fn new(values: [f32; 3], edges: &[Edge; 3], area: f64) -> Self {
         let [e, f, g] = edges;
@@ -213,9 +305,25 @@ impl Interpolated {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::samples::sample_positions;
     use proptest::prelude::*;
 
     proptest! {
+        /// No triangle is left out that has a sample.
+        #[test]
+        fn a_box_around_a_sample_is_not_left_out(
+            samples in prop::sample::select(vec![1_u32, 2, 3, 4, 8, 16]),
+            (column, row) in (0..16384_u32, 0..16384_u32),
+            (left, right, above, below) in (0.0..0.5_f32, 0.0..0.5_f32, 0.0..0.5_f32, 0.0..0.5_f32),
+            number in 0..16_usize,
+        ) {
+            let positions = sample_positions(samples).unwrap();
+            let stacks = Stack::of_pixel(&positions);
+            let sample = positions[number % positions.len()] + Vec2::new(column as f32, row as f32);
+            let (low, high) = (sample - Vec2::new(left, above), sample + Vec2::new(right, below));
+            prop_assert!(may_hold_sample(low, high, &stacks));
+        }
+
         /// What keeps a mesh without cracks: no sample is outside of both triangles at an edge.
         #[test]
         fn an_edge_seen_from_its_other_triangle_is_its_exact_opposite(
@@ -230,5 +338,17 @@ mod tests {
             prop_assert_eq!(one.per_x, -other.per_x);
             prop_assert_eq!(one.per_y, -other.per_y);
         }
+    }
+
+    #[test]
+    fn most_boxes_between_samples_are_left_out() {
+        let stacks = Stack::of_pixel(&sample_positions(4).unwrap());
+        let held = (0..100 * 100).filter(|i| {
+            let low = Vec2::new((i % 100) as f32, (i / 100) as f32) / 100.0 + 7.0;
+            may_hold_sample(low, low + 0.1, &stacks)
+        });
+        // Four samples, each in 0.12 x 0.12 of the places.
+        let held = held.count();
+        assert!((450..700).contains(&held), "{held} of 10,000");
     }
 }

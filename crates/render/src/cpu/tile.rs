@@ -305,15 +305,30 @@ impl Target {
 
     #[inline(always)]
     pub(super) fn clear(&mut self, background: Option<[f32; 3]>) {
-        self.surface.fill([NOTHING; LANES]);
-        self.margin.fill([0.0; LANES]);
-        self.strand.fill([NOTHING; LANES]);
-        self.priority.fill([0; LANES]);
-        for (plane, value) in self.color.iter_mut().zip(background.unwrap_or_default()) {
-            plane.fill([value; LANES]);
+        let background = background.unwrap_or_default();
+        for cell in 0..CELLS {
+            self.surface[cell] = [NOTHING; LANES];
+            self.margin[cell] = [0.0; LANES];
+            self.strand[cell] = [NOTHING; LANES];
+            self.priority[cell] = [0; LANES];
+            for (plane, value) in self.color.iter_mut().zip(background) {
+                plane[cell] = [value; LANES];
+            }
         }
         self.farthest_strand.fill(NOTHING);
         self.farthest_surface.fill(NOTHING);
+    }
+
+    /// The farthest surface that any sample shows, 1/m, while surfaces are drawn.
+    #[inline(always)]
+    pub(super) fn farthest_surface(&self) -> f32 {
+        let mut farthest = [f32::INFINITY; LANES];
+        for cells in self.farthest_surface.chunks_exact(LANES) {
+            for k in 0..LANES {
+                farthest[k] = lesser(cells[k], farthest[k]);
+            }
+        }
+        least(&farthest)
     }
 
     /// To be called when all surfaces have been drawn.

@@ -52,7 +52,7 @@ pub enum GpuError {
         /// The reason.
         message: String,
     },
-    /// The frame has what the CPU alone draws: layers that paint samples, or passes.
+    /// A drawing of strokes has what is drawn of frames alone: layers that paint samples, or passes.
     #[error("{0} is drawn by the CPU alone")]
     Unsupported(String),
     /// There is no memory left.

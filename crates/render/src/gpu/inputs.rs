@@ -1,7 +1,7 @@
 //! Where shaders find what a joint offers.
 
 use crate::frame::Frame;
-use effects::Input;
+use effects::{Input, SampleInput};
 use glam::{Vec2, Vec3};
 
 /// Where shaders find an input.
@@ -83,5 +83,40 @@ impl InputSource {
             (Self::Pairs(_), None) => "vec2<f32>(0.0)".to_owned(),
             (Self::Triples(_), None) => "vec3<f32>(0.0)".to_owned(),
         }
+    }
+}
+
+/// What a painted sample offers, as an expression of WGSL of `p`, a point beside it, and `color`, that of its stroke.
+pub(super) fn sample_in_wgsl(input: SampleInput) -> &'static str {
+    match input {
+        SampleInput::Color => "color",
+        SampleInput::Position => "gpu_vec3_at(p, GPU_AT_POSITION)",
+        SampleInput::Forward => {
+            "gpu_unit_between(p, gpu_vec3(p.joint, GPU_AT_FORWARD), gpu_vec3(p.next, GPU_AT_FORWARD))"
+        }
+        SampleInput::Normal => {
+            "gpu_unit_between(p, gpu_clumps[p.joint].normal, gpu_clumps[p.next].normal)"
+        }
+        SampleInput::Tube => "gpu_tube(p)",
+        SampleInput::U => "gpu_scalar_at(p, GPU_AT_U)",
+        SampleInput::S => "gpu_scalar_at(p, GPU_AT_ARC_LENGTH) / gpu_word(GPU_HEAD_HEIGHT)",
+        SampleInput::V => "p.v",
+        SampleInput::W => "p.w",
+        SampleInput::Strand => "gpu_of_strand(p.joint, 0u)",
+        SampleInput::Seed => "gpu_seed(p.joint)",
+        SampleInput::Level => "gpu_of_strand(p.joint, GPU_STRAND_LEVEL)",
+        SampleInput::Depth => "gpu_between(p, gpu_depth(p.joint), gpu_depth(p.next))",
+        SampleInput::HeadDepth => "bitcast<f32>(gpu_paint_word(GPU_HEAD_DEPTH))",
+        SampleInput::LightDirection => {
+            "gpu_unit_between(p, gpu_light_direction(p.joint), gpu_light_direction(p.next))"
+        }
+        SampleInput::LightDistance => {
+            "gpu_between(p, gpu_light_distance(p.joint), gpu_light_distance(p.next))"
+        }
+        SampleInput::ViewDirection => {
+            "gpu_unit_between(p, gpu_view_direction(p.joint), gpu_view_direction(p.next))"
+        }
+        SampleInput::Pixels => "gpu_scalar_at(p, GPU_AT_PX_PER_METRE) * gpu_word(GPU_HEAD_HEIGHT)",
+        SampleInput::Time => "gpu_frame.time_s",
     }
 }

@@ -102,6 +102,8 @@ enum Field {
     Depth,
     PxPerMetre,
     Strand,
+    /// What is ordered as one strand.
+    Piece,
     /// First and last joint of its strand's pieces together, and how they follow each other: `neighbours`.
     Run,
     SeenLength,
@@ -109,13 +111,13 @@ enum Field {
     Input(Input),
 }
 
-use Field::{Center, Depth, PxPerMetre, Run, SeenLength, Strand};
+use Field::{Center, Depth, Piece, PxPerMetre, Run, SeenLength, Strand};
 
 impl Field {
     /// All fields that there are, in the order in which a record has them.
     fn all() -> impl Iterator<Item = Self> {
         let inputs = Input::ALL.iter().copied().map(Self::Input);
-        [Center, Depth, PxPerMetre, Strand, Run, SeenLength]
+        [Center, Depth, PxPerMetre, Strand, Piece, Run, SeenLength]
             .into_iter()
             .chain(inputs.filter(|field| field.words() > 0))
     }
@@ -123,7 +125,7 @@ impl Field {
     fn words(self) -> u32 {
         match self {
             Center => 2,
-            Depth | PxPerMetre | Strand | SeenLength => 1,
+            Depth | PxPerMetre | Strand | Piece | SeenLength => 1,
             Run => 5,
             Self::Input(input) => InputSource::of(input).words(),
         }
@@ -136,6 +138,7 @@ impl Field {
             Depth => "depth",
             PxPerMetre => "px_per_metre",
             Strand => "strand",
+            Piece => "piece",
             Run => "run",
             SeenLength => "seen_length",
             Self::Input(input) => input.name(),
@@ -158,6 +161,8 @@ pub(super) struct Needs {
     pub(super) has_material_normals: bool,
     pub(super) is_smoothed: bool,
     pub(super) is_semicircle: bool,
+    /// Whether samples tell which piece they show.
+    pub(super) has_pieces: bool,
 }
 
 impl JointLayout {
@@ -167,9 +172,11 @@ impl JointLayout {
             has_material_normals,
             is_smoothed,
             is_semicircle,
+            has_pieces,
         } = needs;
         let is_needed = |field: &Field| match *field {
             Center | Depth | PxPerMetre | Strand => true,
+            Piece => has_pieces,
             Run => is_smoothed || is_semicircle,
             SeenLength => is_smoothed,
             // Other inputs are made of it.
@@ -253,6 +260,7 @@ impl JointLayout {
                 Depth => push(&[paths.depth[joint].to_bits()]),
                 PxPerMetre => push(&[paths.px_per_metre[joint].to_bits()]),
                 Strand => push(&[run.strand as u32]),
+                Piece => push(&[run.piece as u32]),
                 Run => push(&neighbours(&paths.runs, number, joint)),
                 SeenLength => push(&[seen_length[joint].to_bits()]),
                 Field::Input(input) => InputSource::of(input).push(frame, joint, &mut push),

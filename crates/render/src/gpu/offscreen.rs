@@ -3,9 +3,11 @@
 use super::adapter::{AdapterKind, Gpu};
 use super::error::GpuError;
 use super::renderer::{GpuStats, Renderer, Source};
+use crate::check::DrawError;
 use crate::drawing::Drawing;
 use crate::frame::Frame;
 use crate::picture::Picture;
+use crate::planes::SamplePlanes;
 
 /// Draws [`Frame`]s into [`Picture`]s on a device of its own.
 pub struct Offscreen {
@@ -87,25 +89,98 @@ impl Offscreen {
         [width, height]: [u32; 2],
         samples: u32,
     ) -> Result<Picture, GpuError> {
-        let device = &self.gpu.device;
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
-            label: Some("picture"),
-        });
+        let mut encoder = self.encoder();
         self.renderer.draw_picture(&mut encoder, source, samples)?;
         let bytes = u64::from(width) * u64::from(height) * size_of::<[f32; 4]>() as u64;
+        let Some(drawn) = self.renderer.picture() else {
+            return Err(GpuError::Memory);
+        };
+        let drawn = drawn.clone();
+        let pixels = self.read(encoder, &drawn, bytes)?;
+        Ok(Picture {
+            width,
+            height,
+            pixels,
+        })
+    }
+
+    /// Draws the samples of a picture, each with the features that the frame declares, as
+    /// [`cpu::Rasterizer::draw_samples`](crate::cpu::Rasterizer::draw_samples) does: up to four of every pixel at a time, which `take` is
+    /// given, from the first to the last. `planes` is working memory.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::draw`]; or when there isn't enough memory.
+    pub fn draw_samples(
+        &mut self,
+        frame: &Frame,
+        samples: u32,
+        planes: &mut SamplePlanes,
+        take: impl FnMut(&mut SamplePlanes),
+    ) -> Result<(), GpuError> {
+        let drawn = self.try_draw_samples(frame, samples, planes, take);
+        self.gpu.check()?;
+        drawn
+    }
+
+    fn try_draw_samples(
+        &mut self,
+        frame: &Frame,
+        samples: u32,
+        planes: &mut SamplePlanes,
+        mut take: impl FnMut(&mut SamplePlanes),
+    ) -> Result<(), GpuError> {
+        const AT_ONCE: usize = 4;
+        let mut encoder = self.encoder();
+        self.renderer.draw_samples(&mut encoder, frame, samples)?;
+        self.gpu.queue.submit([encoder.finish()]);
+        let size = frame.camera.size_px();
+        let [width, height] = size;
+        let samples = samples as usize;
+        for first in (0..samples).step_by(AT_ONCE) {
+            let count = AT_ONCE.min(samples - first);
+            planes
+                .begin(size, frame.all_features(), [first, count])
+                .ok_or(DrawError::Memory(width, height))?;
+            for sample in first..first + count {
+                let mut encoder = self.encoder();
+                let told = self.renderer.tell(&mut encoder, size, sample as u32)?;
+                let told = told.clone();
+                let bytes = planes.words_of_sample() as u64 * size_of::<u32>() as u64;
+                let words: Vec<u32> = self.read(encoder, &told, bytes)?;
+                planes.push_sample(&words);
+            }
+            take(planes);
+        }
+        Ok(())
+    }
+
+    fn encoder(&self) -> wgpu::CommandEncoder {
+        let device = &self.gpu.device;
+        device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
+            label: Some("picture"),
+        })
+    }
+
+    /// Submits what is recorded, waits for it, and reads the first `bytes` of a buffer that it fills.
+    fn read<T: bytemuck::AnyBitPattern>(
+        &mut self,
+        mut encoder: wgpu::CommandEncoder,
+        filled: &wgpu::Buffer,
+        bytes: u64,
+    ) -> Result<Vec<T>, GpuError> {
         let is_enough = |buffer: &wgpu::Buffer| buffer.size() >= bytes;
-        if !self.read_back.as_ref().is_some_and(is_enough) {
-            self.read_back = Some(device.create_buffer(&wgpu::BufferDescriptor {
+        let read_back = match self.read_back.take().filter(is_enough) {
+            Some(buffer) => buffer,
+            None => self.gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("picture"),
                 size: bytes,
                 usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
                 mapped_at_creation: false,
-            }));
-        }
-        let (Some(drawn), Some(read_back)) = (self.renderer.picture(), &self.read_back) else {
-            return Err(GpuError::Memory);
+            }),
         };
-        encoder.copy_buffer_to_buffer(drawn, 0, read_back, 0, bytes);
+        let read_back = self.read_back.insert(read_back);
+        encoder.copy_buffer_to_buffer(filled, 0, read_back, 0, bytes);
         self.gpu.queue.submit([encoder.finish()]);
 
         let (sender, receiver) = std::sync::mpsc::channel();
@@ -119,17 +194,13 @@ impl Offscreen {
             Ok(Err(error)) => return Err(GpuError::Lost(error.to_string())),
             Err(_) => return Err(GpuError::Lost("it gives no answer".to_owned())),
         }
-        let pixels = {
+        let read = {
             let view = read_back
                 .get_mapped_range(..bytes)
                 .map_err(|error| GpuError::Refused(error.to_string()))?;
-            bytemuck::cast_slice::<u8, [f32; 4]>(&view).to_vec()
+            bytemuck::cast_slice::<u8, T>(&view).to_vec()
         };
         read_back.unmap();
-        Ok(Picture {
-            width,
-            height,
-            pixels,
-        })
+        Ok(read)
     }
 }

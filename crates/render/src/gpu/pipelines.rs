@@ -9,9 +9,17 @@ pub(super) enum Binding {
     Uniform,
     Read,
     Write,
+    /// A uniform of which each dispatch has another part.
+    Part,
+    /// What samples show, as it is written.
+    Told,
+    /// The same, as it is read.
+    Shown,
+    /// Texels of a picture.
+    Image,
 }
 
-use Binding::{Read, Uniform, Write};
+use Binding::{Image, Part, Read, Shown, Told, Uniform, Write};
 
 /// `clump_main`: frame, joints, strands, words, clumps, discs.
 pub(super) const CLUMP: &[Binding] = &[Uniform, Read, Read, Read, Write, Write];
@@ -25,6 +33,58 @@ pub(super) const BINS: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Wri
 pub(super) const TILES: &[Binding] = &[
     Uniform, Read, Read, Read, Read, Read, Read, Read, Write, Uniform,
 ];
+/// The same, and what samples show.
+pub(super) const TILES_THAT_TELL: &[Binding] = &[
+    Uniform, Read, Read, Read, Read, Read, Read, Read, Write, Uniform, Told,
+];
+/// `paint_main`: frame, joints, strands, words, clumps, discs, what samples show, samples; then images.
+pub(super) const PAINT: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Shown, Write];
+/// `tell`: frame, joints, strands, words, clumps, samples, what they show, planes, which sample.
+pub(super) const TELL: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Shown, Write, Part];
+/// `edges`: frame, planes, discs, rows, samples, settings, which sample.
+pub(super) const EDGES: &[Binding] = &[Uniform, Read, Write, Write, Write, Read, Part];
+/// `mean`: frame, samples, means.
+pub(super) const MEAN: &[Binding] = &[Uniform, Read, Write];
+
+/// The bindings of a program that paints with so many textures.
+pub(super) fn paint_bindings(textures: usize) -> Vec<Binding> {
+    let images = std::iter::repeat_n(Image, textures);
+    PAINT.iter().copied().chain(images).collect()
+}
+
+impl Binding {
+    fn in_wgpu(self) -> wgpu::BindingType {
+        let buffer = |ty, has_dynamic_offset| wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset,
+            min_binding_size: None,
+        };
+        let texture = |sample_type, view_dimension| wgpu::BindingType::Texture {
+            sample_type,
+            view_dimension,
+            multisampled: false,
+        };
+        match self {
+            Uniform => buffer(BufferBindingType::Uniform, false),
+            Part => buffer(BufferBindingType::Uniform, true),
+            Read => buffer(BufferBindingType::Storage { read_only: true }, false),
+            Write => buffer(BufferBindingType::Storage { read_only: false }, false),
+            Told => wgpu::BindingType::StorageTexture {
+                access: wgpu::StorageTextureAccess::WriteOnly,
+                format: wgpu::TextureFormat::Rgba32Uint,
+                view_dimension: wgpu::TextureViewDimension::D2Array,
+            },
+            Shown => texture(
+                wgpu::TextureSampleType::Uint,
+                wgpu::TextureViewDimension::D2Array,
+            ),
+            Image => texture(
+                wgpu::TextureSampleType::Float { filterable: false },
+                wgpu::TextureViewDimension::D2,
+            ),
+        }
+    }
+}
 
 /// A group of that many bindings, for compute shaders.
 pub(super) fn layout(device: &Device, name: &str, bindings: &[Binding]) -> BindGroupLayout {
@@ -32,15 +92,7 @@ pub(super) fn layout(device: &Device, name: &str, bindings: &[Binding]) -> BindG
         .map(|(kind, binding)| wgpu::BindGroupLayoutEntry {
             binding,
             visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: match kind {
-                    Uniform => BufferBindingType::Uniform,
-                    Read => BufferBindingType::Storage { read_only: true },
-                    Write => BufferBindingType::Storage { read_only: false },
-                },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
+            ty: kind.in_wgpu(),
             count: None,
         })
         .collect();

@@ -1,7 +1,9 @@
 //! The text of a compute shader that runs an effect, or the clump, at every joint.
 
+use super::inputs::sample_in_wgsl;
 use super::layout::JointLayout;
-use effects::{ParamKind, ProgramSource};
+use crate::features::{Feature, Features};
+use effects::{PaintSource, ParamKind, ProgramSource};
 use std::fmt::Write as _;
 
 const FRAME: &str = include_str!("../../../../shaders/gpu/frame.wgsl");
@@ -20,9 +22,18 @@ const SEGMENTS: &str = include_str!("../../../../shaders/gpu/segments.wgsl");
 const SURFACES: &str = include_str!("../../../../shaders/gpu/surfaces.wgsl");
 const STRANDS: &str = include_str!("../../../../shaders/gpu/strands.wgsl");
 const TILES: &str = include_str!("../../../../shaders/gpu/tiles.wgsl");
+const TOLD: &str = include_str!("../../../../shaders/gpu/told.wgsl");
+const UNTOLD: &str = include_str!("../../../../shaders/gpu/untold.wgsl");
+const SHOWN: &str = include_str!("../../../../shaders/gpu/shown.wgsl");
+const TELL: &str = include_str!("../../../../shaders/gpu/tell.wgsl");
+const PAINT_MAIN: &str = include_str!("../../../../shaders/gpu/paint_main.wgsl");
+const EDGES: &str = include_str!("../../../../shaders/gpu/edges.wgsl");
+const MEAN: &str = include_str!("../../../../shaders/gpu/mean.wgsl");
 
 /// Words before the parameters of a layer or a clump: `shaders/gpu/joint.wgsl` names them.
-pub(super) const LAYER_WORDS: u32 = 13;
+pub(super) const LAYER_WORDS: u32 = 14;
+/// Of them the one that says where what paints a layer begins.
+pub(super) const PAINT_WORD: usize = 13;
 
 /// The clump's shader.
 pub(super) fn clump(source: &ProgramSource, layout: &JointLayout) -> String {
@@ -60,13 +71,140 @@ pub(super) fn bins() -> String {
     [FRAME, DRAWN, BINS].join("\n")
 }
 
-/// What draws tiles in an order, given by its number in `tiles.wgsl`.
-pub(super) fn tiles(order: u32) -> String {
+/// What draws tiles in an order, given by its number in `tiles.wgsl`, and keeps what samples show where it `tells`.
+pub(super) fn tiles(order: u32, tells: bool) -> String {
     let order = format!("const ORDER: u32 = {order}u;\n");
+    let told = if tells { TOLD } else { UNTOLD };
     [
-        &order, FRAME, DRAWN, SWEEP, SEGMENTS, SURFACES, STRANDS, TILES,
+        &order, told, FRAME, DRAWN, SWEEP, SEGMENTS, SURFACES, STRANDS, TILES,
     ]
     .join("\n")
+}
+
+/// What paints a layer's samples.
+pub(super) fn paint(source: &ProgramSource, paint: &PaintSource, layout: &JointLayout) -> String {
+    [
+        source.wgsl,
+        FRAME,
+        &layout.constants(),
+        JOINT,
+        SHOWN,
+        &params(source),
+        &sample(paint),
+        &images(paint.textures.len()),
+        PAINT_MAIN,
+    ]
+    .join("\n")
+}
+
+/// What fills the planes of those features.
+pub(super) fn tell(features: Features, layout: &JointLayout) -> String {
+    [
+        PRELUDE,
+        FRAME,
+        &layout.constants(),
+        JOINT,
+        SHOWN,
+        &planes(features),
+        TELL,
+    ]
+    .join("\n")
+}
+
+/// What draws lines by the planes of those features: entry points `find`, `grow_along_rows` and `draw_along_columns`, in that order.
+pub(super) fn edges(features: Features) -> String {
+    [PRELUDE, FRAME, &planes(features), EDGES].join("\n")
+}
+
+/// What takes the means of samples: entry point `take_means`.
+pub(super) fn mean() -> String {
+    [FRAME, MEAN].join("\n")
+}
+
+/// Which plane each feature begins at, as WGSL constants: ids first, as [`SamplePlanes`](crate::SamplePlanes) has them.
+fn planes(features: Features) -> String {
+    let mut text = "const GPU_NO_PLANE: u32 = 0xffffffffu;\n".to_owned();
+    let mut next = 0;
+    for is_id in [true, false] {
+        for feature in Feature::ALL.iter().filter(|f| f.is_id() == is_id) {
+            let name = plane_name(*feature);
+            if features.has(*feature) {
+                let _ = writeln!(text, "const GPU_PLANE_{name}: u32 = {next}u;");
+                next += feature.components();
+            } else {
+                let _ = writeln!(text, "const GPU_PLANE_{name}: u32 = GPU_NO_PLANE;");
+            }
+        }
+    }
+    text
+}
+
+fn plane_name(feature: Feature) -> &'static str {
+    match feature {
+        Feature::Object => "OBJECT",
+        Feature::Strand => "STRAND",
+        Feature::Piece => "PIECE",
+        Feature::Layer => "LAYER",
+        Feature::Level => "LEVEL",
+        Feature::InvDepth => "INV_DEPTH",
+        Feature::U => "U",
+        Feature::S => "S",
+        Feature::V => "V",
+        Feature::W => "W",
+        Feature::Pixels => "PIXELS",
+        Feature::Normal => "NORMAL",
+        Feature::Color => "COLOR",
+    }
+}
+
+/// `gpu_sample`, what a program that paints reads of a sample, and `gpu_painted`, the sample's colour.
+fn sample(paint: &PaintSource) -> String {
+    let inputs: Vec<&str> = paint.inputs.iter().map(|i| sample_in_wgsl(*i)).collect();
+    let texel = match paint.places {
+        true => "gpu_texel(place(at, params)), ",
+        false => "",
+    };
+    format!(
+        "fn gpu_sample(p: GpuPoint, color: vec3<f32>) -> Sample {{\n    return Sample({});\n}}\n\
+         fn gpu_painted(at: Sample, params: Params) -> vec3<f32> {{\n    return paint(at, {texel}params);\n}}\n",
+        inputs.join(", ")
+    )
+}
+
+/// First binding of images.
+pub(super) const IMAGES_AT: u32 = 8;
+
+/// As many images as there are textures, and functions that take their number.
+fn images(count: usize) -> String {
+    let mut text = format!("const GPU_TEXTURE_COUNT: u32 = {count}u;\n");
+    let mut functions = [
+        "fn gpu_image_levels(image: u32) -> u32 {\n    switch image {\n".to_owned(),
+        "fn gpu_image_size(image: u32, level: u32) -> vec2<u32> {\n    switch image {\n".to_owned(),
+        "fn gpu_image_texel(image: u32, level: u32, at: vec2<u32>) -> vec4<f32> {\n    switch image {\n"
+            .to_owned(),
+    ];
+    for (image, binding) in (0..count).zip(IMAGES_AT..) {
+        let _ = writeln!(
+            text,
+            "@group(0) @binding({binding}) var gpu_image_{image}: texture_2d<f32>;"
+        );
+        let values = [
+            format!("textureNumLevels(gpu_image_{image})"),
+            format!("textureDimensions(gpu_image_{image}, level)"),
+            format!("textureLoad(gpu_image_{image}, at, level)"),
+        ];
+        for (function, value) in functions.iter_mut().zip(values) {
+            let _ = writeln!(function, "        case {image}u: {{ return {value}; }}");
+        }
+    }
+    let none = ["1u", "vec2<u32>(1u)", "vec4<f32>(0.0)"];
+    for (function, none) in functions.iter().zip(none) {
+        let _ = write!(
+            text,
+            "{function}        default: {{ return {none}; }}\n    }}\n}}\n"
+        );
+    }
+    text
 }
 
 /// What puts a frame into a render pass with so many samples.
@@ -83,17 +221,22 @@ pub(super) fn compose(samples: u32) -> String {
 fn gather(source: &ProgramSource, layout: &JointLayout) -> String {
     let inputs = source.inputs.iter().map(|input| layout.input(*input));
     let inputs: Vec<String> = inputs.collect();
-    let mut text = format!(
-        "fn gpu_inputs(joint: u32) -> Inputs {{\n    return Inputs({});\n}}\n",
-        inputs.join(", ")
-    );
+    format!(
+        "fn gpu_inputs(joint: u32) -> Inputs {{\n    return Inputs({});\n}}\n{}",
+        inputs.join(", "),
+        params(source)
+    )
+}
+
+/// `gpu_params`: an effect's parameters at a place along a joint's strand.
+fn params(source: &ProgramSource) -> String {
     let mut at = LAYER_WORDS;
     let mut params = Vec::new();
     for (index, param) in source.params.iter().enumerate() {
         let words = match param.kind {
             ParamKind::Number { .. } if source.varying.contains(&index) => {
                 params.push(format!(
-                    "gpu_varied({LAYER_WORDS}u + gpu_words[{at}u], gpu_scalar(joint, GPU_AT_U), gpu_seed(joint))"
+                    "gpu_varied({LAYER_WORDS}u + gpu_words[{at}u], u, gpu_seed(joint))"
                 ));
                 1
             }
@@ -130,12 +273,10 @@ fn gather(source: &ProgramSource, layout: &JointLayout) -> String {
         };
         at += words;
     }
-    let _ = writeln!(
-        text,
-        "fn gpu_params(joint: u32) -> Params {{\n    return Params({});\n}}",
+    format!(
+        "fn gpu_params(joint: u32, u: f32) -> Params {{\n    return Params({});\n}}\n",
         params.join(", ")
-    );
-    text
+    )
 }
 
 fn vector(size: u32, at: u32) -> String {

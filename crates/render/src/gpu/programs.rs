@@ -15,7 +15,8 @@ pub(super) struct Programs {
     pub(super) layouts: Layouts,
     /// In the order in which they run.
     pub(super) bins: Vec<ComputePipeline>,
-    pub(super) tiles: Option<(Order, ComputePipeline)>,
+    /// By the order, and whether samples are kept with what they show.
+    pub(super) tiles: Option<((Order, bool), ComputePipeline)>,
     /// One for each object.
     pub(super) clumps: Vec<JointProgram>,
     /// One for each layer of each object.
@@ -61,6 +62,7 @@ pub(super) struct Layouts {
     pub(super) smooth: BindGroupLayout,
     pub(super) bins: BindGroupLayout,
     pub(super) tiles: BindGroupLayout,
+    pub(super) tiles_that_tell: BindGroupLayout,
 }
 
 impl Programs {
@@ -73,6 +75,7 @@ impl Programs {
             smooth: of("smooth", pipelines::SMOOTH),
             bins: of("bins", pipelines::BINS),
             tiles: of("tiles", pipelines::TILES),
+            tiles_that_tell: of("tiles", pipelines::TILES_THAT_TELL),
         };
         let entry_points = [
             "count_chunks",
@@ -172,9 +175,15 @@ impl Programs {
         Ok(change)
     }
 
-    /// Makes the pipeline that draws tiles in that order; says how many that took.
-    pub(super) fn draw_in(&mut self, device: &Device, order: Order) -> Result<usize, GpuError> {
-        if self.tiles.as_ref().is_some_and(|(made, _)| *made == order) {
+    /// Makes the pipeline that draws tiles in that order, and keeps what samples show where it `tells`; says how many that took.
+    pub(super) fn draw_in(
+        &mut self,
+        device: &Device,
+        order: Order,
+        tells: bool,
+    ) -> Result<usize, GpuError> {
+        let is_it = |(made, _): &(_, _)| *made == (order, tells);
+        if self.tiles.as_ref().is_some_and(is_it) {
             return Ok(0);
         }
         let number = match order {
@@ -182,9 +191,14 @@ impl Programs {
             Order::StrandFirst => 1,
             Order::Shifted => 2,
         };
-        let text = program::tiles(number);
-        let made = pipelines(device, "tiles", &text, &self.layouts.tiles, &["draw_tile"])?;
-        self.tiles = made.into_iter().next().map(|pipeline| (order, pipeline));
+        let text = program::tiles(number, tells);
+        let layout = match tells {
+            true => &self.layouts.tiles_that_tell,
+            false => &self.layouts.tiles,
+        };
+        let made = pipelines(device, "tiles", &text, layout, &["draw_tile"])?;
+        let made = made.into_iter().next();
+        self.tiles = made.map(|pipeline| ((order, tells), pipeline));
         Ok(1)
     }
 }
@@ -231,7 +245,7 @@ fn take(
     })
 }
 
-fn one_pipeline(
+pub(super) fn one_pipeline(
     device: &Device,
     name: &str,
     text: &str,

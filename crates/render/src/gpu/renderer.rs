@@ -7,10 +7,14 @@ use super::error::GpuError;
 use super::layout::{CLUMP_BYTES, GpuFrame, TILE, WORKGROUP};
 use super::programs::Programs;
 use super::report::Report;
+use super::samples::{self, SampleStage, Wanted, pixels, whole};
 use super::scene::SceneWords;
 use crate::check;
 use crate::drawing::Drawing;
+use crate::edges::Edges;
+use crate::features::Features;
 use crate::frame::Frame;
+use crate::planes::ALWAYS;
 use crate::samples::sample_positions;
 use wgpu::{BindGroup, BindGroupLayout, ComputePipeline, Device, Queue};
 
@@ -19,11 +23,11 @@ use wgpu::{BindGroup, BindGroupLayout, ComputePipeline, Device, Queue};
 pub struct GpuStats {
     /// Pipelines alive.
     pub pipelines: usize,
-    /// Buffers alive.
+    /// Buffers and textures alive.
     pub buffers: usize,
     /// Their bytes.
     pub bytes: u64,
-    /// Buffers and pipelines that the last frame had to make: none once warm.
+    /// Buffers, textures and pipelines that the last frame had to make: none once warm.
     pub made: usize,
     /// Whether the tiles' lists were too short in the last frame that was read back: it took longer, and was drawn as
     /// it should be. The next one's are longer.
@@ -49,6 +53,8 @@ enum Keeps {
     Means,
     /// Every sample's colour and depth.
     Samples,
+    /// The same, and what they show; as they are before passes.
+    Features,
 }
 
 /// Draws frames on a device. Long-lived: it keeps pipelines and buffers from frame to frame.
@@ -58,6 +64,8 @@ pub struct Renderer {
     scene: SceneWords,
     buffers: Buffers,
     programs: Programs,
+    /// Where samples are painted, drawn on, or tell what they show.
+    samples: Option<SampleStage>,
     groups: Option<Groups>,
     composer: Option<Composer>,
     /// Entries that the tiles' lists needed in the last frame that is known of: chunks, triangles.
@@ -68,15 +76,28 @@ pub struct Renderer {
     stats: GpuStats,
 }
 
-/// Refuses what no compute shader draws yet.
-fn check_supported(frame: &Frame) -> Result<(), GpuError> {
+/// What is wanted of a frame's samples beside their colours; nothing where that is nothing.
+fn wanted(frame: &Frame, samples: u32, keeps: Keeps) -> Option<Wanted> {
     let mut layers = frame.objects.iter().flat_map(|object| object.layers);
-    if let Some(layer) = layers.find(|layer| layer.program.paints().is_some()) {
-        let what = format!("the layer \"{}\", which paints samples,", layer.name);
+    let is_painted = layers.any(|layer| layer.program.paints().is_some());
+    let of_passes = frame.passes.iter().map(Edges::features);
+    let tells = match keeps {
+        Keeps::Features => frame.all_features().union(ALWAYS),
+        Keeps::Means | Keeps::Samples => of_passes.fold(Features::NONE, Features::union),
+    };
+    (is_painted || !tells.is_empty()).then_some(Wanted {
+        size: frame.camera.size_px(),
+        samples,
+        tells,
+        means: keeps == Keeps::Means,
+    })
+}
+
+/// Refuses what is drawn of frames alone.
+fn check_supported(drawing: &Drawing) -> Result<(), GpuError> {
+    if !drawing.painting.is_empty() || !drawing.passes.is_empty() {
+        let what = "a drawing of strokes with painted layers or passes".to_owned();
         return Err(GpuError::Unsupported(what));
-    }
-    if !frame.passes.is_empty() {
-        return Err(GpuError::Unsupported("the section `passes`".to_owned()));
     }
     Ok(())
 }
@@ -103,6 +124,7 @@ impl Renderer {
             scene: SceneWords::default(),
             buffers: Buffers::new(),
             programs: Programs::new(device)?,
+            samples: None,
             groups: None,
             composer: None,
             entries_needed: [0; 2],
@@ -119,10 +141,12 @@ impl Renderer {
         let programs = self.programs.clumps.iter().chain(&self.programs.layers);
         let buffers = buffers.chain(programs.map(|program| &program.words));
         let alive = buffers.filter(|buffer| buffer.size() > 0);
+        let of_samples = self.samples.iter().flat_map(SampleStage::bytes);
+        let pipelines = self.samples.as_ref().map_or(0, SampleStage::pipelines);
         GpuStats {
-            pipelines: self.programs.count() + usize::from(self.composer.is_some()),
-            buffers: alive.clone().count(),
-            bytes: alive.map(Growing::size).sum(),
+            pipelines: self.programs.count() + pipelines + usize::from(self.composer.is_some()),
+            buffers: alive.clone().count() + of_samples.clone().count(),
+            bytes: alive.map(Growing::size).chain(of_samples).sum(),
             ..self.stats
         }
     }
@@ -186,7 +210,38 @@ impl Renderer {
 
     /// The drawn pixels: red, green, blue and alpha.
     pub(super) fn picture(&self) -> Option<&wgpu::Buffer> {
-        self.buffers.picture.get()
+        let means = self.samples.as_ref().and_then(SampleStage::means);
+        means.or(self.buffers.picture.get())
+    }
+
+    /// Records the samples of a frame, which [`Self::tell`] tells of.
+    pub(super) fn draw_samples(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &Frame,
+        samples: u32,
+    ) -> Result<(), GpuError> {
+        self.draw(encoder, Source::Frame(frame), samples, Keeps::Features)
+            .map(|_| ())
+    }
+
+    /// Records the features of one of the samples that were drawn, which the buffer holds once the encoder has been submitted: plane after
+    /// plane, ids first.
+    pub(super) fn tell(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        size: [u32; 2],
+        sample: u32,
+    ) -> Result<&wgpu::Buffer, GpuError> {
+        let stage = self.samples.as_ref().ok_or(GpuError::Memory)?;
+        let group = stage.tell_group(&self.device, &self.buffers)?;
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("features"),
+            timestamp_writes: None,
+        });
+        stage.tell(&mut pass, &group, size, sample);
+        drop(pass);
+        stage.planes().ok_or(GpuError::Memory)
     }
 
     /// Records all passes of a frame. Whether there are other buffers than before.
@@ -204,13 +259,17 @@ impl Renderer {
             Source::Frame(frame) => {
                 let size = frame.camera.size_px();
                 frame.check()?;
-                check_supported(frame)?;
-                self.scene.fill(frame);
+                let wanted = wanted(frame, samples, keeps);
+                let tells = wanted.map_or(Features::NONE, |wanted| wanted.tells);
+                self.scene.fill(frame, tells);
                 self.follow(frame)?;
+                self.follow_samples(frame, wanted, keeps)?;
                 (size, frame.order, GpuFrame::of_frame(frame))
             }
             Source::Drawing(drawing) => {
                 check::check(drawing)?;
+                check_supported(drawing)?;
+                self.samples = None;
                 self.scene.fill_drawing(drawing);
                 self.programs.clumps.clear();
                 self.programs.layers.clear();
@@ -219,16 +278,15 @@ impl Renderer {
                 (drawing.size, drawing.order, settings)
             }
         };
-        self.stats.made += self.programs.draw_in(&self.device, order)?;
+        let tells = self.samples.is_some();
+        self.stats.made += self.programs.draw_in(&self.device, order, tells)?;
 
         let tiles = size.map(|side| side.div_ceil(TILE));
         let tile_count = u64::from(tiles[0]) * u64::from(tiles[1]);
         let [chunk_capacity, triangle_capacity] = self.capacities(tile_count);
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
-        let values = match keeps {
-            Keeps::Means => pixels,
-            Keeps::Samples => pixels * u64::from(samples),
-        };
+        let has_samples = tells || keeps != Keeps::Means;
+        let in_pixel = if has_samples { samples } else { 1 };
+        let values = pixels(size) * u64::from(in_pixel);
         let settings = GpuFrame {
             size,
             tiles,
@@ -238,7 +296,7 @@ impl Renderer {
             chunk_capacity,
             triangle_capacity,
             surfaces_at: self.scene.surfaces_at,
-            writes_samples: u32::from(keeps == Keeps::Samples),
+            writes_samples: u32::from(has_samples),
             ..settings
         };
         self.write_buffers(&settings, &places, tile_count, values * 16)?;
@@ -250,7 +308,7 @@ impl Renderer {
         if self.report.is_free() {
             self.list_capacity = [chunk_capacity, triangle_capacity];
         }
-        self.record(encoder, &groups, &settings);
+        self.record(encoder, &groups, &settings)?;
         self.groups = Some(groups);
         Ok(is_new)
     }
@@ -288,6 +346,38 @@ impl Renderer {
         if self.programs.smooth.is_none() {
             self.buffers.windows.drop_buffer();
         }
+        Ok(())
+    }
+
+    /// Makes and drops what samples need beside their colours.
+    fn follow_samples(
+        &mut self,
+        frame: &Frame,
+        wanted: Option<Wanted>,
+        keeps: Keeps,
+    ) -> Result<(), GpuError> {
+        // What the tiles bind is another with and without samples that are kept; should those not fit, it is made anew.
+        let (before, groups) = (self.samples.take(), self.groups.take());
+        let had_samples = before.is_some();
+        let Some(wanted) = wanted else {
+            self.groups = groups.filter(|_| !had_samples);
+            return Ok(());
+        };
+        let mut stage = match before {
+            Some(stage) => stage,
+            None => SampleStage::new(&self.device, wanted)?,
+        };
+        let passes = match keeps {
+            Keeps::Features => &[][..],
+            Keeps::Means | Keeps::Samples => &frame.passes,
+        };
+        let was_shown = stage.shown().clone();
+        let (device, queue) = (&self.device, &self.queue);
+        let made = stage.follow(device, queue, frame, passes, &self.scene, wanted)?;
+        let is_same = had_samples && *stage.shown() == was_shown;
+        self.groups = groups.filter(|_| is_same);
+        self.stats.made += made + usize::from(!had_samples);
+        self.samples = Some(stage);
         Ok(())
     }
 
@@ -364,18 +454,9 @@ impl Renderer {
     fn make_groups(&self) -> Result<Groups, GpuError> {
         let b = &self.buffers;
         let group = |layout: &BindGroupLayout, buffers: &[&Growing]| {
-            let entries: Option<Vec<_>> = (buffers.iter().zip(0..))
-                .map(|(buffer, binding)| {
-                    let resource = buffer.get()?.as_entire_binding();
-                    Some(wgpu::BindGroupEntry { binding, resource })
-                })
-                .collect();
-            let entries = entries.ok_or(GpuError::Memory)?;
-            Ok::<_, GpuError>(self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout,
-                entries: &entries,
-            }))
+            let bound = buffers.iter().copied().map(whole);
+            let bound = bound.collect::<Result<Vec<_>, GpuError>>()?;
+            Ok::<_, GpuError>(samples::group(&self.device, layout, bound))
         };
         let bound = |program| {
             [
@@ -405,20 +486,37 @@ impl Renderer {
         let mut tiles = bins.clone();
         bins.extend([&b.counters, &b.starts, &b.entries]);
         tiles.extend([&b.starts, &b.entries, &b.picture, &b.sample_places]);
+        let mut tiles = tiles
+            .into_iter()
+            .map(whole)
+            .collect::<Result<Vec<_>, _>>()?;
+        let layouts = &self.programs.layouts;
+        let tiles_layout = match &self.samples {
+            Some(stage) => {
+                tiles.push(wgpu::BindingResource::TextureView(stage.shown()));
+                &layouts.tiles_that_tell
+            }
+            None => &layouts.tiles,
+        };
         Ok(Groups {
             clumps: clumps.collect::<Result<_, GpuError>>()?,
             layers: layers.collect::<Result<_, GpuError>>()?,
             bins: group(&self.programs.layouts.bins, &bins)?,
-            tiles: group(&self.programs.layouts.tiles, &tiles)?,
+            tiles: samples::group(&self.device, tiles_layout, tiles),
         })
     }
 
-    fn record(&self, encoder: &mut wgpu::CommandEncoder, groups: &Groups, frame: &GpuFrame) {
+    fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        groups: &Groups,
+        frame: &GpuFrame,
+    ) -> Result<(), GpuError> {
         if let Some(counters) = self.buffers.counters.get() {
             encoder.clear_buffer(counters, 0, None);
         }
         let Some((_, tiles)) = &self.programs.tiles else {
-            return;
+            return Ok(());
         };
         let begin = |encoder: &mut wgpu::CommandEncoder, label, stage| {
             encoder
@@ -487,11 +585,16 @@ impl Renderer {
         pass.set_bind_group(0, &groups.tiles, &[]);
         pass.set_pipeline(tiles);
         pass.dispatch_workgroups(frame.tiles[0], frame.tiles[1], 1);
+        if let Some(stage) = &self.samples {
+            let (buffers, programs) = (&self.buffers, &self.programs);
+            stage.record(&self.device, &mut pass, buffers, programs, frame)?;
+        }
         drop(pass);
 
         if let Some(starts) = self.buffers.starts.get() {
             self.report.record(encoder, starts, frame.tiles);
         }
+        Ok(())
     }
 
     /// Takes in what the card tells of a frame before, if it is there.

@@ -1,10 +1,12 @@
 //! A frame, or a drawing whose strokes are made already, as the words that a graphics card reads.
 
 use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
-use super::program::LAYER_WORDS;
+use super::program::{LAYER_WORDS, PAINT_WORD};
 use crate::drawing::{Disc, Drawing, Surface};
+use crate::features::{Feature, Features};
 use crate::frame::{Frame, Head, Object};
-use effects::{CLUMP_DISCS, InputSet, Layer, Units, layer_seed};
+use crate::painting;
+use effects::{CLUMP_DISCS, Input, InputSet, Layer, PaintSource, Texture, Units, layer_seed};
 use std::ops::Range;
 
 /// Words of a stroke's record in the tables.
@@ -47,7 +49,12 @@ pub(super) struct ClumpScene {
 pub(super) struct LayerScene {
     /// What it is, then its parameters.
     pub(super) words: Vec<u32>,
-    /// Joints that it draws on.
+    /// The object that it is a layer of.
+    pub(super) object: usize,
+    /// The first of its discs.
+    pub(super) first_disc: usize,
+    /// The first joint that it draws on, and how many.
+    pub(super) first_joint: usize,
     pub(super) joints: usize,
     pub(super) instances: u32,
     pub(super) is_smoothed: bool,
@@ -88,17 +95,18 @@ impl Drawn {
 }
 
 impl SceneWords {
-    /// Takes the frame apart, in place of the one before.
-    pub(super) fn fill(&mut self, frame: &Frame) {
+    /// Takes the frame apart, in place of the one before, so that samples can tell these features.
+    pub(super) fn fill(&mut self, frame: &Frame, tells: Features) {
         let is_smoothed = |layer: &Layer| layer.program.shortest() > 0.0;
         let mut layers = frame.objects.iter().flat_map(|object| object.layers);
         let needs = Needs {
             inputs: (frame.objects.iter())
-                .map(Object::inputs)
-                .fold(InputSet::default(), InputSet::union),
+                .map(|object| object.inputs().union(painting::inputs(object)))
+                .fold(joint_inputs(tells), InputSet::union),
             has_material_normals: !frame.material_normals.is_empty(),
             is_smoothed: layers.any(is_smoothed),
             is_semicircle: frame.brush == crate::Brush::Semicircle,
+            has_pieces: tells.has(Feature::Piece),
         };
         self.layout = JointLayout::new(needs);
         self.seen_length.clear();
@@ -188,6 +196,7 @@ impl SceneWords {
             self.strands.extend(numbers);
             let colors = strand.colors.iter().flat_map(|color| color.to_array());
             self.strands.extend(colors.map(f32::to_bits));
+            self.strands.push(strand.level);
         }
     }
 
@@ -213,18 +222,22 @@ impl SceneWords {
         self.discs = frame.paths.len() * CLUMP_DISCS as usize;
         self.layers.resize_with(count, Default::default);
         let mut placed = Vec::new();
-        let layers = frame.objects.iter().flat_map(|object| {
+        let objects = frame.objects.iter().enumerate();
+        let layers = objects.flat_map(|(number, object)| {
             let layers = object.layers.iter().zip(object.layer_joints);
-            layers.map(move |(layer, joints)| (object, layer, joints))
+            layers.map(move |(layer, joints)| (number, object, layer, joints))
         });
-        for (index, (object, layer, joints)) in layers.enumerate() {
+        for (index, (number, object, layer, joints)) in layers.enumerate() {
             let scene = &mut self.layers[index];
             let shortest = layer.program.shortest();
             scene.joints = joints.len();
             scene.instances = layer.program.instances();
             scene.is_smoothed = shortest > 0.0;
             let first_disc = self.discs;
-            self.discs += scene.joints * scene.instances as usize;
+            (scene.object, scene.first_disc) = (number, first_disc);
+            scene.first_joint = joints.start;
+            let discs = scene.joints * scene.instances as usize;
+            self.discs += discs;
             scene.words.clear();
             scene.words.extend([
                 layer_seed(object.seed, &layer.name),
@@ -238,7 +251,13 @@ impl SceneWords {
                 u32::from(layer.program.has_own_paths()),
             ]);
             push_head(&mut scene.words, object.head);
-            scene.words.extend(layer.program.source().words);
+            let source = layer.program.source();
+            scene.words.extend(source.words);
+            if let Some(paint) = source.paint {
+                let eye_to_head = frame.camera.view_from_world(object.head.center).z;
+                let head_depth = eye_to_head / object.head.height_m;
+                push_paint(&mut scene.words, discs as u32, head_depth, &paint);
+            }
             placed.push(Placed {
                 rank: layer.rank,
                 layer: index,
@@ -370,7 +389,42 @@ impl SceneWords {
 fn push_head(words: &mut Vec<u32>, head: Head) {
     let [x, y, z] = head.center.to_array();
     words.extend([x, y, z, head.height_m, head.unit_m()].map(f32::to_bits));
+    words.push(0);
     debug_assert_eq!(words.len(), LAYER_WORDS as usize);
+}
+
+/// Adds what `shaders/gpu/paint_main.wgsl` knows of a layer and its textures, and notes where that begins.
+fn push_paint(words: &mut Vec<u32>, discs: u32, head_depth: f32, paint: &PaintSource) {
+    const TEXTURE_WORDS: usize = 3;
+    words[PAINT_WORD] = words.len() as u32;
+    words.extend([discs, head_depth.to_bits()]);
+    let table = words.len();
+    words.resize(table + TEXTURE_WORDS * paint.textures.len(), 0);
+    for (place, (texture, repeats)) in (table..).step_by(TEXTURE_WORDS).zip(paint.textures) {
+        let [kind, gradient] = match texture {
+            Texture::None | Texture::File(_) => [0, 0],
+            Texture::Ramp(ramp) => {
+                let start = words.len() as u32;
+                words.extend(ramp.words());
+                [1, start]
+            }
+            Texture::Image { .. } => [2, 0],
+        };
+        words[place..place + TEXTURE_WORDS].copy_from_slice(&[kind, gradient, (*repeats).into()]);
+    }
+}
+
+/// What is read of joints so that samples can tell these features.
+fn joint_inputs(tells: Features) -> InputSet {
+    let inputs: &[(Feature, &[Input])] = &[
+        (Feature::U, &[Input::U]),
+        (Feature::S, &[Input::ArcLength]),
+        (Feature::Normal, &[Input::Forward, Input::Backward]),
+    ];
+    let needed = inputs.iter().filter(|(feature, _)| tells.has(*feature));
+    needed.fold(InputSet::default(), |all, (_, inputs)| {
+        all.union(InputSet::of(inputs))
+    })
 }
 
 /// A `GpuDisc`.

@@ -5,7 +5,7 @@ use glam::Vec2;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{Drawing, Picture, Surface, SurfaceVertex};
 
-fn on_cpu(scene: &Scene, samples: u32) -> Picture {
+pub fn on_cpu(scene: &Scene, samples: u32) -> Picture {
     let mut drawing = Drawing::default();
     Evaluator::default()
         .evaluate(&scene.frame(), &mut drawing)
@@ -17,7 +17,7 @@ fn on_cpu(scene: &Scene, samples: u32) -> Picture {
 }
 
 /// The share of pixels of which a channel differs by more than that.
-fn share_beyond(a: &Picture, b: &Picture, step: f32) -> f64 {
+pub fn share_beyond(a: &Picture, b: &Picture, step: f32) -> f64 {
     assert_eq!((a.width, a.height), (b.width, b.height));
     let differs = |(a, b): (&[f32; 4], &[f32; 4])| (0..4).any(|i| (a[i] - b[i]).abs() > step);
     let count = a

@@ -7,5 +7,6 @@ mod agree;
 mod faults;
 mod inputs;
 mod prelude;
+mod samples;
 mod scene;
 mod warm;

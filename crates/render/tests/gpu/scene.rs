@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3, vec2};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
 use render::{
-    Brush, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo, Surface,
-    SurfaceVertex,
+    Brush, Edges, Features, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo,
+    Surface, SurfaceVertex,
 };
 use std::iter;
 use std::ops::Range;
@@ -28,6 +28,8 @@ pub struct Scene {
     pub background: Option<[f32; 3]>,
     pub order: Order,
     pub brush: Brush,
+    pub features: Features,
+    pub passes: Vec<Edges>,
     pub seed: u32,
 }
 
@@ -39,6 +41,11 @@ pub struct Second {
 }
 
 impl Second {
+    /// How many layers it has.
+    pub fn layers(&self) -> usize {
+        self.layer_joints.len()
+    }
+
     /// Takes a layer away, which the first object has no more.
     pub fn drop_layer(&mut self, layer: usize) {
         self.layer_joints.remove(layer);
@@ -57,6 +64,7 @@ pub const ALL_EFFECTS: &str = "[
 pub fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     registry
 }
 
@@ -125,7 +133,9 @@ impl Scene {
             let cuts = stroke_path::cuts(&points, kind, 0.02).unwrap();
             assert_eq!(cuts.is_empty(), i != 7, "strand {i}: {} cuts", cuts.len());
             let mean = points.iter().sum::<Vec3>() / points.len() as f32;
-            paths.push_pieces(i, &points, &cuts, kind, &camera).unwrap();
+            paths
+                .push_pieces(i, &points, &cuts, None, kind, &camera)
+                .unwrap();
             let [red, blue] = [Vec3::new(0.8, 0.1, 0.1), Vec3::new(0.1, 0.2, 0.7)];
             let colors = [
                 [NO_COLOR; 2],
@@ -140,7 +150,7 @@ impl Scene {
                 size: numbers.around(9.0, 8.0),
                 taper: tapers[i % tapers.len()],
                 colors: colors[i % colors.len()],
-                level: 0,
+                level: i as u32 % 3,
                 lift: 0.0,
             });
         }
@@ -213,6 +223,8 @@ impl Scene {
             } else {
                 Brush::Semicircle
             },
+            features: Features::NONE,
+            passes: Vec::new(),
             seed,
         }
     }
@@ -294,9 +306,9 @@ impl Scene {
             order: self.order,
             edge_depth_m: 0.005,
             brush: self.brush,
-            features: render::Features::NONE,
-            roundness: 1.0,
-            passes: Vec::new(),
+            features: self.features,
+            roundness: 0.7,
+            passes: self.passes.clone(),
         }
     }
 }

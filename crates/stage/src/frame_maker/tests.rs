@@ -11,12 +11,17 @@ use std::path::Path;
 
 /// A yardstick's scene, in a small picture.
 fn yardstick(name: &str) -> Scene {
+    yardstick_of(name, [96, 72])
+}
+
+/// A yardstick's scene, in a picture of that size in pixels.
+fn yardstick_of(name: &str, size: [u32; 2]) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/yardsticks");
     let text = std::fs::read_to_string(folder.join(name).with_extension("ron")).unwrap();
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     let mut preset = Preset::parse(name, &text, &registry).unwrap();
-    preset.sections.scene.size = [96, 72];
+    preset.sections.scene.size = size;
     let files = Files {
         preset_folder: folder,
         ..Files::default()
@@ -61,7 +66,7 @@ proptest! {
 
 #[test]
 fn strokes_behind_the_head_are_not_worked_out() {
-    let mut scene = yardstick("short-ash");
+    let mut scene = yardstick_of("short-ash", [480, 360]);
     let motion = Motion::new();
     let discs = |scene: &Scene, mut evaluator: Evaluator| {
         let mut frames = FrameMaker::new();
@@ -109,6 +114,18 @@ fn hair_far_off_the_picture_is_not_looked_at() {
         Evaluator::everywhere(),
     );
     assert!(some > 0 && some < every, "{some} of {every}");
+}
+
+#[test]
+fn a_small_picture_takes_fewer_joints() {
+    let motion = Motion::new();
+    let joints = |size| {
+        let (scene, mut frames) = (yardstick_of("blond-fantasy", size), FrameMaker::new());
+        let joints = frames.frame(&scene, &motion).unwrap().paths.len();
+        joints
+    };
+    let sizes = [[96, 72], [960, 720], [3840, 2880]].map(joints);
+    assert!(3 * sizes[0] < sizes[2] && sizes[1] < sizes[2], "{sizes:?}");
 }
 
 /// Three strands on the bust.

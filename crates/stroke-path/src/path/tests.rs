@@ -369,7 +369,7 @@ proptest! {
             let middle = (2 * particles.len()).saturating_sub(2) / 2;
             let cut = Cut { at: middle, overlap: middle..=middle };
             let cuts = if particles.len() > 2 { vec![cut] } else { Vec::new() };
-            paths.push_pieces(strand, particles, &cuts, SPLINE, &camera(0.5)).unwrap();
+            paths.push_pieces(strand, particles, &cuts, None, SPLINE, &camera(0.5)).unwrap();
         };
         let (mut whole, mut start, mut rest) = (Paths::new(), Paths::new(), Paths::new());
         for strand in 0..strands.len() {

@@ -99,8 +99,10 @@ impl Painter {
                 }
                 Some((Err(error), _)) => {
                     self.problem = Some(falls_back(&error));
-                    // What it can't draw of one look it may draw of the next.
-                    if !matches!(error, GpuError::Unsupported(_)) {
+                    // What is too large of one look may fit of the next.
+                    let is_of_frame =
+                        matches!(error, GpuError::TooLarge { .. } | GpuError::Limit { .. });
+                    if !is_of_frame {
                         *card = None;
                     }
                 }

@@ -15,7 +15,7 @@ fn ringlet() -> Vec<Vec3> {
 fn pushed(strands: &[(usize, &[Cut])], near_m: f32) -> Paths {
     let mut paths = Paths::new();
     for (strand, cuts) in strands {
-        let pushed = paths.push_pieces(*strand, &ringlet(), cuts, SPLINE, &camera(near_m));
+        let pushed = paths.push_pieces(*strand, &ringlet(), cuts, None, SPLINE, &camera(near_m));
         pushed.unwrap();
     }
     paths
@@ -117,7 +117,7 @@ fn the_near_plane_cuts_pieces_as_it_cuts_the_strand() {
 fn cuts_of_another_strand_are_refused() {
     let cuts = cuts(&ringlet(), SPLINE, 0.2).unwrap();
     let mut paths = Paths::new();
-    let pushed = paths.push_pieces(0, &ringlet()[..30], &cuts, SPLINE, &camera(0.5));
+    let pushed = paths.push_pieces(0, &ringlet()[..30], &cuts, None, SPLINE, &camera(0.5));
     assert_eq!(pushed, Err(PathError::Cut));
     assert!(paths.is_empty());
 }

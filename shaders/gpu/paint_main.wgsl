@@ -1,0 +1,168 @@
+// The colours of the samples that show a layer that paints: composed with the effect's own text, behind shown.wgsl.
+
+@group(0) @binding(5) var<storage, read> gpu_discs: array<GpuDisc>;
+/// The samples' colours, and their inverse depths.
+@group(0) @binding(7) var<storage, read_write> gpu_samples: array<vec4<f32>>;
+
+/// What a layer that paints has among its words, from where `GPU_PAINT` says: how many discs it has, how far the head's middle is from
+/// the eye (head heights), then of each texture its kind, where its gradient begins, and 1 where it repeats.
+const GPU_DISC_COUNT: u32 = 0u;
+const GPU_HEAD_DEPTH: u32 = 1u;
+const GPU_TEXTURES: u32 = 2u;
+const GPU_TEXTURE_WORDS: u32 = 3u;
+
+const GPU_IS_GRADIENT: u32 = 1u;
+const GPU_IS_IMAGE: u32 = 2u;
+
+fn gpu_paint_word(place: u32) -> u32 {
+    return gpu_words[gpu_words[GPU_PAINT] + place];
+}
+
+/// Unit vector of a sample's stroke as a round tube.
+fn gpu_tube(p: GpuPoint) -> vec3<f32> {
+    let to_eye = gpu_between3(p, gpu_view_direction(p.joint), gpu_view_direction(p.next));
+    let otherwise = unit_or(to_eye, vec3<f32>(0.0, 0.0, 1.0));
+    return gpu_tube_normal(gpu_vec3_at(p, GPU_AT_FORWARD), to_eye, p.w, otherwise);
+}
+
+/// The colour at place `x` of a gradient's row.
+fn gpu_row_at(gradient: u32, row: u32, x: f32) -> vec3<f32> {
+    let words = gradient + 1u + 4u * row;
+    let first = gradient + gpu_words[words + 2u];
+    let end = gradient + gpu_words[words + 3u];
+    var next = first;
+    while (next < end && gpu_word(next) <= x) {
+        next += 4u;
+    }
+    let before = max(next, first + 4u) - 4u;
+    let start = vec3<f32>(gpu_word(before + 1u), gpu_word(before + 2u), gpu_word(before + 3u));
+    if (next == end || next == first || gpu_words[words + 1u] != 0u) {
+        return start;
+    }
+    let share = (x - gpu_word(before)) / (gpu_word(next) - gpu_word(before));
+    return start + (vec3<f32>(gpu_word(next + 1u), gpu_word(next + 2u), gpu_word(next + 3u)) - start) * share;
+}
+
+/// The colour of a gradient's rows.
+fn gpu_gradient_at(gradient: u32, at: vec2<f32>) -> vec3<f32> {
+    let count = gpu_words[gradient];
+    var next = 0u;
+    while (next < count && gpu_word(gradient + 1u + 4u * next) <= at.y) {
+        next++;
+    }
+    let before = max(next, 1u) - 1u;
+    let color = gpu_row_at(gradient, before, at.x);
+    if (next == count || next == 0u) {
+        return color;
+    }
+    let start = gpu_word(gradient + 1u + 4u * before);
+    let share = (at.y - start) / (gpu_word(gradient + 1u + 4u * next) - start);
+    return color + (gpu_row_at(gradient, next, at.x) - color) * share;
+}
+
+/// The two texels nearest to a place along a side, and how far it is from the first's middle to the second's.
+struct GpuNearest {
+    first: u32,
+    second: u32,
+    share: f32,
+}
+
+fn gpu_nearest(place: f32, side: u32, repeats: bool) -> GpuNearest {
+    let inside = select(clamp(place, 0.0, 1.0), place - floor(place), repeats);
+    let texel = inside * f32(side) - 0.5;
+    let first = floor(texel);
+    return GpuNearest(
+        gpu_texel_index(i32(first), side, repeats),
+        gpu_texel_index(i32(first) + 1, side, repeats),
+        texel - first,
+    );
+}
+
+fn gpu_texel_index(index: i32, side: u32, repeats: bool) -> u32 {
+    let count = i32(side);
+    if (repeats) {
+        return u32(((index % count) + count) % count);
+    }
+    return u32(clamp(index, 0, count - 1));
+}
+
+/// One of an image's copies, between the middles of the four nearest texels.
+fn gpu_copy_at(texture: u32, level: u32, place: vec2<f32>, repeats: bool) -> vec4<f32> {
+    let size = gpu_image_size(texture, level);
+    let across = gpu_nearest(place.x, size.x, repeats);
+    let down = gpu_nearest(place.y, size.y, repeats);
+    let a = gpu_image_texel(texture, level, vec2<u32>(across.first, down.first));
+    let b = gpu_image_texel(texture, level, vec2<u32>(across.second, down.first));
+    let c = gpu_image_texel(texture, level, vec2<u32>(across.first, down.second));
+    let d = gpu_image_texel(texture, level, vec2<u32>(across.second, down.second));
+    let above = a + (b - a) * across.share;
+    let below = c + (d - c) * across.share;
+    return above + (below - above) * down.share;
+}
+
+/// The texel of an image, blurred over `size` of its width; a size that is no number blurs nothing.
+fn gpu_image_at(texture: u32, place: vec2<f32>, size: f32, repeats: bool) -> vec4<f32> {
+    let last = gpu_image_levels(texture) - 1u;
+    var level = 0.0;
+    if (gpu_is_finite(size)) {
+        let texels = max(size, 0.0) * f32(gpu_image_size(texture, 0u).x);
+        if (texels > 1.0) {
+            level = min(log_to_two(min(texels, 1e6)), f32(last));
+        }
+    } else if (bitcast<u32>(size) == 0x7f800000u) {
+        level = f32(last);
+    }
+    let finer = floor(level);
+    let share = level - finer;
+    var texel = gpu_copy_at(texture, u32(finer), place, repeats);
+    if (share > 0.0) {
+        let coarser = gpu_copy_at(texture, min(u32(finer) + 1u, last), place, repeats);
+        texel += (coarser - texel) * share;
+    }
+    if (texel.w <= 0.0) {
+        return vec4<f32>(0.0);
+    }
+    return vec4<f32>(texel.xyz / texel.w, texel.w);
+}
+
+fn gpu_texel(lookup: Lookup) -> vec4<f32> {
+    if (lookup.texture >= GPU_TEXTURE_COUNT) {
+        return vec4<f32>(0.0);
+    }
+    var at = lookup.at;
+    if (!gpu_is_finite(at.x)) { at.x = 0.0; }
+    if (!gpu_is_finite(at.y)) { at.y = 0.0; }
+    let texture = GPU_TEXTURES + GPU_TEXTURE_WORDS * lookup.texture;
+    let kind = gpu_paint_word(texture);
+    if (kind == GPU_IS_GRADIENT) {
+        return vec4<f32>(gpu_gradient_at(gpu_paint_word(texture + 1u), at), 1.0);
+    }
+    if (kind == GPU_IS_IMAGE) {
+        return gpu_image_at(lookup.texture, at, lookup.size, gpu_paint_word(texture + 2u) != 0u);
+    }
+    return vec4<f32>(0.0);
+}
+
+@compute @workgroup_size(8, 8)
+fn gpu_main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if (any(id.xy >= gpu_frame.size)) {
+        return;
+    }
+    let shown = gpu_shown_at(id.xy, id.z);
+    let in_layer = shown.what - (gpu_words[GPU_FIRST_DISC] + gpu_words[GPU_FIRST_JOINT]);
+    if ((shown.what & GPU_SHOWS_TRIANGLE) != 0u || in_layer >= gpu_paint_word(GPU_DISC_COUNT)) {
+        return;
+    }
+    let p = gpu_point(gpu_words[GPU_FIRST_JOINT] + in_layer % gpu_words[GPU_JOINT_COUNT], shown);
+    var color = gpu_discs[shown.what].color;
+    if (p.way != 0.0) {
+        color += p.way * (gpu_discs[shown.what + 1u].color - color);
+    }
+    let painted = gpu_painted(gpu_sample(p, color), gpu_params(p.joint, gpu_scalar_at(p, GPU_AT_U)));
+    // What isn't finite stays as it was.
+    if (gpu_is_finite(painted.x) && gpu_is_finite(painted.y) && gpu_is_finite(painted.z)) {
+        let at = (id.y * gpu_frame.size.x + id.x) * gpu_frame.samples + id.z;
+        let light = clamp(painted, vec3<f32>(0.0), vec3<f32>(1.0));
+        gpu_samples[at] = vec4<f32>(light, gpu_samples[at].w);
+    }
+}
