@@ -22,8 +22,11 @@ pub fn cargo(args: &[&str]) -> Command {
     command
 }
 
-/// Every crate, and the program of the example effect.
-pub const WORKSPACE: [&str; 2] = ["--workspace", "--features=effect-backlight/viewer"];
+/// Every crate, and the programs of the example effects.
+pub const WORKSPACE: [&str; 2] = [
+    "--workspace",
+    "--features=effect-backlight/viewer,effect-engraving/program",
+];
 
 /// True on the machines that test the project by themselves: `CI=true`.
 pub fn on_ci() -> bool {

@@ -1,0 +1,5 @@
+//! Translates the effect.
+
+fn main() {
+    effects_build::effect("src/engraving.wgsl");
+}
