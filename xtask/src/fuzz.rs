@@ -31,6 +31,7 @@ const KINDS: &[(&str, &[&str])] = &[
     ("preset", &[".ron"]),
     ("tfx", &[".tfx"]),
     ("obj", &[".obj"]),
+    ("ply", &[".ply"]),
     ("gltf", &[".gltf", ".glb", ".vrm"]),
 ];
 

@@ -50,7 +50,7 @@ const DOCUMENTED: [&str; 5] = [
 
 /// The crates that must compile with all of their features off: those whose own they are, and the program, which
 /// turns them off for all.
-const WITHOUT_DEFAULTS: &[&str] = &["hair-sim", "hair-io", "render", "inkstrand"];
+const WITHOUT_DEFAULTS: &[&str] = &["hair-sim", "mesh-io", "hair-io", "render", "inkstrand"];
 
 /// The names of all steps, in the order in which they run.
 pub fn step_names() -> Vec<&'static str> {

@@ -3,12 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::obj::ObjError;
-use crate::read::ReadError;
-#[cfg(feature = "gltf")]
-use crate::skeleton::SkeletonError;
 use crate::strands_ron::StrandsRonError;
 use crate::tfx::TfxError;
+use mesh_io::{MeshError, ReadError};
 
 /// Why a hair or head file could not be read or written. Every message names the file.
 #[derive(Debug, thiserror::Error)]
@@ -51,26 +48,12 @@ pub enum HairError {
         /// What is wrong in it.
         source: StrandsRonError,
     },
-    /// An OBJ file with errors.
-    #[error("{}", in_obj(path, source))]
-    Obj {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong in it.
-        source: ObjError,
-    },
-    /// A character that gives no motion.
-    #[cfg(feature = "gltf")]
-    #[error("{}: {source}", path.display())]
-    Skeleton {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong in it.
-        source: Box<SkeletonError>,
-    },
-    /// Reading a character is left out of this build.
-    #[error("{}: this program was built without glTF, which is the feature `gltf`", .0.display())]
-    WithoutGltf(
+    /// A head, or a character, that can't be read.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A file without a triangle, which is no head.
+    #[error("{}: it has no triangle with an area", .0.display())]
+    NoTriangles(
         /// The file.
         PathBuf,
     ),
@@ -96,15 +79,6 @@ fn in_strands(path: &Path, error: &StrandsRonError) -> String {
             column,
             problem,
         } => format!("{path}:{line}:{column}: {problem}"),
-        other => format!("{path}: {other}"),
-    }
-}
-
-/// `file:line: what`.
-fn in_obj(path: &Path, error: &ObjError) -> String {
-    let path = path.display();
-    match error {
-        ObjError::At { line, problem } => format!("{path}:{line}: {problem}"),
         other => format!("{path}: {other}"),
     }
 }

@@ -1,18 +1,17 @@
 //! Files: choosing the reader, settling axes and units, and writing.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::Vec3;
 use hair_sim::{PointCache, Strands};
 
+use crate::Mesh;
 use crate::error::HairError;
-use crate::format::{self, HAIR_FORMATS, HEAD_FORMATS, HairFormat};
-use crate::mesh::Mesh;
+use crate::format::{self, HAIR_FORMATS, HairFormat};
 use crate::orient::{self, Axes, Given, Orientation};
-use crate::read::{MOST_OF_DATA, decode_text, read_bytes};
-use crate::skeleton::BoneMotion;
 use crate::whole_file::write_whole;
-use crate::{obj, strands_ron, tfx};
+use crate::{strands_ron, tfx};
+use mesh_io::{MOST_OF_DATA, decode_text, model_of_bytes, read_bytes};
 
 /// How to read a hair file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -124,27 +123,27 @@ pub fn read_hair(path: &Path, options: &HairOptions) -> Result<HairFile, HairErr
 /// When the file cannot be read, is of another format, or has errors.
 pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<HeadFile, HairError> {
     let bytes = read_bytes(path, MOST_OF_DATA)?;
-    if !format::is_obj(path) {
+    if !mesh_io::is_model(path, &bytes) {
         return Err(HairError::Format {
             path: path.into(),
             found: format::guess(path, &bytes),
-            reads: HEAD_FORMATS,
+            reads: mesh_io::FORMATS,
         });
     }
-    // Names in the file may be in any encoding; its numbers are ASCII.
-    let text = String::from_utf8_lossy(&bytes);
-    let (mut mesh, left_out) = obj::from_text(&text).map_err(|source| HairError::Obj {
-        path: path.into(),
-        source,
-    })?;
-    let (orientation, note) = orient::head(
-        &mesh,
-        &Given {
-            up,
-            scale,
-            offset: None,
-        },
-    );
+    let model = model_of_bytes(path, &bytes)?;
+    let mut mesh = model.welded();
+    if mesh.triangles.is_empty() {
+        return Err(HairError::NoTriangles(path.into()));
+    }
+    let given = Given {
+        up,
+        scale,
+        offset: None,
+    };
+    let (orientation, note) = match model.is_metric {
+        true => orient::known_head(&mesh, &given),
+        false => orient::head(&mesh, &given),
+    };
     mesh.positions
         .iter_mut()
         .for_each(|p| *p = orientation.apply(*p));
@@ -154,7 +153,7 @@ pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<He
     check_finite(path, &orientation, &mesh.positions)?;
     Ok(HeadFile {
         mesh,
-        notes: left_out.into_iter().chain([note]).collect(),
+        notes: model.notes.into_iter().chain([note]).collect(),
     })
 }
 
@@ -178,59 +177,6 @@ pub fn write_strands(
         path: path.into(),
         source,
     })
-}
-
-impl BoneMotion {
-    /// Reads the bone named `bone` of a glTF 2.0 file (.glb, .gltf, .vrm), in the animation of this name or number (0
-    /// first), or else in the first. The case of letters counts only where it tells bones apart.
-    ///
-    /// # Errors
-    ///
-    /// When the file cannot be read, or has no such bone or animation; always, where this crate is built without
-    /// its feature `gltf`.
-    #[cfg_attr(not(feature = "gltf"), expect(unused_variables))]
-    pub fn read(path: &Path, bone: &str, animation: Option<&str>) -> Result<Self, HairError> {
-        #[cfg(not(feature = "gltf"))]
-        {
-            Err(HairError::WithoutGltf(path.into()))
-        }
-        #[cfg(feature = "gltf")]
-        {
-            Self::of_file(path, |bytes, folder| {
-                Self::from_bytes(bytes, folder, bone, animation)
-            })
-        }
-    }
-
-    /// The files beside a glTF 2.0 file that hold the numbers of its animations, each once; they need not be there.
-    ///
-    /// # Errors
-    ///
-    /// When the file cannot be read; always, where this crate is built without its feature `gltf`.
-    pub fn files(path: &Path) -> Result<Vec<PathBuf>, HairError> {
-        #[cfg(not(feature = "gltf"))]
-        {
-            Err(HairError::WithoutGltf(path.into()))
-        }
-        #[cfg(feature = "gltf")]
-        {
-            Self::of_file(path, Self::files_of_bytes)
-        }
-    }
-
-    /// What is read of a file's bytes and of its folder.
-    #[cfg(feature = "gltf")]
-    fn of_file<T>(
-        path: &Path,
-        read: impl FnOnce(&[u8], &Path) -> Result<T, crate::SkeletonError>,
-    ) -> Result<T, HairError> {
-        let bytes = read_bytes(path, MOST_OF_DATA)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        read(&bytes, folder).map_err(|source| HairError::Skeleton {
-            path: path.into(),
-            source: Box::new(source),
-        })
-    }
 }
 
 fn check_finite(path: &Path, orientation: &Orientation, points: &[Vec3]) -> Result<(), HairError> {

@@ -4,8 +4,6 @@ use std::path::Path;
 
 /// The hair formats that this build reads, for messages.
 pub(crate) const HAIR_FORMATS: &str = "TressFX (.tfx) and own strands (.strands.ron)";
-/// The head formats that this build reads, for messages.
-pub(crate) const HEAD_FORMATS: &str = "Wavefront OBJ (.obj)";
 
 /// A hair format that is read.
 pub(crate) enum HairFormat {
@@ -24,11 +22,6 @@ impl HairFormat {
                 .then_some(Self::Tfx),
         }
     }
-}
-
-/// Whether a head file is of the format that is read.
-pub(crate) fn is_obj(path: &Path) -> bool {
-    ending(path) == "obj"
 }
 
 /// What a file that is not read seems to be, by its first bytes, else by its name's ending.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::mesh::Mesh;
+use crate::Mesh;
 use crate::sphere;
 
 /// The head's height where nothing tells it, in metres.

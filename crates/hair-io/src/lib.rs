@@ -1,7 +1,7 @@
 //! Hair and head files in, plain strands and meshes out: Y up, metres.
 //!
 //! [`read_hair`] and [`read_head`] choose the reader, settle axes and units ([`orient`]) and say what
-//! they guessed. [`tfx`], [`strands_ron`] and [`obj`] are the formats; [`HeadFrame`] is where the head
+//! they guessed. [`tfx`] and [`strands_ron`] are the formats of hair, those of heads are `mesh-io`'s; [`HeadFrame`] is where the head
 //! is and how large, [`BoneMotion`] how a character's animation moves it. [`read_text`] and [`read_bytes`] refuse what is no
 //! file of a sensible size, and [`WholeFile`] leaves no half-written one.
 //!
@@ -23,22 +23,14 @@
 //!
 //! # Features
 //!
-//! - `gltf`, on by default: [`BoneMotion::read`] reads glTF 2.0. Without it every character is refused.
+//! - `gltf`, on by default: heads of glTF 2.0 and VRM, and [`BoneMotion::read`]. Without it every character is refused.
 
 mod error;
 mod file;
 mod format;
 mod head;
-mod mesh;
 mod nearest;
-pub mod obj;
 pub mod orient;
-mod read;
-#[cfg(feature = "gltf")]
-mod skeleton;
-#[cfg(not(feature = "gltf"))]
-#[path = "without_gltf.rs"]
-mod skeleton;
 mod sphere;
 pub mod strands_ron;
 pub mod tfx;
@@ -47,11 +39,10 @@ mod whole_file;
 pub use error::HairError;
 pub use file::{HairFile, HairOptions, HeadFile, read_hair, read_head, write_strands};
 pub use head::HeadFrame;
-pub use mesh::Mesh;
-pub use read::{MOST_OF_DATA, MOST_OF_TEXT, ReadError, decode_text, read_bytes, read_text};
-pub use skeleton::BoneMotion;
-#[cfg(feature = "gltf")]
-pub use skeleton::{SkeletonError, TrackError};
+pub use mesh_io::{
+    BoneMotion, MOST_OF_DATA, MOST_OF_TEXT, MeshError, ReadError, Welded as Mesh, decode_text,
+    read_bytes, read_text,
+};
 pub use whole_file::{
     NoParts, WholeFile, folder_of, named, remove_parts, try_to_write, write_whole,
 };

@@ -10,8 +10,8 @@ pub use axes::{Axes, Given, Orientation};
 use glam::{DVec3, Vec3};
 use hair_sim::Strands;
 
+use crate::Mesh;
 use crate::head::{HeadFrame, bounds};
-use crate::mesh::Mesh;
 use cloud::Cloud;
 use unit::scale_to;
 
@@ -48,24 +48,7 @@ pub fn hair(strands: &Strands, head: Option<&Mesh>, given: &Given) -> (Orientati
 /// Axes and units of a hair file of a format that says them (Y up, metres), if not overridden.
 #[must_use]
 pub fn known_hair(strands: &Strands, given: &Given) -> (Orientation, String) {
-    let orientation = Orientation {
-        up: given.up.unwrap_or(Axes::Y),
-        scale: given.scale.unwrap_or(1.0),
-        offset: given.offset.unwrap_or(Vec3::ZERO),
-    };
-    let told = if *given == Given::default() {
-        "Y up, metres".to_string()
-    } else {
-        let Orientation { up, scale, .. } = orientation;
-        told(
-            &orientation,
-            &Given {
-                up: Some(up),
-                scale: Some(scale),
-                ..*given
-            },
-        )
-    };
+    let (orientation, told) = known(given);
     (
         orientation,
         format!("hair: {} strands, {told}", count(strands.len())),
@@ -106,12 +89,39 @@ pub fn head(mesh: &Mesh, given: &Given) -> (Orientation, String) {
         scale,
         offset: given.offset.unwrap_or(Vec3::ZERO),
     };
-    let (vertices, triangles) = (count(points.len()), count(mesh.triangles.len()));
     let told = told(&orientation, given);
-    (
-        orientation,
-        format!("head: {vertices} vertices, {triangles} triangles, {told}"),
-    )
+    (orientation, format!("{}, {told}", size_of_head(mesh)))
+}
+
+/// Axes and units of a head of a format that says them (Y up, metres), if not overridden.
+#[must_use]
+pub fn known_head(mesh: &Mesh, given: &Given) -> (Orientation, String) {
+    let (orientation, told) = known(given);
+    (orientation, format!("{}, {told}", size_of_head(mesh)))
+}
+
+fn size_of_head(mesh: &Mesh) -> String {
+    let (vertices, triangles) = (count(mesh.positions.len()), count(mesh.triangles.len()));
+    format!("head: {vertices} vertices, {triangles} triangles")
+}
+
+/// Axes and units of a format that says them.
+fn known(given: &Given) -> (Orientation, String) {
+    let orientation = Orientation {
+        up: given.up.unwrap_or(Axes::Y),
+        scale: given.scale.unwrap_or(1.0),
+        offset: given.offset.unwrap_or(Vec3::ZERO),
+    };
+    if *given == Given::default() {
+        return (orientation, "Y up, metres".to_string());
+    }
+    let Orientation { up, scale, .. } = orientation;
+    let given = Given {
+        up: Some(up),
+        scale: Some(scale),
+        ..*given
+    };
+    (orientation, told(&orientation, &given))
 }
 
 /// "guessed Y up, metres", "Y up as given, guessed metres", and where the hair was moved.

@@ -37,7 +37,7 @@ use ron::extensions::Extensions;
 use ron::value::RawValue;
 use serde::Deserialize;
 
-use crate::read::{place_after, shown};
+use mesh_io::{place_after, shown};
 
 /// The version of the format that this build reads and writes.
 pub const VERSION: u32 = 1;

@@ -146,7 +146,7 @@ fn messages_name_the_file_and_what_is_read() {
         .to_string();
     assert!(
         error.ends_with(
-            "TressFX is not a format that this build reads; it reads Wavefront OBJ (.obj)"
+            "TressFX is not a format that this build reads; it reads Wavefront OBJ (.obj), PLY (.ply), glTF 2.0 (.gltf, .glb) and VRM (.vrm)"
         ),
         "{error}"
     );

@@ -226,7 +226,7 @@ pub(crate) struct SceneOptions {
     #[arg(long, value_name = "FILE")]
     pub hair: Option<PathBuf>,
 
-    /// Head in place of the preset's: .obj
+    /// Head in place of the preset's: .obj, .ply, .gltf, .glb or .vrm
     #[arg(long, value_name = "FILE")]
     pub head: Option<PathBuf>,
 

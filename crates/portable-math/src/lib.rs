@@ -1,4 +1,4 @@
-//! Sine, cosine and a hash with the same bits on every machine: what pictures and motion are made of uses these, and no
+//! Sine, cosine, a hash and sRGB's light with the same bits on every machine: what pictures and motion are made of uses these, and no
 //! function of the platform, whose last bits differ.
 //!
 //! ```
@@ -14,7 +14,9 @@
 //! effects.
 
 mod angle;
+mod color;
 mod hash;
 
 pub use angle::{sin_cos_degrees, sin_cos_degrees_f32};
+pub use color::linear_from_srgb;
 pub use hash::hash;

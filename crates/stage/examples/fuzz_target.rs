@@ -5,7 +5,8 @@
 #![allow(clippy::print_stdout, reason = "a program that another one reads")]
 
 use effects::Registry;
-use hair_io::{BoneMotion, HairError, MOST_OF_TEXT, SkeletonError};
+use hair_io::MOST_OF_TEXT;
+use mesh_io::{BoneMotion, GltfError, MeshError, read_model};
 use stage::{Files, Preset, Stage, check_motion, check_style};
 use std::io;
 use std::path::Path;
@@ -40,7 +41,12 @@ fn read(kind: &str, path: &Path, registry: &Registry) -> Result<(), String> {
         "obj" => hair_io::read_head(path, None, None)
             .map(drop)
             .map_err(|error| error.to_string()),
-        "gltf" => bone(path).map_err(|error| error.to_string()),
+        "ply" => shapes(path).map_err(|error| error.to_string()),
+        "gltf" => {
+            // What has no head that moves may still have meshes, and the other way round.
+            let meshes = shapes(path);
+            bone(path).and(meshes).map_err(|error| error.to_string())
+        }
         other => panic!("no kind of file is called {other}"),
     }
 }
@@ -59,11 +65,11 @@ fn scene(hair: &Path, head: &str, registry: &Registry) -> Result<(), String> {
 }
 
 /// The motion of a file's head, or of some other bone.
-fn bone(path: &Path) -> Result<(), HairError> {
+fn bone(path: &Path) -> Result<(), MeshError> {
     let read = |bone: &str| BoneMotion::read(path, bone, None);
     let motion = read("head").or_else(|error| match &error {
-        HairError::Skeleton { source, .. } => match &**source {
-            SkeletonError::Bone { names, .. } if !names.is_empty() => read(&names[0]),
+        MeshError::Gltf { source, .. } => match &**source {
+            GltfError::Bone { names, .. } if !names.is_empty() => read(&names[0]),
             _ => Err(error),
         },
         _ => Err(error),
@@ -71,6 +77,23 @@ fn bone(path: &Path) -> Result<(), HairError> {
     for time in [-1.0, 0.0, 0.3, motion.length(), 1e30] {
         let (rotation, moved) = motion.at(time);
         assert!(rotation.is_finite() && moved.is_finite(), "at {time} s");
+    }
+    Ok(())
+}
+
+/// The meshes of a file, at rest and in its animations.
+fn shapes(path: &Path) -> Result<(), MeshError> {
+    let model = read_model(path)?;
+    let animations = model.rig.as_ref().map_or(0, |rig| rig.animations.len());
+    for animation in (0..animations.min(4)).map(Some).chain([None]) {
+        for time in [0.3, f64::NAN] {
+            let Some(pose) = model.pose(animation, time) else {
+                continue;
+            };
+            for shape in model.shapes(&pose) {
+                assert!(shape.positions.iter().all(|place| place.is_finite()));
+            }
+        }
     }
     Ok(())
 }

@@ -195,7 +195,10 @@ impl<'r> Preset<'r> {
             return self.mistake(file, message);
         }
         // Of files that the preset does not name, its script does.
-        let is_of_file = matches!(error, StageError::File(_) | StageError::Read { .. });
+        let is_of_file = matches!(
+            error,
+            StageError::File(_) | StageError::Character(_) | StageError::Read { .. }
+        );
         if is_of_file && self.objects.is_empty() {
             let is_script = |file: &&NamedFile| (file.section, file.param) == ("motion", "file");
             let script = named.iter().find(is_script);

@@ -43,6 +43,9 @@ pub enum StageError {
     /// The hair or head could not be read.
     #[error(transparent)]
     File(#[from] hair_io::HairError),
+    /// The character that moves the head could not be read.
+    #[error(transparent)]
+    Character(#[from] hair_io::MeshError),
     /// Neither the preset nor the caller names strands.
     #[error(
         "the preset names no hair: give one with --hair FILE, or hair: (file: \"...\") in the preset"

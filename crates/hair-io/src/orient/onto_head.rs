@@ -5,8 +5,8 @@ use glam::{DVec3, Vec3};
 use super::axes::{Axes, Given, Orientation};
 use super::cloud::Cloud;
 use super::unit::{UNITS, as_scale, scale_to};
+use crate::Mesh;
 use crate::head::HeadFrame;
-use crate::mesh::Mesh;
 use crate::nearest::Nearest;
 use crate::sphere::{Sphere, without_outliers};
 

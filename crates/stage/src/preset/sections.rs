@@ -108,7 +108,7 @@ choices! {
 section! {
     /// The head under the hair, and its colours.
     pub struct HeadSection {
-        /// The head, relative to the preset: .obj.
+        /// The head, relative to the preset: .obj, .ply, .gltf, .glb or .vrm.
         file: Option<String> = text(),
         /// The head where no file is named: none, the bust that comes with inkstrand, or a figure with the bust's skull that is dressed and has
         /// a face to choose. What follows `threshold` is said of figures alone.

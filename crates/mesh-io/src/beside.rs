@@ -1,20 +1,27 @@
-//! Files that a glTF file names, by its URIs.
+//! Files that another file names: beside it or below, and nowhere else.
 
+use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 /// The file that a URI names in a folder or below; `None` where it would be elsewhere: of a scheme, absolute, or out of the
 /// folder by `..`.
-pub(super) fn file_in(folder: &Path, uri: &str) -> Option<PathBuf> {
+#[cfg(feature = "gltf")]
+pub(crate) fn file_of_uri(folder: &Path, uri: &str) -> Option<PathBuf> {
     if uri.contains(':') {
         return None;
     }
-    let name = decoded(uri)?;
+    file_in(folder, &decoded(uri)?)
+}
+
+/// The file of this name in a folder or below; `None` where it would be elsewhere: absolute, out of the folder by `..`, or by a
+/// link. It need not be there.
+pub(crate) fn file_in(folder: &Path, name: &str) -> Option<PathBuf> {
     // A separator of Windows alone would mean one file here and another there.
     if name.contains(['\\', ':']) {
         return None;
     }
     let mut depth = 0usize;
-    for part in Path::new(&name).components() {
+    for part in Path::new(name).components() {
         depth = match part {
             Component::Normal(_) => depth + 1,
             Component::CurDir => depth,
@@ -22,9 +29,18 @@ pub(super) fn file_in(folder: &Path, uri: &str) -> Option<PathBuf> {
             Component::RootDir | Component::Prefix(_) => return None,
         };
     }
-    Some(folder.join(name))
+    let file = folder.join(name);
+    let folder = match folder.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => folder,
+    };
+    match (fs::canonicalize(&file), fs::canonicalize(folder)) {
+        (Ok(file), Ok(folder)) if !file.starts_with(&folder) => None,
+        _ => Some(file),
+    }
 }
 
+#[cfg(feature = "gltf")]
 /// The text with `%20` as a space and so on; a `%` that begins no such code stands for itself, as some programs write it.
 fn decoded(uri: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(uri.len());
@@ -45,13 +61,13 @@ fn decoded(uri: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "gltf"))]
 mod tests {
     use super::*;
 
     #[test]
     fn names_are_decoded_and_stay_in_the_folder() {
-        let file = |uri| file_in(Path::new("hair"), uri);
+        let file = |uri| file_of_uri(Path::new("hair"), uri);
         let named = |name: &str| Some(Path::new("hair").join(name));
         assert_eq!(file("my%20girl%c3%A4.bin"), named("my girlä.bin"));
         assert_eq!(file("100%.bin"), named("100%.bin"));

@@ -132,7 +132,8 @@ pub fn decode_text(path: &Path, bytes: Vec<u8>) -> Result<String, ReadError> {
 }
 
 /// The line and the column (in characters), 1 first, of what follows this text.
-pub(crate) fn place_after(before: &str) -> (usize, usize) {
+#[must_use]
+pub fn place_after(before: &str) -> (usize, usize) {
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
     (
         before.matches('\n').count() + 1,
@@ -144,7 +145,8 @@ pub(crate) fn place_after(before: &str) -> (usize, usize) {
 const MOST_SHOWN: usize = 200;
 
 /// A part of a file, or a message that may repeat one, as it is shown: on one line, and not too much of it.
-pub(crate) fn shown(text: &str) -> String {
+#[must_use]
+pub fn shown(text: &str) -> String {
     let mut shown: String = text
         .chars()
         .take(MOST_SHOWN)

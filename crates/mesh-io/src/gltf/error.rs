@@ -1,13 +1,13 @@
-//! What can be wrong with a character.
+//! What can be wrong with a glTF file.
 
 use std::path::PathBuf;
 
 use crate::read::ReadError;
 
-/// Why a character gives no motion.
+/// Why a glTF file gives no meshes, or no motion.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum SkeletonError {
+pub enum GltfError {
     /// Its JSON is not that of glTF.
     #[error("it is not glTF: JSON, line {line}, column {column}: {what}")]
     Json {
@@ -61,6 +61,40 @@ pub enum SkeletonError {
         /// How many nodes there are.
         count: usize,
     },
+    /// A node has two parents, or is its own.
+    #[error("node {0} is below two nodes, or below itself")]
+    Tree(
+        /// Its number.
+        usize,
+    ),
+    /// A node whose place is infinite.
+    #[error("node {0} is at a place that is not finite")]
+    Place(
+        /// Its number.
+        usize,
+    ),
+    /// Something names a part that is not there, or another of a kind that it can't be.
+    #[error("{of} {index}: {source}")]
+    Part {
+        /// What names it, such as `node`.
+        of: &'static str,
+        /// Its number.
+        index: usize,
+        /// What is wrong.
+        source: PartError,
+    },
+    /// A part of a mesh has mistakes.
+    #[error("mesh {mesh}{}, primitive {primitive}: {source}", in_quotes(.name))]
+    Primitive {
+        /// The mesh's number.
+        mesh: usize,
+        /// Its name; may be empty.
+        name: String,
+        /// The number of its part.
+        primitive: usize,
+        /// What is wrong.
+        source: PartError,
+    },
     /// A track of the animation has mistakes.
     #[error("animation {animation}, channel {channel}: {source}")]
     Track {
@@ -69,14 +103,21 @@ pub enum SkeletonError {
         /// The channel's number.
         channel: usize,
         /// What is wrong.
-        source: TrackError,
+        source: PartError,
     },
 }
 
-/// What is wrong with a channel.
+fn in_quotes(name: &str) -> String {
+    match name {
+        "" => String::new(),
+        name => format!(" `{name}`"),
+    }
+}
+
+/// What is wrong with a part of a glTF file: a channel, a primitive, a skin.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum TrackError {
+pub enum PartError {
     /// A part of the file that is not there.
     #[error("it needs {part} {index}, and there are {count}, 0 first")]
     Missing {
@@ -98,6 +139,14 @@ pub enum TrackError {
     Buffer {
         /// Its number.
         buffer: usize,
+        /// Why.
+        why: String,
+    },
+    /// A picture that cannot be had.
+    #[error("image {image}: {why}")]
+    Image {
+        /// Its number.
+        image: usize,
         /// Why.
         why: String,
     },
@@ -127,14 +176,69 @@ pub enum TrackError {
         /// How many numbers an element must have.
         wanted: usize,
     },
-    /// A sparse accessor, which this build doesn't read.
-    #[error("accessor {0} is sparse, or has no buffer view")]
-    Sparse(usize),
+    /// Indices of another kind.
+    #[error("accessor {0} is not of whole numbers that could be indices")]
+    NotIndices(usize),
+    /// A sparse accessor that names an element that it doesn't have.
+    #[error("accessor {accessor} is sparse, and has no element {element}")]
+    Sparse {
+        /// Its number.
+        accessor: usize,
+        /// The element's number.
+        element: usize,
+    },
+    /// Data that only an extension can unpack.
+    #[error("it is packed by {0}, which this build doesn't read: export without compression")]
+    Packed(String),
+    /// A primitive without what it must have.
+    #[error("it has no {0}")]
+    Without(&'static str),
+    /// An attribute of another length than the positions.
+    #[error("its {attribute} has {found} elements, and there are {wanted} vertices")]
+    Length {
+        /// The attribute.
+        attribute: String,
+        /// How many it has.
+        found: usize,
+        /// How many it must have.
+        wanted: usize,
+    },
+    /// An index of a vertex that is not there.
+    #[error("triangle {triangle} has vertex {vertex}, and there are {count}, 0 first")]
+    Vertex {
+        /// The triangle's number.
+        triangle: usize,
+        /// The vertex's number as the file gives it.
+        vertex: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A joint that the skin doesn't have.
+    #[error("vertex {vertex} is moved by joint {joint}, and its skin has {count}, 0 first")]
+    Joint {
+        /// The vertex.
+        vertex: usize,
+        /// The joint's number as the file gives it.
+        joint: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A skin with fewer matrices than joints.
+    #[error("it has {joints} joints and {matrices} inverse bind matrices")]
+    Matrices {
+        /// Joints.
+        joints: usize,
+        /// Matrices.
+        matrices: usize,
+    },
     /// An accessor that reaches beyond its buffer.
     #[error("accessor {0} reaches beyond its buffer")]
     Outside(usize),
+    /// A buffer view that reaches beyond its buffer.
+    #[error("buffer view {0} reaches beyond its buffer")]
+    View(usize),
     /// An accessor that shares so many numbers with others that they would fill the memory.
-    #[error("accessor {0} is one too many: this build reads {most} numbers a bone", most = super::numbers::MOST_NUMBERS)]
+    #[error("accessor {0} is one too many: the file's accessors share more numbers than are read")]
     TooMany(usize),
     /// NaN or infinity.
     #[error("accessor {0} has numbers that are not finite")]

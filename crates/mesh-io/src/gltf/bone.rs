@@ -1,21 +1,16 @@
-//! The motion of one bone of a character's animation: glTF 2.0 (.glb, .gltf) and what is built on it (.vrm).
+//! The motion of one bone of a character's animation.
 //!
 //! Only nodes and animations are read: a bone moves as its chain of parents does.
 
-mod document;
-mod error;
-mod numbers;
-mod track;
-mod uri;
-
+use super::document::{Animation, Document};
+use super::error::GltfError;
+use super::nodes::{read_track, rest_of, target};
+use super::numbers::Buffers;
 use crate::read::shown;
-use document::{Animation, Document, Node};
-pub use error::{SkeletonError, TrackError};
-use glam::{DAffine3, DMat4, DQuat, DVec3};
-use numbers::{Buffers, part};
+use crate::rig::{NodeTracks, Transform};
+use glam::{DAffine3, DQuat, DVec3};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use track::{Track, Value};
 
 /// The most names that a message lists.
 const MOST_NAMES: usize = 8;
@@ -34,12 +29,8 @@ pub struct BoneMotion {
 /// A node of the chain: its place in its parent's space, and what moves it.
 #[derive(Clone, Debug, PartialEq)]
 struct ChainNode {
-    translation: DVec3,
-    rotation: DQuat,
-    scale: DVec3,
-    translations: Option<Track<DVec3>>,
-    rotations: Option<Track<DQuat>>,
-    scales: Option<Track<DVec3>>,
+    rest: Transform,
+    tracks: NodeTracks,
 }
 
 impl BoneMotion {
@@ -54,13 +45,14 @@ impl BoneMotion {
         folder: &Path,
         bone: &str,
         animation: Option<&str>,
-    ) -> Result<Self, SkeletonError> {
+    ) -> Result<Self, GltfError> {
         let (document, binary) = Document::read(bytes)?;
         let chain = chain_to(&document, bone)?;
         let (number, animation) = find_animation(&document, animation)?;
-        let joints = chain
-            .iter()
-            .map(|&node| ChainNode::at_rest(&document.nodes[node]));
+        let joints = chain.iter().map(|&node| ChainNode {
+            rest: rest_of(&document.nodes[node]),
+            tracks: NodeTracks::default(),
+        });
         let mut motion = Self {
             chain: joints.collect(),
             rest: (DQuat::IDENTITY, DVec3::ZERO),
@@ -69,18 +61,26 @@ impl BoneMotion {
         let joints: HashMap<usize, usize> = chain.into_iter().zip(0..).collect();
         let mut buffers = Buffers::new(&document, binary, folder);
         for channel in 0..animation.channels.len() {
-            let length = motion
-                .read_channel(&document, animation, channel, &joints, &mut buffers)
-                .map_err(|source| SkeletonError::Track {
-                    animation: number,
-                    channel,
-                    source,
-                })?;
-            motion.length = motion.length.max(length);
+            let wrong = |source| GltfError::Track {
+                animation: number,
+                channel,
+                source,
+            };
+            let target = target(&document, animation, channel).map_err(wrong)?;
+            let Some((node, property, sampler)) = target else {
+                continue;
+            };
+            let Some(&joint) = joints.get(&node) else {
+                continue;
+            };
+            // Shapes of a face don't move its bones.
+            let tracks = &mut motion.chain[joint].tracks;
+            let until = read_track(tracks, property, sampler, None, &mut buffers).map_err(wrong)?;
+            motion.length = motion.length.max(until);
         }
-        let (rotation, place) = motion.pose(ChainNode::resting);
+        let (rotation, place) = motion.pose(|joint| joint.rest);
         if !(rotation.is_finite() && place.is_finite()) {
-            return Err(SkeletonError::Chain(shown(bone)));
+            return Err(GltfError::Chain(shown(bone)));
         }
         motion.rest = (rotation, place);
         Ok(motion)
@@ -91,42 +91,9 @@ impl BoneMotion {
     /// # Errors
     ///
     /// When the bytes are not glTF.
-    pub fn files_of_bytes(bytes: &[u8], folder: &Path) -> Result<Vec<PathBuf>, SkeletonError> {
+    pub fn files_of_bytes(bytes: &[u8], folder: &Path) -> Result<Vec<PathBuf>, GltfError> {
         let (document, _) = Document::read(bytes)?;
         Ok(Buffers::files(&document, folder))
-    }
-
-    /// Reads what a channel moves of the chain, whose nodes are these `joints` of it. When its last key is, in s.
-    fn read_channel(
-        &mut self,
-        document: &Document,
-        animation: &Animation,
-        channel: usize,
-        joints: &HashMap<usize, usize>,
-        buffers: &mut Buffers,
-    ) -> Result<f64, TrackError> {
-        let channel = &animation.channels[channel];
-        let Some((node, property)) = channel.target.node() else {
-            return Ok(0.0);
-        };
-        part(&document.nodes, "node", node)?;
-        let sampler = part(&animation.samplers, "sampler", channel.sampler)?;
-        let Some(&joint) = joints.get(&node) else {
-            return Ok(0.0);
-        };
-        let joint = &mut self.chain[joint];
-        match property {
-            "translation" => put(&mut joint.translations, "translation", || {
-                Track::read(sampler, buffers)
-            }),
-            "rotation" => put(&mut joint.rotations, "rotation", || {
-                Track::read(sampler, buffers)
-            }),
-            "scale" => put(&mut joint.scales, "scale", || Track::read(sampler, buffers)),
-            // Shapes of a face don't move its bones.
-            "weights" => Ok(0.0),
-            other => Err(TrackError::Property(shown(other))),
-        }
     }
 
     /// When the last key of all that moves the bone is, in s.
@@ -139,7 +106,7 @@ impl BoneMotion {
     /// the world, Y up. Before the first key and after the last it stays.
     #[must_use]
     pub fn at(&self, time: f64) -> (DQuat, DVec3) {
-        let (rotation, place) = self.pose(|joint| joint.at(time));
+        let (rotation, place) = self.pose(|joint| joint.tracks.at(time, &joint.rest));
         let (rest, rest_place) = self.rest;
         if rotation.is_finite() {
             (
@@ -153,65 +120,17 @@ impl BoneMotion {
     }
 
     /// The bone's turn and place in the world, its joints being so in their parents' spaces.
-    fn pose(&self, local: impl Fn(&ChainNode) -> DAffine3) -> (DQuat, DVec3) {
-        let world =
-            (self.chain.iter()).fold(DAffine3::IDENTITY, |world, joint| world * local(joint));
+    fn pose(&self, local: impl Fn(&ChainNode) -> Transform) -> (DQuat, DVec3) {
+        let world = (self.chain.iter()).fold(DAffine3::IDENTITY, |world, joint| {
+            world * local(joint).affine()
+        });
         let (_, rotation, place) = world.to_scale_rotation_translation();
         (rotation.normalize(), place)
     }
 }
 
-impl ChainNode {
-    fn at_rest(node: &Node) -> Self {
-        let (scale, rotation, translation) = match node.matrix {
-            Some(matrix) => {
-                DMat4::from_cols_array(&matrix.map(f64::from)).to_scale_rotation_translation()
-            }
-            None => (
-                node.scale
-                    .map_or(DVec3::ONE, |s| DVec3::from(s.map(f64::from))),
-                (node.rotation).map_or(DQuat::IDENTITY, |r| DQuat::from_array(r.map(f64::from))),
-                (node.translation).map_or(DVec3::ZERO, |t| DVec3::from(t.map(f64::from))),
-            ),
-        };
-        Self {
-            translation,
-            rotation: rotation.normalize(),
-            scale,
-            translations: None,
-            rotations: None,
-            scales: None,
-        }
-    }
-
-    fn resting(&self) -> DAffine3 {
-        DAffine3::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
-    }
-
-    fn at(&self, time: f64) -> DAffine3 {
-        let now = |track: &Option<Track<DVec3>>, rest| track.as_ref().map_or(rest, |t| t.at(time));
-        DAffine3::from_scale_rotation_translation(
-            now(&self.scales, self.scale),
-            (self.rotations.as_ref()).map_or(self.rotation, |track| track.at(time)),
-            now(&self.translations, self.translation),
-        )
-    }
-}
-
-/// Puts a track in its place, where there is none yet. When its last key is, in s.
-fn put<T: Value>(
-    place: &mut Option<Track<T>>,
-    property: &'static str,
-    read: impl FnOnce() -> Result<Track<T>, TrackError>,
-) -> Result<f64, TrackError> {
-    if place.is_some() {
-        return Err(TrackError::Twice(property));
-    }
-    Ok(place.insert(read()?).length())
-}
-
 /// The nodes from the outermost parent to the bone of this name.
-fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, SkeletonError> {
+fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, GltfError> {
     let nodes = &document.nodes;
     let named = |is: &dyn Fn(&str) -> bool| {
         (nodes.iter()).position(|node| node.name.as_deref().is_some_and(is))
@@ -219,7 +138,7 @@ fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, SkeletonError
     let exact = named(&|name| name == bone);
     let Some(found) = exact.or_else(|| named(&|name| name.eq_ignore_ascii_case(bone))) else {
         let names = nodes.iter().filter_map(|node| node.name.clone());
-        return Err(SkeletonError::Bone {
+        return Err(GltfError::Bone {
             wanted: shown(bone),
             names: nearest(names.collect(), bone),
         });
@@ -227,7 +146,7 @@ fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, SkeletonError
     let mut parents = vec![None; nodes.len()];
     for (node, parent) in nodes.iter().enumerate() {
         for &child in &parent.children {
-            *parents.get_mut(child).ok_or(SkeletonError::Child {
+            *parents.get_mut(child).ok_or(GltfError::Child {
                 node,
                 child,
                 count: nodes.len(),
@@ -238,7 +157,7 @@ fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, SkeletonError
     let mut next = parents[found];
     while let Some(parent) = next {
         if chain.len() > nodes.len() {
-            return Err(SkeletonError::Chain(shown(bone)));
+            return Err(GltfError::Chain(shown(bone)));
         }
         chain.push(parent);
         next = parents[parent];
@@ -251,9 +170,9 @@ fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, SkeletonError
 fn find_animation<'a>(
     document: &'a Document,
     wanted: Option<&str>,
-) -> Result<(usize, &'a Animation), SkeletonError> {
+) -> Result<(usize, &'a Animation), GltfError> {
     let animations = &document.animations;
-    let first = animations.first().ok_or(SkeletonError::NoAnimation)?;
+    let first = animations.first().ok_or(GltfError::NoAnimation)?;
     let Some(wanted) = wanted else {
         return Ok((0, first));
     };
@@ -263,7 +182,7 @@ fn find_animation<'a>(
     found.ok_or_else(|| {
         let names = animations.iter().enumerate();
         let names = names.map(|(number, a)| a.name.clone().unwrap_or(number.to_string()));
-        SkeletonError::Animation {
+        GltfError::Animation {
             wanted: wanted.to_owned(),
             names: nearest(names.collect(), wanted),
         }
@@ -282,4 +201,5 @@ fn nearest(names: Vec<String>, wanted: &str) -> Vec<String> {
 }
 
 #[cfg(test)]
+#[path = "bone_tests.rs"]
 mod tests;

@@ -51,7 +51,7 @@ fn character(channels: &[Channel]) -> Value {
     })
 }
 
-fn read(file: &Value, bone: &str, animation: Option<&str>) -> Result<BoneMotion, SkeletonError> {
+fn read(file: &Value, bone: &str, animation: Option<&str>) -> Result<BoneMotion, GltfError> {
     BoneMotion::from_bytes(file.to_string().as_bytes(), Path::new(""), bone, animation)
 }
 
@@ -197,7 +197,7 @@ fn broken_files_are_refused() {
     );
     for text in ["", "{", "[]", "{\"asset\": {}}"] {
         let error = BoneMotion::from_bytes(text.as_bytes(), Path::new(""), "head", None);
-        assert!(matches!(error, Err(SkeletonError::Json { .. })), "{text}");
+        assert!(matches!(error, Err(GltfError::Json { .. })), "{text}");
     }
 }
 

@@ -1,0 +1,349 @@
+//! Nodes, skins and animations of a glTF file.
+
+use std::collections::BTreeMap;
+
+use glam::{DAffine3, DMat4, DQuat, DVec3};
+
+use super::document::{self, Animation, Document, Sampler};
+use super::error::{GltfError, PartError};
+use super::numbers::{Buffers, part};
+use crate::read::shown;
+use crate::rig::{self, NodeTracks, Rig, Skin, Transform};
+use crate::track::{Track, Value};
+
+/// All nodes, skins and animations; meshes are read later.
+pub(super) fn read(document: &Document, buffers: &mut Buffers) -> Result<Rig, GltfError> {
+    let parents = parents(document)?;
+    let order = order(document, &parents)?;
+    let mut nodes = Vec::with_capacity(document.nodes.len());
+    for (number, (node, parent)) in document.nodes.iter().zip(parents).enumerate() {
+        let rest = rest_of(node);
+        if !(rest.translation.is_finite() && rest.scale.is_finite()) {
+            return Err(GltfError::Place(number));
+        }
+        let in_node = |source| GltfError::Part {
+            of: "node",
+            index: number,
+            source,
+        };
+        let mesh = node
+            .mesh
+            .map(|mesh| part(&document.meshes, "mesh", mesh))
+            .transpose()
+            .map_err(in_node)?;
+        node.skin
+            .map(|skin| part(&document.skins, "skin", skin))
+            .transpose()
+            .map_err(in_node)?;
+        let weights = match (&node.weights[..], mesh) {
+            ([], Some(mesh)) => &mesh.weights[..],
+            (own, _) => own,
+        };
+        let finite = |weight: &f32| {
+            if weight.is_finite() {
+                f64::from(*weight)
+            } else {
+                0.0
+            }
+        };
+        nodes.push(rig::Node {
+            name: node.name.clone(),
+            parent,
+            rest,
+            weights: weights.iter().map(finite).collect(),
+        });
+    }
+
+    let mut rig = Rig {
+        nodes,
+        order,
+        humanoid: humanoid(document),
+        root: turn(document),
+        ..Rig::default()
+    };
+    for (number, skin) in document.skins.iter().enumerate() {
+        let skin = read_skin(document, skin, buffers);
+        rig.skins.push(skin.map_err(|source| GltfError::Part {
+            of: "skin",
+            index: number,
+            source,
+        })?);
+    }
+    for (number, animation) in document.animations.iter().enumerate() {
+        let mut tracks = BTreeMap::<usize, NodeTracks>::new();
+        let mut length = 0.0f64;
+        for channel in 0..animation.channels.len() {
+            let wrong = |source| GltfError::Track {
+                animation: number,
+                channel,
+                source,
+            };
+            let target = target(document, animation, channel).map_err(wrong)?;
+            let Some((node, property, sampler)) = target else {
+                continue;
+            };
+            let mesh = document.nodes[node]
+                .mesh
+                .and_then(|mesh| document.meshes.get(mesh));
+            let morphs = mesh
+                .and_then(|mesh| mesh.primitives.first())
+                .map_or(0, |own| own.targets.len());
+            let own = tracks.entry(node).or_default();
+            let until = read_track(own, property, sampler, Some(morphs), buffers).map_err(wrong)?;
+            length = length.max(until);
+        }
+        let name = animation.name.clone();
+        rig.animations.push(rig::Animation {
+            name,
+            length,
+            tracks,
+        });
+    }
+    Ok(rig)
+}
+
+/// Where a node is where nothing moves it. What has no size has no turn either.
+pub(super) fn rest_of(node: &document::Node) -> Transform {
+    if let Some(matrix) = node.matrix {
+        let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
+        let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
+        let is_whole = scale.is_finite() && rotation.is_finite() && rotation.length_squared() > 0.0;
+        return Transform {
+            translation,
+            rotation: if is_whole {
+                rotation.normalize()
+            } else {
+                DQuat::IDENTITY
+            },
+            scale: if is_whole { scale } else { DVec3::ZERO },
+        };
+    }
+    let vector = |values: Option<[f32; 3]>, default| {
+        values.map_or(default, |v| DVec3::from(v.map(f64::from)))
+    };
+    let rotation = node
+        .rotation
+        .map_or(DQuat::IDENTITY, |r| DQuat::from_array(r.map(f64::from)));
+    Transform {
+        translation: vector(node.translation, DVec3::ZERO),
+        rotation: if rotation.is_finite() {
+            rotation.whole()
+        } else {
+            DQuat::IDENTITY
+        },
+        scale: vector(node.scale, DVec3::ONE),
+    }
+}
+
+/// The parent of each node.
+fn parents(document: &Document) -> Result<Vec<Option<usize>>, GltfError> {
+    let count = document.nodes.len();
+    let mut parents = vec![None; count];
+    for (node, parent) in document.nodes.iter().enumerate() {
+        for &child in &parent.children {
+            let place = parents
+                .get_mut(child)
+                .ok_or(GltfError::Child { node, child, count })?;
+            if place.is_some_and(|other| other != node) {
+                return Err(GltfError::Tree(child));
+            }
+            *place = Some(node);
+        }
+    }
+    Ok(parents)
+}
+
+/// Nodes, each after its parent.
+fn order(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, GltfError> {
+    let mut order: Vec<usize> = (0..parents.len())
+        .filter(|node| parents[*node].is_none())
+        .collect();
+    let mut is_there = vec![false; parents.len()];
+    order.iter().for_each(|node| is_there[*node] = true);
+    let mut next = 0;
+    while next < order.len() {
+        for &child in &document.nodes[order[next]].children {
+            if !is_there[child] {
+                is_there[child] = true;
+                order.push(child);
+            }
+        }
+        next += 1;
+    }
+    // Who isn't below a root goes round.
+    match is_there.iter().position(|is_there| !is_there) {
+        Some(node) => Err(GltfError::Tree(node)),
+        None => Ok(order),
+    }
+}
+
+/// The nodes of a humanoid's bones.
+fn humanoid(document: &Document) -> BTreeMap<String, usize> {
+    let vrm0 = document
+        .extensions
+        .vrm0
+        .iter()
+        .flat_map(|vrm| &vrm.humanoid.human_bones);
+    let vrm0 = vrm0.filter_map(|own| Some((own.bone.clone(), usize::try_from(own.node).ok()?)));
+    let vrm1 = document
+        .extensions
+        .vrm1
+        .iter()
+        .flat_map(|vrm| &vrm.humanoid.human_bones);
+    let vrm1 = vrm1.map(|(bone, own)| (bone.clone(), own.node));
+    let is_there = |(_, node): &(String, usize)| *node < document.nodes.len();
+    vrm0.chain(vrm1).filter(is_there).collect()
+}
+
+/// Characters of VRM 0.x face -Z.
+fn turn(document: &Document) -> DAffine3 {
+    match document.extensions.vrm0 {
+        Some(_) => DAffine3::from_scale(DVec3::new(-1.0, 1.0, -1.0)),
+        None => DAffine3::IDENTITY,
+    }
+}
+
+fn read_skin(
+    document: &Document,
+    skin: &document::Skin,
+    buffers: &mut Buffers,
+) -> Result<Skin, PartError> {
+    if skin.joints.is_empty() {
+        return Err(PartError::Without("joints"));
+    }
+    for &joint in &skin.joints {
+        part(&document.nodes, "node", joint)?;
+    }
+    let inverse = match skin.inverse_bind_matrices {
+        None => vec![DAffine3::IDENTITY; skin.joints.len()],
+        Some(accessor) => {
+            let matrices = buffers.numbers::<16>(accessor)?;
+            let affine = |m: &[f64; 16]| DAffine3::from_mat4(DMat4::from_cols_array(m));
+            matrices.iter().map(affine).collect()
+        }
+    };
+    if inverse.len() < skin.joints.len() {
+        return Err(PartError::Matrices {
+            joints: skin.joints.len(),
+            matrices: inverse.len(),
+        });
+    }
+    Ok(Skin {
+        joints: skin.joints.clone(),
+        inverse,
+    })
+}
+
+/// What a channel moves: node, property, and how; `None` where it is no node.
+pub(super) fn target<'a>(
+    document: &Document,
+    animation: &'a Animation,
+    channel: usize,
+) -> Result<Option<(usize, &'a str, &'a Sampler)>, PartError> {
+    let channel = &animation.channels[channel];
+    let Some((node, property)) = channel.target.node() else {
+        return Ok(None);
+    };
+    part(&document.nodes, "node", node)?;
+    let sampler = part(&animation.samplers, "sampler", channel.sampler)?;
+    Ok(Some((node, property, sampler)))
+}
+
+/// Reads what moves a property of a node, whose mesh has so many morphs; none where these are not read. When its last key is, in s.
+pub(super) fn read_track(
+    tracks: &mut NodeTracks,
+    property: &str,
+    sampler: &Sampler,
+    morphs: Option<usize>,
+    buffers: &mut Buffers,
+) -> Result<f64, PartError> {
+    match (property, morphs) {
+        ("translation", _) => put(&mut tracks.translation, "translation", || {
+            vectors(sampler, buffers)
+        }),
+        ("rotation", _) => put(&mut tracks.rotation, "rotation", || turns(sampler, buffers)),
+        ("scale", _) => put(&mut tracks.scale, "scale", || vectors(sampler, buffers)),
+        ("weights", None | Some(0)) => Ok(0.0),
+        ("weights", Some(morphs)) => {
+            if !tracks.weights.is_empty() {
+                return Err(PartError::Twice("weights"));
+            }
+            tracks.weights = weights(sampler, morphs, buffers)?;
+            Ok(tracks.weights[0].length())
+        }
+        (other, _) => Err(PartError::Property(shown(other))),
+    }
+}
+
+/// Puts a track in its place, where there is none yet. When its last key is, in s.
+fn put<T: Value>(
+    place: &mut Option<Track<T>>,
+    property: &'static str,
+    read: impl FnOnce() -> Result<Track<T>, PartError>,
+) -> Result<f64, PartError> {
+    if place.is_some() {
+        return Err(PartError::Twice(property));
+    }
+    Ok(place.insert(read()?).length())
+}
+
+fn times(sampler: &Sampler, buffers: &mut Buffers) -> Result<Vec<f64>, PartError> {
+    let times = buffers.shares::<1>(sampler.input)?;
+    Ok(times.into_iter().map(|[time]| time).collect())
+}
+
+fn track<T: Value>(
+    sampler: &Sampler,
+    times: Vec<f64>,
+    values: Vec<T>,
+) -> Result<Track<T>, PartError> {
+    let wrong = PartError::Keys {
+        keys: times.len(),
+        values: values.len(),
+    };
+    Track::new(times, values, sampler.interpolation).ok_or(wrong)
+}
+
+fn vectors(sampler: &Sampler, buffers: &mut Buffers) -> Result<Track<DVec3>, PartError> {
+    let times = times(sampler, buffers)?;
+    let values = buffers.shares::<3>(sampler.output)?;
+    track(
+        sampler,
+        times,
+        values.into_iter().map(DVec3::from).collect(),
+    )
+}
+
+fn turns(sampler: &Sampler, buffers: &mut Buffers) -> Result<Track<DQuat>, PartError> {
+    let times = times(sampler, buffers)?;
+    let values = buffers.shares::<4>(sampler.output)?;
+    track(
+        sampler,
+        times,
+        values.into_iter().map(DQuat::from_array).collect(),
+    )
+}
+
+/// One track a morph: a key's weights lie one after the other, of cubics all slopes before, all values, all slopes after.
+fn weights(
+    sampler: &Sampler,
+    morphs: usize,
+    buffers: &mut Buffers,
+) -> Result<Vec<Track<f64>>, PartError> {
+    let times = times(sampler, buffers)?;
+    let values = buffers.shares::<1>(sampler.output)?;
+    let rows = times.len().saturating_mul(sampler.interpolation.values());
+    if rows.checked_mul(morphs) != Some(values.len()) {
+        return Err(PartError::Keys {
+            keys: times.len(),
+            values: values.len(),
+        });
+    }
+    let of = |morph: usize| {
+        let own = (0..rows)
+            .map(|row| values[row * morphs + morph][0])
+            .collect();
+        track(sampler, times.clone(), own)
+    };
+    (0..morphs).map(of).collect()
+}
