@@ -286,7 +286,14 @@ fn strands_have_colors_of_their_own_from_root_to_tip() {
     let colors = |clump: &[(&str, &str)], own: [[Vec3; 2]; 2]| {
         let clump = [&[("color", "000000")], clump].concat();
         let layer = "[(effect: \"hair.base\")]";
-        let (drawing, _) = drawing_of(layer, &clump, 1, Brush::Circle, &[0..4], own);
+        let (drawing, _) = drawing_of(
+            layer,
+            &clump,
+            1,
+            Brush::Circle,
+            std::slice::from_ref(&(0..4)),
+            own,
+        );
         drawing.layers[0].colors[..4].to_vec()
     };
     let [black, r, b] = [[0.0; 3], red.to_array(), blue.to_array()];

@@ -45,7 +45,7 @@ fn shown(text: &str, settings: &[(&str, &str)]) -> Shown {
     let mut stage = Stage::new(&preset, &files).unwrap();
     let mut frame = stage.frame().unwrap();
     frame.features = Features::of(Feature::ALL);
-    let (camera, head) = (frame.camera.clone(), frame.objects[0].head);
+    let (camera, head) = (*frame.camera, frame.objects[0].head);
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
     let mut rasterizer = Rasterizer::new(1, Some(2)).unwrap();

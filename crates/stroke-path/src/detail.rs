@@ -220,7 +220,7 @@ mod tests {
         // To and fro by ever less: the farthest joint is always the next one.
         const COUNT: usize = 200_000;
         let to_and_fro = |i: usize| {
-            let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+            let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
             Vec3::new(side * (COUNT - i) as f32, 0.0, 0.0)
         };
         let strand: Vec<Vec3> = (0..COUNT).map(to_and_fro).collect();

@@ -121,8 +121,7 @@ fn a_small_picture_takes_fewer_joints() {
     let motion = Motion::new();
     let joints = |size| {
         let (scene, mut frames) = (yardstick_of("blond-fantasy", size), FrameMaker::new());
-        let joints = frames.frame(&scene, &motion).unwrap().paths.len();
-        joints
+        frames.frame(&scene, &motion).unwrap().paths.len()
     };
     let sizes = [[96, 72], [960, 720], [3840, 2880]].map(joints);
     assert!(3 * sizes[0] < sizes[2] && sizes[1] < sizes[2], "{sizes:?}");
