@@ -4,8 +4,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 const TUTORIAL: &str = "docs/an-effect-in-30-lines.md";
+const PAINTING: &str = "docs/a-tone-for-each-sample.md";
 const FIRST_CRATE: &str = "crates/inkstrand/tests/tutorial/first-crate.md";
 
 /// Our crates, with the optimisation that they get here: what draws has the tutorial's, the others run little.
@@ -96,7 +98,13 @@ fn blocks(markdown: &str) -> Vec<Block> {
 const PROGRAM: [&str; 5] = ["run", "--quiet", "--features", "program", "--"];
 
 /// A crate outside of the workspace.
-struct Crate(tempfile::TempDir);
+struct Crate {
+    folder: tempfile::TempDir,
+    /// Crates of one name share what cargo builds, and so are built one after the other.
+    _turn: MutexGuard<'static, ()>,
+}
+
+static TURN: Mutex<()> = Mutex::new(());
 
 impl Crate {
     /// Writes the tutorial's files; our crates are where they are.
@@ -107,7 +115,10 @@ impl Crate {
         fs::write(folder.path().join(".cargo/config.toml"), config()).unwrap();
         // The versions that we test with, which are there without a network.
         fs::copy(root().join("Cargo.lock"), folder.path().join("Cargo.lock")).unwrap();
-        let this = Self(folder);
+        let this = Self {
+            folder,
+            _turn: TURN.lock().unwrap_or_else(PoisonError::into_inner),
+        };
         let ours = format!("{}/", root().display());
         for block in blocks {
             let Some(file) = block.file() else { continue };
@@ -122,7 +133,7 @@ impl Crate {
     }
 
     fn path(&self, file: &str) -> PathBuf {
-        self.0.path().join(file)
+        self.folder.path().join(file)
     }
 
     fn change(&self, file: &str, change: impl Fn(&str) -> String) {
@@ -139,7 +150,7 @@ impl Crate {
             .arg("--offline")
             .args(arguments)
             .env("CARGO_TARGET_DIR", target)
-            .current_dir(self.0.path())
+            .current_dir(self.folder.path())
             .output()
             .unwrap()
     }
@@ -165,7 +176,11 @@ impl Crate {
 
     /// What cargo says of an effect in which `good` was mistaken for `bad`.
     fn fail_with(&self, good: &str, bad: &str) -> String {
-        let effect = "src/dip.wgsl";
+        self.fail_with_in("src/dip.wgsl", good, bad)
+    }
+
+    /// What cargo says where `good` was mistaken for `bad` in this file.
+    fn fail_with_in(&self, effect: &str, good: &str, bad: &str) -> String {
         let right = fs::read_to_string(self.path(effect)).unwrap();
         self.change(effect, |text| text.replacen(good, bad, 1));
         let message = self.fail(&["build"]);
@@ -293,6 +308,61 @@ fn the_tutorial_is_right() {
     dip_dye.change("look.ron", |text| text.replace("start:", "strat:"));
     let message = dip_dye.fail(&[&PROGRAM[..], &["check", "look.ron"]].concat());
     assert_says(&message, misspelt_parameter);
+}
+
+#[test]
+fn the_tutorial_of_painting_is_right() {
+    let own = blocks(&read(PAINTING));
+    let all: Vec<Block> = blocks(&read(TUTORIAL)).into_iter().chain(own).collect();
+    let made = Crate::write(&all);
+    made.succeed(&["test", "--quiet"]);
+
+    let ink = |name: &str, lines: &str| {
+        let set = format!("tutorial.cut.lines={lines}");
+        let size = [
+            "--size",
+            "320x240",
+            "--samples",
+            "1",
+            "--only",
+            "tutorial.cut",
+        ];
+        let output = ["--set", &set, "-o", name];
+        made.succeed(&[&PROGRAM[..], &["render", "cut.ron"], &size, &output].concat());
+        count(&made.path(name), [0x17, 0x14, 0x2A])
+    };
+    let inked = ink("fine.png", "60");
+    assert!(inked > 2000, "{inked} pixels of 76800 are ink");
+    // As many lines of any width are as dark.
+    let few = ink("few.png", "20");
+    assert!(few.abs_diff(inked) * 4 < inked, "{few} {inked}");
+
+    let told: Vec<String> = blocks(&read(PAINTING))
+        .into_iter()
+        .filter(|block| block.language == "text")
+        .map(|block| block.text.trim_end().to_owned())
+        .collect();
+    let undeclared = made.fail_with_in("src/cut.wgsl", "at.tube", "at.tub");
+    assert_eq!(told.len(), 1);
+    assert_says(&undeclared, &told[0]);
+    let unknown = made.fail_with_in("src/cut.wgsl", "color, tube", "color, tub");
+    assert_says(&unknown, "src/cut.wgsl:2:");
+}
+
+#[test]
+fn the_painting_effect_has_twenty_lines() {
+    let blocks = blocks(&read(PAINTING));
+    let mut effects = blocks
+        .iter()
+        .filter(|block| block.file() == Some("src/cut.wgsl"));
+    let lines = effects
+        .next()
+        .unwrap()
+        .text
+        .lines()
+        .filter(|line| !line.is_empty())
+        .count();
+    assert!(lines <= 20, "{lines} lines");
 }
 
 #[test]

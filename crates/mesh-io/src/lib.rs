@@ -46,6 +46,10 @@ pub mod ply;
 mod read;
 mod rig;
 mod sequence;
+#[cfg_attr(
+    not(feature = "gltf"),
+    expect(dead_code, reason = "only glTF files have tracks")
+)]
 mod track;
 mod welded;
 
