@@ -92,8 +92,8 @@ fn preset(style: &str, toon: &str) -> String {
     )
 }
 
-/// Row 9: with the fade, lines leave the crown and stay at the tips. The specification asks for 60 % fewer pixels within a quarter of a head height of
-/// the whorl; this look has 18 % fewer.
+/// Row 9: lines that grow until 0.7 of the strand leave the crown, and are as they were beyond. The specification asks for 60 % fewer pixels within a
+/// quarter of a head height of the whorl. Here it is 48 %: strands of this style are at 0.32 of their length there, the mean of all.
 #[test]
 fn lines_fade_at_the_whorl_and_nowhere_else() {
     let text = std::fs::read_to_string(presets().join("shin-levels.ron")).unwrap();
@@ -110,7 +110,7 @@ fn lines_fade_at_the_whorl_and_nowhere_else() {
         let is_line = |i: &usize| of.picture.pixels[*i] != none.picture.pixels[*i];
         none.hair().filter(is_line).collect()
     };
-    let (full, faded) = (lines(&with(&[("passes.1.fade", "0")])), lines(&with(&[])));
+    let [full, faded] = ["0", "0.7"].map(|fade| lines(&with(&[("passes.1.fade", fade)])));
     // The style's whorl is at longitude 176, latitude 70 degrees.
     let (longitude, latitude) = (176.0_f32.to_radians(), 70.0_f32.to_radians());
     let to_whorl = Vec3::new(
@@ -137,7 +137,7 @@ fn lines_fade_at_the_whorl_and_nowhere_else() {
     let tips = [&full, &faded].map(|lines| count(lines, &at_tips));
     println!("line pixels at the whorl {whorls:?}, at the tips {tips:?}, full and faded");
     assert!(
-        whorls[0] > 100.0 && whorls[1] <= 0.9 * whorls[0],
+        whorls[0] > 100.0 && whorls[1] <= 0.55 * whorls[0],
         "{whorls:?}"
     );
     assert!(
