@@ -7,9 +7,14 @@ struct Paint {
     ratio: vec4<f32>,
     disc: vec4<u32>,
     way: vec4<f32>,
-    /// Where `TELLS`: 1 to the right of who walks from root to tip, else -1.
+    /// Where `TELLS`: 1 to the right of who walks from root to tip, else -1; and the ratio of the segment that says so.
     side: vec4<f32>,
+    side_ratio: vec4<f32>,
 }
+
+/// A later segment says on which side a sample lies only where its ratio is less by this factor: around a joint, where a stroke
+/// turns back, two segments are equally near and may see the sample on other sides, which rounding must not decide.
+const NEARER: f32 = 0.999;
 
 /// One strand at the samples; in `SHIFTED`, where strokes are on their own, one of its strokes, as `outer`.
 struct Strand {
@@ -17,8 +22,9 @@ struct Strand {
     depth: vec4<f32>,
     biased: vec4<f32>,
     ratio: vec4<f32>,
-    /// Where `TELLS`, as that of a `Paint`; 0 outside of it.
+    /// Where `TELLS`, as those of a `Paint`.
     side: vec4<f32>,
+    side_ratio: vec4<f32>,
     /// The highest stroke that shows outside the clump too, with its own depth.
     outer_depth: vec4<f32>,
     outer_biased: vec4<f32>,
@@ -28,12 +34,14 @@ struct Strand {
 }
 
 fn no_paint() -> Paint {
-    return Paint(vec4<u32>(0u), vec4<f32>(FAR_RATIO), vec4<u32>(0u), vec4<f32>(0.0), vec4<f32>(1.0));
+    let far = vec4<f32>(FAR_RATIO);
+    return Paint(vec4<u32>(0u), far, vec4<u32>(0u), vec4<f32>(0.0), vec4<f32>(1.0), far);
 }
 
 fn no_strand() -> Strand {
     let nothing = vec4<f32>(NOTHING);
-    return Strand(nothing, nothing, vec4<f32>(1.0), vec4<f32>(0.0), nothing, nothing, no_paint(), no_paint());
+    let one = vec4<f32>(1.0);
+    return Strand(nothing, nothing, one, one, vec4<f32>(FAR_RATIO), nothing, nothing, no_paint(), no_paint());
 }
 
 /// The inverse depth of what lies so many metres deeper. There is nothing deeper than 0 or below.
@@ -61,7 +69,10 @@ fn paint(p: ptr<function, Paint>, s: Segment, local: Local, at: Nearest, covered
     (*p).disc = select((*p).disc, vec4<u32>(s.disc), is_nearer);
     (*p).way = select((*p).way, s.way.x + at.u * s.way.y, is_nearer);
     if (TELLS) {
-        (*p).side = select((*p).side, side_of(s, local), is_nearer);
+        let is_same = covered & (number == (*p).number);
+        let tells_side = is_higher | (is_same & (at.ratio < (*p).side_ratio * NEARER));
+        (*p).side = select((*p).side, side_of(s, local), tells_side);
+        (*p).side_ratio = select((*p).side_ratio, at.ratio, tells_side);
     }
     return is_higher;
 }
@@ -81,8 +92,9 @@ fn add(strand: ptr<function, Strand>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
         (*strand).depth = select((*strand).depth, max((*strand).depth, depth), covered);
         (*strand).biased = select((*strand).biased, max((*strand).biased, biased), covered);
         if (TELLS) {
-            let is_nearer = covered & ((at.ratio < (*strand).ratio) | ((*strand).side == vec4<f32>(0.0)));
-            (*strand).side = select((*strand).side, side_of(s, p), is_nearer);
+            let tells_side = covered & (at.ratio < (*strand).side_ratio * NEARER);
+            (*strand).side = select((*strand).side, side_of(s, p), tells_side);
+            (*strand).side_ratio = select((*strand).side_ratio, at.ratio, tells_side);
         }
         (*strand).ratio = select((*strand).ratio, min((*strand).ratio, at.ratio), covered);
     } else if (s.is_clipped) {

@@ -142,7 +142,9 @@ impl Placed {
             index[k] = select(is_less, self.index, index[k]);
             places.ratio[k] = select(is_less, ratio, places.ratio[k]);
             places.way[k] = select(is_less, way.at(at), places.way[k]);
-            places.side[k] = select(is_less, select(y[k] < 0.0, -side, side), places.side[k]);
+            let is_nearer = (covered[k] != 0) & (ratio < places.side_ratio[k] * NEARER);
+            places.side[k] = select(is_nearer, select(y[k] < 0.0, -side, side), places.side[k]);
+            places.side_ratio[k] = select(is_nearer, ratio, places.side_ratio[k]);
         }
         places.index = index;
     }
@@ -156,9 +158,14 @@ pub(super) struct Places {
     pub(super) way: Lanes,
     /// The square of distance over radius; infinite where no segment covers the sample.
     ratio: Lanes,
-    /// 1 to the right of who walks from root to tip, else -1.
+    /// 1 to the right of who walks from root to tip, else -1; and the ratio of the segment that says so.
     side: Lanes,
+    side_ratio: Lanes,
 }
+
+/// A later segment says on which side a sample lies only where its ratio is less by this factor: around a joint, where a stroke turns back, two
+/// segments are equally near and may see the sample on other sides, which rounding must not decide.
+const NEARER: f32 = 0.999;
 
 impl Places {
     #[inline(always)]
@@ -168,6 +175,7 @@ impl Places {
             way: [0.0; LANES],
             ratio: [f32::INFINITY; LANES],
             side: [1.0; LANES],
+            side_ratio: [f32::INFINITY; LANES],
         }
     }
 
