@@ -11,7 +11,7 @@ use crate::format::{self, HAIR_FORMATS, HairFormat};
 use crate::orient::{self, Axes, Given, Orientation};
 use crate::whole_file::write_whole;
 use crate::{strands_ron, tfx};
-use mesh_io::{MOST_OF_DATA, decode_text, model_of_bytes, read_bytes};
+use mesh_io::{MOST_OF_DATA, Model, decode_text, model_of_bytes, read_bytes};
 
 /// How to read a hair file.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,6 +56,10 @@ impl HairFile {
 pub struct HeadFile {
     /// The head, bust or body.
     pub mesh: Mesh,
+    /// All that the file holds, as it lies there.
+    pub model: Model,
+    /// From there to where `mesh` lies.
+    pub orientation: Orientation,
     /// Sentences to print: what was guessed or left out.
     pub notes: Vec<String>,
 }
@@ -151,9 +155,13 @@ pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<He
         .iter_mut()
         .for_each(|n| *n = orientation.up.to_y_up(*n));
     check_finite(path, &orientation, &mesh.positions)?;
+    let mut notes = model.notes.clone();
+    notes.push(note);
     Ok(HeadFile {
         mesh,
-        notes: model.notes.into_iter().chain([note]).collect(),
+        model,
+        orientation,
+        notes,
     })
 }
 

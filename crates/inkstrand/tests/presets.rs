@@ -5,7 +5,7 @@ use effects::preset::{LAYER, Reader};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
-use stage::{ObjectSection, PassSection, Preset, Sections};
+use stage::{MeshSection, ObjectSection, PassSection, Preset, Sections};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -49,6 +49,8 @@ fn everything(registry: &Registry) -> String {
     for (name, _, table) in Sections::ALL {
         let _ = writeln!(text, "    {name}: (\n{}    ),", list(table, "        "));
     }
+    let mesh = list(MeshSection::TABLE, "            ");
+    let _ = writeln!(text, "    meshes: [\n        (\n{mesh}        ),\n    ],");
     let pass = list(PassSection::TABLE, "            ");
     let _ = writeln!(text, "    passes: [\n        (\n{pass}        ),\n    ],");
     text += "    layers: [\n";
@@ -123,6 +125,13 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
             for pass in reader.list(field.value, "passes") {
                 for inner in reader.fields(pass, "a pass") {
                     add(inner.name, inner.value, PassSection::TABLE);
+                }
+            }
+        }
+        if field.name == "meshes" {
+            for mesh in reader.list(field.value, "meshes") {
+                for inner in reader.fields(mesh, "a mesh") {
+                    add(inner.name, inner.value, MeshSection::TABLE);
                 }
             }
         }

@@ -111,6 +111,7 @@ mod tests {
             tone,
         };
         let surface = Surface {
+            texture: None,
             margin_m: 0.0,
             mesh: 0,
             vertices: vec![

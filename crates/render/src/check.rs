@@ -1,10 +1,12 @@
 //! What a drawing must be before anything is drawn.
 
 use crate::drawing::{
-    Disc, Drawing, LayerStrokes, Run, Stretch, Stretches, Surface, SurfaceVertex,
+    Coverage, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches, Surface, SurfaceTexture,
+    SurfaceVertex,
 };
 use crate::edges::Edges;
 use crate::features::{Feature, Features};
+use glam::Vec2;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -13,6 +15,9 @@ pub const MAX_SIZE: u32 = 16384;
 
 /// Largest coordinate and radius on the screen, in pixels, either side of 0.
 pub const MAX_COORDINATE: f32 = 1e9;
+
+/// Largest place in a texture, either side of 0, in widths and heights of its picture.
+pub const MAX_PLACE: f32 = 1e4;
 
 /// Why a drawing can't be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -202,6 +207,36 @@ pub enum DrawError {
         vertex: u32,
         /// How many the surface has.
         vertices: usize,
+    },
+    /// A textured surface has a place for each vertex.
+    #[error(
+        "surface {surface}: its texture has {found} places, where there are {vertices} vertices"
+    )]
+    TexturePlaces {
+        /// Index of the surface.
+        surface: usize,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        vertices: usize,
+    },
+    /// A place in a texture is not finite, or too far away.
+    #[error(
+        "surface {surface}, vertex {vertex}: its place in the texture must be finite, at most {MAX_PLACE} pictures away"
+    )]
+    TexturePlace {
+        /// Index of the surface.
+        surface: usize,
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// A share is from 0 to 1.
+    #[error("surface {surface}: its texture is cut at a coverage of {share}, not 0 to 1")]
+    Cut {
+        /// Index of the surface.
+        surface: usize,
+        /// As it was given.
+        share: f32,
     },
     /// A pass needs a feature that isn't declared.
     #[error("a pass needs the feature {0:?}, which is not declared")]
@@ -540,6 +575,9 @@ fn check_surface(index: usize, surface: &Surface) -> Result<(), DrawError> {
         });
     }
     let vertices = surface.vertices.len();
+    if let Some(texture) = &surface.texture {
+        check_texture(index, texture, vertices)?;
+    }
     let is_there = |corner: u32| (corner as usize) < vertices;
     let is_triangle = |&[a, b, c]: &[u32; 3]| is_there(a) & is_there(b) & is_there(c);
     if let Some(triangle) = first_that_is_not(&surface.triangles, is_triangle) {
@@ -553,6 +591,32 @@ fn check_surface(index: usize, surface: &Surface) -> Result<(), DrawError> {
         });
     }
     Ok(())
+}
+
+fn check_texture(
+    surface: usize,
+    texture: &SurfaceTexture,
+    vertices: usize,
+) -> Result<(), DrawError> {
+    let found = texture.places.len();
+    if found != vertices {
+        return Err(DrawError::TexturePlaces {
+            surface,
+            found,
+            vertices,
+        });
+    }
+    // No number is in no range.
+    let is_place = |place: &Vec2| place.abs().max_element() <= MAX_PLACE;
+    if let Some(vertex) = first_that_is_not(&texture.places, is_place) {
+        return Err(DrawError::TexturePlace { surface, vertex });
+    }
+    match texture.coverage {
+        Coverage::Cut(share) if !(0.0..=1.0).contains(&share) => {
+            Err(DrawError::Cut { surface, share })
+        }
+        _ => Ok(()),
+    }
 }
 
 fn is_vertex(vertex: &SurfaceVertex) -> bool {

@@ -22,6 +22,7 @@ mod stamp;
 mod strand;
 mod stroke;
 mod surface;
+mod texels;
 mod tile;
 
 #[cfg(test)]

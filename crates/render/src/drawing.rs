@@ -8,8 +8,10 @@
 use crate::edges::Edges;
 use crate::features::DrawnFeatures;
 use crate::painting::Painting;
+use effects::Image;
 use glam::Vec2;
 use std::ops::Range;
+use std::sync::Arc;
 pub use stroke_path::Brush;
 
 /// One disc of a stroke, at a joint of its path.
@@ -94,6 +96,32 @@ pub struct SurfaceVertex {
     pub tone: f32,
 }
 
+/// A picture on a surface. Its four samples of a pixel that a triangle has together (all that there are, with fewer) are looked up once, in
+/// the middle of all four, and no farther than the triangle's corners.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceTexture {
+    /// The picture: the surface's two colours are multiplied by it.
+    pub image: Arc<Image>,
+    /// Whether the picture repeats beyond its edges, which else are continued.
+    pub repeats: bool,
+    /// For each vertex its place in the picture, 0 to 1 from left to right and from top to bottom. In the world they run linearly.
+    pub places: Vec<Vec2>,
+    /// What the picture's coverage means.
+    pub coverage: Coverage,
+}
+
+/// What coverage means, 0 to 1: a sample shows the surface or it doesn't.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Coverage {
+    /// Nothing: the surface is whole.
+    #[default]
+    Ignored,
+    /// There is nothing where it is below this.
+    Cut(f32),
+    /// It is the share of a pixel's samples that show the surface.
+    Share,
+}
+
 /// Triangles in two flat tones, drawn from both sides.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
@@ -113,6 +141,8 @@ pub struct Surface {
     pub light: [f32; 3],
     /// Linear colour where the tone is below 0.
     pub shadow: [f32; 3],
+    /// A picture on it; without one it is of those colours everywhere.
+    pub texture: Option<SurfaceTexture>,
 }
 
 /// Which stroke a sample shows where several cover it.

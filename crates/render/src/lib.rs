@@ -56,8 +56,8 @@ mod samples;
 
 pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use drawing::{
-    Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface, SurfaceVertex,
-    scatter,
+    Brush, Coverage, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface,
+    SurfaceTexture, SurfaceVertex, scatter,
 };
 pub use edges::{EdgeChannel, Edges};
 pub use features::{

@@ -82,6 +82,8 @@ impl<'r> Preset<'r> {
         for layer in &self.layers {
             paths.extend(textures::named(layer, files).map(|(_, path)| path));
         }
+        let meshes = self.meshes.iter();
+        paths.extend(meshes.map(|mesh| mesh.section.path(&files.preset_folder)));
         paths.extend(self.files_of_objects(files));
         paths
     }
@@ -118,6 +120,12 @@ impl<'r> Preset<'r> {
         for file in self.named(files) {
             if !file.is_given && file.path.is_file() {
                 found.add(self.check_file(files, &file));
+            }
+        }
+        for mesh in &self.meshes {
+            let path = mesh.section.path(&files.preset_folder);
+            if let (true, Err(error)) = (path.is_file(), mesh_io::read_model(&path)) {
+                found.add(Err(PresetErrors(vec![mesh.mistake(error.to_string())])));
             }
         }
         for layer in &self.layers {

@@ -54,6 +54,34 @@ pub enum StageError {
     /// A style grows on a head.
     #[error("{}: a style needs a head to grow on: --head FILE, or head: (shape: bust) in the preset", .0.display())]
     NoHead(PathBuf),
+    /// A file has no mesh of a name that the preset says.
+    #[error("{}: no mesh or material is called `{name}`{hint}", .path.display())]
+    NoMesh {
+        /// The file.
+        path: PathBuf,
+        /// As the preset says it.
+        name: String,
+        /// What it may have meant.
+        hint: String,
+    },
+    /// Nothing is left of a head.
+    #[error("{}: `head.hide` hides all of its meshes", .0.display())]
+    AllHidden(PathBuf),
+    /// Meshes move with a head.
+    #[error(
+        "the preset lists `meshes` and has no head that they are beside: --head FILE, or head: (shape: bust)"
+    )]
+    MeshesWithoutHead,
+    /// A mesh's picture cannot be read.
+    #[error("{}: picture `{name}` {message}", .path.display())]
+    Picture {
+        /// The file of the mesh.
+        path: PathBuf,
+        /// The picture's name.
+        name: String,
+        /// What is wrong.
+        message: String,
+    },
     /// A style or motion script cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),

@@ -529,7 +529,13 @@ impl ObjectFrame {
         }
         let model = posed.in_pose(neck, motion.pose());
         let light = self.of.placement().own_light(light);
-        let mut surfaces = head::surfaces(model, &paint, sight.camera(), &light);
+        let mut surfaces = head::surfaces(
+            model,
+            &paint,
+            self.of.look().meshes(),
+            sight.camera(),
+            &light,
+        );
         for surface in &mut surfaces {
             surface.mesh += first_mesh;
         }

@@ -1,12 +1,14 @@
 //! The head on the screen: two flat tones and an outline.
 
 use crate::hair::head_of;
+use crate::painted::{MeshPicture, PaintedMesh};
+use crate::preset::MeshSection;
 use crate::scalp;
 use glam::{Vec2, Vec3};
 use groom::{Bust, Cloth, Figure, Ink, OrnamentMesh, Patch};
 use hair_io::{HeadFrame, Mesh};
 use rayon::prelude::*;
-use render::{Head, Light, Surface, SurfaceVertex};
+use render::{Coverage, Head, Light, Surface, SurfaceTexture, SurfaceVertex};
 use std::iter::{once, repeat};
 use stroke_path::Camera;
 
@@ -36,6 +38,8 @@ pub struct HeadModel {
     pub(crate) scalp: [Vec<[u32; 3]>; 2],
     /// What the hair on it wears.
     pub(crate) ornaments: Mesh,
+    /// Meshes in their own colours, of its file or beside it.
+    pub(crate) painted: Vec<PaintedMesh>,
 }
 
 impl HeadModel {
@@ -71,6 +75,18 @@ impl HeadModel {
         triangles.clone_from(&self.skin);
         triangles.extend(self.clothes.iter().flat_map(|(_, cloth)| cloth));
         self.scalp = split.triangles;
+    }
+
+    /// The same in its own file's colours, if there are any, with other meshes beside it.
+    pub(crate) fn painted(mut self, own: Vec<PaintedMesh>, beside: Vec<PaintedMesh>) -> Self {
+        self.painted = own;
+        self.painted.extend(beside);
+        self
+    }
+
+    /// Whether its own file's colours are in place of the preset's.
+    fn is_painted(&self) -> bool {
+        self.painted.iter().any(|mesh| mesh.section.is_none())
     }
 
     /// Puts ornaments into the hair on it.
@@ -131,6 +147,7 @@ impl From<Bust> for HeadModel {
             patches: bust.patches,
             scalp: Default::default(),
             ornaments: no_mesh(),
+            painted: Vec::new(),
         }
     }
 }
@@ -148,6 +165,7 @@ impl From<Mesh> for HeadModel {
             patches: Vec::new(),
             scalp: Default::default(),
             ornaments: no_mesh(),
+            painted: Vec::new(),
         }
     }
 }
@@ -180,6 +198,8 @@ pub(crate) struct HeadPaint {
     pub tie_shadow: [f32; 3],
     /// Between clumps of hair.
     pub scalp: [f32; 3],
+    /// 1/300 of the head's height, metres.
+    pub unit_m: f32,
     /// Width of the outline in metres; 0 is none.
     pub width_m: f32,
     /// How much nearer than the head's inside hair must be to be seen through an opening, metres.
@@ -192,6 +212,11 @@ pub(crate) struct HeadPaint {
 }
 
 impl HeadPaint {
+    /// How much darker its shadow is than its light.
+    fn shade(&self) -> [f32; 3] {
+        [0, 1, 2].map(|i| (self.shadow[i] / self.light[i].max(1e-3)).min(1.0))
+    }
+
     fn of(&self, ink: Ink) -> [f32; 3] {
         match ink {
             Ink::Line => self.line,
@@ -225,10 +250,11 @@ struct Corner {
     tone: f32,
 }
 
-/// What of a head is told apart as a mesh of its own ([`Surface::mesh`]): itself, its clothes, ornaments.
-pub(crate) const MESHES: u32 = 3;
+/// What of a head is told apart as a mesh of its own ([`Surface::mesh`]): itself, its clothes, ornaments, then painted meshes.
+pub(crate) const MESHES: u32 = 256;
 const CLOTHES: u32 = 1;
 const ORNAMENTS: u32 = 2;
+const PAINTED: u32 = 3;
 
 /// How much nearer than a band hair must be to hide it, metres: next to nothing.
 const BAND_MARGIN_M: f32 = 1e-5;
@@ -238,6 +264,7 @@ const BAND_MARGIN_M: f32 = 1e-5;
 pub(crate) fn surfaces(
     model: &HeadModel,
     paint: &HeadPaint,
+    meshes: &[MeshSection],
     camera: &Camera,
     light: &Light,
 ) -> Vec<Surface> {
@@ -252,6 +279,7 @@ pub(crate) fn surfaces(
         patches,
         scalp: [scalp, bare],
         ornaments,
+        painted: _,
     } = model;
     let facing = match facing.is_empty() {
         true => &mesh.normals,
@@ -272,8 +300,14 @@ pub(crate) fn surfaces(
         true => skin,
         false => bare,
     };
-    let hull = match paint.width_m > 0.0 {
-        true => hull(mesh, &model.outline, paint, camera),
+    let hull = match !model.is_painted() && paint.width_m > 0.0 {
+        true => hull(
+            &mesh.positions,
+            &mesh.normals,
+            &model.outline,
+            paint.width_m,
+            camera,
+        ),
         false => Vec::new(),
     };
     let inside = Side {
@@ -291,9 +325,14 @@ pub(crate) fn surfaces(
         }),
         back: Some(inside),
         mesh,
+        picture: None,
     };
-    let mut parts = vec![part(bare, paint.light, paint.shadow, 0)];
-    if !scalp.is_empty() {
+    let is_flat = !model.is_painted();
+    let mut parts = Vec::new();
+    if is_flat {
+        parts.push(part(bare, paint.light, paint.shadow, 0));
+    }
+    if is_flat && !scalp.is_empty() {
         parts.push(part(scalp, paint.scalp, paint.scalp, 0));
     }
     for (cloth, triangles) in clothes {
@@ -307,7 +346,7 @@ pub(crate) fn surfaces(
             ..part(triangles, light, shadow, CLOTHES)
         });
     }
-    if paint.width_m > 0.0 {
+    if is_flat && paint.width_m > 0.0 {
         let skin = once((Cloth::Skin, skin));
         let clothes = clothes.iter().map(|(cloth, triangles)| (*cloth, triangles));
         for (cloth, triangles) in skin.chain(clothes) {
@@ -323,6 +362,7 @@ pub(crate) fn surfaces(
                     margin_m: -paint.outline_margin_m,
                 }),
                 mesh: if is_skin { 0 } else { CLOTHES },
+                picture: None,
             });
         }
     }
@@ -336,6 +376,12 @@ pub(crate) fn surfaces(
         let lit = |away: Vec3| away.dot(light.seen_from(center).0) >= paint.threshold;
         !patch.away_from.is_some_and(lit)
     };
+    let painted = model.painted.par_iter().enumerate();
+    let painted = painted.flat_map_iter(|(number, mesh)| {
+        let number = PAINTED + number as u32;
+        painted_mesh(mesh, number.min(MESHES - 1), paint, meshes, camera, light)
+    });
+    surfaces.par_extend(painted);
     surfaces.extend(patches.iter().filter(is_drawn).flat_map(|patch| {
         let corner = |position: &Vec3| Corner {
             view: camera.view_from_world(*position),
@@ -353,6 +399,7 @@ pub(crate) fn surfaces(
             }),
             back: None,
             mesh: 0,
+            picture: None,
         };
         part.seen_by(camera)
     }));
@@ -360,17 +407,101 @@ pub(crate) fn surfaces(
 }
 
 /// A slightly larger mesh, whose inside is seen around the edges of the mesh itself; `widths` as in [`HeadModel`].
-fn hull(mesh: &Mesh, widths: &[f32], paint: &HeadPaint, camera: &Camera) -> Vec<Corner> {
+fn hull(
+    positions: &[Vec3],
+    normals: &[Vec3],
+    widths: &[f32],
+    width_m: f32,
+    camera: &Camera,
+) -> Vec<Corner> {
     let widths = widths.iter().copied().chain(repeat(1.0));
-    mesh.positions
+    positions
         .iter()
-        .zip(&mesh.normals)
+        .zip(normals)
         .zip(widths)
         .map(|((position, normal), width)| Corner {
-            view: camera.view_from_world(*position + *normal * (paint.width_m * width)),
+            view: camera.view_from_world(*position + *normal * (width_m * width)),
             tone: 0.0,
         })
         .collect()
+}
+
+/// What is seen of a mesh in its own colours, whose number among the head's meshes that is.
+fn painted_mesh(
+    mesh: &PaintedMesh,
+    number: u32,
+    head: &HeadPaint,
+    sections: &[MeshSection],
+    camera: &Camera,
+    light: &Light,
+) -> Vec<Surface> {
+    let own = &mesh.paint;
+    let section = mesh.section.and_then(|index| sections.get(index));
+    let times = |a: [f32; 3], b: [f32; 3]| [0, 1, 2].map(|i| a[i] * b[i]);
+    // Light, how much darker shadow is, line, and its width.
+    let (tint, shade, line, width_m) = match section {
+        Some(section) => {
+            let width_m = section.width * head.unit_m;
+            (section.color, [section.shade; 3], section.line, width_m)
+        }
+        None => ([1.0; 3], head.shade(), head.line, head.width_m),
+    };
+    let lit = times(own.color, tint);
+    let shadow = own.shade.map_or(times(lit, shade), |own| times(own, tint));
+    let corner = |(position, normal): (&Vec3, &Vec3)| Corner {
+        view: camera.view_from_world(*position),
+        tone: normal.dot(light.seen_from(*position).0) - head.threshold,
+    };
+    let corners: Vec<Corner> = mesh
+        .positions
+        .iter()
+        .zip(&mesh.normals)
+        .map(corner)
+        .collect();
+    let front = Side {
+        light: lit,
+        shadow,
+        margin_m: 0.0,
+    };
+    let back = match (own.both_sides, section) {
+        (true, _) => Some(front),
+        // Seen through openings, as other heads' insides.
+        (false, None) => Some(Side {
+            light: shadow,
+            shadow,
+            margin_m: head.inside_margin_m,
+        }),
+        (false, Some(_)) => None,
+    };
+    let part = Part {
+        triangles: &mesh.triangles,
+        corners: &corners,
+        front: Some(front),
+        back,
+        mesh: number,
+        picture: own
+            .picture
+            .as_ref()
+            .map(|picture| (picture, &mesh.places[..])),
+    };
+    let mut surfaces: Vec<Surface> = part.seen_by(camera).collect();
+    if width_m > 0.0 && own.has_outline() {
+        let outline = Part {
+            corners: &hull(&mesh.positions, &mesh.normals, &[], width_m, camera),
+            front: None,
+            back: Some(Side {
+                light: line,
+                shadow: line,
+                margin_m: -head.outline_margin_m,
+            }),
+            picture: part
+                .picture
+                .filter(|(picture, _)| picture.coverage != Coverage::Ignored),
+            ..part
+        };
+        surfaces.extend(outline.seen_by(camera));
+    }
+    surfaces
 }
 
 /// What the hair wears. Hair goes by its depth alone here: what is in a band does not hide it.
@@ -394,11 +525,18 @@ fn worn(ornaments: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> 
         }),
         back: None,
         mesh: ORNAMENTS,
+        picture: None,
     };
     let mut worn: Vec<Surface> = ties.seen_by(camera).collect();
     if paint.width_m > 0.0 {
         let outline = Part {
-            corners: &hull(ornaments, &[], paint, camera),
+            corners: &hull(
+                &ornaments.positions,
+                &ornaments.normals,
+                &[],
+                paint.width_m,
+                camera,
+            ),
             front: None,
             back: Some(Side {
                 light: paint.line,
@@ -421,6 +559,8 @@ struct Part<'a> {
     back: Option<Side>,
     /// As [`Surface`] has it.
     mesh: u32,
+    /// The picture on it, and each corner's place there.
+    picture: Option<(&'a MeshPicture, &'a [Vec2])>,
 }
 
 /// What one side of a part is painted as; as [`Surface`] has them.
@@ -435,6 +575,7 @@ impl Part<'_> {
     /// Its triangles on the screen, cut at the near plane: a surface for each side that is painted, the front first.
     fn seen_by(&self, camera: &Camera) -> impl Iterator<Item = Surface> + use<> {
         let near = camera.near_m();
+        let places = self.picture.map_or(&[][..], |(_, places)| places);
         let on = |side: &Option<Side>| side.map(|side| OnScreen::new(side, self));
         let (mut front, mut back) = (on(&self.front), on(&self.back));
         for triangle in self.triangles {
@@ -448,9 +589,13 @@ impl Part<'_> {
                 continue;
             };
             if seen.iter().all(|corner| corner.view.z >= near) {
-                side.push(*triangle, &seen, camera);
+                side.push(*triangle, &seen, places, camera);
             } else {
-                side.push_polygon(&cut(&seen, near), camera);
+                let places = match places {
+                    [] => [Vec2::ZERO; 3],
+                    places => triangle.map(|i| places[i as usize]),
+                };
+                side.push_polygon(&cut(&seen, &places, near), camera);
             }
         }
         front.into_iter().chain(back).map(OnScreen::finish)
@@ -468,6 +613,12 @@ impl OnScreen {
     fn new(side: Side, part: &Part) -> Self {
         Self {
             surface: Surface {
+                texture: part.picture.map(|(picture, _)| SurfaceTexture {
+                    image: picture.image.clone(),
+                    repeats: picture.repeats,
+                    places: Vec::new(),
+                    coverage: picture.coverage,
+                }),
                 vertices: Vec::new(),
                 triangles: Vec::new(),
                 margin_m: side.margin_m,
@@ -481,13 +632,24 @@ impl OnScreen {
 
     /// Adds a triangle of the mesh, whose corners those are.
     #[inline]
-    fn push(&mut self, mut triangle: [u32; 3], seen: &[Corner; 3], camera: &Camera) {
-        let vertices = &mut self.surface.vertices;
+    fn push(
+        &mut self,
+        mut triangle: [u32; 3],
+        seen: &[Corner; 3],
+        places: &[Vec2],
+        camera: &Camera,
+    ) {
+        let Surface {
+            vertices, texture, ..
+        } = &mut self.surface;
         for (index, corner) in triangle.iter_mut().zip(seen) {
             let entered = &mut self.entered[*index as usize];
             if *entered == u32::MAX {
                 *entered = vertices.len() as u32;
                 vertices.push(corner.project(camera));
+                if let Some(texture) = texture {
+                    texture.places.push(places[*index as usize]);
+                }
             }
             *index = *entered;
         }
@@ -495,14 +657,20 @@ impl OnScreen {
     }
 
     /// Adds what is left of a triangle that was cut.
-    fn push_polygon(&mut self, corners: &[Corner], camera: &Camera) {
+    fn push_polygon(&mut self, corners: &[(Corner, Vec2)], camera: &Camera) {
         let Surface {
             vertices,
             triangles,
+            texture,
             ..
         } = &mut self.surface;
         let first = vertices.len() as u32;
-        vertices.extend(corners.iter().map(|corner| corner.project(camera)));
+        vertices.extend(corners.iter().map(|(corner, _)| corner.project(camera)));
+        if let Some(texture) = texture {
+            texture
+                .places
+                .extend(corners.iter().map(|(_, place)| *place));
+        }
         let others = first + 1..vertices.len() as u32;
         triangles.extend(
             others
@@ -561,20 +729,21 @@ fn is_front([a, b, c]: &[Corner; 3]) -> bool {
     normal.dot(a.view) > 0.0
 }
 
-/// The part of a triangle at depth `near` or beyond: three or four corners.
-fn cut(triangle: &[Corner; 3], near: f32) -> Vec<Corner> {
+/// The part of a triangle at depth `near` or beyond: three or four corners with their places in the picture.
+fn cut(triangle: &[Corner; 3], places: &[Vec2; 3], near: f32) -> Vec<(Corner, Vec2)> {
     let mut kept = Vec::with_capacity(4);
     for i in 0..3 {
         let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
         if a.view.z >= near {
-            kept.push(a);
+            kept.push((a, places[i]));
         }
         if (a.view.z >= near) != (b.view.z >= near) {
             let t = (near - a.view.z) / (b.view.z - a.view.z);
-            kept.push(Corner {
+            let corner = Corner {
                 view: a.view.lerp(b.view, t).with_z(near),
                 tone: a.tone + (b.tone - a.tone) * t,
-            });
+            };
+            kept.push((corner, places[i].lerp(places[(i + 1) % 3], t)));
         }
     }
     kept
@@ -610,6 +779,7 @@ mod tests {
     }
 
     const PAINT: HeadPaint = HeadPaint {
+        unit_m: 0.001,
         light: [1.0; 3],
         shadow: [0.5; 3],
         line: [0.0; 3],
@@ -635,7 +805,7 @@ mod tests {
     #[test]
     fn the_outside_is_lit_and_the_inside_is_in_shadow() {
         let light = Light::Direction(Vec3::Z);
-        let front = surfaces(&plate().into(), &PAINT, &camera(0.0), &light);
+        let front = surfaces(&plate().into(), &PAINT, &[], &camera(0.0), &light);
         assert_eq!(front[0].triangles.len(), 1);
         assert_eq!(front[1].triangles.len(), 0);
         assert_eq!(
@@ -645,7 +815,7 @@ mod tests {
         );
         assert!(front[0].vertices.iter().all(|v| v.tone > 0.0));
 
-        let behind = surfaces(&plate().into(), &PAINT, &camera(180.0), &light);
+        let behind = surfaces(&plate().into(), &PAINT, &[], &camera(180.0), &light);
         assert_eq!(behind[0].triangles.len(), 0);
         assert_eq!(behind[1].triangles.len(), 1);
         assert_eq!(behind[1].light, PAINT.shadow);
@@ -656,7 +826,13 @@ mod tests {
     fn shade_is_dark_in_full_light() {
         let mut model = HeadModel::from(plate());
         model.shade = vec![0.0, 0.0, 1.0];
-        let seen = surfaces(&model, &PAINT, &camera(0.0), &Light::Direction(Vec3::Z));
+        let seen = surfaces(
+            &model,
+            &PAINT,
+            &[],
+            &camera(0.0),
+            &Light::Direction(Vec3::Z),
+        );
         let tones = seen[0].vertices.iter().map(|vertex| vertex.tone > 0.0);
         assert_eq!(tones.collect::<Vec<_>>(), [true, true, false]);
     }
@@ -678,7 +854,13 @@ mod tests {
             dress: groom::Dress::Sailor,
             ..Figure::default()
         });
-        let seen = surfaces(&sailor, &PAINT, &bust_camera(), &Light::Direction(Vec3::Z));
+        let seen = surfaces(
+            &sailor,
+            &PAINT,
+            &[],
+            &bust_camera(),
+            &Light::Direction(Vec3::Z),
+        );
         let drawn = |color: [f32; 3]| -> usize {
             let own = seen.iter().filter(|surface| surface.light == color);
             own.map(|surface| surface.triangles.len()).sum()
@@ -699,7 +881,7 @@ mod tests {
         let figure = HeadModel::figure(&Figure::default());
         let dark = |light: Vec3| {
             let light = Light::Direction(light.normalize());
-            let seen = surfaces(&figure, &PAINT, &bust_camera(), &light);
+            let seen = surfaces(&figure, &PAINT, &[], &bust_camera(), &light);
             // Patches are flat in one tone; the skin has two.
             let flat = |surface: &&Surface| surface.light == surface.shadow;
             let own = seen.iter().filter(|surface| surface.light == PAINT.shadow);
@@ -732,6 +914,7 @@ mod tests {
         let cut = &surfaces(
             &mesh.into(),
             &PAINT,
+            &[],
             &camera(0.0),
             &Light::Direction(Vec3::Z),
         );

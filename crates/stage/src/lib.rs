@@ -17,7 +17,9 @@ mod material;
 mod motion;
 mod neck;
 mod object;
+mod painted;
 mod part;
+mod pictures;
 mod placement;
 mod preset;
 mod reach;
@@ -46,10 +48,10 @@ pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
     BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
-    ExpressionChoice, EyesChoice, FixedTo, HairSection, HeadSection, HeadShape, HeldChoice,
-    LightKind, LightSection, MotionSection, NamedObject, ObjectSection, OrderChoice, PASSES,
-    PassSection, PathChoice, PathSection, Preset, SceneSection, Sections, TopSection, UpAxis,
-    VERSION,
+    ExpressionChoice, EyesChoice, FixedTo, HairSection, HeadColors, HeadSection, HeadShape,
+    HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
+    NamedObject, ObjectSection, OrderChoice, PASSES, PassSection, PathChoice, PathSection, Preset,
+    SceneSection, Sections, TopSection, UpAxis, VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;

@@ -3,15 +3,18 @@
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
+use crate::painted::{self, MeshNames};
 use crate::preset::{
-    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HeadSection, HeadShape, Preset, UpAxis,
+    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HeadColors, HeadSection, HeadShape,
+    Preset, UpAxis,
 };
 use crate::style;
 use glam::{Vec2, Vec3};
 use groom::{Blush, Dress, Expression, Eyes, Face, Figure, Taper};
-use hair_io::orient::Axes;
+use hair_io::orient::{Axes, Orientation};
 use hair_io::{HairError, HairFile, HairOptions, HeadFrame, Mesh};
 use hair_sim::Strands;
+use mesh_io::Model;
 use render::NO_TAPER;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -54,25 +57,71 @@ pub(crate) fn head(
     let section = &preset.sections.head;
     let own = section.file.as_ref();
     let Some(path) = chosen(files.head.as_ref(), own, &files.preset_folder) else {
-        return Ok(match section.shape {
-            HeadShape::None => None,
-            HeadShape::Bust => Some(HeadModel::bust()),
-            HeadShape::Figure => Some(HeadModel::figure(&figure(section))),
-        });
+        let head = match section.shape {
+            HeadShape::None => return no_head(preset),
+            HeadShape::Bust => HeadModel::bust(),
+            HeadShape::Figure => HeadModel::figure(&figure(section)),
+        };
+        let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
+        let folder = &files.preset_folder;
+        let beside = painted::of_sections(&sections, folder, &Orientation::OURS, notes)?;
+        return Ok(Some(head.painted(Vec::new(), beside)));
     };
     let file = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
     notes.extend(file.notes);
-    let mut mesh = file.mesh;
+    let (model, orientation) = (&file.model, &file.orientation);
+    let hidden = MeshNames(section.hide.as_deref().unwrap_or_default());
+    hidden.check(model, &path)?;
+    let is_there = |mesh: &mesh_io::Mesh| !hidden.have(model, mesh);
+    let mut mesh = match hidden.is_empty() {
+        true => file.mesh,
+        false => {
+            shape_of(model, orientation, is_there).ok_or(StageError::AllHidden(path.clone()))?
+        }
+    };
+    let mut painted = match section.colors {
+        HeadColors::Preset => Vec::new(),
+        HeadColors::File => painted::of_model(model, &path, orientation, None, is_there, notes)?,
+    };
     if is_inside_out(&mesh) {
         notes.push("head: its triangles face inwards and are turned around".to_owned());
-        mesh.triangles
-            .iter_mut()
-            .for_each(|triangle| triangle.swap(1, 2));
-        mesh.normals
-            .iter_mut()
-            .for_each(|normal| *normal = -*normal);
+        turn_around(&mut mesh.triangles, &mut mesh.normals);
+        for mesh in &mut painted {
+            turn_around(&mut mesh.triangles, &mut mesh.normals);
+        }
     }
-    Ok(Some(mesh.into()))
+    let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
+    let folder = &files.preset_folder;
+    let beside = painted::of_sections(&sections, folder, orientation, notes)?;
+    Ok(Some(HeadModel::from(mesh).painted(painted, beside)))
+}
+
+/// The meshes that are there as one shape; nothing where none is.
+fn shape_of(
+    model: &Model,
+    orientation: &Orientation,
+    is_there: impl Fn(&mesh_io::Mesh) -> bool,
+) -> Option<Mesh> {
+    let meshes = model.meshes.iter().filter(|mesh| is_there(mesh));
+    let corners = meshes.flat_map(mesh_io::Mesh::corners);
+    let shape = Mesh::from_corners(corners.map(|t| t.map(|p| orientation.apply(p))));
+    (!shape.triangles.is_empty()).then_some(shape)
+}
+
+/// Turns the outside of a mesh in.
+fn turn_around(triangles: &mut [[u32; 3]], normals: &mut [Vec3]) {
+    triangles
+        .iter_mut()
+        .for_each(|triangle| triangle.swap(1, 2));
+    normals.iter_mut().for_each(|normal| *normal = -*normal);
+}
+
+/// Meshes lie beside a head.
+fn no_head(preset: &Preset) -> Result<Option<HeadModel>, StageError> {
+    match preset.meshes.is_empty() {
+        true => Ok(None),
+        false => Err(StageError::MeshesWithoutHead),
+    }
 }
 
 /// The figure that a section describes.

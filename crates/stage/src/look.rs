@@ -3,8 +3,8 @@
 use crate::files::{Files, StageError};
 use crate::head::HeadPaint;
 use crate::preset::{
-    BrushChoice, EdgesChoice, FixedTo, LightKind, OrderChoice, PassSection, PathChoice, Preset,
-    Sections,
+    BrushChoice, EdgesChoice, FixedTo, LightKind, MeshSection, OrderChoice, PassSection,
+    PathChoice, Preset, Sections,
 };
 use crate::textures::with_textures;
 use effects::section::Section;
@@ -28,6 +28,8 @@ pub struct Look {
     pub(crate) clump: Varied<clump::Program>,
     pub(crate) layers: Vec<Layer>,
     passes: Vec<PassSection>,
+    /// How the preset's meshes are painted, in their order.
+    meshes: Vec<MeshSection>,
     /// Unit vector to the light, where the camera stands at yaw 0.
     light_direction: Vec3,
 }
@@ -65,6 +67,11 @@ impl Look {
             sections,
             layers,
             passes: preset.passes.clone(),
+            meshes: preset
+                .meshes
+                .iter()
+                .map(|mesh| mesh.section.clone())
+                .collect(),
             light_direction,
         };
         look.lights(&look)?;
@@ -169,6 +176,11 @@ impl Look {
         }
     }
 
+    /// How the preset's meshes are painted, in their order.
+    pub(crate) fn meshes(&self) -> &[MeshSection] {
+        &self.meshes
+    }
+
     /// How a head is painted.
     pub(crate) fn paint(&self, head: Head) -> HeadPaint {
         let section = &self.sections.head;
@@ -191,6 +203,7 @@ impl Look {
             scalp: clump::Program::params(&self.sections.clump.0)
                 .color
                 .to_array(),
+            unit_m: head.unit_m(),
             width_m: section.width * head.unit_m(),
             inside_margin_m: INSIDE_MARGIN * head.height_m,
             outline_margin_m: OUTLINE_MARGIN * head.height_m,

@@ -19,6 +19,8 @@ pub(crate) struct Neck {
     shares: Vec<f32>,
     /// The same for each corner of each patch.
     patch_shares: Vec<Vec<f32>>,
+    /// The same for each corner of each painted mesh.
+    painted_shares: Vec<Vec<f32>>,
     pivot: Vec3,
     height_m: f32,
     /// How far from the pivot the farthest corner is, metres: of meshes and patches.
@@ -43,7 +45,8 @@ impl Neck {
         let shares_of = |positions: &[Vec3]| positions.iter().map(share).collect();
         let patches = model.patches.iter().map(|patch| &patch.positions);
         let meshes = [&model.mesh.positions, &model.ornaments.positions];
-        let corners = meshes.into_iter().chain(patches).flatten();
+        let painted = model.painted.iter().map(|mesh| &mesh.positions);
+        let corners = meshes.into_iter().chain(patches).chain(painted).flatten();
         let from_pivot = corners.map(|p| p.distance(pivot(head)));
         Self {
             // A little more, for lines that are drawn around it.
@@ -54,6 +57,11 @@ impl Neck {
                 .patches
                 .iter()
                 .map(|patch| shares_of(&patch.positions))
+                .collect(),
+            painted_shares: model
+                .painted
+                .iter()
+                .map(|mesh| shares_of(&mesh.positions))
                 .collect(),
             pivot: pivot(head),
             height_m: head.height_m,
@@ -133,6 +141,13 @@ impl PosedHead {
         for i in 0..rest.positions.len() {
             posed.positions[i] = moved(rest.positions[i], 1.0);
             posed.normals[i] = turn(1.0) * rest.normals[i];
+        }
+        for (index, shares) in neck.painted_shares.iter().enumerate() {
+            let (rest, posed) = (&neck.rest.painted[index], &mut self.model.painted[index]);
+            for (i, share) in shares.iter().enumerate() {
+                posed.positions[i] = moved(rest.positions[i], *share);
+                posed.normals[i] = turn(*share) * rest.normals[i];
+            }
         }
         for (index, shares) in neck.patch_shares.iter().enumerate() {
             let (rest, posed) = (&neck.rest.patches[index], &mut self.model.patches[index]);

@@ -1,9 +1,11 @@
 //! Presets: one RON file that says what is drawn and how.
 
+mod meshes;
 mod objects;
 mod passes;
 mod sections;
 
+pub use meshes::{MESHES, MeshSection, NamedMesh};
 pub use objects::{NamedObject, ObjectSection};
 pub use passes::{EdgesChoice, PASSES, PassSection};
 pub use sections::*;
@@ -29,6 +31,8 @@ pub struct Preset<'r> {
     pub layers: Vec<LayerSpec<'r>>,
     /// The objects that it names. Without any it describes one itself.
     pub objects: Vec<NamedObject>,
+    /// Meshes beside the head, in the order of the file.
+    pub meshes: Vec<NamedMesh>,
     /// What is done with the whole picture's samples, in the order of the file.
     pub passes: Vec<PassSection>,
     /// The effects that it was read with, and that its objects' presets are read with.
@@ -66,6 +70,7 @@ impl<'r> Preset<'r> {
             sections,
             layers,
             objects: Vec::new(),
+            meshes: Vec::new(),
             passes: Vec::new(),
             registry: None,
             named: Vec::new(),
@@ -96,7 +101,7 @@ impl<'r> Preset<'r> {
         let names = Sections::ALL.iter().map(|(name, ..)| *name);
         let known: Vec<&str> = (Self::TOP.iter().map(|param| param.name))
             .chain(names)
-            .chain(["layers", "passes", "objects"])
+            .chain(["layers", "meshes", "passes", "objects"])
             .collect();
         let mut preset = Self {
             registry: Some(registry),
@@ -112,9 +117,12 @@ impl<'r> Preset<'r> {
             } else if field.name == "passes" {
                 preset.passes = PassSection::read_list(reader, field.value);
             } else if objects.is_some()
-                && (field.name == "layers" || is_section && objects::is_of_objects(field.name))
+                && (["layers", "meshes"].contains(&field.name)
+                    || is_section && objects::is_of_objects(field.name))
             {
                 reader.error(field.name, objects::said_elsewhere(field.name));
+            } else if field.name == "meshes" {
+                preset.meshes = NamedMesh::read_list(reader, field.value);
             } else if field.name == "layers" {
                 layers = Some(field);
             } else if preset.sections.by_name(field.name).is_some() {
@@ -207,6 +215,8 @@ impl<'r> Preset<'r> {
         }
         let objects = self.objects.iter();
         errors.extend(objects.filter_map(|object| object.missing(&files.preset_folder)));
+        let meshes = self.meshes.iter();
+        errors.extend(meshes.filter_map(|mesh| mesh.missing(&files.preset_folder)));
         PresetErrors::report(errors)
     }
 
@@ -216,8 +226,8 @@ impl<'r> Preset<'r> {
         self.named.iter().find(is_it).map(|named| &named.place)
     }
 
-    /// Sets a layer's parameter, one of a section, of a pass by its number from 1 on, or the seed, from its text: `hair.silhouette.width`, `3`;
-    /// `passes.1.width`, `2`.
+    /// Sets a layer's parameter, one of a section, of a pass or mesh by its number from 1 on, or the seed, from its text:
+    /// `hair.silhouette.width`, `3`; `passes.1.width`, `2`.
     ///
     /// # Errors
     ///
@@ -230,7 +240,17 @@ impl<'r> Preset<'r> {
             return layer.set(param, text);
         }
         if let Some(number) = owner.strip_prefix("passes.") {
-            return set_text(self.pass(number)?, owner, param, text);
+            return set_text(
+                numbered(&mut self.passes, number, ["pass", "passes"])?,
+                owner,
+                param,
+                text,
+            );
+        }
+        if let Some(number) = owner.strip_prefix("meshes.") {
+            let words = ["mesh", "meshes"];
+            let mesh = numbered(&mut self.meshes, number, words)?;
+            return set_text(&mut mesh.section, owner, param, text);
         }
         let Some(section) = self.sections.by_name(owner) else {
             return Err(SetError::Unknown(self.no_layer(owner)));
@@ -243,23 +263,6 @@ impl<'r> Preset<'r> {
         self.named
             .retain(|named| (named.section, named.param) != (owner, param));
         Ok(())
-    }
-
-    /// The pass of that number, from 1 on.
-    fn pass(&mut self, number: &str) -> Result<&mut PassSection, SetError> {
-        let count = self.passes.len();
-        let index = number.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
-        index
-            .and_then(|index| self.passes.get_mut(index))
-            .ok_or_else(|| {
-                SetError::Unknown(match count {
-                    0 => "the preset has no passes".to_owned(),
-                    1 => format!("there is no pass `{number}`: the preset has one, passes.1"),
-                    _ => {
-                        format!("there is no pass `{number}`: they are passes.1 to passes.{count}")
-                    }
-                })
-            })
     }
 
     /// Sets what stands beside the sections: the seed, as the version is the file's.
@@ -299,6 +302,23 @@ impl<'r> Preset<'r> {
         let hint = suggestion(name, layers.iter().copied());
         format!("there is no layer `{name}`{hint}")
     }
+}
+
+/// The item of that number, from 1 on, of a list; the words are for one and for all.
+fn numbered<'l, T>(
+    list: &'l mut [T],
+    number: &str,
+    [one, all]: [&str; 2],
+) -> Result<&'l mut T, SetError> {
+    let count = list.len();
+    let index = number.parse::<usize>().ok().and_then(|n| n.checked_sub(1));
+    index.and_then(|index| list.get_mut(index)).ok_or_else(|| {
+        SetError::Unknown(match count {
+            0 => format!("the preset has no {all}"),
+            1 => format!("there is no {one} `{number}`: the preset has one, {all}.1"),
+            _ => format!("there is no {one} `{number}`: they are {all}.1 to {all}.{count}"),
+        })
+    })
 }
 
 /// The error of a file of a version that this build doesn't read: nothing else in it means what it

@@ -59,6 +59,13 @@ pub struct Orientation {
 }
 
 impl Orientation {
+    /// Of what lies as ours does.
+    pub const OURS: Self = Self {
+        up: Axes::Y,
+        scale: 1.0,
+        offset: Vec3::ZERO,
+    };
+
     /// A position of the file in metres, Y up.
     #[must_use]
     pub fn apply(&self, position: Vec3) -> Vec3 {

@@ -120,6 +120,7 @@ fn section_text(section: &Section) -> String {
     let example = match section.name {
         "preset" => "(name: value, ..., layers: [...])".to_owned(),
         "layers" => "layers: [(effect: \"hair.base\", name: value, ...), ...]".to_owned(),
+        "meshes" => "meshes: [(file: \"eyes.obj\", name: value, ...), ...]".to_owned(),
         "passes" => "passes: [(edges: strand, name: value, ...), ...]".to_owned(),
         "objects" => "objects: [(preset: \"twin-tails.ron\", name: value, ...), ...]".to_owned(),
         name => format!("{name}: (name: value, ...)"),

@@ -66,6 +66,7 @@ pub fn add_wall(drawing: &mut Drawing, inv_depth: f32, tone: f32, [light, shadow
         tone,
     };
     drawing.surfaces.push(Surface {
+        texture: None,
         margin_m: 0.0,
         mesh: 0,
         vertices: vec![

@@ -254,6 +254,7 @@ fn a_stroke_sinks_into_a_slanted_surface_along_its_line() {
         tone: 1.0,
     };
     drawing.surfaces.push(Surface {
+        texture: None,
         margin_m: 0.0,
         mesh: 0,
         vertices: vec![vertex(0.0, 0.0), vertex(128.0, 0.0), vertex(0.0, 128.0)],

@@ -1,6 +1,7 @@
 //! One triangle in one tile: both sides, edges included, the nearest first.
 
 use super::bin::{Bounds, MARGIN, clip};
+use super::texels::Texels;
 use super::tile::{
     CELL_WIDTH, CELLS_ACROSS, Cell, LANES, LaneMask, NOTHING, Slope, Stack, Target, WIDTH, any,
     greater, least, lesser, overwrite, select,
@@ -155,10 +156,15 @@ impl Triangle {
             &surface.light
         };
         let tones = match is_one_color {
+            true if is_dark => Interpolated::DARK,
             true => Interpolated::NONE,
             false => Interpolated::new([a.tone, b.tone, c.tone], &edges, area),
         };
         let tone_at = tones.slope.at_samples(stack);
+        let texels = surface.texture.as_ref().map(|texture| {
+            let corners = &surface.triangles[self.number as usize];
+            Texels::new(texture, corners, &depths, &edges, [a, b, c], area, stack)
+        });
         for row in rows {
             for cell in across.clone() {
                 let cell = Cell::new(row, cell * CELL_WIDTH);
@@ -180,6 +186,18 @@ impl Triangle {
                 if !any(&wins) {
                     continue;
                 }
+                let mut texel = [[1.0; LANES]; 3];
+                if let Some(texels) = &texels {
+                    texel = texels.look_up(cell, stack, self.surface, &mut wins);
+                    if !any(&wins) {
+                        continue;
+                    }
+                    nearest = target.surface[cell.index];
+                    for k in 0..LANES {
+                        let depth = depths.clamp(depth[k]);
+                        nearest[k] = select(wins[k] != 0, depth, nearest[k]);
+                    }
+                }
                 shows(cell.index, &wins);
                 target.surface[cell.index] = nearest;
                 target.farthest_surface[cell.index] = least(&nearest);
@@ -188,7 +206,7 @@ impl Triangle {
                     &[surface.margin_m; LANES],
                     &wins,
                 );
-                if is_one_color {
+                if is_one_color & texels.is_none() {
                     for (plane, light) in target.color.iter_mut().zip(one_color) {
                         overwrite(&mut plane[cell.index], &[*light; LANES], &wins);
                     }
@@ -200,6 +218,7 @@ impl Triangle {
                     let mut color = [0.0; LANES];
                     for k in 0..LANES {
                         color[k] = select(tones.clamp(tone[k]) >= 0.0, light, shadow);
+                        color[k] *= texel[channel][k];
                     }
                     overwrite(&mut plane[cell.index], &color, &wins);
                 }
@@ -226,7 +245,7 @@ fn is_hidden(inv_depth: f32, rows: &Range<usize>, across: &Range<usize>, target:
 /// from the same end for both triangles at an edge, so that their values are exactly opposite, and no
 /// sample between them is lost.
 #[derive(Clone, Copy)]
-struct Edge {
+pub(super) struct Edge {
     corner: f64,
     per_x: f64,
     per_y: f64,
@@ -259,14 +278,20 @@ impl Edge {
 
 /// A value of the corners that runs linearly on the screen, and never beyond them: a needle's slope
 /// is too steep for single precision.
-struct Interpolated {
-    slope: Slope,
+pub(super) struct Interpolated {
+    pub(super) slope: Slope,
     least: f32,
     greatest: f32,
 }
 
 impl Interpolated {
-    /// A value that nobody asks for.
+    /// A tone in shadow everywhere.
+    const DARK: Self = Self {
+        slope: Self::NONE.slope,
+        least: -1.0,
+        greatest: -1.0,
+    };
+    /// A value that nobody asks for, or that is 0 everywhere.
     const NONE: Self = Self {
         slope: Slope {
             corner: 0.0,
@@ -278,7 +303,7 @@ impl Interpolated {
     };
 
     #[inline(always)]
-    fn new(values: [f32; 3], edges: &[Edge; 3], area: f64) -> Self {
+    pub(super) fn new(values: [f32; 3], edges: &[Edge; 3], area: f64) -> Self {
         let [e, f, g] = edges;
         let mean = |a: f64, b: f64, c: f64| {
             let [v, w, x] = values;
@@ -297,7 +322,7 @@ impl Interpolated {
     }
 
     #[inline(always)]
-    fn clamp(&self, value: f32) -> f32 {
+    pub(super) fn clamp(&self, value: f32) -> f32 {
         lesser(greater(value, self.least), self.greatest)
     }
 }

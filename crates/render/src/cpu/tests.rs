@@ -3,6 +3,7 @@
 mod hostile;
 mod order;
 mod reference;
+mod texture;
 
 use super::*;
 use crate::drawing::{
@@ -288,6 +289,7 @@ fn vertex(x: f32, y: f32, inv_depth: f32, tone: f32) -> SurfaceVertex {
 /// A square of two triangles from (0, 0) to (20, 20), lit on the left and dark on the right.
 fn square(inv_depth: f32) -> Surface {
     Surface {
+        texture: None,
         margin_m: 0.0,
         mesh: 0,
         vertices: vec![
@@ -325,6 +327,7 @@ fn a_sample_on_an_edge_is_inside_and_a_flat_triangle_is_nothing() {
     let mut drawing = one_strand([9, 9], &[]);
     drawing.runs.clear();
     let surface = |a, b, c| Surface {
+        texture: None,
         margin_m: 0.0,
         mesh: 0,
         vertices: vec![a, b, c],
@@ -356,6 +359,7 @@ fn nearer_surface_wins_and_the_earlier_among_equals() {
     let mut drawing = one_strand([10, 10], &[]);
     drawing.runs.clear();
     let surface = |inv_depth, light| Surface {
+        texture: None,
         margin_m: 0.0,
         light,
         shadow: light,
@@ -380,6 +384,7 @@ fn biased_depth_decides_against_surfaces() {
         discs[0].inv_depth_biased = biased;
         let mut drawing = one_strand([10, 10], &discs);
         drawing.surfaces = vec![Surface {
+            texture: None,
             margin_m: 0.0,
             shadow: GREEN,
             ..square(surface)
@@ -408,6 +413,7 @@ fn before_a_surface_with_a_margin_strokes_must_be_nearer() {
     ] {
         let mut drawing = one_strand([10, 10], &discs);
         drawing.surfaces = vec![Surface {
+            texture: None,
             margin_m,
             shadow: GREEN,
             ..square(1.0 / wall_m)

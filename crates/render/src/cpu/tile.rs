@@ -76,6 +76,10 @@ pub(super) struct Stack {
     /// The samples' places for each lane of a cell, from the cell's upper left corner, in pixels.
     pub(super) x: Lanes,
     pub(super) y: Lanes,
+    /// For each lane the middle of its pixel's samples that the stack holds.
+    pub(super) middle: [Lanes; 2],
+    /// How many samples of its pixels come before its own.
+    pub(super) first: usize,
     /// Pixels one below the other that it holds samples of: 1, 2 or 4.
     pub(super) height: usize,
     /// How many of its samples count. Those behind are the first one again, so that they hide and are hidden as it is.
@@ -93,7 +97,13 @@ impl Stack {
         let below = |pixel: usize| Vec2::new(0.0, pixel as f32);
         let rows = (0..height).flat_map(|pixel| samples.iter().map(move |s| *s + below(pixel)));
         let samples: Vec<Vec2> = rows.collect();
-        let stack = |samples: &[Vec2]| {
+        let of_pixel = STACK / height;
+        let stack = |(number, samples): (usize, &[Vec2])| {
+            let middle = |k: usize| {
+                let first = k % STACK / of_pixel * of_pixel;
+                let own = &samples[first..(first + of_pixel).min(samples.len())];
+                own.iter().sum::<Vec2>() / own.len() as f32 + Vec2::new((k / STACK) as f32, 0.0)
+            };
             let place = |k: usize| {
                 let sample = samples.get(k % STACK).unwrap_or(&samples[0]);
                 *sample + Vec2::new((k / STACK) as f32, 0.0)
@@ -101,11 +111,22 @@ impl Stack {
             Self {
                 x: std::array::from_fn(|k| place(k).x),
                 y: std::array::from_fn(|k| place(k).y),
+                middle: [
+                    std::array::from_fn(|k| middle(k).x),
+                    std::array::from_fn(|k| middle(k).y),
+                ],
+                first: number * STACK,
                 height,
                 samples: samples.len(),
             }
         };
-        samples.chunks(STACK).map(stack).collect()
+        samples.chunks(STACK).enumerate().map(stack).collect()
+    }
+
+    /// How many lanes one after the other are a pixel's.
+    #[inline(always)]
+    pub(super) fn lanes_of_pixel(&self) -> usize {
+        STACK / self.height
     }
 
     /// The rows of stacks that hold some rows of pixels.
@@ -564,9 +585,20 @@ pub(super) struct Samples {
 impl Slope {
     #[inline(always)]
     pub(super) fn at_samples(&self, stack: &Stack) -> Samples {
+        self.at(stack, [&stack.x, &stack.y])
+    }
+
+    /// In the middle of a pixel's samples, for each of them.
+    #[inline(always)]
+    pub(super) fn at_middles(&self, stack: &Stack) -> Samples {
+        self.at(stack, [&stack.middle[0], &stack.middle[1]])
+    }
+
+    #[inline(always)]
+    fn at(&self, stack: &Stack, [x, y]: [&Lanes; 2]) -> Samples {
         let mut first = [self.corner; LANES];
         for k in 0..LANES {
-            first[k] += stack.x[k] * self.per_x + stack.y[k] * self.per_y;
+            first[k] += x[k] * self.per_x + y[k] * self.per_y;
         }
         Samples {
             first,

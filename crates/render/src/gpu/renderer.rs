@@ -10,7 +10,7 @@ use super::report::Report;
 use super::samples::{self, SampleStage, Wanted, pixels, whole};
 use super::scene::SceneWords;
 use crate::check;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Surface};
 use crate::edges::Edges;
 use crate::features::Features;
 use crate::frame::Frame;
@@ -91,6 +91,14 @@ fn wanted(frame: &Frame, samples: u32, keeps: Keeps) -> Option<Wanted> {
         tells,
         means: keeps == Keeps::Means,
     })
+}
+
+/// Refuses what cards don't draw.
+fn check_surfaces(surfaces: &[Surface]) -> Result<(), GpuError> {
+    match surfaces.iter().any(|surface| surface.texture.is_some()) {
+        false => Ok(()),
+        true => Err(GpuError::Unsupported("a mesh with a texture".to_owned())),
+    }
 }
 
 /// Refuses what is drawn of frames alone.
@@ -259,6 +267,7 @@ impl Renderer {
             Source::Frame(frame) => {
                 let size = frame.camera.size_px();
                 frame.check()?;
+                check_surfaces(&frame.surfaces)?;
                 let wanted = wanted(frame, samples, keeps);
                 let tells = wanted.map_or(Features::NONE, |wanted| wanted.tells);
                 self.scene.fill(frame, tells);
@@ -269,6 +278,7 @@ impl Renderer {
             Source::Drawing(drawing) => {
                 check::check(drawing)?;
                 check_supported(drawing)?;
+                check_surfaces(&drawing.surfaces)?;
                 self.samples = None;
                 self.scene.fill_drawing(drawing);
                 self.programs.clumps.clear();

@@ -182,6 +182,7 @@ impl Scene {
             tone,
         };
         let surface = |margin_m, triangles| Surface {
+            texture: None,
             mesh: 0,
             vertices: vec![
                 corner(-20.0, 10.0, 0.8, 1.0),

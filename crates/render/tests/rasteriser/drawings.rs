@@ -62,6 +62,7 @@ fn surface(extent: f32) -> impl Strategy<Value = Surface> {
         color(),
     )
         .prop_map(|(vertices, triangles, margin_m, light, shadow)| Surface {
+            texture: None,
             margin_m,
             mesh: 1,
             vertices,

@@ -105,6 +105,16 @@ choices! {
     }
 }
 
+choices! {
+    /// Whose colours a head from a file has.
+    pub enum HeadColors {
+        /// Those of the preset's section `head`: two flat tones and an outline.
+        Preset = "preset",
+        /// The file's own.
+        File = "file",
+    }
+}
+
 section! {
     /// The head under the hair, and its colours.
     pub struct HeadSection {
@@ -113,6 +123,11 @@ section! {
         /// The head where no file is named: none, the bust that comes with inkstrand, or a figure with the bust's skull that is dressed and has
         /// a face to choose. What follows `threshold` is said of figures alone.
         shape: HeadShape = HeadShape::None.or_another(),
+        /// Whose colours a head from a file has: this section's, or the file's own with its pictures and cut-outs. Then `light` and `shadow` say
+        /// only how much darker the side away from the light is, where the file doesn't say it.
+        colors: HeadColors = HeadColors::Preset.or_another(),
+        /// Which of the file's meshes are not there: names of meshes or materials with commas between them, `*` for any end.
+        hide: Option<String> = text(),
         /// The file's upward axis.
         up: UpAxis = UpAxis::Guess.or_another(),
         /// Metres in one unit of the file; 0 guesses.

@@ -38,6 +38,8 @@ struct Loaded {
 struct From {
     sections: Sections,
     has_objects: bool,
+    /// Of each mesh which it is: how it is painted is the look's.
+    meshes: Vec<[Option<String>; 3]>,
     texts: Vec<(PathBuf, Arc<str>)>,
     files: Vec<(PathBuf, Option<(u64, SystemTime)>)>,
 }
@@ -218,6 +220,10 @@ impl From {
                 }
             },
             has_objects: !preset.objects.is_empty(),
+            meshes: (preset.meshes.iter())
+                .map(|mesh| &mesh.section)
+                .map(|mesh| [&mesh.file, &mesh.only, &mesh.hide].map(Option::clone))
+                .collect(),
             texts: (look.texts.iter())
                 .filter(|(path, _)| named.contains(path))
                 .map(|(path, text)| (path.clone(), text.clone()))

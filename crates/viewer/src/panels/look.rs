@@ -9,7 +9,7 @@ use crate::edit::{Edit, Place};
 use effects::preset::edit;
 use effects::{Param, ParamKind, Value};
 use eframe::egui::{RichText, Ui};
-use stage::{ObjectSection, PASSES, Preset, Sections};
+use stage::{FilePart, MESHES, ObjectSection, PASSES, Preset, Sections};
 
 /// The name of what stands in a preset beside its sections: its version and seed.
 pub const PRESET: &str = "preset";
@@ -26,41 +26,86 @@ pub fn look(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
     for name in std::iter::once(PRESET).chain(names) {
         section(ui, text, name, search, edits);
     }
+    meshes(ui, text, search, edits);
     passes(ui, text, search, edits);
     objects(ui, text, search, edits);
 }
 
 /// The passes of the preset `text`, each with what lines it draws.
 fn passes(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
-    let search = Search::new(search);
-    let items = items_of(text, PASSES.name);
+    let kind = PASSES.table.iter().find(|param| param.name == "edges");
+    let names = match kind.map(|param| param.kind) {
+        Some(ParamKind::Choice { names, .. }) => names,
+        _ => &[],
+    };
     let title = |(index, item): (usize, &&str)| {
-        let kind = PASSES.table.iter().find(|param| param.name == "edges");
-        let names = match kind.map(|param| param.kind) {
-            Some(ParamKind::Choice { names, .. }) => names,
-            _ => &[],
-        };
         let between = match value_of(item, PASSES.table, "edges") {
             Some(Value::Choice(choice)) => names.get(choice as usize).copied(),
             _ => None,
         };
         format!("{}: {}", index + 1, between.unwrap_or_default())
     };
-    let parts = Parts {
-        part: &PASSES,
+    let shown = Shown {
         noun: "pass",
-        titles: items.iter().enumerate().map(title).collect(),
-        fields: &[],
         needed: &[],
+        new: "(edges: strand)",
+        title: &title,
+    };
+    list(ui, text, &PASSES, &shown, search, edits);
+}
+
+/// The meshes of the preset `text`, each with its file.
+fn meshes(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
+    let title = |(index, item): (usize, &&str)| {
+        let file = edit::get(item, &[edit::Step::Field("file")]).unwrap_or("?");
+        format!("{}: {}", index + 1, file.trim_matches('"'))
+    };
+    let shown = Shown {
+        noun: "mesh",
+        needed: &["file"],
+        new: "(file: \"mesh.obj\")",
+        title: &title,
+    };
+    list(ui, text, &MESHES, &shown, search, edits);
+}
+
+/// How a list is shown.
+struct Shown<'a> {
+    noun: &'a str,
+    /// Fields that an item must have.
+    needed: &'a [&'a str],
+    /// The text of a new item.
+    new: &'a str,
+    /// The title of an item, which comes with its index.
+    title: &'a dyn Fn((usize, &&str)) -> String,
+}
+
+/// A list of the preset `text`, whose items may come, go and move.
+fn list(
+    ui: &mut Ui,
+    text: &str,
+    part: &FilePart,
+    shown: &Shown,
+    search: &str,
+    edits: &mut Vec<Edit>,
+) {
+    let search = Search::new(search);
+    let items = items_of(text, part.name);
+    let parts = Parts {
+        part,
+        noun: shown.noun,
+        titles: items.iter().enumerate().map(shown.title).collect(),
+        fields: &[],
+        needed: shown.needed,
         refusal: &|_, _, _| None,
         is_movable: true,
         may_remove: true,
         may_add: true,
     };
     let place = parts.place();
-    let asked = parts.show(ui, text, &search, |_| PASSES.table.to_vec(), edits);
+    let asked = parts.show(ui, text, &search, |_| part.table.to_vec(), edits);
     edits.extend(asked.map(|asked| match asked {
-        Asked::Add => parts.add(text, "(edges: strand)"),
+        Asked::Add => parts.add(text, shown.new),
         Asked::Of(Change::Remove(index)) => Edit::Remove(place.item(index)),
         Asked::Of(Change::Move(from, to)) => Edit::Move(place, from, to),
         Asked::Of(Change::Duplicate(index)) => {
@@ -86,7 +131,9 @@ pub fn section(ui: &mut Ui, text: &str, name: &str, search: &str, edits: &mut Ve
     let mut form = Form::new(name, table, section, place).about(doc);
     if name == PRESET {
         let sections = Sections::ALL.iter().map(|(name, ..)| *name);
-        let others: Vec<&str> = sections.chain(["layers", "passes", "objects"]).collect();
+        let others: Vec<&str> = sections
+            .chain(["layers", "meshes", "passes", "objects"])
+            .collect();
         form = form.without(&others).needed(&["version"]);
     }
     if search.is_active() && !form.matches(&search) {

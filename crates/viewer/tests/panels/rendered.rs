@@ -4,7 +4,7 @@ use crate::pane::{Kind, Pane, names, open_all};
 use effects::Param;
 use effects::preset::LAYER;
 use egui_kittest::Harness;
-use stage::{MOTION_PARTS, ObjectSection, PASSES, Preset, STYLE_PARTS, Sections};
+use stage::{MESHES, MOTION_PARTS, ObjectSection, PASSES, Preset, STYLE_PARTS, Sections};
 use std::path::{Path, PathBuf};
 
 fn presets() -> PathBuf {
@@ -44,6 +44,9 @@ fn every_section_is_there() {
     let names_of_passes = names(&opened(Kind::Look, passes, 300.0));
     has_all(&names_of_passes, "pass 1: level", PASSES.table, &[]);
     has_all(&names_of_passes, "pass 2: strand", PASSES.table, &[]);
+    let meshes = "(version: 1, layers: [], meshes: [(file: \"eyes.obj\")])";
+    let names_of_meshes = names(&opened(Kind::Look, meshes, 300.0));
+    has_all(&names_of_meshes, "mesh 1: eyes.obj", MESHES.table, &[]);
     let objects = "(version: 1, objects: [(preset: \"a.ron\"), (preset: \"b.ron\")])";
     let harness = opened(Kind::Look, objects, 300.0);
     let names = names(&harness);

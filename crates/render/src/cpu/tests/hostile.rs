@@ -1,6 +1,8 @@
 //! Drawings that are none, and drawings that hardly are.
 
+use super::texture::two_texels;
 use super::*;
+use crate::drawing::{Coverage, SurfaceTexture};
 use proptest::prelude::*;
 
 fn error(drawing: &Drawing) -> DrawError {
@@ -269,14 +271,28 @@ fn any_surface() -> impl Strategy<Value = Surface> {
     let corner = (any_number(), any_number(), any_number(), any_number())
         .prop_map(|(x, y, inv_depth, tone)| vertex(x, y, inv_depth, tone));
     let triangles = proptest::collection::vec([0..5_u32, 0..5, 0..5], 0..4);
-    (proptest::collection::vec(corner, 5), triangles).prop_map(|(vertices, triangles)| Surface {
-        margin_m: if triangles.len() == 1 { f32::MAX } else { 0.0 },
-        mesh: 0,
-        vertices,
-        triangles,
-        light: RED,
-        shadow: BLUE,
-    })
+    let place = (-1e4..=1e4_f32, any_number()).prop_map(|(x, y)| Vec2::new(x, y.clamp(-1e4, 1e4)));
+    let places = proptest::option::of(proptest::collection::vec(place, 5));
+    (proptest::collection::vec(corner, 5), triangles, places).prop_map(
+        |(vertices, triangles, places)| Surface {
+            texture: places.map(|places| SurfaceTexture {
+                image: two_texels([0, 0, 0, 0], [65535; 4]),
+                repeats: triangles.len() == 2,
+                places,
+                coverage: if triangles.len() == 3 {
+                    Coverage::Share
+                } else {
+                    Coverage::Cut(0.5)
+                },
+            }),
+            margin_m: if triangles.len() == 1 { f32::MAX } else { 0.0 },
+            mesh: 0,
+            vertices,
+            triangles,
+            light: RED,
+            shadow: BLUE,
+        },
+    )
 }
 
 proptest! {

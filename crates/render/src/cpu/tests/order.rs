@@ -142,6 +142,7 @@ fn a_surface_drops_the_strand_not_the_stroke() {
         layer("inner", -1, BLUE, &wide(1.0)),
     ]);
     drawing.surfaces = vec![Surface {
+        texture: None,
         margin_m: 0.0,
         shadow: GREEN,
         ..square(3.0)
@@ -162,6 +163,7 @@ fn a_dropped_strand_hides_nothing() {
     far[0].inv_depth_biased = 9.0;
     let mut drawing = strands([20, 20], &[(0, RED, &near), (1, BLUE, &far)]);
     drawing.surfaces = vec![Surface {
+        texture: None,
         margin_m: 0.0,
         shadow: GREEN,
         ..square(2.0)

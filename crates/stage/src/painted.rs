@@ -1,0 +1,251 @@
+//! Meshes in colours of their own: a character as its file paints it, and eyes, lashes, clothes or glasses beside a head.
+
+use crate::files::StageError;
+use crate::pictures;
+use crate::preset::MeshSection;
+use effects::Image;
+use effects::preset::suggestion;
+use glam::{Vec2, Vec3};
+use hair_io::orient::Orientation;
+use mesh_io::{Alpha, Material, Mesh, Model, Wrap};
+use render::Coverage;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A mesh in colours of its own, metres, Y up.
+#[derive(Clone)]
+pub(crate) struct PaintedMesh {
+    pub positions: Vec<Vec3>,
+    pub normals: Vec<Vec3>,
+    pub triangles: Vec<[u32; 3]>,
+    /// For each position its place in the picture; empty without one.
+    pub places: Vec<Vec2>,
+    pub paint: MeshPaint,
+    /// Which of the preset's `meshes` it is of; none is the head's own file.
+    pub section: Option<usize>,
+}
+
+/// How a file paints a mesh.
+#[derive(Clone)]
+pub(crate) struct MeshPaint {
+    /// Linear; the picture is multiplied by it.
+    pub color: [f32; 3],
+    /// The same away from the light, where the file says it.
+    pub shade: Option<[f32; 3]>,
+    pub picture: Option<MeshPicture>,
+    /// Whether triangles are seen from behind.
+    pub both_sides: bool,
+}
+
+/// The picture on a mesh.
+#[derive(Clone)]
+pub(crate) struct MeshPicture {
+    pub image: Arc<Image>,
+    pub repeats: bool,
+    pub coverage: Coverage,
+}
+
+impl MeshPaint {
+    /// Without colours in the file.
+    const WHITE: Self = Self {
+        color: [1.0; 3],
+        shade: None,
+        picture: None,
+        both_sides: false,
+    };
+
+    /// Whether lines are drawn around it: not around what is seen through.
+    pub(crate) fn has_outline(&self) -> bool {
+        let coverage = self.picture.as_ref().map(|picture| picture.coverage);
+        coverage != Some(Coverage::Share)
+    }
+}
+
+/// Names of meshes or materials, with commas between them; `*` at the end of one stands for anything.
+#[derive(Clone, Copy)]
+pub(crate) struct MeshNames<'a>(pub &'a str);
+
+impl MeshNames<'_> {
+    fn names(&self) -> impl Iterator<Item = &str> {
+        let names = self.0.split(',').map(str::trim);
+        names.filter(|name| !name.is_empty())
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.names().next().is_none()
+    }
+
+    /// Whether a mesh is named, or its material.
+    pub(crate) fn have(&self, model: &Model, mesh: &Mesh) -> bool {
+        self.names()
+            .any(|name| names_of(model, mesh).any(|own| is_meant(name, own)))
+    }
+
+    /// That each is there, in this file.
+    pub(crate) fn check(&self, model: &Model, path: &Path) -> Result<(), StageError> {
+        let all = || model.meshes.iter().flat_map(|mesh| names_of(model, mesh));
+        match self
+            .names()
+            .find(|name| !all().any(|own| is_meant(name, own)))
+        {
+            None => Ok(()),
+            Some(name) => Err(StageError::NoMesh {
+                path: path.to_owned(),
+                hint: match all().next() {
+                    None => ", its meshes have no names".to_owned(),
+                    Some(_) => suggestion(name, all()),
+                },
+                name: name.to_owned(),
+            }),
+        }
+    }
+}
+
+/// The names of a mesh and of its material.
+fn names_of<'m>(model: &'m Model, mesh: &'m Mesh) -> impl Iterator<Item = &'m str> {
+    let material = mesh.material.and_then(|index| model.materials.get(index));
+    let names = [
+        Some(mesh.name.as_str()),
+        material.map(|material| material.name.as_str()),
+    ];
+    names.into_iter().flatten().filter(|name| !name.is_empty())
+}
+
+fn is_meant(name: &str, own: &str) -> bool {
+    match name.strip_suffix('*') {
+        Some(start) => own
+            .get(..start.len())
+            .is_some_and(|own| own.eq_ignore_ascii_case(start)),
+        None => own.eq_ignore_ascii_case(name),
+    }
+}
+
+/// The meshes of a model that are meant, as they lie in our space.
+pub(crate) fn of_model(
+    model: &Model,
+    path: &Path,
+    orientation: &Orientation,
+    section: Option<usize>,
+    is_meant: impl Fn(&Mesh) -> bool,
+    notes: &mut Vec<String>,
+) -> Result<Vec<PaintedMesh>, StageError> {
+    let mut pictures = Pictures::new(model, path);
+    let mut painted = Vec::new();
+    for mesh in model.meshes.iter().filter(|mesh| is_meant(mesh)) {
+        let material = mesh.material.and_then(|index| model.materials.get(index));
+        let paint = match material {
+            None => MeshPaint::WHITE,
+            Some(material) => paint_of(material, !mesh.uvs.is_empty(), &mut pictures)?,
+        };
+        let positions = mesh.positions.iter().map(|p| orientation.apply(*p));
+        let normals = mesh.normals.iter().map(|n| orientation.up.to_y_up(*n));
+        painted.push(PaintedMesh {
+            positions: positions.collect(),
+            normals: normals.collect(),
+            triangles: mesh.triangles.clone(),
+            places: match paint.picture {
+                Some(_) => mesh.uvs.clone(),
+                None => Vec::new(),
+            },
+            paint,
+            section,
+        });
+    }
+    notes.append(&mut pictures.notes);
+    Ok(painted)
+}
+
+fn paint_of(
+    material: &Material,
+    has_places: bool,
+    pictures: &mut Pictures,
+) -> Result<MeshPaint, StageError> {
+    let [red, green, blue, alpha] = material.base_color;
+    let texture = material.texture.filter(|_| has_places);
+    let picture = match texture {
+        None => None,
+        Some(texture) => pictures.get(texture.image)?.map(|image| MeshPicture {
+            image,
+            repeats: texture.wrap != [Wrap::Clamp; 2],
+            coverage: match material.alpha {
+                Alpha::Opaque => Coverage::Ignored,
+                // The picture's own, which is multiplied by the colour's.
+                Alpha::Cutout(least) => Coverage::Cut((least / alpha.max(1e-6)).clamp(0.0, 1.0)),
+                Alpha::Blend => Coverage::Share,
+            },
+        }),
+    };
+    Ok(MeshPaint {
+        color: [red, green, blue],
+        shade: material.shade_color,
+        picture,
+        both_sides: material.double_sided,
+    })
+}
+
+/// The pictures of a model, each read once.
+struct Pictures<'m> {
+    model: &'m Model,
+    path: &'m Path,
+    read: Vec<Option<Arc<Image>>>,
+    notes: Vec<String>,
+}
+
+impl<'m> Pictures<'m> {
+    fn new(model: &'m Model, path: &'m Path) -> Self {
+        Self {
+            model,
+            path,
+            read: vec![None; model.images.len()],
+            notes: Vec::new(),
+        }
+    }
+
+    /// The picture of that index; none where the model has no such.
+    fn get(&mut self, index: usize) -> Result<Option<Arc<Image>>, StageError> {
+        let (Some(known), Some(image)) = (self.read.get_mut(index), self.model.images.get(index))
+        else {
+            return Ok(None);
+        };
+        if let Some(known) = known {
+            return Ok(Some(known.clone()));
+        }
+        let fault = |message: String| StageError::Picture {
+            path: self.path.to_owned(),
+            name: image.name.clone(),
+            message,
+        };
+        let bytes = image.bytes().map_err(|error| fault(error.to_string()))?;
+        let (picture, note) = pictures::decode(&bytes).map_err(fault)?;
+        if let Some(note) = note {
+            let path = self.path.display();
+            self.notes
+                .push(format!("{path}: picture `{}` {note}", image.name));
+        }
+        Ok(Some(known.insert(Arc::new(picture)).clone()))
+    }
+}
+
+/// The meshes that a preset lists, beside the head whose axes and unit they have.
+pub(crate) fn of_sections(
+    sections: &[&MeshSection],
+    folder: &Path,
+    orientation: &Orientation,
+    notes: &mut Vec<String>,
+) -> Result<Vec<PaintedMesh>, StageError> {
+    let mut painted = Vec::new();
+    for (number, section) in sections.iter().enumerate() {
+        let path = section.path(folder);
+        let model = mesh_io::read_model(&path)?;
+        notes.extend(model.notes.iter().cloned());
+        let [only, hide] = [&section.only, &section.hide]
+            .map(|names| MeshNames(names.as_deref().unwrap_or_default()));
+        only.check(&model, &path)?;
+        hide.check(&model, &path)?;
+        let is_meant =
+            |mesh: &Mesh| (only.is_empty() || only.have(&model, mesh)) && !hide.have(&model, mesh);
+        let meshes = of_model(&model, &path, orientation, Some(number), is_meant, notes)?;
+        painted.extend(meshes);
+    }
+    Ok(painted)
+}

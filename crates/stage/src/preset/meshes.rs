@@ -1,0 +1,99 @@
+//! The meshes of a preset: what is seen beside head and hair.
+
+use super::missing;
+use crate::part::FilePart;
+use effects::preset::{Place, PresetError, Reader};
+use effects::section;
+use std::path::{Path, PathBuf};
+
+/// The most meshes that a preset lists.
+const MOST_MESHES: usize = 64;
+
+/// How the list is written, for those who write something else.
+const WRITTEN: &str = "meshes: [(file: \"eyes.obj\", color: \"FFFFFF\"), ...]";
+
+section! {
+    /// Meshes of files, in their own colours: eyes, lashes, clothes, glasses. They lie as the head's file does, and move with the head. A list.
+    pub struct MeshSection {
+        /// The meshes, relative to the preset: .obj, .ply, .gltf, .glb or .vrm.
+        file: Option<String> = text(),
+        /// Which of its meshes: names of meshes or materials with commas between them, `*` for any end; without it all.
+        only: Option<String> = text(),
+        /// Which of them not.
+        hide: Option<String> = text(),
+        /// What their own colours are multiplied by; their colour where the file has none.
+        color: [f32; 3] = color("FFFFFF"),
+        /// How bright the side away from the light is; what the file says of that comes first.
+        shade: f32 = number(0.8, 0.0..=1.0),
+        /// Colour of the outline.
+        line: [f32; 3] = color("6B4438"),
+        /// Width of the outline; 0 is none.
+        width: f32 = number(0.0, 0.0..=50.0).unit("1/300 head height"),
+    }
+}
+
+/// The list of meshes, as `inkstrand effects` and the viewer show it.
+pub const MESHES: FilePart = FilePart {
+    name: "meshes",
+    doc: MeshSection::DOC,
+    example: WRITTEN,
+    table: MeshSection::TABLE,
+    places: &[],
+};
+
+/// Meshes as a preset lists them.
+#[derive(Clone, Debug)]
+pub struct NamedMesh {
+    /// What is said of them.
+    pub section: MeshSection,
+    /// Where their file's name stands.
+    place: Place,
+}
+
+impl NamedMesh {
+    /// Reads the list `meshes` of a preset.
+    pub(super) fn read_list<'a>(reader: &mut Reader<'a>, list: &'a str) -> Vec<Self> {
+        if list.starts_with('(') {
+            let message = format!("meshes is a list, of one file too: {WRITTEN}");
+            reader.error(list, message);
+            return Vec::new();
+        }
+        let items = reader.list(list, "meshes");
+        if items.len() > MOST_MESHES {
+            let count = items.len();
+            let message = format!("meshes: there are {count}, and at most {MOST_MESHES} are drawn");
+            reader.error(list, message);
+            return Vec::new();
+        }
+        let read = |item: &&'a str| {
+            let fields = reader.fields(item, "a mesh");
+            let section: MeshSection = reader.section_of(&fields, "a mesh");
+            let name = fields.iter().find(|field| field.name == "file");
+            if name.is_none() {
+                reader.error(item, "a mesh needs `file: \"...\"`, which holds it");
+            }
+            let place = reader.place(name.map_or(item, |name| name.value));
+            Self { section, place }
+        };
+        items.iter().map(read).collect()
+    }
+
+    /// What is wrong with the name of its file.
+    pub(super) fn missing(&self, folder: &Path) -> Option<PresetError> {
+        let message = missing(folder, "file", self.section.file.as_ref()?)?;
+        Some(self.mistake(message))
+    }
+
+    /// A mistake where its file is named.
+    pub(crate) fn mistake(&self, message: String) -> PresetError {
+        let place = self.place.clone();
+        PresetError { place, message }
+    }
+}
+
+impl MeshSection {
+    /// Its file, of a preset in `folder`.
+    pub(crate) fn path(&self, folder: &Path) -> PathBuf {
+        folder.join(self.file.as_deref().unwrap_or_default())
+    }
+}
