@@ -131,8 +131,12 @@ impl Segments {
     pub(super) fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], tile_height: usize) {
         let bands = (drawing.size[1] as usize).div_ceil(tile_height);
         let strands: Vec<&[Run]> = drawing.runs.chunk_by(|a, b| a.strand == b.strand).collect();
-        let strands = strands.into_par_iter().with_min_len(GROUP);
-        let strands = strands.map(|runs| Strand::new(drawing, strokes, runs));
+        let own = strands.par_chunks(GROUP);
+        let own: Vec<Vec<Numbered>> = own
+            .map(|group| on_group(drawing, strokes, group))
+            .collect();
+        let strands = strands.into_par_iter().enumerate().with_min_len(GROUP);
+        let strands = strands.map(|(i, runs)| Strand::new(drawing, strokes, &own[i / GROUP], runs));
         let strands: Vec<Strand> = strands.collect();
         let groups = &mut self.groups;
         groups.resize_with(strands.len().div_ceil(GROUP), Group::default);
@@ -195,13 +199,37 @@ impl Segments {
     }
 }
 
+/// A stroke, and 1 more than its place in [`strokes_in_order`].
+#[derive(Clone, Copy)]
+struct Numbered {
+    stroke: Stroke,
+    number: u32,
+}
+
+/// Those of the layers that draw on any joint of some neighbouring strands. Where there are many objects each has layers of its own:
+/// to try them all on each strand would take time by the square of the objects.
+fn on_group(drawing: &Drawing, strokes: &[Stroke], strands: &[&[Run]]) -> Vec<Numbered> {
+    let (first, last) = (strands[0], strands[strands.len() - 1]);
+    let (start, end) = (first[0].joints.start, last[last.len() - 1].joints.end);
+    let is_there = |numbered: &Numbered| {
+        let joints = &drawing.layers[numbered.stroke.layer].joints;
+        joints.start < end && start < joints.end
+    };
+    let all = strokes.iter().zip(1..);
+    let all = all.map(|(&stroke, number)| Numbered { stroke, number });
+    all.filter(is_there).collect()
+}
+
 /// A strand of a drawing.
 struct Strand<'a> {
     drawing: &'a Drawing,
+    /// Of the whole drawing.
     strokes: &'a [Stroke],
+    /// Those that this strand may have.
+    own: &'a [Numbered],
     runs: &'a [Run],
-    /// The strokes that are the clump and its sides, disc for disc, and drawn with it; the number of the first.
-    base: Option<(&'a [Stroke], u32)>,
+    /// The strokes that are the clump and its sides, disc for disc, and drawn with it.
+    base: &'a [Numbered],
 }
 
 /// The discs of a stretch.
@@ -219,19 +247,25 @@ struct Drawn {
 }
 
 impl<'a> Strand<'a> {
-    fn new(drawing: &'a Drawing, strokes: &'a [Stroke], runs: &'a [Run]) -> Self {
-        let is_base = |(strokes, _): &(&[Stroke], u32)| {
-            strokes[0].rank >= 0 && runs.iter().all(|run| is_clump(drawing, strokes, run))
+    fn new(
+        drawing: &'a Drawing,
+        strokes: &'a [Stroke],
+        own: &'a [Numbered],
+        runs: &'a [Run],
+    ) -> Self {
+        let is_base = |strokes: &&[Numbered]| {
+            strokes[0].stroke.rank >= 0 && runs.iter().all(|run| is_clump(drawing, strokes, run))
         };
         let base = match drawing.order {
             Order::Shifted => None,
-            _ => strokes.windows(clumps(drawing)).zip(1..).find(is_base),
+            _ => own.windows(clumps(drawing)).find(is_base),
         };
         Self {
             drawing,
             strokes,
+            own,
             runs,
-            base,
+            base: base.unwrap_or_default(),
         }
     }
 
@@ -239,12 +273,12 @@ impl<'a> Strand<'a> {
     fn parts(&self) -> impl Iterator<Item = Drawn> {
         let Self {
             drawing,
-            strokes,
+            strokes: _,
+            own,
             runs,
             base,
         } = *self;
         let has_clump = drawing.order != Order::Shifted;
-        let (base, drawn_as) = base.map_or((&[][..], 0), |(base, number)| (base, number));
         let parts = 0..if has_clump { clumps(drawing) } else { 0 };
         let clump = parts.flat_map(move |part| {
             let of_clump = move |stretch: Stretch, drawn_as, first_color| Drawn {
@@ -255,13 +289,13 @@ impl<'a> Strand<'a> {
                 discs: stretch.places(),
                 first_color,
             };
-            let of_base = base.get(part).map(|stroke| {
+            let of_base = base.get(part).map(|&Numbered { stroke, number }| {
                 let layer = &drawing.layers[stroke.layer];
                 (runs.iter())
                     .flat_map(move |run| layer.on(stroke.instance, &run.joints))
                     .filter_map(move |stretch| {
                         let clump = clump_on(drawing, part, &stretch.joints).next()?;
-                        Some(of_clump(clump, drawn_as + part as u32, stretch.first))
+                        Some(of_clump(clump, number, stretch.first))
                     })
             });
             let is_bare = of_base.is_none();
@@ -270,9 +304,9 @@ impl<'a> Strand<'a> {
             let bare = bare.map(move |stretch| of_clump(stretch, 0, 0));
             of_base.into_iter().flatten().chain(bare)
         });
-        let as_clump = drawn_as..drawn_as + base.len() as u32;
-        let others = (strokes.iter().zip(1..)).filter(move |(_, n)| !as_clump.contains(n));
-        let others = others.flat_map(move |(stroke, number)| {
+        let is_base = |number: u32| base.iter().any(|stroke| stroke.number == number);
+        let others = own.iter().filter(move |stroke| !is_base(stroke.number));
+        let others = others.flat_map(move |&Numbered { stroke, number }| {
             let layer = &drawing.layers[stroke.layer];
             let stretches = runs
                 .iter()
@@ -356,12 +390,13 @@ fn clump_on<'a>(
 }
 
 /// Whether strokes of one layer cover what the clump and its sides cover, disc for disc.
-fn is_clump(drawing: &Drawing, strokes: &[Stroke], run: &Run) -> bool {
-    let layer = &drawing.layers[strokes[0].layer];
-    strokes.iter().zip(0..).all(|(stroke, part)| {
+fn is_clump(drawing: &Drawing, strokes: &[Numbered], run: &Run) -> bool {
+    let of_layer = strokes[0].stroke.layer;
+    let layer = &drawing.layers[of_layer];
+    strokes.iter().zip(0..).all(|(Numbered { stroke, .. }, part)| {
         let own = layer.on(stroke.instance, &run.joints);
         let own = own.map(|stretch| (stretch.joints.clone(), &layer.discs[stretch.places()]));
-        let is_of_one_layer = stroke.layer == strokes[0].layer;
+        let is_of_one_layer = stroke.layer == of_layer;
         let of_part = if part == 0 {
             &drawing.clump
         } else {
