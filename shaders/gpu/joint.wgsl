@@ -97,9 +97,10 @@ fn gpu_light_distance(joint: u32) -> f32 {
     return select(1e6, distance, gpu_frame.light_is_point != 0u);
 }
 
-/// Head heights.
+/// Head heights; of the joint's place, as `GPU_AT_DEPTH` is deeper where a piece goes on beyond its cut.
 fn gpu_depth(joint: u32) -> f32 {
-    return gpu_scalar(joint, GPU_AT_DEPTH) / gpu_word(GPU_HEAD_HEIGHT);
+    let ahead = cross(gpu_frame.up, gpu_frame.right);
+    return dot(gpu_vec3(joint, GPU_AT_POSITION) - gpu_frame.eye, ahead) / gpu_word(GPU_HEAD_HEIGHT);
 }
 
 fn gpu_view_direction(joint: u32) -> vec3<f32> {

@@ -43,6 +43,7 @@ pub use mesh_io::{
     BoneMotion, MOST_OF_DATA, MOST_OF_TEXT, MeshError, ReadError, Welded as Mesh, decode_text,
     read_bytes, read_text,
 };
+pub use nearest::Nearest;
 pub use whole_file::{
     NoParts, WholeFile, folder_of, named, remove_parts, try_to_write, write_whole,
 };

@@ -5,14 +5,14 @@ use glam::{DVec3, Vec3};
 /// Points ordered so that each half of a range lies on one side of its middle point.
 ///
 /// Answers do not depend on the order of equal distances: ties go to the lower index.
-pub(crate) struct Nearest {
+pub struct Nearest {
     /// Positions with their index in the list the tree was made from.
     points: Vec<(DVec3, usize)>,
 }
 
 impl Nearest {
     /// A tree of finite points.
-    pub(crate) fn new(points: impl IntoIterator<Item = Vec3>) -> Self {
+    pub fn new(points: impl IntoIterator<Item = Vec3>) -> Self {
         let points = points
             .into_iter()
             .enumerate()
@@ -24,7 +24,8 @@ impl Nearest {
 
     /// The `count` points nearest to `from` as (distance, index), nearest first; fewer where there
     /// are fewer.
-    pub(crate) fn find(&self, from: Vec3, count: usize) -> Vec<(f64, usize)> {
+    #[must_use]
+    pub fn find(&self, from: Vec3, count: usize) -> Vec<(f64, usize)> {
         let mut found = Vec::with_capacity(count + 1);
         if count > 0 {
             search(&self.points, 0, from.as_dvec3(), count, &mut found);

@@ -355,6 +355,9 @@ impl ObjectFrame {
         }
         let all: Vec<usize> = (0..hair.infos.len()).collect();
         self.parts.resize_with(PARTS, Paths::new);
+        for part in &mut self.parts {
+            part.set_along_tangents(self.of.look().paints());
+        }
         for some in all.chunks(PARTS * PART) {
             let parts = self.parts.par_iter_mut().zip(some.par_chunks(PART));
             let made: Result<(), PathError> = parts
@@ -439,6 +442,7 @@ impl ObjectFrame {
                 return Err(fault(what.to_owned()));
             }
             let start = paths.len();
+            paths.set_along_tangents(look.paints());
             for (i, (strand, number, points)) in self.made.iter().enumerate() {
                 if strand >= above.len() {
                     let what = format!("a path of strand {strand}, and there are {}", above.len());

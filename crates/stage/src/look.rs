@@ -105,6 +105,12 @@ impl Look {
         self.layers.iter().any(reads)
     }
 
+    /// Whether a layer paints its samples.
+    pub(crate) fn paints(&self) -> bool {
+        let paints = |layer: &Layer| layer.program.paints().is_some();
+        self.layers.iter().any(paints)
+    }
+
     pub(crate) fn path(&self) -> PathKind {
         let subdivision = self.sections.path.subdivision;
         match self.sections.path.kind {

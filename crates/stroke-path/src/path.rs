@@ -66,6 +66,8 @@ pub struct Paths {
     ///
     /// Where the strand runs along the line of sight it is that of the run's joint before, or +x.
     pub across: Vec<Vec2>,
+    /// Whether directions are those of tangents.
+    along_tangents: bool,
     dropped: usize,
     /// Pieces so far, less one for each strand.
     cut: usize,
@@ -102,6 +104,12 @@ impl Paths {
         self.dropped = 0;
         self.cut = 0;
         self.truncate(0);
+    }
+
+    /// Whether, of strands from now on, F and -B are one: the mean of both, the strand's own direction at the joint. A link's direction is
+    /// that of its middle, so that light that goes by B lies half a link nearer the tip.
+    pub fn set_along_tangents(&mut self, along_tangents: bool) {
+        self.along_tangents = along_tangents;
     }
 
     /// The number of joints of all runs.
@@ -185,6 +193,12 @@ impl Paths {
         }
         self.place_joints(particles, detail, kind, camera)?;
         self.find_directions();
+        if self.along_tangents {
+            for joint in &mut self.whole {
+                joint.forward = (joint.forward - joint.backward).normalize_or(joint.forward);
+                joint.backward = -joint.forward;
+            }
+        }
         let (runs, joints) = (self.runs.len(), self.len());
         let mut finite = self.whole.iter().all(WorldJoint::is_finite);
         if finite {

@@ -312,15 +312,17 @@ impl Evaluator {
                     joints.light_distance.extend(distances);
                 }
             }
+            // Of the place: `paths.depth` is deeper where a piece goes on beyond its cut.
             Input::Depth => {
                 for Object {
                     head, joints: own, ..
                 } in &frame.objects
                 {
-                    let depths = paths.depth[own.clone()].iter();
+                    let view = |p: &Vec3| frame.camera.view_from_world(*p);
+                    let points = paths.position[own.clone()].iter();
                     joints
                         .depth
-                        .extend(depths.map(|depth| depth / head.height_m));
+                        .extend(points.map(|p| view(p).z / head.height_m));
                 }
             }
             Input::Time => joints.time.resize(paths.len(), frame.time_s),
