@@ -37,8 +37,8 @@ const NO_STROKE: u32 = 0u;
 const SHOWS_TRIANGLE: u32 = 0x80000000u;
 const SHOWS_NOTHING: u32 = 0xffffffffu;
 
-/// A surface's record in the tables: colour where the tone is 0 or more, colour below, margin.
-const SURFACE_WORDS: u32 = 7u;
+/// A surface's record in the tables: colour where the tone is 0 or more, colour below, margin; then what textured.wgsl knows of its picture.
+const SURFACE_WORDS: u32 = 12u;
 
 @group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
 @group(0) @binding(1) var<storage, read> chunks: array<Chunk>;

@@ -61,6 +61,10 @@ struct GpuClump {
     shift: vec2<f32>,
 }
 
+fn gpu_is_finite(value: f32) -> bool {
+    return (bitcast<u32>(value) & 0x7f800000u) != 0x7f800000u;
+}
+
 /// Which invocation of a grid this is: workgroups are counted row after row, as one row is too short for many.
 fn gpu_index(group: vec3<u32>, groups: vec3<u32>, local: u32) -> u32 {
     return (group.y * groups.x + group.x) * 64u + local;

@@ -145,10 +145,6 @@ fn gpu_varied(table: u32, u: f32, strand: u32) -> f32 {
 }
 
 /// Whether a number is neither infinite nor NaN, by its bits: compilers may assume that all numbers are finite.
-fn gpu_is_finite(value: f32) -> bool {
-    return (bitcast<u32>(value) & 0x7f800000u) != 0x7f800000u;
-}
-
 fn gpu_is_whole(stroke: Stroke) -> bool {
     return gpu_is_finite(stroke.offset.x) && gpu_is_finite(stroke.offset.y) && gpu_is_finite(stroke.radius)
         && gpu_is_finite(stroke.depth_offset) && gpu_is_finite(stroke.color.x)

@@ -1,4 +1,4 @@
-// Triangles as a tile sees them, in two flat tones. Composed with tiles.wgsl; the CPU's is crates/render/src/cpu/surface.rs.
+// Triangles as a tile sees them, in two tones, flat or with a picture. Composed with tiles.wgsl; the CPU's is crates/render/src/cpu/surface.rs.
 
 /// A triangle seen from the tile: for each edge its value at the corner and its slopes, then depth and tone.
 struct Placed {
@@ -77,7 +77,7 @@ fn on_slope(slope: vec3<f32>, x: vec4<f32>, y: vec4<f32>) -> vec4<f32> {
     return slope.x + x * slope.y + y * slope.z;
 }
 
-fn draw_triangle(slot: u32, x: vec4<f32>, y: vec4<f32>, samples: ptr<function, Samples>) {
+fn draw_triangle(slot: u32, tile: vec2<f32>, x: vec4<f32>, y: vec4<f32>, first_sample: u32, samples: ptr<function, Samples>) {
     let at = 6u * slot;
     let v0 = batch[at];
     let v1 = batch[at + 1u];
@@ -94,15 +94,36 @@ fn draw_triangle(slot: u32, x: vec4<f32>, y: vec4<f32>, samples: ptr<function, S
     let tone = clamp(on_slope(v4.xyz, x, y), vec4<f32>(v2.w), vec4<f32>(v3.w));
     // Of two that are as near the first wins, in whatever order they come.
     let is_first = (depth == (*samples).surface) & (vec4<u32>(v5.x) < (*samples).triangle);
-    let wins = is_inside & ((depth > (*samples).surface) | is_first);
+    var wins = is_inside & ((depth > (*samples).surface) | is_first);
     let surface = gpu_frame.surfaces_at + SURFACE_WORDS * v5.y;
+    var light = vec3<f32>(table(surface), table(surface + 1u), table(surface + 2u));
+    var shadow = vec3<f32>(table(surface + 3u), table(surface + 4u), table(surface + 5u));
+    if (TEXTURED) {
+        if (!any(wins)) {
+            return;
+        }
+        let texel = texel_of(surface, v5.x, tile, middle_of(x, y, first_sample), v3.xyz, vec2<f32>(v0.w, v1.w));
+        wins &= is_covered(surface, v5.y, texel.w, first_sample);
+        light *= texel.xyz;
+        shadow *= texel.xyz;
+    }
     let is_lit = tone >= zero;
     (*samples).surface = select((*samples).surface, depth, wins);
     (*samples).triangle = select((*samples).triangle, vec4<u32>(v5.x), wins);
     (*samples).surface_margin = select((*samples).surface_margin, vec4<f32>(table(surface + 6u)), wins);
-    (*samples).red = select((*samples).red, select(vec4<f32>(table(surface + 3u)), vec4<f32>(table(surface)), is_lit), wins);
-    (*samples).green = select((*samples).green, select(vec4<f32>(table(surface + 4u)), vec4<f32>(table(surface + 1u)), is_lit), wins);
-    (*samples).blue = select((*samples).blue, select(vec4<f32>(table(surface + 5u)), vec4<f32>(table(surface + 2u)), is_lit), wins);
+    (*samples).red = select((*samples).red, select(vec4<f32>(shadow.x), vec4<f32>(light.x), is_lit), wins);
+    (*samples).green = select((*samples).green, select(vec4<f32>(shadow.y), vec4<f32>(light.y), is_lit), wins);
+    (*samples).blue = select((*samples).blue, select(vec4<f32>(shadow.z), vec4<f32>(light.z), is_lit), wins);
+}
+
+/// The middle of a pixel's samples, of four at most.
+fn middle_of(x: vec4<f32>, y: vec4<f32>, first_sample: u32) -> vec2<f32> {
+    let count = min(gpu_frame.samples - first_sample, 4u);
+    var sum = vec2<f32>(0.0);
+    for (var k = 0u; k < count; k++) {
+        sum += vec2<f32>(x[k], y[k]);
+    }
+    return sum / f32(count);
 }
 
 fn table(at: u32) -> f32 {

@@ -1,6 +1,6 @@
 // Draws the tiles: a workgroup a tile, an invocation a pixel, four samples of it at a time. What each sample shows is
 // told at render::Order; ORDER is written before this text, and so is told.wgsl or untold.wgsl, which say whether samples
-// are kept with what they show.
+// are kept with what they show, and textured.wgsl or untextured.wgsl.
 //
 // All invocations together look at a batch of a tile's triangles or segments, each at one, and keep what
 // reaches the tile, ready to be drawn, in the memory that they share. Then each draws them all into its own samples.
@@ -103,7 +103,7 @@ fn draw_tile(
         samples.red = vec4<f32>(gpu_frame.background.x);
         samples.green = vec4<f32>(gpu_frame.background.y);
         samples.blue = vec4<f32>(gpu_frame.background.z);
-        draw_surfaces(tile, tile_count + 1u + tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
+        draw_surfaces(tile, tile_count + 1u + tile_index, local, vec2<f32>(pixel.xy), x, y, first_sample, &samples);
         draw_strands(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
         sum += write_samples(corner + pixel.xy, first_sample, samples);
     }
@@ -176,7 +176,16 @@ fn farthest(samples: ptr<function, Samples>) -> f32 {
     return min(min(strand.x, strand.y), min(strand.z, strand.w));
 }
 
-fn draw_surfaces(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<f32>, y: vec4<f32>, samples: ptr<function, Samples>) {
+fn draw_surfaces(
+    tile: vec2<f32>,
+    at: u32,
+    local: u32,
+    pixel: vec2<f32>,
+    x: vec4<f32>,
+    y: vec4<f32>,
+    first_sample: u32,
+    samples: ptr<function, Samples>,
+) {
     let found = find_list(at, gpu_frame.chunk_capacity, gpu_frame.triangle_capacity, gpu_frame.triangles, local);
     for (var first = 0u; first < found.y; first += BATCH) {
         if (local < BATCH / 32u) {
@@ -202,7 +211,7 @@ fn draw_surfaces(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4
             if (is_beside(slot, pixel)) {
                 continue;
             }
-            draw_triangle(slot, x, y, samples);
+            draw_triangle(slot, tile, x, y, first_sample, samples);
         }
         workgroupBarrier();
     }

@@ -24,6 +24,7 @@
 //! frame; buffers only ever grow.
 
 mod adapter;
+mod atlas;
 mod buffer;
 mod compose;
 mod edges;

@@ -68,7 +68,7 @@ impl Images {
 }
 
 /// All of a texture.
-const VIEW: wgpu::TextureViewDescriptor = wgpu::TextureViewDescriptor {
+pub(super) const VIEW: wgpu::TextureViewDescriptor = wgpu::TextureViewDescriptor {
     label: None,
     format: None,
     dimension: None,
@@ -81,7 +81,7 @@ const VIEW: wgpu::TextureViewDescriptor = wgpu::TextureViewDescriptor {
 };
 
 /// Bytes of a texel.
-const TEXEL: u32 = 8;
+pub(super) const TEXEL: u32 = 8;
 
 impl Uploaded {
     fn new(device: &Device, queue: &Queue, image: &Arc<Image>) -> Result<Self, GpuError> {
@@ -93,25 +93,7 @@ impl Uploaded {
             let words: Vec<u16> = texels.iter().flatten().map(|x| x.to_bits()).collect();
             let [width, height] = [width, height].map(|side| side as u32);
             bytes += words.len() as u64 * 2;
-            queue.write_texture(
-                wgpu::TexelCopyTextureInfo {
-                    texture: &texture,
-                    mip_level: level,
-                    origin: wgpu::Origin3d::ZERO,
-                    aspect: wgpu::TextureAspect::All,
-                },
-                bytemuck::cast_slice(&words),
-                wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(TEXEL * width),
-                    rows_per_image: Some(height),
-                },
-                wgpu::Extent3d {
-                    width,
-                    height,
-                    depth_or_array_layers: 1,
-                },
-            );
+            write_rows(queue, &texture, level, [width, height], &words);
         }
         Ok(Self {
             image: Arc::clone(image),
@@ -122,8 +104,37 @@ impl Uploaded {
     }
 }
 
+/// Writes all rows of one of a texture's copies, as half precision numbers.
+pub(super) fn write_rows(
+    queue: &Queue,
+    texture: &wgpu::Texture,
+    level: u32,
+    [width, height]: [u32; 2],
+    words: &[u16],
+) {
+    queue.write_texture(
+        wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: level,
+            origin: wgpu::Origin3d::ZERO,
+            aspect: wgpu::TextureAspect::All,
+        },
+        bytemuck::cast_slice(words),
+        wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(TEXEL * width),
+            rows_per_image: Some(height),
+        },
+        wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+    );
+}
+
 /// A texture of half precision numbers, with copies.
-fn create(
+pub(super) fn create(
     device: &Device,
     [width, height]: [u32; 2],
     levels: u32,
@@ -138,7 +149,7 @@ fn create(
     }
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("a layer's picture"),
+        label: Some("pictures"),
         size: wgpu::Extent3d {
             width,
             height,

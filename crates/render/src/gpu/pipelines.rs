@@ -30,12 +30,8 @@ pub(super) const SMOOTH: &[Binding] = &[Uniform, Read, Read, Read, Read, Write, 
 /// `bins`: frame, chunks, tables, discs, corners, triangles, counters, starts, entries.
 pub(super) const BINS: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Write, Write, Write];
 /// `tiles`: frame, chunks, tables, discs, corners, triangles, starts, entries, picture, sample places.
-pub(super) const TILES: &[Binding] = &[
+const TILES: &[Binding] = &[
     Uniform, Read, Read, Read, Read, Read, Read, Read, Write, Uniform,
-];
-/// The same, and what samples show.
-pub(super) const TILES_THAT_TELL: &[Binding] = &[
-    Uniform, Read, Read, Read, Read, Read, Read, Read, Write, Uniform, Told,
 ];
 /// `paint_main`: frame, joints, strands, words, clumps, discs, what samples show, samples; then images.
 pub(super) const PAINT: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Shown, Write];
@@ -45,6 +41,13 @@ pub(super) const TELL: &[Binding] = &[Uniform, Read, Read, Read, Read, Read, Sho
 pub(super) const EDGES: &[Binding] = &[Uniform, Read, Write, Write, Write, Read, Part];
 /// `mean`: frame, samples, means.
 pub(super) const MEAN: &[Binding] = &[Uniform, Read, Write];
+
+/// The bindings of what draws tiles: what samples show where it `tells`, and the surfaces' pictures where they are `textured`.
+pub(super) fn tiles_bindings(tells: bool, textured: bool) -> Vec<Binding> {
+    let more = [(tells, Told), (textured, Image)].into_iter();
+    let more = more.filter_map(|(is_there, binding)| is_there.then_some(binding));
+    TILES.iter().copied().chain(more).collect()
+}
 
 /// The bindings of a program that paints with so many textures.
 pub(super) fn paint_bindings(textures: usize) -> Vec<Binding> {

@@ -24,6 +24,9 @@ const STRANDS: &str = include_str!("../../../../shaders/gpu/strands.wgsl");
 const TILES: &str = include_str!("../../../../shaders/gpu/tiles.wgsl");
 const TOLD: &str = include_str!("../../../../shaders/gpu/told.wgsl");
 const UNTOLD: &str = include_str!("../../../../shaders/gpu/untold.wgsl");
+const IMAGE: &str = include_str!("../../../../shaders/gpu/image.wgsl");
+const TEXTURED: &str = include_str!("../../../../shaders/gpu/textured.wgsl");
+const UNTEXTURED: &str = include_str!("../../../../shaders/gpu/untextured.wgsl");
 const SHOWN: &str = include_str!("../../../../shaders/gpu/shown.wgsl");
 const TELL: &str = include_str!("../../../../shaders/gpu/tell.wgsl");
 const PAINT_MAIN: &str = include_str!("../../../../shaders/gpu/paint_main.wgsl");
@@ -71,14 +74,23 @@ pub(super) fn bins() -> String {
     [FRAME, DRAWN, BINS].join("\n")
 }
 
-/// What draws tiles in an order, given by its number in `tiles.wgsl`, and keeps what samples show where it `tells`.
-pub(super) fn tiles(order: u32, tells: bool) -> String {
+/// What draws tiles in an order, given by its number in `tiles.wgsl`, keeps what samples show where it `tells`, and looks up the surfaces'
+/// pictures where they are `textured`.
+pub(super) fn tiles(order: u32, tells: bool, textured: bool) -> String {
     let order = format!("const ORDER: u32 = {order}u;\n");
     let told = if tells { TOLD } else { UNTOLD };
-    [
-        &order, told, FRAME, DRAWN, SWEEP, SEGMENTS, SURFACES, STRANDS, TILES,
-    ]
-    .join("\n")
+    let binding = if tells { 11 } else { 10 };
+    let atlas = format!("@group(0) @binding({binding}) var atlas: texture_2d<f32>;\n");
+    let textures: &[&str] = match textured {
+        true => &[PRELUDE, IMAGE, &atlas, TEXTURED],
+        false => &[UNTEXTURED],
+    };
+    let parts = [
+        &[&order, told, FRAME, DRAWN][..],
+        textures,
+        &[SWEEP, SEGMENTS, SURFACES, STRANDS, TILES],
+    ];
+    parts.concat().join("\n")
 }
 
 /// What paints a layer's samples.
@@ -92,6 +104,7 @@ pub(super) fn paint(source: &ProgramSource, paint: &PaintSource, layout: &JointL
         &params(source),
         &sample(paint),
         &images(paint.textures.len()),
+        IMAGE,
         PAINT_MAIN,
     ]
     .join("\n")

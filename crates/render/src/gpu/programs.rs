@@ -2,7 +2,7 @@
 
 use super::buffer::Growing;
 use super::error::GpuError;
-use super::pipelines::{self, Binding, layout, pipelines};
+use super::pipelines::{self, Binding, layout, pipelines, tiles_bindings};
 use super::program;
 use super::scene::SceneWords;
 use crate::drawing::Order;
@@ -15,13 +15,23 @@ pub(super) struct Programs {
     pub(super) layouts: Layouts,
     /// In the order in which they run.
     pub(super) bins: Vec<ComputePipeline>,
-    /// By the order, and whether samples are kept with what they show.
-    pub(super) tiles: Option<((Order, bool), ComputePipeline)>,
+    /// By what it is made for.
+    pub(super) tiles: Option<(TilesKey, ComputePipeline)>,
     /// One for each object.
     pub(super) clumps: Vec<JointProgram>,
     /// One for each layer of each object.
     pub(super) layers: Vec<JointProgram>,
     pub(super) smooth: Option<Smooth>,
+}
+
+/// What the pipeline that draws tiles is made for.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct TilesKey {
+    pub(super) order: Order,
+    /// Whether samples are kept with what they show.
+    pub(super) tells: bool,
+    /// Whether there are pictures on surfaces.
+    pub(super) textured: bool,
 }
 
 /// What following a frame took.
@@ -61,8 +71,15 @@ pub(super) struct Layouts {
     pub(super) strokes: BindGroupLayout,
     pub(super) smooth: BindGroupLayout,
     pub(super) bins: BindGroupLayout,
-    pub(super) tiles: BindGroupLayout,
-    pub(super) tiles_that_tell: BindGroupLayout,
+    /// By whether they tell, and whether surfaces are textured.
+    tiles: [[BindGroupLayout; 2]; 2],
+}
+
+impl Layouts {
+    /// What the pipeline that draws tiles binds.
+    pub(super) fn tiles(&self, tells: bool, textured: bool) -> &BindGroupLayout {
+        &self.tiles[usize::from(tells)][usize::from(textured)]
+    }
 }
 
 impl Programs {
@@ -74,8 +91,9 @@ impl Programs {
             strokes: of("strokes", pipelines::STROKES),
             smooth: of("smooth", pipelines::SMOOTH),
             bins: of("bins", pipelines::BINS),
-            tiles: of("tiles", pipelines::TILES),
-            tiles_that_tell: of("tiles", pipelines::TILES_THAT_TELL),
+            tiles: [false, true].map(|tells| {
+                [false, true].map(|textured| of("tiles", &tiles_bindings(tells, textured)))
+            }),
         };
         let entry_points = [
             "count_chunks",
@@ -175,30 +193,21 @@ impl Programs {
         Ok(change)
     }
 
-    /// Makes the pipeline that draws tiles in that order, and keeps what samples show where it `tells`; says how many that took.
-    pub(super) fn draw_in(
-        &mut self,
-        device: &Device,
-        order: Order,
-        tells: bool,
-    ) -> Result<usize, GpuError> {
-        let is_it = |(made, _): &(_, _)| *made == (order, tells);
-        if self.tiles.as_ref().is_some_and(is_it) {
+    /// Makes the pipeline that draws tiles; says how many that took.
+    pub(super) fn draw_in(&mut self, device: &Device, key: TilesKey) -> Result<usize, GpuError> {
+        if self.tiles.as_ref().is_some_and(|(made, _)| *made == key) {
             return Ok(0);
         }
-        let number = match order {
+        let number = match key.order {
             Order::Rounded => 0,
             Order::StrandFirst => 1,
             Order::Shifted => 2,
         };
-        let text = program::tiles(number, tells);
-        let layout = match tells {
-            true => &self.layouts.tiles_that_tell,
-            false => &self.layouts.tiles,
-        };
+        let text = program::tiles(number, key.tells, key.textured);
+        let layout = self.layouts.tiles(key.tells, key.textured);
         let made = pipelines(device, "tiles", &text, layout, &["draw_tile"])?;
         let made = made.into_iter().next();
-        self.tiles = made.map(|pipeline| ((order, tells), pipeline));
+        self.tiles = made.map(|pipeline| (key, pipeline));
         Ok(1)
     }
 }

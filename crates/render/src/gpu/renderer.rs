@@ -1,16 +1,17 @@
 //! Draws frames on a device, in somebody's command encoder.
 
 use super::adapter::check_limits;
+use super::atlas::Atlas;
 use super::buffer::{Buffers, Growing};
 use super::compose::{Composer, PassFormat};
 use super::error::GpuError;
 use super::layout::{CLUMP_BYTES, GpuFrame, TILE, WORKGROUP};
-use super::programs::Programs;
+use super::programs::{Programs, TilesKey};
 use super::report::Report;
 use super::samples::{self, SampleStage, Wanted, pixels, whole};
 use super::scene::SceneWords;
 use crate::check;
-use crate::drawing::{Drawing, Surface};
+use crate::drawing::Drawing;
 use crate::edges::Edges;
 use crate::features::Features;
 use crate::frame::Frame;
@@ -66,6 +67,8 @@ pub struct Renderer {
     programs: Programs,
     /// Where samples are painted, drawn on, or tell what they show.
     samples: Option<SampleStage>,
+    /// Pictures on surfaces.
+    atlas: Atlas,
     groups: Option<Groups>,
     composer: Option<Composer>,
     /// Entries that the tiles' lists needed in the last frame that is known of: chunks, triangles.
@@ -91,14 +94,6 @@ fn wanted(frame: &Frame, samples: u32, keeps: Keeps) -> Option<Wanted> {
         tells,
         means: keeps == Keeps::Means,
     })
-}
-
-/// Refuses what cards don't draw.
-fn check_surfaces(surfaces: &[Surface]) -> Result<(), GpuError> {
-    match surfaces.iter().any(|surface| surface.texture.is_some()) {
-        false => Ok(()),
-        true => Err(GpuError::Unsupported("a mesh with a texture".to_owned())),
-    }
 }
 
 /// Refuses what is drawn of frames alone.
@@ -133,6 +128,7 @@ impl Renderer {
             buffers: Buffers::new(),
             programs: Programs::new(device)?,
             samples: None,
+            atlas: Atlas::default(),
             groups: None,
             composer: None,
             entries_needed: [0; 2],
@@ -154,7 +150,7 @@ impl Renderer {
         GpuStats {
             pipelines: self.programs.count() + pipelines + usize::from(self.composer.is_some()),
             buffers: alive.clone().count() + of_samples.clone().count(),
-            bytes: alive.map(Growing::size).chain(of_samples).sum(),
+            bytes: alive.map(Growing::size).chain(of_samples).sum::<u64>() + self.atlas.bytes(),
             ..self.stats
         }
     }
@@ -267,7 +263,6 @@ impl Renderer {
             Source::Frame(frame) => {
                 let size = frame.camera.size_px();
                 frame.check()?;
-                check_surfaces(&frame.surfaces)?;
                 let wanted = wanted(frame, samples, keeps);
                 let tells = wanted.map_or(Features::NONE, |wanted| wanted.tells);
                 self.scene.fill(frame, tells);
@@ -278,7 +273,6 @@ impl Renderer {
             Source::Drawing(drawing) => {
                 check::check(drawing)?;
                 check_supported(drawing)?;
-                check_surfaces(&drawing.surfaces)?;
                 self.samples = None;
                 self.scene.fill_drawing(drawing);
                 self.programs.clumps.clear();
@@ -288,8 +282,21 @@ impl Renderer {
                 (drawing.size, drawing.order, settings)
             }
         };
+        let surfaces = match source {
+            Source::Frame(frame) => &frame.surfaces,
+            Source::Drawing(drawing) => &drawing.surfaces,
+        };
+        if self.atlas.follow(&self.device, &self.queue, surfaces)? {
+            self.groups = None;
+            self.stats.made += 1;
+        }
         let tells = self.samples.is_some();
-        self.stats.made += self.programs.draw_in(&self.device, order, tells)?;
+        let key = TilesKey {
+            order,
+            tells,
+            textured: self.atlas.view().is_some(),
+        };
+        self.stats.made += self.programs.draw_in(&self.device, key)?;
 
         let tiles = size.map(|side| side.div_ceil(TILE));
         let tile_count = u64::from(tiles[0]) * u64::from(tiles[1]);
@@ -501,13 +508,10 @@ impl Renderer {
             .map(whole)
             .collect::<Result<Vec<_>, _>>()?;
         let layouts = &self.programs.layouts;
-        let tiles_layout = match &self.samples {
-            Some(stage) => {
-                tiles.push(wgpu::BindingResource::TextureView(stage.shown()));
-                &layouts.tiles_that_tell
-            }
-            None => &layouts.tiles,
-        };
+        let shown = self.samples.as_ref().map(SampleStage::shown);
+        let textures = [shown, self.atlas.view()].into_iter().flatten();
+        tiles.extend(textures.map(wgpu::BindingResource::TextureView));
+        let tiles_layout = layouts.tiles(self.samples.is_some(), self.atlas.view().is_some());
         Ok(Groups {
             clumps: clumps.collect::<Result<_, GpuError>>()?,
             layers: layers.collect::<Result<_, GpuError>>()?,

@@ -1,16 +1,22 @@
 //! A frame, or a drawing whose strokes are made already, as the words that a graphics card reads.
 
+use super::atlas::images_of;
 use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
 use super::program::{LAYER_WORDS, PAINT_WORD};
-use crate::drawing::{Disc, Drawing, Surface};
+use crate::drawing::{Coverage, Disc, Drawing, Surface};
 use crate::features::{Feature, Features};
 use crate::frame::{Frame, Head, Object};
 use crate::painting;
-use effects::{CLUMP_DISCS, Input, InputSet, Layer, PaintSource, Texture, Units, layer_seed};
+use effects::{
+    CLUMP_DISCS, Image, Input, InputSet, Layer, PaintSource, Texture, Units, layer_seed,
+};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Words of a stroke's record in the tables.
 const STROKE_WORDS: usize = 3;
+/// Words of a surface's record in the tables, as `shaders/gpu/drawn.wgsl` has it.
+const SURFACE_WORDS: usize = 12;
 /// Stands where a list has no stroke's record: the tables begin with the lists.
 const NO_STROKE: u32 = 0;
 
@@ -366,12 +372,33 @@ impl SceneWords {
         self.surfaces_at = self.tables.len() as u32;
         self.corners.clear();
         self.triangles.clear();
-        for (surface, number) in surfaces.iter().zip(0..) {
+        let records = self.tables.len();
+        self.tables
+            .resize(records + SURFACE_WORDS * surfaces.len(), 0);
+        let images = self.push_images(surfaces);
+        let records = (records..).step_by(SURFACE_WORDS);
+        for ((surface, number), record) in surfaces.iter().zip(0..).zip(records) {
             let [lr, lg, lb] = surface.light;
             let [sr, sg, sb] = surface.shadow;
             let numbers = [lr, lg, lb, sr, sg, sb, surface.margin_m];
-            self.tables.extend(numbers.map(f32::to_bits));
+            self.tables[record..record + 7].copy_from_slice(&numbers.map(f32::to_bits));
             let first = self.corners.len() as u32 / 4;
+            if let Some(texture) = &surface.texture {
+                let image = images
+                    .iter()
+                    .find(|(image, _)| Arc::ptr_eq(image, &texture.image));
+                let places = (self.tables.len() as u32).wrapping_sub(2 * first);
+                let [means, cut] = match texture.coverage {
+                    Coverage::Ignored => [0, 0],
+                    Coverage::Cut(cut) => [1, cut.to_bits()],
+                    Coverage::Share => [2, 0],
+                };
+                let image = image.map_or(0, |(_, at)| *at);
+                let words = [image, places, u32::from(texture.repeats), means, cut];
+                self.tables[record + 7..record + SURFACE_WORDS].copy_from_slice(&words);
+                let places = texture.places.iter().flat_map(|place| place.to_array());
+                self.tables.extend(places.map(f32::to_bits));
+            }
             for vertex in &surface.vertices {
                 let [x, y] = vertex.position.to_array();
                 let numbers = [x, y, vertex.inv_depth, vertex.tone];
@@ -382,6 +409,22 @@ impl SceneWords {
                     .extend([first + a, first + b, first + c, number]);
             }
         }
+    }
+
+    /// Adds the records of the surfaces' pictures to the tables, and says where each begins.
+    fn push_images<'s>(&mut self, surfaces: &'s [Surface]) -> Vec<(&'s Arc<Image>, u32)> {
+        let mut next = 0;
+        let mut push = |image: &'s Arc<Image>| {
+            let at = self.tables.len() as u32;
+            self.tables.push(image.levels() as u32);
+            for level in 0..image.levels() {
+                let ([width, height], texels) = image.level(level);
+                self.tables.extend([width as u32, height as u32, next]);
+                next += texels.len() as u32;
+            }
+            (image, at)
+        };
+        images_of(surfaces).into_iter().map(&mut push).collect()
     }
 }
 

@@ -9,4 +9,5 @@ mod inputs;
 mod prelude;
 mod samples;
 mod scene;
+mod textures;
 mod warm;
