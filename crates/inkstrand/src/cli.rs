@@ -230,6 +230,10 @@ pub(crate) struct SceneOptions {
     #[arg(long, value_name = "FILE")]
     pub head: Option<PathBuf>,
 
+    /// A character in place of the preset's head, in the colours and with the pictures of its file: .vrm, .glb, .gltf, .obj or .ply. `docs/characters.md` shows more
+    #[arg(long, value_name = "FILE", conflicts_with = "head")]
+    pub character: Option<PathBuf>,
+
     /// How the head moves and the wind blows, in place of the preset's: .motion.ron
     #[arg(long, value_name = "FILE")]
     pub motion: Option<PathBuf>,

@@ -2,6 +2,7 @@
 
 use crate::files::{Files, StageError};
 use crate::load;
+use crate::painted;
 use crate::preset::{Preset, missing};
 use crate::script;
 use crate::stage::Stage;
@@ -83,7 +84,12 @@ impl<'r> Preset<'r> {
             paths.extend(textures::named(layer, files).map(|(_, path)| path));
         }
         let meshes = self.meshes.iter();
-        paths.extend(meshes.map(|mesh| mesh.section.path(&files.preset_folder)));
+        paths.extend(meshes.flat_map(|mesh| {
+            let texture = mesh.section.texture_path(&files.preset_folder);
+            [mesh.section.path(&files.preset_folder)]
+                .into_iter()
+                .chain(texture)
+        }));
         paths.extend(self.files_of_objects(files));
         paths
     }
@@ -126,6 +132,11 @@ impl<'r> Preset<'r> {
             let path = mesh.section.path(&files.preset_folder);
             if let (true, Err(error)) = (path.is_file(), mesh_io::read_model(&path)) {
                 found.add(Err(PresetErrors(vec![mesh.mistake(error.to_string())])));
+            }
+            let texture = mesh.section.texture_path(&files.preset_folder);
+            if let Some(Err(error)) = texture.filter(|path| path.is_file()).map(painted::picture) {
+                let mistake = mesh.mistake_of_texture(format!("texture: {error}"));
+                found.add(Err(PresetErrors(vec![mistake])));
             }
         }
         for layer in &self.layers {

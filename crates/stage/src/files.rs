@@ -72,6 +72,17 @@ pub enum StageError {
         "the preset lists `meshes` and has no head that they are beside: --head FILE, or head: (shape: bust)"
     )]
     MeshesWithoutHead,
+    /// A mesh has no places for a picture.
+    #[error("{}: it has no texture coordinates, by which a picture lies on it", .0.display())]
+    NoPlaces(PathBuf),
+    /// A picture that the preset names cannot be read.
+    #[error("{} {message}", .path.display())]
+    PictureFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
     /// A mesh's picture cannot be read.
     #[error("{}: picture `{name}` {message}", .path.display())]
     Picture {

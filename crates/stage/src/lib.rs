@@ -47,7 +47,7 @@ pub use motion::Motion;
 pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
-    BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
+    AlphaChoice, BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
     ExpressionChoice, EyesChoice, FixedTo, HairSection, HeadColors, HeadSection, HeadShape,
     HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
     NamedObject, ObjectSection, OrderChoice, PASSES, PassSection, PathChoice, PathSection, Preset,

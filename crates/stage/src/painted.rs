@@ -2,7 +2,7 @@
 
 use crate::files::StageError;
 use crate::pictures;
-use crate::preset::MeshSection;
+use crate::preset::{AlphaChoice, MeshSection};
 use effects::Image;
 use effects::preset::suggestion;
 use glam::{Vec2, Vec3};
@@ -244,8 +244,47 @@ pub(crate) fn of_sections(
         hide.check(&model, &path)?;
         let is_meant =
             |mesh: &Mesh| (only.is_empty() || only.have(&model, mesh)) && !hide.have(&model, mesh);
-        let meshes = of_model(&model, &path, orientation, Some(number), is_meant, notes)?;
+        let mut meshes = of_model(&model, &path, orientation, Some(number), is_meant, notes)?;
+        if let Some(path) = section.texture_path(folder) {
+            let image = picture(&path)?;
+            for (mesh, own) in meshes
+                .iter_mut()
+                .zip(model.meshes.iter().filter(|m| is_meant(m)))
+            {
+                if own.uvs.is_empty() {
+                    return Err(StageError::NoPlaces(section.path(folder)));
+                }
+                mesh.places.clone_from(&own.uvs);
+                mesh.paint.picture = Some(MeshPicture {
+                    image: image.clone(),
+                    repeats: true,
+                    coverage: Coverage::Cut(0.5),
+                });
+            }
+        }
+        let coverage = match section.alpha {
+            AlphaChoice::File => None,
+            AlphaChoice::Whole => Some(Coverage::Ignored),
+            AlphaChoice::Cut => Some(Coverage::Cut(0.5)),
+            AlphaChoice::Blend => Some(Coverage::Share),
+        };
+        for mesh in &mut meshes {
+            if let (Some(picture), Some(coverage)) = (&mut mesh.paint.picture, coverage) {
+                picture.coverage = coverage;
+            }
+        }
         painted.extend(meshes);
     }
     Ok(painted)
+}
+
+/// A picture that a preset names.
+pub(crate) fn picture(path: impl AsRef<Path>) -> Result<Arc<Image>, StageError> {
+    let path = path.as_ref();
+    let bytes = hair_io::read_bytes(path, hair_io::MOST_OF_DATA)?;
+    let (image, _) = pictures::decode(&bytes).map_err(|message| StageError::PictureFile {
+        path: path.to_owned(),
+        message,
+    })?;
+    Ok(Arc::new(image))
 }

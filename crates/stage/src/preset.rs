@@ -5,7 +5,7 @@ mod objects;
 mod passes;
 mod sections;
 
-pub use meshes::{MESHES, MeshSection, NamedMesh};
+pub use meshes::{AlphaChoice, MESHES, MeshSection, NamedMesh};
 pub use objects::{NamedObject, ObjectSection};
 pub use passes::{EdgesChoice, PASSES, PassSection};
 pub use sections::*;
@@ -216,7 +216,7 @@ impl<'r> Preset<'r> {
         let objects = self.objects.iter();
         errors.extend(objects.filter_map(|object| object.missing(&files.preset_folder)));
         let meshes = self.meshes.iter();
-        errors.extend(meshes.filter_map(|mesh| mesh.missing(&files.preset_folder)));
+        errors.extend(meshes.flat_map(|mesh| mesh.missing(&files.preset_folder)));
         PresetErrors::report(errors)
     }
 

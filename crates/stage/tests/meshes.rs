@@ -146,6 +146,45 @@ fn a_meshs_colours_are_said_in_the_preset() {
 }
 
 #[test]
+fn a_picture_of_the_presets_own() {
+    let folder = folder();
+    let scene_with = |section: &str| scene(folder.path(), "", &format!("meshes: [({section})],"));
+    let coverage = |section: &str| -> Vec<Coverage> {
+        let (surfaces, _) = seen(&mut scene_with(section).unwrap());
+        let textures = surfaces.into_iter().filter_map(|surface| surface.texture);
+        textures.map(|texture| texture.coverage).collect()
+    };
+    let cube = "file: \"head.obj\", texture: \"skin.png\"";
+    assert_eq!(coverage(cube), [Coverage::Cut(0.5)]);
+    assert_eq!(
+        coverage(&format!("{cube}, alpha: blend")),
+        [Coverage::Share]
+    );
+    assert_eq!(
+        coverage("file: \"head.obj\""),
+        [Coverage::Ignored],
+        "the file's own"
+    );
+    let told = |section: &str| scene_with(section).err().unwrap();
+    let message = told("file: \"eyes.obj\", texture: \"skin.png\"");
+    assert!(
+        message.contains("eyes.obj: it has no texture coordinates"),
+        "{message}"
+    );
+    let message = told("file: \"head.obj\", texture: \"skim.png\"");
+    assert!(
+        message.contains("look.ron:1:") && message.contains("did you mean `skin.png`?"),
+        "{message}"
+    );
+    fs::write(folder.path().join("skin.png"), b"GIF89a").unwrap();
+    let message = told(cube);
+    assert!(
+        message.contains("look.ron:1:") && message.contains("neither PNG nor JPEG"),
+        "{message}"
+    );
+}
+
+#[test]
 fn the_heads_own_meshes_may_be_hidden() {
     let folder = folder();
     fs::copy(

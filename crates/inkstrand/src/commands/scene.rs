@@ -6,7 +6,7 @@ use crate::cli::SceneOptions;
 use crate::say::say;
 use effects::Registry;
 use effects::preset::PresetErrors;
-use stage::{Files, Preset, Stage};
+use stage::{Files, HeadColors, Preset, Stage};
 use std::path::Path;
 
 /// A preset's text, and what messages call it.
@@ -56,7 +56,7 @@ impl SceneOptions {
         Files {
             preset_folder: preset_folder(preset),
             hair: self.hair.clone(),
-            head: self.head.clone(),
+            head: self.character.clone().or_else(|| self.head.clone()),
             motion: self.motion.clone(),
             bake: None,
             ..Files::default()
@@ -67,6 +67,9 @@ impl SceneOptions {
     pub fn apply(&self, preset: &mut Preset) -> Result<(), String> {
         let hair = &mut preset.sections.hair;
         hair.guides = self.guides.unwrap_or(hair.guides);
+        if self.character.is_some() {
+            preset.sections.head.colors = HeadColors::File;
+        }
         check(preset)?;
         for assignment in &self.set {
             let (name, value) = assignment.split_once('=').ok_or_else(|| {

@@ -3,7 +3,7 @@
 use super::missing;
 use crate::part::FilePart;
 use effects::preset::{Place, PresetError, Reader};
-use effects::section;
+use effects::{choices, section};
 use std::path::{Path, PathBuf};
 
 /// The most meshes that a preset lists.
@@ -11,6 +11,20 @@ const MOST_MESHES: usize = 64;
 
 /// How the list is written, for those who write something else.
 const WRITTEN: &str = "meshes: [(file: \"eyes.obj\", color: \"FFFFFF\"), ...]";
+
+choices! {
+    /// What the coverage of a mesh's picture means.
+    pub enum AlphaChoice {
+        /// What the file says; of a picture that the preset names: `cut`.
+        File = "file",
+        /// Nothing: the mesh is whole.
+        Whole = "whole",
+        /// There is nothing where it is below a half.
+        Cut = "cut",
+        /// How much of what lies behind is hidden.
+        Blend = "blend",
+    }
+}
 
 section! {
     /// Meshes of files, in their own colours: eyes, lashes, clothes, glasses. They lie as the head's file does, and move with the head. A list.
@@ -21,6 +35,10 @@ section! {
         only: Option<String> = text(),
         /// Which of them not.
         hide: Option<String> = text(),
+        /// A picture in place of the file's, relative to the preset: .png or .jpg. It lies on the mesh as the file's texture places say.
+        texture: Option<String> = text(),
+        /// What the picture's coverage means.
+        alpha: AlphaChoice = AlphaChoice::File.or_another(),
         /// What their own colours are multiplied by; their colour where the file has none.
         color: [f32; 3] = color("FFFFFF"),
         /// How bright the side away from the light is; what the file says of that comes first.
@@ -46,8 +64,9 @@ pub const MESHES: FilePart = FilePart {
 pub struct NamedMesh {
     /// What is said of them.
     pub section: MeshSection,
-    /// Where their file's name stands.
+    /// Where their file's name stands, and their picture's.
     place: Place,
+    texture: Option<Place>,
 }
 
 impl NamedMesh {
@@ -72,16 +91,29 @@ impl NamedMesh {
             if name.is_none() {
                 reader.error(item, "a mesh needs `file: \"...\"`, which holds it");
             }
-            let place = reader.place(name.map_or(item, |name| name.value));
-            Self { section, place }
+            let texture = fields.iter().find(|field| field.name == "texture");
+            Self {
+                place: reader.place(name.map_or(item, |name| name.value)),
+                texture: texture.map(|texture| reader.place(texture.value)),
+                section,
+            }
         };
         items.iter().map(read).collect()
     }
 
-    /// What is wrong with the name of its file.
-    pub(super) fn missing(&self, folder: &Path) -> Option<PresetError> {
-        let message = missing(folder, "file", self.section.file.as_ref()?)?;
-        Some(self.mistake(message))
+    /// What is wrong with the names of its files.
+    pub(super) fn missing(&self, folder: &Path) -> Vec<PresetError> {
+        let MeshSection { file, texture, .. } = &self.section;
+        let wrong = |name: &Option<String>, param| missing(folder, param, name.as_ref()?);
+        let file = wrong(file, "file").map(|message| self.mistake(message));
+        let texture = wrong(texture, "texture").map(|message| self.mistake_of_texture(message));
+        file.into_iter().chain(texture).collect()
+    }
+
+    /// A mistake where its picture is named.
+    pub(crate) fn mistake_of_texture(&self, message: String) -> PresetError {
+        let place = self.texture.clone().unwrap_or_else(|| self.place.clone());
+        PresetError { place, message }
     }
 
     /// A mistake where its file is named.
@@ -95,5 +127,10 @@ impl MeshSection {
     /// Its file, of a preset in `folder`.
     pub(crate) fn path(&self, folder: &Path) -> PathBuf {
         folder.join(self.file.as_deref().unwrap_or_default())
+    }
+
+    /// Its picture, of a preset in `folder`.
+    pub(crate) fn texture_path(&self, folder: &Path) -> Option<PathBuf> {
+        Some(folder.join(self.texture.as_deref()?))
     }
 }

@@ -5,7 +5,8 @@ use super::{Drawn, Facts, Look, Problem, Times, Wish};
 use effects::Registry;
 use effects::preset::PresetErrors;
 use stage::{
-    CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections, StageError, Textures,
+    AlphaChoice, CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections, StageError,
+    Textures,
 };
 use std::fs;
 use std::path::PathBuf;
@@ -39,7 +40,7 @@ struct From {
     sections: Sections,
     has_objects: bool,
     /// Of each mesh which it is: how it is painted is the look's.
-    meshes: Vec<[Option<String>; 3]>,
+    meshes: Vec<([Option<String>; 4], AlphaChoice)>,
     texts: Vec<(PathBuf, Arc<str>)>,
     files: Vec<(PathBuf, Option<(u64, SystemTime)>)>,
 }
@@ -222,7 +223,10 @@ impl From {
             has_objects: !preset.objects.is_empty(),
             meshes: (preset.meshes.iter())
                 .map(|mesh| &mesh.section)
-                .map(|mesh| [&mesh.file, &mesh.only, &mesh.hide].map(Option::clone))
+                .map(|mesh| {
+                    let names = [&mesh.file, &mesh.only, &mesh.hide, &mesh.texture];
+                    (names.map(Option::clone), mesh.alpha)
+                })
                 .collect(),
             texts: (look.texts.iter())
                 .filter(|(path, _)| named.contains(path))
