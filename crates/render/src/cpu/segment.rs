@@ -132,9 +132,7 @@ impl Segments {
         let bands = (drawing.size[1] as usize).div_ceil(tile_height);
         let strands: Vec<&[Run]> = drawing.runs.chunk_by(|a, b| a.strand == b.strand).collect();
         let own = strands.par_chunks(GROUP);
-        let own: Vec<Vec<Numbered>> = own
-            .map(|group| on_group(drawing, strokes, group))
-            .collect();
+        let own: Vec<Vec<Numbered>> = own.map(|group| on_group(drawing, strokes, group)).collect();
         let strands = strands.into_par_iter().enumerate().with_min_len(GROUP);
         let strands = strands.map(|(i, runs)| Strand::new(drawing, strokes, &own[i / GROUP], runs));
         let strands: Vec<Strand> = strands.collect();
@@ -393,19 +391,22 @@ fn clump_on<'a>(
 fn is_clump(drawing: &Drawing, strokes: &[Numbered], run: &Run) -> bool {
     let of_layer = strokes[0].stroke.layer;
     let layer = &drawing.layers[of_layer];
-    strokes.iter().zip(0..).all(|(Numbered { stroke, .. }, part)| {
-        let own = layer.on(stroke.instance, &run.joints);
-        let own = own.map(|stretch| (stretch.joints.clone(), &layer.discs[stretch.places()]));
-        let is_of_one_layer = stroke.layer == of_layer;
-        let of_part = if part == 0 {
-            &drawing.clump
-        } else {
-            &drawing.sides
-        };
-        let clump = clump_on(drawing, part, &run.joints);
-        let clump = clump.map(|stretch| (stretch.joints.clone(), &of_part[stretch.places()]));
-        is_of_one_layer && is_same(clump, own)
-    })
+    strokes
+        .iter()
+        .zip(0..)
+        .all(|(Numbered { stroke, .. }, part)| {
+            let own = layer.on(stroke.instance, &run.joints);
+            let own = own.map(|stretch| (stretch.joints.clone(), &layer.discs[stretch.places()]));
+            let is_of_one_layer = stroke.layer == of_layer;
+            let of_part = if part == 0 {
+                &drawing.clump
+            } else {
+                &drawing.sides
+            };
+            let clump = clump_on(drawing, part, &run.joints);
+            let clump = clump.map(|stretch| (stretch.joints.clone(), &of_part[stretch.places()]));
+            is_of_one_layer && is_same(clump, own)
+        })
 }
 
 /// Whether stretches of joints have the same discs, of which the first ones may go on where they have no size.
