@@ -87,6 +87,8 @@ pub struct Rasterizer {
 struct Parts {
     segments: Segments,
     triangles: Vec<Triangle>,
+    /// Each triangle with the tiles that it reaches in one row of them.
+    rows_of_triangles: Vec<(u32, Range<usize>)>,
     triangles_of_tiles: Bins,
 }
 
@@ -205,17 +207,16 @@ impl Parts {
         surface::collect(drawing, stacks, &mut self.triangles);
         let [width, height] = drawing.size.map(|side| side as usize);
         let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
-        let rows_of_tiles = |(triangle, i): (&Triangle, u32)| {
+        self.rows_of_triangles.clear();
+        for (triangle, i) in self.triangles.iter().zip(0..) {
             let columns = cells(triangle.bounds.x, tile::WIDTH);
-            let bands = cells(triangle.bounds.y, tile_height);
-            bands.map(move |band| {
-                (
-                    i,
-                    band * across + columns.start..band * across + columns.end,
-                )
-            })
-        };
-        let triangles = self.triangles.iter().zip(0..).flat_map(rows_of_tiles);
+            for band in cells(triangle.bounds.y, tile_height) {
+                let first = band * across;
+                let tiles = first + columns.start..first + columns.end;
+                self.rows_of_triangles.push((i, tiles));
+            }
+        }
+        let triangles = self.rows_of_triangles.iter().cloned();
         self.triangles_of_tiles.fill(across * bands, triangles);
     }
 }

@@ -6,6 +6,7 @@ use crate::head;
 use crate::levels::levels;
 use crate::look::Look;
 use crate::material::Material;
+use crate::merged::Ranks;
 use crate::motion::{Motion, ObjectMotion};
 use crate::neck::{PosedHead, rigid};
 use crate::object::{Object, PathShape};
@@ -52,6 +53,9 @@ struct ObjectFrame {
     levels: Vec<u32>,
     /// Strands of hair of which nothing can be seen, so that it is left out as a whole.
     unseen: usize,
+    /// Which strands are left where hair is thin, once it was; and how many were not drawn.
+    ranks: Option<Ranks>,
+    merged: usize,
     /// Paths that are made beside each other.
     parts: Vec<Paths>,
     /// Its hair's strands, and its joints.
@@ -65,6 +69,7 @@ struct ObjectFrame {
     layer_joints: Vec<Range<usize>>,
     /// Normals of the links, where something reads them.
     material: Option<Material>,
+    /// Made where the head is first seen: a crowd has many that never are.
     head: Option<PosedHead>,
     /// What hides hair, in the world.
     solid: Option<Ball>,
@@ -126,6 +131,7 @@ impl FrameMaker {
         let reads_material = |object: &Object| object.look().reads_material();
         let reads_material = scene.objects().iter().any(reads_material);
         let light = scene.look().light(&camera, motion.head(scene));
+        let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
         for (index, object) in scene.objects().iter().enumerate() {
             match objects.get_mut(index) {
@@ -135,7 +141,7 @@ impl FrameMaker {
             let frame = &mut objects[index];
             let motion = motion.of(index, object);
             let own_camera = object.placement().own_camera(&camera);
-            let sight = Sight::new(&own_camera, object, shows_all);
+            let sight = Sight::new(&own_camera, object, section.detail, shows_all);
             frame.keep(motion);
             frame.push_strands(motion, &sight, strands, paths)?;
             frame.push_made_paths(motion, &sight, strands, paths)?;
@@ -164,7 +170,6 @@ impl FrameMaker {
         };
         self.of = Some((scene.shared_look().clone(), motion.time_s()));
         let objects = self.objects.iter().zip(scene.objects()).enumerate();
-        let section = &scene.look().sections.scene;
         Ok(Frame {
             camera: self.camera.insert(camera),
             paths: &self.paths,
@@ -242,9 +247,16 @@ impl FrameMaker {
                 let is_seen = high.cmpge(Vec2::ZERO).all() && low.cmple(picture).all();
                 seen += usize::from(is_seen);
             }
-            culled += object.unseen + object.strands.len() - seen;
+            culled += object.unseen + object.strands.len() - object.merged - seen;
         }
         culled
+    }
+
+    /// Strands of the last frame that are thinner than [`SceneSection::detail`](crate::SceneSection) asks for and not drawn, as those
+    /// beside them are wider instead.
+    #[must_use]
+    pub fn merged(&self) -> usize {
+        self.objects.iter().map(|object| object.merged).sum()
     }
 
     /// Strands of the last frame that may be seen and were left out because they are too far away to be drawn.
@@ -263,6 +275,8 @@ impl ObjectFrame {
             points: Vec::new(),
             levels: levels_of(object),
             unseen: 0,
+            ranks: None,
+            merged: 0,
             parts: Vec::new(),
             strands: 0..0,
             joints: 0..0,
@@ -271,7 +285,7 @@ impl ObjectFrame {
             made_of: Vec::new(),
             layer_joints: Vec::new(),
             material: reads_material.then(Material::default),
-            head: object.neck().map(PosedHead::new),
+            head: None,
             solid: None,
         }
     }
@@ -283,7 +297,8 @@ impl ObjectFrame {
         }
         if !self.of.has_hair_and_head_of(object) {
             self.material = None;
-            self.head = object.neck().map(PosedHead::new);
+            self.head = None;
+            self.ranks = None;
         }
         if !self.of.has_hair_and_head_of(object)
             || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
@@ -329,31 +344,47 @@ impl ObjectFrame {
         let first = strands.len();
         self.strands = first..first + hair.infos.len();
         self.joints = paths.len()..paths.len();
-        self.unseen = 0;
+        (self.unseen, self.merged) = (0, 0);
         // Paths that effects make may go on where no strand is.
         let makes_paths = |layer: &Layer| layer.program.has_own_paths();
         let (center, radius_m) = ball_around(points);
-        let sizes = hair.infos.iter().map(|info| info.size);
-        if !sight.may_see_any(center, radius_m, sizes.fold(0.0, f32::max))
+        let sizes = || hair.infos.iter().map(|info| info.size);
+        if !sight.may_see_any(center, radius_m, sizes().fold(0.0, f32::max))
             && !self.of.look().layers.iter().any(makes_paths)
         {
             self.strands.end = first;
             self.unseen = hair.infos.len();
             return Ok(());
         }
+        let farthest_m = sight.camera().depth(center) + radius_m;
+        let thinnest = sight.width(sizes().fold(f32::INFINITY, f32::min), farthest_m);
+        let roots = || hair.file.strands.roots().collect::<Vec<Vec3>>();
+        let ranks = (thinnest < 1.0)
+            .then(|| &*(self.ranks).get_or_insert_with(|| Ranks::of(&roots(), hair.undercoat)));
         let level_depth = self.of.look().clump.base().level_depth;
         let particles = |i: usize| &points[hair.file.strands.point_range(i)];
+        let factor = |i: usize, size: f32| {
+            ranks.map_or(1.0, |ranks| {
+                let depths = particles(i).iter().map(|p| sight.camera().depth(*p));
+                let width = sight.width(size, depths.fold(f32::INFINITY, f32::min));
+                ranks.factor(i, width)
+            })
+        };
         for (i, info) in hair.infos.iter().enumerate() {
             let mean = particles(i).iter().sum::<Vec3>() / particles(i).len() as f32;
             let level = self.levels.get(i).copied().unwrap_or(0);
             strands.push(StrandInfo {
                 mean: self.of.placement().point(mean),
+                size: info.size * factor(i, info.size),
                 level,
                 lift: level as f32 * level_depth,
                 ..*info
             });
         }
+        let own = &strands[first..];
+        let is_merged = |i: usize| own[i].size == 0.0 && hair.infos[i].size > 0.0;
         let all: Vec<usize> = (0..hair.infos.len()).collect();
+        self.merged = all.iter().filter(|i| is_merged(**i)).count();
         self.parts.resize_with(PARTS, Paths::new);
         for part in &mut self.parts {
             part.set_along_tangents(self.of.look().paints());
@@ -365,7 +396,7 @@ impl ObjectFrame {
                     part.clear();
                     (of_part.iter()).try_for_each(|&i| {
                         let PathShape { cuts, detail } = &self.of.shapes()[i];
-                        if !sight.may_see(particles(i), hair.infos[i].size) {
+                        if is_merged(i) || !sight.may_see(particles(i), own[i].size) {
                             part.leave_out(cuts);
                             return Ok(());
                         }
@@ -448,7 +479,11 @@ impl ObjectFrame {
                     let what = format!("a path of strand {strand}, and there are {}", above.len());
                     return Err(fault(what));
                 }
-                let parent = strands[first_above + strand];
+                // As large as it is where nothing is merged: the hair that came loose of it isn't.
+                let parent = StrandInfo {
+                    size: hair.infos[hair.undercoat + strand].size,
+                    ..strands[first_above + strand]
+                };
                 let index = strands.len();
                 self.made_of.push(hair.undercoat + strand);
                 strands.push(StrandInfo {
@@ -515,23 +550,24 @@ impl ObjectFrame {
         light: Light,
     ) -> Vec<Surface> {
         self.solid = None;
-        let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
+        let Some(neck) = self.of.neck() else {
             return Vec::new();
         };
         let paint = self.of.look().paint(self.of.hair().head);
         let first_mesh = head::MESHES * index as u32;
         let (pose, placement) = (motion.pose(), self.of.placement());
         let camera = sight.camera();
+        let (center, radius) = neck.ball(pose);
+        if !sight.may_see_ball(center, radius + paint.width_m) {
+            return Vec::new();
+        }
         let solid = match sight.shows_all() {
             true => None,
             false => neck.solid(pose, self.of.hair().head, camera.eye(), camera.near_m()),
         };
         self.solid = solid.map(|ball| placement.ball(ball));
-        let (center, radius) = neck.ball(pose);
-        if !sight.may_see_ball(center, radius + paint.width_m) {
-            return Vec::new();
-        }
-        let model = posed.in_pose(neck, motion.pose());
+        let posed = self.head.get_or_insert_with(|| PosedHead::new(neck));
+        let model = posed.in_pose(neck, pose);
         let light = self.of.placement().own_light(light);
         let mut surfaces = head::surfaces(
             model,

@@ -14,6 +14,7 @@ mod levels;
 mod load;
 mod look;
 mod material;
+mod merged;
 mod motion;
 mod neck;
 mod object;

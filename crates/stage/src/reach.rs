@@ -37,12 +37,15 @@ pub(crate) struct Sight {
     /// How far strokes may be from their strand, metres: all of them, and by a strand's own size of 1.
     reach_m: f32,
     reach_by_size_m: f32,
+    /// How many of the least widths that are drawn as they are the clump of a strand of size 1 is where a metre is a pixel.
+    width_by_size: f32,
     shows_all: bool,
 }
 
 impl Sight {
-    /// Of a camera as the object has it. `shows_all` leaves no strand out.
-    pub fn new(camera: &Camera, object: &Object, shows_all: bool) -> Self {
+    /// Of a camera as the object has it. Clumps narrower than `detail` (px) are drawn as fewer and wider ones; `shows_all` leaves no
+    /// strand out because it is off the picture.
+    pub fn new(camera: &Camera, object: &Object, detail: f32, shows_all: bool) -> Self {
         let (look, unit_m) = (object.look(), object.hair().head.unit_m());
         let (mut clumps, mut units, mut pixels) = (CLUMP, 0.0_f32, 0.0_f32);
         for layer in &look.layers {
@@ -76,8 +79,15 @@ impl Sight {
             reach_m: units * unit_m,
             // A flat clump's middle is beside its strand.
             reach_by_size_m: (1.0 + clumps) * thickest(look) * unit_m,
+            width_by_size: 2.0 * thickest(look) * unit_m / detail,
             shows_all,
         }
+    }
+
+    /// How wide the clump of a strand of that size (1/300 of the head's height) is at its widest, at that view depth (m), in parts of
+    /// the least width that is drawn as it is.
+    pub fn width(&self, size: f32, depth_m: f32) -> f32 {
+        self.width_by_size * size * self.camera.px_per_metre(depth_m)
     }
 
     /// The camera, as the object has it.

@@ -218,6 +218,8 @@ section! {
         order: OrderChoice = OrderChoice::Rounded.or_another(),
         /// How much deeper than its middle a round clump's edge lies.
         edge_depth: f32 = number(0.02, 0.0..=1.0).unit("head heights"),
+        /// Clumps narrower than this are drawn as fewer and wider ones, with as much ink: dense hair in less time. 0 draws all.
+        detail: f32 = number(1.0, 0.0..=16.0).unit("pixels"),
     }
 }
 
