@@ -78,6 +78,17 @@ const LINES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "simulate --character",
+        &[
+            "simulate",
+            "small.ron",
+            "-o",
+            "bake.strands.ron",
+            "--character",
+            "head.obj",
+        ],
+    ),
+    (
         "simulate --motion",
         &[
             "simulate",
@@ -130,6 +141,10 @@ const LINES: &[(&str, &[&str])] = &[
     (
         "render --head",
         &["render", "small.ron", "--head", "head.obj"],
+    ),
+    (
+        "render --character",
+        &["render", "small.ron", "--character", "head.obj"],
     ),
     (
         "render --motion",

@@ -6,7 +6,7 @@ use effects::{Param, ParamKind, Registry, Section};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
-use stage::{MOTION_PARTS, ObjectSection, PassSection, Preset, STYLE_PARTS, Sections};
+use stage::{MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset, STYLE_PARTS, Sections};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -174,7 +174,7 @@ fn the_schema_is_the_tables() {
     let schema = schema(&[]);
     assert_eq!(schema["version"], stage::VERSION);
     let sections = schema["sections"].as_array().unwrap();
-    assert_eq!(sections.len(), Sections::ALL.len() + 4);
+    assert_eq!(sections.len(), Sections::ALL.len() + 5);
     assert_eq!(sections[0]["id"], "preset");
     assert_is_table(&sections[0], Preset::TOP);
     for (section, (name, doc, table)) in sections[1..].iter().zip(Sections::ALL) {
@@ -187,10 +187,13 @@ fn the_schema_is_the_tables() {
     let layers = &sections[Sections::ALL.len() + 1];
     assert_eq!(layers["id"], "layers");
     assert_is_table(layers, LAYER);
-    let passes = &sections[Sections::ALL.len() + 2];
+    let meshes = &sections[Sections::ALL.len() + 2];
+    assert_eq!(meshes["id"], "meshes");
+    assert_is_table(meshes, MeshSection::TABLE);
+    let passes = &sections[Sections::ALL.len() + 3];
     assert_eq!(passes["id"], "passes");
     assert_is_table(passes, PassSection::TABLE);
-    let objects = &sections[Sections::ALL.len() + 3];
+    let objects = &sections[Sections::ALL.len() + 4];
     assert_eq!(objects["id"], "objects");
     assert_is_table(objects, ObjectSection::TABLE);
     for value in layers["parameters"].as_array().unwrap() {
@@ -254,6 +257,7 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
         match section["id"].as_str().unwrap() {
             "preset" => text += &format!("{fields}, "),
             "layers" => layer_fields = fields,
+            "meshes" => text += &format!("meshes: [(file: \"eyes.obj\", {fields})], "),
             "passes" => text += &format!("passes: [({fields})], "),
             // In place of most sections.
             "objects" => {}
@@ -281,6 +285,11 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
     let small = Preset::parse("small.ron", &small, &registry).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(preset.seed, small.seed);
     assert_eq!(preset.passes, [PassSection::default()]);
+    let mesh = MeshSection {
+        file: Some("eyes.obj".to_owned()),
+        ..MeshSection::default()
+    };
+    assert_eq!(preset.meshes[0].section, mesh);
     let (mut all, mut none) = (preset.sections.clone(), small.sections.clone());
     for (name, ..) in Sections::ALL {
         let [all, none] = [&mut all, &mut none].map(|sections| sections.by_name(name).unwrap());

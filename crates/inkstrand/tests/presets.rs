@@ -340,8 +340,8 @@ fn every_wrong_value_is_an_error_at_its_line() {
                     && name != "effect"
                     || place.kind.is_none()
                         && value == "()"
-                        && !["layers", "passes", "objects"].contains(&name)
-                    || ["layers", "passes"].contains(&name) && value == "[]";
+                        && !["layers", "meshes", "passes", "objects"].contains(&name)
+                    || ["layers", "meshes", "passes"].contains(&name) && value == "[]";
                 match Preset::parse("look.ron", &spoilt, &registry) {
                     Ok(_) => assert!(legal, "{} is accepted", what()),
                     // Two layers of one name are the layer's mistake, not its name's; and substeps are
