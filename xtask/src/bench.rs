@@ -6,13 +6,14 @@ use crate::program::{cargo, succeed};
 use crate::{Outcome, count};
 
 /// Suites of the program, and our own.
-const SUITES: [&str; 8] = [
+const SUITES: [&str; 9] = [
     "all",
     "strokes",
     "dynamics",
     "coherence",
     "frame",
     "scale",
+    "cartoon",
     "skip",
     COUNT,
 ];

@@ -2,7 +2,8 @@
 //! pictures: `target/figures/index.html`.
 //!
 //! The source is Chang, "Real-time Stylized Line-based Rendering of Animated Hairs" (2012); figures
-//! keep its numbers. The presets are in `tests/figures`.
+//! keep its numbers. Two more have theirs behind a letter: S, Shin, Haller and Mukundan, "A Stylized Cartoon Hair Renderer" (2006), and D, a dissertation
+//! on cartoon hair in Ogre. The presets are in `tests/figures`.
 
 mod brushes;
 mod feathers;
@@ -11,8 +12,10 @@ mod measure;
 mod normals;
 mod page;
 mod plot;
+mod shin;
 mod silhouettes;
 mod sizes;
+mod tones;
 
 use std::fs;
 use std::path::Path;
@@ -89,13 +92,15 @@ fn all() -> Vec<&'static Figure> {
         feathers::FIGURES,
         highlights::FIGURES,
         brushes::FIGURES,
+        shin::FIGURES,
+        tones::FIGURES,
     ];
     subjects.into_iter().flatten().collect()
 }
 
 /// The name of a picture's file.
 fn file_name(figure: &Figure, shot: usize) -> String {
-    format!("{}-{}.png", figure.number, shot + 1)
+    format!("{}-{}.png", figure.number.replace(' ', ""), shot + 1)
 }
 
 /// Draws and measures all figures, and writes the page that shows them.
@@ -178,7 +183,7 @@ mod tests {
         let numbers: Vec<&str> = all().iter().map(|figure| figure.number).collect();
         let expected = [
             "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "5.9", "5.10", "5.11", "5.12", "5.13", "7.1",
-            "7.2",
+            "7.2", "S 8", "S 9", "S 12", "D 4.8", "D 4.9", "D 4.10", "D 4.11", "D 4.12", "D 4.13",
         ];
         assert_eq!(numbers, expected);
     }

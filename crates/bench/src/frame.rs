@@ -131,6 +131,7 @@ fn presets(root: &Path) -> Result<Vec<PathBuf>, BenchError> {
 pub(crate) fn registry() -> Result<Registry, BenchError> {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
+    effects_cartoon::register(&mut registry).map_err(|error| error.to_string())?;
     Ok(registry)
 }
 
@@ -160,7 +161,8 @@ fn open(path: &Path, root: &Path) -> Result<Stage, BenchError> {
 /// What comes before drawing, on both backends.
 const BEFORE: [&str; 2] = ["simulate", "paths"];
 
-fn look(
+/// Rows of so many frames of a stage, 1/60 s apart, seen by a camera that goes round.
+pub(crate) fn look(
     name: &str,
     stage: &mut Stage,
     backends: &mut Backends,

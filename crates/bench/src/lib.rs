@@ -2,6 +2,7 @@
 //! against that error.
 
 pub mod backends;
+pub mod cartoon;
 pub mod coherence;
 pub mod dynamics;
 mod error;

@@ -11,7 +11,7 @@ use bench::dynamics::{self, peers::Peers, stored};
 use bench::page::{self, Finished};
 use bench::results::Row;
 use bench::targets::{Target, report};
-use bench::{coherence, frame, ratios, results, scale, skip, stress, strokes};
+use bench::{cartoon, coherence, frame, ratios, results, scale, skip, stress, strokes};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
@@ -41,6 +41,8 @@ enum Suite {
     Frame(CardOptions),
     /// Scale: 72 to 100,000 strands, by stages, on both backends
     Scale(CardOptions),
+    /// Cartoon: painted looks and lines of the whole picture, on scenes of two older systems
+    Cartoon(CardOptions),
     /// Skip: what a scene doesn't need, and what it costs all the same
     Skip(RatioOptions),
     /// No measure: random scenes with hostile numbers, in which strands must hold
@@ -159,6 +161,7 @@ fn main() -> ExitCode {
         }
         Suite::Frame(options) => frame(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Scale(options) => scale(options).map(|it| exit_code(&it, options.common.check)),
+        Suite::Cartoon(options) => cartoon(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Skip(options) => skip(options).map(|it| exit_code(&it, options.common.check)),
     };
     done.unwrap_or_else(|error| {
@@ -186,6 +189,7 @@ fn all(options: &CardOptions) -> Result<ExitCode, BenchError> {
         })?,
         frame(options)?,
         scale(options)?,
+        cartoon(options)?,
         skip(&with_ratios())?,
     ];
     let out = &options.common.out;
@@ -404,6 +408,27 @@ fn scale(options: &CardOptions) -> Result<Finished, BenchError> {
         "scale",
         common,
         &["scale.csv"],
+        measured.rows,
+        measured.targets,
+    ))
+}
+
+fn cartoon(options: &CardOptions) -> Result<Finished, BenchError> {
+    let common = &options.common;
+    let suite = cartoon::Options {
+        root: root(),
+        out: common.out.clone(),
+        quick: common.quick,
+        threads: common.threads(),
+        card: options.card(),
+    };
+    let measured = with_progress(|progress| cartoon::run(&suite, progress))?;
+    println!("{}", results::summary(&measured.rows));
+    println!("{}", report(&measured.targets));
+    Ok(finished(
+        "cartoon",
+        common,
+        &["cartoon.csv"],
         measured.rows,
         measured.targets,
     ))

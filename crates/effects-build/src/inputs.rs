@@ -81,8 +81,8 @@ impl Input {
 #[rustfmt::skip]
 pub(crate) const INPUTS: &[Input] = &[
     input("position", Vec3, Both, "place in the world, metres"),
-    input("forward", Vec3, Both, "unit vector to the next joint; at the tip that of the joint before"),
-    input("backward", Vec3, Both, "unit vector to the joint before (B in 5.4); at the root that of the next joint"),
+    input("forward", Vec3, Both, "unit vector to the next joint; at the tip that of the joint before; where a layer of the look paints, along the strand"),
+    input("backward", Vec3, Both, "unit vector to the joint before (B in 5.4); at the root that of the next joint; where a layer of the look paints, back along the strand"),
     input("u", F32, Both, "place along the strand, 0 at the root, 1 at the tip"),
     input("arc_length", F32, Both, "length of the strand up to here, metres"),
     input("strand", U32, Both, "the strand's stable id"),

@@ -106,8 +106,8 @@ impl Paths {
         self.truncate(0);
     }
 
-    /// Whether, of strands from now on, F and -B are one: the mean of both, the strand's own direction at the joint. A link's direction is
-    /// that of its middle, so that light that goes by B lies half a link nearer the tip.
+    /// Whether, of strands from now on, F and -B are one: the mean of both, the strand's own direction at the joint. A link's direction is that of
+    /// the strand in the link's middle: light that goes by B is half a link too near the tip.
     pub fn set_along_tangents(&mut self, along_tangents: bool) {
         self.along_tangents = along_tangents;
     }

@@ -14,7 +14,8 @@ pub fn page(results: &[(&Figure, Result<Finding, String>)]) -> String {
     let mut page = head("The source's figures, drawn by inkstrand", STYLE);
     page += "<h1>The source's figures, drawn by inkstrand</h1>\n\
              <p>Figures of Chang, <cite>Real-time Stylized Line-based Rendering of Animated Hairs</cite> (2012), by \
-             their numbers there. Every picture is one that <code>inkstrand render</code> makes; what a figure \
+             their numbers there; of Shin, Haller and Mukundan, <cite>A Stylized Cartoon Hair Renderer</cite> (2006), behind an S, and of \
+             a dissertation on cartoon hair in Ogre behind a D. Every picture is one that <code>inkstrand render</code> makes; what a figure \
              claims is measured on it.</p>\n";
     for (figure, finding) in results {
         section(&mut page, figure, finding);

@@ -34,6 +34,8 @@ pub fn seconds(tick: Tick) -> f64 {
 pub enum Kind {
     /// The drawing of hair.
     Hair,
+    /// What is done with the picture afterwards, which is told and held to nothing: lines that come and go whole.
+    Passes,
     /// The measure itself: all change is continuous.
     Continuous,
     /// The measure itself: something jumps.

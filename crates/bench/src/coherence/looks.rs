@@ -1,10 +1,9 @@
 //! Looks of `presets` on a turning camera, a shaking head and in wind; and real hair.
 
-use super::animation::{Animation, TICKS, Tick, seconds};
-use crate::BenchError;
-use effects::Registry;
+use super::animation::{Animation, Kind, TICKS, Tick, seconds};
+use crate::{BenchError, frame};
 use render::Frame;
-use stage::{Files, Preset, Stage};
+use stage::{Files, Stage};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -77,6 +76,8 @@ pub struct Look {
     head: Option<PathBuf>,
     /// Strands kept; 0 keeps all.
     guides: u32,
+    /// Whether what its preset does with the whole picture is done.
+    passes: bool,
 }
 
 /// The project's looks, by name.
@@ -99,6 +100,7 @@ pub fn looks(root: &Path) -> Result<Vec<Look>, BenchError> {
                 hair: None,
                 head: None,
                 guides: 0,
+                passes: false,
             });
         }
     }
@@ -116,6 +118,7 @@ pub fn sintel(root: &Path, data: &Path) -> Look {
         hair: Some(data.join("sintel/sintel_hair_16points.tfx")),
         head: Some(data.join("sintel/sintel.obj")),
         guides: 200,
+        passes: false,
     }
 }
 
@@ -128,19 +131,41 @@ pub struct MovingLook {
 }
 
 impl Look {
+    /// The same look with what its preset does with the whole picture, if that is anything.
+    ///
+    /// # Errors
+    ///
+    /// When the preset cannot be read.
+    pub fn with_passes(&self) -> Result<Option<Self>, BenchError> {
+        let registry = frame::registry()?;
+        let preset = frame::preset(&self.preset, &registry)?;
+        Ok((!preset.passes.is_empty()).then(|| Self {
+            name: format!("{}-lines", self.name),
+            passes: true,
+            ..self.clone()
+        }))
+    }
+
+    /// What its figures are held to.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        match self.passes {
+            true => Kind::Passes,
+            false => Kind::Hair,
+        }
+    }
+
     /// The look in motion, or still, drawn at a part of its preset's size: 2 is half as wide and high.
     ///
     /// # Errors
     ///
     /// When a file of it cannot be read.
     pub fn open(&self, motion: Option<Motion>, part: u32) -> Result<MovingLook, BenchError> {
-        let name = self.preset.display().to_string();
-        let text =
-            std::fs::read_to_string(&self.preset).map_err(|error| format!("{name}: {error}"))?;
-        let mut registry = Registry::new();
-        effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
-        let mut preset =
-            Preset::parse(&name, &text, &registry).map_err(|errors| errors.to_string())?;
+        let registry = frame::registry()?;
+        let mut preset = frame::preset(&self.preset, &registry)?;
+        if !self.passes {
+            preset.passes.clear();
+        }
         let sections = &mut preset.sections;
         sections.scene.size = sections.scene.size.map(|side| side.div_ceil(part));
         sections.dynamics.step = seconds(1) as f32;

@@ -3,7 +3,10 @@
 use crate::BenchError;
 use glam::Vec2;
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Drawing, Frame, Order, Picture};
+use render::{Drawing, Frame, Order, Painting, Picture};
+
+/// Pixels around a part of a picture that are drawn besides, where lines are drawn of the whole.
+const AROUND: u32 = 8;
 
 /// Turns frames into pictures.
 pub struct Painter {
@@ -59,10 +62,13 @@ impl Painter {
     ///
     /// When it can't be drawn.
     pub fn part(&mut self, corner: [i32; 2], size: u32) -> Result<Picture, BenchError> {
-        let corner = Vec2::new(corner[0] as f32, corner[1] as f32);
         let part = &mut self.part;
         part.clone_from(&self.drawing);
-        part.size = [size; 2];
+        // Lines of what lies around reach into it.
+        let margin = if part.passes.is_empty() { 0 } else { AROUND };
+        part.size = [size + 2 * margin; 2];
+        let corner = corner.map(|place| (place - margin as i32) as f32);
+        let corner = Vec2::from(corner);
         let layers = part.layers.iter_mut().flat_map(|layer| &mut layer.discs);
         let clumps = part.clump.iter_mut().chain(&mut part.sides);
         for disc in clumps.chain(layers) {
@@ -73,7 +79,8 @@ impl Painter {
             vertex.position -= corner;
         }
         let drawn = self.rasterizer.draw(part);
-        drawn.map_err(|error| error.to_string().into())
+        let picture = drawn.map_err(|error| error.to_string())?;
+        Ok(without_margin(&picture, margin as usize))
     }
 
     /// The frame with hair in the colours that `color` gives to joints, all else black.
@@ -88,6 +95,8 @@ impl Painter {
         color: impl Fn(usize) -> [f32; 3],
     ) -> Result<Picture, BenchError> {
         let drawing = self.strokes(frame, order)?;
+        drawing.painting = Painting::default();
+        drawing.passes.clear();
         for layer in &mut drawing.layers {
             let joints = layer.joints.clone();
             for (i, of_joint) in layer.colors.iter_mut().enumerate() {
@@ -116,5 +125,36 @@ impl Painter {
         self.rasterizer
             .draw(&self.drawing)
             .map_err(|error| error.to_string().into())
+    }
+}
+
+/// A picture without so many pixels at each of its borders.
+fn without_margin(picture: &Picture, margin: usize) -> Picture {
+    let [width, height] = [picture.width, picture.height].map(|side| side as usize - 2 * margin);
+    let rows = picture.pixels.chunks_exact(width + 2 * margin);
+    let inner = rows.skip(margin).take(height);
+    Picture {
+        width: width as u32,
+        height: height as u32,
+        pixels: inner.flat_map(|row| &row[margin..][..width]).copied().collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_margin_is_cut_off() {
+        let pixel = |i: usize| [i as f32, 0.0, 0.0, 1.0];
+        let picture = Picture {
+            width: 4,
+            height: 5,
+            pixels: (0..20).map(pixel).collect(),
+        };
+        assert_eq!(without_margin(&picture, 0), picture);
+        let inner = without_margin(&picture, 1);
+        assert_eq!((inner.width, inner.height), (2, 3));
+        assert_eq!(inner.pixels, [5, 6, 9, 10, 13, 14].map(pixel));
     }
 }

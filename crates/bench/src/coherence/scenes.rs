@@ -84,17 +84,19 @@ pub fn scenes(
             });
         }
     }
-    for look in looks(root)?
-        .into_iter()
-        .chain(data.map(|data| sintel(root, data)))
-    {
+    let mut all = looks(root)?;
+    all.extend(data.map(|data| sintel(root, data)));
+    for look in all.clone() {
+        all.extend(look.with_passes()?);
+    }
+    for look in all {
         for motion in MOTIONS {
             let name = format!("{}-{}", look.name, motion.name());
             let is_quick = !only.is_empty() || QUICK.contains(&name.as_str());
             if wanted(&name) && (!quick || is_quick) {
                 scenes.push(Subject {
                     name,
-                    kind: Kind::Hair,
+                    kind: look.kind(),
                     windows: motion.windows(quick),
                     animation: Box::new(look.open(Some(motion), PART)?),
                     look: Some(look.clone()),

@@ -30,6 +30,7 @@ pub fn targets(scenes: &[SceneFigures]) -> Vec<Target> {
         let own = of_order(scene, Order::default());
         match scene.kind {
             Kind::Hair => targets.extend(of_hair(scene, own)),
+            Kind::Passes => {}
             Kind::Continuous if is_slow(scene) => {
                 targets.push(refinement(scene, own, Times::Long, Limit::AtLeast(STEADY)));
             }
