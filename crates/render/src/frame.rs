@@ -140,6 +140,12 @@ pub struct Ball {
     pub radius_m: f32,
 }
 
+/// How far a clump and its sides reach from its middle at most.
+pub const CLUMP_REACH: Reach = Reach {
+    clumps: 2.0,
+    units: 0.0,
+};
+
 /// How far a layer's strokes reach as they are drawn: tips of half discs are moved on by what they are wider than their clumps.
 #[must_use]
 pub fn reach_of(layer: &Layer, brush: Brush) -> Reach {

@@ -64,7 +64,8 @@ pub use features::{
     DrawnFeatures, Feature, Features, NO_ID, RunInfo, object_of_hair, object_of_mesh,
 };
 pub use frame::{
-    Ball, Frame, FrameError, Head, Light, NO_COLOR, NO_TAPER, Object, StrandInfo, reach_of,
+    Ball, CLUMP_REACH, Frame, FrameError, Head, Light, NO_COLOR, NO_TAPER, Object, StrandInfo,
+    reach_of,
 };
 pub use painting::{PaintedLayer, Painting};
 pub use picture::Picture;

@@ -6,7 +6,6 @@ use crate::head;
 use crate::levels::levels;
 use crate::look::Look;
 use crate::material::Material;
-use crate::merged::Ranks;
 use crate::motion::{Motion, ObjectMotion};
 use crate::neck::{PosedHead, rigid};
 use crate::object::{Object, PathShape};
@@ -53,8 +52,7 @@ struct ObjectFrame {
     levels: Vec<u32>,
     /// Strands of hair of which nothing can be seen, so that it is left out as a whole.
     unseen: usize,
-    /// Which strands are left where hair is thin, once it was; and how many were not drawn.
-    ranks: Option<Ranks>,
+    /// Strands that are not drawn, as hair is thin.
     merged: usize,
     /// Paths that are made beside each other.
     parts: Vec<Paths>,
@@ -275,7 +273,6 @@ impl ObjectFrame {
             points: Vec::new(),
             levels: levels_of(object),
             unseen: 0,
-            ranks: None,
             merged: 0,
             parts: Vec::new(),
             strands: 0..0,
@@ -298,7 +295,6 @@ impl ObjectFrame {
         if !self.of.has_hair_and_head_of(object) {
             self.material = None;
             self.head = None;
-            self.ranks = None;
         }
         if !self.of.has_hair_and_head_of(object)
             || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
@@ -331,6 +327,25 @@ impl ObjectFrame {
         self.points.extend_from_slice(motion.points(&self.of));
     }
 
+    /// The size with which each strand of the hair is drawn that has these points, none of them farther than that (m): its own, or where
+    /// hair is thin that of fewer and wider strands.
+    fn sizes(&self, points: &[Vec3], sight: &Sight, farthest_m: f32) -> Vec<f32> {
+        let hair = self.of.hair();
+        let own = hair.infos.iter().map(|info| info.size);
+        let thinnest = own.clone().fold(f32::INFINITY, f32::min);
+        let is_thin = sight.width(thinnest, farthest_m) < 1.0;
+        if !is_thin {
+            return own.collect();
+        }
+        let drawn = |(i, size): (usize, f32)| {
+            let particles = &points[hair.file.strands.point_range(i)];
+            let depths = particles.iter().map(|p| sight.camera().depth(*p));
+            let width = sight.width(size, depths.fold(f32::INFINITY, f32::min));
+            size * hair.ranks().factor(i, width)
+        };
+        own.enumerate().map(drawn).collect()
+    }
+
     /// Appends the hair's strands, and the paths of those that may be seen.
     fn push_strands(
         &mut self,
@@ -348,8 +363,8 @@ impl ObjectFrame {
         // Paths that effects make may go on where no strand is.
         let makes_paths = |layer: &Layer| layer.program.has_own_paths();
         let (center, radius_m) = ball_around(points);
-        let sizes = || hair.infos.iter().map(|info| info.size);
-        if !sight.may_see_any(center, radius_m, sizes().fold(0.0, f32::max))
+        let sizes = hair.infos.iter().map(|info| info.size);
+        if !sight.may_see_any(center, radius_m, sizes.fold(0.0, f32::max))
             && !self.of.look().layers.iter().any(makes_paths)
         {
             self.strands.end = first;
@@ -357,32 +372,21 @@ impl ObjectFrame {
             return Ok(());
         }
         let farthest_m = sight.camera().depth(center) + radius_m;
-        let thinnest = sight.width(sizes().fold(f32::INFINITY, f32::min), farthest_m);
-        let roots = || hair.file.strands.roots().collect::<Vec<Vec3>>();
-        let ranks = (thinnest < 1.0)
-            .then(|| &*(self.ranks).get_or_insert_with(|| Ranks::of(&roots(), hair.undercoat)));
+        let sizes = self.sizes(points, sight, farthest_m);
         let level_depth = self.of.look().clump.base().level_depth;
         let particles = |i: usize| &points[hair.file.strands.point_range(i)];
-        let factor = |i: usize, size: f32| {
-            ranks.map_or(1.0, |ranks| {
-                let depths = particles(i).iter().map(|p| sight.camera().depth(*p));
-                let width = sight.width(size, depths.fold(f32::INFINITY, f32::min));
-                ranks.factor(i, width)
-            })
-        };
         for (i, info) in hair.infos.iter().enumerate() {
             let mean = particles(i).iter().sum::<Vec3>() / particles(i).len() as f32;
             let level = self.levels.get(i).copied().unwrap_or(0);
             strands.push(StrandInfo {
                 mean: self.of.placement().point(mean),
-                size: info.size * factor(i, info.size),
+                size: sizes[i],
                 level,
                 lift: level as f32 * level_depth,
                 ..*info
             });
         }
-        let own = &strands[first..];
-        let is_merged = |i: usize| own[i].size == 0.0 && hair.infos[i].size > 0.0;
+        let is_merged = |i: usize| sizes[i] == 0.0 && hair.infos[i].size > 0.0;
         let all: Vec<usize> = (0..hair.infos.len()).collect();
         self.merged = all.iter().filter(|i| is_merged(**i)).count();
         self.parts.resize_with(PARTS, Paths::new);
@@ -396,7 +400,7 @@ impl ObjectFrame {
                     part.clear();
                     (of_part.iter()).try_for_each(|&i| {
                         let PathShape { cuts, detail } = &self.of.shapes()[i];
-                        if is_merged(i) || !sight.may_see(particles(i), own[i].size) {
+                        if is_merged(i) || !sight.may_see(particles(i), sizes[i]) {
                             part.leave_out(cuts);
                             return Ok(());
                         }

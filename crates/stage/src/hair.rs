@@ -3,6 +3,7 @@
 use crate::dynamics::ZoneDynamics;
 use crate::files::StageError;
 use crate::head::HeadModel;
+use crate::merged::Ranks;
 use crate::preset::HairSection;
 use crate::reach::reach_m;
 use glam::{Vec2, Vec3};
@@ -11,6 +12,7 @@ use hair_io::{HairFile, HeadFrame};
 use hair_sim::{PointCache, Strands};
 use render::{Head, NO_COLOR, NO_TAPER, StrandInfo};
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 /// Hair that was read, grown, or made by a program.
 pub struct HairModel {
@@ -40,6 +42,8 @@ pub struct HairModel {
     pub(crate) all_roots: Vec<Vec3>,
     /// The radius of the ball around the head's middle that it stays in, metres.
     pub(crate) reach_m: f32,
+    /// Which strands are left where it is thin; found where it first is.
+    pub(crate) ranks: OnceLock<Ranks>,
 }
 
 impl HairModel {
@@ -89,6 +93,7 @@ impl HairModel {
                 None => head_of(HeadFrame::find(None, &all_roots)),
             },
             reach_m: 0.0,
+            ranks: OnceLock::new(),
             all_roots,
             file,
         }
@@ -137,10 +142,17 @@ impl HairModel {
             self.shapes = Some(shapes.select(&points.collect::<Vec<_>>()));
         }
         self.file.keep(indices);
+        self.ranks = OnceLock::new();
         let is_undercoat = |i: &&usize| **i < self.undercoat;
         self.undercoat = indices.iter().filter(is_undercoat).count();
         self.held = indices.iter().map(|&i| self.held[i]).collect();
         self.tapers = indices.iter().map(|&i| self.tapers[i]).collect();
+    }
+
+    /// Which strands are left where it is thin.
+    pub(crate) fn ranks(&self) -> &Ranks {
+        let roots = || self.file.strands.roots().collect::<Vec<Vec3>>();
+        (self.ranks).get_or_init(|| Ranks::of(&roots(), self.undercoat))
     }
 
     /// How the strand of this id moves by its zone, where that says so.

@@ -18,6 +18,7 @@ use mesh_io::Model;
 use render::NO_TAPER;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// From the chin to the top of a figure, metres.
 const FIGURE_HEIGHT_M: f32 = 0.24;
@@ -305,6 +306,7 @@ fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairMode
         infos: Vec::new(),
         all_roots: grown.strands.roots().collect(),
         reach_m: 0.0,
+        ranks: OnceLock::new(),
         file: HairFile {
             strands: grown.strands,
             motion: None,

@@ -5,7 +5,7 @@ use crate::object::Object;
 use effects::Units;
 use glam::Vec3;
 use hair_sim::Strands;
-use render::{Head, StrandInfo, reach_of};
+use render::{CLUMP_REACH, Head, StrandInfo, reach_of};
 use stroke_path::Camera;
 
 /// Of the ball around all hair: for what layers draw beyond it, and for solvers that stretch it a little.
@@ -25,15 +25,11 @@ pub(crate) fn reach_m(strands: &Strands, infos: &[StrandInfo], head: Head) -> f3
     MARGIN * farthest
 }
 
-/// How many radii a clump and its sides reach at most from its middle.
-const CLUMP: f32 = 2.0;
-
 /// What a camera sees of an object, in the object's own coordinates.
 pub(crate) struct Sight {
     camera: Camera,
-    /// The near plane and the planes through the eye and the picture's edges: unit vectors out of what is seen, and how far from the
-    /// eye they lie, metres.
-    planes: [(Vec3, f32); 5],
+    /// Around the picture, and what strokes of so many pixels reach into it.
+    planes: Planes,
     /// How far strokes may be from their strand, metres: all of them, and by a strand's own size of 1.
     reach_m: f32,
     reach_by_size_m: f32,
@@ -47,7 +43,7 @@ impl Sight {
     /// strand out because it is off the picture.
     pub fn new(camera: &Camera, object: &Object, detail: f32, shows_all: bool) -> Self {
         let (look, unit_m) = (object.look(), object.hair().head.unit_m());
-        let (mut clumps, mut units, mut pixels) = (CLUMP, 0.0_f32, 0.0_f32);
+        let (mut clumps, mut units, mut pixels) = (CLUMP_REACH.clumps, 0.0_f32, 0.0_f32);
         for layer in &look.layers {
             let reach = reach_of(layer, look.brush());
             clumps = clumps.max(reach.clumps);
@@ -57,25 +53,9 @@ impl Sight {
             }
         }
         let pixel_px = camera.size_px()[1] as f32 / 720.0;
-        let [half_width, half_height] =
-            (camera.size_px()).map(|side| 0.5 * side as f32 + pixels * pixel_px + 1.0);
-        let focal = camera.focal_px();
-        let side = |x: f32, y: f32, half_px: f32| {
-            let out = Vec3::new(x * focal, y * focal, -half_px).normalize();
-            (camera.world_from_view_direction(out), 0.0)
-        };
         Self {
             camera: *camera,
-            planes: [
-                (
-                    camera.world_from_view_direction(Vec3::NEG_Z),
-                    -camera.near_m(),
-                ),
-                side(1.0, 0.0, half_width),
-                side(-1.0, 0.0, half_width),
-                side(0.0, 1.0, half_height),
-                side(0.0, -1.0, half_height),
-            ],
+            planes: Planes::around(camera, pixels * pixel_px + 1.0),
             reach_m: units * unit_m,
             // A flat clump's middle is beside its strand.
             reach_by_size_m: (1.0 + clumps) * thickest(look) * unit_m,
@@ -102,7 +82,7 @@ impl Sight {
 
     /// Whether any of a ball (metres) may be in the picture.
     pub fn may_see_ball(&self, center: Vec3, radius: f32) -> bool {
-        self.shows_all || (self.planes.iter()).all(|plane| self.outside(plane, center) <= radius)
+        self.shows_all || self.planes.may_see_ball(center, radius)
     }
 
     /// Whether any stroke of strands up to that size (1/300 of the head's height) may be in the picture that stay in a ball (metres).
@@ -117,16 +97,58 @@ impl Sight {
         // A path between particles leaves their hull by no more than a third of a link (the control points of its Bezier form).
         let bulge = longest.fold(0.0, f32::max).sqrt() / 3.0;
         let beyond = self.reach_m + self.reach_by_size_m * size + bulge;
-        let is_outside = |plane: &(Vec3, f32)| {
-            // Not finite is told elsewhere.
-            (particles.iter()).all(|particle| self.outside(plane, *particle) > beyond)
+        self.shows_all || self.planes.may_see_hull(particles, beyond)
+    }
+}
+
+/// What bounds the part of the world that a camera sees.
+struct Planes {
+    eye: Vec3,
+    /// The near plane and the planes through the eye and the picture's edges: unit vectors out of what is seen, and how far from the
+    /// eye they lie, metres.
+    planes: [(Vec3, f32); 5],
+}
+
+impl Planes {
+    /// Those of a picture with so many pixels more on each side.
+    fn around(camera: &Camera, more_px: f32) -> Self {
+        let [half_width, half_height] = (camera.size_px()).map(|side| 0.5 * side as f32 + more_px);
+        let focal = camera.focal_px();
+        let side = |x: f32, y: f32, half_px: f32| {
+            let out = Vec3::new(x * focal, y * focal, -half_px).normalize();
+            (camera.world_from_view_direction(out), 0.0)
         };
-        self.shows_all || !self.planes.iter().any(is_outside)
+        let near = camera.world_from_view_direction(Vec3::NEG_Z);
+        Self {
+            eye: camera.eye(),
+            planes: [
+                (near, -camera.near_m()),
+                side(1.0, 0.0, half_width),
+                side(-1.0, 0.0, half_width),
+                side(0.0, 1.0, half_height),
+                side(0.0, -1.0, half_height),
+            ],
+        }
+    }
+
+    /// Whether any of a ball (metres) may be seen.
+    fn may_see_ball(&self, center: Vec3, radius: f32) -> bool {
+        (self.planes.iter()).all(|plane| self.outside(plane, center) <= radius)
+    }
+
+    /// Whether anything may be seen that is within `beyond` (metres) of the hull of some points.
+    fn may_see_hull(&self, points: &[Vec3], beyond: f32) -> bool {
+        // Not finite is told elsewhere.
+        let is_outside = |plane: &(Vec3, f32)| {
+            let mut points = points.iter();
+            points.all(|point| self.outside(plane, *point) > beyond)
+        };
+        !self.planes.iter().any(is_outside)
     }
 
     /// How far a point lies outside of a plane, metres.
     fn outside(&self, (out, from_eye): &(Vec3, f32), point: Vec3) -> f32 {
-        out.dot(point - self.camera.eye()) - from_eye
+        out.dot(point - self.eye) - from_eye
     }
 }
 
@@ -138,16 +160,7 @@ fn thickest(look: &Look) -> f32 {
 
 /// Whether any of a ball (metres) may be in the camera's picture.
 pub(crate) fn may_see(camera: &Camera, center: Vec3, radius: f32) -> bool {
-    let center = camera.view_from_world(center);
-    let [half_width, half_height] = camera.size_px().map(|side| 0.5 * side as f32);
-    // The distance beyond the plane through the eye and an edge of the picture.
-    let beyond = |across: f32, half_px: f32| {
-        let focal = camera.focal_px();
-        (across.abs() * focal - center.z * half_px) / focal.hypot(half_px)
-    };
-    center.z + radius >= camera.near_m()
-        && beyond(center.x, half_width) <= radius
-        && beyond(center.y, half_height) <= radius
+    Planes::around(camera, 0.0).may_see_ball(center, radius)
 }
 
 #[cfg(test)]

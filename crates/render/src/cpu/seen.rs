@@ -1,15 +1,10 @@
 //! Where along a path strokes are needed: not where no picture can show them, and not behind a head.
 
 use crate::drawing::Order;
-use crate::frame::{Ball, Frame, Object, reach_of};
-use effects::{Joints, Reach, Units};
+use crate::frame::{Ball, CLUMP_REACH, Frame, Object, reach_of};
+use effects::{Joints, Units};
 use glam::{Vec2, Vec3};
 
-/// How many radii a clump and its sides reach at most from its middle.
-const CLUMP: Reach = Reach {
-    clumps: 2.0,
-    units: 0.0,
-};
 /// A pixel more than the picture makes up for rounding.
 const MARGIN_PX: f32 = 1.0;
 
@@ -58,7 +53,7 @@ struct Room {
 
 impl Room {
     fn of(frame: &Frame, object: &Object) -> Self {
-        let (mut clumps, mut units, mut pixels) = (CLUMP.clumps, CLUMP.units, 0.0_f32);
+        let (mut clumps, mut units, mut pixels) = (CLUMP_REACH.clumps, CLUMP_REACH.units, 0.0_f32);
         for layer in object.layers {
             // Clumps clip what lies on them; made paths have none but their strokes.
             let is_clipped = layer.rank >= 0 && frame.order != Order::Shifted;
