@@ -103,7 +103,7 @@ pub(super) struct Locks {
     pieces: Vec<Piece>,
     /// The first piece of every strand, by batch and lane, and their number at the end.
     first: Vec<usize>,
-    /// The pieces that are near a piece at rest, itself among them: from `near_from` of it to that of the next.
+    /// The pieces that are near a piece at rest: from `near_from` of it to that of the next.
     near: Vec<u32>,
     near_from: Vec<usize>,
     /// Of the step at hand.
@@ -172,9 +172,8 @@ impl Locks {
             let way = &locks.ways[index];
             locks.cells.around(way, |other| {
                 let (whose, its) = (&locks.pieces[other as usize], &locks.ways[other as usize]);
-                let is_own = (whose.batch, whose.lane) == (piece.batch, piece.lane);
                 let keep = piece.radius + whose.radius + NEAR;
-                if is_own || apart(way, piece.links, its, whose.links) < keep {
+                if apart(way, piece.links, its, whose.links) < keep {
                     locks.near.push(other);
                 }
             });
@@ -229,7 +228,9 @@ impl Locks {
                 let first = self.pieces[own].first;
                 let Finds { near, deepest } = &mut *finds;
                 self.cells.around(&self.ways[own], |other| {
-                    if near[other as usize] == own as u32 {
+                    let whose = &self.pieces[other as usize];
+                    let is_own = (whose.batch, whose.lane) == (index, lane);
+                    if is_own || near[other as usize] == own as u32 {
                         return;
                     }
                     self.meet([own, other as usize], dt, |k, meeting, depth, whose| {
