@@ -147,6 +147,9 @@ pub struct Params {
     pub thickness: f64,
     /// Coulomb's coefficient of friction, 0 to 10.
     pub friction: f64,
+    /// Half the thickness in m of the lock that a strand stands for, 0 to 0.1. Locks that are apart at rest don't pass through each other,
+    /// but keep both radii between their strands; 0: they do.
+    pub lock_radius: f64,
 }
 
 impl Default for Params {
@@ -163,6 +166,7 @@ impl Default for Params {
             goal: Profile::constant(0.0),
             thickness: 1e-3,
             friction: 0.3,
+            lock_radius: 0.0,
         }
     }
 }
@@ -225,6 +229,7 @@ impl Params {
             ("goal", profile(&self.goal, 0.0, 1e9), 0.0, 1e9),
             ("thickness", self.thickness, 0.0, 0.1),
             ("friction", self.friction, 0.0, 10.0),
+            ("lock_radius", self.lock_radius, 0.0, 0.1),
         ]
         .into_iter()
         .find(|(_, value, least, most)| !(least..=most).contains(&value))

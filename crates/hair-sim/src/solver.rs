@@ -7,7 +7,7 @@
 //! - `load`: what acts on particles in a stage
 //! - `rods`: the two kinds of strands, `curled` and `straight`, behind one interface
 //! - `scratch`: what a step works with
-//! - `neighbours`; `drive`: what drives a batch in a step
+//! - `neighbours`; `locks`: strands that meet; `drive`: what drives a batch in a step
 //! - `sleep`: which strands cost nothing
 //! - `tr_bdf2`, the integrator; `safe`, the one behind it; `energy`, which keeps them from making any; `finish`
 //! - `step`: all of a batch's step
@@ -25,6 +25,7 @@ mod finish;
 mod free_flight;
 mod link;
 mod load;
+mod locks;
 mod neighbours;
 #[cfg(test)]
 mod ring;
@@ -56,6 +57,7 @@ use batch::{Batch, BatchState};
 use contact::Guard;
 use drive::{Drive, Others, roots, whole_poses};
 use energy::whole_energy;
+use locks::Locks;
 use rods::Rods;
 use scratch::Scratch;
 use sleep::{Islands, Sleepers};
@@ -82,6 +84,8 @@ pub struct Solver {
     /// Whether every strand has more than a root.
     have_links: bool,
     interaction: Option<Interaction>,
+    /// Where strands meet, and that all of them are one island then.
+    locks: Option<(Locks, Islands)>,
     /// Of the bodies in the step at hand, and who sleeps in it.
     guards: Vec<Guard>,
     sleepers: Sleepers,
@@ -199,6 +203,7 @@ impl Solver {
             strands.push((strand, params, fault));
         }
 
+        let meets = strands.iter().any(|strand| strand.1.lock_radius > 0.0);
         // Strands of one kind and like length together; the order is fixed by the strands alone.
         let kind = |i: usize| strands[i].0.is_straight(&strands[i].1);
         let mut order: Vec<usize> = (0..strands.len()).collect();
@@ -213,6 +218,7 @@ impl Solver {
             ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
             have_links: rest.iter().all(|points| points.len() > 1),
             interaction: None,
+            locks: None,
             guards: Vec::new(),
             sleepers: Sleepers::default(),
             instructions: Instructions::best(),
@@ -224,7 +230,8 @@ impl Solver {
                 .iter()
                 .map(|&i| (i, &strands[i].0, &strands[i].1))
                 .collect();
-            let batch = Batch::new(&described);
+            let mut batch = Batch::new(&described);
+            batch.planes = batch.count() * if meets { 2 } else { 1 };
             let mut rests = [None; LANES];
             for (lane, &i) in members.iter().enumerate() {
                 rests[lane] = Some(&strands[i].0);
@@ -238,9 +245,19 @@ impl Solver {
             solver.batches.push(batch);
         }
         solver.group = solver.batches.len().div_ceil(MOST_GROUPS).max(1);
+        let locks = Locks::new(&solver.batches, &states, &solver.ids);
         solver.scratch = (solver.batches.chunks(solver.group))
-            .map(|group| Scratch::new(group.iter().map(Batch::count).max().unwrap_or(0)))
+            .map(|group| {
+                let count = group.iter().map(Batch::count).max().unwrap_or(0);
+                let planes = group.iter().map(|batch| batch.planes).max().unwrap_or(0);
+                let mut scratch = Scratch::new(count, planes);
+                if let Some(locks) = &locks {
+                    scratch.finds = locks.finds(count);
+                }
+                scratch
+            })
             .collect();
+        solver.locks = locks.map(|locks| (locks, Islands::one(solver.batches.len())));
         let state = State {
             layout: layout(&solver.places),
             time: 0.0,
@@ -323,7 +340,10 @@ impl Solver {
         let acting = surroundings.fingerprint();
         let calm = acting == state.last && surroundings.is_calm();
         state.last = acting;
-        let islands = self.interaction.as_ref().map(|all| &all.islands);
+        let islands = match &self.locks {
+            Some((_, one)) => Some(one),
+            None => self.interaction.as_ref().map(|all| &all.islands),
+        };
         let (batches, states) = (&self.batches, &state.batches);
         (self.sleepers).find(batches, states, surroundings, calm, islands);
         if calm && self.have_links && self.sleepers.are_all(batches) {
@@ -347,7 +367,11 @@ impl Solver {
                 dt,
             );
         }
+        if let Some((locks, _)) = &mut self.locks {
+            locks.follow(&self.batches, &state.batches, surroundings, dt);
+        }
         let interaction = self.interaction.as_ref();
+        let locks = self.locks.as_ref().map(|(locks, _)| locks);
         let (first_points, guards) = (&self.first_points, &self.guards);
         let sleepers = &self.sleepers;
         let last_dt = if state.last_dt > 0.0 {
@@ -374,6 +398,7 @@ impl Solver {
                     pairs: &all.pairs[index],
                     courses: &all.courses,
                 }),
+                locks: locks.map(|locks| (index, locks)),
             };
             match instructions {
                 Instructions::Compiled => advance::<Lane>(batch, state, scratch, &drive),
@@ -424,7 +449,7 @@ impl Solver {
         let fits = state.layout == layout(&self.places)
             && state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches))
-                .all(|(b, s)| s.has_lengths(b.count()) && b.does_with(s.frames.len()))
+                .all(|(b, s)| s.has_lengths(b) && b.does_with(s.frames.len()))
             && self.interaction.as_ref().is_none_or(|all| {
                 (all.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
             });

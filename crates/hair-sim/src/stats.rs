@@ -13,6 +13,8 @@ pub struct Stats {
     pub set_aside: usize,
     /// Particles that were near a body or touched it.
     pub contacts: usize,
+    /// Particles that were near a lock which is apart from theirs at rest, or touched it.
+    pub meetings: usize,
     /// Particles that felt wind.
     pub wind: usize,
     /// Links between strands that held.
@@ -33,6 +35,7 @@ impl Stats {
             fallbacks: self.fallbacks + other.fallbacks,
             set_aside: self.set_aside + other.set_aside,
             contacts: self.contacts + other.contacts,
+            meetings: self.meetings + other.meetings,
             wind: self.wind + other.wind,
             links: self.links + other.links,
             repulsions: self.repulsions + other.repulsions,

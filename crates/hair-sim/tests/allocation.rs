@@ -69,6 +69,7 @@ struct Happened {
     wind: usize,
     links: usize,
     repulsions: usize,
+    meetings: usize,
     fallbacks: usize,
 }
 
@@ -117,17 +118,19 @@ fn run(
         happened.wind += stats.wind;
         happened.links += stats.links;
         happened.repulsions += stats.repulsions;
+        happened.meetings += stats.meetings;
         happened.fallbacks += stats.fallbacks;
     }
     happened
 }
 
 /// The allocations in [`STEPS`] steps, after a warm-up of 60.
-fn allocations(strands: u32, threads: usize) -> usize {
+fn allocations(strands: u32, threads: usize, lock_radius: f64) -> usize {
     let rest = style(strands);
     let goal = rest.points().to_vec();
     let params = Params {
         goal: Profile::constant(5.0),
+        lock_radius,
         ..Params::default()
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -147,7 +150,7 @@ fn allocations(strands: u32, threads: usize) -> usize {
         // The count means nothing unless all was there.
         assert!(happened.contacts > 1000 && happened.wind > 1000);
         assert!(happened.links > 1000 && happened.repulsions > 1000);
-        assert!(happened.fallbacks > 0);
+        assert!((lock_radius == 0.0 || happened.meetings > 1000) && happened.fallbacks > 0);
         count
     })
 }
@@ -158,9 +161,13 @@ const STEPS: usize = 100;
 #[test]
 fn a_warm_step_allocates_nothing() {
     // More than 64 batches are followed by several tasks.
-    for (strands, threads) in [(40, 1), (160, 1), (40, 2), (160, 4), (600, 4)] {
-        let count = allocations(strands, threads);
-        println!("{strands} strands, {threads} threads: {count} allocations in {STEPS} steps");
+    let free = [(40, 1), (160, 1), (40, 2), (160, 4), (600, 4)].map(|(s, t)| (s, t, 0.0));
+    let locks = [(40, 1, 0.004), (40, 2, 0.004)];
+    for (strands, threads, lock_radius) in free.into_iter().chain(locks) {
+        let count = allocations(strands, threads, lock_radius);
+        println!(
+            "{strands} strands, {threads} threads, locks of {lock_radius} m: {count} allocations in {STEPS} steps"
+        );
         assert_eq!(count, 0, "{strands} strands, {threads} threads");
     }
 }

@@ -36,6 +36,10 @@ pub(crate) struct Batch {
     /// Distance kept from colliders, in m.
     pub thickness: Lane,
     pub friction: Lane,
+    /// Half the thickness of the lock that a strand stands for, in m.
+    pub lock_radius: Lane,
+    /// Planes that may hold particles: one of bodies for each, and where hair meets hair one of other strands for each.
+    pub planes: usize,
     /// Particles from the root in style space.
     pub styled: Vec<Vec3>,
     /// Root and skin frame in style space.
@@ -84,6 +88,8 @@ impl Batch {
             lever: Lane::ZERO,
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
+            lock_radius: Lane::ZERO,
+            planes: count,
             styled: vec![Vec3::ZERO; count],
             root: Vec3::ZERO,
             base: Quat::IDENTITY,
@@ -104,6 +110,7 @@ impl Batch {
         self.drag_along[lane] = params.drag_along;
         self.thickness[lane] = params.thickness;
         self.friction[lane] = params.friction;
+        self.lock_radius[lane] = params.lock_radius;
         self.root.set(lane, rest.root);
         self.base.set(lane, rest.base);
         let (mut y, mut along) = (DVec3::ZERO, 0.0);
@@ -127,6 +134,13 @@ impl Batch {
 
     pub(crate) fn count(&self) -> usize {
         self.links.len()
+    }
+
+    /// The particle that a plane holds.
+    #[inline(always)]
+    pub(crate) fn held_by(&self, plane: usize) -> usize {
+        let count = self.count();
+        if plane < count { plane } else { plane - count }
     }
 
     /// Whether a state with `count` frames will do: straight strands need none, and keep them as they are.
@@ -164,7 +178,7 @@ pub(crate) struct BatchState {
     /// How far particles may be inside of bodies (0 or less, in m), and whether that has been found out.
     pub skin: Vec<Lane>,
     pub skin_known: bool,
-    /// The pressure of bodies on particles in m/s^2.
+    /// The pressure of planes on particles in m/s^2: of bodies, then those of other strands, where there may be any.
     pub press: Vec<Lane>,
     /// The speeds in m/s below which friction with them is viscous; 0 where the pressure is that of a blow, which is over.
     pub creep: Vec<Lane>,
@@ -200,8 +214,8 @@ impl BatchState {
             base: batch.base,
             skin: vec![Lane::ZERO; count],
             skin_known: false,
-            press: vec![Lane::ZERO; count],
-            creep: vec![Lane::splat(CREEP); count],
+            press: vec![Lane::ZERO; batch.planes],
+            creep: vec![Lane::splat(CREEP); batch.planes],
             goal: Vec::new(),
             broken: Vec::new(),
             pull: NO_PULL,
@@ -231,12 +245,14 @@ impl BatchState {
 }
 
 impl BatchState {
-    /// Whether all lists of particles have `count` of them, which what was read from a file may not.
-    pub(crate) fn has_lengths(&self, count: usize) -> bool {
+    /// Whether all lists are as long as a batch needs them, which what was read from a file may not be.
+    pub(crate) fn has_lengths(&self, batch: &Batch) -> bool {
+        let count = batch.count();
         let vectors = [&self.y, &self.v, &self.a, &self.past, &self.quiet_at];
-        let numbers = [&self.skin, &self.press, &self.creep];
+        let planes = [&self.press, &self.creep];
         vectors.iter().all(|list| list.len() == count)
-            && numbers.iter().all(|list| list.len() == count)
+            && self.skin.len() == count
+            && planes.iter().all(|list| list.len() == batch.planes)
             && (self.goal.is_empty() || self.goal.len() == count)
     }
 

@@ -1,5 +1,5 @@
 //! Contact of particles with bodies: once a step, the path of every particle against every body gives at most one
-//! plane, behind which the particle is held in the stages of the step.
+//! plane, behind which the particle is held in the stages of the step. Other hair gives it one more: see [`super::locks`].
 
 use glam::{DMat3, DVec3};
 
@@ -66,6 +66,37 @@ impl Contact {
         press: Lane::ZERO,
         bound: Lane::ZERO,
     };
+
+    /// Puts a plane before particle `k` of a strand; what the state knows of it is at `slot`.
+    pub(crate) fn set(
+        &mut self,
+        lane: usize,
+        surface: &Surface,
+        (batch, state): (&Batch, &BatchState),
+        (slot, k): (usize, usize),
+    ) {
+        let (normal, flow) = (surface.normal, surface.flow);
+        let (press, creep) = (state.press[slot][lane], state.creep[slot][lane]);
+        self.on[lane] = 1.0;
+        self.press[lane] = press;
+        self.normal.set(lane, normal);
+        self.mid[lane] = surface.mid;
+        self.end[lane] = surface.end;
+        self.flow.set(lane, flow);
+        let velocity = state.v[k].get(lane) - flow;
+        let sliding = (velocity - normal * velocity.dot(normal)).length();
+        let bound = if creep > 0.0 { press } else { 0.0 };
+        let sticks = bound > 0.0 && sliding <= creep;
+        let (creep, speed) = if sticks {
+            let creep = (STICKS * creep).max(LEAST_CREEP);
+            (creep, creep)
+        } else {
+            (CREEP, sliding.max(CREEP))
+        };
+        self.bound[lane] = bound;
+        self.creep[lane] = creep;
+        self.slip[lane] = batch.friction[lane] * bound / speed;
+    }
 
     /// Where a particle at `y` is behind the plane at `level` and was not held, in the strands that have the plane.
     #[inline(always)]
@@ -151,6 +182,15 @@ impl Contact {
         node.b += (carried - self.normal * self.normal.dot(carried)) * slide;
         new
     }
+}
+
+/// What a particle can't pass in a step: its normal, how far along it the surface is from the root at the middle stage and at the end, in m,
+/// and its velocity from the root, in m/s.
+pub(crate) struct Surface {
+    pub normal: DVec3,
+    pub mid: f64,
+    pub end: f64,
+    pub flow: DVec3,
 }
 
 /// When a plane begins to hold a particle.
@@ -274,28 +314,13 @@ pub(crate) fn detect<T: Number>(
                     let normal = now.rotation * plane.normal;
                     let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
                     let (s0, s1) = (s0 - state.root.get(lane), s1 - root.get(lane));
-                    let mid = s0 + (s1 - s0) * GAMMA;
-                    let flow = (s1 - s0) / dt;
-                    contact.on[lane] = 1.0;
-                    contact.press[lane] = state.press[k][lane];
-                    contact.normal.set(lane, normal);
-                    contact.mid[lane] = normal.dot(mid);
-                    contact.end[lane] = normal.dot(s1);
-                    contact.flow.set(lane, flow);
-                    let velocity = state.v[k].get(lane) - flow;
-                    let sliding = (velocity - normal * velocity.dot(normal)).length();
-                    let known = state.creep[k][lane] > 0.0;
-                    let bound = if known { state.press[k][lane] } else { 0.0 };
-                    let sticks = bound > 0.0 && sliding <= state.creep[k][lane];
-                    let (creep, speed) = if sticks {
-                        let creep = (STICKS * state.creep[k][lane]).max(LEAST_CREEP);
-                        (creep, creep)
-                    } else {
-                        (CREEP, sliding.max(CREEP))
+                    let surface = Surface {
+                        normal,
+                        mid: normal.dot(s0 + (s1 - s0) * GAMMA),
+                        end: normal.dot(s1),
+                        flow: (s1 - s0) / dt,
                     };
-                    contact.bound[lane] = bound;
-                    contact.creep[lane] = creep;
-                    contact.slip[lane] = batch.friction[lane] * bound / speed;
+                    contact.set(lane, &surface, (batch, state), (k, k));
                 }
             }
             count

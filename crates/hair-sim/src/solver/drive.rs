@@ -18,6 +18,7 @@ use super::{
     batch::{Batch, BatchState},
     contact::{self, Guard},
     load::Loads,
+    locks::Locks,
     rods::Rods,
     scratch::Scratch,
     stage::GAMMA,
@@ -46,6 +47,8 @@ pub(crate) struct Drive<'a> {
     pub asleep: Mask,
     /// The other strands, where they act on each other.
     pub others: Option<Others<'a>>,
+    /// The batch's number, and what its strands can't pass through.
+    pub locks: Option<(usize, &'a Locks)>,
 }
 
 /// The pairs of a batch with other strands, and where all particles are.
@@ -210,6 +213,14 @@ pub(crate) fn prepare<T: Number>(
             contacts,
             touched,
         );
+    }
+    if let Some((index, locks)) = drive.locks {
+        let (finds, planes) = (
+            &mut scratch.finds,
+            (&mut loads.contacts[..], &mut loads.touched),
+        );
+        let here = (index, batch, &*state);
+        stats.meetings = locks.part(here, (root.root, drive.dt), active, finds, planes);
     }
     active
 }

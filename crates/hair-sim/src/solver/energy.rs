@@ -109,8 +109,8 @@ fn undriven(
     if drive.gusts.iter().any(|gusts| gusts.blows) {
         free = free.and(batch.has_drag.not());
     }
-    for &k in &loads.touched {
-        free = free.and(loads.contacts[k].on.lt(Lane::splat(0.5)));
+    for &plane in &loads.touched {
+        free = free.and(loads.contacts[plane].on.lt(Lane::splat(0.5)));
     }
     free
 }

@@ -89,39 +89,47 @@ pub(crate) fn finish<T: Number>(
                 if damps {
                     state.past[k] = Vec3::pick(which, past[k], state.past[k]);
                 }
-                state.press[k] = which.pick(Lane::ZERO, state.press[k]);
-                state.creep[k] = which.pick(Lane::splat(CREEP), state.creep[k]);
             }
+            forget_planes(state, which);
             rods.keep_frames(state, end, which);
             let mut struck = Mask::new(state.restart).and(which.not());
-            for &k in &work.loads.touched {
-                let contact = &work.loads.contacts[k];
-                struck = struck.or(settle_contact(state, contact, end.y[k], k, which));
+            for &plane in &work.loads.touched {
+                let (contact, k) = (&work.loads.contacts[plane], batch.held_by(plane));
+                struck = struck.or(settle_contact(state, contact, end.y[k], (plane, k), which));
             }
             state.restart = struck.bools();
         },
     );
 }
 
-/// Remembers the pressure on particle `k` at `y`, and takes the blow of a contact out of its acceleration: that is over, and
+/// Planes are gone whose pressure isn't remembered after this.
+#[inline(always)]
+pub(super) fn forget_planes(state: &mut BatchState, which: Mask) {
+    for (press, creep) in state.press.iter_mut().zip(&mut state.creep) {
+        *press = which.pick(Lane::ZERO, *press);
+        *creep = which.pick(Lane::splat(CREEP), *creep);
+    }
+}
+
+/// Remembers the pressure of a plane on particle `k` at `y`, and takes the blow of a contact out of its acceleration: that is over, and
 /// the next step must not start with it. Returns the strands that were struck: they start anew.
 #[inline(always)]
 fn settle_contact(
     state: &mut BatchState,
     contact: &Contact,
     y: Vec3,
-    k: usize,
+    (plane, k): (usize, usize),
     which: Mask,
 ) -> Mask {
     let press = contact.pressure(y);
-    state.press[k] = which.pick(press, state.press[k]);
+    state.press[plane] = which.pick(press, state.press[plane]);
     let a = state.a[k];
     let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
     state.a[k] = Vec3::pick(which, a - contact.normal * out, a);
     let presses = press.gt(Lane::ZERO).and(which);
     let is_new = (contact.press.gt(Lane::ZERO).not()).and(presses);
     let creep = is_new.pick(Lane::ZERO, contact.creep);
-    state.creep[k] = presses.pick(creep, state.creep[k]);
+    state.creep[plane] = presses.pick(creep, state.creep[plane]);
     is_new
 }
 

@@ -24,20 +24,22 @@ pub(crate) struct Loads {
     pub has_springs: bool,
     pub springs: Vec<Spring>,
     pub contacts: Vec<Contact>,
-    /// The places on the strands where particles have contacts in this step.
+    /// The planes that particles have in this step, by their places in `contacts`: the first are those of bodies, one for each particle, then come
+    /// those of other strands.
     pub touched: Vec<usize>,
 }
 
 impl Loads {
-    pub(crate) fn new(count: usize) -> Self {
+    /// For batches of at most so many particles in a row, and planes.
+    pub(crate) fn new(count: usize, planes: usize) -> Self {
         Self {
             nodes: vec![Node::<Lane>::zero(); count],
             free_y: vec![Vec3::ZERO; count],
             free_v: vec![Vec3::ZERO; count],
             has_springs: false,
             springs: vec![Spring::NONE; count],
-            contacts: vec![Contact::NONE; count],
-            touched: Vec::with_capacity(count),
+            contacts: vec![Contact::NONE; planes],
+            touched: Vec::with_capacity(planes),
         }
     }
 
@@ -63,8 +65,8 @@ impl Loads {
             self.add_springs::<T>(batch, stage);
         }
         if !self.touched.is_empty() {
-            for &k in &self.touched {
-                self.contacts[k].forget();
+            for &plane in &self.touched {
+                self.contacts[plane].forget();
             }
             let due = Due::Expected(stage.length);
             self.hold::<T>(batch, stage, chain, due, Mask::NONE.not());
@@ -143,8 +145,8 @@ impl Loads {
             #[inline(always)]
             move || {
                 let mut new = Mask::NONE;
-                for &k in &self.touched {
-                    let contact = &mut self.contacts[k];
+                for &plane in &self.touched {
+                    let (contact, k) = (&mut self.contacts[plane], batch.held_by(plane));
                     let level = if stage.is_mid {
                         contact.mid
                     } else {
@@ -174,8 +176,8 @@ impl Loads {
             #[inline(always)]
             move || {
                 let mut new = Mask::NONE;
-                for &k in &self.touched {
-                    let contact = &mut self.contacts[k];
+                for &plane in &self.touched {
+                    let (contact, k) = (&mut self.contacts[plane], batch.held_by(plane));
                     let level = if stage.is_mid {
                         contact.mid
                     } else {

@@ -11,10 +11,11 @@ use crate::{
 };
 
 use super::{
-    batch::{Batch, BatchState, CREEP},
+    batch::{Batch, BatchState},
     chain::Chain,
     contact::Due,
     drive::{Drive, RootMotion},
+    finish::forget_planes,
     rods::{
         Rods,
         curled::{find_turns, sweep::potential, turn_links},
@@ -158,16 +159,14 @@ fn take(
     for k in 0..batch.count() {
         let v = (trial.y[k] - state.y[k]) * rate;
         let a = (v - state.v[k]) * rate;
-        let press = if loads.touched.is_empty() {
-            Lane::ZERO
-        } else {
-            loads.contacts[k].pressure(trial.y[k])
-        };
-        state.press[k] = good.pick(press, state.press[k]);
-        state.creep[k] = good.pick(Lane::splat(CREEP), state.creep[k]);
         state.a[k] = Vec3::pick(good, a, state.a[k]);
         state.v[k] = Vec3::pick(good, v, state.v[k]);
         state.y[k] = Vec3::pick(good, trial.y[k], state.y[k]);
+    }
+    forget_planes(state, good);
+    for &plane in &loads.touched {
+        let press = loads.contacts[plane].pressure(trial.y[batch.held_by(plane)]);
+        state.press[plane] = good.pick(press, state.press[plane]);
     }
     rods.keep_frames(state, trial, good);
     let bad = which.and(good.not());

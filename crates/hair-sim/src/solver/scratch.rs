@@ -2,7 +2,7 @@
 
 use crate::lanes::Vec3;
 
-use super::{chain::Chain, load::Loads, rods};
+use super::{chain::Chain, load::Loads, locks::Finds, rods};
 
 /// Lists that a step works with; their content decides nothing.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub(crate) struct Scratch {
     /// The turn of every joint at the start of the step.
     pub turn_start: Vec<Vec3>,
     pub work: Work,
+    /// What finds other strands; nothing where they don't meet.
+    pub finds: Finds,
 }
 
 /// What a stage works with.
@@ -27,17 +29,19 @@ pub(crate) struct Work {
 }
 
 impl Scratch {
-    pub(crate) fn new(count: usize) -> Self {
+    /// For batches of at most so many links in a row, and planes.
+    pub(crate) fn new(count: usize, planes: usize) -> Self {
         Self {
             mid: Chain::new(count),
             end: Chain::new(count),
             trial: Chain::new(count),
             turn_start: vec![Vec3::ZERO; count],
             work: Work {
-                loads: Loads::new(count),
+                loads: Loads::new(count, planes),
                 past: vec![Vec3::ZERO; count],
                 newton: rods::Scratch::new(count),
             },
+            finds: Finds::default(),
         }
     }
 }

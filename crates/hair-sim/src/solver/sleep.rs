@@ -30,6 +30,14 @@ pub(super) struct Islands {
 }
 
 impl Islands {
+    /// All strands of so many batches in one.
+    pub(super) fn one(batches: usize) -> Self {
+        Self {
+            of: vec![[0; LANES]; batches],
+            count: 1,
+        }
+    }
+
     /// Of so many batches with the pairs of places (batch, lane) that act on each other.
     pub(super) fn new(batches: usize, pairs: impl Iterator<Item = [(usize, usize); 2]>) -> Self {
         let mut parents: Vec<usize> = (0..batches * LANES).collect();
@@ -142,7 +150,9 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
     let (mut farthest, mut press) = (Lane::ZERO, Lane::ZERO);
     for k in 0..batch.count() {
         farthest = farthest.max((state.y[k] - state.quiet_at[k]).length_squared());
-        press = press.max(state.press[k]);
+    }
+    for of_plane in &state.press {
+        press = press.max(*of_plane);
     }
     let is_free = press
         .gt(Lane::ZERO)

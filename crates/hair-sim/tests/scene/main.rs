@@ -4,6 +4,7 @@
 
 mod bodies;
 mod goals;
+mod locks;
 mod mutual;
 mod rate;
 mod roots;

@@ -8,7 +8,7 @@ use hair_sim::{
 
 use crate::{strand, style};
 
-/// Strands that differ in what they are made of, and act on each other.
+/// Strands that differ in what they are made of, act on each other, and don't pass through each other.
 fn make(rest: &Strands) -> (Solver, State) {
     let params = |s: usize| {
         let id = rest.id(s);
@@ -16,6 +16,7 @@ fn make(rest: &Strands) -> (Solver, State) {
             goal: Profile::constant(if id.is_multiple_of(2) { 3.0 } else { 0.0 }),
             drag: if id.is_multiple_of(3) { 0.0 } else { 2.0 },
             damping: if id % 5 < 2 { 0.0 } else { 0.005 },
+            lock_radius: 0.003 + 0.001 * f64::from(id % 4),
             ..Params::default()
         }
     };
@@ -32,6 +33,7 @@ fn make(rest: &Strands) -> (Solver, State) {
 
 /// Half a second of everything at once, from `from` on.
 fn run(solver: &mut Solver, state: &mut State, from: usize, frames: usize) {
+    let mut meetings = 0;
     let pose = |i: usize| Pose {
         rotation: DQuat::from_rotation_y(0.3 * (i as f64 * 0.5).sin()),
         translation: DVec3::new(0.0, 0.02 * (i as f64).cos(), 0.0),
@@ -55,8 +57,12 @@ fn run(solver: &mut Solver, state: &mut State, from: usize, frames: usize) {
             colliders: &colliders,
             ..Surroundings::default()
         };
-        solver.step(state, &surroundings, 1.0 / 24.0).unwrap();
+        meetings += solver
+            .step(state, &surroundings, 1.0 / 24.0)
+            .unwrap()
+            .meetings;
     }
+    assert!(meetings > 100, "{meetings}");
 }
 
 fn bits(solver: &Solver, state: &State, strand: usize) -> Vec<[u64; 3]> {

@@ -51,10 +51,20 @@ fn head() -> SignedDistance {
 }
 
 /// The best of many short runs, so that other work on the machine does not count. All of head, wind and the other hair must have acted in every run.
-fn measure(count: u32, n: usize, dt: f64, steps: usize, everything: bool) -> f64 {
+fn measure(
+    (count, n): (u32, usize),
+    dt: f64,
+    steps: usize,
+    everything: bool,
+    lock_radius: f64,
+) -> f64 {
     let rest = strands(count, n);
+    let params = Params {
+        lock_radius,
+        ..Params::default()
+    };
     let head = head();
-    let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
+    let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
     if everything {
         let mutual = Mutual {
             neighbours: 2,
@@ -66,7 +76,7 @@ fn measure(count: u32, n: usize, dt: f64, steps: usize, everything: bool) -> f64
     }
     let colliders = [Collider::fixed(Shape::Grid(&head), Pose::IDENTITY)];
     let mut best = f64::MAX;
-    let (mut iterations, mut fallbacks) = (0, 0);
+    let (mut iterations, mut fallbacks, mut meetings) = (0, 0, 0);
     for _ in 0..RUNS {
         let (mut contacts, mut wind, mut links, mut repulsions) = (0, 0, 0, 0);
         let start = Instant::now();
@@ -85,6 +95,7 @@ fn measure(count: u32, n: usize, dt: f64, steps: usize, everything: bool) -> f64
             let s = solver.step(&mut state, &surroundings, dt).unwrap();
             iterations += s.iterations;
             fallbacks += s.fallbacks;
+            meetings += s.meetings;
             contacts += s.contacts;
             wind += s.wind;
             links += s.links;
@@ -98,13 +109,15 @@ fn measure(count: u32, n: usize, dt: f64, steps: usize, everything: bool) -> f64
     }
     let rate = count as f64 * n as f64 / best;
     let strand_steps = (RUNS * steps * count as usize) as f64;
+    assert_eq!(meetings > 0, lock_radius > 0.0);
     println!(
-        "{count} x {n}, {}: {:.1} us a step, {:.2} M particle-steps a second, {:.2} iterations a stage, {:.3} % fallbacks",
+        "{count} x {n}, {}{}: {:.1} us a step, {:.2} M particle-steps a second, {:.2} iterations a stage, {:.3} % fallbacks",
         if everything {
             "head, wind and hair"
         } else {
             "wind"
         },
+        if lock_radius > 0.0 { ", locks" } else { "" },
         best * 1e6,
         rate * 1e-6,
         iterations as f64 / (2.0 * strand_steps),
@@ -118,10 +131,18 @@ fn measure(count: u32, n: usize, dt: f64, steps: usize, everything: bool) -> f64
 fn particle_steps_a_second() {
     println!("{} threads", rayon::current_num_threads());
     // One strand alone fills an eighth of a batch.
-    measure(1, 20, 1.0 / 24.0, 10, false);
+    measure((1, 20), 1.0 / 24.0, 10, false, 0.0);
     for everything in [false, true] {
         // Far below what is measured on an idle machine: this one may be busy.
-        assert!(measure(72, 20, 1.0 / 60.0, 10, everything) > 2e5);
-        assert!(measure(10_000, 16, 1.0 / 120.0, 1, everything) > 2e5);
+        assert!(measure((72, 20), 1.0 / 60.0, 10, everything, 0.0) > 2e5);
+        assert!(measure((10_000, 16), 1.0 / 120.0, 1, everything, 0.0) > 2e5);
+    }
+}
+
+/// What it costs that locks don't pass through each other, shown.
+#[test]
+fn locks_cost() {
+    for lock_radius in [0.0, 0.003, 0.006] {
+        assert!(measure((72, 20), 1.0 / 60.0, 10, true, lock_radius) > 5e4);
     }
 }
