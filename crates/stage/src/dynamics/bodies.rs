@@ -4,7 +4,6 @@ use glam::{DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::{Collider, Pose, Shape, SignedDistance};
 use render::Head;
-use std::ops::Range;
 
 /// Heights from the head's middle, in head heights: the head's body ends at the one below, the
 /// shoulders' at the other, inside the neck.
@@ -56,17 +55,17 @@ impl Bodies {
         colliders
     }
 
-    /// Puts points of these ranges that are in the head on its skin.
-    pub fn keep_out(&self, ranges: &[Range<usize>], pose: Pose, points: &mut [Vec3]) {
+    /// Puts points that are in the head on its skin.
+    pub fn keep_out(&self, pose: Pose, points: &mut [Vec3]) {
         let Some(grid) = &self.head else { return };
         let gap = GAP * self.height_m;
-        for point in ranges.iter().cloned().flat_map(|range| range.skip(1)) {
-            let place = pose.rotation.inverse() * (points[point].as_dvec3() - pose.translation);
+        for point in points {
+            let place = pose.rotation.inverse() * (point.as_dvec3() - pose.translation);
             let distance = grid.distance(place);
             if distance < gap {
                 let out = outwards(grid, place, HEAD_CELL * self.height_m);
                 let place = place + out * (gap - distance);
-                points[point] = (pose.rotation * place + pose.translation).as_vec3();
+                *point = (pose.rotation * place + pose.translation).as_vec3();
             }
         }
     }

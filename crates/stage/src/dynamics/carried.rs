@@ -3,6 +3,7 @@
 use glam::{DQuat, Quat, Vec3};
 use groom::Guides;
 use hair_sim::Strands;
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Guides that carry one strand.
@@ -85,59 +86,142 @@ fn nearest(shapes: &[[Vec3; 4]], strand: usize, guides: &[usize]) -> [(usize, f3
 }
 
 impl Carried {
-    /// The points of each carried strand.
-    pub fn ranges(&self) -> &[Range<usize>] {
-        &self.ranges
-    }
-
     /// Moves the carried strands: each keeps its place in the frames of its guides, whose links have turned
-    /// as `turns` says (one rotation a link).
-    pub fn carry(&self, points: &mut [Vec3], turns: impl Fn(usize) -> Vec<DQuat>) {
-        let turned = self.turned(&turns);
-        for (range, carriers) in self.ranges.iter().zip(&self.carriers) {
-            let last = (range.len() - 1) as f32;
-            // The root stays with the head.
-            for point in range.clone().skip(1) {
-                let u = (point - range.start) as f32 / last;
-                let rest = self.rest[point];
-                points[point] = carriers
-                    .iter()
-                    .map(|&(guide, weight)| {
-                        let own = self.guides[guide].clone();
-                        let offset = rest - at(&self.rest[own.clone()], u);
-                        weight * (at(&points[own], u) + link_at(&turned[guide], u) * offset)
-                    })
-                    .sum();
-            }
-        }
+    /// as `turns` says (one rotation a link). `keep_out` may then move the points of each but its root.
+    pub fn carry(
+        &self,
+        points: &mut [Vec3],
+        turns: impl Fn(usize) -> Vec<DQuat> + Sync,
+        keep_out: impl Fn(&mut [Vec3]) + Sync,
+    ) {
+        let turned = self.turned(turns);
+        let guides: Vec<&[Vec3]> = (self.guides.iter())
+            .map(|own| &self.rest[own.clone()])
+            .collect();
+        let now: Vec<Vec<Vec3>> = (self.guides.iter())
+            .map(|own| points[own.clone()].to_vec())
+            .collect();
+        let strands = self.strands_of(points);
+        strands
+            .into_par_iter()
+            .for_each(|(range, carriers, moved)| {
+                let last = (range.len() - 1) as f32;
+                // The root stays with the head.
+                for (i, point) in moved.iter_mut().enumerate().skip(1) {
+                    let u = i as f32 / last;
+                    let rest = self.rest[range.start + i];
+                    *point = carriers
+                        .iter()
+                        .map(|&(guide, weight)| {
+                            let offset = rest - at(guides[guide], u);
+                            weight * (at(&now[guide], u) + link_at(&turned[guide], u) * offset)
+                        })
+                        .sum();
+                }
+                keep_out(&mut moved[1..]);
+            });
     }
 
     /// Turns the normals of the carried strands as their guides' links have turned.
-    pub fn turn(&self, rest: &[Vec3], normals: &mut [Vec3], turns: impl Fn(usize) -> Vec<DQuat>) {
-        let turned = self.turned(&turns);
-        for (range, carriers) in self.ranges.iter().zip(&self.carriers) {
-            let last = (range.len() - 1) as f32;
-            for point in range.clone() {
-                let u = (point - range.start) as f32 / last;
-                let turn = |&(guide, weight): &(usize, f32)| {
-                    weight * (link_at(&turned[guide], u) * rest[point])
-                };
-                let sum: Vec3 = carriers.iter().map(turn).sum();
-                normals[point] = sum.normalize_or(normals[point]);
-            }
-        }
+    pub fn turn(
+        &self,
+        rest: &[Vec3],
+        normals: &mut [Vec3],
+        turns: impl Fn(usize) -> Vec<DQuat> + Sync,
+    ) {
+        let turned = self.turned(turns);
+        let strands = self.strands_of(normals);
+        strands
+            .into_par_iter()
+            .for_each(|(range, carriers, normals)| {
+                let last = (range.len() - 1) as f32;
+                for (i, normal) in normals.iter_mut().enumerate() {
+                    let u = i as f32 / last;
+                    let turn = |&(guide, weight): &(usize, f32)| {
+                        weight * (link_at(&turned[guide], u) * rest[range.start + i])
+                    };
+                    let sum: Vec3 = carriers.iter().map(turn).sum();
+                    *normal = sum.normalize_or(*normal);
+                }
+            });
+    }
+
+    /// The carried strands, what carries them, and their part of a list of all points. Strands lie one after the other in it.
+    fn strands_of<'a, 'b>(&'a self, mut list: &'b mut [Vec3]) -> Vec<Strand<'a, 'b>> {
+        let mut from = 0;
+        let strands = self.ranges.iter().zip(&self.carriers);
+        strands
+            .map(|(range, carriers)| {
+                let (_, rest) = std::mem::take(&mut list).split_at_mut(range.start - from);
+                let (own, rest) = rest.split_at_mut(range.len());
+                (list, from) = (rest, range.end);
+                (range, carriers, own)
+            })
+            .collect()
     }
 
     /// How each guide's links have turned; nothing where nothing is carried.
-    fn turned(&self, turns: &dyn Fn(usize) -> Vec<DQuat>) -> Vec<Vec<Quat>> {
-        let guides = 0..self.guides.len();
+    fn turned(&self, turns: impl Fn(usize) -> Vec<DQuat> + Sync) -> Vec<Vec<Quat>> {
+        let guides = (0..self.guides.len()).into_par_iter();
         guides
             .map(|guide| turns(guide).iter().map(|turn| turn.as_quat()).collect())
             .collect()
     }
 }
 
+/// The places of a carried strand in the list of all points, what carries it, and its part of a list.
+type Strand<'a, 'b> = (
+    &'a Range<usize>,
+    &'a [(usize, f32); CARRIERS],
+    &'b mut [Vec3],
+);
+
 /// The turn of the link at share `u` of a guide.
 fn link_at(links: &[Quat], u: f32) -> Quat {
     links[((u * links.len() as f32) as usize).min(links.len() - 1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Strands in a row, of which some carry the others; the guides have moved and turned.
+    fn carried(threads: usize) -> (usize, Vec<Vec3>) {
+        let (mut free, mut parts) = (Strands::new(), Vec::new());
+        for strand in 0..60_u32 {
+            let points: Vec<Vec3> = (0..5)
+                .map(|i| Vec3::new(strand as f32, -(i as f32), (strand * i % 7) as f32) * 0.01)
+                .collect();
+            let first = parts.last().map_or(3, |part: &Range<usize>| part.end + 2);
+            parts.push(first..first + points.len());
+            free.push(strand, &points, None).unwrap();
+        }
+        let (guides, carried) = choose(&free, &parts, 7);
+        let mut points = vec![Vec3::ZERO; parts[59].end];
+        for &guide in &guides {
+            for (i, point) in parts[guide].clone().enumerate() {
+                points[point] = free.strand(guide)[i] + Vec3::X * (i as f32 * 0.004);
+            }
+        }
+        let turns = |guide: usize| vec![DQuat::from_rotation_z(0.1 * guide as f64); 4];
+        let floor = |points: &mut [Vec3]| {
+            for point in points {
+                point.y = point.y.max(-0.035);
+            }
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| carried.carry(&mut points, turns, floor));
+        (guides.len(), points)
+    }
+
+    #[test]
+    fn carried_strands_are_the_same_for_any_number_of_threads() {
+        let (guides, one) = carried(1);
+        assert_eq!((guides, &one), (carried(3).0, &carried(3).1));
+        // All but roots have moved, and only guides' tips are where the others are kept out.
+        let moved = one.iter().filter(|point| **point != Vec3::ZERO).count();
+        assert!(moved > 60 * 4, "{moved}");
+        assert_eq!(one.iter().filter(|point| point.y < -0.036).count(), guides);
+    }
 }

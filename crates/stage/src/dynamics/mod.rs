@@ -299,9 +299,11 @@ impl Dynamics {
                 *point = moved.as_vec3();
             }
         }
-        self.carried
-            .carry(points, |strand| self.strands.turns(strand));
-        self.bodies.keep_out(self.carried.ranges(), pose, points);
+        self.carried.carry(
+            points,
+            |strand| self.strands.turns(strand),
+            |points| self.bodies.keep_out(pose, points),
+        );
     }
 
     /// Whether what is shown is the start.

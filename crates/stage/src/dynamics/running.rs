@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use hair_sim::{DynamicsError, Roots, Stats, StrandSolver, Surroundings};
 
 /// Strands in motion.
-pub(super) trait Running: Send {
+pub(super) trait Running: Send + Sync {
     /// Puts all back to the start, on roots there.
     fn restart(&mut self, roots: Roots) -> Result<(), DynamicsError>;
     /// Advances by `dt` seconds.
@@ -49,9 +49,9 @@ impl<S: StrandSolver> Run<S> {
     }
 }
 
-impl<S: StrandSolver + Send> Running for Run<S>
+impl<S: StrandSolver + Send + Sync> Running for Run<S>
 where
-    S::State: Send,
+    S::State: Send + Sync,
 {
     fn restart(&mut self, roots: Roots) -> Result<(), DynamicsError> {
         self.is_ahead = false;
