@@ -136,7 +136,10 @@ fn without_margin(picture: &Picture, margin: usize) -> Picture {
     Picture {
         width: width as u32,
         height: height as u32,
-        pixels: inner.flat_map(|row| &row[margin..][..width]).copied().collect(),
+        pixels: inner
+            .flat_map(|row| &row[margin..][..width])
+            .copied()
+            .collect(),
     }
 }
 
