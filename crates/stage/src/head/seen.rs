@@ -1,0 +1,314 @@
+//! What the camera sees of a head: its outside, its inside through openings, its outline, what is drawn on it and worn.
+
+use super::HeadModel;
+use super::on_screen::{Corner, Part, Side};
+use super::paint::HeadPaint;
+use crate::painted::PaintedMesh;
+use crate::preset::MeshSection;
+use glam::Vec3;
+use groom::{Cloth, Patch};
+use hair_io::Mesh;
+use rayon::prelude::*;
+use render::{Coverage, Light, Surface};
+use std::iter::{once, repeat};
+use stroke_path::Camera;
+
+/// What of a head is told apart as a mesh of its own ([`Surface::mesh`]): itself, its clothes, ornaments, then painted meshes.
+pub(crate) const MESHES: u32 = 256;
+const CLOTHES: u32 = 1;
+const ORNAMENTS: u32 = 2;
+const PAINTED: u32 = 3;
+
+/// How much nearer than a band hair must be to hide it, metres: next to nothing.
+const BAND_MARGIN_M: f32 = 1e-5;
+
+/// What the camera sees of the head: its outside, its inside through openings, its outline, what is drawn
+/// on it.
+pub(crate) fn surfaces(
+    model: &HeadModel,
+    paint: &HeadPaint,
+    meshes: &[MeshSection],
+    camera: &Camera,
+    light: &Light,
+) -> Vec<Surface> {
+    let HeadModel {
+        mesh,
+        facing,
+        outline: _,
+        clothes,
+        skin,
+        frame: _,
+        shade,
+        patches,
+        scalp: [scalp, bare],
+        ornaments,
+        painted: _,
+    } = model;
+    let facing = match facing.is_empty() {
+        true => &mesh.normals,
+        false => facing,
+    };
+    let shade = shade.iter().copied().chain(repeat(0.0));
+    let corners: Vec<Corner> = mesh
+        .positions
+        .iter()
+        .zip(facing)
+        .zip(shade)
+        .map(|((position, facing), shade)| Corner {
+            view: camera.view_from_world(*position),
+            tone: facing.dot(light.seen_from(*position).0) - paint.threshold - shade,
+        })
+        .collect();
+    let bare = match scalp.is_empty() {
+        true => skin,
+        false => bare,
+    };
+    let hull = match !model.is_painted() && paint.width_m > 0.0 {
+        true => hull(
+            &mesh.positions,
+            &mesh.normals,
+            &model.outline,
+            paint.width_m,
+            camera,
+        ),
+        false => Vec::new(),
+    };
+    let inside = Side {
+        light: paint.shadow,
+        shadow: paint.shadow,
+        margin_m: paint.inside_margin_m,
+    };
+    let part = |triangles, light, shadow, mesh| Part {
+        triangles,
+        corners: &corners,
+        front: Some(Side {
+            light,
+            shadow,
+            margin_m: 0.0,
+        }),
+        back: Some(inside),
+        mesh,
+        picture: None,
+    };
+    let is_flat = !model.is_painted();
+    let mut parts = Vec::new();
+    if is_flat {
+        parts.push(part(bare, paint.light, paint.shadow, 0));
+    }
+    if is_flat && !scalp.is_empty() {
+        parts.push(part(scalp, paint.scalp, paint.scalp, 0));
+    }
+    for (cloth, triangles) in clothes {
+        let [light, shadow, _] = paint.of_cloth(*cloth);
+        parts.push(Part {
+            back: Some(Side {
+                light: shadow,
+                shadow,
+                ..inside
+            }),
+            ..part(triangles, light, shadow, CLOTHES)
+        });
+    }
+    if is_flat && paint.width_m > 0.0 {
+        let skin = once((Cloth::Skin, skin));
+        let clothes = clothes.iter().map(|(cloth, triangles)| (*cloth, triangles));
+        for (cloth, triangles) in skin.chain(clothes) {
+            let is_skin = cloth == Cloth::Skin;
+            let [.., line] = paint.of_cloth(cloth);
+            parts.push(Part {
+                triangles,
+                corners: &hull,
+                front: None,
+                back: Some(Side {
+                    light: line,
+                    shadow: line,
+                    margin_m: -paint.outline_margin_m,
+                }),
+                mesh: if is_skin { 0 } else { CLOTHES },
+                picture: None,
+            });
+        }
+    }
+    let surfaces = parts.par_iter().flat_map_iter(|part| part.seen_by(camera));
+    let mut surfaces: Vec<Surface> = surfaces.collect();
+    if !ornaments.triangles.is_empty() {
+        surfaces.extend(worn(ornaments, paint, camera, light));
+    }
+    let center = model.frame.map_or(Vec3::ZERO, |head| head.center);
+    let is_drawn = |patch: &&Patch| {
+        let lit = |away: Vec3| away.dot(light.seen_from(center).0) >= paint.threshold;
+        !patch.away_from.is_some_and(lit)
+    };
+    let painted = model.painted.par_iter().enumerate();
+    let painted = painted.flat_map_iter(|(number, mesh)| {
+        let number = PAINTED + number as u32;
+        painted_mesh(mesh, number.min(MESHES - 1), paint, meshes, camera, light)
+    });
+    surfaces.par_extend(painted);
+    surfaces.extend(patches.iter().filter(is_drawn).flat_map(|patch| {
+        let corner = |position: &Vec3| Corner {
+            view: camera.view_from_world(*position),
+            tone: 0.0,
+        };
+        let corners: Vec<Corner> = patch.positions.iter().map(corner).collect();
+        let color = paint.of(patch.ink);
+        let part = Part {
+            triangles: &patch.triangles,
+            corners: &corners,
+            front: Some(Side {
+                light: color,
+                shadow: color,
+                margin_m: 0.0,
+            }),
+            back: None,
+            mesh: 0,
+            picture: None,
+        };
+        part.seen_by(camera)
+    }));
+    surfaces
+}
+
+/// A slightly larger mesh, whose inside is seen around the edges of the mesh itself; `widths` as in [`HeadModel`].
+fn hull(
+    positions: &[Vec3],
+    normals: &[Vec3],
+    widths: &[f32],
+    width_m: f32,
+    camera: &Camera,
+) -> Vec<Corner> {
+    let widths = widths.iter().copied().chain(repeat(1.0));
+    positions
+        .iter()
+        .zip(normals)
+        .zip(widths)
+        .map(|((position, normal), width)| Corner {
+            view: camera.view_from_world(*position + *normal * (width_m * width)),
+            tone: 0.0,
+        })
+        .collect()
+}
+
+/// What is seen of a mesh in its own colours, whose number among the head's meshes that is.
+fn painted_mesh(
+    mesh: &PaintedMesh,
+    number: u32,
+    head: &HeadPaint,
+    sections: &[MeshSection],
+    camera: &Camera,
+    light: &Light,
+) -> Vec<Surface> {
+    let own = &mesh.paint;
+    let section = mesh.section.and_then(|index| sections.get(index));
+    let times = |a: [f32; 3], b: [f32; 3]| [0, 1, 2].map(|i| a[i] * b[i]);
+    // Light, how much darker shadow is, line, and its width.
+    let (tint, shade, line, width_m) = match section {
+        Some(section) => {
+            let width_m = section.width * head.unit_m;
+            (section.color, [section.shade; 3], section.line, width_m)
+        }
+        None => ([1.0; 3], head.shade(), head.line, head.width_m),
+    };
+    let lit = times(own.color, tint);
+    let shadow = own.shade.map_or(times(lit, shade), |own| times(own, tint));
+    let corner = |(position, normal): (&Vec3, &Vec3)| Corner {
+        view: camera.view_from_world(*position),
+        tone: normal.dot(light.seen_from(*position).0) - head.threshold,
+    };
+    let corners: Vec<Corner> = mesh
+        .positions
+        .iter()
+        .zip(&mesh.normals)
+        .map(corner)
+        .collect();
+    let front = Side {
+        light: lit,
+        shadow,
+        margin_m: 0.0,
+    };
+    let back = match (own.both_sides, section) {
+        (true, _) => Some(front),
+        // Seen through openings, as other heads' insides.
+        (false, None) => Some(Side {
+            light: shadow,
+            shadow,
+            margin_m: head.inside_margin_m,
+        }),
+        (false, Some(_)) => None,
+    };
+    let part = Part {
+        triangles: &mesh.triangles,
+        corners: &corners,
+        front: Some(front),
+        back,
+        mesh: number,
+        picture: own
+            .picture
+            .as_ref()
+            .map(|picture| (picture, &mesh.places[..])),
+    };
+    let mut surfaces: Vec<Surface> = part.seen_by(camera).collect();
+    if width_m > 0.0 && own.has_outline() {
+        let outline = Part {
+            corners: &hull(&mesh.positions, &mesh.normals, &[], width_m, camera),
+            front: None,
+            back: Some(Side {
+                light: line,
+                shadow: line,
+                margin_m: -head.outline_margin_m,
+            }),
+            picture: part
+                .picture
+                .filter(|(picture, _)| picture.coverage != Coverage::Ignored),
+            ..part
+        };
+        surfaces.extend(outline.seen_by(camera));
+    }
+    surfaces
+}
+
+/// What the hair wears. Hair goes by its depth alone here: what is in a band does not hide it.
+fn worn(ornaments: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> Vec<Surface> {
+    let corners: Vec<Corner> = ornaments
+        .positions
+        .iter()
+        .zip(&ornaments.normals)
+        .map(|(position, normal)| Corner {
+            view: camera.view_from_world(*position),
+            tone: normal.dot(light.seen_from(*position).0) - paint.threshold,
+        })
+        .collect();
+    let ties = Part {
+        triangles: &ornaments.triangles,
+        corners: &corners,
+        front: Some(Side {
+            light: paint.tie,
+            shadow: paint.tie_shadow,
+            margin_m: BAND_MARGIN_M,
+        }),
+        back: None,
+        mesh: ORNAMENTS,
+        picture: None,
+    };
+    let mut worn: Vec<Surface> = ties.seen_by(camera).collect();
+    if paint.width_m > 0.0 {
+        let outline = Part {
+            corners: &hull(
+                &ornaments.positions,
+                &ornaments.normals,
+                &[],
+                paint.width_m,
+                camera,
+            ),
+            front: None,
+            back: Some(Side {
+                light: paint.line,
+                shadow: paint.line,
+                margin_m: BAND_MARGIN_M,
+            }),
+            ..ties
+        };
+        worn.extend(outline.seen_by(camera));
+    }
+    worn
+}
