@@ -29,11 +29,15 @@ pub(crate) enum Pass {
     V,
     /// The same across the clump; 16 bits
     W,
+    /// How large hair is drawn: the pixels of a head height there, white at 4096; 16 bits
+    Pixels,
 }
 
-/// Head heights before and behind the camera's distance that `depth` shows, and the length that is white in `s`.
+/// Head heights before and behind the camera's distance that `depth` shows, the length that is white in `s`, and the height of a head that is
+/// white in `pixels`.
 const DEPTH_REACH: f32 = 2.0;
 const LONGEST: f32 = 4.0;
+const LARGEST: f32 = 4096.0;
 
 impl Pass {
     /// What is asked of samples.
@@ -50,6 +54,7 @@ impl Pass {
             Self::S => Feature::S,
             Self::V => Feature::V,
             Self::W => Feature::W,
+            Self::Pixels => Feature::Pixels,
         }
     }
 
@@ -210,6 +215,7 @@ impl Gathered {
             }),
             Pass::U => gray(&|u| u),
             Pass::S => gray(&|s| s / LONGEST),
+            Pass::Pixels => gray(&|pixels| pixels / LARGEST),
             Pass::V | Pass::W => gray(&|place| 0.5 + 0.5 * place),
             Pass::Normal => {
                 let pixel = |[x, y, z, count]: &[f32; 4]| {

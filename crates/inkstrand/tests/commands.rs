@@ -232,6 +232,10 @@ const LINES: &[(&str, &[&str])] = &[
     ),
     ("render --pass u", &["render", "small.ron", "--pass", "u"]),
     ("render --pass s", &["render", "small.ron", "--pass", "s"]),
+    (
+        "render --pass pixels",
+        &["render", "small.ron", "--pass", "pixels"],
+    ),
     ("render --pass v", &["render", "small.ron", "--pass", "v"]),
     ("render --pass w", &["render", "small.ron", "--pass", "w"]),
 ];

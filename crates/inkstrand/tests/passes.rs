@@ -93,6 +93,11 @@ fn numbers_are_in_16_bits() {
     assert!(near - far > 3000, "{far} {near}");
     // Any number of threads draws the same.
     assert_eq!(pass(&folder, "depth", &["--threads", "3"]).0, pixels);
+    // The nearer strand is drawn larger, by a sixteenth of a pixel's steps.
+    let (pixels, _) = pass(&folder, "pixels", &[]);
+    let sizes: BTreeSet<u16> = (0..60).flat_map(|x| shown(&pixels, x)).collect();
+    let (far, near) = (sizes.first().unwrap(), sizes.last().unwrap());
+    assert!(near > far && *near < 60 * 16 * 4, "{far} {near}");
     for name in ["normal", "s", "v", "w"] {
         let (pixels, depth) = pass(&folder, name, &[]);
         assert_eq!(depth, png::BitDepth::Sixteen, "{name}");
@@ -119,6 +124,7 @@ fn a_graphics_card_tells_what_the_cpu_tells() {
     }
     for name in [
         "depth", "normal", "object", "strand", "piece", "layer", "level", "u", "s", "v", "w",
+        "pixels",
     ] {
         let (cpu, depth) = pass(&folder, name, &["--backend", "cpu"]);
         let (card, same) = pass(&folder, name, &by_card);
