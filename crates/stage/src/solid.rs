@@ -27,12 +27,24 @@ impl Solid {
     /// The largest ball near the head's middle that holds no part of the mesh, less a margin; none of a mesh without corners.
     pub fn within(mesh: &Mesh, head: Head) -> Option<Self> {
         let triangles = || (mesh.triangles.iter()).map(|t| t.map(|i| mesh.positions[i as usize]));
+        // No point of a triangle is farther from its first corner than its longer edge there; a little more, for rounding.
+        let reaches: Vec<f32> = triangles()
+            .map(|[a, b, c]| 1.001 * a.distance(b).max(a.distance(c)))
+            .collect();
         let nearest = |center: Vec3| -> Option<Vec3> {
-            let points = triangles().map(|triangle| nearest_on(triangle, center));
-            points.min_by(|a, b| {
-                let (a, b) = (a.distance_squared(center), b.distance_squared(center));
-                a.total_cmp(&b)
-            })
+            let mut best: Option<(f32, Vec3)> = None;
+            for (triangle, reach) in triangles().zip(&reaches) {
+                let least = (0.999 * triangle[0].distance(center) - reach).max(0.0);
+                if best.is_some_and(|(squared, _)| least * least > squared) {
+                    continue;
+                }
+                let point = nearest_on(triangle, center);
+                let squared = point.distance_squared(center);
+                if best.is_none_or(|(best, _)| squared < best) {
+                    best = Some((squared, point));
+                }
+            }
+            best.map(|(_, point)| point)
         };
         let mut best = (head.center, nearest(head.center)?.distance(head.center));
         let mut center = head.center;
