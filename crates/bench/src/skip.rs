@@ -196,14 +196,18 @@ fn fill(scene: &mut Scene, share: f32) {
     scene.camera.distance = 0.5 / (share * half);
 }
 
-/// Strands of the program's own that hang at the back of a head.
+/// Waves of the program's own that hang at the back of a head: straight strands would have few joints in a picture, and the head, which is drawn in
+/// both, would be all that is measured.
 fn back_of_a_head(preset: &Preset) -> Result<Scene, BenchError> {
     let hair =
         |roots: &mut dyn Iterator<Item = Vec3>, length_m: f32| -> Result<HairModel, BenchError> {
             let mut strands = Strands::new();
             for (id, root) in roots.enumerate() {
-                let points = (0..12).map(|i| root + i as f32 / 11.0 * length_m * Vec3::NEG_Y);
-                let points: Vec<Vec3> = points.collect();
+                let point = |i: usize| {
+                    let wave = 0.04 * (2.0 * i as f32).sin() * Vec3::X;
+                    root + length_m * (i as f32 / 11.0 * Vec3::NEG_Y + wave)
+                };
+                let points: Vec<Vec3> = (0..12).map(point).collect();
                 let pushed = strands.push(id as u32, &points, Some(6.0));
                 pushed.map_err(|error| error.to_string())?;
             }
@@ -219,11 +223,11 @@ fn back_of_a_head(preset: &Preset) -> Result<Scene, BenchError> {
     );
     let bald = bald.map_err(|error| error.to_string())?;
     let head = bald.head();
-    let mut roots = (0..60).map(|i| {
-        let (column, row) = (i % 12, i / 12);
+    let mut roots = (0..240).map(|i| {
+        let (column, row) = (i % 24, i / 24);
         let place = Vec3::new(
-            0.02 * (column as f32 - 5.5),
-            0.15 - 0.02 * row as f32,
+            0.01 * (column as f32 - 11.5),
+            0.15 - 0.01 * row as f32,
             -0.46,
         );
         head.center + head.height_m * place
