@@ -28,8 +28,8 @@ pub(crate) struct PaintedMesh {
 /// How a file paints a mesh.
 #[derive(Clone)]
 pub(crate) struct MeshPaint {
-    /// Linear; the picture is multiplied by it.
-    pub color: [f32; 3],
+    /// Linear; the picture is multiplied by it. None where the file says no colours.
+    pub color: Option<[f32; 3]>,
     /// The same away from the light, where the file says it.
     pub shade: Option<[f32; 3]>,
     pub picture: Option<MeshPicture>,
@@ -47,8 +47,8 @@ pub(crate) struct MeshPicture {
 
 impl MeshPaint {
     /// Without colours in the file.
-    const WHITE: Self = Self {
-        color: [1.0; 3],
+    const NONE: Self = Self {
+        color: None,
         shade: None,
         picture: None,
         both_sides: false,
@@ -134,7 +134,7 @@ pub(crate) fn of_model(
     for mesh in model.meshes.iter().filter(|mesh| is_meant(mesh)) {
         let material = mesh.material.and_then(|index| model.materials.get(index));
         let paint = match material {
-            None => MeshPaint::WHITE,
+            None => MeshPaint::NONE,
             Some(material) => paint_of(material, !mesh.uvs.is_empty(), &mut pictures)?,
         };
         let positions = mesh.positions.iter().map(|p| orientation.apply(*p));
@@ -176,7 +176,7 @@ fn paint_of(
         }),
     };
     Ok(MeshPaint {
-        color: [red, green, blue],
+        color: Some([red, green, blue]),
         shade: material.shade_color,
         picture,
         both_sides: material.double_sided,

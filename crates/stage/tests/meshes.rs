@@ -100,6 +100,22 @@ fn a_head_in_its_files_colours() {
     assert_eq!(hue(&picture, 54, 50), [false, true, false]);
 }
 
+/// A file without materials has the colours of the preset.
+#[test]
+fn what_has_no_colour_is_skin() {
+    let folder = folder();
+    let bare = fs::read_to_string(folder.path().join("head.obj")).unwrap();
+    let bare = bare
+        .replace("mtllib a.mtl\n", "")
+        .replace("usemtl Skin\n", "");
+    fs::write(folder.path().join("head.obj"), bare).unwrap();
+    let head = "colors: file, light: \"FF0000\", shadow: \"800000\"";
+    let (surfaces, _) = seen(&mut scene(folder.path(), head, "").unwrap());
+    assert_eq!(surfaces[0].light, [1.0, 0.0, 0.0]);
+    let [red, ..] = surfaces[0].shadow;
+    assert!(red > 0.2 && red < 0.23, "{red}");
+}
+
 #[test]
 fn what_is_beside_a_head_moves_with_it() {
     let folder = folder();

@@ -207,9 +207,13 @@ fn painted_mesh(
             let width_m = section.width * head.unit_m;
             (section.color, [section.shade; 3], section.line, width_m)
         }
-        None => ([1.0; 3], head.shade(), head.line, head.width_m),
+        None => {
+            // What has no colour of its own is skin.
+            let tint = own.color.map_or(head.light, |_| [1.0; 3]);
+            (tint, head.shade(), head.line, head.width_m)
+        }
     };
-    let lit = times(own.color, tint);
+    let lit = times(own.color.unwrap_or([1.0; 3]), tint);
     let shadow = own.shade.map_or(times(lit, shade), |own| times(own, tint));
     let corner = |(position, normal): (&Vec3, &Vec3)| Corner {
         view: camera.view_from_world(*position),
