@@ -213,11 +213,13 @@ mod tests {
 
     /// Scenes of which one thing or another did not hold once: a pressure that stayed where nothing touched (10, 11); links
     /// that only fill a batch and yet failed (85); joints near half a turn where Newton stopped too soon (46, 75, 104, 116,
-    /// 120); energy that steps brought (12, 36, 88, 461, 464).
+    /// 120); energy that steps brought (12, 36, 88, 461, 464); strands that slept beside others that were awake, and lost what they had (982, 1057).
     #[test]
     fn what_failed_once_holds() {
         let bench = Bench::new().unwrap();
-        for seed in [10, 11, 85, 46, 75, 104, 116, 120, 12, 36, 88, 461, 464] {
+        for seed in [
+            10, 11, 85, 46, 75, 104, 116, 120, 12, 36, 88, 461, 464, 982, 1057,
+        ] {
             let done = bench.scene(seed);
             assert!(done.is_ok(), "seed {seed}: {:?}", done.err());
         }

@@ -82,7 +82,9 @@ pub(crate) fn watch<T: Number>(
     if is_new.any() {
         state.ceiling = is_new.pick(whole_energy::<T>(batch, state, &root.pull), state.ceiling);
     }
-    state.pull = Vec3::pick(watched, root.pull, NO_PULL);
+    // What sleeps keeps what it has, as where a whole batch sleeps.
+    let pull = Vec3::pick(watched, root.pull, NO_PULL);
+    state.pull = Vec3::pick(active, pull, state.pull);
     watched
 }
 

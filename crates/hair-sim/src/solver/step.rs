@@ -1,7 +1,7 @@
 //! A step of a batch.
 
 use crate::{
-    lanes::{Number, Vec3},
+    lanes::{Number, Quat, Vec3},
     stats::Stats,
 };
 
@@ -75,9 +75,10 @@ pub(crate) fn advance<T: Number>(
                 carry(rods, batch, state, root.turn_end, aside);
             }
             count_quiet(batch, state, drive, active);
-            state.root = root.root;
-            state.root_velocity = root.velocity;
-            state.base = root.end;
+            // As where a whole batch sleeps: which strands share one decides nothing.
+            state.root = Vec3::pick(asleep, state.root, root.root);
+            state.root_velocity = Vec3::pick(asleep, state.root_velocity, root.velocity);
+            state.base = Quat::pick(asleep, state.base, root.end);
             stats
         },
     )
