@@ -71,7 +71,9 @@ impl Bvh {
     /// The largest of all coordinates, without its sign; 0 for no mesh.
     pub(crate) fn farthest_coordinate(&self) -> f64 {
         let bounds = self.0.bounds();
-        bounds.map_or(0.0, |b| f64::from(b.low.abs().max(b.high.abs()).max_element()))
+        bounds.map_or(0.0, |b| {
+            f64::from(b.low.abs().max(b.high.abs()).max_element())
+        })
     }
 
     /// Calls `hit` for all triangles that a ray meets, in no particular order, until told to stop.
@@ -183,7 +185,7 @@ mod tests {
             Vec3::new(cos, sin, 0.3 * sin)
         }));
         let triangles: Vec<[u32; 3]> = (0..7).map(|i| [0, i + 1, (i + 1) % 7 + 1]).collect();
-        let topology = Topology::new(8, &triangles).unwrap();
+        let topology = Topology::new(&positions, &triangles).unwrap();
         let surface = Surface::new(&topology, &positions).unwrap();
         let bvh = Bvh::new(&surface);
         let eye = Vec3::new(0.2, 0.1, 4.0);
@@ -211,7 +213,7 @@ mod tests {
         ) {
             let mut positions: Vec<Vec3> = corners.iter().map(|c| Vec3::from(c.map(f32::from))).collect();
             let triangles: Vec<[u32; 3]> = (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
-            let topology = Topology::new(positions.len(), &triangles).unwrap();
+            let topology = Topology::new(&positions, &triangles).unwrap();
             let mut bvh = Bvh::new(&Surface::new(&topology, &positions).unwrap());
             for (i, position) in positions.iter_mut().enumerate() {
                 *position += Vec3::from(shift) * (i % 5) as f32;

@@ -1,29 +1,29 @@
 //! Where something changes its sign on a surface: zero sets, and contours as those of the angle to the eye.
 
-use crate::{
-    Beside, Kind, Line, LinePoint, MeshError, Place, Segment, Surface, Topology, View,
-};
+use crate::{Beside, Kind, Line, LinePoint, MeshError, Place, Segment, Surface, Topology, View};
 
-/// f: how far the surface faces the eye at each vertex, `n . c`. Positive towards the eye; 0 at contours (W 5.4, after Hertzmann and Zorin,
+/// f: how far the surface faces the eye at each smooth vertex, `n . c`. Positive towards the eye; 0 at contours (W 5.4, after Hertzmann and Zorin,
 /// *Illustrating smooth surfaces*, 2000, section 4.1).
 #[must_use]
 pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
-    surface
-        .positions()
-        .iter()
-        .zip(surface.normals())
-        .map(|(position, normal)| normal.as_dvec3().dot(view.towards(position.as_dvec3())))
+    let topology = surface.topology();
+    let normals = surface.normals().iter().enumerate();
+    normals
+        .map(|(smooth, normal)| {
+            let position = surface.position(topology.vertex(smooth) as u32);
+            normal.as_dvec3().dot(view.towards(position))
+        })
         .collect()
 }
 
 /// The contours of a surface, as smooth as its normals: all lines on which [`facing`] is 0, whole, hidden or not. `facing` is that of the same surface and view.
 ///
-/// On a closed surface all are closed. Where the surface bends the other way along the line of sight (the far side of
+/// On a closed surface without sharp edges all are closed. Where the surface bends the other way along the line of sight (the far side of
 /// a fold) segments are [`Segment::folded`]: grad f . c <= 0, of the mean gradient around each vertex. A joint is where that changes, the *cusp*.
 ///
 /// # Errors
 ///
-/// When `facing` has not one finite number for each vertex.
+/// When `facing` has not one finite number for each smooth vertex.
 pub fn contours(surface: &Surface, view: &View, facing: &[f64]) -> Result<Vec<Line>, MeshError> {
     let mut lines = zero_set(surface, facing)?;
     for line in &mut lines {
@@ -32,22 +32,22 @@ pub fn contours(surface: &Surface, view: &View, facing: &[f64]) -> Result<Vec<Li
     Ok(lines)
 }
 
-/// The lines on which a function is 0 that is linear within triangles and given at the vertices, as chains of one segment for each triangle that has both
+/// The lines on which a function is 0 that is linear within triangles and given at the smooth vertices, as chains of one segment for each triangle that has both
 /// signs. A vertex at which it is exactly 0 counts as positive.
 ///
-/// On a surface whose triangles have neighbours on all sides every line is closed. Others end at borders, and at edges of three triangles or more.
+/// On a surface whose triangles have neighbours on all sides every line is closed. Others end at borders and at sharp edges.
 /// Lines run so that the positive side is on their left, seen from the front.
 ///
 /// # Errors
 ///
-/// When there is not one finite number for each vertex.
+/// When there is not one finite number for each smooth vertex.
 pub fn zero_set(surface: &Surface, values: &[f64]) -> Result<Vec<Line>, MeshError> {
     let topology = surface.topology();
-    if values.len() != topology.vertices() {
+    if values.len() != topology.smooth_vertices() {
         return Err(MeshError::Count {
             what: "values",
             found: values.len(),
-            vertices: topology.vertices(),
+            vertices: topology.smooth_vertices(),
         });
     }
     if let Some(index) = values.iter().position(|value| !value.is_finite()) {
@@ -63,7 +63,7 @@ pub fn zero_set(surface: &Surface, values: &[f64]) -> Result<Vec<Line>, MeshErro
     };
     let mut traced = vec![0u64; topology.triangles().len().div_ceil(64)];
     let mut lines = Vec::new();
-    for (triangle, corners) in (0..).zip(topology.triangles()) {
+    for (triangle, corners) in (0..).zip(topology.smooth_corners()) {
         let [a, b, c] = corners.map(|vertex| values[vertex as usize] >= 0.0);
         if (a != b || b != c) && !is_set(&traced, triangle) {
             lines.push(crossings.line(triangle, &mut traced));
@@ -110,8 +110,16 @@ impl Crossings<'_> {
     }
 
     /// Goes on from a half-edge through which a line leaves its triangle, and says if it came back to a triangle traced before.
-    fn follow(&self, mut exit: u32, traced: &mut [u64], mut add: impl FnMut(LinePoint, u32)) -> bool {
+    fn follow(
+        &self,
+        mut exit: u32,
+        traced: &mut [u64],
+        mut add: impl FnMut(LinePoint, u32),
+    ) -> bool {
         while let Beside::Twin(twin) = self.topology.beside(exit) {
+            if self.topology.is_sharp(exit) {
+                break;
+            }
             let triangle = twin / 3;
             if is_set(traced, triangle) {
                 return true;
@@ -129,7 +137,7 @@ impl Crossings<'_> {
     fn sides(&self, triangle: u32) -> [u32; 2] {
         let mut sides = [triangle * 3; 2];
         for half_edge in triangle * 3..triangle * 3 + 3 {
-            match self.topology.ends(half_edge).map(|vertex| self.values[vertex as usize] >= 0.0) {
+            match self.values_at(half_edge).map(|value| value >= 0.0) {
                 [true, false] => sides[0] = half_edge,
                 [false, true] => sides[1] = half_edge,
                 _ => {}
@@ -141,14 +149,25 @@ impl Crossings<'_> {
     /// Where the line crosses an edge: the same point, bit for bit, whichever half of it is asked.
     fn point(&self, half_edge: u32) -> LinePoint {
         let [from, to] = self.topology.ends(half_edge);
-        let [low, high] = [from.min(to), from.max(to)];
-        let [a, b] = [low, high].map(|vertex| self.values[vertex as usize]);
-        let share = a / (a - b);
-        let [p, q] = [low, high].map(|vertex| self.surface.position(vertex));
+        let [value, other] = self.values_at(half_edge);
+        let [p, q] = [from, to].map(|vertex| self.surface.position(vertex));
+        let share = value / (value - other);
+        let from_lower = from < to;
         LinePoint {
-            position: p + (q - p) * share,
-            place: Place::on_edge(half_edge, if from == low { share } else { 1.0 - share }),
+            position: if from_lower {
+                p + (q - p) * share
+            } else {
+                q + (p - q) * (other / (other - value))
+            },
+            place: Place::on_edge(half_edge, share),
         }
+    }
+
+    /// The values at the two ends of a half-edge.
+    fn values_at(&self, half_edge: u32) -> [f64; 2] {
+        let smooth = self.topology.smooth_corners()[half_edge as usize / 3];
+        let corner = half_edge as usize % 3;
+        [smooth[corner], smooth[(corner + 1) % 3]].map(|vertex| self.values[vertex as usize])
     }
 }
 
@@ -165,10 +184,12 @@ fn mark_folds(line: &mut Line, surface: &Surface, view: &View, facing: &[f64]) {
         .points
         .iter()
         .map(|point| {
-            let vertices = surface.topology().triangles()[point.place.triangle as usize];
+            let vertices = surface.topology().smooth_corners()[point.place.triangle as usize];
             (0..3)
                 .filter(|&corner| point.place.weights[corner] != 0.0)
-                .map(|corner| point.place.weights[corner] * bend(vertices[corner], surface, view, facing))
+                .map(|corner| {
+                    point.place.weights[corner] * bend(vertices[corner], surface, view, facing)
+                })
                 .sum()
         })
         .collect();
@@ -204,18 +225,22 @@ fn mark_folds(line: &mut Line, surface: &Surface, view: &View, facing: &[f64]) {
     }
 }
 
-/// grad f . c at a vertex, by the mean of the gradients around it, weighted by area: positive where the surface bends away from the line of sight.
-fn bend(vertex: u32, surface: &Surface, view: &View, facing: &[f64]) -> f64 {
-    let towards = view.towards(surface.position(vertex));
+/// grad f . c at a smooth vertex, by the mean of the gradients around it, weighted by area: positive where the surface bends away from the line of sight.
+fn bend(smooth_vertex: u32, surface: &Surface, view: &View, facing: &[f64]) -> f64 {
     let topology = surface.topology();
+    let vertex = topology.vertex(smooth_vertex as usize) as u32;
+    let towards = view.towards(surface.position(vertex));
     let mut sum = 0.0;
     let mut weight = 0.0;
     for half_edge in topology.around(vertex) {
         let triangle = half_edge / 3;
-        let area = surface.area_normal(triangle).length();
-        let at_corners = topology.triangles()[triangle as usize].map(|v| facing[v as usize]);
-        sum += surface.gradient(triangle, at_corners).dot(towards) * area;
-        weight += area;
+        let smooth = topology.smooth_corners()[triangle as usize];
+        if smooth.contains(&smooth_vertex) {
+            let area = surface.area_normal(triangle).length();
+            let at_corners = smooth.map(|v| facing[v as usize]);
+            sum += surface.gradient(triangle, at_corners).dot(towards) * area;
+            weight += area;
+        }
     }
     if weight > 0.0 { sum / weight } else { 0.0 }
 }

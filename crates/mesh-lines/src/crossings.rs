@@ -1,7 +1,7 @@
 //! Where lines cross each other in the image.
 
 use crate::{
-    Kind, Line, View,
+    Beside, Kind, Line, Surface, View,
     tree::{Box3, Tree},
 };
 use glam::{DVec3, Vec3};
@@ -10,15 +10,16 @@ use std::ops::ControlFlow;
 /// Rounding of a place in the image to f32, relative to its size.
 const ROUNDING: f32 = 1e-6;
 
-/// Of each line the places along it ([`Line::position`]) where it passes behind something that may hide it, in order: where it crosses a contour that isn't folded
-/// or a border that the eye doesn't see clearly behind it.
+/// Of each line the places along it ([`Line::position`]) where it passes behind something that may hide it, in no order: where it crosses a contour,
+/// a border, or an edge of which one triangle faces the eye and the other doesn't; unless the eye sees that clearly behind it. Folds inside of what is closed neither
+/// hide nor are seen.
 ///
 /// Pieces of lines that could cross are found by a tree of their boxes in the image: near to linear in pieces and crossings.
-pub(crate) fn crossings(lines: &[Line], view: &View) -> Vec<Vec<f64>> {
+pub(crate) fn crossings(surface: &Surface, lines: &[Line], view: &View) -> Vec<Vec<f64>> {
     let mut hiding = Vec::new();
     let mut boxes = Vec::new();
-    for (number, line) in lines.iter().enumerate().filter(|(_, line)| line.kind != Kind::Crease) {
-        for segment in (0..line.segments.len()).filter(|&i| !line.segments[i].folded) {
+    for (number, line) in lines.iter().enumerate() {
+        for segment in (0..line.segments.len()).filter(|&i| hides(surface, view, line, i)) {
             let [from, to] = line.ends(segment).map(|end| end.position);
             hiding.push((number, segment));
             boxes.push(image_box(view, from, to));
@@ -27,7 +28,7 @@ pub(crate) fn crossings(lines: &[Line], view: &View) -> Vec<Vec<f64>> {
     let tree = Tree::new(&boxes);
     let mut crossings = vec![Vec::new(); lines.len()];
     for (number, line) in lines.iter().enumerate() {
-        for segment in (0..line.segments.len()).filter(|&i| !line.segments[i].folded) {
+        for segment in (0..line.segments.len()).filter(|&i| !line.segments[i].is_inside(surface)) {
             let [from, to] = line.ends(segment).map(|end| end.position);
             let here = image_box(view, from, to);
             tree.visit(
@@ -44,9 +45,32 @@ pub(crate) fn crossings(lines: &[Line], view: &View) -> Vec<Vec<f64>> {
                 },
             );
         }
-        crossings[number].sort_by(f64::total_cmp);
     }
     crossings
+}
+
+/// True if something behind a segment may be seen on one side of it and hidden on the other.
+fn hides(surface: &Surface, view: &View, line: &Line, segment: usize) -> bool {
+    let at = line.segments[segment];
+    if line.kind != Kind::Crease {
+        return !at.is_inside(surface);
+    }
+    let topology = surface.topology();
+    let [from, to] = line.ends(segment).map(|end| end.place.vertex(surface));
+    let is_it = |half_edge: &u32| {
+        let mut ends = topology.ends(*half_edge);
+        ends.sort_unstable();
+        ends == [from.min(to), from.max(to)]
+    };
+    let half_edge = (at.triangle * 3..at.triangle * 3 + 3).find(is_it);
+    match half_edge.map(|half_edge| topology.beside(half_edge)) {
+        Some(Beside::Twin(twin)) => {
+            let towards = view.towards(line.points[segment].position);
+            let [a, b] = [at.triangle, twin / 3].map(|t| surface.area_normal(t).dot(towards));
+            (a > 0.0) != (b > 0.0)
+        }
+        _ => true,
+    }
 }
 
 /// True if two segments of a line are the same, or have a joint in common.

@@ -22,20 +22,21 @@ impl Curvature {
     }
 }
 
-/// The principal curvatures at each vertex, by the differences of normals along the edges of the triangles around it.
+/// The principal curvatures at each smooth vertex, by the differences of normals along the edges of the triangles around it.
 ///
 /// Rusinkiewicz, *Estimating curvatures and their derivatives on triangle meshes* (2004), section 3: of each triangle the second fundamental form that fits best, turned
 /// into the tangent plane of each corner, and there the mean by area.
 #[must_use]
 pub fn curvatures(surface: &Surface) -> Vec<Curvature> {
-    let mut sums = vec![(DMat3::ZERO, 0.0); surface.positions().len()];
-    for (triangle, corners) in (0..).zip(surface.topology().triangles()) {
+    let mut sums = vec![(DMat3::ZERO, 0.0); surface.normals().len()];
+    for (triangle, corners) in (0..).zip(surface.topology().smooth_corners()) {
         let Some((form, normal, area)) = form_of_triangle(surface, triangle) else {
             continue;
         };
         for &vertex in corners {
             let at_vertex = surface.normals()[vertex as usize].as_dvec3();
-            let turn = DMat3::from_quat(DQuat::from_rotation_arc(normal, unit_or(at_vertex, normal)));
+            let turn =
+                DMat3::from_quat(DQuat::from_rotation_arc(normal, unit_or(at_vertex, normal)));
             let (sum, weight) = &mut sums[vertex as usize];
             *sum += turn * form * turn.transpose() * area;
             *weight += area;
@@ -58,13 +59,15 @@ fn form_of_triangle(surface: &Surface, triangle: u32) -> Option<(DMat3, DVec3, f
     let area_normal = surface.area_normal(triangle);
     let normal = area_normal.try_normalize()?;
     let corners = surface.corners(triangle);
-    let normals = surface.topology().triangles()[triangle as usize]
-        .map(|vertex| surface.normals()[vertex as usize].as_dvec3());
+    let normals = surface.corner_normals(triangle);
     let u = (corners[1] - corners[0]).try_normalize()?;
     let v = normal.cross(u);
     // Least squares for a, b, c of ((a, b), (b, c)) (x, y) = (p, q), edge by edge, in units of the longest one.
     let edges = [(0, 1), (1, 2), (2, 0)];
-    let unit = edges.map(|(i, j)| corners[i].distance(corners[j])).into_iter().fold(0.0, f64::max);
+    let unit = edges
+        .map(|(i, j)| corners[i].distance(corners[j]))
+        .into_iter()
+        .fold(0.0, f64::max);
     let mut matrix = DMat3::ZERO;
     let mut right = DVec3::ZERO;
     for (i, j) in edges {

@@ -8,27 +8,17 @@ pub const CREASE_COSINE: f64 = 0.766_044_443_118_978;
 /// Cosine of 60 degrees, by which a chain of edges turns less.
 pub const TURN_COSINE: f64 = 0.5;
 
-/// The edges at which the angle between the two triangles' normals has a cosine below `crease_cosine` ([`CREASE_COSINE`]), and those of three triangles
-/// or more. Each edge is in one line, once.
+/// The sharp edges of a mesh ([`crate::Topology::with_creases`]), and those of three triangles or more. Each edge is in one line, once.
 ///
-/// Edges are chained where they go on most nearly straight, and by an angle whose cosine is above `turn_cosine` ([`TURN_COSINE`]). What is NaN is no cosine: there are no creases, no chains.
+/// Edges are chained where they go on most nearly straight, and by an angle whose cosine is above `turn_cosine` ([`TURN_COSINE`]). What is NaN is no cosine: there are no chains.
 #[must_use]
-pub fn creases(surface: &Surface, crease_cosine: f64, turn_cosine: f64) -> Vec<Line> {
+pub fn creases(surface: &Surface, turn_cosine: f64) -> Vec<Line> {
     let topology = surface.topology();
-    let is_sharp = |half_edge: u32, twin: u32| {
-        let [a, b] = [half_edge, twin].map(|h| surface.area_normal(h / 3));
-        // Triangles without area have no angle. Neighbours that are wound against each other (on a Möbius strip) have that of one turned.
-        let alike = topology.ends(half_edge)[0] != topology.ends(twin)[0];
-        let cosine = a.normalize_or_zero().dot(b.normalize_or_zero());
-        let cosine = if alike { cosine } else { -cosine };
-        a.length_squared() > 0.0 && b.length_squared() > 0.0 && cosine < crease_cosine
+    let is_first = |half_edge: &u32| match topology.beside(*half_edge) {
+        Beside::Twin(twin) => *half_edge < twin,
+        _ => false,
     };
-    let mut edges: Vec<u32> = (0..topology.triangles().len() as u32 * 3)
-        .filter(|&half_edge| match topology.beside(half_edge) {
-            Beside::Twin(twin) => half_edge < twin && is_sharp(half_edge, twin),
-            _ => false,
-        })
-        .collect();
+    let mut edges: Vec<u32> = topology.sharp().iter().copied().filter(is_first).collect();
     edges.extend(topology.non_manifold_edges().iter().map(|edge| edge[0]));
     edges.sort_unstable();
     chains(surface, &edges, Kind::Crease, turn_cosine)
@@ -132,7 +122,9 @@ fn joins(surface: &Surface, edges: &[u32], turn_cosine: f64) -> Vec<[Option<End>
         .collect();
     ends.sort_unstable();
     let leaving = |(edge, end): End| {
-        let [from, to] = topology.ends(edges[edge]).map(|vertex| surface.position(vertex));
+        let [from, to] = topology
+            .ends(edges[edge])
+            .map(|vertex| surface.position(vertex));
         let direction = (to - from).normalize_or_zero();
         if end == 0 { direction } else { -direction }
     };

@@ -5,6 +5,7 @@ mod crossings;
 mod curvature;
 mod edges;
 mod error;
+mod junctions;
 mod line;
 mod surface;
 mod topology;

@@ -41,15 +41,26 @@ pub struct LinePoint {
 pub struct Segment {
     /// The triangle through which it runs; of an edge the lowest one of those beside it.
     pub triangle: u32,
-    /// True if it is the far side of a fold, which the surface before it hides: of contours alone.
+    /// True if the surface bends towards the line of sight, seen from the front: then only an eye behind the surface could see it. Of contours alone.
     pub folded: bool,
+}
+
+impl Segment {
+    /// True if it is within what is closed: nobody sees it.
+    #[must_use]
+    pub fn is_inside(&self, surface: &Surface) -> bool {
+        self.folded && surface.topology().is_closed(self.triangle)
+    }
 }
 
 impl Line {
     /// The two joints of a segment.
     #[must_use]
     pub fn ends(&self, segment: usize) -> [&LinePoint; 2] {
-        [&self.points[segment], &self.points[(segment + 1) % self.points.len()]]
+        [
+            &self.points[segment],
+            &self.points[(segment + 1) % self.points.len()],
+        ]
     }
 
     /// The point at a place along the line: the segment's index and the share of the way along it, as one number.
@@ -75,7 +86,9 @@ impl Line {
     pub fn place(&self, surface: &Surface, along: f64) -> Place {
         let (segment, share) = self.segment(along);
         let triangle = self.segments[segment].triangle;
-        let [from, to] = self.ends(segment).map(|end| within(surface, end.place, triangle));
+        let [from, to] = self
+            .ends(segment)
+            .map(|end| within(surface, end.place, triangle));
         from.mix(to, share)
     }
 

@@ -35,6 +35,12 @@ impl Place {
         }
     }
 
+    /// The vertex on which it lies, or the nearest by weight.
+    #[must_use]
+    pub fn vertex(self, surface: &Surface) -> u32 {
+        surface.topology().triangles()[self.triangle as usize][self.weights.max_position()]
+    }
+
     /// The place a share (0 to 1) of the way to another one in the same triangle.
     #[must_use]
     pub fn mix(self, other: Self, share: f64) -> Self {
@@ -46,14 +52,15 @@ impl Place {
 }
 
 impl<'a> Surface<'a> {
-    /// A mesh whose normals are made of those of the triangles around each vertex, with the weights of Max (*Weights for computing vertex normals from
+    /// A mesh whose normals are made of those of the triangles around each smooth vertex, with the weights of Max (*Weights for computing vertex normals from
     /// facet normals*, 1999): exact for vertices on a sphere. A vertex without a triangle that has an area has the normal 0.
     ///
     /// # Errors
     ///
     /// When there is not one position for each vertex, or one isn't finite.
     pub fn new(topology: &'a Topology, positions: &'a [Vec3]) -> Result<Self, MeshError> {
-        check("positions", "position", topology, positions)?;
+        check_count("positions", positions.len(), topology.vertices())?;
+        check_positions(positions)?;
         let normals = Cow::Owned(normals(topology, positions));
         Ok(Self {
             topology,
@@ -62,19 +69,21 @@ impl<'a> Surface<'a> {
         })
     }
 
-    /// A mesh with normals of its own (of length 1, one a vertex; 0 where there is none), as of a surface known exactly. They point to the side from
+    /// A mesh with normals of its own (of length 1, one a smooth vertex; 0 where there is none), as of a surface known exactly. They point to the side from
     /// which the triangles of [`Topology::triangles`] are counter-clockwise.
     ///
     /// # Errors
     ///
-    /// When there is not one position and one normal for each vertex, or one isn't finite.
+    /// When there is not one position for each vertex and one normal for each smooth one, or one isn't finite.
     pub fn with_normals(
         topology: &'a Topology,
         positions: &'a [Vec3],
         normals: &'a [Vec3],
     ) -> Result<Self, MeshError> {
-        check("positions", "position", topology, positions)?;
-        check("normals", "normal", topology, normals)?;
+        check_count("positions", positions.len(), topology.vertices())?;
+        check_count("normals", normals.len(), topology.smooth_vertices())?;
+        check_positions(positions)?;
+        check_finite("normal", normals)?;
         Ok(Self {
             topology,
             positions,
@@ -94,7 +103,7 @@ impl<'a> Surface<'a> {
         self.positions
     }
 
-    /// The normals of the vertices: unit vectors, or 0.
+    /// The normals of the smooth vertices: unit vectors, or 0.
     #[must_use]
     pub fn normals(&self) -> &[Vec3] {
         &self.normals
@@ -114,6 +123,13 @@ impl<'a> Surface<'a> {
         self.topology.triangles()[triangle as usize].map(|vertex| self.position(vertex))
     }
 
+    /// The normals at a triangle's corners.
+    #[must_use]
+    pub fn corner_normals(&self, triangle: u32) -> [DVec3; 3] {
+        let smooth = self.topology.smooth_corners()[triangle as usize];
+        smooth.map(|vertex| self.normals[vertex as usize].as_dvec3())
+    }
+
     /// Where a place is.
     #[must_use]
     pub fn point(&self, place: Place) -> DVec3 {
@@ -124,8 +140,7 @@ impl<'a> Surface<'a> {
     /// The normal at a place: between those of the corners; of length 1, or 0.
     #[must_use]
     pub fn normal(&self, place: Place) -> DVec3 {
-        let [a, b, c] = self.topology.triangles()[place.triangle as usize]
-            .map(|vertex| self.normals[vertex as usize].as_dvec3());
+        let [a, b, c] = self.corner_normals(place.triangle);
         (a * place.weights.x + b * place.weights.y + c * place.weights.z).normalize_or_zero()
     }
 
@@ -155,8 +170,7 @@ impl<'a> Surface<'a> {
     #[must_use]
     pub fn sagitta(&self, triangle: u32) -> f64 {
         let corners = self.corners(triangle);
-        let vertices = self.topology.triangles()[triangle as usize];
-        let normals = vertices.map(|vertex| self.normals[vertex as usize].as_dvec3());
+        let normals = self.corner_normals(triangle);
         [(0, 1), (1, 2), (2, 0)]
             .map(|(i, j)| ((normals[j] - normals[i]).dot(corners[j] - corners[i]) / 8.0).abs())
             .into_iter()
@@ -164,28 +178,32 @@ impl<'a> Surface<'a> {
     }
 }
 
-fn check(
-    what: &'static str,
-    one: &'static str,
-    topology: &Topology,
-    list: &[Vec3],
-) -> Result<(), MeshError> {
-    if list.len() != topology.vertices() {
-        return Err(MeshError::Count {
+fn check_count(what: &'static str, found: usize, vertices: usize) -> Result<(), MeshError> {
+    if found == vertices {
+        Ok(())
+    } else {
+        Err(MeshError::Count {
             what,
-            found: list.len(),
-            vertices: topology.vertices(),
-        });
+            found,
+            vertices,
+        })
     }
+}
+
+pub(crate) fn check_positions(positions: &[Vec3]) -> Result<(), MeshError> {
+    check_finite("position", positions)
+}
+
+fn check_finite(what: &'static str, list: &[Vec3]) -> Result<(), MeshError> {
     match list.iter().position(|place| !place.is_finite()) {
-        Some(index) => Err(MeshError::NotFinite { what: one, index }),
+        Some(index) => Err(MeshError::NotFinite { what, index }),
         None => Ok(()),
     }
 }
 
 fn normals(topology: &Topology, positions: &[Vec3]) -> Vec<Vec3> {
-    let mut sums = vec![DVec3::ZERO; positions.len()];
-    for corners in topology.triangles() {
+    let mut sums = vec![DVec3::ZERO; topology.smooth_vertices()];
+    for (corners, smooth) in topology.triangles().iter().zip(topology.smooth_corners()) {
         let [a, b, c] = corners.map(|vertex| positions[vertex as usize].as_dvec3());
         let edges = [b - a, c - b, a - c];
         let squared = edges.map(DVec3::length_squared);
@@ -196,7 +214,7 @@ fn normals(topology: &Topology, positions: &[Vec3]) -> Vec<Vec3> {
         for corner in 0..3 {
             // The corner lies between the edge that leaves it and the one before.
             let weight = 1.0 / squared[corner] / squared[(corner + 2) % 3];
-            sums[corners[corner] as usize] += normal * weight;
+            sums[smooth[corner] as usize] += normal * weight;
         }
     }
     sums.into_iter()
@@ -221,7 +239,7 @@ mod tests {
         .map(Vec3::normalize);
         let positions = directions.map(|direction| center + direction * 2.5);
         let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-        let topology = Topology::new(4, &triangles).unwrap();
+        let topology = Topology::new(&positions, &triangles).unwrap();
         let surface = Surface::new(&topology, &positions).unwrap();
         for (normal, direction) in surface.normals().iter().zip(directions) {
             assert!(normal.distance(direction) < 1e-5 || normal.distance(-direction) < 1e-5);
@@ -230,25 +248,32 @@ mod tests {
 
     #[test]
     fn gradients_are_those_of_linear_functions() {
-        let positions = [Vec3::new(0.3, 0.1, 2.0), Vec3::new(1.3, -0.4, 2.5), Vec3::new(0.2, 0.9, 1.0)];
-        let topology = Topology::new(3, &[[0, 1, 2]]).unwrap();
+        let positions = [
+            Vec3::new(0.3, 0.1, 2.0),
+            Vec3::new(1.3, -0.4, 2.5),
+            Vec3::new(0.2, 0.9, 1.0),
+        ];
+        let topology = Topology::new(&positions, &[[0, 1, 2]]).unwrap();
         let surface = Surface::new(&topology, &positions).unwrap();
         let slope = DVec3::new(1.0, -2.0, 0.5);
         let gradient = surface.gradient(0, surface.corners(0).map(|corner| corner.dot(slope)));
         // What of the slope lies in the triangle.
         let normal = surface.area_normal(0).normalize();
         assert!(gradient.distance(slope - normal * normal.dot(slope)) < 1e-12);
-        assert_eq!(surface.gradient(0, [1.0; 3]).length() < 1e-12, true);
+        assert!(surface.gradient(0, [1.0; 3]).length() < 1e-12);
     }
 
     #[test]
     fn bad_lists_are_refused() {
-        let topology = Topology::new(2, &[]).unwrap();
+        let topology = Topology::new(&[Vec3::ZERO; 2], &[]).unwrap();
         let bad = [Vec3::ZERO, Vec3::new(0.0, f32::NAN, 0.0)];
         let error = Surface::new(&topology, &bad).unwrap_err();
         assert_eq!(error.to_string(), "position 1 is NaN or infinite");
         let error = Surface::new(&topology, &bad[..1]).unwrap_err();
-        assert_eq!(error.to_string(), "there are 1 positions for 2 vertices: there must be one each");
+        assert_eq!(
+            error.to_string(),
+            "there are 1 positions for 2 vertices: there must be one each"
+        );
         assert!(Surface::with_normals(&topology, &[Vec3::X; 2], &bad).is_err());
     }
 
@@ -256,7 +281,7 @@ mod tests {
     fn tiny_and_huge_meshes_have_normals() {
         for size in [1e-38, 1e37] {
             let positions = [Vec3::ZERO, Vec3::X * size, Vec3::Y * size];
-            let topology = Topology::new(3, &[[0, 1, 2]]).unwrap();
+            let topology = Topology::new(&positions, &[[0, 1, 2]]).unwrap();
             let surface = Surface::new(&topology, &positions).unwrap();
             assert!(surface.normals().iter().all(|normal| *normal == Vec3::Z));
         }

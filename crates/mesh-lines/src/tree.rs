@@ -88,8 +88,14 @@ impl Tree {
                 parent.at = number;
             }
             let items = &mut order[range.clone()];
-            let bounds = items.iter().fold(Box3::EMPTY, |all, &i| all.with(boxes[i as usize]));
-            let split = if items.len() > LEAF { split(items, boxes, &centers) } else { items.len() };
+            let bounds = items
+                .iter()
+                .fold(Box3::EMPTY, |all, &i| all.with(boxes[i as usize]));
+            let split = if items.len() > LEAF {
+                split(items, boxes, &centers)
+            } else {
+                items.len()
+            };
             let is_leaf = split == items.len();
             tree.nodes.push(Node {
                 bounds,
@@ -116,9 +122,13 @@ impl Tree {
         for number in (0..self.nodes.len()).rev() {
             let node = self.nodes[number];
             self.nodes[number].bounds = if node.items > 0 {
-                self.items(&node).iter().fold(Box3::EMPTY, |all, &i| all.with(box_of(i)))
+                self.items(&node)
+                    .iter()
+                    .fold(Box3::EMPTY, |all, &i| all.with(box_of(i)))
             } else {
-                self.nodes[number + 1].bounds.with(self.nodes[node.at as usize].bounds)
+                self.nodes[number + 1]
+                    .bounds
+                    .with(self.nodes[node.at as usize].bounds)
             };
         }
     }
@@ -141,7 +151,12 @@ impl Tree {
             }
             if node.items == 0 {
                 open.extend([node.at, number + 1]);
-            } else if self.items(node).iter().try_for_each(|&i| item(i)).is_break() {
+            } else if self
+                .items(node)
+                .iter()
+                .try_for_each(|&i| item(i))
+                .is_break()
+            {
                 return;
             }
         }
@@ -173,8 +188,14 @@ fn split(items: &mut [u32], boxes: &[Box3], centers: &[Vec3]) -> usize {
         *count += 1;
     }
     let cost = |part: &[(Box3, usize)]| {
-        let all = part.iter().fold((Box3::EMPTY, 0), |all, one| (all.0.with(one.0), all.1 + one.1));
-        if all.1 == 0 { f64::INFINITY } else { all.0.half_area() * all.1 as f64 }
+        let all = part.iter().fold((Box3::EMPTY, 0), |all, one| {
+            (all.0.with(one.0), all.1 + one.1)
+        });
+        if all.1 == 0 {
+            f64::INFINITY
+        } else {
+            all.0.half_area() * all.1 as f64
+        }
     };
     // The first and the last slice have an item each: there is always a finite cost.
     let cut = (1..SLICES)

@@ -1,10 +1,12 @@
 //! What of each line the eye sees.
 //!
-//! A line goes from seen to hidden, or back, only where it crosses a nearer contour or border in the image, and at a contour's cusps (Bénard and Hertzmann, *Line
+//! A line goes from seen to hidden, or back, only where it crosses a nearer contour or border in the image, where it meets another line on the surface, and at a contour's cusps (Bénard and Hertzmann, *Line
 //! drawings from 3D models*, 2019, chapter on visibility). Between two such events three rays decide for the whole piece: what single rays get wrong
 //! near the horizon, where triangles stand before and behind the smooth surface, makes no gaps.
 
-use crate::{Bvh, Kind, Line, MeshError, Ray, Surface, View, crossings::crossings};
+use crate::{
+    Bvh, Kind, Line, MeshError, Ray, Surface, View, crossings::crossings, junctions::junctions,
+};
 use glam::DVec3;
 
 /// Where rays are shot in a piece between two events, as shares of its length in the image.
@@ -42,7 +44,7 @@ pub enum Cut {
 
 /// What the eye sees of lines, by line and in order along each.
 ///
-/// `lines` are all that there are: contours of this view and borders hide others, creases don't. `bvh` is that of `surface`. Pieces that are
+/// `lines` are all that there are, since they hide each other: contours of this view, borders, and creases where the mesh has sharp edges. `bvh` is that of `surface`. Pieces that are
 /// shorter than `shortest` in the image ([`View`]; a pixel, or 0) become as the longer one of their neighbours. Everything counts that lies between a line and
 /// the eye, also near to it; of what is to hide each other, make one mesh.
 ///
@@ -65,14 +67,18 @@ pub fn visible(
     }
     let rays = Rays::new(surface, bvh, view);
     let mut spans = Vec::new();
-    for (number, (line, crossings)) in lines.iter().zip(crossings(lines, view)).enumerate() {
+    let mut events = crossings(surface, lines, view);
+    for (events, junctions) in events.iter_mut().zip(junctions(surface, lines)) {
+        events.extend(junctions);
+    }
+    for (number, (line, events)) in lines.iter().zip(events).enumerate() {
         if line.segments.is_empty() {
             continue;
         }
         let lengths = line.image_lengths(view);
-        let mut pieces = pieces(line, &crossings, &lengths);
+        let mut pieces = pieces(surface, line, &events, &lengths);
         for piece in &mut pieces {
-            piece.seen = !piece.folded && rays.see_most(line, piece, &lengths);
+            piece.seen = !piece.inside && rays.see_most(line, piece, &lengths);
         }
         join_short(&mut pieces, shortest);
         spans.extend(seen_spans(line, number, &pieces));
@@ -80,15 +86,15 @@ pub fn visible(
     Ok(spans)
 }
 
-/// True if nothing lies between the eye and a place along a line: one ray, as [`visible`] shoots three for each piece. Folds are never seen.
+/// True if nothing lies between the eye and a place along a line: one ray, as [`visible`] shoots three for each piece. The inside of what is closed is never seen.
 ///
 /// # Panics
 ///
 /// When the line has no segments.
 #[must_use]
 pub fn is_seen(surface: &Surface, bvh: &Bvh, view: &View, line: &Line, along: f64) -> bool {
-    let folded = line.segments[line.segment(along).0].folded;
-    !folded && Rays::new(surface, bvh, view).see(line, along)
+    let inside = line.segments[line.segment(along).0].is_inside(surface);
+    !inside && Rays::new(surface, bvh, view).see(line, along)
 }
 
 /// A piece of a line between two events.
@@ -98,16 +104,20 @@ struct Piece {
     end: f64,
     /// In the image.
     length: f64,
-    folded: bool,
+    inside: bool,
     seen: bool,
 }
 
-/// Cuts a line where it crosses others and at its cusps.
-fn pieces(line: &Line, crossings: &[f64], lengths: &[f64]) -> Vec<Piece> {
+/// Cuts a line at events: where it crosses or meets others, and at its cusps.
+fn pieces(surface: &Surface, line: &Line, events: &[f64], lengths: &[f64]) -> Vec<Piece> {
     let count = line.segments.len();
     let mut cuts = vec![0.0];
-    cuts.extend_from_slice(crossings);
-    cuts.extend((1..count).filter(|&i| line.segments[i - 1].folded != line.segments[i].folded).map(|i| i as f64));
+    cuts.extend_from_slice(events);
+    cuts.extend(
+        (1..count)
+            .filter(|&i| line.segments[i - 1].folded != line.segments[i].folded)
+            .map(|i| i as f64),
+    );
     cuts.push(count as f64);
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
@@ -116,7 +126,7 @@ fn pieces(line: &Line, crossings: &[f64], lengths: &[f64]) -> Vec<Piece> {
             start: ends[0],
             end: ends[1],
             length: length_between(lengths, ends[0], ends[1]),
-            folded: line.segments[(ends[0] as usize).min(count - 1)].folded,
+            inside: line.segments[(ends[0] as usize).min(count - 1)].is_inside(surface),
             seen: false,
         })
         .collect()
@@ -153,7 +163,7 @@ fn join_short(pieces: &mut Vec<Piece>, shortest: f64) {
     // What is alike is one.
     let join = |pieces: &mut Vec<Piece>| {
         pieces.dedup_by(|next, before| {
-            let alike = (next.seen, next.folded) == (before.seen, before.folded);
+            let alike = (next.seen, next.inside) == (before.seen, before.inside);
             if alike {
                 before.end = next.end;
                 before.length += next.length;
@@ -162,9 +172,9 @@ fn join_short(pieces: &mut Vec<Piece>, shortest: f64) {
         });
     };
     join(pieces);
-    // A fold stays one, however short: the line ends at its cusps.
+    // A fold stays what it is, however short: the line ends at its cusps.
     let mut short: Vec<usize> = (0..pieces.len())
-        .filter(|&i| pieces[i].length < shortest && !pieces[i].folded)
+        .filter(|&i| pieces[i].length < shortest && !pieces[i].inside)
         .collect();
     short.sort_by(|&a, &b| pieces[a].length.total_cmp(&pieces[b].length));
     for i in short {
@@ -185,7 +195,7 @@ fn seen_spans(line: &Line, number: usize, pieces: &[Piece]) -> Vec<Span> {
     let count = line.segments.len() as f64;
     let cut = |beyond: Option<&Piece>| match beyond {
         None => Cut::End,
-        Some(piece) if piece.folded => Cut::Cusp,
+        Some(piece) if piece.inside => Cut::Cusp,
         Some(_) => Cut::Hidden,
     };
     let neighbour = |at: usize, forward: bool| match (forward, line.closed) {
@@ -263,14 +273,23 @@ impl<'a> Rays<'a> {
             Kind::Contour => {
                 // The triangles there are as often before the smooth surface's horizon as behind it.
                 let normal = self.surface.normal(line.place(self.surface, along));
-                let origin = point + normal * (CLEARANCE * self.surface.sagitta(triangle));
+                let side = if line.segments[segment].folded {
+                    -1.0
+                } else {
+                    1.0
+                };
+                let origin = point + normal * (side * CLEARANCE * self.surface.sagitta(triangle));
                 let is_around = |t: u32| triangles[t as usize].iter().any(|v| corners.contains(v));
-                !self.bvh.is_blocked(self.surface, &self.ray(origin), is_around)
+                !self
+                    .bvh
+                    .is_blocked(self.surface, &self.ray(origin), is_around)
             }
             Kind::Crease | Kind::Border => {
-                let ends = line.ends(segment).map(|end| vertex(self.surface, end.place));
+                let ends = line.ends(segment).map(|end| end.place.vertex(self.surface));
                 let has_edge = |t: u32| ends.iter().all(|v| triangles[t as usize].contains(v));
-                !self.bvh.is_blocked(self.surface, &self.ray(point), has_edge)
+                !self
+                    .bvh
+                    .is_blocked(self.surface, &self.ray(point), has_edge)
             }
         }
     }
@@ -282,9 +301,4 @@ impl<'a> Rays<'a> {
             ..ray
         }
     }
-}
-
-/// The vertex on which a place lies.
-fn vertex(surface: &Surface, place: crate::Place) -> u32 {
-    surface.topology().triangles()[place.triangle as usize][place.weights.max_position()]
 }
