@@ -1,5 +1,7 @@
 //! Where something changes its sign on a surface: zero sets, and contours as those of the angle to the eye.
 
+use std::collections::HashMap;
+
 use crate::{Beside, Kind, Line, LinePoint, MeshError, Place, Segment, Surface, Topology, View};
 
 /// f: how far the surface faces the eye at each smooth vertex, `n . c`. Positive towards the eye; 0 at contours (W 5.4, after Hertzmann and Zorin,
@@ -26,8 +28,11 @@ pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
 /// When `facing` has not one finite number for each smooth vertex.
 pub fn contours(surface: &Surface, view: &View, facing: &[f64]) -> Result<Vec<Line>, MeshError> {
     let mut lines = zero_set(surface, facing)?;
+    // Each is asked for by all the edges around its vertex.
+    let mut known = HashMap::new();
+    let mut bend_at = |vertex| *known.entry(vertex).or_insert_with(|| bend(vertex, surface, view, facing));
     for line in &mut lines {
-        mark_folds(line, surface, view, facing);
+        mark_folds(line, surface, &mut bend_at);
     }
     Ok(lines)
 }
@@ -179,7 +184,7 @@ fn unfolded(triangle: u32) -> Segment {
 }
 
 /// Finds which segments of a contour are folded, and puts joints at its cusps.
-fn mark_folds(line: &mut Line, surface: &Surface, view: &View, facing: &[f64]) {
+fn mark_folds(line: &mut Line, surface: &Surface, bend_at: &mut impl FnMut(u32) -> f64) {
     let bends: Vec<f64> = line
         .points
         .iter()
@@ -188,7 +193,7 @@ fn mark_folds(line: &mut Line, surface: &Surface, view: &View, facing: &[f64]) {
             (0..3)
                 .filter(|&corner| point.place.weights[corner] != 0.0)
                 .map(|corner| {
-                    point.place.weights[corner] * bend(vertices[corner], surface, view, facing)
+                    point.place.weights[corner] * bend_at(vertices[corner])
                 })
                 .sum()
         })
