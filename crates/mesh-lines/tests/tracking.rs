@@ -184,8 +184,6 @@ fn patterns_neither_slide_nor_stretch_on_an_orbit() {
         let mean = stretch.iter().sum::<f64>() / stretch.len() as f64;
         let [median, most] = [0.5, 0.99].map(|share| at(&drift, share));
         let worst = at(&stretch, 0.99);
-            "{name}: drift {median:.2} px, 99 % {most:.2} px; stretch {mean:.3}, 99 % {worst:.3}; born {born_px:.0} of {all_px:.0} px"
-        );
         assert!(median < 0.3 && most < 3.0, "{name}: drift {median} {most}");
         assert!(mean < 0.15 && worst < 0.5, "{name}: stretch {mean} {worst}");
         assert!(born_px < 0.005 * all_px, "{name}: born {born_px}");
