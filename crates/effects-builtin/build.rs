@@ -1,6 +1,7 @@
 //! Translates the effects.
 
 fn main() {
+    effects_build::effect("src/band.wgsl");
     effects_build::effect("src/base.wgsl");
     effects_build::effect("src/cel.wgsl");
     effects_build::effect("src/fine.wgsl");

@@ -5,16 +5,18 @@
 //! let mut registry = effects::Registry::new();
 //! effects_builtin::register(&mut registry)?;
 //! let ids: Vec<_> = registry.iter().map(|effect| effect.id()).collect();
-//! assert_eq!(ids, ["hair.base", "hair.cel", "hair.fine", "hair.highlight", "hair.silhouette"]);
+//! assert_eq!(ids, ["hair.band", "hair.base", "hair.cel", "hair.fine", "hair.highlight", "hair.silhouette"]);
 //! # Ok::<(), effects::RegistryError>(())
 //! ```
 
+mod band;
 mod base;
 mod cel;
 mod fine;
 mod highlight;
 mod silhouette;
 
+pub use band::Band;
 pub use base::Base;
 pub use cel::Cel;
 pub use fine::Fine;
@@ -33,5 +35,6 @@ pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
     registry.register::<Base>()?;
     registry.register::<Cel>()?;
     registry.register::<Highlight>()?;
+    registry.register::<Band>()?;
     registry.register::<Fine>()
 }

@@ -1,7 +1,15 @@
 //! Each effect holds to what every effect must hold to.
 
-use effects_builtin::{Base, Cel, Fine, Highlight, Silhouette};
+use effects_builtin::{Band, Base, Cel, Fine, Highlight, Silhouette};
 use effects_testkit::{assert_conforms, assert_steady};
+
+#[test]
+fn band() {
+    assert_conforms::<Band>();
+    for along in ["height", "length"] {
+        assert_steady::<Band>(&[("along", along), ("strand_share", "1"), ("rim", "4")]);
+    }
+}
 
 #[test]
 fn base() {

@@ -64,6 +64,14 @@ pub enum StageError {
         /// What it may have meant.
         hint: String,
     },
+    /// A layer draws on zones of the hair that aren't there.
+    #[error("{layer}.zones: {message}")]
+    Zones {
+        /// The layer's name.
+        layer: String,
+        /// What is wrong.
+        message: String,
+    },
     /// Nothing is left of a head.
     #[error("{}: `head.hide` hides all of its meshes", .0.display())]
     AllHidden(PathBuf),

@@ -16,6 +16,7 @@ mod look;
 mod material;
 mod merged;
 mod motion;
+mod names;
 mod neck;
 mod object;
 mod painted;
@@ -32,6 +33,7 @@ mod solid;
 mod stage;
 mod style;
 mod textures;
+mod zones;
 
 pub use bake::{Bake, is_bake};
 pub use check::{check_hair, check_motion, check_style};

@@ -3,6 +3,7 @@
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
+use crate::names::Names;
 use crate::painted::{self, MeshNames};
 use crate::preset::{
     BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HeadColors, HeadSection, HeadShape,
@@ -71,7 +72,7 @@ pub(crate) fn head(
     let file = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
     notes.extend(file.notes);
     let (model, orientation) = (&file.model, &file.orientation);
-    let hidden = MeshNames(section.hide.as_deref().unwrap_or_default());
+    let hidden = MeshNames(Names(section.hide.as_deref().unwrap_or_default()));
     hidden.check(model, &path)?;
     let is_there = |mesh: &mesh_io::Mesh| !hidden.have(model, mesh);
     let mut mesh = match hidden.is_empty() {
@@ -318,6 +319,7 @@ fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairMode
         shapes: None,
         bake: None,
         ornaments: grown.ornaments,
+        zone_names: style.zones.iter().map(|zone| zone.name.clone()).collect(),
         zone_dynamics: dynamics,
         zone_colors: colors,
         head,
