@@ -96,6 +96,10 @@ impl Evaluator {
                 drawing.layers.push(strokes);
             }
         }
+        if frame.paths.len() > MOST_KEPT {
+            self.joints = Joints::default();
+            self.clumps = Vec::new();
+        }
         Ok(())
     }
 
@@ -768,6 +772,9 @@ fn disc_at(
         inv_depth_biased: 1.0 / biased,
     }
 }
+
+/// Of more joints what effects read is not kept from frame to frame, so that the rasteriser has that room: some 200 bytes a joint.
+const MOST_KEPT: usize = 1 << 17;
 
 /// Joints that a thread works on at a time, at least.
 const CHUNK: usize = 1024;
