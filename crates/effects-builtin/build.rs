@@ -6,5 +6,6 @@ fn main() {
     effects_build::effect("src/cel.wgsl");
     effects_build::effect("src/fine.wgsl");
     effects_build::effect("src/highlight.wgsl");
+    effects_build::effect("src/ink.wgsl");
     effects_build::effect("src/silhouette.wgsl");
 }

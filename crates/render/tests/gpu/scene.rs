@@ -60,6 +60,7 @@ pub const ALL_EFFECTS: &str = "[
     (effect: \"hair.cel\", params: (feathers: 3)),
     (effect: \"hair.highlight\", params: (kind: ring, exponent: 2, threshold: 0.2, full: 0.5)),
     (effect: \"hair.band\", params: (place: 0.1, thickness: 0.8, slide: 0.4, shade: -0.5, rim: 2)),
+    (effect: \"hair.ink\", params: (gaps: 0.3, shadow_color: \"8090A0\")),
     (effect: \"hair.fine\", params: (per_strand: 1)),
 ]";
 
