@@ -219,6 +219,14 @@ impl Frame<'_> {
         Some(self.strokes[stroke as usize].layer)
     }
 
+    /// The painted layer that a segment shows, by its place among them.
+    #[inline(always)]
+    pub(super) fn painted_layer_of(&self, segment: &Segment) -> Option<usize> {
+        let layer = self.layer_of(segment)?;
+        let layers = &self.drawing.painting.layers;
+        layers.iter().position(|painted| painted.layer == layer)
+    }
+
     fn sample_of_triangle(&self, triangle: u32, inv_depth: f32, color: [f32; 4]) -> Sample {
         let triangle = &self.parts.triangles[triangle as usize];
         let features = &self.drawing.features;
