@@ -23,6 +23,7 @@ mod stamp;
 mod strand;
 mod stroke;
 mod surface;
+mod tell;
 mod texels;
 mod tile;
 
