@@ -175,7 +175,7 @@ impl Input {
         format_ident!("{}", variant(self.name))
     }
 
-    /// Its value at `index` of the `lists`: `effects::Joints` or `effects::Samples`.
+    /// Its value at `index` of the `lists`, `effects::Joints`.
     pub fn value(&self, lists: &Ident) -> TokenStream {
         let name = format_ident!("{}", self.name);
         match self.where_empty {
@@ -184,6 +184,17 @@ impl Input {
                 quote!(#lists.#name.get(index).copied().unwrap_or(#value))
             }
             None => quote!(#lists.#name[index]),
+        }
+    }
+}
+
+impl Input {
+    /// Its value of sample `index` of the block `samples`.
+    pub fn of_block(&self) -> TokenStream {
+        let name = format_ident!("{}", self.name);
+        match self.ty {
+            Vec3 => quote!(samples.#name.at(index)),
+            F32 | U32 | Vec2 => quote!(samples.#name[index]),
         }
     }
 }
