@@ -37,7 +37,7 @@ mod tests;
 pub use bundle::LockStrand;
 pub use islands::islands;
 
-use distance::{Surface, along_line};
+use distance::{Surface, along_line, range};
 use glam::{DVec3, Vec3};
 use section::Section;
 
@@ -51,8 +51,8 @@ const FEWEST_LINKS: usize = 4;
 const MOST_LINKS: usize = 32;
 /// What is left out of a line at its ends, in half widths, each time that it is found again.
 const TRIMS: [f64; 5] = [2.5, 1.5, 1.0, 0.6, 0.3];
-/// Where an island was cut off, its root is what lies this share of the farthest way from the tip.
-const FAR_RIM: f64 = 0.75;
+/// How far below what it was cut off from a lock begins, so that its root isn't seen, in links.
+const UNDER: f64 = 1.0;
 /// Of depths that differ by less, neither end is the root.
 const SAME_DEPTH: f32 = 0.25;
 
@@ -100,7 +100,12 @@ pub fn locks(hair: &MeshHair, skull: Vec3, link_m: f32) -> Locks {
             found.shells += 1;
             continue;
         }
-        if let Some(sections) = sections(&surface, skull, f64::from(link_m)) {
+        if let Some(mut sections) = sections(&surface, skull, f64::from(link_m)) {
+            if !surface.rim.is_empty() {
+                let hidden = sections[0].under(skull, UNDER * f64::from(link_m));
+                sections.insert(0, hidden);
+                section::measure(&mut sections);
+            }
             found.locks.push(Lock {
                 triangles,
                 sections,
@@ -125,34 +130,75 @@ fn is_shell(surface: &Surface, skull: DVec3) -> bool {
 
 /// The sections of an island from root to tip; nothing where it has no length.
 fn sections(surface: &Surface, skull: DVec3, link_m: f64) -> Option<Vec<Section>> {
-    let (root, tip) = ends(surface, skull);
-    let found = from_root(surface, &root, tip, link_m)?;
+    if let Some(along) = from_rim(surface) {
+        return along.sections(surface, link_m);
+    }
+    let root = root(surface, skull);
+    let found = Along::Surface(surface.distances(&[root])).sections(surface, link_m)?;
     let widest = found.iter().map(|own| own.half_width).fold(0.0, f64::max);
     let is_tuft = section::length(&found) < TUFT * widest;
-    if !(is_tuft && surface.rim.is_empty()) {
+    if !is_tuft {
         return Some(found);
     }
     let away = |vertex: &usize| surface.places[*vertex].distance(skull);
     let all = 0..surface.places.len();
     let root = all.min_by(|a, b| away(a).total_cmp(&away(b)))?;
-    let tip = surface.farthest(&surface.distances(&[root]));
-    from_root(surface, &[root], tip, link_m)
+    Along::Surface(surface.distances(&[root])).sections(surface, link_m)
 }
 
-/// The vertices of the root, and the tip.
-fn ends(surface: &Surface, skull: DVec3) -> (Vec<usize>, usize) {
-    if !surface.rim.is_empty() {
-        let tip = surface.farthest(&surface.distances(&surface.rim));
-        // Its sides may have been cut too.
-        let to_tip = surface.distances(&[tip]);
-        let longest = surface
-            .rim
-            .iter()
-            .map(|own| to_tip[*own])
-            .fold(0.0, f64::max);
-        let is_root = |own: &usize| to_tip[*own] >= FAR_RIM * longest;
-        return (surface.rim.iter().copied().filter(is_root).collect(), tip);
+/// How far each place of an island is from its root.
+enum Along {
+    /// Along the surface: level sets are slanted where it is wide.
+    Surface(Vec<f64>),
+    /// Between two rows of places.
+    Between(Vec<f64>),
+}
+
+/// How far each place is from where the island was cut off; nothing where it was not. Of what is short and wide, such as bangs, whose sides may have
+/// been cut too, it is how far it is between the cut's half that is away from the rest, and the rest's that is away from the cut.
+fn from_rim(surface: &Surface) -> Option<Along> {
+    let count = |of: usize| of.max(1) as f64;
+    if surface.rim.is_empty() {
+        return None;
     }
+    let places = &surface.places;
+    let middle =
+        surface.rim.iter().map(|own| places[*own]).sum::<DVec3>() / count(surface.rim.len());
+    let wide = surface
+        .rim
+        .iter()
+        .map(|own| places[*own].distance(middle))
+        .fold(0.0, f64::max);
+    let along = surface.distances(&surface.rim);
+    let length = along[surface.farthest(&along)];
+    if length > 2.0 * wide {
+        return Some(Along::Surface(along));
+    }
+    let free: Vec<usize> = (0..places.len())
+        .filter(|place| surface.rim.binary_search(place).is_err())
+        .collect();
+    let way = free.iter().map(|own| places[*own]).sum::<DVec3>() / count(free.len()) - middle;
+    let is_first_half = |place: &usize| (places[*place] - middle).dot(way) < 0.5 * way.dot(way);
+    let root: Vec<usize> = surface.rim.iter().copied().filter(is_first_half).collect();
+    let tip: Vec<usize> = free
+        .into_iter()
+        .filter(|place| !is_first_half(place))
+        .collect();
+    if root.is_empty() || tip.is_empty() {
+        return Some(Along::Surface(along));
+    }
+    let [from_root, from_tip] = [&root, &tip].map(|of| surface.distances(of));
+    let share = from_root
+        .iter()
+        .zip(&from_tip)
+        .map(|(root, tip)| root / (root + tip));
+    Some(Along::Between(
+        share.map(|share| share * way.length()).collect(),
+    ))
+}
+
+/// The place at the root of an island of its own: one of the two that are farthest from each other.
+fn root(surface: &Surface, skull: DVec3) -> usize {
     let one = surface.farthest(&surface.distances(&[0]));
     let other = surface.farthest(&surface.distances(&[one]));
     let depth = |vertex: usize| surface.depths.get(vertex).copied().unwrap_or(0.0);
@@ -160,24 +206,28 @@ fn ends(surface: &Surface, skull: DVec3) -> (Vec<usize>, usize) {
         differ if differ.abs() > SAME_DEPTH => differ < 0.0,
         _ => surface.places[one].distance(skull) <= surface.places[other].distance(skull),
     };
-    match is_root {
-        true => (vec![one], other),
-        false => (vec![other], one),
-    }
+    if is_root { one } else { other }
 }
 
-fn from_root(surface: &Surface, root: &[usize], tip: usize, link_m: f64) -> Option<Vec<Section>> {
-    let mut along = surface.distances(root);
-    let length = along[tip];
-    if !(length.is_finite() && length > 0.0) {
-        return None;
+impl Along {
+    /// The sections from root to tip; nothing where the island has no length.
+    fn sections(self, surface: &Surface, link_m: f64) -> Option<Vec<Section>> {
+        let (mut along, trims) = match self {
+            Self::Surface(along) => (along, &TRIMS[..]),
+            Self::Between(along) => (along, &[][..]),
+        };
+        let (low, high) = range(&along);
+        let length = high - low;
+        if !(length.is_finite() && length > 0.0) {
+            return None;
+        }
+        let links = (length / link_m).round() as usize;
+        let links = links.clamp(FEWEST_LINKS, MOST_LINKS);
+        // Each time the levels stand straighter on the line.
+        for &trim in trims {
+            let line = section::middles(surface, &along, links, trim)?;
+            along = along_line(&surface.places, &along, &line)?;
+        }
+        section::sections(surface, &along, links)
     }
-    let links = (length / link_m).round() as usize;
-    let links = links.clamp(FEWEST_LINKS, MOST_LINKS);
-    // Each time the levels stand straighter on the line.
-    for trim in TRIMS {
-        let line = section::middles(surface, &along, links, trim)?;
-        along = along_line(&surface.places, &along, &line)?;
-    }
-    section::sections(surface, &along, links)
 }

@@ -144,10 +144,7 @@ pub(super) fn sections(surface: &Surface, along: &[f64], links: usize) -> Option
     ];
     found[0].middle = root;
     found[count - 1].middle = tip;
-    for index in 1..count {
-        let [before, own] = [index - 1, index].map(|index| found[index].middle);
-        found[index].along = found[index - 1].along + before.distance(own);
-    }
+    measure(&mut found);
     (length(&found) > 0.0).then_some(found)
 }
 
@@ -212,6 +209,29 @@ fn section(middle: DVec3, way: DVec3, cuts: &[[DVec3; 2]], last: Option<DVec3>) 
         out,
         half_width: 0.5 * (to_x - from_x),
         half_thickness: 0.5 * (to_y - from_y),
+    }
+}
+
+/// Tells each section how far it is from the first.
+pub(super) fn measure(sections: &mut [Section]) {
+    let mut along = 0.0;
+    for index in 0..sections.len() {
+        if index > 0 {
+            along += sections[index].middle.distance(sections[index - 1].middle);
+        }
+        sections[index].along = along;
+    }
+}
+
+impl Section {
+    /// The same, before this one and nearer to `skull`, by `by_m` each.
+    pub fn under(&self, skull: DVec3, by_m: f64) -> Self {
+        let way = self.across.cross(self.out);
+        let down = (skull - self.middle).normalize_or_zero();
+        Self {
+            middle: self.middle + by_m * (down - way),
+            ..self.clone()
+        }
     }
 }
 
