@@ -329,10 +329,9 @@ fn godettes_hair_stays_where_her_mesh_has_it() {
         (low - (center - radius)).abs().max_element() < 0.006,
         "{low}"
     );
-    assert!(
-        (high - (center + radius)).abs().max_element() < 0.006,
-        "{high}"
-    );
+    // But for its front, where roots begin under the cap.
+    let off = (high - (center + radius)).abs();
+    assert!(off.x < 0.006 && off.y < 0.006, "{high}");
     // The fringe hangs in front of her forehead, between the brows and the cap.
     let fringe: Vec<&Vec3> = all.iter().filter(|p| p.z > 0.13).collect();
     assert!(fringe.len() > 20);
