@@ -72,6 +72,21 @@ pub enum StageError {
         /// What is wrong.
         message: String,
     },
+    /// A file has no mesh and no bone of a name that the preset says of its hair.
+    #[error("{}: no mesh, material or spring bone is called `{name}`{hint}", .path.display())]
+    NoMeshOrBone {
+        /// The file.
+        path: PathBuf,
+        /// As the preset says it.
+        name: String,
+        /// What it may have meant.
+        hint: String,
+    },
+    /// A character has no hair of its own.
+    #[error(
+        "{}: no mesh or material is called hair and no spring bones hang on the head, or nothing of them is a lock: `hair.meshes` says what is hair", .0.display()
+    )]
+    NoMeshHair(PathBuf),
     /// Nothing is left of a head.
     #[error("{}: `head.hide` hides all of its meshes", .0.display())]
     AllHidden(PathBuf),

@@ -36,6 +36,8 @@ pub struct HairModel {
     pub(crate) zone_dynamics: Vec<Option<ZoneDynamics>>,
     /// The colours of each zone of its style at root and tip: see [`StrandInfo`].
     pub(crate) zone_colors: Vec<[Vec3; 2]>,
+    /// The colours of each strand at root and tip, where its file says them; empty where not.
+    pub(crate) own_colors: Vec<[Vec3; 2]>,
     /// The ties that gather it, and what lies on it.
     pub(crate) ornaments: Vec<OrnamentMesh>,
     /// The head that it stands on.
@@ -90,6 +92,7 @@ impl HairModel {
             zone_names: Vec::new(),
             zone_dynamics: Vec::new(),
             zone_colors: Vec::new(),
+            own_colors: Vec::new(),
             ornaments: Vec::new(),
             head: match head {
                 Some(head) => head.frame(&all_roots),
@@ -128,7 +131,7 @@ impl HairModel {
             mean: Vec3::ZERO,
             size: given(i).unwrap_or(size),
             taper: self.tapers[i],
-            colors: self.colors(strands.id(i)),
+            colors: self.colors(i),
             level: 0,
             lift: 0.0,
             left_out_by: 0,
@@ -151,6 +154,9 @@ impl HairModel {
         self.undercoat = indices.iter().filter(is_undercoat).count();
         self.held = indices.iter().map(|&i| self.held[i]).collect();
         self.tapers = indices.iter().map(|&i| self.tapers[i]).collect();
+        if !self.own_colors.is_empty() {
+            self.own_colors = indices.iter().map(|&i| self.own_colors[i]).collect();
+        }
     }
 
     /// Which strands are left where it is thin.
@@ -173,8 +179,12 @@ impl HairModel {
         self.zone_dynamics.get(groom::zone_of(id)?)?.as_ref()
     }
 
-    /// The colours of the strand of this id by its zone.
-    fn colors(&self, id: u32) -> [Vec3; 2] {
+    /// The colours of the strand of this index: its own, or its zone's.
+    fn colors(&self, strand: usize) -> [Vec3; 2] {
+        if let Some(own) = self.own_colors.get(strand) {
+            return *own;
+        }
+        let id = self.file.strands.id(strand);
         let of_zone = groom::zone_of(id).and_then(|zone| self.zone_colors.get(zone));
         of_zone.copied().unwrap_or([NO_COLOR; 2])
     }

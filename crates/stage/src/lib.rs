@@ -15,6 +15,7 @@ mod load;
 mod look;
 mod material;
 mod merged;
+mod mesh_hair;
 mod motion;
 mod names;
 mod neck;
@@ -51,8 +52,8 @@ pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
     AlphaChoice, BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
-    ExpressionChoice, EyesChoice, FixedTo, HairSection, HeadColors, HeadSection, HeadShape,
-    HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
+    ExpressionChoice, EyesChoice, FixedTo, HairFrom, HairSection, HeadColors, HeadSection,
+    HeadShape, HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
     NamedObject, ObjectSection, OrderChoice, PASSES, PassSection, PathChoice, PathSection, Preset,
     SceneSection, Sections, TopSection, UpAxis, VERSION,
 };

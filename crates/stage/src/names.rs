@@ -18,6 +18,15 @@ impl<'a> Names<'a> {
     pub(crate) fn have(&self, own: &str) -> bool {
         self.iter().any(|name| is_meant(name, own))
     }
+
+    /// The first that none of `all` is called.
+    pub(crate) fn unknown<'m, I: Iterator<Item = &'m str>>(
+        &self,
+        all: impl Fn() -> I,
+    ) -> Option<&'a str> {
+        self.iter()
+            .find(|name| !all().any(|own| is_meant(name, own)))
+    }
 }
 
 /// Whether a name of the list means `own`.

@@ -61,8 +61,11 @@ impl Object {
         look: Arc<Look>,
         notes: &mut Vec<String>,
     ) -> Result<Self, StageError> {
-        let head = load::head(preset, files, notes)?;
-        let mut hair = load::hair(preset, files, head.as_ref(), notes)?;
+        let (head, own_hair) = load::head(preset, files, notes)?;
+        let mut hair = match own_hair {
+            Some(own) => own,
+            None => load::hair(preset, files, head.as_ref(), notes)?,
+        };
         let script = script::load(preset, files, &mut hair, head.as_ref())?;
         hair.choose_guides(&preset.sections.hair);
         bake::load(preset, files, &mut hair, notes)?;

@@ -1,7 +1,7 @@
 //! Meshes in colours of their own: a character as its file paints it, and eyes, lashes, clothes or glasses beside a head.
 
 use crate::files::StageError;
-use crate::names::{Names, is_meant};
+use crate::names::Names;
 use crate::pictures;
 use crate::preset::{AlphaChoice, MeshSection};
 use effects::Image;
@@ -46,6 +46,33 @@ pub(crate) struct MeshPicture {
     pub coverage: Coverage,
 }
 
+impl PaintedMesh {
+    /// Takes triangles away; one a triangle tells which.
+    pub(crate) fn take_away(&mut self, is_gone: &[bool]) {
+        let mut numbers = vec![None; self.positions.len()];
+        let (mut kept, mut triangles) = (Vec::new(), Vec::new());
+        for (triangle, _) in self
+            .triangles
+            .iter()
+            .zip(is_gone)
+            .filter(|(_, gone)| !**gone)
+        {
+            triangles.push(triangle.map(|corner| {
+                *numbers[corner as usize].get_or_insert_with(|| {
+                    kept.push(corner as usize);
+                    kept.len() as u32 - 1
+                })
+            }));
+        }
+        self.triangles = triangles;
+        self.positions = kept.iter().map(|i| self.positions[*i]).collect();
+        self.normals = kept.iter().map(|i| self.normals[*i]).collect();
+        if !self.places.is_empty() {
+            self.places = kept.iter().map(|i| self.places[*i]).collect();
+        }
+    }
+}
+
 impl MeshPaint {
     /// Without colours in the file.
     const NONE: Self = Self {
@@ -79,8 +106,7 @@ impl MeshNames<'_> {
     /// That each is there, in this file.
     pub(crate) fn check(&self, model: &Model, path: &Path) -> Result<(), StageError> {
         let all = || model.meshes.iter().flat_map(|mesh| names_of(model, mesh));
-        let mut names = self.0.iter();
-        match names.find(|name| !all().any(|own| is_meant(name, own))) {
+        match self.0.unknown(all) {
             None => Ok(()),
             Some(name) => Err(StageError::NoMesh {
                 path: path.to_owned(),
@@ -95,7 +121,7 @@ impl MeshNames<'_> {
 }
 
 /// The names of a mesh and of its material.
-fn names_of<'m>(model: &'m Model, mesh: &'m Mesh) -> impl Iterator<Item = &'m str> {
+pub(crate) fn names_of<'m>(model: &'m Model, mesh: &'m Mesh) -> impl Iterator<Item = &'m str> {
     let material = mesh.material.and_then(|index| model.materials.get(index));
     let names = [
         Some(mesh.name.as_str()),
