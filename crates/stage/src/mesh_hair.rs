@@ -96,7 +96,9 @@ pub(crate) fn find(
         .iter()
         .enumerate()
         .map(|(index, mesh)| match &bones {
-            _ if !is_there(mesh) || MeshNames(kept).have(model, mesh) => vec![None; mesh.triangles.len()],
+            _ if !is_there(mesh) || MeshNames(kept).have(model, mesh) => {
+                vec![None; mesh.triangles.len()]
+            }
             _ if is_named(mesh) => vec![Some(0); mesh.triangles.len()],
             // What is named is all that is meant, but for bones that are named too.
             Some(bones) if !by_name || !wanted.is_empty() => bones.groups(model, index),
