@@ -83,6 +83,8 @@ pub struct Locks {
 pub struct Lock {
     /// Indices of its triangles, ascending.
     pub triangles: Vec<usize>,
+    /// Whether it was not cut off other triangles.
+    is_whole: bool,
     /// From root to tip, two or more.
     sections: Vec<Section>,
 }
@@ -108,6 +110,7 @@ pub fn locks(hair: &MeshHair, skull: Vec3, link_m: f32) -> Locks {
             }
             found.locks.push(Lock {
                 triangles,
+                is_whole: surface.rim.is_empty(),
                 sections,
             });
         }
@@ -135,15 +138,26 @@ fn sections(surface: &Surface, skull: DVec3, link_m: f64) -> Option<Vec<Section>
     }
     let root = root(surface, skull);
     let found = Along::Surface(surface.distances(&[root])).sections(surface, link_m)?;
-    let widest = found.iter().map(|own| own.half_width).fold(0.0, f64::max);
-    let is_tuft = section::length(&found) < TUFT * widest;
-    if !is_tuft {
+    if !is_tuft(&found) {
         return Some(found);
     }
     let away = |vertex: &usize| surface.places[*vertex].distance(skull);
     let all = 0..surface.places.len();
     let root = all.min_by(|a, b| away(a).total_cmp(&away(b)))?;
     Along::Surface(surface.distances(&[root])).sections(surface, link_m)
+}
+
+fn is_tuft(sections: &[Section]) -> bool {
+    let widest = sections.iter().map(|own| own.half_width);
+    section::length(sections) < TUFT * widest.fold(0.0, f64::max)
+}
+
+impl Lock {
+    /// Whether it is a ball or a tuft, shorter than one and a half of its widths, as buns are; never of what was cut off a cap.
+    #[must_use]
+    pub fn is_tuft(&self) -> bool {
+        self.is_whole && is_tuft(&self.sections)
+    }
 }
 
 /// How far each place of an island is from its root.

@@ -168,6 +168,7 @@ fn the_root_is_where_the_head_is_or_the_bones_begin() {
 fn ribbons_are_strands_side_by_side() {
     let ribbon = Made::tube(quarter, 30, |_| [0.04, 0.003]);
     let lock = ribbon.only(&[]);
+    assert!(!lock.is_tuft());
     assert!(off_mm(&lock, quarter) < 1.0, "{}", off_mm(&lock, quarter));
     let strands = lock.strands(0.012);
     assert_eq!(strands.len(), 4);
@@ -193,6 +194,7 @@ fn balls_are_bundles() {
     let axes = |u: f32| [radius * (1.0 - (2.0 * u - 1.0).powi(2)).max(1e-6).sqrt(); 2];
     let ball = Made::tube(|u| center + Vec3::X * radius * (2.0 * u - 1.0), 24, axes);
     let lock = ball.only(&[]);
+    assert!(lock.is_tuft());
     let root = lock.middle().next().unwrap();
     assert!(root.distance(center - away * radius) < 0.015, "{root}");
     let strands = lock.strands(0.015);
