@@ -212,11 +212,16 @@ fn balls_are_bundles() {
 
 /// A half of a ball's shell around the skull.
 fn cap() -> Made {
+    cap_around(SKULL)
+}
+
+/// The same around another middle.
+fn cap_around(center: Vec3) -> Made {
     let mut made = Made::default();
     let place = |row: u32, side: u32| {
         let (sin, cos) = (row as f32 / 8.0 * 0.25 * TAU).sin_cos();
         let (x, z) = ((side % 16) as f32 / 16.0 * TAU).sin_cos();
-        SKULL + 0.12 * Vec3::new(sin * x, cos, sin * z)
+        center + 0.12 * Vec3::new(sin * x, cos, sin * z)
     };
     for (row, side) in (0..8).flat_map(|row| (0..16).map(move |side| (row, side))) {
         let first = made.positions.len() as u32;
@@ -237,6 +242,10 @@ fn caps_are_no_locks_and_what_is_cut_off_them_is_one() {
     let cap = cap();
     let found = cap.found(&[]);
     assert_eq!((found.locks.len(), found.shells), (0, 1));
+    // The skull's middle need not be the cap's.
+    for off in [Vec3::Y * 0.05, Vec3::Z * -0.03] {
+        assert_eq!(cap_around(SKULL + off).found(&[]).shells, 1);
+    }
     // The front of its last three rows swings.
     let swings = |t: &[u32; 3]| {
         let middle = t
