@@ -20,8 +20,8 @@ pub(crate) fn prelude() -> Result<String, BuildError> {
     for item in &mut items {
         let (visibility, attributes, name) = match item {
             Item::Fn(f) => {
-                // Into effects, which are crates of their own.
-                f.attrs.push(syn::parse_quote!(#[inline]));
+                // Into effects, which are crates of their own, and into loops that are compiled for other instructions.
+                f.attrs.push(syn::parse_quote!(#[inline(always)]));
                 (&mut f.vis, &mut f.attrs, f.sig.ident.to_string())
             }
             Item::Struct(s) => (&mut s.vis, &mut s.attrs, s.ident.to_string()),
@@ -122,18 +122,25 @@ fn painting(source: &Source, paints: Paints) -> TokenStream {
         let variant = input.variant();
         quote!(::effects::SampleInput::#variant)
     });
-    let gather = gather(inputs, &format_ident!("samples"));
+    let fields = inputs.iter().map(|input| {
+        let (field, value) = (format_ident!("{}", input.name), input.of_block());
+        match input.name {
+            // The list has the strand's part.
+            "seed" => quote!(seed: ::effects::wgsl::hash(seed ^ #value)),
+            _ => quote!(#field: #value),
+        }
+    });
     let sample = quote! {
         let _ = (samples, index, seed);
-        let at = translated::Sample { #gather };
+        let at = translated::Sample { #(#fields),* };
     };
     let (place, texel) = match paints {
         Paints::WithTexture => {
             let place = quote! {
                 const PLACES: bool = true;
-                #[inline]
+                #[inline(always)]
                 fn place(
-                    samples: &::effects::Samples,
+                    samples: &::effects::SampleBlock,
                     index: usize,
                     seed: u32,
                     params: &Params,
@@ -149,9 +156,9 @@ fn painting(source: &Source, paints: Paints) -> TokenStream {
     quote! {
         const PAINTS: ::core::option::Option<&'static [::effects::SampleInput]> = Some(&[#(#variants),*]);
         #place
-        #[inline]
+        #[inline(always)]
         fn paint(
-            samples: &::effects::Samples,
+            samples: &::effects::SampleBlock,
             index: usize,
             seed: u32,
             texel: ::effects::wgsl::Vec4<f32>,

@@ -2,7 +2,7 @@
 
 use crate::joints::{Input, Joints};
 use crate::param::{Param, Values};
-use crate::samples::{SampleInput, Samples};
+use crate::samples::{SampleBlock, SampleInput};
 use crate::wgsl::{Lookup, Stroke, Vec3, Vec4};
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
@@ -39,7 +39,12 @@ pub trait Program: Parameters {
     const PAINTS: Option<&'static [SampleInput]> = None;
 
     /// Where sample `index` looks a texture up; nothing where the effect has no `place`.
-    fn place(samples: &Samples, index: usize, seed: u32, params: &Self::Params) -> Option<Lookup> {
+    fn place(
+        samples: &SampleBlock,
+        index: usize,
+        seed: u32,
+        params: &Self::Params,
+    ) -> Option<Lookup> {
         let _ = (samples, index, seed, params);
         None
     }
@@ -50,7 +55,7 @@ pub trait Program: Parameters {
     /// The linear colour of sample `index`. `texel` is what [`Self::place`] found, linear and with its coverage. Only asked where
     /// [`Self::PAINTS`].
     fn paint(
-        samples: &Samples,
+        samples: &SampleBlock,
         index: usize,
         seed: u32,
         texel: Vec4<f32>,

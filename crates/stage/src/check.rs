@@ -227,7 +227,7 @@ impl<'r> Preset<'r> {
             _ if !self.objects.is_empty() => "objects",
             StageError::NoPointLight(_) | StageError::Camera(_) => "light",
             StageError::Shapes(_) | StageError::Loop { .. } | StageError::NoCharacter => "motion",
-            StageError::Texture { .. } => "layers",
+            StageError::Texture { .. } | StageError::Zones { .. } => "layers",
             StageError::Path(_) => "path",
             _ => "dynamics",
         };

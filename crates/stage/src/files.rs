@@ -64,6 +64,14 @@ pub enum StageError {
         /// What it may have meant.
         hint: String,
     },
+    /// A layer draws on zones of the hair that aren't there.
+    #[error("{layer}.zones: {message}")]
+    Zones {
+        /// The layer's name.
+        layer: String,
+        /// What is wrong.
+        message: String,
+    },
     /// A file has no mesh and no bone of a name that the preset says of its hair.
     #[error("{}: no mesh, material or spring bone is called `{name}`{hint}", .path.display())]
     NoMeshOrBone {

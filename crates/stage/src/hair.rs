@@ -30,6 +30,8 @@ pub struct HairModel {
     pub(crate) shapes: Option<PointCache>,
     /// The bake that its file's motion is of.
     pub(crate) bake: Option<PathBuf>,
+    /// The names of its style's zones; none where it doesn't come from one.
+    pub(crate) zone_names: Vec<String>,
     /// How the hair of each zone of its style moves, where the style says so.
     pub(crate) zone_dynamics: Vec<Option<ZoneDynamics>>,
     /// The colours of each zone of its style at root and tip: see [`StrandInfo`].
@@ -87,6 +89,7 @@ impl HairModel {
             infos: Vec::new(),
             shapes: None,
             bake: None,
+            zone_names: Vec::new(),
             zone_dynamics: Vec::new(),
             zone_colors: Vec::new(),
             own_colors: Vec::new(),
@@ -131,6 +134,7 @@ impl HairModel {
             colors: self.colors(i),
             level: 0,
             lift: 0.0,
+            left_out_by: 0,
         });
         self.infos = infos.collect();
         self.keep(&guides.kept);
@@ -159,6 +163,12 @@ impl HairModel {
     pub(crate) fn ranks(&self) -> &Ranks {
         let roots = || self.file.strands.roots().collect::<Vec<Vec3>>();
         (self.ranks).get_or_init(|| Ranks::of(&roots(), self.undercoat))
+    }
+
+    /// The name of the zone in which the strand of this id grows; none of undercoat and clumps drawn by hand.
+    pub(crate) fn zone_name(&self, id: u32) -> Option<&str> {
+        let name = self.zone_names.get(groom::zone_of(id)?)?;
+        Some(name)
     }
 
     /// How the strand of this id moves by its zone, where that says so.

@@ -17,6 +17,7 @@ mod material;
 mod merged;
 mod mesh_hair;
 mod motion;
+mod names;
 mod neck;
 mod object;
 mod painted;
@@ -34,6 +35,7 @@ mod solid;
 mod stage;
 mod style;
 mod textures;
+mod zones;
 
 pub use bake::{Bake, is_bake};
 pub use check::{check_hair, check_motion, check_style};

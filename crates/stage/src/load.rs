@@ -4,6 +4,7 @@ use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
 use crate::mesh_hair;
+use crate::names::Names;
 use crate::painted::{self, MeshNames};
 use crate::preset::{
     BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HeadColors, HeadSection,
@@ -76,7 +77,7 @@ pub(crate) fn head(
     let file = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
     notes.extend(file.notes);
     let (model, orientation) = (&file.model, &file.orientation);
-    let hidden = MeshNames(section.hide.as_deref().unwrap_or_default());
+    let hidden = MeshNames(Names(section.hide.as_deref().unwrap_or_default()));
     hidden.check(model, &path)?;
     let is_there = |mesh: &mesh_io::Mesh| !hidden.have(model, mesh);
     let own_hair = match wants_own_hair(preset, files) {
@@ -375,6 +376,7 @@ fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairMode
         bake: None,
         own_colors: Vec::new(),
         ornaments: grown.ornaments,
+        zone_names: style.zones.iter().map(|zone| zone.name.clone()).collect(),
         zone_dynamics: dynamics,
         zone_colors: colors,
         head,

@@ -3,6 +3,7 @@
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::head::HeadModel;
+use crate::names::Names;
 use crate::painted::{MeshNames, PaintedMesh};
 use crate::preset::HairSection;
 use effects::preset::suggestion;
@@ -65,8 +66,8 @@ pub(crate) fn find(
     section: &HairSection,
     is_there: impl Fn(&mesh_io::Mesh) -> bool,
 ) -> Result<Option<OwnHair>, StageError> {
-    let [wanted, kept] = [&section.meshes, &section.keep]
-        .map(|names| MeshNames(names.as_deref().unwrap_or_default()));
+    let [wanted, kept] =
+        [&section.meshes, &section.keep].map(|names| Names(names.as_deref().unwrap_or_default()));
     check(&wanted, model, path)?;
     check(&kept, model, path)?;
     let bones = model
@@ -75,7 +76,7 @@ pub(crate) fn find(
         .map(|rig| Bones::new(rig, &wanted, &kept));
     let is_named = |mesh: &mesh_io::Mesh| match wanted.is_empty() {
         true => has_hair_in_name(model, mesh),
-        false => wanted.have(model, mesh),
+        false => MeshNames(wanted).have(model, mesh),
     };
     let by_name = model
         .meshes
@@ -95,7 +96,9 @@ pub(crate) fn find(
         .iter()
         .enumerate()
         .map(|(index, mesh)| match &bones {
-            _ if !is_there(mesh) || kept.have(model, mesh) => vec![None; mesh.triangles.len()],
+            _ if !is_there(mesh) || MeshNames(kept).have(model, mesh) => {
+                vec![None; mesh.triangles.len()]
+            }
             _ if is_named(mesh) => vec![Some(0); mesh.triangles.len()],
             // What is named is all that is meant, but for bones that are named too.
             Some(bones) if !by_name || !wanted.is_empty() => bones.groups(model, index),
@@ -242,6 +245,7 @@ impl OwnHair {
             undercoat: 0,
             shapes: None,
             bake: None,
+            zone_names: Vec::new(),
             zone_dynamics: Vec::new(),
             zone_colors: Vec::new(),
             ornaments: Vec::new(),
@@ -364,7 +368,7 @@ fn bone_names(model: &Model) -> impl Iterator<Item = &str> {
 }
 
 /// That each name is one of a mesh, a material or a spring bone.
-fn check(names: &MeshNames, model: &Model, path: &Path) -> Result<(), StageError> {
+fn check(names: &Names, model: &Model, path: &Path) -> Result<(), StageError> {
     let all = || {
         let meshes = model.meshes.iter();
         let meshes = meshes.flat_map(|mesh| crate::painted::names_of(model, mesh));
@@ -381,7 +385,7 @@ fn check(names: &MeshNames, model: &Model, path: &Path) -> Result<(), StageError
 }
 
 impl Bones {
-    fn new(rig: &Rig, wanted: &MeshNames, kept: &MeshNames) -> Self {
+    fn new(rig: &Rig, wanted: &Names, kept: &Names) -> Self {
         let count = rig.nodes.len();
         let mut is_spring = vec![false; count];
         for &joint in &rig.springs.joints {
@@ -413,9 +417,9 @@ impl Bones {
             let is_one = |is: &dyn Fn(&str) -> bool| springs.iter().any(|node| is(name(*node)));
             let is_wanted = match wanted.is_empty() {
                 true => !any_called_hair || is_one(&says_hair),
-                false => is_one(&|name| wanted.mean(name)),
+                false => is_one(&|name| wanted.have(name)),
             };
-            if is_wanted && !is_one(&|name| kept.mean(name)) {
+            if is_wanted && !is_one(&|name| kept.have(name)) {
                 chains[joint] = springs.last().map(|outermost| *outermost as u32);
             }
         }

@@ -10,6 +10,7 @@ use crate::neck::Neck;
 use crate::placement::Placement;
 use crate::preset::Preset;
 use crate::script::{self, MotionScript};
+use crate::zones;
 use glam::Vec3;
 use hair_io::Mesh;
 use render::{Head, StrandInfo};
@@ -68,6 +69,7 @@ impl Object {
         let script = script::load(preset, files, &mut hair, head.as_ref())?;
         hair.choose_guides(&preset.sections.hair);
         bake::load(preset, files, &mut hair, notes)?;
+        zones::check(&preset.layers, &hair, files.hair.is_some(), notes)?;
         Self::of(hair, head, look, script)
     }
 

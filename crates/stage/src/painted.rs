@@ -1,6 +1,7 @@
 //! Meshes in colours of their own: a character as its file paints it, and eyes, lashes, clothes or glasses beside a head.
 
 use crate::files::StageError;
+use crate::names::Names;
 use crate::pictures;
 use crate::preset::{AlphaChoice, MeshSection};
 use effects::Image;
@@ -97,43 +98,24 @@ impl MeshPaint {
     }
 }
 
-/// Names of meshes or materials, with commas between them; `*` at the end of one stands for anything.
+/// Names of meshes or materials.
 #[derive(Clone, Copy)]
-pub(crate) struct MeshNames<'a>(pub &'a str);
+pub(crate) struct MeshNames<'a>(pub Names<'a>);
 
 impl MeshNames<'_> {
-    fn names(&self) -> impl Iterator<Item = &str> {
-        let names = self.0.split(',').map(str::trim);
-        names.filter(|name| !name.is_empty())
-    }
-
     pub(crate) fn is_empty(&self) -> bool {
-        self.names().next().is_none()
+        self.0.is_empty()
     }
 
     /// Whether a mesh is named, or its material.
     pub(crate) fn have(&self, model: &Model, mesh: &Mesh) -> bool {
-        names_of(model, mesh).any(|own| self.mean(own))
-    }
-
-    /// Whether something of this name is named.
-    pub(crate) fn mean(&self, own: &str) -> bool {
-        self.names().any(|name| is_meant(name, own))
-    }
-
-    /// The first that none of `all` is called.
-    pub(crate) fn unknown<'m, I: Iterator<Item = &'m str>>(
-        &self,
-        all: impl Fn() -> I,
-    ) -> Option<&str> {
-        self.names()
-            .find(|name| !all().any(|own| is_meant(name, own)))
+        names_of(model, mesh).any(|own| self.0.have(own))
     }
 
     /// That each is there, in this file.
     pub(crate) fn check(&self, model: &Model, path: &Path) -> Result<(), StageError> {
         let all = || model.meshes.iter().flat_map(|mesh| names_of(model, mesh));
-        match self.unknown(all) {
+        match self.0.unknown(all) {
             None => Ok(()),
             Some(name) => Err(StageError::NoMesh {
                 path: path.to_owned(),
@@ -155,15 +137,6 @@ pub(crate) fn names_of<'m>(model: &'m Model, mesh: &'m Mesh) -> impl Iterator<It
         material.map(|material| material.name.as_str()),
     ];
     names.into_iter().flatten().filter(|name| !name.is_empty())
-}
-
-fn is_meant(name: &str, own: &str) -> bool {
-    match name.strip_suffix('*') {
-        Some(start) => own
-            .get(..start.len())
-            .is_some_and(|own| own.eq_ignore_ascii_case(start)),
-        None => own.eq_ignore_ascii_case(name),
-    }
 }
 
 /// The meshes of a model that are meant, as they lie in our space.
@@ -292,7 +265,7 @@ pub(crate) fn of_sections(
         let model = mesh_io::read_model(&path)?;
         notes.extend(model.notes.iter().cloned());
         let [only, hide] = [&section.only, &section.hide]
-            .map(|names| MeshNames(names.as_deref().unwrap_or_default()));
+            .map(|names| MeshNames(Names(names.as_deref().unwrap_or_default())));
         only.check(&model, &path)?;
         hide.check(&model, &path)?;
         let is_meant =
