@@ -38,12 +38,12 @@ pub use bundle::LockStrand;
 pub use islands::islands;
 
 use distance::{Surface, along_line, range};
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use section::Section;
 
-/// An island whose directions from the skull's middle have a shorter mean than this is a shell around it: of half a ball's shell it is 0.5, of a lock
-/// along a quarter of a circle 0.9.
-const SHELL: f64 = 0.65;
+/// The least moment of the directions from the skull's middle to an island, of which an island is a shell around the skull: all ways it spreads as far as a
+/// cap of 37 degrees from its middle to its rim. Of half a ball's shell it is 1/3, of a lock, whatever its length, near 0.
+const SHELL: f64 = 0.09;
 /// A lock that is shorter than this many half widths is a ball or a tuft, whose root is its place nearest to the skull.
 const TUFT: f64 = 3.0;
 /// Links of a lock's line.
@@ -83,6 +83,8 @@ pub struct Locks {
 pub struct Lock {
     /// Indices of its triangles, ascending.
     pub triangles: Vec<usize>,
+    /// Whether it was not cut off other triangles.
+    is_whole: bool,
     /// From root to tip, two or more.
     sections: Vec<Section>,
 }
@@ -108,6 +110,7 @@ pub fn locks(hair: &MeshHair, skull: Vec3, link_m: f32) -> Locks {
             }
             found.locks.push(Lock {
                 triangles,
+                is_whole: surface.rim.is_empty(),
                 sections,
             });
         }
@@ -115,17 +118,23 @@ pub fn locks(hair: &MeshHair, skull: Vec3, link_m: f32) -> Locks {
     found
 }
 
-/// Whether an island surrounds the skull.
+/// Whether an island lies around the skull as a cap does.
 fn is_shell(surface: &Surface, skull: DVec3) -> bool {
-    let (mut sum, mut area) = (DVec3::ZERO, 0.0);
-    for corners in surface.corners() {
-        let [a, b, c] = corners;
-        let own = (b - a).cross(c - a).length();
-        sum += own * ((a + b + c) / 3.0 - skull).normalize_or_zero();
-        area += own;
-    }
     // What was cut off something hangs there.
-    surface.rim.is_empty() && sum.length() < SHELL * area
+    if !surface.rim.is_empty() {
+        return false;
+    }
+    let (mut moments, mut whole) = (DMat3::ZERO, 0.0);
+    for [a, b, c] in surface.corners() {
+        let area = (b - a).cross(c - a).length();
+        let way = ((a + b + c) / 3.0 - skull).normalize_or_zero();
+        moments += DMat3::from_cols(way * way.x, way * way.y, way * way.z) * area;
+        whole += area;
+    }
+    // The least one is greater where these are positive definite (Sylvester).
+    let rest = moments - DMat3::from_diagonal(DVec3::splat(SHELL * whole));
+    let upper = rest.x_axis.x * rest.y_axis.y - rest.x_axis.y * rest.y_axis.x;
+    rest.x_axis.x > 0.0 && upper > 0.0 && rest.determinant() > 0.0
 }
 
 /// The sections of an island from root to tip; nothing where it has no length.
@@ -135,15 +144,26 @@ fn sections(surface: &Surface, skull: DVec3, link_m: f64) -> Option<Vec<Section>
     }
     let root = root(surface, skull);
     let found = Along::Surface(surface.distances(&[root])).sections(surface, link_m)?;
-    let widest = found.iter().map(|own| own.half_width).fold(0.0, f64::max);
-    let is_tuft = section::length(&found) < TUFT * widest;
-    if !is_tuft {
+    if !is_tuft(&found) {
         return Some(found);
     }
     let away = |vertex: &usize| surface.places[*vertex].distance(skull);
     let all = 0..surface.places.len();
     let root = all.min_by(|a, b| away(a).total_cmp(&away(b)))?;
     Along::Surface(surface.distances(&[root])).sections(surface, link_m)
+}
+
+fn is_tuft(sections: &[Section]) -> bool {
+    let widest = sections.iter().map(|own| own.half_width);
+    section::length(sections) < TUFT * widest.fold(0.0, f64::max)
+}
+
+impl Lock {
+    /// Whether it is a ball or a tuft, shorter than one and a half of its widths, as buns are; never of what was cut off a cap.
+    #[must_use]
+    pub fn is_tuft(&self) -> bool {
+        self.is_whole && is_tuft(&self.sections)
+    }
 }
 
 /// How far each place of an island is from its root.

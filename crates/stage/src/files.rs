@@ -82,6 +82,19 @@ pub enum StageError {
         /// What it may have meant.
         hint: String,
     },
+    /// A character does not move by itself.
+    #[error("{}: {message}", .path.display())]
+    Skeleton {
+        /// The file.
+        path: PathBuf,
+        /// What is missing or broken.
+        message: String,
+    },
+    /// A head that has no skeleton, or is not drawn by it.
+    #[error(
+        "`motion.character` moves the meshes of the head's own file: head: (file: \"...\", colors: file)"
+    )]
+    NoCharacter,
     /// A character has no hair of its own.
     #[error(
         "{}: no mesh or material is called hair and no spring bones hang on the head, or nothing of them is a lock: `hair.meshes` says what is hair", .0.display()

@@ -30,6 +30,7 @@ mod scalp;
 mod scene;
 mod script;
 mod shapes;
+mod skeleton;
 mod solid;
 mod stage;
 mod style;

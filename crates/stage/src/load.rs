@@ -10,6 +10,7 @@ use crate::preset::{
     BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HeadColors, HeadSection,
     HeadShape, Preset, UpAxis,
 };
+use crate::skeleton::Skeleton;
 use crate::style;
 use glam::{Vec2, Vec3};
 use groom::{Blush, Dress, Expression, Eyes, Face, Figure, Taper};
@@ -20,7 +21,7 @@ use mesh_io::Model;
 use render::NO_TAPER;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// From the chin to the top of a figure, metres.
 const FIGURE_HEIGHT_M: f32 = 0.24;
@@ -60,6 +61,9 @@ pub(crate) fn head(
     let section = &preset.sections.head;
     let own = section.file.as_ref();
     let Some(path) = chosen(files.head.as_ref(), own, &files.preset_folder) else {
+        if preset.sections.motion.character {
+            return Err(StageError::NoCharacter);
+        }
         let head = match section.shape {
             HeadShape::None => return Ok((no_head(preset)?, None)),
             HeadShape::Bust => HeadModel::bust(),
@@ -106,7 +110,15 @@ pub(crate) fn head(
     let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
     let folder = &files.preset_folder;
     let beside = painted::of_sections(&sections, folder, orientation, notes)?;
-    let head = HeadModel::from(mesh).painted(painted, beside);
+    let mut head = HeadModel::from(mesh).painted(painted, beside);
+    if preset.sections.motion.character {
+        if section.colors != HeadColors::File {
+            return Err(StageError::NoCharacter);
+        }
+        let model = Arc::new(file.model.clone());
+        let skeleton = Skeleton::new(model, &path, orientation, &preset.sections.motion)?;
+        head.skeleton = Some(Arc::new(skeleton));
+    }
     let hair = own_hair.zip(hair_paint).map(|(own, paint)| {
         let hair = own.into_hair(&head, &preset.sections.hair, &paint)?;
         notes.extend(hair.file.notes.iter().cloned());

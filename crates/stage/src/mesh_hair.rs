@@ -211,13 +211,18 @@ impl OwnHair {
             WIDEST
         };
         let mut strands = Strands::new();
-        let (mut tapers, mut colors) = (Vec::new(), Vec::new());
+        let (mut tapers, mut colors, mut held) = (Vec::new(), Vec::new(), Vec::new());
         for OwnLock { mesh, lock } in &self.locks {
             for strand in lock.strands(widest * frame.unit_m()) {
                 let (half_width_m, taper) = taper_of(&strand.half_widths);
                 let id = strands.len() as u32;
                 strands.push(id, &strand.points, Some(half_width_m / frame.unit_m()))?;
                 tapers.push(taper);
+                held.push(if lock.is_tuft() {
+                    strand.points.len() as u32
+                } else {
+                    1
+                });
                 colors.push(match painted.get(mesh) {
                     Some(painted) => colors_of(painted, &lock.triangles, &strand),
                     None => [NO_COLOR; 2],
@@ -232,7 +237,8 @@ impl OwnHair {
         notes.extend(self.notes);
         Ok(HairModel {
             all_roots: strands.roots().collect(),
-            held: vec![1; strands.len()],
+            // A bun whose strands swung by themselves would come apart.
+            held,
             tapers,
             own_colors: colors,
             infos: Vec::new(),

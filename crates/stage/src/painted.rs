@@ -24,6 +24,9 @@ pub(crate) struct PaintedMesh {
     pub paint: MeshPaint,
     /// Which of the preset's `meshes` it is of; none is the head's own file.
     pub section: Option<usize>,
+    /// Which mesh of its file it is, and which of that mesh's vertices it has where triangles were taken away: empty is all.
+    pub index: usize,
+    pub kept: Vec<usize>,
 }
 
 /// How a file paints a mesh.
@@ -47,6 +50,11 @@ pub(crate) struct MeshPicture {
 }
 
 impl PaintedMesh {
+    /// The vertex of its file's mesh that one of its own is.
+    pub(crate) fn vertex(&self, own: usize) -> usize {
+        self.kept.get(own).copied().unwrap_or(own)
+    }
+
     /// Takes triangles away; one a triangle tells which.
     pub(crate) fn take_away(&mut self, is_gone: &[bool]) {
         let mut numbers = vec![None; self.positions.len()];
@@ -65,6 +73,7 @@ impl PaintedMesh {
             }));
         }
         self.triangles = triangles;
+        self.kept = kept.iter().map(|i| self.vertex(*i)).collect();
         self.positions = kept.iter().map(|i| self.positions[*i]).collect();
         self.normals = kept.iter().map(|i| self.normals[*i]).collect();
         if !self.places.is_empty() {
@@ -141,7 +150,12 @@ pub(crate) fn of_model(
 ) -> Result<Vec<PaintedMesh>, StageError> {
     let mut pictures = Pictures::new(model, path);
     let mut painted = Vec::new();
-    for mesh in model.meshes.iter().filter(|mesh| is_meant(mesh)) {
+    for (index, mesh) in model
+        .meshes
+        .iter()
+        .enumerate()
+        .filter(|(_, mesh)| is_meant(mesh))
+    {
         let material = mesh.material.and_then(|index| model.materials.get(index));
         let paint = match material {
             None => MeshPaint::NONE,
@@ -159,6 +173,8 @@ pub(crate) fn of_model(
             },
             paint,
             section,
+            index,
+            kept: Vec::new(),
         });
     }
     notes.append(&mut pictures.notes);

@@ -42,7 +42,11 @@ impl Lock {
         let half_width = most(|section| section.half_width);
         let half_thickness = most(|section| section.half_thickness);
         if half_width <= STILL_ONE * widest {
-            return vec![self.strand(|section| (section.middle, section.half_width))];
+            // A narrow one needs no root that is hidden: it begins at the rim.
+            let shown = &self.sections[usize::from(!self.is_whole)..];
+            return vec![strand_of(
+                shown.iter().map(|own| (own.middle, own.half_width)),
+            )];
         }
         if half_thickness <= widest {
             let count = (half_width / widest).ceil().min(MOST) as usize;

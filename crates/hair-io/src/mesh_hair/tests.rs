@@ -168,6 +168,7 @@ fn the_root_is_where_the_head_is_or_the_bones_begin() {
 fn ribbons_are_strands_side_by_side() {
     let ribbon = Made::tube(quarter, 30, |_| [0.04, 0.003]);
     let lock = ribbon.only(&[]);
+    assert!(!lock.is_tuft());
     assert!(off_mm(&lock, quarter) < 1.0, "{}", off_mm(&lock, quarter));
     let strands = lock.strands(0.012);
     assert_eq!(strands.len(), 4);
@@ -193,6 +194,7 @@ fn balls_are_bundles() {
     let axes = |u: f32| [radius * (1.0 - (2.0 * u - 1.0).powi(2)).max(1e-6).sqrt(); 2];
     let ball = Made::tube(|u| center + Vec3::X * radius * (2.0 * u - 1.0), 24, axes);
     let lock = ball.only(&[]);
+    assert!(lock.is_tuft());
     let root = lock.middle().next().unwrap();
     assert!(root.distance(center - away * radius) < 0.015, "{root}");
     let strands = lock.strands(0.015);
@@ -210,11 +212,16 @@ fn balls_are_bundles() {
 
 /// A half of a ball's shell around the skull.
 fn cap() -> Made {
+    cap_around(SKULL)
+}
+
+/// The same around another middle.
+fn cap_around(center: Vec3) -> Made {
     let mut made = Made::default();
     let place = |row: u32, side: u32| {
         let (sin, cos) = (row as f32 / 8.0 * 0.25 * TAU).sin_cos();
         let (x, z) = ((side % 16) as f32 / 16.0 * TAU).sin_cos();
-        SKULL + 0.12 * Vec3::new(sin * x, cos, sin * z)
+        center + 0.12 * Vec3::new(sin * x, cos, sin * z)
     };
     for (row, side) in (0..8).flat_map(|row| (0..16).map(move |side| (row, side))) {
         let first = made.positions.len() as u32;
@@ -235,6 +242,10 @@ fn caps_are_no_locks_and_what_is_cut_off_them_is_one() {
     let cap = cap();
     let found = cap.found(&[]);
     assert_eq!((found.locks.len(), found.shells), (0, 1));
+    // The skull's middle need not be the cap's.
+    for off in [Vec3::Y * 0.05, Vec3::Z * -0.03] {
+        assert_eq!(cap_around(SKULL + off).found(&[]).shells, 1);
+    }
     // The front of its last three rows swings.
     let swings = |t: &[u32; 3]| {
         let middle = t

@@ -310,6 +310,9 @@ section! {
         file: Option<String> = text(),
         /// A character whose animation moves the head, relative to the preset: .glb, .gltf or .vrm. The script's moves come on top.
         gltf: Option<String> = text(),
+        /// Whether the head's own file moves it, a character with an animation: its bones pose all of its meshes, and hair follows the head's. The
+        /// script's moves come on top; the head has its file's colours.
+        character: bool = flag(false),
         /// The character's bone that the head follows; "head" without it.
         bone: Option<String> = text(),
         /// The character's animation, by its name or its number, 0 first; the first without it.
