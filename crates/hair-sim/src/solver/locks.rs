@@ -276,11 +276,12 @@ impl Locks {
                     return;
                 }
                 let (sweep, its) = (&sweeps[own], &sweeps[other]);
-                let Some(farther) = sweep.farther(its, (keep - radii) as f32) else {
+                let more = (keep - radii) as f32;
+            let Some(farther) = sweep.farther(its, more) else {
                     return;
                 };
                 for i in 0..self.pieces[own].links {
-                    let mut near = sweep.near(i, its, farther);
+                    let mut near = sweep.near(i, its, (more, farther));
                     while near != 0 {
                         let j = near.trailing_zeros() as usize;
                         near &= near - 1;

@@ -28,6 +28,8 @@ const FARTHEST: f64 = 0.1;
 
 /// What single precision may change a coordinate by, as a share of it.
 const ROUNDING: f64 = 1.0 / (1 << 22) as f64;
+/// A factor on a length in single precision that makes up for it.
+const ROUNDED: f32 = 1.0 + 1e-6;
 
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +87,9 @@ pub(super) struct Sweep {
     half: [[f32; PIECE]; 3],
     reach: [f32; PIECE],
     per_square: [f32; PIECE],
+    /// The mean ways of the links, and how far those of their ends are from that.
+    ways: [[f32; PIECE]; 3],
+    spreads: [f32; PIECE],
     /// The lock's radius, and what comes to it.
     keep: f32,
     way: [f32; 3],
@@ -101,6 +106,8 @@ impl Sweep {
         half: [[0.0; PIECE]; 3],
         reach: [0.0; PIECE],
         per_square: [0.0; PIECE],
+        ways: [[0.0; PIECE]; 3],
+        spreads: [0.0; PIECE],
         keep: 0.0,
         way: [0.0; 3],
         spread: 0.0,
@@ -112,46 +119,56 @@ impl Sweep {
     #[inline]
     pub(super) fn farther(&self, other: &Self, more: f32) -> Option<f32> {
         let ([x, y, z], [ox, oy, oz]) = (self.way, other.way);
-        let (x, y, z) = (x - ox, y - oy, z - oz);
-        let against = (x * x + y * y + z * z).sqrt() * (1.0 + 1e-6) + self.spread + other.spread;
+        let square = length_squared(x - ox, y - oy, z - oz);
+        let against = square.sqrt() * ROUNDED + self.spread + other.spread;
         let farther = more + 0.5 * against + against.min(self.own + other.own);
         (self.mid.meets_within(&other.mid, farther)).then_some(farther)
     }
 
-    /// Which of the other's links may meet a link, as bits; of what [`Self::farther`] says of both pieces. It looks at balls around them first, then
-    /// at each link and the balls of the other's.
+    /// Which of the other's links may meet a link, as bits, where both pieces keep `more` metres besides their radii, and may meet so much `farther`
+    /// than half way through the step. It looks at balls around them first, then at each link and the balls of the other's.
     #[inline]
-    pub(super) fn near(&self, link: usize, other: &Self, farther: f32) -> u32 {
-        let ([x, y, z], [cx, cy, cz]) = (&self.center, &other.center);
-        let ([hx, hy, hz], [ix, iy, iz]) = (&self.half, &other.half);
-        let (x, y, z) = (x[link], y[link], z[link]);
-        let (hx, hy, hz) = (hx[link], hy[link], hz[link]);
-        let (long, per) = (self.reach[link], self.per_square[link]);
-        let farther = self.keep + other.keep + farther;
-        let mut near = [false; PIECE];
+    pub(super) fn near(&self, link: usize, other: &Self, (more, farther): (f32, f32)) -> u32 {
+        let at = |of: &[[f32; PIECE]; 3], i: usize| (of[0][i], of[1][i], of[2][i]);
+        let keep = self.keep + other.keep;
+        let ((x, y, z), long) = (at(&self.center, link), self.reach[link]);
+        let mut is_near = [false; PIECE];
         for j in 0..PIECE {
-            let (x, y, z) = (cx[j] - x, cy[j] - y, cz[j] - z);
-            let reach = other.reach[j] + long + farther;
-            near[j] = x * x + y * y + z * z <= reach * reach;
+            let (cx, cy, cz) = at(&other.center, j);
+            let reach = other.reach[j] + long + (keep + farther);
+            is_near[j] = length_squared(cx - x, cy - y, cz - z) <= reach * reach;
         }
-        if near == [false; PIECE] {
+        if is_near == [false; PIECE] {
             return 0;
         }
+        let ((hx, hy, hz), per_square) = (at(&self.half, link), self.per_square[link]);
+        let ((wx, wy, wz), spread) = (at(&self.ways, link), self.spreads[link]);
+        let own = self.own + other.own;
         let mut bits = [0_u32; PIECE];
         for j in 0..PIECE {
-            let (x, y, z) = (cx[j] - x, cy[j] - y, cz[j] - z);
-            let at = ((x * hx + y * hy + z * hz) * per).clamp(-1.0, 1.0);
-            let (ax, ay, az) = (x - hx * at, y - hy * at, z - hz * at);
-            let reach = other.reach[j] + farther;
-            let one = ax * ax + ay * ay + az * az <= reach * reach;
-            let at = ((x * ix[j] + y * iy[j] + z * iz[j]) * other.per_square[j]).clamp(-1.0, 1.0);
-            let (ax, ay, az) = (x - ix[j] * at, y - iy[j] * at, z - iz[j] * at);
-            let reach = long + farther;
-            let two = ax * ax + ay * ay + az * az <= reach * reach;
-            bits[j] = u32::from(near[j] & one & two) << j;
+            let (vx, vy, vz) = at(&other.ways, j);
+            let against = length_squared(vx - wx, vy - wy, vz - wz).sqrt() * ROUNDED;
+            let against = against + spread + other.spreads[j];
+            let slower = if own < against { own } else { against };
+            let keep = keep + more + 0.5 * against + slower;
+            let (cx, cy, cz) = at(&other.center, j);
+            let (x, y, z) = (cx - x, cy - y, cz - z);
+            let along = ((x * hx + y * hy + z * hz) * per_square).clamp(-1.0, 1.0);
+            let one = length_squared(x - hx * along, y - hy * along, z - hz * along);
+            let (ix, iy, iz) = at(&other.half, j);
+            let along = ((x * ix + y * iy + z * iz) * other.per_square[j]).clamp(-1.0, 1.0);
+            let two = length_squared(x - ix * along, y - iy * along, z - iz * along);
+            let (reach, its) = (other.reach[j] + keep, long + keep);
+            let meets = is_near[j] & (one <= reach * reach) & (two <= its * its);
+            bits[j] = u32::from(meets) << j;
         }
         bits[0] | bits[1] | bits[2] | bits[3]
     }
+}
+
+#[inline]
+fn length_squared(x: f32, y: f32, z: f32) -> f32 {
+    x * x + y * y + z * z
 }
 
 /// Where the strands of some batches go in a step.
@@ -326,6 +343,8 @@ struct Swept {
     centers: [Vec3; PIECE],
     halves: [Vec3; PIECE],
     reaches: [Lane; PIECE],
+    ways: [Vec3; PIECE],
+    spreads: [Lane; PIECE],
     way: Vec3,
     spread: Lane,
     own: Lane,
@@ -361,6 +380,8 @@ impl Swept {
             centers: [Vec3::ZERO; PIECE],
             halves: [Vec3::ZERO; PIECE],
             reaches: [Lane::ZERO; PIECE],
+            ways: [Vec3::ZERO; PIECE],
+            spreads: [Lane::ZERO; PIECE],
             way,
             spread: spread.sqrt(),
             own: own.sqrt() + broken,
@@ -372,6 +393,9 @@ impl Swept {
             let (start_mid, end_mid) = (start + start_now, end + end_now);
             swept.centers[i] = (start_mid + end_mid) * 0.25 - origin;
             swept.halves[i] = (end_mid - start_mid) * 0.25;
+            let (start_way, end_way) = (start_now - start, end_now - end);
+            swept.ways[i] = (start_way + end_way) * 0.5;
+            swept.spreads[i] = (end_way - start_way).length_squared().sqrt() * 0.5;
             swept.reaches[i] = long.sqrt() * 0.5;
         }
         swept
@@ -405,10 +429,13 @@ impl Swept {
         for i in 0..piece.links {
             let center = self.centers[i].get(lane).as_vec3();
             let half = self.halves[i].get(lane).as_vec3();
+            let way = self.ways[i].get(lane).as_vec3();
             for axis in 0..3 {
                 sweep.center[axis][i] = center[axis];
                 sweep.half[axis][i] = half[axis];
+                sweep.ways[axis][i] = way[axis];
             }
+            sweep.spreads[i] = (self.spreads[i][lane] + rounding) as f32;
             sweep.reach[i] = (self.reaches[i][lane] + rounding) as f32;
             sweep.per_square[i] = 1.0 / half.length_squared().max(1e-20);
         }
