@@ -277,7 +277,7 @@ impl Locks {
                 }
                 let (sweep, its) = (&sweeps[own], &sweeps[other]);
                 let more = (keep - radii) as f32;
-            let Some(farther) = sweep.farther(its, more) else {
+                let Some(farther) = sweep.farther(its, more) else {
                     return;
                 };
                 for i in 0..self.pieces[own].links {
