@@ -207,7 +207,7 @@ fn many_edges_may_meet_in_a_vertex() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig { cases: 120, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Few vertices, many triangles, on a grid: non-manifold edges, repeated and flipped triangles, needles, triangles through each other, eyes in their planes.
     #[test]
