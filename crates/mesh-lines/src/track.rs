@@ -8,6 +8,8 @@ use std::{collections::HashMap, ops::Range};
 
 /// How far the samples are apart by which paths remember where they were, in pixels.
 const SAMPLE_PX: f64 = 4.0;
+/// More samples no path has: it would be longer than any picture shows.
+const MOST_SAMPLES: f64 = 16_384.0;
 /// How far a sample goes at most to the contour of the next frame.
 const REACH_PX: f64 = 6.0;
 /// How far the knots of T are apart.
@@ -242,7 +244,7 @@ impl Tracker {
             joints: ruler.joints(&range).into_iter().map(joint).collect(),
         });
         let length = range.end - range.start;
-        let samples = (length / SAMPLE_PX).ceil().clamp(1.0, 1e6) as usize;
+        let samples = (length / SAMPLE_PX).ceil().clamp(1.0, MOST_SAMPLES) as usize;
         self.memories.extend((0..=samples).map(|i| {
             let s = range.start + length * i as f64 / samples as f64;
             Memory {

@@ -125,6 +125,32 @@ fn of_two_spheres_the_nearer_hides_the_farther() {
 }
 
 #[test]
+fn edges_of_boxes_are_hidden_where_the_exact_ones_are() {
+    let boxes = [
+        [Vec3::new(-1.0, -1.0, -1.0), Vec3::new(0.5, -0.2, 0.7)],
+        [Vec3::new(-0.3, -0.1, -0.6), Vec3::new(1.0, 1.1, 0.3)],
+    ];
+    let shape = cube(boxes[0][0], boxes[0][1])
+        .and(cube(boxes[1][0], boxes[1][1]))
+        .sharp();
+    let solid = move |p: DVec3| {
+        let off = boxes.map(|[low, high]| (low.as_dvec3() - p).max(p - high.as_dvec3()));
+        off.map(|off| off.max(DVec3::ZERO).length() + off.max_element().min(0.0))
+            .into_iter()
+            .fold(f64::INFINITY, f64::min)
+    };
+    let bvh = shape.bvh();
+    let mut tally = Tally::default();
+    for eye in eyes(64, 3.0, 8.0) {
+        let view = View::perspective(eye.as_vec3()).unwrap();
+        tally.add(&shape, &bvh, &view, 40, |line, along| {
+            Some(!is_hidden(&solid, line.position(along), eye))
+        });
+    }
+    assert!(tally.share() < 0.001, "{}", tally.share());
+}
+
+#[test]
 fn pieces_agree_with_a_ray_for_each_place() {
     let cubes = cube(Vec3::new(-1.0, -1.0, -1.0), Vec3::new(0.5, -0.2, 0.7))
         .and(cube(Vec3::new(-0.4, -0.1, -0.6), Vec3::new(1.0, 1.1, 0.3)).moved(turned));
