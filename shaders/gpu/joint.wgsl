@@ -25,10 +25,13 @@ const GPU_HEAD_HEIGHT: u32 = 11u;
 const GPU_UNIT: u32 = 12u;
 /// Where the words begin that paint_main.wgsl reads.
 const GPU_PAINT: u32 = 13u;
+/// The layer's bit in `GPU_STRAND_LEFT_OUT_BY`, 0 of a clump.
+const GPU_LAYER_BIT: u32 = 14u;
 
-/// A strand: its id, mean place, size, taper, lift, colours at root and tip, level.
-const GPU_STRAND_WORDS: u32 = 15u;
+/// A strand: its id, mean place, size, taper, lift, colours at root and tip, level, the layers that leave it out.
+const GPU_STRAND_WORDS: u32 = 16u;
 const GPU_STRAND_LEVEL: u32 = 14u;
+const GPU_STRAND_LEFT_OUT_BY: u32 = 15u;
 
 /// Where the discs of one of the layer's strokes would begin, if the frame's first joint had one.
 fn gpu_first_disc(instance: u32) -> u32 {

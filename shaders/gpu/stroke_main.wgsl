@@ -10,8 +10,9 @@ fn gpu_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     let joint = gpu_words[GPU_FIRST_JOINT] + index;
     let at = gpu_first_disc(group.z) + joint;
     var made = stroke(gpu_inputs(joint), group.z, gpu_params(joint, gpu_scalar(joint, GPU_AT_U)));
-    if (!gpu_is_whole(made)) {
-        // A stroke that an effect failed to work out is not drawn.
+    let is_left_out = (gpu_of_strand(joint, GPU_STRAND_LEFT_OUT_BY) & gpu_words[GPU_LAYER_BIT]) != 0u;
+    if (is_left_out || !gpu_is_whole(made)) {
+        // A stroke of another zone's hair, or one that an effect failed to work out, is not drawn.
         made = Stroke(vec2<f32>(0.0), 0.0, 0.0, vec3<f32>(0.0));
     }
     let clump_radius = gpu_clumps[joint].radius;

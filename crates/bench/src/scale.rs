@@ -132,6 +132,7 @@ impl MadeHair {
             colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
+            left_out_by: 0,
         };
         Self {
             particles: vec![Vec3::ZERO; count * POINTS],
@@ -221,6 +222,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             light: Light::Direction(Vec3::new(0.48, 0.6, 0.64)),
             time_s: number as f32 / 60.0,
             material_normals: &[],
+            rest_positions: &[],
             surfaces: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),

@@ -107,6 +107,7 @@ pub(crate) const INPUTS: &[Input] = &[
     input("material_normal", Vec3, Both, "unit vector across the strand that turns as it twists, outwards at rest; cross(forward, it) is the binormal")
         // The clump declares it, and reads it where its parameters say so.
         .where_empty(|| quote!(::effects::wgsl::vec3([0.0; 3]))),
+    input("rest_position", Vec3, Both, "where the strand is here at rest, head heights from the head's centre: x to its left, y up, z to the face"),
     input("unit", F32, ToEffects, "one unit of the layer's widths in 1/300 of the head's height: 1, or a pixel's size at 720 lines")
         .where_empty(|| quote!(1.0)),
     input("normal", Vec3, ToEffects, "the clump's unit normal (5.4)"),
@@ -174,7 +175,7 @@ impl Input {
         format_ident!("{}", variant(self.name))
     }
 
-    /// Its value at `index` of the `lists`: `effects::Joints` or `effects::Samples`.
+    /// Its value at `index` of the `lists`, `effects::Joints`.
     pub fn value(&self, lists: &Ident) -> TokenStream {
         let name = format_ident!("{}", self.name);
         match self.where_empty {
@@ -183,6 +184,17 @@ impl Input {
                 quote!(#lists.#name.get(index).copied().unwrap_or(#value))
             }
             None => quote!(#lists.#name[index]),
+        }
+    }
+}
+
+impl Input {
+    /// Its value of sample `index` of the block `samples`.
+    pub fn of_block(&self) -> TokenStream {
+        let name = format_ident!("{}", self.name);
+        match self.ty {
+            Vec3 => quote!(samples.#name.at(index)),
+            F32 | U32 | Vec2 => quote!(samples.#name[index]),
         }
     }
 }

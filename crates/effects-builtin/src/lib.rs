@@ -5,20 +5,24 @@
 //! let mut registry = effects::Registry::new();
 //! effects_builtin::register(&mut registry)?;
 //! let ids: Vec<_> = registry.iter().map(|effect| effect.id()).collect();
-//! assert_eq!(ids, ["hair.base", "hair.cel", "hair.fine", "hair.highlight", "hair.silhouette"]);
+//! assert_eq!(ids, ["hair.band", "hair.base", "hair.cel", "hair.fine", "hair.highlight", "hair.ink", "hair.silhouette"]);
 //! # Ok::<(), effects::RegistryError>(())
 //! ```
 
+mod band;
 mod base;
 mod cel;
 mod fine;
 mod highlight;
+mod ink;
 mod silhouette;
 
+pub use band::Band;
 pub use base::Base;
 pub use cel::Cel;
 pub use fine::Fine;
 pub use highlight::Highlight;
+pub use ink::Ink;
 pub use silhouette::Silhouette;
 
 use effects::{Registry, RegistryError};
@@ -30,8 +34,10 @@ use effects::{Registry, RegistryError};
 /// When the registry already has an effect of the same id.
 pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
     registry.register::<Silhouette>()?;
+    registry.register::<Ink>()?;
     registry.register::<Base>()?;
     registry.register::<Cel>()?;
     registry.register::<Highlight>()?;
+    registry.register::<Band>()?;
     registry.register::<Fine>()
 }

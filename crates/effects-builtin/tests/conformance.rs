@@ -1,7 +1,15 @@
 //! Each effect holds to what every effect must hold to.
 
-use effects_builtin::{Base, Cel, Fine, Highlight, Silhouette};
+use effects_builtin::{Band, Base, Cel, Fine, Highlight, Ink, Silhouette};
 use effects_testkit::{assert_conforms, assert_steady};
+
+#[test]
+fn band() {
+    assert_conforms::<Band>();
+    for along in ["height", "length"] {
+        assert_steady::<Band>(&[("along", along), ("strand_share", "1"), ("rim", "4")]);
+    }
+}
 
 #[test]
 fn base() {
@@ -28,6 +36,13 @@ fn highlight() {
     for kind in ["specular", "distance", "ring"] {
         assert_steady::<Highlight>(&[("kind", kind)]);
     }
+}
+
+#[test]
+fn ink() {
+    assert_conforms::<Ink>();
+    assert_steady::<Ink>(&[]);
+    assert_steady::<Ink>(&[("gaps", "0.5"), ("shadow_color", "8090A0")]);
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Tones by light from a ramp, sample by sample, with a second axis for detail (X-Toon).
 
+use effects::SampleInput;
+
 effects::effect!("toon");
 
 /// `hair.toon`: draws the clump as `hair.base` does, and paints each sample by how light falls on it.
@@ -20,6 +22,22 @@ impl effects::StrokeEffect for Toon {
         effects::Reach {
             clumps: 2.0,
             units: 0.0,
+        }
+    }
+
+    fn reads(params: &Params, input: SampleInput) -> bool {
+        let detail = |choices: &[u32]| choices.contains(&params.detail);
+        let has_rim = params.rim.w > 0.0;
+        match input {
+            SampleInput::Forward => detail(&[Params::DETAIL_WEIGHTED]),
+            SampleInput::Depth => detail(&[Params::DETAIL_DEPTH]),
+            SampleInput::HeadDepth => {
+                detail(&[Params::DETAIL_DEPTH]) && params.depth_from == Params::DEPTH_FROM_HEAD
+            }
+            SampleInput::ViewDirection => detail(&[Params::DETAIL_FACING, Params::DETAIL_BLINN]),
+            SampleInput::Tube => has_rim || params.roundness != 0.0,
+            SampleInput::W => has_rim || detail(&[Params::DETAIL_ACROSS]),
+            _ => true,
         }
     }
 

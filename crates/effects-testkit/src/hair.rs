@@ -82,6 +82,7 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         depth: EYE.distance(position) / HEAD_M,
         time: 0.7,
         across: vec2([-ahead.y, ahead.x]),
+        rest_position: vec3((position / HEAD_M).to_array()),
         unit: 0.8,
         normal: vec3(normal.to_array()),
         material_normal: vec3(material_normal.to_array()),

@@ -4,7 +4,6 @@ use crate::sample::{Sample, hostile_samples, list, samples};
 use crate::values::{Case, defaults, extremes};
 use effects::wgsl::Vec3;
 use effects::{AnyEffect, LayerProgram, ParamKind, SampleInput, SampleSet};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The colours of these samples; none where the effect doesn't paint. The layer's seed is 1.
 pub(crate) fn paint(program: &dyn LayerProgram, samples: &[Sample]) -> Vec<Vec3<f32>> {
@@ -29,19 +28,32 @@ pub(crate) fn reads_what_it_declares(effect: &dyn AnyEffect) -> Result<(), Strin
         };
     };
     let samples = samples();
-    let works = |read: SampleSet| {
-        let run = AssertUnwindSafe(|| {
-            let mut colors = Vec::new();
-            program.paint(&list(&samples, read), 0..samples.len(), 1, &mut colors);
-        });
-        catch_unwind(run).is_ok()
+    let painted = |program: &dyn LayerProgram, read: SampleSet| {
+        let mut colors = Vec::new();
+        program.paint(&list(&samples, read), 0..samples.len(), 1, &mut colors);
+        colors
+            .iter()
+            .map(|color| color.to_array().map(f32::to_bits))
+            .collect::<Vec<_>>()
     };
-    if !works(declared) && works(SampleSet::of(SampleInput::ALL)) {
-        let names: Vec<_> = declared.iter().map(SampleInput::name).collect();
+    let names = |set: SampleSet| set.iter().map(SampleInput::name).collect::<Vec<_>>();
+    // What isn't there is 0, which no sample is everywhere.
+    if painted(&*program, declared) != painted(&*program, SampleSet::of(SampleInput::ALL)) {
         return Err(format!(
             "it reads what of a sample it doesn't declare; it declares {}",
-            names.join(", ")
+            names(declared).join(", ")
         ));
+    }
+    for case in extremes(effect) {
+        let program = effect.program(&case.values);
+        let declared = program.paints().unwrap_or_default();
+        if painted(&*program, program.reads()) != painted(&*program, declared) {
+            return Err(format!(
+                "{}: it reads more of a sample than `reads` says: {}",
+                case.name,
+                names(program.reads()).join(", ")
+            ));
+        }
     }
     Ok(())
 }

@@ -2,8 +2,8 @@
 
 use effects::wgsl::{Lookup, Stroke, Vec3, Vec4, vec3};
 use effects::{
-    Input, Joints, Param, Parameters as _, Registry, SampleInput, SampleSet, Samples, Section as _,
-    StrokeEffect, Texture, Value, Values,
+    Input, Joints, Param, Parameters as _, Registry, SampleBlock, SampleInput, SampleSet, Samples,
+    Section as _, StrokeEffect, Texture, Value, Values,
 };
 use effects_testkit::conforms;
 use std::marker::PhantomData;
@@ -14,7 +14,7 @@ effects::effect!("painted");
 trait Spoil: Send + Sync + 'static {
     const PAINTS: Option<&'static [SampleInput]> = <Program as effects::Program>::PAINTS;
     const WGSL: &'static str = Program::WGSL;
-    fn paint(good: Vec3<f32>, _samples: &Samples, _index: usize) -> Vec3<f32> {
+    fn paint(good: Vec3<f32>, _samples: &SampleBlock, _index: usize) -> Vec3<f32> {
         good
     }
 }
@@ -40,11 +40,11 @@ impl<S: Spoil> effects::Program for Painted<S> {
     fn stroke(joints: &Joints, index: usize, instance: u32, seed: u32, params: &Params) -> Stroke {
         <Program as effects::Program>::stroke(joints, index, instance, seed, params)
     }
-    fn place(samples: &Samples, index: usize, seed: u32, params: &Params) -> Option<Lookup> {
+    fn place(samples: &SampleBlock, index: usize, seed: u32, params: &Params) -> Option<Lookup> {
         <Program as effects::Program>::place(samples, index, seed, params)
     }
     fn paint(
-        samples: &Samples,
+        samples: &SampleBlock,
         index: usize,
         seed: u32,
         texel: Vec4<f32>,
@@ -78,7 +78,7 @@ fn assert_fails<S: Spoil>(expected: &str) {
 
 struct Negative;
 impl Spoil for Negative {
-    fn paint(good: Vec3<f32>, samples: &Samples, index: usize) -> Vec3<f32> {
+    fn paint(good: Vec3<f32>, samples: &SampleBlock, index: usize) -> Vec3<f32> {
         if samples.w[index] > 0.6 {
             vec3([0.0, -0.1, 0.0])
         } else {
@@ -89,28 +89,28 @@ impl Spoil for Negative {
 
 struct NotANumber;
 impl Spoil for NotANumber {
-    fn paint(good: Vec3<f32>, samples: &Samples, index: usize) -> Vec3<f32> {
+    fn paint(good: Vec3<f32>, samples: &SampleBlock, index: usize) -> Vec3<f32> {
         good * vec3([f32::NAN * samples.u[index]; 3])
     }
 }
 
 struct ByPlaceInTheList;
 impl Spoil for ByPlaceInTheList {
-    fn paint(good: Vec3<f32>, _: &Samples, index: usize) -> Vec3<f32> {
+    fn paint(good: Vec3<f32>, _: &SampleBlock, index: usize) -> Vec3<f32> {
         good + vec3([index as f32; 3])
     }
 }
 
 struct Undeclared;
 impl Spoil for Undeclared {
-    fn paint(good: Vec3<f32>, samples: &Samples, index: usize) -> Vec3<f32> {
+    fn paint(good: Vec3<f32>, samples: &SampleBlock, index: usize) -> Vec3<f32> {
         good * vec3([samples.depth[index]; 3])
     }
 }
 
 struct OtherRust;
 impl Spoil for OtherRust {
-    fn paint(good: Vec3<f32>, _: &Samples, _: usize) -> Vec3<f32> {
+    fn paint(good: Vec3<f32>, _: &SampleBlock, _: usize) -> Vec3<f32> {
         good * vec3([0.9; 3])
     }
 }

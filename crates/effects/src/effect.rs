@@ -1,14 +1,15 @@
 //! What an effect is.
 
 use crate::joints::{Input, InputSet, Joints};
+use crate::lanes::widest;
 use crate::param::{Param, ParamKind, Values};
 use crate::paths::{Hair, MadePaths};
 use crate::program::{Parameters, Program};
-use crate::samples::{SampleInput, SampleSet, Samples};
+use crate::samples::{BLOCK, SampleBlock, SampleInput, SampleSet, Samples, Vectors};
 use crate::source::{PaintSource, ProgramSource};
-use crate::texture::Texture;
+use crate::texture::{Lookups, Texels, Texture};
 use crate::varied::Varied;
-use crate::wgsl::{Stroke, Vec3, Vec4, hash};
+use crate::wgsl::{Stroke, Vec3, hash};
 use std::ops::Range;
 
 /// A stroke effect, as its author writes it.
@@ -82,6 +83,13 @@ pub trait StrokeEffect: Send + Sync + 'static {
     fn reach(params: &<Self::Program as Parameters>::Params) -> Reach {
         let _ = params;
         Reach::FARTHEST
+    }
+
+    /// Whether painting with these parameters makes use of something of a sample that the WGSL declares, so that it need not be worked
+    /// out else. Of effects with a parameter that varies all is.
+    fn reads(params: &<Self::Program as Parameters>::Params, input: SampleInput) -> bool {
+        let _ = (params, input);
+        true
     }
 
     /// Makes this frame's paths of the hair as it stands, for an effect with [`Self::OWN_PATHS`]. Choices
@@ -222,8 +230,25 @@ pub trait LayerProgram: Send + Sync {
     );
     /// What is read of each sample that the layer shows, where its effect paints them; nothing where samples have their strokes' colours.
     fn paints(&self) -> Option<SampleSet>;
-    /// Appends the linear colours of these samples, all of them shown by this layer. `seed` is the layer's.
-    fn paint(&self, samples: &Samples, range: Range<usize>, seed: u32, colors: &mut Vec<Vec3<f32>>);
+    /// Of what [`Self::paints`] says that which painting with these parameters makes use of.
+    fn reads(&self) -> SampleSet;
+    /// The linear colours of a block's samples, all of them shown by this layer. `seed` is the layer's.
+    fn paint_block(&self, samples: &SampleBlock, seed: u32, colors: &mut Vectors);
+    /// Appends the linear colours of samples of a list, block by block.
+    fn paint(
+        &self,
+        samples: &Samples,
+        range: Range<usize>,
+        seed: u32,
+        colors: &mut Vec<Vec3<f32>>,
+    ) {
+        let mut of_block = Vectors::NOTHING;
+        for start in range.clone().step_by(BLOCK) {
+            let some = start..range.end.min(start + BLOCK);
+            self.paint_block(&samples.block(some.clone()), seed, &mut of_block);
+            colors.extend((0..some.len()).map(|index| of_block.at(index)));
+        }
+    }
     /// Appends their radii alone, bit for bit the same: most strokes have none on most joints, and what else is made of them need
     /// not be worked out.
     fn radii(
@@ -374,29 +399,69 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         })
     }
 
-    fn paint(
-        &self,
-        samples: &Samples,
-        range: Range<usize>,
-        seed: u32,
-        colors: &mut Vec<Vec3<f32>>,
-    ) {
-        colors.reserve(range.len());
-        self.params
-            .for_each_sample(samples, range, seed, |i, params| {
-                let lookup = E::Program::place(samples, i, seed, params);
-                let texture = lookup.and_then(|lookup| {
-                    let (texture, repeats) = self.textures.get(lookup.texture as usize)?;
-                    Some(texture.texel(&lookup, *repeats))
+    fn reads(&self) -> SampleSet {
+        let declared = E::Program::PAINTS.unwrap_or_default().iter();
+        let read = declared.filter(|input| E::reads(self.params.base(), **input));
+        let read: Vec<SampleInput> = read.copied().collect();
+        match self.params.varies() {
+            true => self.paints().unwrap_or_default(),
+            false => SampleSet::of(&read),
+        }
+    }
+
+    fn paint_block(&self, samples: &SampleBlock, seed: u32, colors: &mut Vectors) {
+        let mut texels = Texels::NOTHING;
+        let mut lookups = Lookups::NOTHING;
+        if self.params.varies() {
+            if E::Program::PLACES {
+                self.params.for_each_sample(samples, seed, |i, params| {
+                    if let Some(lookup) = E::Program::place(samples, i, seed, params) {
+                        lookups.set(i, &lookup);
+                    }
                 });
-                let texel = texture.unwrap_or(Vec4 {
-                    x: 0.0,
-                    y: 0.0,
-                    z: 0.0,
-                    w: 0.0,
-                });
-                colors.push(E::Program::paint(samples, i, seed, texel, params));
+                lookups.look_up(&self.textures, &mut texels);
+            }
+            self.params.for_each_sample(samples, seed, |i, params| {
+                let color = E::Program::paint(samples, i, seed, texels.at(i), params);
+                colors.set(i, color);
             });
+            return;
+        }
+        let params = self.params.base();
+        if E::Program::PLACES {
+            widest(
+                #[inline(always)]
+                || {
+                    E::Program::knowing_place(
+                        params,
+                        #[inline(always)]
+                        |params| {
+                            for i in 0..BLOCK {
+                                if let Some(lookup) = E::Program::place(samples, i, seed, params) {
+                                    lookups.set(i, &lookup);
+                                }
+                            }
+                        },
+                    );
+                },
+            );
+            lookups.look_up(&self.textures, &mut texels);
+        }
+        widest(
+            #[inline(always)]
+            || {
+                E::Program::knowing_paint(
+                    params,
+                    #[inline(always)]
+                    |params| {
+                        for i in 0..BLOCK {
+                            let color = E::Program::paint(samples, i, seed, texels.at(i), params);
+                            colors.set(i, color);
+                        }
+                    },
+                );
+            },
+        );
     }
 
     fn radii(

@@ -28,6 +28,9 @@ pub struct Layer {
     pub depth_offset: f32,
     /// What widths are measured in.
     pub units: Units,
+    /// The zones of a hair style whose hair it draws: names with commas between them, `*` at the end of one for any end. All hair
+    /// where it says nothing.
+    pub zones: Option<String>,
     /// The effect with its parameters.
     pub program: Arc<dyn LayerProgram>,
 }

@@ -27,7 +27,7 @@
 //! ```
 //!
 //! Modules, each made of those before it alone: [`wgsl`] (the prelude), `color`, [`smooth`], `paths`, `joints` (what a joint
-//! offers), `samples` (what one that is painted offers), `texture`, `seed`, `variation`; `param` (tables and values),
+//! offers), `samples` (what one that is painted offers), `lanes`, `texture`, `seed`, `variation`; `param` (tables and values),
 //! [`mod@section`] (typed ones), `program` (what translated code implements), `source` (the same for a
 //! graphics card), `varied` (a program with its values), [`clump`]; `effect`, `layer`, `registry`; [`preset`].
 
@@ -44,6 +44,7 @@ pub mod clump;
 mod color;
 mod effect;
 mod joints;
+mod lanes;
 mod layer;
 mod param;
 mod paths;
@@ -68,7 +69,7 @@ pub use param::{Param, ParamKind, Value, Values};
 pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
 pub use program::{Parameters, Program};
 pub use registry::{Registry, RegistryError};
-pub use samples::{SampleInput, SampleSet, Samples};
+pub use samples::{BLOCK, SampleBlock, SampleInput, SampleSet, Samples, Vectors};
 pub use section::Section;
 pub use seed::{layer_seed, strand_seed};
 pub use source::{PaintSource, ProgramSource};

@@ -2,7 +2,7 @@
 
 use crate::joints::{Input, Joints};
 use crate::param::{Param, Values};
-use crate::samples::{SampleInput, Samples};
+use crate::samples::{SampleBlock, SampleInput};
 use crate::wgsl::{Lookup, Stroke, Vec3, Vec4};
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
@@ -39,9 +39,26 @@ pub trait Program: Parameters {
     const PAINTS: Option<&'static [SampleInput]> = None;
 
     /// Where sample `index` looks a texture up; nothing where the effect has no `place`.
-    fn place(samples: &Samples, index: usize, seed: u32, params: &Self::Params) -> Option<Lookup> {
+    fn place(
+        samples: &SampleBlock,
+        index: usize,
+        seed: u32,
+        params: &Self::Params,
+    ) -> Option<Lookup> {
         let _ = (samples, index, seed, params);
         None
+    }
+
+    /// Calls `work` with the parameters. Where [`Self::place`] switches on a choice, `work` is compiled once for each, which it then knows.
+    #[inline(always)]
+    fn knowing_place(params: &Self::Params, mut work: impl FnMut(&Self::Params)) {
+        work(params);
+    }
+
+    /// The same for [`Self::paint`].
+    #[inline(always)]
+    fn knowing_paint(params: &Self::Params, mut work: impl FnMut(&Self::Params)) {
+        work(params);
     }
 
     /// Whether there is a [`Self::place`].
@@ -50,7 +67,7 @@ pub trait Program: Parameters {
     /// The linear colour of sample `index`. `texel` is what [`Self::place`] found, linear and with its coverage. Only asked where
     /// [`Self::PAINTS`].
     fn paint(
-        samples: &Samples,
+        samples: &SampleBlock,
         index: usize,
         seed: u32,
         texel: Vec4<f32>,

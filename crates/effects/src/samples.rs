@@ -1,7 +1,84 @@
-//! What a sample that a layer shows offers to effects that paint, and lists of samples: one list per input, empty where nobody reads
-//! it.
+//! What a sample that a layer shows offers to effects that paint; lists of samples, one list per input, empty where nobody reads it; and
+//! blocks of them, which vector instructions paint.
 
-/// Makes [`SampleInput`] and [`Samples`] of the table in `crates/effects-build/src/inputs.rs`.
+use crate::wgsl::Vec3;
+use std::ops::Range;
+
+/// Samples of a [`SampleBlock`].
+pub const BLOCK: usize = 64;
+
+/// A vector of each sample of a block: a number of each, direction by direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vectors {
+    /// To the right, or red.
+    pub x: [f32; BLOCK],
+    /// Up, or green.
+    pub y: [f32; BLOCK],
+    /// To the front, or blue.
+    pub z: [f32; BLOCK],
+}
+
+impl Vectors {
+    /// All 0.
+    pub const NOTHING: Self = Self {
+        x: [0.0; BLOCK],
+        y: [0.0; BLOCK],
+        z: [0.0; BLOCK],
+    };
+
+    /// That of sample `index`.
+    #[must_use]
+    #[inline(always)] // into loops that are compiled for other instructions than their crate
+    pub fn at(&self, index: usize) -> Vec3<f32> {
+        Vec3 {
+            x: self.x[index],
+            y: self.y[index],
+            z: self.z[index],
+        }
+    }
+
+    /// Sets that of sample `index`.
+    #[inline(always)]
+    pub fn set(&mut self, index: usize, vector: Vec3<f32>) {
+        self.x[index] = vector.x;
+        self.y[index] = vector.y;
+        self.z[index] = vector.z;
+    }
+}
+
+/// What an input is of one sample, and of a block of them.
+pub trait Number: Copy {
+    /// That of each sample of a block.
+    type Block;
+    /// All 0.
+    const NOTHING: Self::Block;
+    /// Sets that of sample `index`.
+    fn put(self, block: &mut Self::Block, index: usize);
+}
+
+macro_rules! numbers {
+    ($($number:ty),*) => {$(
+        impl Number for $number {
+            type Block = [$number; BLOCK];
+            const NOTHING: Self::Block = [0 as $number; BLOCK];
+            fn put(self, block: &mut Self::Block, index: usize) {
+                block[index] = self;
+            }
+        }
+    )*};
+}
+
+numbers!(f32, u32);
+
+impl Number for Vec3<f32> {
+    type Block = Vectors;
+    const NOTHING: Vectors = Vectors::NOTHING;
+    fn put(self, block: &mut Vectors, index: usize) {
+        block.set(index, self);
+    }
+}
+
+/// Makes [`SampleInput`], [`Samples`] and [`SampleBlock`] of the table in `crates/effects-build/src/inputs.rs`.
 macro_rules! inputs {
     ($($(#[$doc:meta])* $input:ident $name:ident: $ty:ty,)*) => {
         /// Something that a sample offers to an effect that paints.
@@ -45,6 +122,31 @@ macro_rules! inputs {
                     $(SampleInput::$input => self.$name.len(),)*
                 }
             }
+
+            /// Some of them, at most [`BLOCK`], as a block. What has no list is 0.
+            #[must_use]
+            pub fn block(&self, range: Range<usize>) -> SampleBlock {
+                let mut block = SampleBlock::NOTHING;
+                $(if !self.$name.is_empty() {
+                    for (index, value) in self.$name[range.clone()].iter().enumerate() {
+                        value.put(&mut block.$name, index);
+                    }
+                })*
+                block
+            }
+        }
+
+        /// [`BLOCK`] samples that one layer shows. What an effect doesn't declare, or doesn't read, is anything.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct SampleBlock {
+            $($(#[$doc])* pub $name: <$ty as Number>::Block,)*
+        }
+
+        impl SampleBlock {
+            /// All 0.
+            pub const NOTHING: Self = Self {
+                $($name: <$ty as Number>::NOTHING,)*
+            };
         }
     };
 }

@@ -6,7 +6,9 @@ mod ramp;
 pub use image::{Image, ImageError};
 pub use ramp::{Ramp, Row};
 
-use crate::wgsl::{Lookup, Vec4};
+use crate::lanes::widest;
+use crate::samples::{BLOCK, Vectors};
+use crate::wgsl::{Lookup, Vec2, Vec4};
 use std::sync::Arc;
 
 /// The value of a parameter with `@texture`.
@@ -44,5 +46,97 @@ impl Texture {
             Self::Image { image, .. } => image.at([x, y], lookup.size, repeats),
         };
         Vec4 { x, y, z, w }
+    }
+}
+
+/// Where each sample of a block looks a texture up.
+pub(crate) struct Lookups {
+    /// [`Lookup::texture`], [`Lookup::at`] and [`Lookup::size`].
+    texture: [u32; BLOCK],
+    x: [f32; BLOCK],
+    y: [f32; BLOCK],
+    size: [f32; BLOCK],
+}
+
+/// The texel that each sample of a block found: linear light, and coverage.
+pub(crate) struct Texels {
+    color: Vectors,
+    coverage: [f32; BLOCK],
+}
+
+impl Texels {
+    /// All 0.
+    pub(crate) const NOTHING: Self = Self {
+        color: Vectors::NOTHING,
+        coverage: [0.0; BLOCK],
+    };
+
+    /// That of sample `index`.
+    #[inline(always)]
+    pub(crate) fn at(&self, index: usize) -> Vec4<f32> {
+        Vec4 {
+            x: self.color.x[index],
+            y: self.color.y[index],
+            z: self.color.z[index],
+            w: self.coverage[index],
+        }
+    }
+
+    fn set(&mut self, index: usize, texel: Vec4<f32>) {
+        let Vec4 { x, y, z, w } = texel;
+        self.color.set(index, crate::wgsl::Vec3 { x, y, z });
+        self.coverage[index] = w;
+    }
+}
+
+impl Lookups {
+    /// All 0.
+    pub(crate) const NOTHING: Self = Self {
+        texture: [0; BLOCK],
+        x: [0.0; BLOCK],
+        y: [0.0; BLOCK],
+        size: [0.0; BLOCK],
+    };
+
+    fn at(&self, index: usize) -> Lookup {
+        Lookup {
+            texture: self.texture[index],
+            at: Vec2 {
+                x: self.x[index],
+                y: self.y[index],
+            },
+            size: self.size[index],
+        }
+    }
+
+    /// Sets that of sample `index`.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, index: usize, lookup: &Lookup) {
+        self.texture[index] = lookup.texture;
+        self.x[index] = lookup.at.x;
+        self.y[index] = lookup.at.y;
+        self.size[index] = lookup.size;
+    }
+
+    /// Looks up what each sample finds in these textures, which may repeat; 0 where there is none of that number.
+    pub(crate) fn look_up(&self, textures: &[(Texture, bool)], texels: &mut Texels) {
+        let first = self.texture[0];
+        let is_one = self.texture.iter().all(|texture| *texture == first);
+        if let (true, Some((Texture::Ramp(ramp), _))) = (is_one, textures.get(first as usize))
+            && ramp.is_short()
+        {
+            texels.coverage = [1.0; BLOCK];
+            widest(
+                #[inline(always)]
+                || ramp.of_block(&self.x, &self.y, &mut texels.color),
+            );
+            return;
+        }
+        for index in 0..BLOCK {
+            let lookup = self.at(index);
+            if let Some((texture, repeats)) = textures.get(lookup.texture as usize) {
+                texels.set(index, texture.texel(&lookup, *repeats));
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 use crate::joints::{Input, InputSet, Joints};
 use crate::param::{ParamKind, Value, Values};
 use crate::program::Parameters;
-use crate::samples::Samples;
+use crate::samples::{BLOCK, SampleBlock};
 use crate::seed::layer_seed;
 use crate::source::{self, ProgramSource};
 use crate::variation::Varying;
@@ -105,16 +105,15 @@ impl<P: Parameters> Varied<P> {
         self.for_each_at((&joints.u, &joints.seed), range, seed, evaluate);
     }
 
-    /// [`Self::for_each`] of samples.
+    /// [`Self::for_each`] of the samples of a block.
     #[inline]
     pub fn for_each_sample(
         &self,
-        samples: &Samples,
-        range: Range<usize>,
+        samples: &SampleBlock,
         seed: u32,
         evaluate: impl FnMut(usize, &P::Params),
     ) {
-        self.for_each_at((&samples.u, &samples.seed), range, seed, evaluate);
+        self.for_each_at((&samples.u, &samples.seed), 0..BLOCK, seed, evaluate);
     }
 
     #[inline]

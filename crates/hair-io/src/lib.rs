@@ -29,6 +29,7 @@ mod error;
 mod file;
 mod format;
 mod head;
+pub mod mesh_hair;
 mod nearest;
 pub mod orient;
 mod sphere;

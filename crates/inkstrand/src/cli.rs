@@ -230,7 +230,7 @@ pub(crate) struct SceneOptions {
     #[arg(long, value_name = "FILE")]
     pub head: Option<PathBuf>,
 
-    /// A character in place of the preset's head, in the colours and with the pictures of its file: .vrm, .glb, .gltf, .obj or .ply. `docs/characters.md` shows more
+    /// A character in place of the preset's head, in the colours and with the pictures of its file: .vrm, .glb, .gltf, .obj or .ply. Hair that it has as a mesh becomes strands, but for --hair. `docs/characters.md` shows more
     #[arg(long, value_name = "FILE", conflicts_with = "head")]
     pub character: Option<PathBuf>,
 

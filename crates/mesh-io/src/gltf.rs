@@ -7,6 +7,7 @@ mod materials;
 mod meshes;
 mod nodes;
 mod numbers;
+mod springs;
 
 pub use bone::BoneMotion;
 pub use error::{GltfError, PartError};
@@ -60,6 +61,7 @@ pub fn from_bytes(bytes: &[u8], folder: &Path) -> Result<Model, GltfError> {
     materials.read(&document, &mut buffers, folder);
     let (meshes, deforms) = meshes::read(&document, &rig, &materials, &mut buffers, &mut notes)?;
     rig.deforms = deforms;
+    rig.springs = springs::read(&document, &rig, &mut notes);
 
     notes.append(&mut materials.notes);
     notes.truncate(MOST_NOTES);

@@ -61,6 +61,6 @@ pub use model::{Alpha, Attribute, Image, ImageSource, Material, Mesh, Model, Tex
 pub use read::{
     MOST_OF_DATA, MOST_OF_TEXT, ReadError, decode_text, place_after, read_bytes, read_text, shown,
 };
-pub use rig::{Animation, Node, Pose, Rig, Shape, Transform};
+pub use rig::{Animation, Node, Pose, Rig, Shape, SpringCollider, Springs, Transform};
 pub use sequence::{Sequence, SequenceError};
 pub use welded::Welded;

@@ -27,6 +27,8 @@ pub struct Rig {
     pub animations: Vec<Animation>,
     /// Nodes of a humanoid's bones, by the names of VRM: `head`, `leftUpperArm`.
     pub humanoid: BTreeMap<String, usize>,
+    /// What swings, as VRM has it.
+    pub springs: Springs,
     pub(crate) skins: Vec<Skin>,
     /// One a mesh of the model.
     pub(crate) deforms: Vec<Deform>,
@@ -34,6 +36,35 @@ pub struct Rig {
     pub(crate) order: Vec<usize>,
     /// What the whole is turned by.
     pub(crate) root: DAffine3,
+}
+
+/// What of a character swings (spring bones), and the bodies that it cannot enter.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Springs {
+    /// The nodes that swing, ascending.
+    pub joints: Vec<usize>,
+    /// Bodies that hang on nodes.
+    pub colliders: Vec<SpringCollider>,
+}
+
+/// All that is within a radius of a line, in the space of a node; a ball where both ends are one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringCollider {
+    /// The node.
+    pub node: usize,
+    /// The line's ends in the node's space, finite.
+    pub ends: [DVec3; 2],
+    /// In the node's units, above 0 and finite.
+    pub radius: f64,
+}
+
+impl SpringCollider {
+    /// `None` where a number is not finite, or the radius not above 0.
+    #[cfg_attr(not(feature = "gltf"), expect(dead_code, reason = "only VRM has them"))]
+    pub(crate) fn new(node: usize, ends: [DVec3; 2], radius: f64) -> Option<Self> {
+        let is_whole = ends.iter().all(|end| end.is_finite()) && radius.is_finite() && radius > 0.0;
+        is_whole.then_some(Self { node, ends, radius })
+    }
 }
 
 /// A bone, or what meshes hang on.
@@ -362,6 +393,28 @@ impl Model {
         let deform = self.rig.as_ref().and_then(|rig| rig.deforms.get(mesh));
         let morphs = deform.map_or(&[][..], |deform| &deform.morphs);
         morphs.iter().map(|morph| morph.name.as_str()).collect()
+    }
+
+    /// The nodes that move a vertex of a mesh, with weights whose sum is 1; none of a model without a rig.
+    ///
+    /// # Panics
+    ///
+    /// When the mesh is of a skin and has no such vertex.
+    pub fn influences(&self, mesh: usize, vertex: usize) -> impl Iterator<Item = (usize, f32)> {
+        let rig = self.rig.as_ref();
+        let deform = rig.and_then(|rig| Some((rig, rig.deforms.get(mesh)?)));
+        let (own, skin, whole) = match deform {
+            None => (&[][..], &[][..], None),
+            Some((rig, deform)) => match deform.skin.map(|skin| &rig.skins[skin]) {
+                Some(skin) if !deform.influences.is_empty() => {
+                    (&deform.influences[vertex][..], &skin.joints[..], None)
+                }
+                _ => (&[][..], &[][..], Some((deform.node, 1.0))),
+            },
+        };
+        let own = own.iter().take_while(|(_, weight)| *weight > 0.0);
+        let own = own.map(|(joint, weight)| (skin[usize::from(*joint)], *weight));
+        own.chain(whole)
     }
 
     /// The node that a mesh hangs on, whose weights of a pose are its morphs'.

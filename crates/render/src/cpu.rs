@@ -12,6 +12,7 @@
 mod bin;
 mod evaluate;
 mod instructions;
+mod mixed;
 mod paint;
 mod rows;
 mod samples;
@@ -22,6 +23,7 @@ mod stamp;
 mod strand;
 mod stroke;
 mod surface;
+mod tell;
 mod texels;
 mod tile;
 
@@ -39,6 +41,7 @@ use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
 use instructions::Instructions;
+use mixed::JointRows;
 use paint::Painter;
 use rayon::prelude::*;
 use segment::{Segments, Stroke};
@@ -90,6 +93,8 @@ struct Parts {
     /// Each triangle with the tiles that it reaches in one row of them.
     rows_of_triangles: Vec<(u32, Range<usize>)>,
     triangles_of_tiles: Bins,
+    /// What painted samples are mixed of; empty where nothing is painted.
+    joint_rows: JointRows,
 }
 
 impl Rasterizer {
@@ -208,6 +213,7 @@ impl Parts {
     fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], stacks: &[Stack]) {
         let tile_height = tile::height(stacks);
         self.segments.collect(drawing, strokes, tile_height);
+        self.joint_rows.fill(&drawing.painting, drawing.clump.len());
         surface::collect(drawing, stacks, &mut self.triangles);
         let [width, height] = drawing.size.map(|side| side as usize);
         let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));

@@ -105,19 +105,19 @@ impl Edges {
         let [width, height] = planes.size().map(|side| side as usize);
         let words = width.div_ceil(64);
         let mut lines = vec![vec![0; words]; height];
-        let mut found = vec![false; width];
+        let mut differ = Differences::new(width);
+        let mut found = Vec::new();
         let mut classes: Vec<(usize, Bits)> = Vec::new();
         let mut grown = vec![0; words];
         let widest = self.widest();
         for y in 0..height {
-            found.fill(false);
-            self.find(planes, picture, y, &mut found);
+            self.find(planes, picture, y, &mut differ, &mut found);
             classes.clear();
             let objects = planes.ids(picture, Feature::Object, y);
             // Empty where no width needs them.
             let along = planes.numbers(picture, Feature::U, 0, y);
             let strands = planes.ids(picture, Feature::Strand, y);
-            for x in (0..width).filter(|x| found[*x]) {
+            for &x in &found {
                 let width = match objects[x] % 2 == 1 {
                     true => {
                         let of = |strands: &[u32]| strands.get(x).copied().unwrap_or(0);
@@ -164,30 +164,47 @@ impl Edges {
         widths.fold(0.0, f32::max)
     }
 
-    /// Marks the pixels of a row where a line begins.
-    fn find(&self, planes: &SamplePlanes, picture: usize, y: usize, found: &mut [bool]) {
+    /// Finds the columns of a row where a line begins; rows are asked for one after the other.
+    fn find(
+        &self,
+        planes: &SamplePlanes,
+        picture: usize,
+        y: usize,
+        differ: &mut Differences,
+        found: &mut Vec<usize>,
+    ) {
+        found.clear();
         match self.channel {
-            EdgeChannel::Level => find_ids(planes, picture, Feature::Level, y, found),
-            EdgeChannel::Strand => find_ids(planes, picture, Feature::Strand, y, found),
-            EdgeChannel::Object => find_ids(planes, picture, Feature::Object, y, found),
-            EdgeChannel::Depth => self.find_steps(planes, picture, y, found),
+            EdgeChannel::Level => find_ids(planes, picture, Feature::Level, y, differ, found),
+            EdgeChannel::Strand => find_ids(planes, picture, Feature::Strand, y, differ, found),
+            EdgeChannel::Object => find_ids(planes, picture, Feature::Object, y, differ, found),
+            EdgeChannel::Depth => self.find_steps(planes, picture, y, &mut differ.all, found),
             EdgeChannel::Normal => self.find_sobel(planes, picture, Feature::Normal, y, found),
             EdgeChannel::Color => self.find_sobel(planes, picture, Feature::Color, y, found),
         }
     }
 
-    fn find_steps(&self, planes: &SamplePlanes, picture: usize, y: usize, found: &mut [bool]) {
+    fn find_steps(
+        &self,
+        planes: &SamplePlanes,
+        picture: usize,
+        y: usize,
+        differ: &mut [u32],
+        found: &mut Vec<usize>,
+    ) {
         let row = |y: usize| planes.numbers(picture, Feature::InvDepth, 0, y);
         let own = row(y);
+        differ.fill(0);
         for y in around(y, planes) {
             let other = row(y);
             for step in [-1, 0, 1] {
-                for_pairs(found, own, other, step, |found, own, other| {
+                for_pairs(differ, own, other, step, |own, other| {
                     // Farther than own / (1 + own * step), in inverse depths; nothing is infinitely far.
-                    *found |= other * (1.0 + own * self.step_m) < own;
+                    u32::from(other * (1.0 + own * self.step_m) < own)
                 });
             }
         }
+        found.extend(nonzero(differ));
     }
 
     fn find_sobel(
@@ -196,14 +213,13 @@ impl Edges {
         picture: usize,
         feature: Feature,
         y: usize,
-        found: &mut [bool],
+        found: &mut Vec<usize>,
     ) {
-        let height = planes.size()[1] as usize;
-        let width = found.len();
+        let [width, height] = planes.size().map(|side| side as usize);
         let rows = [y.saturating_sub(1), y, (y + 1).min(height - 1)];
         let threshold = self.threshold * self.threshold;
         let channels = [0, 1, 2].map(|i| rows.map(|y| planes.numbers(picture, feature, i, y)));
-        for (x, found) in found.iter_mut().enumerate() {
+        found.extend((0..width).filter(|&x| {
             let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
             let squares = channels.iter().map(|[above, own, below]| {
                 let across = |row: &[f32]| row[right] - row[left];
@@ -212,8 +228,8 @@ impl Edges {
                 let v = down(left) + 2.0 * down(x) + down(right);
                 h * h + v * v
             });
-            *found = squares.sum::<f32>() > threshold;
-        }
+            squares.sum::<f32>() > threshold
+        }));
     }
 }
 
@@ -231,68 +247,148 @@ fn around(y: usize, planes: &SamplePlanes) -> std::ops::Range<usize> {
     y.saturating_sub(1)..(y + 2).min(planes.size()[1] as usize)
 }
 
-/// Goes through the pixels of a row with those of a row beside it, `step` to the right.
+/// Adds what the pixels of a row give with those of a row beside it, `step` to the right: a bit that is set is a difference.
 fn for_pairs<T: Copy>(
-    found: &mut [bool],
+    differ: &mut [u32],
     own: &[T],
     other: &[T],
     step: isize,
-    mut give: impl FnMut(&mut bool, T, T),
+    difference: impl Fn(T, T) -> u32,
 ) {
-    let (skip, ahead) = match step {
-        ..0 => (1, 0),
-        0 => (0, 0),
-        _ => (0, 1),
+    let width = differ.len();
+    let (own_columns, other_columns) = match step {
+        ..0 => (1..width, 0..width - 1),
+        0 => (0..width, 0..width),
+        _ => (0..width - 1, 1..width),
     };
-    let other = other.iter().skip(ahead);
-    let pixels = found.iter_mut().zip(own).skip(skip);
-    for ((found, own), other) in pixels.zip(other) {
-        give(found, *own, *other);
+    let pairs = own[own_columns.clone()].iter().zip(&other[other_columns]);
+    for (differ, (own, other)) in differ[own_columns].iter_mut().zip(pairs) {
+        *differ |= difference(*own, *other);
     }
 }
 
-/// Marks pixels beside others of another id that aren't in front of them. What is equally near belongs to the greater id.
-fn find_ids(planes: &SamplePlanes, picture: usize, feature: Feature, y: usize, found: &mut [bool]) {
+/// The columns of what isn't 0, most of which is.
+fn nonzero(differ: &[u32]) -> impl Iterator<Item = usize> {
+    const SOME: usize = 16;
+    let some = differ.chunks(SOME).enumerate();
+    let some = some.filter(|(_, numbers)| numbers.iter().fold(0, |all, number| all | number) != 0);
+    some.flat_map(|(chunk, numbers)| {
+        let columns = (chunk * SOME..).zip(numbers);
+        columns.filter_map(|(x, number)| (*number != 0).then_some(x))
+    })
+}
+
+/// Where ids of a picture differ, as rows of numbers that are 0 where they don't. Of nine pixels all are alike where no two beside each
+/// other differ in one of the three rows, nor those of the middle column.
+struct Differences {
+    /// From a pixel to the next one of its row: of the row before, of this row and of the one behind it.
+    across: [Vec<u32>; 3],
+    /// From a pixel to the one below it: of the row before, and of this row.
+    down: [Vec<u32>; 2],
+    /// In the nine pixels around one.
+    all: Vec<u32>,
+}
+
+impl Differences {
+    fn new(width: usize) -> Self {
+        Self {
+            across: [0; 3].map(|_| vec![0; width]),
+            down: [0; 2].map(|_| vec![0; width]),
+            all: vec![0; width],
+        }
+    }
+
+    /// Works out [`Self::all`] of row `y`, after that of the row before.
+    fn advance(&mut self, planes: &SamplePlanes, picture: usize, feature: Feature, y: usize) {
+        let height = planes.size()[1] as usize;
+        let rows = |y: usize| [feature, Feature::Object].map(|id| planes.ids(picture, id, y));
+        let width = self.all.len();
+        self.across.rotate_left(1);
+        self.down.rotate_left(1);
+        if y == 0 {
+            self.across[0].fill(0);
+            self.down[0].fill(0);
+            fill_differences(
+                &mut self.across[1][..width - 1],
+                rows(0),
+                rows(0).map(|row| &row[1..]),
+            );
+        }
+        match y + 1 < height {
+            true => {
+                let (own, below) = (rows(y), rows(y + 1));
+                let next = below.map(|row| &row[1..]);
+                fill_differences(&mut self.across[2][..width - 1], below, next);
+                fill_differences(&mut self.down[1], own, below);
+            }
+            false => {
+                self.across[2].fill(0);
+                self.down[1].fill(0);
+            }
+        }
+        // Of one length, so that no place is checked.
+        let all = &mut self.all[..width];
+        let [a, b, c] = self.across.each_ref().map(|row| &row[..width]);
+        let [d, e] = self.down.each_ref().map(|row| &row[..width]);
+        for x in 0..width {
+            all[x] = a[x] | b[x] | c[x] | d[x] | e[x];
+        }
+        for x in 1..width {
+            all[x] |= a[x - 1] | b[x - 1] | c[x - 1];
+        }
+    }
+}
+
+/// Where one of two rows of ids differs from another.
+fn fill_differences(differ: &mut [u32], [a, b]: [&[u32]; 2], [c, d]: [&[u32]; 2]) {
+    let pairs = a.iter().zip(c).zip(b.iter().zip(d));
+    for (differ, ((a, c), (b, d))) in differ.iter_mut().zip(pairs) {
+        *differ = (a ^ c) | (b ^ d);
+    }
+}
+
+/// Finds pixels beside others of another id that aren't in front of them. What is equally near belongs to the greater id.
+fn find_ids(
+    planes: &SamplePlanes,
+    picture: usize,
+    feature: Feature,
+    y: usize,
+    differ: &mut Differences,
+    found: &mut Vec<usize>,
+) {
     struct Row<'a> {
         ids: &'a [u32],
         objects: &'a [u32],
         depths: &'a [f32],
     }
-    let row = |y: usize| Row {
+    differ.advance(planes, picture, feature, y);
+    let mut candidates = nonzero(&differ.all).peekable();
+    if candidates.peek().is_none() {
+        return;
+    }
+    let rows = around(y, planes).map(|y| Row {
         ids: planes.ids(picture, feature, y),
         objects: planes.ids(picture, Feature::Object, y),
         depths: planes.numbers(picture, Feature::InvDepth, 0, y),
-    };
-    let own = row(y);
-    let rows = around(y, planes);
-    for y in rows.clone() {
-        let other = row(y);
-        for step in [-1, 0, 1] {
-            for_pairs(found, own.ids, other.ids, step, |found, a, b| {
-                *found |= a != b
-            });
-            for_pairs(found, own.objects, other.objects, step, |found, a, b| {
-                *found |= a != b;
-            });
-        }
-    }
+    });
+    let rows: Vec<Row> = rows.collect();
+    let own = &rows[y - around(y, planes).start];
     let has_hair_alone = feature != Feature::Object;
-    for x in (0..found.len()).filter(|x| found[*x]).collect::<Vec<_>>() {
+    let is_hair = |object: u32| object % 2 == 1;
+    let width = differ.all.len();
+    found.extend(candidates.filter(|&x| {
         let key = |row: &Row, x: usize| (row.objects[x], row.ids[x]);
-        let is_hair = |object: u32| object % 2 == 1;
-        let (own_key, own_depth) = (key(&own, x), own.depths[x]);
-        let mut beside = rows.clone().flat_map(|y| {
-            let columns = x.saturating_sub(1)..(x + 2).min(found.len());
-            columns.map(move |x| (x, y))
-        });
-        found[x] = beside.any(|(x, y)| {
-            let other = row(y);
-            let (other_key, other_depth) = (key(&other, x), other.depths[x]);
-            let is_drawn = !has_hair_alone || is_hair(own_key.0) || is_hair(other_key.0);
-            let is_front = (own_depth, own_key) > (other_depth, other_key);
-            is_drawn && own_key != other_key && is_front
-        });
-    }
+        let (own_key, own_depth) = (key(own, x), own.depths[x]);
+        let columns = x.saturating_sub(1)..(x + 2).min(width);
+        rows.iter().any(|other| {
+            columns.clone().any(|x| {
+                let (other_key, other_depth) = (key(other, x), other.depths[x]);
+                let is_drawn = !has_hair_alone || is_hair(own_key.0) || is_hair(other_key.0);
+                let is_front = (own_depth, own_key) > (other_depth, other_key);
+                is_drawn && own_key != other_key && is_front
+            })
+        })
+    }));
 }
 
 /// Adds to the lines of all rows what a row becomes when each pixel is a disc of that radius.
@@ -330,7 +426,7 @@ fn widen(row: &mut [u64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::planes::{BandPlanes, Sample};
+    use crate::planes::{BandPlanes, Sample, Stacks};
 
     fn edges() -> Edges {
         Edges {
@@ -348,7 +444,7 @@ mod tests {
     fn planes(size: [u32; 2], sample: impl Fn(usize, usize) -> Sample) -> SamplePlanes {
         let declared = Features::of(Feature::ALL);
         let mut planes = SamplePlanes::default();
-        planes.reset(size, declared, [0, 1], 16, None).unwrap();
+        planes.make_room(size, declared, [0, 1], 16).unwrap();
         let [ids, numbers] = planes.of_band();
         let bands = planes
             .ids
@@ -359,16 +455,38 @@ mod tests {
                 width: size[0] as usize,
                 declared: planes.declared,
                 band: 16,
+                count: 1,
                 ids,
                 numbers,
             };
             for row in 0..16.min(size[1] as usize - 16 * band) {
                 for x in 0..size[0] as usize {
-                    planes.put(0, x, row, &sample(x, 16 * band + row));
+                    put(&mut planes, x, row, &sample(x, 16 * band + row));
                 }
             }
         }
         planes
+    }
+
+    /// Puts in a sample at a row of the band.
+    fn put(planes: &mut BandPlanes, column: usize, row: usize, sample: &Sample) {
+        let at = Stacks {
+            column,
+            columns: 1,
+            row,
+            rows: 1,
+            count: 1,
+        };
+        for feature in planes.declared.iter() {
+            if feature.is_id() {
+                planes.put_ids(feature, &at, &[sample.id(feature); 4]);
+                continue;
+            }
+            for component in 0..feature.components() {
+                let number = sample.number(feature, component);
+                planes.put_numbers(feature, component, &at, &[number; 4]);
+            }
+        }
     }
 
     fn strand(strand: u32, inv_depth: f32) -> Sample {

@@ -30,6 +30,21 @@ pub struct StrandInfo {
     pub level: u32,
     /// How much nearer than it is the strand is ordered among strands, head heights; against surfaces it counts nothing.
     pub lift: f32,
+    /// Which of its object's layers leave it out, a bit each: bit `i` for layer `i`. From the 33rd on all draw on it.
+    pub left_out_by: u32,
+}
+
+impl StrandInfo {
+    /// Whether a layer of its object leaves it out, by the layer's number there.
+    #[must_use]
+    pub fn is_left_out_by(&self, layer: usize) -> bool {
+        layer_bit(layer) & self.left_out_by != 0
+    }
+}
+
+/// The bit of a layer in [`StrandInfo::left_out_by`], none from the 33rd on.
+pub(crate) fn layer_bit(layer: usize) -> u32 {
+    u32::try_from(layer).map_or(0, |layer| 1_u32.checked_shl(layer).unwrap_or(0))
 }
 
 /// The colour of a strand that has none of its own.
@@ -103,6 +118,9 @@ pub struct Frame<'a> {
     pub time_s: f32,
     /// The material normal of each joint of `paths`; empty where neither a clump nor a layer reads it.
     pub material_normals: &'a [Vec3],
+    /// Where the hair of each joint of `paths` is at rest, head heights from its head's centre, in the head's axes: x to its left, y up, z to
+    /// the face; empty where neither a clump nor a layer reads it.
+    pub rest_positions: &'a [Vec3],
     /// The heads' surfaces on the screen.
     pub surfaces: Vec<Surface>,
     /// Linear colour behind everything, or a transparent picture.

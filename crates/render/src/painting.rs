@@ -1,9 +1,7 @@
 //! Layers whose samples are painted: what is known at joints for that, and the programs that paint.
 
 use crate::frame::{Frame, Object};
-use effects::wgsl::vec3;
 use effects::{Input, InputSet, Joints, LayerProgram, SampleInput, SampleSet, Samples, layer_seed};
-use glam::Vec3;
 use std::fmt;
 use std::sync::Arc;
 
@@ -122,6 +120,12 @@ impl Painting {
         of_joints(reads.fold(SampleSet::default(), SampleSet::union))
     }
 
+    /// What samples are mixed of joints' lists for: of these what painting makes use of.
+    pub(crate) fn read_of_joints(&self) -> SampleSet {
+        let reads = self.layers.iter().map(|layer| layer.program.reads());
+        of_joints(reads.fold(SampleSet::default(), SampleSet::union))
+    }
+
     /// Takes on what a checked frame says, in place of what was there. `known` has the lists that [`inputs`] names.
     pub(crate) fn fill(&mut self, frame: &Frame, known: &Joints) {
         self.layers.clear();
@@ -199,87 +203,5 @@ impl Painting {
         lists
             .map(|input| (input.name(), self.joints.count(input)))
             .collect()
-    }
-}
-
-/// A point between two joints, and where a sample lies beside it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Beside {
-    pub(crate) joint: usize,
-    pub(crate) next: usize,
-    /// The way from the first to the second.
-    pub(crate) way: f32,
-    /// Places across the stroke and across the clump.
-    pub(crate) v: f32,
-    pub(crate) w: f32,
-    pub(crate) color: [f32; 3],
-}
-
-/// The samples beside these points, as a program that reads `read` has them.
-pub(crate) fn gather(joints: &Samples, points: &[Beside], read: SampleSet, samples: &mut Samples) {
-    let number = |list: &[f32], p: &Beside| list[p.joint] + p.way * (list[p.next] - list[p.joint]);
-    let mixed = |list: &[effects::wgsl::Vec3<f32>], p: &Beside| {
-        let [a, b] = [p.joint, p.next].map(|i| Vec3::from(list[i].to_array()));
-        a.lerp(b, p.way)
-    };
-    let unit = |list: &[effects::wgsl::Vec3<f32>], p: &Beside| {
-        let first = Vec3::from(list[p.joint].to_array());
-        vec3(mixed(list, p).normalize_or(first).to_array())
-    };
-    samples.clear();
-    for input in read.iter() {
-        let points = points.iter();
-        match input {
-            SampleInput::Color => samples.color.extend(points.map(|p| vec3(p.color))),
-            SampleInput::Position => {
-                let places = points.map(|p| vec3(mixed(&joints.position, p).to_array()));
-                samples.position.extend(places);
-            }
-            SampleInput::Forward => {
-                samples
-                    .forward
-                    .extend(points.map(|p| unit(&joints.forward, p)));
-            }
-            SampleInput::Normal => samples
-                .normal
-                .extend(points.map(|p| unit(&joints.normal, p))),
-            SampleInput::Tube => samples.tube.extend(points.map(|p| {
-                let to_eye = mixed(&joints.view_direction, p);
-                let tube = crate::features::tube_normal(mixed(&joints.forward, p), to_eye, p.w);
-                vec3(tube.unwrap_or(to_eye.normalize_or(Vec3::Z)).to_array())
-            })),
-            SampleInput::U => samples.u.extend(points.map(|p| number(&joints.u, p))),
-            SampleInput::S => samples.s.extend(points.map(|p| number(&joints.s, p))),
-            SampleInput::V => samples.v.extend(points.map(|p| p.v)),
-            SampleInput::W => samples.w.extend(points.map(|p| p.w)),
-            SampleInput::Strand => samples
-                .strand
-                .extend(points.map(|p| joints.strand[p.joint])),
-            SampleInput::Seed => samples.seed.extend(points.map(|p| joints.seed[p.joint])),
-            SampleInput::Level => samples.level.extend(points.map(|p| joints.level[p.joint])),
-            SampleInput::Depth => samples
-                .depth
-                .extend(points.map(|p| number(&joints.depth, p))),
-            SampleInput::HeadDepth => {
-                let depths = points.map(|p| number(&joints.head_depth, p));
-                samples.head_depth.extend(depths);
-            }
-            SampleInput::LightDirection => {
-                let directions = points.map(|p| unit(&joints.light_direction, p));
-                samples.light_direction.extend(directions);
-            }
-            SampleInput::LightDistance => {
-                let distances = points.map(|p| number(&joints.light_distance, p));
-                samples.light_distance.extend(distances);
-            }
-            SampleInput::ViewDirection => {
-                let directions = points.map(|p| unit(&joints.view_direction, p));
-                samples.view_direction.extend(directions);
-            }
-            SampleInput::Pixels => samples
-                .pixels
-                .extend(points.map(|p| number(&joints.pixels, p))),
-            SampleInput::Time => samples.time.extend(points.map(|p| joints.time[p.joint])),
-        }
     }
 }

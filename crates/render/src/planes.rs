@@ -128,50 +128,27 @@ impl SamplePlanes {
         })
     }
 
-    /// Makes room for samples that show nothing, with a background's colour; `None` where there isn't enough memory.
+    /// Makes room for samples, all of which are then to be put in; `None` where there isn't enough memory.
     /// [`Feature::Object`] and [`Feature::InvDepth`] are always there.
-    pub(crate) fn reset(
+    pub(crate) fn make_room(
         &mut self,
         size: [u32; 2],
         declared: Features,
         [first, count]: [usize; 2],
         band: usize,
-        background: Option<[f32; 3]>,
     ) -> Option<()> {
-        let declared = declared.union(ALWAYS);
-        (self.size, self.declared) = (size, declared);
+        (self.size, self.declared) = (size, declared.union(ALWAYS));
         (self.first, self.count, self.band) = (first, count, band);
         let bands = (size[1] as usize).div_ceil(band);
-        let [ids, numbers] = self.of_band();
-        self.ids.clear();
-        self.ids.try_reserve_exact(bands * ids).ok()?;
-        self.numbers.clear();
-        self.numbers.try_reserve_exact(bands * numbers).ok()?;
-        let color = background.map_or([0.0; 4], |[red, green, blue]| {
-            [
-                red.clamp(0.0, 1.0),
-                green.clamp(0.0, 1.0),
-                blue.clamp(0.0, 1.0),
-                1.0,
-            ]
-        });
-        let nothing = Sample {
-            color,
-            ..Sample::NOTHING
-        };
-        let plane = size[0] as usize * band;
-        for _ in 0..bands * count {
-            for feature in declared.iter() {
-                if feature.is_id() {
-                    self.ids.resize(self.ids.len() + plane, nothing.id(feature));
-                    continue;
-                }
-                for component in 0..feature.components() {
-                    let value = nothing.number(feature, component);
-                    self.numbers.resize(self.numbers.len() + plane, value);
-                }
-            }
-        }
+        let [ids, numbers] = self.of_band().map(|of_band| bands * of_band);
+        // What is there already isn't written over twice.
+        self.ids.truncate(ids);
+        self.ids.try_reserve_exact(ids - self.ids.len()).ok()?;
+        self.ids.resize(ids, 0);
+        self.numbers.truncate(numbers);
+        let more = numbers - self.numbers.len();
+        self.numbers.try_reserve_exact(more).ok()?;
+        self.numbers.resize(numbers, 0.0);
         Some(())
     }
 
@@ -248,22 +225,40 @@ impl SamplePlanes {
         });
     }
 
-    /// Adds the colours of all samples to the pixels of a picture of that size.
-    pub(crate) fn add_to(&self, pixels: &mut [[f32; 4]]) {
+    /// Adds the colours of these samples, of so many, to the pixels of a picture of that size; the first ones in place of what was there.
+    /// With the last ones the sums become means.
+    pub(crate) fn add_to(&self, pixels: &mut [[f32; 4]], samples: usize) {
         let width = self.size[0] as usize;
-        pixels
-            .par_chunks_mut(width)
-            .enumerate()
-            .for_each(|(y, pixels)| {
-                for picture in 0..self.count {
-                    for component in 0..4 {
-                        let row = self.numbers(picture, Feature::Color, component, y);
-                        for (pixel, value) in pixels.iter_mut().zip(row) {
-                            pixel[component] += value;
+        // Colour by colour, and then pixel by pixel: these loops are vector instructions.
+        let share = match self.samples().end == samples {
+            true => samples as f32,
+            false => 1.0,
+        };
+        let rows = pixels.par_chunks_mut(width).enumerate();
+        rows.for_each_init(
+            || vec![0.0; 4 * width],
+            |sums, (y, pixels)| {
+                for (component, sums) in sums.chunks_exact_mut(width).enumerate() {
+                    match self.first {
+                        0 => sums.fill(0.0),
+                        _ => {
+                            let before = pixels.iter().map(|pixel| pixel[component]);
+                            sums.iter_mut().zip(before).for_each(|(sum, it)| *sum = it);
                         }
                     }
+                    for picture in 0..self.count {
+                        let row = self.numbers(picture, Feature::Color, component, y);
+                        sums.iter_mut().zip(row).for_each(|(sum, it)| *sum += it);
+                    }
                 }
-            });
+                let [red, green, blue, alpha] = [0, 1, 2, 3].map(|i| &sums[i * width..][..width]);
+                let pixels = &mut pixels[..width];
+                for x in 0..width {
+                    let sums = [red[x], green[x], blue[x], alpha[x]];
+                    pixels[x] = sums.map(|sum| sum / share);
+                }
+            },
+        );
     }
 
     /// Width and height, pixels.
@@ -366,26 +361,126 @@ pub(crate) struct BandPlanes<'a> {
     pub(crate) declared: Features,
     /// Rows of the band, and samples of each pixel.
     pub(crate) band: usize,
+    pub(crate) count: usize,
     pub(crate) ids: &'a mut [u32],
     pub(crate) numbers: &'a mut [f32],
 }
 
-impl BandPlanes<'_> {
-    /// Puts in a sample at a row of the band.
-    pub(crate) fn put(&mut self, picture: usize, x: usize, row: usize, sample: &Sample) {
-        let [ids, numbers] = SamplePlanes::planes(self.declared);
-        let (mut id, mut number) = (picture * ids, picture * numbers);
-        let plane = self.band * self.width;
-        let place = row * self.width + x;
-        for feature in self.declared.iter() {
-            if feature.is_id() {
-                self.ids[id * plane + place] = sample.id(feature);
-                id += 1;
-                continue;
+/// Stacks of four samples beside each other: those of so many columns, from one on; each has `count` samples of each of so many pixels,
+/// one below the other, from a row of the band on.
+pub(crate) struct Stacks {
+    pub(crate) column: usize,
+    pub(crate) columns: usize,
+    pub(crate) row: usize,
+    pub(crate) rows: usize,
+    pub(crate) count: usize,
+}
+
+impl Stacks {
+    /// Puts their values into the planes that begin at `plane`, one of so many of each sample, of so many numbers.
+    #[inline(always)] // compiled for the rasteriser's instructions
+    fn put<T: Copy>(&self, list: &mut [T], width: usize, planes: PlanePlace, values: &[T]) {
+        let (values, _) = values.as_chunks::<4>();
+        let values = &values[..self.columns];
+        let start = |picture: usize, below: usize| {
+            let plane = (picture * planes.of_sample + planes.number) * planes.length;
+            plane + (self.row + below) * width + self.column
+        };
+        if self.count == 4 {
+            let rows = [0, 1, 2, 3].map(|picture| {
+                let start = start(picture, 0);
+                start..start + self.columns
+            });
+            if let Ok([a, b, c, d]) = list.get_disjoint_mut(rows) {
+                for i in 0..values.len() {
+                    [a[i], b[i], c[i], d[i]] = values[i];
+                }
             }
+            return;
+        }
+        for below in 0..self.rows {
+            for picture in 0..self.count {
+                let row = &mut list[start(picture, below)..][..self.columns];
+                for i in 0..values.len() {
+                    row[i] = values[i][below * self.count + picture];
+                }
+            }
+        }
+    }
+}
+
+/// Which plane of a sample: its number, of so many, and how many numbers it has in a band.
+#[derive(Clone, Copy)]
+struct PlanePlace {
+    number: usize,
+    of_sample: usize,
+    length: usize,
+}
+
+impl BandPlanes<'_> {
+    #[inline(always)]
+    fn place(&self, feature: Feature, component: usize) -> PlanePlace {
+        let [ids, numbers] = SamplePlanes::planes(self.declared);
+        let first = SamplePlanes::plane(self.declared, feature).unwrap_or_default();
+        PlanePlace {
+            number: first + component,
+            of_sample: if feature.is_id() { ids } else { numbers },
+            length: self.band * self.width,
+        }
+    }
+
+    /// Puts in a declared id of the samples of some stacks.
+    #[inline(always)]
+    pub(crate) fn put_ids(&mut self, feature: Feature, stacks: &Stacks, ids: &[u32]) {
+        let place = self.place(feature, 0);
+        stacks.put(self.ids, self.width, place, ids);
+    }
+
+    /// Puts in a component of a declared feature of the samples of some stacks.
+    #[inline(always)]
+    pub(crate) fn put_numbers(
+        &mut self,
+        feature: Feature,
+        component: usize,
+        stacks: &Stacks,
+        numbers: &[f32],
+    ) {
+        let place = self.place(feature, component);
+        stacks.put(self.numbers, self.width, place, numbers);
+    }
+
+    /// Puts in samples that show nothing but a background, in so many columns and rows from a column of the band on.
+    pub(crate) fn clear(
+        &mut self,
+        column: usize,
+        [columns, rows]: [usize; 2],
+        background: Option<[f32; 3]>,
+    ) {
+        let color = background.map_or([0.0; 4], |light| {
+            let [red, green, blue] = light.map(|light| light.clamp(0.0, 1.0));
+            [red, green, blue, 1.0]
+        });
+        let nothing = Sample {
+            color,
+            ..Sample::NOTHING
+        };
+        let rows = rows.min(self.band);
+        for feature in self.declared.iter() {
             for component in 0..feature.components() {
-                self.numbers[number * plane + place] = sample.number(feature, component);
-                number += 1;
+                let place = self.place(feature, component);
+                for picture in 0..self.count {
+                    let plane = (picture * place.of_sample + place.number) * place.length;
+                    for row in 0..rows {
+                        let start = plane + row * self.width + column;
+                        match feature.is_id() {
+                            true => self.ids[start..][..columns].fill(nothing.id(feature)),
+                            false => {
+                                let number = nothing.number(feature, component);
+                                self.numbers[start..][..columns].fill(number);
+                            }
+                        }
+                    }
+                }
             }
         }
     }

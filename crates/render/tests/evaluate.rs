@@ -73,6 +73,7 @@ fn drawing_of(
         colors,
         level: 0,
         lift: 0.0,
+        left_out_by: 0,
     };
     let mut values = Values::defaults(clump::Program::PARAMS);
     let plain = [
@@ -106,6 +107,7 @@ fn drawing_of(
         light: Light::Direction(Vec3::Z),
         time_s: 0.0,
         material_normals: &[],
+        rest_positions: &[],
         surfaces: Vec::new(),
         background: None,
         order: Order::Rounded,

@@ -23,6 +23,7 @@ struct Scene {
     light: Light,
     time_s: f32,
     normals: Vec<Vec3>,
+    rest_positions: Vec<Vec3>,
 }
 
 impl Scene {
@@ -50,6 +51,7 @@ impl Scene {
             colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
+            left_out_by: 0,
         };
         let mut registry = Registry::new();
         effects_builtin::register(&mut registry).unwrap();
@@ -73,6 +75,7 @@ impl Scene {
             light: Light::Direction(Vec3::Z),
             time_s: 0.0,
             normals: Vec::new(),
+            rest_positions: Vec::new(),
         }
     }
 
@@ -94,6 +97,7 @@ impl Scene {
             light: self.light,
             time_s: self.time_s,
             material_normals: &self.normals,
+            rest_positions: &self.rest_positions,
             surfaces: Vec::new(),
             background: None,
             order: Order::Rounded,
@@ -127,6 +131,31 @@ fn each_object_is_drawn_on_its_own_joints() {
     assert_eq!(joints, [0..4, 0..4, 4..8, 4..8]);
     assert_eq!(drawing.layers[1].discs[..4], drawing.clump[..4]);
     assert_eq!(drawing.layers[3].discs[..4], drawing.clump[4..]);
+}
+
+#[test]
+fn a_layer_draws_nothing_on_strands_that_it_leaves_out() {
+    let mut scene = Scene::new();
+    let drawings = [0b00, 0b10].map(|left_out_by| {
+        scene.strands[1].left_out_by = left_out_by;
+        let mut drawing = Drawing::default();
+        let mut evaluator = Evaluator::default();
+        evaluator.evaluate(&scene.frame(), &mut drawing).unwrap();
+        drawing
+    });
+    let [all, some] = drawings;
+    assert_eq!(some.clump, all.clump, "its clump is there for the others");
+    for (layer, (all, some)) in all.layers.iter().zip(&some.layers).enumerate() {
+        let (all, some) = (all.on(0, &all.joints), some.on(0, &some.joints));
+        let drawn: Vec<Range<usize>> = some.map(|stretch| stretch.joints).collect();
+        // Strand 1 has the joints 2 and 3; layer 1 is the first object's second.
+        let expected = if layer == 1 {
+            vec![0..2]
+        } else {
+            all.map(|stretch| stretch.joints).collect()
+        };
+        assert_eq!(drawn, expected, "layer {layer}");
+    }
 }
 
 #[test]
@@ -224,6 +253,11 @@ fn strands_and_paths_are_whole() {
     assert!(matches!(
         error,
         FrameError::MaterialNormals { normals: 7, .. }
+    ));
+    let error = refused(|scene| scene.rest_positions = vec![Vec3::Y; 7]);
+    assert!(matches!(
+        error,
+        FrameError::RestPositions { positions: 7, .. }
     ));
 }
 

@@ -54,6 +54,7 @@ fn drawing(list: &str, features: Features) -> Drawing {
             colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
+            left_out_by: 0,
         })
         .collect();
     let clump = Varied::new(&Values::defaults(clump::Program::PARAMS));
@@ -78,6 +79,7 @@ fn drawing(list: &str, features: Features) -> Drawing {
         light: Light::Direction(Vec3::new(0.4, 0.6, 0.7).normalize()),
         time_s: 0.0,
         material_normals: &[],
+        rest_positions: &[],
         surfaces: Vec::new(),
         background: Some([0.5; 3]),
         order: Order::Rounded,

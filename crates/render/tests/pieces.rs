@@ -86,6 +86,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
             colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
+            left_out_by: 0,
         }],
         objects: vec![Object {
             joints,
@@ -102,6 +103,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         light: Light::Direction(Vec3::new(0.6, 0.6, 0.53).normalize()),
         time_s: 0.0,
         material_normals: &[],
+        rest_positions: &[],
         surfaces: Vec::new(),
         background: Some([1.0; 3]),
         order,

@@ -226,8 +226,8 @@ impl<'r> Preset<'r> {
         let section = match error {
             _ if !self.objects.is_empty() => "objects",
             StageError::NoPointLight(_) | StageError::Camera(_) => "light",
-            StageError::Shapes(_) | StageError::Loop { .. } => "motion",
-            StageError::Texture { .. } => "layers",
+            StageError::Shapes(_) | StageError::Loop { .. } | StageError::NoCharacter => "motion",
+            StageError::Texture { .. } | StageError::Zones { .. } => "layers",
             StageError::Path(_) => "path",
             _ => "dynamics",
         };

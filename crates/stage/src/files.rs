@@ -64,6 +64,42 @@ pub enum StageError {
         /// What it may have meant.
         hint: String,
     },
+    /// A layer draws on zones of the hair that aren't there.
+    #[error("{layer}.zones: {message}")]
+    Zones {
+        /// The layer's name.
+        layer: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// A file has no mesh and no bone of a name that the preset says of its hair.
+    #[error("{}: no mesh, material or spring bone is called `{name}`{hint}", .path.display())]
+    NoMeshOrBone {
+        /// The file.
+        path: PathBuf,
+        /// As the preset says it.
+        name: String,
+        /// What it may have meant.
+        hint: String,
+    },
+    /// A character does not move by itself.
+    #[error("{}: {message}", .path.display())]
+    Skeleton {
+        /// The file.
+        path: PathBuf,
+        /// What is missing or broken.
+        message: String,
+    },
+    /// A head that has no skeleton, or is not drawn by it.
+    #[error(
+        "`motion.character` moves the meshes of the head's own file: head: (file: \"...\", colors: file)"
+    )]
+    NoCharacter,
+    /// A character has no hair of its own.
+    #[error(
+        "{}: no mesh or material is called hair and no spring bones hang on the head, or nothing of them is a lock: `hair.meshes` says what is hair", .0.display()
+    )]
+    NoMeshHair(PathBuf),
     /// Nothing is left of a head.
     #[error("{}: `head.hide` hides all of its meshes", .0.display())]
     AllHidden(PathBuf),

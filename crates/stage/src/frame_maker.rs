@@ -12,6 +12,7 @@ use crate::object::{Object, PathShape};
 use crate::reach::Sight;
 use crate::scene::Scene;
 use crate::script::HeadPose;
+use crate::zones;
 use effects::wgsl::hash;
 use effects::{HairStrand, Layer, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
@@ -34,6 +35,8 @@ pub struct FrameMaker {
     paths: Paths,
     /// Material normals of the paths' joints; empty where nothing reads them.
     normals: Vec<Vec3>,
+    /// Where the joints' hair is at rest; empty where nothing reads it.
+    rest_positions: Vec<Vec3>,
     objects: Vec<ObjectFrame>,
     camera: Option<Camera>,
     /// Look and time (seconds) of the last frame.
@@ -50,6 +53,8 @@ struct ObjectFrame {
     points: Vec<Vec3>,
     /// The level of each strand of its hair; empty where there is one level.
     levels: Vec<u32>,
+    /// The layers that leave each strand of its hair out ([`StrandInfo`]); empty where none does.
+    left_out_by: Vec<u32>,
     /// Strands of hair of which nothing can be seen, so that it is left out as a whole.
     unseen: usize,
     /// Strands that are not drawn, as hair is thin.
@@ -119,15 +124,19 @@ impl FrameMaker {
             strands,
             paths,
             normals,
+            rest_positions,
             objects,
             ..
         } = self;
         paths.clear();
         strands.clear();
         normals.clear();
+        rest_positions.clear();
         objects.truncate(scene.objects().len());
         let reads_material = |object: &Object| object.look().reads_material();
         let reads_material = scene.objects().iter().any(reads_material);
+        let reads_rest = |object: &Object| object.look().reads_rest();
+        let reads_rest = scene.objects().iter().any(reads_rest);
         let light = scene.look().light(&camera, motion.head(scene));
         let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
@@ -145,6 +154,9 @@ impl FrameMaker {
             frame.push_made_paths(motion, &sight, strands, paths)?;
             if reads_material {
                 frame.push_material_normals(motion, paths, normals);
+            }
+            if reads_rest {
+                frame.push_rest_positions(paths, rest_positions);
             }
             let own_normals = normals.get_mut(frame.joints.clone());
             object
@@ -176,6 +188,7 @@ impl FrameMaker {
             light,
             time_s: motion.time_s(),
             material_normals: &self.normals,
+            rest_positions: &self.rest_positions,
             surfaces,
             background: section.background,
             order: scene.look().order(),
@@ -272,6 +285,7 @@ impl ObjectFrame {
             pose: HeadPose::REST,
             points: Vec::new(),
             levels: levels_of(object),
+            left_out_by: zones::left_out_by(object.hair(), object.look()),
             unseen: 0,
             merged: 0,
             parts: Vec::new(),
@@ -300,6 +314,7 @@ impl ObjectFrame {
             || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
         {
             self.levels = levels_of(object);
+            self.left_out_by = zones::left_out_by(object.hair(), object.look());
         }
         if object.look().reads_material() {
             self.material.get_or_insert_default();
@@ -383,6 +398,7 @@ impl ObjectFrame {
                 size: sizes[i],
                 level,
                 lift: level as f32 * level_depth,
+                left_out_by: self.left_out_by.get(i).copied().unwrap_or(0),
                 ..*info
             });
         }
@@ -445,7 +461,7 @@ impl ObjectFrame {
             .map_or(of_hair.start, |run| run.joints.end);
         let head = motion.head(&self.of);
         let mut making = 0;
-        for layer in &look.layers {
+        for (layer_number, layer) in look.layers.iter().enumerate() {
             if !layer.program.has_own_paths() {
                 let start = match layer.program.is_on_undercoat() {
                     true => of_hair.start,
@@ -494,7 +510,7 @@ impl ObjectFrame {
                     id: made_id(parent.id, number),
                     ..parent
                 });
-                if sight.may_see(points, parent.size) {
+                if sight.may_see(points, parent.size) && !parent.is_left_out_by(layer_number) {
                     let name = (strand, number, points.len());
                     let detail = at_rest.get(i).filter(|path| path.name == name);
                     let detail = detail.map(|path| &path.detail);
@@ -538,11 +554,30 @@ impl ObjectFrame {
             }
             None => {}
         }
-        let of_path = |strand: usize| match strand.checked_sub(self.strands.end) {
-            Some(made) => rest.point_range(self.made_of[made]),
-            None => rest.point_range(strand - self.strands.start),
-        };
+        let (strands, made_of) = (&self.strands, &self.made_of);
+        let of_path = |strand: usize| rest.point_range(strand_of(strands, made_of, strand));
         material.push_at_joints(paths, self.joints.clone(), of_path, normals);
+    }
+
+    /// Appends where the hair of the object's joints is at rest, head heights from the head's centre. Made paths are where their strand
+    /// is at the same share of its length.
+    fn push_rest_positions(&self, paths: &Paths, positions: &mut Vec<Vec3>) {
+        let hair = self.of.hair();
+        let first = paths
+            .runs
+            .partition_point(|run| run.joints.end <= self.joints.start);
+        for run in &paths.runs[first..] {
+            let strand = strand_of(&self.strands, &self.made_of, run.strand);
+            let points = hair.file.strands.strand(strand);
+            let at_rest = |joint: usize| {
+                let place = paths.u[joint] * (points.len() - 1) as f32;
+                let before = (place as usize).min(points.len() - 1);
+                let after = (before + 1).min(points.len() - 1);
+                let point = points[before].lerp(points[after], place - before as f32);
+                (point - hair.head.center) / hair.head.height_m
+            };
+            positions.extend(run.joints.clone().map(at_rest));
+        }
     }
 
     /// The head's surfaces on the screen; none where nothing of the head can be seen.
@@ -633,6 +668,14 @@ fn made_at_rest(
         })
     };
     made.iter().map(with_detail).collect()
+}
+
+/// The strand of an object's hair that a strand of the frame is, or belongs to: `strands` are its hair's, and those behind it have made paths.
+fn strand_of(strands: &Range<usize>, made_of: &[usize], strand: usize) -> usize {
+    match strand.checked_sub(strands.end) {
+        Some(made) => made_of[made],
+        None => strand - strands.start,
+    }
 }
 
 /// A ball that paths through these points stay in: its middle and its radius, metres. A path leaves the hull of its points by no more than

@@ -30,10 +30,14 @@ pub struct HairModel {
     pub(crate) shapes: Option<PointCache>,
     /// The bake that its file's motion is of.
     pub(crate) bake: Option<PathBuf>,
+    /// The names of its style's zones; none where it doesn't come from one.
+    pub(crate) zone_names: Vec<String>,
     /// How the hair of each zone of its style moves, where the style says so.
     pub(crate) zone_dynamics: Vec<Option<ZoneDynamics>>,
     /// The colours of each zone of its style at root and tip: see [`StrandInfo`].
     pub(crate) zone_colors: Vec<[Vec3; 2]>,
+    /// The colours of each strand at root and tip, where its file says them; empty where not.
+    pub(crate) own_colors: Vec<[Vec3; 2]>,
     /// The ties that gather it, and what lies on it.
     pub(crate) ornaments: Vec<OrnamentMesh>,
     /// The head that it stands on.
@@ -85,8 +89,10 @@ impl HairModel {
             infos: Vec::new(),
             shapes: None,
             bake: None,
+            zone_names: Vec::new(),
             zone_dynamics: Vec::new(),
             zone_colors: Vec::new(),
+            own_colors: Vec::new(),
             ornaments: Vec::new(),
             head: match head {
                 Some(head) => head.frame(&all_roots),
@@ -125,9 +131,10 @@ impl HairModel {
             mean: Vec3::ZERO,
             size: given(i).unwrap_or(size),
             taper: self.tapers[i],
-            colors: self.colors(strands.id(i)),
+            colors: self.colors(i),
             level: 0,
             lift: 0.0,
+            left_out_by: 0,
         });
         self.infos = infos.collect();
         self.keep(&guides.kept);
@@ -147,12 +154,21 @@ impl HairModel {
         self.undercoat = indices.iter().filter(is_undercoat).count();
         self.held = indices.iter().map(|&i| self.held[i]).collect();
         self.tapers = indices.iter().map(|&i| self.tapers[i]).collect();
+        if !self.own_colors.is_empty() {
+            self.own_colors = indices.iter().map(|&i| self.own_colors[i]).collect();
+        }
     }
 
     /// Which strands are left where it is thin.
     pub(crate) fn ranks(&self) -> &Ranks {
         let roots = || self.file.strands.roots().collect::<Vec<Vec3>>();
         (self.ranks).get_or_init(|| Ranks::of(&roots(), self.undercoat))
+    }
+
+    /// The name of the zone in which the strand of this id grows; none of undercoat and clumps drawn by hand.
+    pub(crate) fn zone_name(&self, id: u32) -> Option<&str> {
+        let name = self.zone_names.get(groom::zone_of(id)?)?;
+        Some(name)
     }
 
     /// How the strand of this id moves by its zone, where that says so.
@@ -163,8 +179,12 @@ impl HairModel {
         self.zone_dynamics.get(groom::zone_of(id)?)?.as_ref()
     }
 
-    /// The colours of the strand of this id by its zone.
-    fn colors(&self, id: u32) -> [Vec3; 2] {
+    /// The colours of the strand of this index: its own, or its zone's.
+    fn colors(&self, strand: usize) -> [Vec3; 2] {
+        if let Some(own) = self.own_colors.get(strand) {
+            return *own;
+        }
+        let id = self.file.strands.id(strand);
         let of_zone = groom::zone_of(id).and_then(|zone| self.zone_colors.get(zone));
         of_zone.copied().unwrap_or([NO_COLOR; 2])
     }

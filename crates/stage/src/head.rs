@@ -10,10 +10,12 @@ pub(crate) use seen::{MESHES, surfaces};
 use crate::hair::head_of;
 use crate::painted::PaintedMesh;
 use crate::scalp;
+use crate::skeleton::Skeleton;
 use glam::Vec3;
 use groom::{Bust, Cloth, Figure, OrnamentMesh, Patch};
 use hair_io::{HeadFrame, Mesh};
 use render::Head;
+use std::sync::Arc;
 
 /// What is found in the bust's mesh, so that neither dress nor crop changes the size of hair.
 const FIGURE_FRAME: Head = Head {
@@ -43,6 +45,8 @@ pub struct HeadModel {
     pub(crate) ornaments: Mesh,
     /// Meshes in their own colours, of its file or beside it.
     pub(crate) painted: Vec<PaintedMesh>,
+    /// What moves those of its own file.
+    pub(crate) skeleton: Option<Arc<Skeleton>>,
 }
 
 impl HeadModel {
@@ -151,6 +155,7 @@ impl From<Bust> for HeadModel {
             scalp: Default::default(),
             ornaments: no_mesh(),
             painted: Vec::new(),
+            skeleton: None,
         }
     }
 }
@@ -169,6 +174,7 @@ impl From<Mesh> for HeadModel {
             scalp: Default::default(),
             ornaments: no_mesh(),
             painted: Vec::new(),
+            skeleton: None,
         }
     }
 }

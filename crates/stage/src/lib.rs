@@ -15,7 +15,9 @@ mod load;
 mod look;
 mod material;
 mod merged;
+mod mesh_hair;
 mod motion;
+mod names;
 mod neck;
 mod object;
 mod painted;
@@ -28,10 +30,12 @@ mod scalp;
 mod scene;
 mod script;
 mod shapes;
+mod skeleton;
 mod solid;
 mod stage;
 mod style;
 mod textures;
+mod zones;
 
 pub use bake::{Bake, is_bake};
 pub use check::{check_hair, check_motion, check_style};
@@ -49,8 +53,8 @@ pub use object::Object;
 pub use part::FilePart;
 pub use preset::{
     AlphaChoice, BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
-    ExpressionChoice, EyesChoice, FixedTo, HairSection, HeadColors, HeadSection, HeadShape,
-    HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
+    ExpressionChoice, EyesChoice, FixedTo, HairFrom, HairSection, HeadColors, HeadSection,
+    HeadShape, HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
     NamedObject, ObjectSection, OrderChoice, PASSES, PassSection, PathChoice, PathSection, Preset,
     SceneSection, Sections, TopSection, UpAxis, VERSION,
 };

@@ -3,11 +3,14 @@
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
+use crate::mesh_hair;
+use crate::names::Names;
 use crate::painted::{self, MeshNames};
 use crate::preset::{
-    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HeadColors, HeadSection, HeadShape,
-    Preset, UpAxis,
+    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HeadColors, HeadSection,
+    HeadShape, Preset, UpAxis,
 };
+use crate::skeleton::Skeleton;
 use crate::style;
 use glam::{Vec2, Vec3};
 use groom::{Blush, Dress, Expression, Eyes, Face, Figure, Taper};
@@ -18,7 +21,7 @@ use mesh_io::Model;
 use render::NO_TAPER;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// From the chin to the top of a figure, metres.
 const FIGURE_HEIGHT_M: f32 = 0.24;
@@ -49,41 +52,54 @@ pub(crate) fn chosen(
     given.cloned().or_else(|| own.map(|name| folder.join(name)))
 }
 
-/// The head that is drawn, if any.
+/// The head that is drawn, if any, and its own hair where the preset's hair is from there.
 pub(crate) fn head(
     preset: &Preset,
     files: &Files,
     notes: &mut Vec<String>,
-) -> Result<Option<HeadModel>, StageError> {
+) -> Result<(Option<HeadModel>, Option<HairModel>), StageError> {
     let section = &preset.sections.head;
     let own = section.file.as_ref();
     let Some(path) = chosen(files.head.as_ref(), own, &files.preset_folder) else {
+        if preset.sections.motion.character {
+            return Err(StageError::NoCharacter);
+        }
         let head = match section.shape {
-            HeadShape::None => return no_head(preset),
+            HeadShape::None => return Ok((no_head(preset)?, None)),
             HeadShape::Bust => HeadModel::bust(),
             HeadShape::Figure => HeadModel::figure(&figure(section)),
         };
         let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
         let folder = &files.preset_folder;
         let beside = painted::of_sections(&sections, folder, &Orientation::OURS, notes)?;
-        return Ok(Some(head.painted(Vec::new(), beside)));
+        return Ok((Some(head.painted(Vec::new(), beside)), None));
     };
     let file = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
     notes.extend(file.notes);
     let (model, orientation) = (&file.model, &file.orientation);
-    let hidden = MeshNames(section.hide.as_deref().unwrap_or_default());
+    let hidden = MeshNames(Names(section.hide.as_deref().unwrap_or_default()));
     hidden.check(model, &path)?;
     let is_there = |mesh: &mesh_io::Mesh| !hidden.have(model, mesh);
-    let mut mesh = match hidden.is_empty() {
-        true => file.mesh,
-        false => {
-            shape_of(model, orientation, is_there).ok_or(StageError::AllHidden(path.clone()))?
+    let own_hair = match wants_own_hair(preset, files) {
+        true => mesh_hair::find(model, &path, orientation, &preset.sections.hair, is_there)?,
+        false => None,
+    };
+    let mut mesh = match (hidden.is_empty(), &own_hair) {
+        (true, None) => file.mesh,
+        _ => {
+            let is_hair = own_hair.as_ref().map(|own| &own.is_hair[..]);
+            shape_of(model, orientation, is_there, is_hair)
+                .ok_or(StageError::AllHidden(path.clone()))?
         }
     };
     let mut painted = match section.colors {
         HeadColors::Preset => Vec::new(),
         HeadColors::File => painted::of_model(model, &path, orientation, None, is_there, notes)?,
     };
+    let hair_paint = own_hair.as_ref().map(|own| {
+        let shown = (0..model.meshes.len()).filter(|index| is_there(&model.meshes[*index]));
+        own.take_away(shown, &mut painted)
+    });
     if is_inside_out(&mesh) {
         notes.push("head: its triangles face inwards and are turned around".to_owned());
         turn_around(&mut mesh.triangles, &mut mesh.normals);
@@ -94,17 +110,53 @@ pub(crate) fn head(
     let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
     let folder = &files.preset_folder;
     let beside = painted::of_sections(&sections, folder, orientation, notes)?;
-    Ok(Some(HeadModel::from(mesh).painted(painted, beside)))
+    let mut head = HeadModel::from(mesh).painted(painted, beside);
+    if preset.sections.motion.character {
+        if section.colors != HeadColors::File {
+            return Err(StageError::NoCharacter);
+        }
+        let model = Arc::new(file.model.clone());
+        let skeleton = Skeleton::new(model, &path, orientation, &preset.sections.motion)?;
+        head.skeleton = Some(Arc::new(skeleton));
+    }
+    let hair = own_hair.zip(hair_paint).map(|(own, paint)| {
+        let hair = own.into_hair(&head, &preset.sections.hair, &paint)?;
+        notes.extend(hair.file.notes.iter().cloned());
+        note_guides(preset, &hair, notes);
+        Ok::<_, StageError>(hair)
+    });
+    let hair = hair.transpose()?;
+    if hair.is_none() && wants_own_hair(preset, files) {
+        if preset.sections.hair.file.is_none() {
+            return Err(StageError::NoMeshHair(path));
+        }
+        notes
+            .push("hair: the character has none of its own, the preset's file is drawn".to_owned());
+    }
+    Ok((Some(head), hair))
 }
 
-/// The meshes that are there as one shape; nothing where none is.
+/// Whether hair is the character's own where it has some.
+fn wants_own_hair(preset: &Preset, files: &Files) -> bool {
+    files.hair.is_none() && preset.sections.hair.from == HairFrom::Character
+}
+
+/// The meshes that are there as one shape, without the triangles that are hair; nothing where none is.
 fn shape_of(
     model: &Model,
     orientation: &Orientation,
     is_there: impl Fn(&mesh_io::Mesh) -> bool,
+    is_hair: Option<&[Vec<bool>]>,
 ) -> Option<Mesh> {
-    let meshes = model.meshes.iter().filter(|mesh| is_there(mesh));
-    let corners = meshes.flat_map(mesh_io::Mesh::corners);
+    let meshes = model.meshes.iter().enumerate();
+    let corners = meshes
+        .filter(|(_, mesh)| is_there(mesh))
+        .flat_map(|(index, mesh)| {
+            let is_skin = move |triangle: usize| is_hair.is_none_or(|hair| !hair[index][triangle]);
+            let all = mesh.corners().enumerate();
+            all.filter(move |(triangle, _)| is_skin(*triangle))
+                .map(|(_, corners)| corners)
+        });
     let shape = Mesh::from_corners(corners.map(|t| t.map(|p| orientation.apply(p))));
     (!shape.triangles.is_empty()).then_some(shape)
 }
@@ -186,13 +238,18 @@ pub(crate) fn hair(
     let own = preset.sections.hair.file.as_ref();
     let path = chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
     let hair = strands(preset, files, &path, head, notes)?;
+    note_guides(preset, &hair, notes);
+    Ok(hair)
+}
+
+/// Tells how many strands are guides.
+fn note_guides(preset: &Preset, hair: &HairModel, notes: &mut Vec<String>) {
     let (all, guides) = (hair.file.strands.len(), preset.sections.hair.guides);
     if guides > 0 && (guides as usize) < all {
         notes.push(format!(
             "hair: {guides} of the {all} strands are drawn, as guides (hair.guides, --guides)"
         ));
     }
-    Ok(hair)
 }
 
 /// All strands of a file or style as the preset reads hair, sorted by id.
@@ -317,7 +374,9 @@ fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairMode
         undercoat: grown.undercoat,
         shapes: None,
         bake: None,
+        own_colors: Vec::new(),
         ornaments: grown.ornaments,
+        zone_names: style.zones.iter().map(|zone| zone.name.clone()).collect(),
         zone_dynamics: dynamics,
         zone_colors: colors,
         head,

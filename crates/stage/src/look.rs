@@ -96,6 +96,12 @@ impl Look {
         self.clump.base().normal == clump::Params::NORMAL_MATERIAL || self.layers.iter().any(reads)
     }
 
+    /// Whether anything reads where hair is at rest.
+    pub(crate) fn reads_rest(&self) -> bool {
+        let reads = |layer: &Layer| layer.program.inputs().has(Input::RestPosition);
+        self.layers.iter().any(reads)
+    }
+
     /// Whether pictures change with time alone.
     pub(crate) fn reads_time(&self) -> bool {
         let reads = |layer: &Layer| {

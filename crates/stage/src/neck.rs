@@ -1,9 +1,11 @@
 //! A head that turns on its neck: the head follows its pose whole, the shoulders not at all.
 
 use crate::head::HeadModel;
+use crate::painted::PaintedMesh;
 use crate::script::HeadPose;
+use crate::skeleton::Skeleton;
 use crate::solid::Solid;
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DQuat, DVec3, Quat, Vec3};
 use render::{Ball, Head};
 
 /// Where the head turns about, from its middle, in head heights: the top of the neck.
@@ -11,6 +13,10 @@ const PIVOT: Vec3 = Vec3::new(0.0, -0.38, -0.12);
 /// Heights from the head's middle, in head heights, below which nothing turns and above which all does.
 const SHOULDERS: f32 = -0.95;
 const JAW: f32 = -0.42;
+/// Corners of one share turn alike: as many turns as there are steps are enough for the eye.
+const STEPS: usize = 256;
+/// How much farther from the neck than at rest bones may take hands and feet.
+const STRETCH: f32 = 2.0;
 
 /// A head as its file has it, and how much of it follows a pose.
 pub(crate) struct Neck {
@@ -22,6 +28,7 @@ pub(crate) struct Neck {
     /// The same for each corner of each painted mesh.
     painted_shares: Vec<Vec<f32>>,
     pivot: Vec3,
+    head: Head,
     height_m: f32,
     /// How far from the pivot the farthest corner is, metres: of meshes and patches.
     reach_m: f32,
@@ -64,6 +71,7 @@ impl Neck {
                 .map(|mesh| shares_of(&mesh.positions))
                 .collect(),
             pivot: pivot(head),
+            head,
             height_m: head.height_m,
             rest: model,
         }
@@ -74,7 +82,11 @@ impl Neck {
     /// The ball that all of the head stays in, in this pose: its middle and its radius, metres.
     pub fn ball(&self, pose: HeadPose) -> (Vec3, f32) {
         let shift_m = pose.shift.length() as f32 * self.height_m;
-        (self.pivot, self.reach_m + shift_m)
+        let reach_m = match pose.animated_s {
+            Some(_) => STRETCH * self.reach_m,
+            None => self.reach_m,
+        };
+        (self.pivot, reach_m + shift_m)
     }
 }
 
@@ -115,8 +127,6 @@ impl PosedHead {
             self.model.clone_from(&neck.rest);
             return;
         }
-        // Corners of one share turn alike: as many turns as there are steps are enough for the eye.
-        const STEPS: usize = 256;
         let turns: Vec<DQuat> = (0..=STEPS)
             .map(|step| self.pose.rotation(step as f64 / STEPS as f64))
             .collect();
@@ -142,7 +152,15 @@ impl PosedHead {
             posed.positions[i] = moved(rest.positions[i], 1.0);
             posed.normals[i] = turn(1.0) * rest.normals[i];
         }
+        if let (Some(skeleton), Some(time)) = (&neck.rest.skeleton, self.pose.animated_s) {
+            skeleton.put(time, &mut self.model.painted);
+            self.turn_on_top(neck, skeleton, time);
+        }
+        let is_own = |mesh: &PaintedMesh| neck.rest.skeleton.is_some() && mesh.section.is_none();
         for (index, shares) in neck.painted_shares.iter().enumerate() {
+            if is_own(&neck.rest.painted[index]) {
+                continue;
+            }
             let (rest, posed) = (&neck.rest.painted[index], &mut self.model.painted[index]);
             for (i, share) in shares.iter().enumerate() {
                 posed.positions[i] = moved(rest.positions[i], *share);
@@ -155,6 +173,41 @@ impl PosedHead {
                 posed.positions[i] = moved(rest.positions[i], *share);
             }
             posed.away_from = rest.away_from.map(|away| turn(1.0) * away);
+        }
+    }
+}
+
+impl PosedHead {
+    /// Turns what a skeleton has put somewhere by what the script says beside it, about where the neck has come to.
+    fn turn_on_top(&mut self, neck: &Neck, skeleton: &Skeleton, time: f64) {
+        let height_m = f64::from(neck.height_m);
+        let (base, moved_m) = skeleton.head_at(time, neck.head);
+        let shift_m = self.pose.shift * height_m - moved_m;
+        let is_still = self.pose.turn == DVec3::ZERO && self.pose.spin == 0.0;
+        if is_still && shift_m.length() < 1e-9 * height_m {
+            return;
+        }
+        let own = HeadPose {
+            base: DQuat::IDENTITY,
+            spin: 0.0,
+            ..self.pose
+        };
+        let pivot = (neck.pivot.as_dvec3() + moved_m).as_vec3();
+        let shift = shift_m.as_vec3();
+        let spun = self.pose.spun();
+        let turns: Vec<Quat> = (0..=STEPS)
+            .map(|step| own.rotation(step as f64 / STEPS as f64))
+            .map(|turn| (spun * base * turn * base.conjugate()).as_quat())
+            .collect();
+        let own_file = self.model.painted.iter_mut().zip(&neck.painted_shares);
+        for (mesh, shares) in own_file.filter(|(mesh, _)| mesh.section.is_none()) {
+            for ((place, normal), share) in
+                mesh.positions.iter_mut().zip(&mut mesh.normals).zip(shares)
+            {
+                let turn = turns[(share * STEPS as f32).round() as usize];
+                *place = turn * (*place - pivot) + pivot + shift;
+                *normal = turn * *normal;
+            }
         }
     }
 }
@@ -192,6 +245,7 @@ mod tests {
             shift: DVec3::new(0.0, 0.5, 0.0),
             base: DQuat::from_rotation_y(0.3),
             spin: 0.0,
+            animated_s: None,
         };
         let (rotation, translation) = rigid(pose, head);
         let turned_head = posed.in_pose(&neck, pose).clone();

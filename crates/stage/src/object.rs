@@ -10,6 +10,7 @@ use crate::neck::Neck;
 use crate::placement::Placement;
 use crate::preset::Preset;
 use crate::script::{self, MotionScript};
+use crate::zones;
 use glam::Vec3;
 use hair_io::Mesh;
 use render::{Head, StrandInfo};
@@ -60,11 +61,15 @@ impl Object {
         look: Arc<Look>,
         notes: &mut Vec<String>,
     ) -> Result<Self, StageError> {
-        let head = load::head(preset, files, notes)?;
-        let mut hair = load::hair(preset, files, head.as_ref(), notes)?;
+        let (head, own_hair) = load::head(preset, files, notes)?;
+        let mut hair = match own_hair {
+            Some(own) => own,
+            None => load::hair(preset, files, head.as_ref(), notes)?,
+        };
         let script = script::load(preset, files, &mut hair, head.as_ref())?;
         hair.choose_guides(&preset.sections.hair);
         bake::load(preset, files, &mut hair, notes)?;
+        zones::check(&preset.layers, &hair, files.hair.is_some(), notes)?;
         Self::of(hair, head, look, script)
     }
 

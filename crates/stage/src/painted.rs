@@ -1,6 +1,7 @@
 //! Meshes in colours of their own: a character as its file paints it, and eyes, lashes, clothes or glasses beside a head.
 
 use crate::files::StageError;
+use crate::names::Names;
 use crate::pictures;
 use crate::preset::{AlphaChoice, MeshSection};
 use effects::Image;
@@ -23,6 +24,9 @@ pub(crate) struct PaintedMesh {
     pub paint: MeshPaint,
     /// Which of the preset's `meshes` it is of; none is the head's own file.
     pub section: Option<usize>,
+    /// Which mesh of its file it is, and which of that mesh's vertices it has where triangles were taken away: empty is all.
+    pub index: usize,
+    pub kept: Vec<usize>,
 }
 
 /// How a file paints a mesh.
@@ -45,6 +49,39 @@ pub(crate) struct MeshPicture {
     pub coverage: Coverage,
 }
 
+impl PaintedMesh {
+    /// The vertex of its file's mesh that one of its own is.
+    pub(crate) fn vertex(&self, own: usize) -> usize {
+        self.kept.get(own).copied().unwrap_or(own)
+    }
+
+    /// Takes triangles away; one a triangle tells which.
+    pub(crate) fn take_away(&mut self, is_gone: &[bool]) {
+        let mut numbers = vec![None; self.positions.len()];
+        let (mut kept, mut triangles) = (Vec::new(), Vec::new());
+        for (triangle, _) in self
+            .triangles
+            .iter()
+            .zip(is_gone)
+            .filter(|(_, gone)| !**gone)
+        {
+            triangles.push(triangle.map(|corner| {
+                *numbers[corner as usize].get_or_insert_with(|| {
+                    kept.push(corner as usize);
+                    kept.len() as u32 - 1
+                })
+            }));
+        }
+        self.triangles = triangles;
+        self.kept = kept.iter().map(|i| self.vertex(*i)).collect();
+        self.positions = kept.iter().map(|i| self.positions[*i]).collect();
+        self.normals = kept.iter().map(|i| self.normals[*i]).collect();
+        if !self.places.is_empty() {
+            self.places = kept.iter().map(|i| self.places[*i]).collect();
+        }
+    }
+}
+
 impl MeshPaint {
     /// Without colours in the file.
     const NONE: Self = Self {
@@ -61,33 +98,24 @@ impl MeshPaint {
     }
 }
 
-/// Names of meshes or materials, with commas between them; `*` at the end of one stands for anything.
+/// Names of meshes or materials.
 #[derive(Clone, Copy)]
-pub(crate) struct MeshNames<'a>(pub &'a str);
+pub(crate) struct MeshNames<'a>(pub Names<'a>);
 
 impl MeshNames<'_> {
-    fn names(&self) -> impl Iterator<Item = &str> {
-        let names = self.0.split(',').map(str::trim);
-        names.filter(|name| !name.is_empty())
-    }
-
     pub(crate) fn is_empty(&self) -> bool {
-        self.names().next().is_none()
+        self.0.is_empty()
     }
 
     /// Whether a mesh is named, or its material.
     pub(crate) fn have(&self, model: &Model, mesh: &Mesh) -> bool {
-        self.names()
-            .any(|name| names_of(model, mesh).any(|own| is_meant(name, own)))
+        names_of(model, mesh).any(|own| self.0.have(own))
     }
 
     /// That each is there, in this file.
     pub(crate) fn check(&self, model: &Model, path: &Path) -> Result<(), StageError> {
         let all = || model.meshes.iter().flat_map(|mesh| names_of(model, mesh));
-        match self
-            .names()
-            .find(|name| !all().any(|own| is_meant(name, own)))
-        {
+        match self.0.unknown(all) {
             None => Ok(()),
             Some(name) => Err(StageError::NoMesh {
                 path: path.to_owned(),
@@ -102,22 +130,13 @@ impl MeshNames<'_> {
 }
 
 /// The names of a mesh and of its material.
-fn names_of<'m>(model: &'m Model, mesh: &'m Mesh) -> impl Iterator<Item = &'m str> {
+pub(crate) fn names_of<'m>(model: &'m Model, mesh: &'m Mesh) -> impl Iterator<Item = &'m str> {
     let material = mesh.material.and_then(|index| model.materials.get(index));
     let names = [
         Some(mesh.name.as_str()),
         material.map(|material| material.name.as_str()),
     ];
     names.into_iter().flatten().filter(|name| !name.is_empty())
-}
-
-fn is_meant(name: &str, own: &str) -> bool {
-    match name.strip_suffix('*') {
-        Some(start) => own
-            .get(..start.len())
-            .is_some_and(|own| own.eq_ignore_ascii_case(start)),
-        None => own.eq_ignore_ascii_case(name),
-    }
 }
 
 /// The meshes of a model that are meant, as they lie in our space.
@@ -131,7 +150,12 @@ pub(crate) fn of_model(
 ) -> Result<Vec<PaintedMesh>, StageError> {
     let mut pictures = Pictures::new(model, path);
     let mut painted = Vec::new();
-    for mesh in model.meshes.iter().filter(|mesh| is_meant(mesh)) {
+    for (index, mesh) in model
+        .meshes
+        .iter()
+        .enumerate()
+        .filter(|(_, mesh)| is_meant(mesh))
+    {
         let material = mesh.material.and_then(|index| model.materials.get(index));
         let paint = match material {
             None => MeshPaint::NONE,
@@ -149,6 +173,8 @@ pub(crate) fn of_model(
             },
             paint,
             section,
+            index,
+            kept: Vec::new(),
         });
     }
     notes.append(&mut pictures.notes);
@@ -239,7 +265,7 @@ pub(crate) fn of_sections(
         let model = mesh_io::read_model(&path)?;
         notes.extend(model.notes.iter().cloned());
         let [only, hide] = [&section.only, &section.hide]
-            .map(|names| MeshNames(names.as_deref().unwrap_or_default()));
+            .map(|names| MeshNames(Names(names.as_deref().unwrap_or_default())));
         only.check(&model, &path)?;
         hide.check(&model, &path)?;
         let is_meant =

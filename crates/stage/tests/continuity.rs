@@ -26,6 +26,7 @@ const LAYERS: &str = r#"[
     (effect: "hair.base"),
     (effect: "hair.cel", params: (color: "2A8F9D", threshold: 0.6, full: 0.3, roundness: 1)),
     (effect: "hair.highlight", params: (kind: specular, exponent: 2, threshold: 0.2, full: 0.6)),
+    (effect: "hair.band", params: (along: length, place: 0.5, thickness: 0.3, shade: 0, strand_share: 1)),
     (effect: "hair.fine", params: (per_strand: 2, width: 2, color: "FFF0C0")),
 ]"#;
 
@@ -150,6 +151,13 @@ fn strokes_follow_their_limits() {
     // Short ones are smoothed away.
     assert_continuous(&[("hair.highlight.shortest", [0.1, 0.14])]);
     assert_continuous(&[("hair.cel.shortest", [0.1, 0.14])]);
+}
+
+#[test]
+fn bands_wander_along_the_hair() {
+    assert_continuous(&[("hair.band.place", [0.5, 0.6])]);
+    assert_continuous(&[("hair.band.thickness", [0.2, 0.4])]);
+    assert_continuous(&[("hair.band.shade", [0.0, 0.6])]);
 }
 
 #[test]

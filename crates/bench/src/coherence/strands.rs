@@ -107,6 +107,7 @@ impl Strands {
             colors: [NO_COLOR; 2],
             level: 0,
             lift: 0.0,
+            left_out_by: 0,
         };
         let cuts = (0..count as usize).map(|i| {
             let overlap_m = 3.0 * SIZE * HEAD.unit_m();
@@ -174,6 +175,7 @@ impl Animation for Strands {
             light: Light::Direction(Vec3::new(0.5, 0.6, 0.62).normalize()),
             time_s: time as f32,
             material_normals: &[],
+            rest_positions: &[],
             surfaces: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),

@@ -25,6 +25,9 @@ section! {
         depth_offset: Option<f32> = number(0.0, -10.0..=10.0).unit("head heights").optional(),
         /// What widths are measured in: 1/300 of the head's height in the world, or pixels at 720 lines.
         units: Units = Units::World.or_another(),
+        /// The zones of the hair's style that it draws on: their names with commas between them, `*` for any end, such as "fringe, tail*".
+        /// Without it all hair.
+        zones: Option<String> = text(),
     }
 }
 
@@ -46,6 +49,10 @@ pub struct LayerSpec<'r> {
     pub depth_offset: f32,
     /// What widths are measured in.
     pub units: Units,
+    /// The zones of a hair style whose hair it draws; all hair where it says nothing.
+    pub zones: Option<String>,
+    /// Where the file says them.
+    pub zones_place: Option<Place>,
     /// The effect's parameters.
     pub values: Values,
     /// Where the file names its textures' files: their parameters, and the place of each value.
@@ -53,14 +60,14 @@ pub struct LayerSpec<'r> {
 }
 
 impl LayerSpec<'_> {
-    /// Sets one parameter of the effect, or the layer's own `rank`, `depth_offset` or `units`, from
-    /// its text, as `--set` gives it.
+    /// Sets one parameter of the effect, or the layer's own `rank`, `depth_offset`, `units` or `zones`,
+    /// from its text, as `--set` gives it.
     ///
     /// # Errors
     ///
     /// When there is no such parameter, or the text is not one of its values.
     pub fn set(&mut self, param: &str, text: &str) -> Result<(), SetError> {
-        let own = ["rank", "depth_offset", "units"];
+        let own = ["rank", "depth_offset", "units", "zones"];
         // What the file says is no longer what is meant.
         self.textures.retain(|(name, _)| *name != param);
         let is_own = own.contains(&param) && self.effect.params().iter().all(|p| p.name != param);
@@ -69,12 +76,17 @@ impl LayerSpec<'_> {
         }
         let mut fields = LayerFields {
             units: self.units,
+            zones: self.zones.clone(),
             ..LayerFields::default()
         };
         set_text(&mut fields, &self.name, param, text)?;
         self.rank = fields.rank.unwrap_or(self.rank);
         self.depth_offset = fields.depth_offset.unwrap_or(self.depth_offset);
         self.units = fields.units;
+        if param == "zones" {
+            self.zones_place = None;
+        }
+        self.zones = fields.zones;
         Ok(())
     }
 
@@ -93,6 +105,7 @@ impl LayerSpec<'_> {
             rank: self.rank,
             depth_offset: self.depth_offset,
             units: self.units,
+            zones: self.zones.clone(),
             program: self.effect.program(values).into(),
         }
     }
@@ -165,6 +178,7 @@ impl<'a> Reader<'a> {
             )
         });
         let effect = effect?;
+        let zones = own.iter().find(|field| field.name == "zones");
         let (values, textures) = match params.first() {
             Some(field) => self.params(field.value, effect),
             None => (Values::defaults(effect.params()), Vec::new()),
@@ -175,6 +189,8 @@ impl<'a> Reader<'a> {
             rank: layer.rank.unwrap_or(effect.rank()),
             depth_offset: layer.depth_offset.unwrap_or(effect.depth_offset()),
             units: layer.units,
+            zones: layer.zones,
+            zones_place: zones.map(|field| self.place(field.value)),
             values,
             textures,
         })

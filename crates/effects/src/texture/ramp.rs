@@ -1,6 +1,8 @@
 //! Gradients as text: `[(0, "2A8F9D"), (0.5, "3FC1C0")]`.
 
 use crate::color::parse_hex;
+use crate::samples::{BLOCK, Vectors};
+use crate::wgsl::vec3;
 use serde::Deserialize;
 
 /// A gradient, or several of which one turns into the next.
@@ -98,6 +100,46 @@ impl Ramp {
         }
     }
 
+    /// Whether it has so few stops that it takes less to go through all of them for many samples at once than to find each sample's.
+    pub(crate) fn is_short(&self) -> bool {
+        let stops = self.rows.iter().map(|row| row.stops.len());
+        stops.sum::<usize>() <= SHORT
+    }
+
+    /// [`Self::at`] the places of a block; one that isn't finite is 0.
+    #[inline(always)] // compiled for its caller's instructions
+    pub(crate) fn of_block(&self, x: &[f32; BLOCK], y: &[f32; BLOCK], colors: &mut Vectors) {
+        let (x, y) = (finite(x), finite(y));
+        // Rows that none of them reaches are left out.
+        let (mut lowest, mut highest) = (y[0], y[0]);
+        for y in y {
+            lowest = if y < lowest { y } else { lowest };
+            highest = if y > highest { y } else { highest };
+        }
+        let first = self.rows.partition_point(|row| row.v <= lowest);
+        let rows = &self.rows[first.saturating_sub(1)..];
+        let mut before = &rows[0];
+        before.of_block(&x, colors);
+        let (mut from, mut to) = (colors.clone(), Vectors::NOTHING);
+        for row in &rows[1..] {
+            if before.v > highest {
+                break;
+            }
+            row.of_block(&x, &mut to);
+            let width = row.v - before.v;
+            for i in 0..BLOCK {
+                let share = (y[i] - before.v) / width;
+                let pair = [from.at(i), to.at(i)].map(|color| color.to_array());
+                let between = mix(pair[0], pair[1], share);
+                let color = choose(y[i] >= before.v, between, colors.at(i).to_array());
+                let color = choose(y[i] >= row.v, pair[1], color);
+                colors.set(i, vec3(color));
+            }
+            std::mem::swap(&mut from, &mut to);
+            before = row;
+        }
+    }
+
     /// As a preset has it.
     #[must_use]
     pub fn written(&self) -> String {
@@ -140,7 +182,49 @@ impl Ramp {
     }
 }
 
+/// Stops of a short gradient at most.
+const SHORT: usize = 32;
+
+/// The numbers, 0 for those that aren't finite.
+#[inline(always)]
+fn finite(numbers: &[f32; BLOCK]) -> [f32; BLOCK] {
+    let mut finite = *numbers;
+    for number in &mut finite {
+        *number = if number.is_finite() { *number } else { 0.0 };
+    }
+    finite
+}
+
+#[inline(always)]
+fn choose(condition: bool, then: [f32; 3], otherwise: [f32; 3]) -> [f32; 3] {
+    let [a, b, c] = then;
+    let [d, e, f] = otherwise;
+    if condition { [a, b, c] } else { [d, e, f] }
+}
+
 impl Row {
+    /// [`Self::at`] the places of a block.
+    #[inline(always)]
+    fn of_block(&self, x: &[f32; BLOCK], colors: &mut Vectors) {
+        let (mut start, mut from) = self.stops[0];
+        for i in 0..BLOCK {
+            colors.set(i, vec3(from));
+        }
+        for &(end, to) in &self.stops[1..] {
+            let width = end - start;
+            for i in 0..BLOCK {
+                let before = colors.at(i).to_array();
+                let between = match self.steps {
+                    true => from,
+                    false => mix(from, to, (x[i] - start) / width),
+                };
+                let color = choose(x[i] >= start, between, before);
+                colors.set(i, vec3(choose(x[i] >= end, to, color)));
+            }
+            (start, from) = (end, to);
+        }
+    }
+
     fn at(&self, x: f32) -> [f32; 3] {
         let next = self.stops.partition_point(|(place, _)| *place <= x);
         let (start, from) = self.stops[next.saturating_sub(1)];
@@ -203,6 +287,7 @@ fn rising(what: &str, places: impl Iterator<Item = f32>) -> Result<(), String> {
     Ok(())
 }
 
+#[inline(always)]
 fn mix(from: [f32; 3], to: [f32; 3], share: f32) -> [f32; 3] {
     std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share)
 }
@@ -241,6 +326,28 @@ mod tests {
         let rows = ramp(r#"[(v: 0, steps: [(0, "000000")]), (v: 2, stops: [(0, "FFFFFF")])]"#);
         for (y, light) in [(-1.0, 0.0), (0.5, 0.25), (2.0, 1.0), (3.0, 1.0)] {
             assert_eq!(rows.at(0.7, y), [light; 3], "{y}");
+        }
+    }
+
+    #[test]
+    fn a_block_has_the_same_colours() {
+        let places = [-1.0, 0.0, 0.2, 0.25, 0.5, 0.6, 1.0, f32::NAN];
+        let x = std::array::from_fn(|i| places[i % 8]);
+        let y = std::array::from_fn(|i| places[i / 8]);
+        for text in [
+            r#"[(0.5, "3FC1C0")]"#,
+            r#"(steps: [(0, "2A8F9D"), (0.25, "3FC1C0"), (0.25, "FFFFFF"), (0.6, "102030")])"#,
+            r#"[(0, "2A8F9D"), (0.5, "3FC1C0"), (0.5, "FFFFFF"), (1, "102030")]"#,
+            r#"[(v: 0, stops: [(0, "2A8F9D"), (1, "FFFFFF")]), (v: 0.5, steps: [(0.2, "3FC1C0"), (1, "000000")]), (v: 0.5, stops: [(0, "102030")])]"#,
+        ] {
+            let ramp = ramp(text);
+            let mut colors = Vectors::NOTHING;
+            ramp.of_block(&x, &y, &mut colors);
+            for i in 0..BLOCK {
+                let [x, y] = [x[i], y[i]].map(|x| if x.is_finite() { x } else { 0.0 });
+                let color: [f32; 3] = colors.at(i).to_array();
+                assert_eq!(color, ramp.at(x, y), "{text} at {x}, {y}");
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use crate::cli::SceneOptions;
 use crate::say::say;
 use effects::Registry;
 use effects::preset::PresetErrors;
-use stage::{Files, HeadColors, Preset, Stage};
+use stage::{Files, HairFrom, HeadColors, Preset, Stage};
 use std::path::Path;
 
 /// A preset's text, and what messages call it.
@@ -69,6 +69,8 @@ impl SceneOptions {
         hair.guides = self.guides.unwrap_or(hair.guides);
         if self.character.is_some() {
             preset.sections.head.colors = HeadColors::File;
+            // Where it has hair of its own; else the preset's.
+            preset.sections.hair.from = HairFrom::Character;
         }
         check(preset)?;
         for assignment in &self.set {

@@ -211,6 +211,8 @@ pub(super) struct Extensions {
     pub vrm0: Option<Vrm0>,
     #[serde(rename = "VRMC_vrm")]
     pub vrm1: Option<Vrm1>,
+    #[serde(rename = "VRMC_springBone")]
+    pub spring_bone: Option<SpringBone1>,
 }
 
 /// VRM 0.x, as far as it is read.
@@ -221,6 +223,98 @@ pub(super) struct Vrm0 {
     pub humanoid: Humanoid0,
     #[serde(default)]
     pub material_properties: Vec<MaterialProperties>,
+    #[serde(default)]
+    pub secondary_animation: SecondaryAnimation,
+}
+
+/// Spring bones of VRM 0.x.
+#[derive(Default, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SecondaryAnimation {
+    #[serde(default)]
+    pub bone_groups: Vec<BoneGroup>,
+    #[serde(default)]
+    pub collider_groups: Vec<ColliderGroup>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct BoneGroup {
+    /// Below 0 where there is none; with all nodes below.
+    #[serde(default)]
+    pub bones: Vec<i64>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct ColliderGroup {
+    /// Below 0 where there is none.
+    pub node: i64,
+    #[serde(default)]
+    pub colliders: Vec<Collider0>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Collider0 {
+    #[serde(default)]
+    pub offset: Offset0,
+    #[serde(default)]
+    pub radius: f64,
+}
+
+/// A place in a node's space, but for z, which Unity has the other way round.
+#[derive(Default, Deserialize)]
+pub(super) struct Offset0 {
+    #[serde(default)]
+    pub x: f64,
+    #[serde(default)]
+    pub y: f64,
+    #[serde(default)]
+    pub z: f64,
+}
+
+/// Spring bones of VRM 1.0.
+#[derive(Deserialize)]
+pub(super) struct SpringBone1 {
+    #[serde(default)]
+    pub colliders: Vec<Collider1>,
+    #[serde(default)]
+    pub springs: Vec<Spring1>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Collider1 {
+    pub node: usize,
+    #[serde(default)]
+    pub shape: Shape1,
+    /// What takes the place of `shape` for those who know it.
+    #[serde(default)]
+    pub extensions: BTreeMap<String, Value>,
+}
+
+#[derive(Default, Deserialize)]
+pub(super) struct Shape1 {
+    pub sphere: Option<Capsule1>,
+    pub capsule: Option<Capsule1>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Capsule1 {
+    #[serde(default)]
+    pub offset: [f64; 3],
+    #[serde(default)]
+    pub radius: f64,
+    /// Its other end; a ball has none.
+    pub tail: Option<[f64; 3]>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Spring1 {
+    #[serde(default)]
+    pub joints: Vec<SpringJoint1>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct SpringJoint1 {
+    pub node: usize,
 }
 
 #[derive(Default, Deserialize)]

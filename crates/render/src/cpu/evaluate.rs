@@ -78,12 +78,13 @@ impl Evaluator {
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
-            for (layer, joints) in object.layers.iter().zip(object.layer_joints) {
+            let layers = object.layers.iter().zip(object.layer_joints);
+            for (number, (layer, joints)) in layers.enumerate() {
                 let lists = spare
                     .next()
                     .map(|l| (l.discs, l.colors))
                     .unwrap_or_default();
-                let strokes = self.layer(frame, object, layer, joints, lists);
+                let strokes = self.layer(frame, object, number, joints, lists);
                 if layer.program.has_own_paths() {
                     // No strand's clump holds them: they are their own.
                     drawing.clump[joints.clone()].fill(NO_DISC);
@@ -94,6 +95,10 @@ impl Evaluator {
                 }
                 drawing.layers.push(strokes);
             }
+        }
+        if frame.paths.len() > MOST_KEPT {
+            self.joints = Joints::default();
+            self.clumps = Vec::new();
         }
         Ok(())
     }
@@ -181,21 +186,23 @@ impl Evaluator {
         disc_at(frame, object.head, joint, place, size, radius, depth_offset)
     }
 
-    /// The strokes of one layer on the joints `drawn`; `lists` are reused.
+    /// The strokes of layer `number` of an object on the joints `drawn`; `lists` are reused.
     fn layer(
         &mut self,
         frame: &Frame,
         object: &Object,
-        layer: &Layer,
+        number: usize,
         drawn: &Range<usize>,
         (mut discs, mut colors): (Vec<Disc>, Vec<[f32; 3]>),
     ) -> LayerStrokes {
+        let layer = &object.layers[number];
         self.fill_unit(frame, object.head, drawn, layer.units);
         let instances = layer.program.instances();
         let part = |joints| Part {
             frame,
             head: object.head,
             layer,
+            layer_number: number,
             inputs: &self.joints,
             joints,
             seen_length: &self.seen_length,
@@ -260,6 +267,10 @@ impl Evaluator {
             Input::MaterialNormal => {
                 let normals = frame.material_normals.iter().map(world);
                 joints.material_normal.extend(normals);
+            }
+            Input::RestPosition => {
+                let positions = frame.rest_positions.iter().map(world);
+                joints.rest_position.extend(positions);
             }
             Input::Strand => joints.strand.extend(strands().map(|s| s.id)),
             Input::Seed => joints.seed.extend(strands().map(|s| hash(s.id))),
@@ -525,6 +536,7 @@ struct Part<'a> {
     frame: &'a Frame<'a>,
     head: Head,
     layer: &'a Layer,
+    layer_number: usize,
     inputs: &'a Joints,
     joints: Range<usize>,
     seen_length: &'a [f32],
@@ -548,6 +560,9 @@ impl Part<'_> {
         let radii = &mut scratch.radii;
         radii.clear();
         for run in self.runs() {
+            if frame.strands[run.strand].is_left_out_by(self.layer_number) {
+                continue;
+            }
             let run = run.joints.clone();
             let extent = program.extent(inputs, run.clone(), number, self.seed);
             radii.resize(extent.start - self.joints.start, 0.0);
@@ -757,6 +772,9 @@ fn disc_at(
         inv_depth_biased: 1.0 / biased,
     }
 }
+
+/// Of more joints what effects read is not kept from frame to frame, so that the rasteriser has that room: some 200 bytes a joint.
+const MOST_KEPT: usize = 1 << 17;
 
 /// Joints that a thread works on at a time, at least.
 const CHUNK: usize = 1024;

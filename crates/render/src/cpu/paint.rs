@@ -1,91 +1,148 @@
-//! Samples of a tile that layers paint.
+//! Samples of a tile that layers paint: gathered cell by cell into blocks, which their programs paint.
 
-use super::shown::{NOTHING, Planes, TRIANGLE};
-use super::tile::Target;
+use super::mixed::{Mixed, SLOTS};
+use super::shown::{Planes, TRIANGLE};
+use super::tile::{LANES, LaneMask, Target, overwrite, select};
 use super::{Frame, Worker};
-use crate::painting::{Beside, gather};
-use effects::Samples;
-use effects::wgsl::Vec3;
+use crate::painting::PaintedLayer;
+use effects::{SampleSet, Vectors};
 
-/// A thread's memory for painting.
+/// A thread's memory for painting: a block of samples for each painted layer.
 #[derive(Default)]
-pub(super) struct Painter {
-    /// For each painted layer the samples of the tile that show it: cell and lane, and what is beside them.
-    layers: Vec<(Vec<[usize; 2]>, Vec<Beside>)>,
-    samples: Samples,
-    colors: Vec<Vec3<f32>>,
+pub(super) struct Painter(Vec<Block>);
+
+/// Samples that show one layer.
+struct Block {
+    /// What is read of them.
+    read: SampleSet,
+    /// The cells that they are of, and which samples of these.
+    cells: Vec<(usize, LaneMask)>,
+    mixed: Box<Mixed>,
 }
 
 impl Worker {
     /// Gives the samples of painted layers the colours that their programs say. What isn't finite stays as it was.
+    #[inline(always)] // compiled for each set of `Instructions`
     pub(super) fn paint(&mut self, frame: &Frame) {
-        let painting = &frame.drawing.painting;
-        let Self {
-            shown,
-            target,
-            painter,
-            ..
-        } = self;
-        let Some(shown) = shown.planes() else {
+        let Some(shown) = self.shown.planes() else {
             return;
         };
-        painter.find(frame, shown, target);
-        for (layer, (places, points)) in painting.layers.iter().zip(&painter.layers) {
-            if points.is_empty() {
-                continue;
-            }
-            let (samples, colors) = (&mut painter.samples, &mut painter.colors);
-            gather(&painting.joints, points, layer.reads(), samples);
-            colors.clear();
-            layer
-                .program
-                .paint(samples, 0..points.len(), layer.seed, colors);
-            for ([cell, lane], color) in places.iter().zip(colors.iter()) {
-                let color = color.to_array();
-                if color.iter().all(|light| light.is_finite()) {
-                    for (plane, light) in target.color.iter_mut().zip(color) {
-                        plane[*cell][*lane] = light;
+        let (target, blocks) = (&mut self.target, &mut self.painter.0);
+        let layers = &frame.drawing.painting.layers;
+        blocks.resize_with(layers.len(), || Block {
+            read: SampleSet::NONE,
+            cells: Vec::new(),
+            mixed: Box::new(Mixed::new()),
+        });
+        for (block, layer) in blocks.iter_mut().zip(layers) {
+            block.read = layer.program.reads();
+        }
+        let segments = frame.parts.segments.list();
+        for (cell, shows) in shown.what.iter().enumerate() {
+            let mut left = bits(&lanes_where(shows, |what| what < TRIANGLE));
+            while left != 0 {
+                let index = shows[left.trailing_zeros() as usize];
+                let lanes = lanes_where(shows, |what| what == index);
+                left &= !bits(&lanes);
+                let segment = &segments[index as usize];
+                let Some(number) = frame.painted_layer_of(segment) else {
+                    continue;
+                };
+                let block = &mut blocks[number];
+                if block.cells.last().is_none_or(|(last, _)| *last != cell) {
+                    if block.cells.len() == SLOTS {
+                        block.paint(frame, &layers[number], target);
                     }
+                    block.begin(frame, cell, shown, target);
                 }
+                let way = &shown.way[cell];
+                block.add(frame, segment.joints(), way, &lanes);
             }
+        }
+        for (block, layer) in blocks.iter_mut().zip(layers) {
+            block.paint(frame, layer, target);
         }
     }
 }
 
-impl Painter {
-    /// Finds the samples that show painted layers.
-    fn find(&mut self, frame: &Frame, shown: &Planes, target: &Target) {
-        let layers = &frame.drawing.painting.layers;
-        self.layers.resize_with(layers.len(), Default::default);
-        for (places, points) in &mut self.layers {
-            places.clear();
-            points.clear();
+/// The lanes whose numbers are as wanted.
+#[inline(always)]
+fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneMask {
+    let mut lanes = [0; LANES];
+    for k in 0..LANES {
+        lanes[k] = select(is_wanted(numbers[k]), u32::MAX, 0);
+    }
+    lanes
+}
+
+/// A bit for each lane.
+#[inline(always)]
+fn bits(lanes: &LaneMask) -> u32 {
+    let mut bits = 0;
+    for k in 0..LANES {
+        bits |= lanes[k] & 1 << k;
+    }
+    bits
+}
+
+impl Block {
+    /// Begins with a cell.
+    #[inline(always)]
+    fn begin(&mut self, frame: &Frame, cell: usize, shown: &Planes, target: &Target) {
+        let slot = self.cells.len();
+        self.cells.push((cell, [0; LANES]));
+        self.mixed.clear(slot, &frame.parts.joint_rows);
+        let samples = &mut self.mixed.samples;
+        let [red, green, blue] = &target.color;
+        for (numbers, plane) in [
+            (&mut samples.color.x, red),
+            (&mut samples.color.y, green),
+            (&mut samples.color.z, blue),
+            (&mut samples.v, &shown.v),
+            (&mut samples.w, &shown.w),
+        ] {
+            numbers[slot * LANES..][..LANES].copy_from_slice(&plane[cell]);
         }
-        let segments = frame.parts.segments.list();
-        for (cell, lanes) in shown.what.iter().enumerate() {
-            for (lane, &what) in lanes.iter().enumerate() {
-                if what == NOTHING || what & TRIANGLE != 0 {
-                    continue;
-                }
-                let segment = &segments[what as usize];
-                let Some(layer) = frame.layer_of(segment) else {
-                    continue;
-                };
-                let Ok(painted) = layers.binary_search_by_key(&layer, |painted| painted.layer)
-                else {
-                    continue;
-                };
-                let [joint, next] = segment.joints();
-                let (places, points) = &mut self.layers[painted];
-                places.push([cell, lane]);
-                points.push(Beside {
-                    joint,
-                    next,
-                    way: shown.way[cell][lane],
-                    v: shown.v[cell][lane],
-                    w: shown.w[cell][lane],
-                    color: [0, 1, 2].map(|i: usize| target.color[i][cell][lane]),
-                });
+    }
+
+    /// Adds samples of the last cell, which lie on the way from a joint to the next.
+    #[inline(always)]
+    fn add(&mut self, frame: &Frame, joints: [usize; 2], way: &[f32; LANES], lanes: &LaneMask) {
+        let slot = self.cells.len() - 1;
+        let (_, samples) = &mut self.cells[slot];
+        for k in 0..LANES {
+            samples[k] |= lanes[k];
+        }
+        let rows = &frame.parts.joint_rows;
+        self.mixed.mix(slot, rows, joints, way, lanes);
+    }
+
+    /// Paints the samples that were gathered, and begins anew.
+    #[inline(always)]
+    fn paint(&mut self, frame: &Frame, layer: &PaintedLayer, target: &mut Target) {
+        if self.cells.is_empty() {
+            return;
+        }
+        let joints = &frame.drawing.painting.joints;
+        let rows = &frame.parts.joint_rows;
+        self.mixed.finish(rows, joints, self.read);
+        let mut colors = Vectors::NOTHING;
+        let program = &layer.program;
+        program.paint_block(&self.mixed.samples, layer.seed, &mut colors);
+        let colors = [colors.x, colors.y, colors.z];
+        for (slot, (cell, samples)) in self.cells.drain(..).enumerate() {
+            let [red, green, blue] = colors.each_ref().map(|numbers| {
+                let mut lanes = [0.0; LANES];
+                lanes.copy_from_slice(&numbers[slot * LANES..][..LANES]);
+                lanes
+            });
+            let mut finite = samples;
+            for k in 0..LANES {
+                let is_finite = red[k].is_finite() & green[k].is_finite() & blue[k].is_finite();
+                finite[k] &= select(is_finite, u32::MAX, 0);
+            }
+            for (plane, color) in target.color.iter_mut().zip([red, green, blue]) {
+                overwrite(&mut plane[cell], &color, &finite);
             }
         }
     }

@@ -41,9 +41,13 @@ pub(super) fn draw_all(
             surface = triangle.surface;
             farthest = target.farthest_surface();
         }
-        if triangle.nearest > farthest {
-            let shows = |cell, lanes: &LaneMask| shows(cell, number, lanes);
-            triangle.draw(drawing, origin, stack, target, shows);
+        if triangle.nearest <= farthest {
+            continue;
+        }
+        let shows = |cell, lanes: &LaneMask| shows(cell, number, lanes);
+        match drawing.surfaces[surface as usize].texture {
+            None => triangle.draw::<false>(drawing, origin, stack, target, shows),
+            Some(_) => triangle.draw::<true>(drawing, origin, stack, target, shows),
         }
     }
 }
@@ -108,8 +112,9 @@ impl Triangle {
     }
 
     /// Draws the triangle's part of the tile at `origin` into the target's samples. Gives the cells' samples where it shows.
+    /// Twice, for surfaces with a picture and without, so that these don't pay for the others.
     #[inline(always)]
-    fn draw(
+    fn draw<const TEXTURED: bool>(
         &self,
         drawing: &Drawing,
         origin: [usize; 2],
@@ -161,7 +166,8 @@ impl Triangle {
             false => Interpolated::new([a.tone, b.tone, c.tone], &edges, area),
         };
         let tone_at = tones.slope.at_samples(stack);
-        let texels = surface.texture.as_ref().map(|texture| {
+        let texture = surface.texture.as_ref().filter(|_| TEXTURED);
+        let texels = texture.map(|texture| {
             let corners = &surface.triangles[self.number as usize];
             Texels::new(texture, corners, &depths, &edges, [a, b, c], area, stack)
         });
@@ -206,7 +212,7 @@ impl Triangle {
                     &[surface.margin_m; LANES],
                     &wins,
                 );
-                if is_one_color & texels.is_none() {
+                if is_one_color & !TEXTURED {
                     for (plane, light) in target.color.iter_mut().zip(one_color) {
                         overwrite(&mut plane[cell.index], &[*light; LANES], &wins);
                     }
@@ -218,7 +224,9 @@ impl Triangle {
                     let mut color = [0.0; LANES];
                     for k in 0..LANES {
                         color[k] = select(tones.clamp(tone[k]) >= 0.0, light, shadow);
-                        color[k] *= texel[channel][k];
+                        if TEXTURED {
+                            color[k] *= texel[channel][k];
+                        }
                     }
                     overwrite(&mut plane[cell.index], &color, &wins);
                 }

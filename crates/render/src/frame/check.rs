@@ -145,6 +145,16 @@ pub enum FrameError {
         /// How many joints the paths have.
         joints: usize,
     },
+    /// The list is shorter or longer than the paths.
+    #[error(
+        "there are {positions} positions at rest for {joints} joints: one is needed for each, or none where nothing reads them"
+    )]
+    RestPositions {
+        /// How many there are.
+        positions: usize,
+        /// How many joints the paths have.
+        joints: usize,
+    },
     /// The light is nowhere.
     #[error("the light's numbers are not finite")]
     Light,
@@ -190,6 +200,11 @@ impl Frame<'_> {
         let reads_normals = self.objects.iter().any(Object::reads_material_normals);
         if normals != joints && (normals > 0 || reads_normals) {
             return Err(FrameError::MaterialNormals { normals, joints });
+        }
+        let positions = self.rest_positions.len();
+        let reads_rest = |object: &Object| object.inputs().has(Input::RestPosition);
+        if positions != joints && (positions > 0 || self.objects.iter().any(reads_rest)) {
+            return Err(FrameError::RestPositions { positions, joints });
         }
         Ok(())
     }

@@ -28,6 +28,7 @@ impl InputSource {
             Input::ArcLength => Numbers(|frame| &frame.paths.arc_length),
             Input::Across => Pairs(|frame| &frame.paths.across),
             Input::MaterialNormal => Triples(|frame| frame.material_normals),
+            Input::RestPosition => Triples(|frame| frame.rest_positions),
             Input::Strand => Wgsl("gpu_of_strand(joint, 0u)"),
             Input::Seed => Wgsl("gpu_seed(joint)"),
             Input::StrandMean => Wgsl("gpu_strand_mean(joint)"),

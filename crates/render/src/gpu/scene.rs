@@ -5,7 +5,7 @@ use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
 use super::program::{LAYER_WORDS, PAINT_WORD};
 use crate::drawing::{Coverage, Disc, Drawing, Surface};
 use crate::features::{Feature, Features};
-use crate::frame::{Frame, Head, Object};
+use crate::frame::{Frame, Head, Object, layer_bit};
 use crate::painting;
 use effects::{
     CLUMP_DISCS, Image, Input, InputSet, Layer, PaintSource, Texture, Units, layer_seed,
@@ -203,6 +203,7 @@ impl SceneWords {
             let colors = strand.colors.iter().flat_map(|color| color.to_array());
             self.strands.extend(colors.map(f32::to_bits));
             self.strands.push(strand.level);
+            self.strands.push(strand.left_out_by);
         }
     }
 
@@ -216,7 +217,7 @@ impl SceneWords {
             let (seed, joints) = (layer_seed(object.seed, "clump"), &object.joints);
             let [first, count] = [joints.start, joints.len()].map(|number| number as u32);
             scene.words.extend([seed, 0, first, count, 0, 0, 0, 0]);
-            push_head(&mut scene.words, object.head);
+            push_head(&mut scene.words, object.head, 0);
             scene.words.extend(object.clump.source().words);
         }
     }
@@ -230,10 +231,11 @@ impl SceneWords {
         let mut placed = Vec::new();
         let objects = frame.objects.iter().enumerate();
         let layers = objects.flat_map(|(number, object)| {
-            let layers = object.layers.iter().zip(object.layer_joints);
-            layers.map(move |(layer, joints)| (number, object, layer, joints))
+            let layers = object.layers.iter().zip(object.layer_joints).enumerate();
+            layers
+                .map(move |(of_object, (layer, joints))| (number, object, of_object, layer, joints))
         });
-        for (index, (number, object, layer, joints)) in layers.enumerate() {
+        for (index, (number, object, of_object, layer, joints)) in layers.enumerate() {
             let scene = &mut self.layers[index];
             let shortest = layer.program.shortest();
             scene.joints = joints.len();
@@ -256,7 +258,7 @@ impl SceneWords {
                 u32::from(layer.units == Units::Pixels),
                 u32::from(layer.program.has_own_paths()),
             ]);
-            push_head(&mut scene.words, object.head);
+            push_head(&mut scene.words, object.head, layer_bit(of_object));
             let source = layer.program.source();
             scene.words.extend(source.words);
             if let Some(paint) = source.paint {
@@ -429,10 +431,10 @@ impl SceneWords {
 }
 
 /// What `shaders/gpu/joint.wgsl` knows of an object's head, behind the words of a layer.
-fn push_head(words: &mut Vec<u32>, head: Head) {
+fn push_head(words: &mut Vec<u32>, head: Head, layer_bit: u32) {
     let [x, y, z] = head.center.to_array();
     words.extend([x, y, z, head.height_m, head.unit_m()].map(f32::to_bits));
-    words.push(0);
+    words.extend([0, layer_bit]);
     debug_assert_eq!(words.len(), LAYER_WORDS as usize);
 }
 

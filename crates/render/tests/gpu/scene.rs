@@ -23,6 +23,7 @@ pub struct Scene {
     /// A second object, which has the last joints.
     pub second: Option<Second>,
     pub material_normals: Vec<Vec3>,
+    pub rest_positions: Vec<Vec3>,
     pub surfaces: Vec<Surface>,
     pub light: Light,
     pub background: Option<[f32; 3]>,
@@ -58,6 +59,8 @@ pub const ALL_EFFECTS: &str = "[
     (effect: \"hair.base\", params: (brightness: (curve: [(0, 0.6), (1, 1.2)], vary: 0.2))),
     (effect: \"hair.cel\", params: (feathers: 3)),
     (effect: \"hair.highlight\", params: (kind: ring, exponent: 2, threshold: 0.2, full: 0.5)),
+    (effect: \"hair.band\", params: (place: 0.1, thickness: 0.8, slide: 0.4, shade: -0.5, rim: 2)),
+    (effect: \"hair.ink\", params: (gaps: 0.3, shadow_color: \"8090A0\")),
     (effect: \"hair.fine\", params: (per_strand: 1)),
 ]";
 
@@ -152,6 +155,8 @@ impl Scene {
                 colors: colors[i % colors.len()],
                 level: i as u32 % 3,
                 lift: 0.0,
+                // Of five strands one has no silhouette, and one neither that nor the second layer.
+                left_out_by: [0, 0, 1, 0, 3][i % 5],
             });
         }
         // The last strands are an effect's own.
@@ -201,6 +206,7 @@ impl Scene {
                 .iter()
                 .map(|f| f.any_orthonormal_vector())
                 .collect(),
+            rest_positions: paths.position.iter().map(|p| *p / 0.24).collect(),
             camera,
             strands,
             clump: Varied::new(&values),
@@ -268,6 +274,7 @@ impl Scene {
         let whole = 0..paths.len();
         self.layer_joints.fill(whole);
         self.material_normals.resize(paths.len(), Vec3::Y);
+        self.rest_positions.resize(paths.len(), Vec3::ZERO);
         self.paths = paths;
     }
 
@@ -302,6 +309,7 @@ impl Scene {
             light: self.light,
             time_s: 0.3,
             material_normals: &self.material_normals,
+            rest_positions: &self.rest_positions,
             surfaces: self.surfaces.clone(),
             background: self.background,
             order: self.order,

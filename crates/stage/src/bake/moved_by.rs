@@ -135,7 +135,15 @@ fn hair_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Cause {
         }
     }
     let own = preset.sections.hair.file.as_ref();
-    let file = chosen(files.hair.as_ref(), own, &files.preset_folder);
+    let file = match hair.own_colors.is_empty() {
+        true => chosen(files.hair.as_ref(), own, &files.preset_folder),
+        // A character's own, which is the head.
+        false => chosen(
+            files.head.as_ref(),
+            preset.sections.head.file.as_ref(),
+            &files.preset_folder,
+        ),
+    };
     let name = file.map_or_else(String::new, |path| format!(" of {}", file_name(&path)));
     hash.cause("hair", format!("{} strands{name}", strands.len()))
 }
@@ -190,6 +198,16 @@ fn script_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Caus
 fn gltf_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
     let section = &preset.sections.motion;
     let mut hash = Hash::new();
+    if section.character {
+        let animation = section.animation.as_deref().unwrap_or("0");
+        let repeats = if section.repeat { ", repeated" } else { "" };
+        let bone = section.bone.as_deref().unwrap_or("head");
+        hash.bytes(
+            format!("the head's own: bone {bone}, animation {animation}{repeats}").as_bytes(),
+        );
+        let words = in_comment(&format!("the head's own, animation {animation}{repeats}"));
+        return Ok(hash.cause("gltf", words));
+    }
     let Some(name) = &section.gltf else {
         return Ok(hash.cause("gltf", "none".to_owned()));
     };

@@ -17,6 +17,7 @@ use crate::hair::HairModel;
 use crate::hand::Driver;
 use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
+use crate::skeleton::after;
 use bodies::Bodies;
 use carried::Carried;
 pub(crate) use feel::ZoneDynamics;
@@ -385,6 +386,13 @@ impl Dynamics {
                 [-self.step, self.step].map(|by| self.pose_at(time + by, driver));
             Acceleration::between([earlier, pose, later], self.step)
         });
+        let mut colliders = self.bodies.colliders([before, now], shoulders);
+        if let Some(skeleton) = driver.script.skeleton() {
+            let on_top = [begin, end].map(|time| self.figure_at(time, driver));
+            colliders.extend(
+                skeleton.colliders([begin, end].map(|time| driver.script.within(time)), on_top),
+            );
+        }
         let scene = Surroundings {
             roots: Roots::Head(now),
             acceleration: Some(accelerations),
@@ -392,7 +400,7 @@ impl Dynamics {
             wind,
             wind_before: Some(wind_before),
             streams: &streams,
-            colliders: &self.bodies.colliders([before, now], shoulders),
+            colliders: &colliders,
             goal: self.shapes.as_ref().map(|_| &self.goal[..]),
         };
         Ok(step(&mut *self.strands, &scene)?)
@@ -424,8 +432,20 @@ impl Dynamics {
 
     /// Where the shoulders are: they follow the head's shift and the whole figure's turn, not the head's.
     fn shoulders_at(&self, time: f64, driver: Driver) -> Pose {
+        let figure = self.figure_at(time, driver);
+        match driver.script.skeleton() {
+            Some(skeleton) => after(skeleton.at(driver.script.within(time)).shoulders(), figure),
+            None => figure,
+        }
+    }
+
+    /// How the whole figure is moved by what its skeleton knows nothing of, where it has one.
+    fn figure_at(&self, time: f64, driver: Driver) -> Pose {
         let pose = driver.head_at(time);
-        let shift = pose.shift * f64::from(self.head.height_m);
+        let mut shift = pose.shift * f64::from(self.head.height_m);
+        if let (Some(skeleton), Some(time)) = (driver.script.skeleton(), pose.animated_s) {
+            shift -= skeleton.head_at(time, self.head).1;
+        }
         if pose.spin == 0.0 {
             return Pose {
                 rotation: DQuat::IDENTITY,

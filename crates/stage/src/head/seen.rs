@@ -43,6 +43,7 @@ pub(crate) fn surfaces(
         scalp: [scalp, bare],
         ornaments,
         painted: _,
+        skeleton: _,
     } = model;
     let facing = match facing.is_empty() {
         true => &mesh.normals,

@@ -17,11 +17,29 @@ choices! {
     }
 }
 
+choices! {
+    /// Where hair is from.
+    pub enum HairFrom {
+        /// The section's file.
+        File = "file",
+        /// The character that is the head.
+        Character = "character",
+    }
+}
+
 section! {
     /// Which strands are drawn.
     pub struct HairSection {
         /// Strands to draw, relative to the preset: .tfx, .strands.ron or .style.ron.
         file: Option<String> = text(),
+        /// Where it is from: that file, or the hair that the character of section `head` has as a mesh, whose locks become strands; then `file`
+        /// is only for characters without.
+        from: HairFrom = HairFrom::File.or_another(),
+        /// Which of the character's meshes are hair: names of meshes, materials or spring bones with commas between them, `*` for any end. Without it
+        /// what is called hair, or else what spring bones on the head move.
+        meshes: Option<String> = text(),
+        /// Which of these stay meshes, as ribbons do: names as in `meshes`.
+        keep: Option<String> = text(),
         /// How many strands to keep, those that stand best for all; 0 keeps all.
         guides: u32 = whole(0, 0..=1_000_000),
         /// Motion of this hair that `inkstrand simulate` has written, relative to the preset.
@@ -30,7 +48,7 @@ section! {
         up: UpAxis = UpAxis::Guess.or_another(),
         /// Metres in one unit of the file; 0 guesses.
         scale: f32 = number(0.0, 0.0..=1e4).unit("m"),
-        /// Clump size of strands that bring none; 0 takes it from the spacing of the roots.
+        /// Clump size of strands that bring none; 0 takes it from the spacing of the roots. A character's own locks become strands of at most this size, 0: 14.
         size: f32 = number(0.0, 0.0..=300.0).unit("1/300 head height"),
     }
 }
@@ -292,6 +310,9 @@ section! {
         file: Option<String> = text(),
         /// A character whose animation moves the head, relative to the preset: .glb, .gltf or .vrm. The script's moves come on top.
         gltf: Option<String> = text(),
+        /// Whether the head's own file moves it, a character with an animation: its bones pose all of its meshes, and hair follows the head's. The
+        /// script's moves come on top; the head has its file's colours.
+        character: bool = flag(false),
         /// The character's bone that the head follows; "head" without it.
         bone: Option<String> = text(),
         /// The character's animation, by its name or its number, 0 first; the first without it.

@@ -1,7 +1,41 @@
 //! The head's bone of a skeleton's animation.
 
+use crate::skeleton::Skeleton;
 use glam::{DQuat, DVec3};
 use hair_io::BoneMotion;
+use render::Head;
+use std::sync::Arc;
+
+/// What moves the head below its script.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Below {
+    /// A bone of any character.
+    Bone(Bone),
+    /// The skeleton of the character that it is.
+    Skeleton {
+        /// With its bodies.
+        skeleton: Arc<Skeleton>,
+        /// At rest.
+        head: Head,
+    },
+}
+
+impl Below {
+    /// How far it has turned from its rest, moved in head heights, and the time that a skeleton is at, at `time` (seconds).
+    pub fn at(&self, time: f64) -> (DQuat, DVec3, Option<f64>) {
+        match self {
+            Self::Bone(bone) => {
+                let (rotation, moved) = bone.at(time);
+                (rotation, moved, None)
+            }
+            Self::Skeleton { skeleton, head } => {
+                let (rotation, moved_m) = skeleton.head_at(time, *head);
+                let time = skeleton.within(time);
+                (rotation, moved_m / f64::from(head.height_m), Some(time))
+            }
+        }
+    }
+}
 
 /// A bone as it moves the head.
 #[derive(Clone, Debug, PartialEq)]

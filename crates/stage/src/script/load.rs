@@ -1,6 +1,6 @@
 //! The preset's script of motion, with what it names.
 
-use super::{Bone, MotionScript, parse};
+use super::{Below, Bone, MotionScript, parse};
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
@@ -9,6 +9,7 @@ use crate::preset::Preset;
 use crate::shapes;
 use hair_io::BoneMotion;
 use std::path::Path;
+use std::sync::Arc;
 
 /// What moves head, wind and hair; the hair is given its key shapes.
 pub(crate) fn load(
@@ -27,7 +28,7 @@ pub(crate) fn load(
     }
     let section = &preset.sections.motion;
     if let Some(name) = &section.gltf {
-        script.bone = Some(Bone {
+        script.below = Some(Below::Bone(Bone {
             motion: BoneMotion::read(
                 &files.preset_folder.join(name),
                 section.bone.as_deref().unwrap_or("head"),
@@ -35,6 +36,13 @@ pub(crate) fn load(
             )?,
             repeats: section.repeat,
             head_height_m: f64::from(hair.head.height_m),
+        }));
+    }
+    if let Some(skeleton) = head.and_then(|head| head.skeleton.as_deref()) {
+        let skeleton = skeleton.clone().with_bodies(hair.file.strands.points());
+        script.below = Some(Below::Skeleton {
+            skeleton: Arc::new(skeleton),
+            head: hair.head,
         });
     }
     Ok(script)

@@ -7,12 +7,13 @@ mod load;
 mod parse;
 mod pose;
 
-pub(crate) use bone::Bone;
+pub(crate) use bone::{Below, Bone};
 pub(crate) use load::load;
 pub use parse::MOTION_PARTS;
 pub(crate) use parse::parse;
 pub(crate) use pose::HeadPose;
 
+use crate::skeleton::Skeleton;
 use effects::choices;
 use effects::preset::Place;
 use glam::{DQuat, DVec3};
@@ -24,8 +25,8 @@ use stroke_path::sin_cos_degrees;
 pub(crate) struct MotionScript {
     /// Seconds after which it starts again; nothing never does.
     pub period: Option<f64>,
-    /// How the bone of an animation moves the head, below all else.
-    pub bone: Option<Bone>,
+    /// How an animation moves the head, below all else.
+    pub below: Option<Below>,
     /// Key shapes of the hair, times ascending.
     pub shapes: Vec<KeyShape>,
     /// Pull of the hair to its key shapes at root, middle and tip, 1/s^2.
@@ -149,7 +150,7 @@ const WIND_RISE: f64 = 0.4;
 impl MotionScript {
     /// Whether nothing moves.
     pub fn is_still(&self) -> bool {
-        let head_is = self.keys.is_empty() && self.moves.is_empty() && self.bone.is_none();
+        let head_is = self.keys.is_empty() && self.moves.is_empty() && self.below.is_none();
         head_is && self.winds.is_empty() && self.shapes.is_empty()
     }
 
@@ -163,10 +164,12 @@ impl MotionScript {
         let (mut turn, mut shift) = self.keyed(time);
         let mut base = DQuat::IDENTITY;
         let mut spin = 0.0;
-        if let Some(bone) = &self.bone {
-            let (rotation, moved) = bone.at(time);
+        let mut animated_s = None;
+        if let Some(below) = &self.below {
+            let (rotation, moved, time_s) = below.at(time);
             base = rotation;
             shift += moved;
+            animated_s = time_s;
         }
         for part in &self.moves {
             let (t, s) = part.at(time, self.goes_round(part.start, part.length));
@@ -179,6 +182,15 @@ impl MotionScript {
             spin,
             turn,
             shift,
+            animated_s,
+        }
+    }
+
+    /// The skeleton that moves the whole character, if one does.
+    pub fn skeleton(&self) -> Option<&Skeleton> {
+        match &self.below {
+            Some(Below::Skeleton { skeleton, .. }) => Some(skeleton),
+            _ => None,
         }
     }
 

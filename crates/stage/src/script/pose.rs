@@ -15,6 +15,8 @@ pub(crate) struct HeadPose {
     pub turn: DVec3,
     /// Head heights.
     pub shift: DVec3,
+    /// The time in seconds that the character's own skeleton is at, where that moves it; `base` and `shift` have its head's motion.
+    pub animated_s: Option<f64>,
 }
 
 impl HeadPose {
@@ -24,6 +26,7 @@ impl HeadPose {
         spin: 0.0,
         turn: DVec3::ZERO,
         shift: DVec3::ZERO,
+        animated_s: None,
     };
 
     /// The turn as a unit quaternion, of which `share` (0 to 1) is done: the neck turns less than the

@@ -1,0 +1,31 @@
+//! The ink line: an outline as a brush draws it.
+
+effects::effect!("ink");
+
+/// `hair.ink`: outlines around clumps, as [`Silhouette`](crate::Silhouette) draws them, whose width swells and thins: with the light, towards
+/// root and tip, and as a hand trembles.
+pub struct Ink;
+
+impl effects::StrokeEffect for Ink {
+    type Program = Program;
+    const ID: &'static str = "hair.ink";
+    const DOC: &'static str =
+        "outlines by a brush: bold in shadow, thin in light, tapered at both ends, trembling";
+    const RANK: i32 = -100;
+    const DEPTH_OFFSET: f32 = 0.05;
+
+    fn instances(_: &Params) -> u32 {
+        effects::CLUMP_DISCS
+    }
+
+    fn reach(params: &Params) -> effects::Reach {
+        effects::Reach {
+            clumps: 2.0,
+            units: params.width * params.light_width.max(1.0) * (1.0 + params.wobble),
+        }
+    }
+
+    fn extent(_: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
+        strand.clump_disc_extent()
+    }
+}

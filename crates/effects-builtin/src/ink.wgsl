@@ -1,0 +1,75 @@
+//! inputs: u, arc_length, head_height, normal, light_direction, clump_radius, clump_color, clump_shift, unit, seed
+
+struct Params {
+    /// How far the line reaches past the clump where it is whole, in shadow.
+    /// @unit the layer's unit: 1/300 head height, or pixels @range 0..50 @default 3.2
+    width: f32,
+    /// The line is never wider than this share of the clump's radius, so that tips stay points.
+    /// @range 0..10 @default 0.7
+    ratio: f32,
+    /// Factor on the width on the side to the light: below 1 lines are bold in shadow and thin in light.
+    /// @range 0..1.5 @default 0.45
+    light_width: f32,
+    /// Over how much of the strand the line swells from nothing at the root.
+    /// @unit 0 root to 1 tip @range 0..1 @default 0.25
+    root_fade: f32,
+    /// Over how much of the strand it thins out to nothing at the tip.
+    /// @unit 0 root to 1 tip @range 0..1 @default 0.3
+    tip_fade: f32,
+    /// How much the width trembles along the strand, as a hand's does, up or down.
+    /// @range 0..1 @default 0.3
+    wobble: f32,
+    /// How far it is along the strand from one tremble to the next.
+    /// @unit head heights @range 0.01..10 @default 0.18
+    wobble_length: f32,
+    /// How much of the line the brush is off the paper, in places of its own on each strand: 1 is all of it. Gaps are about as long as
+    /// trembles.
+    /// @range 0..1 @default 0
+    gaps: f32,
+    /// Colour of the line, or none for a dark shade of the hair's own.
+    /// @default none
+    color: vec4<f32>,
+    /// Its colour where the hair is in shadow, or none for the same: lines within a shadow are lighter or coloured.
+    /// @default none
+    shadow_color: vec4<f32>,
+    /// How dark hair is where lines have the shadow's colour: as the shadow's `threshold`.
+    /// @unit gray, 0 dark to 1 lit @range 0..1 @default 0.4
+    shade: f32,
+}
+
+/// Over how many grays one colour becomes the other.
+const BLEND: f32 = 0.1;
+
+
+/// How bright a line is against the hair whose colour it takes.
+const DARK: f32 = 0.13;
+
+/// A steady number from -1 to 1 that runs smoothly from random one to random one, at whole places.
+fn tremble(place: f32, seed: u32) -> f32 {
+    let before = floor(place);
+    let way = place - before;
+    let index = u32(before);
+    let smooth_way = way * way * (3.0 - 2.0 * way);
+    return mix(random_signed(seed, index), random_signed(seed, index + 1u), smooth_way);
+}
+
+fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
+    let disc = clump_disc(instance, joint.clump_radius, joint.clump_shift);
+    let gray = saturate(dot(joint.light_direction, joint.normal));
+    let own = color_or(params.color, DARK * joint.clump_color);
+    let color = mix(color_or(params.shadow_color, own), own, vec3<f32>(saturate((gray - params.shade) / BLEND + 0.5)));
+
+    // A strand 1000 km long trembles no more.
+    let along = min(joint.arc_length / (joint.head_height * params.wobble_length), 1e6);
+    let by_hand = 1.0 + params.wobble * tremble(along, hash(joint.seed));
+    // The brush is off where another tremble is low, twice as slow a one; it comes and goes over a twentieth of its range.
+    let on = saturate((tremble(0.5 * along, hash(joint.seed + 1u)) - 2.2 * params.gaps + 1.1) / 0.1);
+    let by_light = mix(1.0, params.light_width, gray);
+    let from_root = select(1.0, smoothstep(0.0, params.root_fade, joint.u), joint.u < params.root_fade);
+    let to_tip = select(1.0, smoothstep(0.0, params.tip_fade, 1.0 - joint.u), 1.0 - joint.u < params.tip_fade);
+    let share = by_hand * by_light * from_root * to_tip * on;
+    let whole = min(params.width * joint.unit * share, params.ratio * joint.clump_radius);
+    // A side that is not there has no line.
+    let width = whole * saturate(4.0 * disc.z / max(joint.clump_radius, 1e-6));
+    return Stroke(vec2<f32>(disc.x, disc.y), disc.z + width, 0.0, color);
+}

@@ -1,0 +1,120 @@
+//! `hair.ink`: widths of a line along a strand, against what a reader of its parameters would work out.
+
+mod joint;
+
+use effects::Joints;
+use effects::wgsl::{hash, vec3};
+use effects_builtin::Ink;
+use joint::{lit_joint, stroke};
+use proptest::prelude::*;
+
+/// An even line: only what a test sets makes it swell.
+const EVEN: [(&str, &str); 6] = [
+    ("width", "4"),
+    ("ratio", "10"),
+    ("light_width", "1"),
+    ("root_fade", "0"),
+    ("tip_fade", "0"),
+    ("wobble", "0"),
+];
+
+const HEAD_M: f32 = 0.25;
+
+/// A joint of a clump of 20, at a share of its strand and so many head heights from its root.
+fn joint_at(u: f32, from_root: f32, strand: u32, gray: f32) -> Joints {
+    Joints {
+        u: vec![u],
+        arc_length: vec![from_root * HEAD_M],
+        head_height: vec![HEAD_M],
+        seed: vec![hash(strand)],
+        ..lit_joint(gray, 20.0)
+    }
+}
+
+/// How far the line reaches past the clump.
+fn width(joints: &Joints, set: &[(&str, &str)]) -> f32 {
+    let set: Vec<_> = EVEN.iter().chain(set).copied().collect();
+    stroke::<Ink>(joints, 0, 1, &set).radius - 20.0
+}
+
+#[test]
+fn it_is_bold_in_shadow_and_thin_in_light() {
+    for (gray, expected) in [(0.0, 4.0), (0.5, 2.5), (1.0, 1.0)] {
+        let got = width(&joint_at(0.5, 1.0, 3, gray), &[("light_width", "0.25")]);
+        assert!(
+            (got - expected).abs() < 1e-4,
+            "{gray}: {got}, not {expected}"
+        );
+    }
+}
+
+#[test]
+fn it_tapers_at_both_ends() {
+    let set = [("root_fade", "0.2"), ("tip_fade", "0.4")];
+    let at = |u: f32| width(&joint_at(u, 1.0, 3, 0.5), &set);
+    assert!(at(0.0).abs() < 1e-5 && at(1.0).abs() < 1e-5);
+    assert!((at(0.1) - 2.0).abs() < 1e-4 && (at(0.8) - 2.0).abs() < 1e-4);
+    assert!((at(0.2) - 4.0).abs() < 1e-4 && (at(0.6) - 4.0).abs() < 1e-4);
+}
+
+/// A hand's trembles are the strand's own, reach as far up as down, and are as far apart as is said.
+#[test]
+fn it_trembles_on_each_strand_in_its_own_way() {
+    let set = [("wobble", "0.5"), ("wobble_length", "0.2")];
+    let along = |strand: u32| -> Vec<f32> {
+        let at = |i| width(&joint_at(0.5, 0.02 * i as f32, strand, 0.5), &set);
+        (0..200).map(at).collect()
+    };
+    let (mut low, mut high, mut turns) = (f32::INFINITY, 0.0_f32, 0);
+    for strand in 0..40 {
+        let widths = along(strand);
+        low = widths.iter().copied().fold(low, f32::min);
+        high = widths.iter().copied().fold(high, f32::max);
+        let rises = widths.windows(2).map(|pair| pair[1] > pair[0]);
+        let rises: Vec<bool> = rises.collect();
+        turns += rises.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    }
+    assert!(
+        (2.0..2.1).contains(&low) && (5.9..6.0).contains(&high),
+        "{low} to {high}"
+    );
+    // Of four head heights twenty are whole places, between which it runs one way; two of three random numbers turn it.
+    let turns = turns as f32 / 40.0;
+    assert!((11.0..15.0).contains(&turns), "{turns} turns a strand");
+    assert_ne!(along(1), along(2));
+}
+
+#[test]
+fn the_brush_leaves_the_paper_where_it_is_told_to() {
+    let shares = [0.0, 0.3, 0.5, 0.8, 1.0].map(|gaps: f32| {
+        let text = gaps.to_string();
+        let set = [("gaps", &*text)];
+        let places = (0..100).flat_map(|strand| (0..100).map(move |i| (strand, 0.1 * i as f32)));
+        let drawn =
+            places.filter(|&(strand, at)| width(&joint_at(0.5, at, strand, 0.5), &set) > 0.1);
+        drawn.count() as f32 / 1e4
+    });
+    assert_eq!((shares[0], shares[4]), (1.0, 0.0));
+    assert!(shares.is_sorted_by(|a, b| a > b), "{shares:?}");
+    assert!((shares[2] - 0.5).abs() < 0.06, "{shares:?}");
+}
+
+#[test]
+fn within_a_shadow_it_has_the_shadows_line() {
+    let set = [("color", "000000"), ("shadow_color", "FFFFFF")];
+    let set: Vec<_> = EVEN.iter().chain(&set).copied().collect();
+    let color = |gray: f32| stroke::<Ink>(&joint_at(0.5, 1.0, 3, gray), 0, 1, &set).color;
+    assert_eq!(color(0.1), vec3([1.0; 3]));
+    assert_eq!(color(0.9), vec3([0.0; 3]));
+    let between = color(0.4).x;
+    assert!((between - 0.5).abs() < 1e-3, "{between}");
+}
+
+proptest! {
+    /// However it swells, it is no wider than its share of the clump, and never narrower than the clump.
+    #[test]
+    fn tips_stay_points(u in 0.0..1.0_f32, from_root in 0.0..8.0_f32, strand in 0..50_u32, gray in -1.0..1.0_f32) {
+        let got = width(&joint_at(u, from_root, strand, gray), &[("width", "50"), ("ratio", "0.2"), ("wobble", "1"), ("light_width", "1.5")]);
+        prop_assert!((-1e-4..=4.0001).contains(&got), "{got}");
+    }
+}

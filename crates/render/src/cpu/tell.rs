@@ -1,0 +1,231 @@
+//! What the samples of a tile tell, feature by feature and row by row.
+
+use super::segment::Segment;
+use super::shown::{NOTHING, Planes, TRIANGLE};
+use super::tile::{self, CELLS_ACROSS, LANES, ROWS, select};
+use super::{Frame, Worker};
+use crate::features::{Feature, NO_ID, normal_of_triangle, object_of_hair, object_of_mesh};
+use crate::planes::{BandPlanes, Sample, Stacks};
+use glam::Vec3;
+
+/// Samples of a row of cells.
+const ROW: usize = CELLS_ACROSS * LANES;
+
+/// A number of each of them.
+type Row<T> = [T; ROW];
+
+impl Worker {
+    /// Writes down what the samples of a tile at the column `left` show, of a tile as large as that.
+    #[inline(always)] // compiled for each set of `Instructions`
+    pub(super) fn tell(
+        &self,
+        frame: &Frame,
+        [width, height]: [usize; 2],
+        left: usize,
+        planes: &mut BandPlanes,
+    ) {
+        let Some(shown) = self.shown.planes() else {
+            return;
+        };
+        let stack = &frame.stacks[0];
+        for row in 0..ROWS.min(height.div_ceil(stack.height)) {
+            let top = row * stack.height;
+            let stacks = Stacks {
+                column: left,
+                columns: width,
+                row: top,
+                rows: stack.height.min(height - top),
+                count: stack.samples / stack.height,
+            };
+            for feature in planes.declared.iter() {
+                if feature.is_id() {
+                    let ids = frame.ids(feature, row_of(&shown.what, row));
+                    planes.put_ids(feature, &stacks, &ids);
+                    continue;
+                }
+                for component in 0..feature.components() {
+                    let numbers = self.numbers(frame, shown, feature, component, row);
+                    planes.put_numbers(feature, component, &stacks, &numbers);
+                }
+            }
+        }
+    }
+
+    /// A component of a feature of the samples of a row.
+    #[inline(always)]
+    fn numbers(
+        &self,
+        frame: &Frame,
+        shown: &Planes,
+        feature: Feature,
+        component: usize,
+        row: usize,
+    ) -> Row<f32> {
+        let what = row_of(&shown.what, row);
+        let features = &frame.drawing.features;
+        let mut numbers = [0.0; ROW];
+        match feature {
+            Feature::InvDepth => {
+                let target = &self.target;
+                let (surface, strand) = (row_of(&target.surface, row), row_of(&target.strand, row));
+                for i in 0..ROW {
+                    let depth = select(what[i] < TRIANGLE, strand[i], surface[i]);
+                    numbers[i] = select(what[i] == NOTHING, 0.0, depth);
+                }
+            }
+            Feature::V | Feature::W => {
+                let plane = match feature {
+                    Feature::V => &shown.v,
+                    _ => &shown.w,
+                };
+                let places = row_of(plane, row);
+                for i in 0..ROW {
+                    numbers[i] = select(what[i] < TRIANGLE, places[i], 0.0);
+                }
+            }
+            Feature::Color if component < 3 => {
+                let light = row_of(&self.target.color[component], row);
+                for i in 0..ROW {
+                    numbers[i] = light[i].clamp(0.0, 1.0);
+                }
+            }
+            Feature::Color => {
+                let is_opaque = frame.drawing.background.is_some();
+                for i in 0..ROW {
+                    numbers[i] = select(is_opaque | (what[i] != NOTHING), 1.0, 0.0);
+                }
+            }
+            Feature::U => frame.mix(&features.u, what, row_of(&shown.way, row), &mut numbers),
+            Feature::S => frame.mix(&features.s, what, row_of(&shown.way, row), &mut numbers),
+            Feature::Pixels => {
+                frame.mix(
+                    &features.pixels,
+                    what,
+                    row_of(&shown.way, row),
+                    &mut numbers,
+                );
+            }
+            Feature::Normal => {
+                let (way, w) = (row_of(&shown.way, row), row_of(&shown.w, row));
+                let mut triangle = (NOTHING, Vec3::ZERO);
+                for i in 0..ROW {
+                    let normal = if what[i] < TRIANGLE {
+                        let segment = &frame.parts.segments.list()[what[i] as usize];
+                        let [joint, next] = segment.joints();
+                        features.normal_of_hair(joint, next, way[i], w[i])
+                    } else {
+                        if what[i] != triangle.0 {
+                            triangle = (what[i], frame.normal_of_triangle(what[i]));
+                        }
+                        triangle.1
+                    };
+                    numbers[i] = normal[component];
+                }
+            }
+            Feature::Object
+            | Feature::Strand
+            | Feature::Piece
+            | Feature::Layer
+            | Feature::Level => {}
+        }
+        numbers
+    }
+}
+
+/// The samples of a row of cells.
+#[inline(always)]
+fn row_of<T>(plane: &[[T; LANES]; ROWS * CELLS_ACROSS], row: usize) -> &Row<T> {
+    let cells = &plane[row * CELLS_ACROSS..][..CELLS_ACROSS];
+    let samples = cells.as_flattened().try_into();
+    samples.unwrap_or_else(|_| unreachable!("a row is {CELLS_ACROSS} cells"))
+}
+
+impl Frame<'_> {
+    /// The layer whose colour a segment has.
+    fn layer_of(&self, segment: &Segment) -> Option<usize> {
+        let stroke = segment.colored().checked_sub(1)?;
+        Some(self.strokes[stroke as usize].layer)
+    }
+
+    /// The painted layer that a segment shows, by its place among them.
+    #[inline(always)]
+    pub(super) fn painted_layer_of(&self, segment: &Segment) -> Option<usize> {
+        let layer = self.layer_of(segment)?;
+        let layers = &self.drawing.painting.layers;
+        layers.iter().position(|painted| painted.layer == layer)
+    }
+
+    /// An id of each of the samples that show this.
+    #[inline(always)]
+    fn ids(&self, feature: Feature, what: &Row<u32>) -> Row<u32> {
+        let mut ids = [0; ROW];
+        let mut last = (NOTHING, Sample::NOTHING.id(feature));
+        for i in 0..ROW {
+            // Samples beside each other mostly show the same.
+            if what[i] != last.0 {
+                last = (what[i], self.id(feature, what[i]));
+            }
+            ids[i] = last.1;
+        }
+        ids
+    }
+
+    /// An id of what a sample shows.
+    fn id(&self, feature: Feature, what: u32) -> u32 {
+        if what == NOTHING {
+            return Sample::NOTHING.id(feature);
+        }
+        if what & TRIANGLE != 0 {
+            let triangle = &self.parts.triangles[(what & !TRIANGLE) as usize];
+            let surface = &self.drawing.surfaces[triangle.surface as usize];
+            return match feature {
+                Feature::Object => object_of_mesh(surface.mesh),
+                _ => NO_ID,
+            };
+        }
+        let segment = &self.parts.segments.list()[what as usize];
+        let run = self.runs_of_joints[segment.joints()[0]] as usize;
+        let info = &self.drawing.features.runs[run];
+        match feature {
+            Feature::Object => object_of_hair(info.object),
+            Feature::Strand => info.strand,
+            Feature::Piece => self.drawing.runs[run].strand,
+            Feature::Layer => self.layer_of(segment).map_or(NO_ID, |layer| layer as u32),
+            Feature::Level => info.level,
+            _ => NO_ID,
+        }
+    }
+
+    /// What a list of joints has at the places of the samples that show hair.
+    #[inline(always)]
+    fn mix(&self, list: &[f32], what: &Row<u32>, way: &Row<f32>, numbers: &mut Row<f32>) {
+        let mut last = (NOTHING, [0.0; 2]);
+        for i in 0..ROW {
+            if what[i] >= TRIANGLE {
+                continue;
+            }
+            if what[i] != last.0 {
+                let segment = &self.parts.segments.list()[what[i] as usize];
+                last = (what[i], segment.joints().map(|joint| list[joint]));
+            }
+            let [from, to] = last.1;
+            numbers[i] = from + way[i] * (to - from);
+        }
+    }
+
+    /// The normal of a sample that shows a triangle, or nothing.
+    fn normal_of_triangle(&self, what: u32) -> Vec3 {
+        let Some(camera) = self.drawing.features.camera.as_ref() else {
+            return Sample::NOTHING.normal;
+        };
+        if what == NOTHING {
+            return Sample::NOTHING.normal;
+        }
+        let triangle = &self.parts.triangles[(what & !TRIANGLE) as usize];
+        let corners = triangle.corners(self.drawing);
+        let corners = corners.map(|corner| (corner.position, corner.inv_depth));
+        normal_of_triangle(camera, corners)
+    }
+}
+
+const _: () = assert!(ROW == tile::WIDTH * tile::STACK);

@@ -1,0 +1,300 @@
+//! A character that moves by its own skeleton: its file's animation poses bones and meshes.
+
+use crate::files::StageError;
+use crate::neck::pivot;
+use crate::painted::PaintedMesh;
+use crate::preset::MotionSection;
+use effects::preset::suggestion;
+use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
+use hair_io::orient::Orientation;
+use hair_sim::{Collider, Pose, Shape};
+use mesh_io::{Model, Rig};
+use render::Head;
+use std::path::Path;
+use std::sync::Arc;
+
+/// At so many times of an animation the head's bone is looked at when it is read.
+const LOOKED_AT: u32 = 64;
+/// Hair that begins so deep in a collider in m, or deeper, is not kept out of it.
+const INSIDE_M: f64 = 0.005;
+
+/// A character's model, and the animation that moves it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Skeleton {
+    model: Arc<Model>,
+    orientation: Orientation,
+    /// From the model's space into ours, and back.
+    to_ours: [DAffine3; 2],
+    animation: usize,
+    /// Seconds.
+    length: f64,
+    repeats: bool,
+    /// The node that hair is on, and the one that shoulders are on.
+    head: usize,
+    chest: Option<usize>,
+    /// From each node's space into the world, and back, where nothing moves it.
+    rest: Vec<[DAffine3; 2]>,
+    bodies: Vec<Body>,
+}
+
+/// A collider of the file's, as it lies at rest, in m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Body {
+    node: usize,
+    ends: [DVec3; 2],
+    radius: f64,
+}
+
+/// Where bones have come to since rest, in the world.
+#[derive(Clone, Debug)]
+pub(crate) struct Bones<'s> {
+    skeleton: &'s Skeleton,
+    world: Vec<DAffine3>,
+}
+
+impl Skeleton {
+    /// The skeleton of a model that lies in our space by `orientation`, and the animation that the section names.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such bone or animation, or it takes the head nowhere.
+    pub fn new(
+        model: Arc<Model>,
+        path: &Path,
+        orientation: &Orientation,
+        section: &MotionSection,
+    ) -> Result<Self, StageError> {
+        let wrong = |message: String| StageError::Skeleton {
+            path: path.to_owned(),
+            message,
+        };
+        let rig = model.rig.as_ref();
+        let rig = rig.ok_or_else(|| wrong("it has no bones".to_owned()))?;
+        let animation = animation_of(rig, section.animation.as_deref()).map_err(wrong)?;
+        let bone = section.bone.as_deref().unwrap_or("head");
+        let head = node_of(rig, bone).map_err(wrong)?;
+        let chest = ["upperChest", "chest", "spine"];
+        let chest = chest
+            .iter()
+            .find_map(|name| rig.humanoid.get(*name).copied());
+        let rest = rig.world(&rig.rest());
+        let skeleton = Self {
+            to_ours: both(affine_of(orientation)),
+            orientation: *orientation,
+            animation,
+            length: rig.animations[animation].length,
+            repeats: section.repeat,
+            head,
+            chest,
+            rest: rest.into_iter().map(both).collect(),
+            bodies: Vec::new(),
+            model: model.clone(),
+        };
+        for step in 0..=LOOKED_AT {
+            let time = skeleton.length * f64::from(step) / f64::from(LOOKED_AT);
+            if skeleton.at(time).motion_or_none(head).is_none() {
+                return Err(wrong(format!(
+                    "its animation takes the bone `{bone}` nowhere at {time:.3} s: a number is not finite, or the bone has no size"
+                )));
+            }
+        }
+        Ok(skeleton)
+    }
+
+    /// The same with the colliders of its spring bones, but for those on the head, whose shape hair is kept out of, and those that hair is in at rest.
+    pub fn with_bodies(mut self, hair: &[Vec3]) -> Self {
+        let Some(rig) = &self.model.rig else {
+            return self;
+        };
+        let on_head = |node: usize| {
+            std::iter::successors(Some(node), |own| rig.nodes[*own].parent)
+                .any(|own| own == self.head)
+        };
+        let body = |own: &mesh_io::SpringCollider| {
+            let to_ours = self.to_ours[0] * self.rest[own.node][0];
+            let size = to_ours.matrix3.determinant().abs().cbrt();
+            Body {
+                node: own.node,
+                ends: own.ends.map(|end| to_ours.transform_point3(end)),
+                radius: own.radius * size,
+            }
+        };
+        let holds_hair = |body: &Body| {
+            let [from, to] = body.ends;
+            let way = to - from;
+            hair.iter().any(|point| {
+                let point = point.as_dvec3();
+                let along = (point - from).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
+                let away = point.distance(from + way * along.clamp(0.0, 1.0));
+                away < body.radius - INSIDE_M
+            })
+        };
+        let colliders = rig
+            .springs
+            .colliders
+            .iter()
+            .filter(|own| !on_head(own.node));
+        let is_whole =
+            |body: &Body| body.ends.iter().all(|end| end.is_finite()) && body.radius.is_finite();
+        self.bodies = colliders
+            .map(body)
+            .filter(is_whole)
+            .filter(|body| !holds_hair(body))
+            .collect();
+        self
+    }
+
+    /// The animation's own time at `time`, seconds: before its start and after its end it stays.
+    pub fn within(&self, time: f64) -> f64 {
+        match self.repeats && self.length > 0.0 {
+            true => time.rem_euclid(self.length),
+            false => time.clamp(0.0, self.length),
+        }
+    }
+
+    /// Its bones at `time` (seconds).
+    pub fn at(&self, time: f64) -> Bones<'_> {
+        let rig = self.model.rig.as_ref();
+        let world = rig.map(|rig| rig.world(&rig.pose(self.animation, self.within(time))));
+        Bones {
+            skeleton: self,
+            world: world.unwrap_or_default(),
+        }
+    }
+
+    /// How the head turns about its neck at `time` (seconds), and how far that moves it in m.
+    pub fn head_at(&self, time: f64, head: Head) -> (DQuat, DVec3) {
+        let pose = self.at(time).motion(self.head);
+        let pivot = pivot(head).as_dvec3();
+        (
+            pose.rotation,
+            pose.rotation * pivot + pose.translation - pivot,
+        )
+    }
+
+    /// Puts the meshes of its file where they are at `time` (seconds).
+    pub fn put(&self, time: f64, painted: &mut [PaintedMesh]) {
+        let Some(pose) = self.model.pose(Some(self.animation), self.within(time)) else {
+            return;
+        };
+        let shapes = self.model.shapes(&pose);
+        let own = painted.iter_mut().filter(|mesh| mesh.section.is_none());
+        for mesh in own {
+            let shape = &shapes[mesh.index];
+            // What lost triangles lost vertices.
+            for i in 0..mesh.positions.len() {
+                let vertex = mesh.vertex(i);
+                mesh.positions[i] = self.orientation.apply(shape.positions[vertex]);
+                mesh.normals[i] = self.orientation.up.to_y_up(shape.normals[vertex]);
+            }
+        }
+    }
+}
+
+impl Bones<'_> {
+    /// How a node has moved since rest; as at rest where it is nowhere.
+    fn motion(&self, node: usize) -> Pose {
+        self.motion_or_none(node).unwrap_or(Pose::IDENTITY)
+    }
+
+    fn motion_or_none(&self, node: usize) -> Option<Pose> {
+        let [to_ours, from_ours] = self.skeleton.to_ours;
+        let [_, to_rest] = self.skeleton.rest.get(node)?;
+        let now = to_ours * *self.world.get(node)? * *to_rest * from_ours;
+        let (_, rotation, _) = now.to_scale_rotation_translation();
+        // Where it has a size of its own, what it holds stays as large.
+        let at = self.skeleton.place_of(node);
+        let translation = now.transform_point3(at) - rotation * at;
+        let is_whole =
+            rotation.is_finite() && translation.is_finite() && rotation.length_squared() > 0.5;
+        is_whole.then(|| Pose {
+            rotation: rotation.normalize(),
+            translation,
+        })
+    }
+
+    /// How the shoulders have moved since rest.
+    pub fn shoulders(&self) -> Pose {
+        self.skeleton
+            .chest
+            .map_or(Pose::IDENTITY, |chest| self.motion(chest))
+    }
+}
+
+impl Skeleton {
+    /// Where a node is at rest, in our space.
+    fn place_of(&self, node: usize) -> DVec3 {
+        (self.to_ours[0] * self.rest[node][0]).translation
+    }
+
+    /// The bodies in a step, whose bones move from one time's to another's, each moved as a whole by a pose on top.
+    pub fn colliders(&self, times: [f64; 2], on_top: [Pose; 2]) -> Vec<Collider<'_>> {
+        if self.bodies.is_empty() {
+            return Vec::new();
+        }
+        let bones = times.map(|time| self.at(time));
+        let collider = |body: &Body| {
+            let [before, now] = [0, 1].map(|i| after(bones[i].motion(body.node), on_top[i]));
+            let [from, to] = body.ends;
+            let radius = body.radius;
+            let shape = match from == to {
+                true => Shape::Sphere {
+                    center: from,
+                    radius,
+                },
+                false => Shape::Capsule { from, to, radius },
+            };
+            Collider { shape, before, now }
+        };
+        self.bodies.iter().map(collider).collect()
+    }
+}
+
+/// One motion, and then another.
+pub(crate) fn after(first: Pose, then: Pose) -> Pose {
+    Pose {
+        rotation: then.rotation * first.rotation,
+        translation: then.rotation * first.translation + then.translation,
+    }
+}
+
+fn both(map: DAffine3) -> [DAffine3; 2] {
+    [map, map.inverse()]
+}
+
+fn affine_of(orientation: &Orientation) -> DAffine3 {
+    let turned =
+        |axis: Vec3| orientation.up.to_y_up(axis).as_dvec3() * f64::from(orientation.scale);
+    DAffine3 {
+        matrix3: DMat3::from_cols(turned(Vec3::X), turned(Vec3::Y), turned(Vec3::Z)),
+        translation: orientation.offset.as_dvec3(),
+    }
+}
+
+fn animation_of(rig: &Rig, wanted: Option<&str>) -> Result<usize, String> {
+    let names = || rig.animations.iter().filter_map(|own| own.name.as_deref());
+    match (rig.animations.len(), wanted) {
+        (0, _) => Err("it has no animation".to_owned()),
+        (_, None) => Ok(0),
+        (count, Some(wanted)) => rig.animation(wanted).ok_or_else(|| {
+            let hint = suggestion(wanted, names());
+            format!("none of its {count} animations is called `{wanted}`{hint}")
+        }),
+    }
+}
+
+fn node_of(rig: &Rig, wanted: &str) -> Result<usize, String> {
+    let names = || rig.nodes.iter().filter_map(|node| node.name.as_deref());
+    let alike = || {
+        let is_it = |node: &mesh_io::Node| {
+            node.name
+                .as_deref()
+                .is_some_and(|n| n.eq_ignore_ascii_case(wanted))
+        };
+        rig.nodes.iter().position(is_it)
+    };
+    rig.node(wanted).or_else(alike).ok_or_else(|| {
+        let hint = suggestion(wanted, names());
+        format!("it has no bone called `{wanted}`{hint}: `motion.bone` says which one the head is")
+    })
+}

@@ -1,0 +1,6 @@
+//! Characters: their own hair as strands, and their own motion.
+#![expect(clippy::print_stderr, reason = "skipped tests say so")]
+
+mod hair;
+mod made;
+mod motion;
