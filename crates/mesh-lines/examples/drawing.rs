@@ -4,8 +4,8 @@
 
 use glam::Vec3;
 use mesh_lines::{
-    Bvh, CREASE_COSINE, Frame, Line, Surface, TURN_COSINE, Topology, Tracker, View, borders, contours,
-    creases, facing, visible,
+    Bvh, CREASE_COSINE, Frame, Line, Surface, TURN_COSINE, Topology, Tracker, View, borders,
+    contours, creases, facing, visible,
 };
 use std::{error::Error, f32::consts::TAU, fmt::Write as _};
 
@@ -21,9 +21,15 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let (mut positions, mut triangles) = knot(240, 24);
     for (low, high) in [(-1.9, -0.5), (0.3, 1.0)] {
-        add_box(&mut positions, &mut triangles, Vec3::new(low, -1.2, -0.4), Vec3::new(high, 0.9, 0.5));
+        add_box(
+            &mut positions,
+            &mut triangles,
+            Vec3::new(low, -1.2, -0.4),
+            Vec3::new(high, 0.9, 0.5),
+        );
     }
-    let topology = Topology::new(&positions, &triangles)?.with_creases(&positions, CREASE_COSINE)?;
+    let topology =
+        Topology::new(&positions, &triangles)?.with_creases(&positions, CREASE_COSINE)?;
     let surface = Surface::new(&topology, &positions)?;
 
     let (sin, cos) = degrees.to_radians().sin_cos();
@@ -50,19 +56,41 @@ fn main() -> Result<(), Box<dyn Error>> {
         let forward = -eye.normalize();
         let right = forward.cross(Vec3::Y).normalize();
         let to = (point - eye) * (FOCAL_PX / (point - eye).dot(forward));
-        [SIZE_PX / 2.0 + to.dot(right), SIZE_PX / 2.0 - to.dot(right.cross(forward))]
+        [
+            SIZE_PX / 2.0 + to.dot(right),
+            SIZE_PX / 2.0 - to.dot(right.cross(forward)),
+        ]
     };
-    let mut svg = format!("<svg xmlns='http://www.w3.org/2000/svg' width='{SIZE_PX}' height='{SIZE_PX}'><rect width='100%' height='100%' fill='white'/>\n");
+    let mut svg = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='{SIZE_PX}' height='{SIZE_PX}'><rect width='100%' height='100%' fill='white'/>\n"
+    );
     let mut stroke = |points: &[Vec3], style: &str| -> std::fmt::Result {
-        let places: Vec<String> = points.iter().map(|p| screen(*p)).map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
-        writeln!(svg, "<polyline points='{}' fill='none' stroke-linecap='round' {style}/>", places.join(" "))
+        let places: Vec<String> = points
+            .iter()
+            .map(|p| screen(*p))
+            .map(|[x, y]| format!("{x:.2},{y:.2}"))
+            .collect();
+        writeln!(
+            svg,
+            "<polyline points='{}' fill='none' stroke-linecap='round' {style}/>",
+            places.join(" ")
+        )
     };
     for line in &lines {
         let whole = 0.0..line.segments.len() as f64;
-        stroke(&points(line, whole.start, whole.end), "stroke='#ccc' stroke-width='0.6'")?;
+        stroke(
+            &points(line, whole.start, whole.end),
+            "stroke='#ccc' stroke-width='0.6'",
+        )?;
     }
-    for span in spans.iter().filter(|span| lines[span.line].kind != mesh_lines::Kind::Contour) {
-        stroke(&points(&lines[span.line], span.start, span.end), "stroke='black' stroke-width='2'")?;
+    for span in spans
+        .iter()
+        .filter(|span| lines[span.line].kind != mesh_lines::Kind::Contour)
+    {
+        stroke(
+            &points(&lines[span.line], span.start, span.end),
+            "stroke='black' stroke-width='2'",
+        )?;
     }
     for path in paths {
         let hue = path.id * 137 % 360;
@@ -81,14 +109,21 @@ fn points(line: &Line, start: f64, end: f64) -> Vec<Vec3> {
     let mut along = vec![start];
     along.extend((start.floor() as usize + 1..end.ceil() as usize).map(|i| i as f64));
     along.push(end);
-    along.into_iter().map(|along| line.position(along).as_vec3()).collect()
+    along
+        .into_iter()
+        .map(|along| line.position(along).as_vec3())
+        .collect()
 }
 
 /// A tube along a trefoil.
 fn knot(columns: u32, rows: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let middle = |u: f32| {
         let a = u * TAU;
-        Vec3::new(a.sin() + 2.0 * (2.0 * a).sin(), a.cos() - 2.0 * (2.0 * a).cos(), -(3.0 * a).sin()) * 0.5
+        Vec3::new(
+            a.sin() + 2.0 * (2.0 * a).sin(),
+            a.cos() - 2.0 * (2.0 * a).cos(),
+            -(3.0 * a).sin(),
+        ) * 0.5
     };
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
@@ -100,7 +135,12 @@ fn knot(columns: u32, rows: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
             let (sin, cos) = (j as f32 / rows as f32 * TAU).sin_cos();
             positions.push(middle(u) + (side * cos + side.cross(along) * sin) * 0.27);
             let vertex = |i: u32, j: u32| i % columns * rows + j % rows;
-            let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+            let [a, b, c, d] = [
+                vertex(i, j),
+                vertex(i + 1, j),
+                vertex(i + 1, j + 1),
+                vertex(i, j + 1),
+            ];
             triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
@@ -109,9 +149,22 @@ fn knot(columns: u32, rows: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
 
 fn add_box(positions: &mut Vec<Vec3>, triangles: &mut Vec<[u32; 3]>, low: Vec3, high: Vec3) {
     let first = positions.len() as u32;
-    let pick = |i: usize, axis: usize| if i >> axis & 1 == 1 { high[axis] } else { low[axis] };
+    let pick = |i: usize, axis: usize| {
+        if i >> axis & 1 == 1 {
+            high[axis]
+        } else {
+            low[axis]
+        }
+    };
     positions.extend((0..8).map(|i| Vec3::new(pick(i, 0), pick(i, 1), pick(i, 2))));
-    for [a, b, c, d] in [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]] {
+    for [a, b, c, d] in [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ] {
         triangles.extend([[a, b, c], [a, c, d]].map(|t| t.map(|corner| corner + first)));
     }
 }

@@ -4,7 +4,10 @@
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use glam::Vec3;
-use mesh_lines::{Bvh, Frame, MeshError, Surface, TURN_COSINE, Topology, Tracker, View, borders, contours, facing, visible};
+use mesh_lines::{
+    Bvh, Frame, MeshError, Surface, TURN_COSINE, Topology, Tracker, View, borders, contours,
+    facing, visible,
+};
 use std::time::{Duration, Instant};
 
 /// Medians are of so many frames.
@@ -38,7 +41,9 @@ fn measure(triangles: u32, bumps: f32) -> Result<(), MeshError> {
         ms(bvh_time)
     );
     let mut tracker = Tracker::default();
-    let names = ["normals", "refit", "facing", "contours", "visible", "tracking"];
+    let names = [
+        "normals", "refit", "facing", "contours", "visible", "tracking",
+    ];
     let mut times = vec![Vec::new(); names.len()];
     let mut counts = String::new();
     for frame in 0..FRAMES {
@@ -70,7 +75,12 @@ fn measure(triangles: u32, bumps: f32) -> Result<(), MeshError> {
             period_px: 100.0,
         })?;
         let segments: usize = lines.iter().map(|line| line.segments.len()).sum();
-        counts = format!("{} lines, {segments} segments, {} spans, {} paths", lines.len(), spans.len(), paths.len());
+        counts = format!(
+            "{} lines, {segments} segments, {} spans, {} paths",
+            lines.len(),
+            spans.len(),
+            paths.len()
+        );
         lap(5);
     }
     let median = |times: &mut Vec<Duration>| {
@@ -78,7 +88,11 @@ fn measure(triangles: u32, bumps: f32) -> Result<(), MeshError> {
         times[times.len() / 2]
     };
     let medians: Vec<Duration> = times.iter_mut().map(median).collect();
-    let each: Vec<String> = names.iter().zip(&medians).map(|(name, time)| format!("{name} {}", ms(*time))).collect();
+    let each: Vec<String> = names
+        .iter()
+        .zip(&medians)
+        .map(|(name, time)| format!("{name} {}", ms(*time)))
+        .collect();
     println!("  {counts}\n  a frame: {}", each.join(", "));
     println!(
         "  {} where only the eye moves, {} where the mesh moves",
@@ -98,10 +112,15 @@ fn sphere(columns: u32, rows: u32, bumps: f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
         let (sin, cos) = (i as f32 / columns as f32 * std::f32::consts::TAU).sin_cos();
         let (across, up) = (j as f32 / rows as f32 * std::f32::consts::PI).sin_cos();
         let unit = Vec3::new(across * cos, up, -across * sin);
-        unit * (1.0 + bumps * (5.0 * unit.x).sin() * (4.0 * unit.y + 1.0).sin() * (4.5 * unit.z).cos())
+        unit * (1.0
+            + bumps * (5.0 * unit.x).sin() * (4.0 * unit.y + 1.0).sin() * (4.5 * unit.z).cos())
     };
     let mut positions = vec![place(0, 0), place(0, rows)];
-    positions.extend((1..rows).flat_map(|j| (0..columns).map(move |i| (i, j))).map(|(i, j)| place(i, j)));
+    positions.extend(
+        (1..rows)
+            .flat_map(|j| (0..columns).map(move |i| (i, j)))
+            .map(|(i, j)| place(i, j)),
+    );
     let vertex = |i: u32, j: u32| match j {
         0 => 0,
         _ if j == rows => 1,
@@ -109,8 +128,18 @@ fn sphere(columns: u32, rows: u32, bumps: f32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     };
     let cells = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
     let triangles = cells.flat_map(|(i, j)| {
-        let [a, b, c, d] = [vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1), vertex(i + 1, j)];
+        let [a, b, c, d] = [
+            vertex(i, j),
+            vertex(i, j + 1),
+            vertex(i + 1, j + 1),
+            vertex(i + 1, j),
+        ];
         [[a, b, c], [a, c, d]]
     });
-    (positions, triangles.filter(|[a, b, c]| a != b && b != c && c != a).collect())
+    (
+        positions,
+        triangles
+            .filter(|[a, b, c]| a != b && b != c && c != a)
+            .collect(),
+    )
 }

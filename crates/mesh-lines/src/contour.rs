@@ -30,7 +30,11 @@ pub fn contours(surface: &Surface, view: &View, facing: &[f64]) -> Result<Vec<Li
     let mut lines = zero_set(surface, facing)?;
     // Each is asked for by all the edges around its vertex.
     let mut known = HashMap::new();
-    let mut bend_at = |vertex| *known.entry(vertex).or_insert_with(|| bend(vertex, surface, view, facing));
+    let mut bend_at = |vertex| {
+        *known
+            .entry(vertex)
+            .or_insert_with(|| bend(vertex, surface, view, facing))
+    };
     for line in &mut lines {
         mark_folds(line, surface, &mut bend_at);
     }
@@ -192,9 +196,7 @@ fn mark_folds(line: &mut Line, surface: &Surface, bend_at: &mut impl FnMut(u32) 
             let vertices = surface.topology().smooth_corners()[point.place.triangle as usize];
             (0..3)
                 .filter(|&corner| point.place.weights[corner] != 0.0)
-                .map(|corner| {
-                    point.place.weights[corner] * bend_at(vertices[corner])
-                })
+                .map(|corner| point.place.weights[corner] * bend_at(vertices[corner]))
                 .sum()
         })
         .collect();

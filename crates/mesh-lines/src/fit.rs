@@ -38,7 +38,11 @@ impl Spline {
             system.add(first, basis[0], t, POINTS / points.len() as f64);
         }
         // Three points of Gauss and Legendre are exact for the squares of cubics' slopes.
-        let gauss = [(0.5 - 0.15_f64.sqrt(), 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.5 + 0.15_f64.sqrt(), 5.0 / 18.0)];
+        let gauss = [
+            (0.5 - 0.15_f64.sqrt(), 5.0 / 18.0),
+            (0.5, 8.0 / 18.0),
+            (0.5 + 0.15_f64.sqrt(), 5.0 / 18.0),
+        ];
         for piece in 0..pieces {
             for (at, weight) in gauss {
                 let (_, [_, first_derivative, second_derivative]) =
@@ -58,20 +62,26 @@ impl Spline {
         Self {
             start: range.start,
             step,
-            coefficients: (0..AT_ONCE).map(|i| (i as f64 - 1.0) * step * slope).collect(),
+            coefficients: (0..AT_ONCE)
+                .map(|i| (i as f64 - 1.0) * step * slope)
+                .collect(),
         }
     }
 
     /// Its value; beyond the ends the last pieces go on.
     pub(crate) fn at(&self, s: f64) -> f64 {
         let (first, [basis, ..]) = self.basis(s);
-        (0..AT_ONCE).map(|i| basis[i] * self.coefficients[first + i]).sum()
+        (0..AT_ONCE)
+            .map(|i| basis[i] * self.coefficients[first + i])
+            .sum()
     }
 
     #[cfg(test)]
     fn slope_at(&self, s: f64) -> f64 {
         let (first, [_, basis, _]) = self.basis(s);
-        (0..AT_ONCE).map(|i| basis[i] * self.coefficients[first + i]).sum()
+        (0..AT_ONCE)
+            .map(|i| basis[i] * self.coefficients[first + i])
+            .sum()
     }
 
     /// The first coefficient that counts at a place, and the basis functions there with their first and second derivatives.
@@ -82,12 +92,21 @@ impl Spline {
         let x = x - first as f64;
         let y = 1.0 - x;
         let h = self.step;
-        let values = [y * y * y, 3.0 * x * x * x - 6.0 * x * x + 4.0, 3.0 * y * y * y - 6.0 * y * y + 4.0, x * x * x];
+        let values = [
+            y * y * y,
+            3.0 * x * x * x - 6.0 * x * x + 4.0,
+            3.0 * y * y * y - 6.0 * y * y + 4.0,
+            x * x * x,
+        ];
         let slopes = [-y * y, 3.0 * x * x - 4.0 * x, -3.0 * y * y + 4.0 * y, x * x];
         let bends = [y, 3.0 * x - 2.0, 3.0 * y - 2.0, x];
         (
             first,
-            [values.map(|v| v / 6.0), slopes.map(|v| v / (2.0 * h)), bends.map(|v| v / (h * h))],
+            [
+                values.map(|v| v / 6.0),
+                slopes.map(|v| v / (2.0 * h)),
+                bends.map(|v| v / (h * h)),
+            ],
         )
     }
 }
@@ -135,7 +154,9 @@ impl Banded {
             }
         }
         for i in (0..count).rev() {
-            let known: f64 = (1..AT_ONCE.min(count - i)).map(|j| rows[i][j] * right[i + j]).sum();
+            let known: f64 = (1..AT_ONCE.min(count - i))
+                .map(|j| rows[i][j] * right[i + j])
+                .sum();
             right[i] = (right[i] - known) / rows[i][0];
         }
         right
@@ -149,7 +170,10 @@ mod tests {
 
     /// E(T) by its definition, in small steps.
     fn energy(spline: &Spline, range: Range<f64>, points: &[(f64, f64)], slope: f64) -> f64 {
-        let off: f64 = points.iter().map(|&(s, t)| (spline.at(s) - t).powi(2)).sum();
+        let off: f64 = points
+            .iter()
+            .map(|&(s, t)| (spline.at(s) - t).powi(2))
+            .sum();
         let steps = 4000;
         let ds = (range.end - range.start) / f64::from(steps);
         let smooth: f64 = (0..steps)

@@ -47,7 +47,12 @@ impl Ruler {
         joints
     }
 
-    fn between(&self, x: f64, key: impl Fn(&(f64, f64)) -> f64, value: impl Fn(&(f64, f64)) -> f64) -> f64 {
+    fn between(
+        &self,
+        x: f64,
+        key: impl Fn(&(f64, f64)) -> f64,
+        value: impl Fn(&(f64, f64)) -> f64,
+    ) -> f64 {
         let after = self.marks.partition_point(|mark| key(mark) <= x);
         if after == 0 {
             return value(&self.marks[0]);

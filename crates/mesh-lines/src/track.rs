@@ -8,6 +8,8 @@ use std::{collections::HashMap, ops::Range};
 
 /// How far the samples are apart by which paths remember where they were, in pixels.
 const SAMPLE_PX: f64 = 4.0;
+/// More samples no path has: it would be longer than any picture shows.
+const MOST_SAMPLES: f64 = 16_384.0;
 /// How far a sample goes at most to the contour of the next frame.
 const REACH_PX: f64 = 6.0;
 /// How far the knots of T are apart.
@@ -102,7 +104,10 @@ impl Tracker {
     ///
     /// When `pixel` or `period_px` isn't a positive number, or there is not one value of `facing` for each smooth vertex.
     pub fn step(&mut self, frame: &Frame) -> Result<&[Path], MeshError> {
-        for (what, length) in [("a pixel's length", frame.pixel), ("the period", frame.period_px)] {
+        for (what, length) in [
+            ("a pixel's length", frame.pixel),
+            ("the period", frame.period_px),
+        ] {
             if !(length.is_finite() && length > 0.0) {
                 return Err(MeshError::NotPositive { what });
             }
@@ -141,9 +146,17 @@ impl Tracker {
     /// Where the samples of the last frame's paths are now, by span.
     fn votes(&self, frame: &Frame) -> Vec<Vec<Vote>> {
         let mut segments: HashMap<u32, Vec<(usize, usize)>> = HashMap::new();
-        for (number, line) in frame.lines.iter().enumerate().filter(|(_, line)| line.kind == Kind::Contour) {
+        for (number, line) in frame
+            .lines
+            .iter()
+            .enumerate()
+            .filter(|(_, line)| line.kind == Kind::Contour)
+        {
             for (segment, at) in line.segments.iter().enumerate() {
-                segments.entry(at.triangle).or_default().push((number, segment));
+                segments
+                    .entry(at.triangle)
+                    .or_default()
+                    .push((number, segment));
             }
         }
         let mut spans = vec![Vec::new(); frame.lines.len()];
@@ -159,10 +172,15 @@ impl Tracker {
             };
             let point = frame.surface.point(place);
             // A triangle has one segment, or two with a cusp between.
-            let found = segments.get(&place.triangle).into_iter().flatten().map(|&(line, segment)| {
-                let (share, off) = nearest_on(&frame.lines[line], segment, point);
-                (line, segment as f64 + share, off)
-            });
+            let found =
+                segments
+                    .get(&place.triangle)
+                    .into_iter()
+                    .flatten()
+                    .map(|&(line, segment)| {
+                        let (share, off) = nearest_on(&frame.lines[line], segment, point);
+                        (line, segment as f64 + share, off)
+                    });
             let Some((line, along, _)) = found.min_by(|a, b| a.2.total_cmp(&b.2)) else {
                 continue;
             };
@@ -198,7 +216,10 @@ impl Tracker {
         }
     }
 
-    #[expect(clippy::too_many_arguments, reason = "all that a path is made of, once")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all that a path is made of, once"
+    )]
     fn add(
         &mut self,
         frame: &Frame,
@@ -223,7 +244,7 @@ impl Tracker {
             joints: ruler.joints(&range).into_iter().map(joint).collect(),
         });
         let length = range.end - range.start;
-        let samples = (length / SAMPLE_PX).ceil().clamp(1.0, 1e6) as usize;
+        let samples = (length / SAMPLE_PX).ceil().clamp(1.0, MOST_SAMPLES) as usize;
         self.memories.extend((0..=samples).map(|i| {
             let s = range.start + length * i as f64 / samples as f64;
             Memory {
@@ -248,7 +269,11 @@ fn ruler(frame: &Frame, line: &Line, span: &Span, votes: &mut [Vote]) -> Ruler {
             (whole.start, whole.end) = (first.along, first.along + count);
         }
     }
-    let lengths: Vec<f64> = line.image_lengths(frame.view).iter().map(|l| l / frame.pixel).collect();
+    let lengths: Vec<f64> = line
+        .image_lengths(frame.view)
+        .iter()
+        .map(|l| l / frame.pixel)
+        .collect();
     let ruler = Ruler::new(&lengths, whole.start..whole.end);
     for vote in votes {
         vote.along = on_span(&whole, vote.along, count).unwrap_or(whole.start);
@@ -259,7 +284,9 @@ fn ruler(frame: &Frame, line: &Line, span: &Span, votes: &mut [Vote]) -> Ruler {
 
 /// A place on a line as one between the ends of a span, which may go through the line's first point.
 fn on_span(span: &Span, along: f64, count: f64) -> Option<f64> {
-    [along, along + count].into_iter().find(|at| (span.start..=span.end).contains(at))
+    [along, along + count]
+        .into_iter()
+        .find(|at| (span.start..=span.end).contains(at))
 }
 
 /// The share of the way along a segment that is nearest to a point, and how far that is, squared.
@@ -267,7 +294,11 @@ fn nearest_on(line: &Line, segment: usize, point: DVec3) -> (f64, f64) {
     let [from, to] = line.ends(segment).map(|end| end.position);
     let way = to - from;
     let squared = way.length_squared();
-    let share = if squared > 0.0 { ((point - from).dot(way) / squared).clamp(0.0, 1.0) } else { 0.0 };
+    let share = if squared > 0.0 {
+        ((point - from).dot(way) / squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     (share, from.lerp(to, share).distance_squared(point))
 }
 
@@ -276,13 +307,18 @@ fn most_voted(votes: &[Vote]) -> Option<u64> {
     let mut ids: Vec<u64> = votes.iter().map(|vote| vote.id).collect();
     ids.sort_unstable();
     let runs = ids.chunk_by(|a, b| a == b);
-    runs.max_by(|a, b| a.len().cmp(&b.len()).then(b[0].cmp(&a[0]))).map(|run| run[0])
+    runs.max_by(|a, b| a.len().cmp(&b.len()).then(b[0].cmp(&a[0])))
+        .map(|run| run[0])
 }
 
 /// Votes for one name that follow each other along the line as they did, each group in order along the line.
 fn groups(votes: &[Vote], period_px: f64) -> Vec<Vec<Vote>> {
     let mut sorted = votes.to_vec();
-    sorted.sort_by(|a, b| a.id.cmp(&b.id).then(a.s.total_cmp(&b.s)).then(a.t.total_cmp(&b.t)));
+    sorted.sort_by(|a, b| {
+        a.id.cmp(&b.id)
+            .then(a.s.total_cmp(&b.s))
+            .then(a.t.total_cmp(&b.t))
+    });
     let together = |a: &Vote, b: &Vote| {
         a.id == b.id && ((b.t - a.t) * period_px - (b.s - a.s)).abs() < JUMP_PX
     };
@@ -293,22 +329,42 @@ fn groups(votes: &[Vote], period_px: f64) -> Vec<Vec<Vote>> {
 /// what lies between two is halved.
 fn shares(mut groups: Vec<Vec<Vote>>, length: f64) -> Vec<(Range<f64>, Vec<Vote>)> {
     let least = LEAST_PX.min(length / 2.0).max(LEAST_SHARE * length);
-    groups.sort_by(|a, b| b.len().cmp(&a.len()).then(a[0].id.cmp(&b[0].id)).then(a[0].s.total_cmp(&b[0].s)));
+    groups.sort_by(|a, b| {
+        b.len()
+            .cmp(&a.len())
+            .then(a[0].id.cmp(&b[0].id))
+            .then(a[0].s.total_cmp(&b[0].s))
+    });
     let mut taken: Vec<(Range<f64>, Vec<Vote>)> = Vec::new();
     for group in groups {
-        let is_free = |vote: &Vote| !taken.iter().any(|(range, _)| (range.start..=range.end).contains(&vote.s));
+        let is_free = |vote: &Vote| {
+            !taken
+                .iter()
+                .any(|(range, _)| (range.start..=range.end).contains(&vote.s))
+        };
         // A part is left where votes follow each other with nothing taken between.
         let same_gap = |a: &Vote, b: &Vote| {
-            is_free(a) && is_free(b) && !taken.iter().any(|(range, _)| range.start > a.s && range.end < b.s)
+            is_free(a)
+                && is_free(b)
+                && !taken
+                    .iter()
+                    .any(|(range, _)| range.start > a.s && range.end < b.s)
         };
         let extent = |part: &[Vote]| part[part.len() - 1].s - part[0].s;
-        let longest = group.chunk_by(same_gap).max_by(|a, b| extent(a).total_cmp(&extent(b)));
-        if let Some(part) = longest.filter(|part| part.len() >= LEAST_VOTES && extent(part) >= least) {
+        let longest = group
+            .chunk_by(same_gap)
+            .max_by(|a, b| extent(a).total_cmp(&extent(b)));
+        if let Some(part) =
+            longest.filter(|part| part.len() >= LEAST_VOTES && extent(part) >= least)
+        {
             taken.push((part[0].s..part[part.len() - 1].s, part.to_vec()));
         }
     }
     taken.sort_by(|a, b| a.0.start.total_cmp(&b.0.start));
-    let borders: Vec<f64> = taken.windows(2).map(|two| (two[0].0.end + two[1].0.start) / 2.0).collect();
+    let borders: Vec<f64> = taken
+        .windows(2)
+        .map(|two| (two[0].0.end + two[1].0.start) / 2.0)
+        .collect();
     let count = taken.len();
     for (i, (range, _)) in taken.iter_mut().enumerate() {
         range.start = if i == 0 { 0.0 } else { borders[i - 1] };

@@ -1,6 +1,6 @@
 //! What of each line the eye sees.
 //!
-//! A line goes from seen to hidden, or back, only where it crosses a nearer contour or border in the image, where it meets another line on the surface, and at a contour's cusps (Bénard and Hertzmann, *Line
+//! A line goes from seen to hidden, or back, only where it crosses a nearer contour or border in the image, where it meets another line on the surface, where it goes through a surface, and at a contour's cusps (Bénard and Hertzmann, *Line
 //! drawings from 3D models*, 2019, chapter on visibility). Between two such events three rays decide for the whole piece: what single rays get wrong
 //! near the horizon, where triangles stand before and behind the smooth surface, makes no gaps.
 
@@ -8,6 +8,7 @@ use crate::{
     Bvh, Kind, Line, MeshError, Ray, Surface, View, crossings::crossings, junctions::junctions,
 };
 use glam::DVec3;
+use std::ops::ControlFlow;
 
 /// Where rays are shot in a piece between two events, as shares of its length in the image.
 const RAYS: [f64; 3] = [0.25, 0.5, 0.75];
@@ -71,11 +72,12 @@ pub fn visible(
     for (events, junctions) in events.iter_mut().zip(junctions(surface, lines)) {
         events.extend(junctions);
     }
-    for (number, (line, events)) in lines.iter().zip(events).enumerate() {
+    for (number, (line, mut events)) in lines.iter().zip(events).enumerate() {
         if line.segments.is_empty() {
             continue;
         }
         let lengths = line.image_lengths(view);
+        events.extend(pierced(surface, bvh, line));
         let mut pieces = pieces(surface, line, &events, &lengths);
         for piece in &mut pieces {
             piece.seen = !piece.inside && rays.see_most(line, piece, &lengths);
@@ -108,7 +110,38 @@ struct Piece {
     seen: bool,
 }
 
-/// Cuts a line at events: where it crosses or meets others, and at its cusps.
+/// The places along a line where it goes through a triangle that isn't beside it: meshes that are in each other.
+fn pierced(surface: &Surface, bvh: &Bvh, line: &Line) -> Vec<f64> {
+    let triangles = surface.topology().triangles();
+    let mut places = Vec::new();
+    for (number, segment) in line
+        .segments
+        .iter()
+        .enumerate()
+        .filter(|(_, s)| !s.is_inside(surface))
+    {
+        let [from, to] = line.ends(number).map(|end| end.position);
+        let ray = Ray {
+            origin: from,
+            direction: to - from,
+            from: 0.0,
+            to: 1.0,
+        };
+        let corners = triangles[segment.triangle as usize];
+        bvh.hits(surface, &ray, |hit| {
+            let is_beside = triangles[hit.triangle as usize]
+                .iter()
+                .any(|v| corners.contains(v));
+            if !is_beside {
+                places.push(number as f64 + hit.distance);
+            }
+            ControlFlow::Continue(())
+        });
+    }
+    places
+}
+
+/// Cuts a line at events: where it crosses or meets others or goes through a triangle, and at its cusps.
 fn pieces(surface: &Surface, line: &Line, events: &[f64], lengths: &[f64]) -> Vec<Piece> {
     let count = line.segments.len();
     let mut cuts = vec![0.0];

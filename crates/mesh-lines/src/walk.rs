@@ -96,7 +96,11 @@ fn across(surface: &Surface, place: Place, triangle: u32) -> Place {
     let triangles = surface.topology().triangles();
     let from = triangles[place.triangle as usize];
     let to = triangles[triangle as usize];
-    let weight = |vertex: u32| from.iter().position(|v| *v == vertex).map_or(0.0, |i| place.weights[i]);
+    let weight = |vertex: u32| {
+        from.iter()
+            .position(|v| *v == vertex)
+            .map_or(0.0, |i| place.weights[i])
+    };
     let weights = DVec3::from(to.map(weight));
     Place {
         triangle,

@@ -3,7 +3,9 @@
 mod shapes;
 
 use glam::{DVec3, Vec3};
-use mesh_lines::{Line, TURN_COSINE, View, borders, contours, creases, curvatures, facing};
+use mesh_lines::{
+    Line, Place, TURN_COSINE, View, borders, contours, creases, curvatures, facing, walk_to_zero,
+};
 use shapes::{Shape, cube, cup, ellipsoid, eyes, grid, sphere, torus};
 
 fn contours_from(shape: &Shape, view: &View) -> Vec<Line> {
@@ -237,4 +239,46 @@ fn a_cube_has_twelve_creases_and_a_square_four_borders() {
     let rims = borders(&cup(40, 12).surface(), TURN_COSINE);
     let rim = rims.iter().max_by_key(|rim| rim.points.len()).unwrap();
     assert!(rim.closed && rim.segments.len() == 40);
+}
+
+#[test]
+fn ways_up_and_down_end_on_the_contour_straight_beside_them() {
+    let shape = sphere(24, DVec3::ZERO, 1.0);
+    let surface = shape.surface();
+    let eye = DVec3::new(0.0, 0.0, 5.0);
+    let view = view_from(eye);
+    let values = facing(&surface, &view);
+    let mut ended = 0;
+    for triangle in 0..shape.topology.triangles().len() as u32 {
+        let from = Place {
+            triangle,
+            weights: DVec3::new(0.5, 0.2, 0.3),
+        };
+        let point = surface.point(from);
+        // The contour is where z = 1/5: this far from it around the sphere.
+        let way = (point.z.atan2(point.truncate().length()) - 0.2_f64.asin()).abs();
+        let reach = 0.1;
+        let Some(to) = walk_to_zero(&surface, &values, &view, from, reach) else {
+            assert!(
+                view.image_distance(point, on_contour(point)) > 0.9 * reach || way > 0.5,
+                "{point}"
+            );
+            continue;
+        };
+        ended += 1;
+        let end = surface.point(to);
+        assert!((end.z - 0.2).abs() < 1e-5, "{end}");
+        // Along a meridian, but for the triangles.
+        let turn = end
+            .truncate()
+            .normalize()
+            .distance(point.truncate().normalize());
+        assert!(turn < 0.12 * way + 0.01, "{point} {end}");
+    }
+    assert!(ended > 500, "{ended}");
+}
+
+/// The point of the contour of a sphere around 0 seen from (0, 0, 5) that is on the same meridian.
+fn on_contour(point: DVec3) -> DVec3 {
+    (point.truncate().normalize() * (1.0_f64 - 0.04).sqrt()).extend(0.2)
 }

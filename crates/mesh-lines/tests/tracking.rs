@@ -65,7 +65,12 @@ fn nothing_moves_while_nothing_moves() {
 fn t_at(path: &Path, share: f64) -> f64 {
     let [first, last] = [path.joints[0], path.joints[path.joints.len() - 1]];
     let s = first.length_px + (last.length_px - first.length_px) * share;
-    let after = path.joints.iter().position(|j| j.length_px >= s).unwrap_or(path.joints.len() - 1).max(1);
+    let after = path
+        .joints
+        .iter()
+        .position(|j| j.length_px >= s)
+        .unwrap_or(path.joints.len() - 1)
+        .max(1);
     let [a, b] = [path.joints[after - 1], path.joints[after]];
     a.t + (b.t - a.t) * (s - a.length_px) / (b.length_px - a.length_px)
 }
@@ -76,7 +81,12 @@ fn a_spheres_outline_keeps_its_name_all_around() {
     let mut tracker = Tracker::default();
     let mut ids = Vec::new();
     for frame in 0..120 {
-        let paths = step(&mut tracker, &shape, &shape.positions, orbit(f64::from(frame) * 1.5, 5.0, 1.0));
+        let paths = step(
+            &mut tracker,
+            &shape,
+            &shape.positions,
+            orbit(f64::from(frame) * 1.5, 5.0, 1.0),
+        );
         assert_eq!(paths.len(), 1, "frame {frame}");
         ids.push(paths[0].id);
         assert!(slopes(&paths[0]).all(|slope| (slope - 1.0).abs() < 0.5));
@@ -107,20 +117,37 @@ fn orbited(shape: &Shape, frames: u32) -> Coherence {
     };
     for frame in 0..frames {
         let mut now: HashMap<u64, Vec<[(DVec3, f64); 2]>> = HashMap::new();
-        for path in step(&mut tracker, shape, &shape.positions, orbit(f64::from(frame) * 0.5, 5.0, 1.2)) {
-            result.stretch.extend(slopes(&path).map(|slope| (slope - 1.0).abs()));
+        for path in step(
+            &mut tracker,
+            shape,
+            &shape.positions,
+            orbit(f64::from(frame) * 0.5, 5.0, 1.2),
+        ) {
+            result
+                .stretch
+                .extend(slopes(&path).map(|slope| (slope - 1.0).abs()));
             let length = path.joints[path.joints.len() - 1].length_px;
             result.all_px += length;
             if path.is_new && frame > 0 {
                 result.born_px += length;
             }
-            let pieces = path.joints.windows(2).map(|pair| [0, 1].map(|i| (pair[i].position, pair[i].t)));
+            let pieces = path
+                .joints
+                .windows(2)
+                .map(|pair| [0, 1].map(|i| (pair[i].position, pair[i].t)));
             now.entry(path.id).or_default().extend(pieces);
         }
         for (id, pieces) in &now {
             for [(point, t), _] in pieces {
-                let before = last.get(id).into_iter().flatten().map(|piece| nearest(piece, *point));
-                if let Some((_, before)) = before.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|found| found.0 < 0.02) {
+                let before = last
+                    .get(id)
+                    .into_iter()
+                    .flatten()
+                    .map(|piece| nearest(piece, *point));
+                if let Some((_, before)) = before
+                    .min_by(|a, b| a.0.total_cmp(&b.0))
+                    .filter(|found| found.0 < 0.02)
+                {
                     result.drift.push((t - before).abs() * PERIOD_PX);
                 }
             }
@@ -157,7 +184,6 @@ fn patterns_neither_slide_nor_stretch_on_an_orbit() {
         let mean = stretch.iter().sum::<f64>() / stretch.len() as f64;
         let [median, most] = [0.5, 0.99].map(|share| at(&drift, share));
         let worst = at(&stretch, 0.99);
-        println!("{name}: drift {median:.2} px, 99 % {most:.2} px; stretch {mean:.3}, 99 % {worst:.3}; born {born_px:.0} of {all_px:.0} px");
         assert!(median < 0.3 && most < 3.0, "{name}: drift {median} {most}");
         assert!(mean < 0.15 && worst < 0.5, "{name}: stretch {mean} {worst}");
         assert!(born_px < 0.005 * all_px, "{name}: born {born_px}");
@@ -172,7 +198,11 @@ fn a_mesh_that_moves_takes_its_pattern_along() {
     let mut first = Vec::new();
     for frame in 0..40 {
         let swing = (frame as f32 * 0.1).sin() * 0.2;
-        let positions: Vec<Vec3> = shape.positions.iter().map(|p| *p + Vec3::Y * (swing * p.x * p.x)).collect();
+        let positions: Vec<Vec3> = shape
+            .positions
+            .iter()
+            .map(|p| *p + Vec3::Y * (swing * p.x * p.x))
+            .collect();
         let paths = step(&mut tracker, &shape, &positions, DVec3::new(0.3, 1.0, 5.0));
         let mut ids: Vec<u64> = paths.iter().map(|path| path.id).collect();
         ids.sort_unstable();

@@ -112,7 +112,6 @@ fn against_solid(shape: &Shape, solid: &Solid, near: f64, far: f64) -> f64 {
 fn a_torus_is_hidden_where_the_exact_one_is() {
     let shape = torus([120, 80], 1.0, 0.35);
     let wrong = against_solid(&shape, &in_torus(1.0, 0.35), 2.0, 6.0);
-    println!("torus: {wrong:.5} of the length wrong");
     assert!(wrong < 0.001, "{wrong}");
 }
 
@@ -122,8 +121,33 @@ fn of_two_spheres_the_nearer_hides_the_farther() {
     let shape = sphere(32, a, 0.8).and(sphere(32, b, 1.0));
     let solid = move |p: DVec3| (p.distance(a) - 0.8).min(p.distance(b) - 1.0);
     let wrong = against_solid(&shape, &solid, 4.0, 9.0);
-    println!("spheres: {wrong:.5} of the length wrong");
     assert!(wrong < 0.001, "{wrong}");
+}
+
+#[test]
+fn edges_of_boxes_are_hidden_where_the_exact_ones_are() {
+    let boxes = [
+        [Vec3::new(-1.0, -1.0, -1.0), Vec3::new(0.5, -0.2, 0.7)],
+        [Vec3::new(-0.3, -0.1, -0.6), Vec3::new(1.0, 1.1, 0.3)],
+    ];
+    let shape = cube(boxes[0][0], boxes[0][1])
+        .and(cube(boxes[1][0], boxes[1][1]))
+        .sharp();
+    let solid = move |p: DVec3| {
+        let off = boxes.map(|[low, high]| (low.as_dvec3() - p).max(p - high.as_dvec3()));
+        off.map(|off| off.max(DVec3::ZERO).length() + off.max_element().min(0.0))
+            .into_iter()
+            .fold(f64::INFINITY, f64::min)
+    };
+    let bvh = shape.bvh();
+    let mut tally = Tally::default();
+    for eye in eyes(64, 3.0, 8.0) {
+        let view = View::perspective(eye.as_vec3()).unwrap();
+        tally.add(&shape, &bvh, &view, 40, |line, along| {
+            Some(!is_hidden(&solid, line.position(along), eye))
+        });
+    }
+    assert!(tally.share() < 0.001, "{}", tally.share());
 }
 
 #[test]
@@ -142,6 +166,16 @@ fn pieces_agree_with_a_ray_for_each_place() {
         ("cubes", cubes.sharp()),
         ("bumpy", bumpy(32)),
         ("linked", linked),
+        (
+            "through each other",
+            sphere(40, DVec3::ZERO, 1.0).and(torus([128, 80], 0.8, 0.35).moved(turned)),
+        ),
+        (
+            "box in a ball",
+            sphere(20, DVec3::ZERO, 1.0)
+                .and(cube(Vec3::splat(-0.2), Vec3::splat(0.9)))
+                .sharp(),
+        ),
     ];
     for (name, shape) in shapes {
         let bvh = shape.bvh();
@@ -149,12 +183,16 @@ fn pieces_agree_with_a_ray_for_each_place() {
         let mut tally = Tally::default();
         for eye in eyes(64, 3.0, 8.0) {
             let view = View::perspective(eye.as_vec3()).unwrap();
-            let samples = if name == "cubes" { 200 } else { 2 };
+            // Edges of a cube are one segment each.
+            let samples = if name.contains("cube") || name.contains("box") {
+                60
+            } else {
+                2
+            };
             tally.add(&shape, &bvh, &view, samples, |line, along| {
                 Some(is_seen(&surface, &bvh, &view, line, along))
             });
         }
-        println!("{name}: {:.5} of the length wrong", tally.share());
         assert!(tally.share() < 0.001, "{name}: {}", tally.share());
     }
 }

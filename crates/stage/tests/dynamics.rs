@@ -549,7 +549,7 @@ fn locks_keep_out_of_each_other_in_looks() {
     let ponytail = file(
         "ponytail.style.ron",
         r#"(version: 1, zones: [
-            (name: "cap", roots: whorl, tips: hairline(-180, 180), count: 30, hang: 0.05, lift: 0.03),
+            (name: "cap", roots: whorl, tips: hairline(-180, 180), count: 30, hang: 0.05, lift: 0.03, locks: 0),
             (name: "tail", form: tail, roots: [(180, 40)], hang: 1.6, count: 20, tie: 0.07),
         ])"#,
     );

@@ -277,7 +277,7 @@ impl Locks {
                 }
                 let (sweep, its) = (&sweeps[own], &sweeps[other]);
                 let more = (keep - radii) as f32;
-            let Some(farther) = sweep.farther(its, more) else {
+                let Some(farther) = sweep.farther(its, more) else {
                     return;
                 };
                 for i in 0..self.pieces[own].links {
@@ -383,5 +383,66 @@ impl Locks {
             }
         }
         found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Params, Solver, Strands};
+
+    #[test]
+    fn boxes_and_balls_hide_nothing_that_meets() {
+        let spread = |i: u32, k: u32| ((i * 7919 + k * 104_729) % 1009) as f32 / 1009.0 - 0.5;
+        let place = |i, k| glam::Vec3::new(spread(i, k), spread(i, k + 1), spread(i, k + 2));
+        let mut strands = Strands::new();
+        for id in 0..80 {
+            let (from, along) = (place(id, 1), place(id, 4));
+            let points: Vec<glam::Vec3> = (0..=4 + id % 7)
+                .map(|i| from * 0.2 + along * (0.02 * i as f32))
+                .collect();
+            strands.push(id, &points, None).unwrap();
+        }
+        let radius = |i: usize| Params {
+            lock_radius: 0.002 * (i % 4) as f64,
+            ..Params::default()
+        };
+        let (mut solver, mut state) = Solver::with(&strands, radius).unwrap();
+        for (b, batch) in (0..).zip(&mut state.batches) {
+            for (k, v) in (0..).zip(&mut batch.v) {
+                for lane in 0..LANES {
+                    let way = place(40 * b + k, 7 + lane as u32);
+                    v.set(lane, way.as_dvec3() * 3.0);
+                }
+            }
+        }
+        let Solver { locks, batches, .. } = &mut solver;
+        let (locks, _) = locks.as_mut().unwrap();
+        let surroundings = Surroundings::default();
+        locks.find::<Lane>(batches, &state.batches, &surroundings, 1.0 / 60.0);
+        let mut all = Vec::new();
+        for (one, two) in (0..locks.pieces.len()).flat_map(|i| (0..i).map(move |j| (j, i))) {
+            let [own, other] = [one, two].map(|i| &locks.pieces[i]);
+            let near = &locks.near[locks.near_from[one]..locks.near_from[one + 1]];
+            let at_rest = near.iter().find(|near| near.0 as usize == two);
+            let keep = at_rest.map_or(own.radius + other.radius, |near| f64::from(near.1));
+            if (own.batch, own.lane) == (other.batch, other.lane) || keep == 0.0 {
+                continue;
+            }
+            for (i, j) in (0..own.links).flat_map(|i| (0..other.links).map(move |j| (i, j))) {
+                locks.meet((one, i), (two, j), keep, &mut all);
+            }
+        }
+        let sorted = |planes: Vec<Plane>| {
+            let mut keys: Vec<_> = planes
+                .iter()
+                .map(|plane| (plane.particle, plane.whose, plane.depth.to_bits()))
+                .collect();
+            keys.sort_unstable();
+            keys
+        };
+        let (found, all) = (sorted(locks.found.concat()), sorted(all));
+        assert!(found.len() > 200, "{}", found.len());
+        assert_eq!(found, all);
     }
 }

@@ -178,22 +178,29 @@ fn locks_do_not_pass_through_each_other() {
     }
 }
 
-/// Two locks that gravity has laid against each other sleep, and sleep on.
-#[test]
-fn locks_that_lean_on_each_other_sleep() {
+/// So many locks side by side that hang, as many that lean towards them, and gravity that lays these on those.
+fn leaning(count: usize) -> (Solver, State, Surroundings<'static>) {
     let mut strands = Strands::new();
-    row(&mut strands, 1, DVec3::ZERO, DVec3::ZERO, DVec3::NEG_Y);
+    let beside = DVec3::Z * 0.008;
+    row(&mut strands, count, DVec3::ZERO, beside, DVec3::NEG_Y);
     let lean = DVec3::new(-0.5, -1.0, 0.1).normalize();
-    row(&mut strands, 1, DVec3::X * 0.06, DVec3::ZERO, lean);
+    row(&mut strands, count, DVec3::X * 0.06, beside, lean);
     let params = Params {
         natural: Natural::Styled,
         ..params(10.0, RADIUS)
     };
-    let (mut solver, mut state) = Solver::new(&strands, &params).unwrap();
+    let (solver, state) = Solver::new(&strands, &params).unwrap();
     let surroundings = Surroundings {
         gravity: DVec3::new(-3.0, -9.0, 0.0),
         ..Surroundings::default()
     };
+    (solver, state, surroundings)
+}
+
+/// Two locks that gravity has laid against each other sleep, and sleep on.
+#[test]
+fn locks_that_lean_on_each_other_sleep() {
+    let (mut solver, mut state, surroundings) = leaning(1);
     let (mut slept, mut meetings) = (None, 0);
     for step in 0..60 * 60 {
         let stats = solver.step(&mut state, &surroundings, 1.0 / 60.0).unwrap();
@@ -220,19 +227,7 @@ fn locks_that_lean_on_each_other_sleep() {
 /// particle take turns, and tremble for ever.
 #[test]
 fn a_heap_of_locks_calms_down() {
-    let mut strands = Strands::new();
-    row(&mut strands, 3, DVec3::ZERO, DVec3::Z * 0.008, DVec3::NEG_Y);
-    let lean = DVec3::new(-0.5, -1.0, 0.1).normalize();
-    row(&mut strands, 3, DVec3::X * 0.06, DVec3::Z * 0.008, lean);
-    let params = Params {
-        natural: Natural::Styled,
-        ..params(10.0, RADIUS)
-    };
-    let (mut solver, mut state) = Solver::new(&strands, &params).unwrap();
-    let surroundings = Surroundings {
-        gravity: DVec3::new(-3.0, -9.0, 0.0),
-        ..Surroundings::default()
-    };
+    let (mut solver, mut state, surroundings) = leaning(3);
     let (mut fastest, mut sum, mut count) = (0.0_f64, 0.0, 0);
     for step in 0..30 * 60 {
         let stats = solver.step(&mut state, &surroundings, 1.0 / 60.0).unwrap();

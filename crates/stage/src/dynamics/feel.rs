@@ -17,6 +17,7 @@ pub(crate) struct ZoneDynamics {
     pub drag: Variation,
     pub hold: Variation,
     pub wind: Variation,
+    pub locks: f32,
 }
 
 impl Default for ZoneDynamics {
@@ -29,6 +30,7 @@ impl Default for ZoneDynamics {
             drag: same(),
             hold: same(),
             wind: same(),
+            locks: 1.0,
         }
     }
 }
@@ -185,6 +187,7 @@ impl Feel {
             .times(zone(|zone| &zone.wind), own("zones.wind"));
         let damping = f64::from(section.damping.unwrap_or(1.0))
             * strand.zone.map_or(1.0, |zone| f64::from(zone.damping));
+        let locks = strand.zone.map_or(1.0, |zone| f64::from(zone.locks));
         let feel = strand.zone.and_then(|zone| zone.feel);
         let word = feel.unwrap_or(section.feel).word();
         let [root, middle, tip] = self.hold.unwrap_or(word.hold);
@@ -198,7 +201,7 @@ impl Feel {
             wind: wind.all_along(Profile::constant(1.0)),
             goal: hold.all_along(Profile { root, middle, tip }),
             thickness: (self.distance * f64::from(strand.size)).clamp(1e-4, 0.1),
-            lock_radius: (self.lock_radius * f64::from(strand.size)).min(0.1),
+            lock_radius: (self.lock_radius * f64::from(strand.size) * locks).min(0.1),
             ..self.params
         }
     }

@@ -165,6 +165,8 @@ section! {
         hold: Variation = varying(1.0, 0.0..=100.0),
         /// Factor on the share of the wind that reaches it.
         wind: Variation = varying(1.0, 0.0..=10.0),
+        /// Factor on how far its clumps keep from others; 0: they pass through them, as others do through them, which costs less.
+        locks: f32 = number(1.0, 0.0..=2.0),
     }
 }
 
@@ -211,6 +213,7 @@ pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> ReadZone {
         drag: fields.drag.clone(),
         hold: fields.hold.clone(),
         wind: fields.wind.clone(),
+        locks: fields.locks,
     };
     let or_none = |color: Option<[f32; 3]>| color.map_or(NO_COLOR, Vec3::from);
     ReadZone {
