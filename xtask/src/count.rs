@@ -248,7 +248,7 @@ fn print(counted: &Table, stored: &Table) {
 
 fn to_toml(table: &Table) -> String {
     let mut text = String::from(
-        "# Instructions of a frame of the yardsticks, by stages: made by `cargo xtask bench count --bless`, held to within\n\
+        "# Instructions of a frame of the yardsticks and of two looks that paint, by stages: made by `cargo xtask bench count --bless`, held to within\n\
          # 3 % by `cargo xtask test counts`.\n",
     );
     for (name, counts) in table {
