@@ -1,7 +1,7 @@
 //! Counts the instructions of a frame, stage by stage: `cargo xtask bench count`.
 //!
 //! Times lie where other programs run beside; instructions don't. valgrind's callgrind counts those of the program as
-//! the tests build it, with one thread on the CPU, for a frame of each yardstick as it moves: the second one, when
+//! the tests build it, with one thread on the CPU, for a frame of each of some presets as it moves: the second one, when
 //! everything has been loaded and has its memory. `tests/yardsticks/counts.toml` holds the counts that later ones are
 //! held to. With `--release` it is the program that users run, and the frame is held to its targets.
 //!
@@ -15,8 +15,15 @@ use std::process::Command;
 use crate::program::{self, Inkstrand};
 use crate::{Outcome, setup, work};
 
-/// The yardsticks that are counted, first what takes longest: so cores are done at about one time.
-const YARDSTICKS: [&str; 3] = ["blond-fantasy", "short-ash", "twin-tails"];
+/// The presets that are counted, first what takes longest: so cores are done at about one time. Of those that paint their samples, or draw
+/// lines of the whole picture, there is no yardstick.
+const PRESETS: [(&str, &str); 5] = [
+    ("ink-sobel", "presets"),
+    ("toon-blinn", "presets"),
+    ("blond-fantasy", "tests/yardsticks"),
+    ("short-ash", "tests/yardsticks"),
+    ("twin-tails", "tests/yardsticks"),
+];
 
 /// What else `inkstrand render` gets.
 const ARGS: [&str; 7] = [
@@ -119,12 +126,12 @@ pub fn run_release(check: bool) -> Outcome {
     }
 }
 
-/// Counts the frames of all yardsticks.
+/// Counts the frames of all presets.
 fn count_all(program: &Inkstrand) -> Result<Table, String> {
-    let counted = work::on_all_cores(&YARDSTICKS, "yardsticks", |name| {
-        count(program, name).map_err(|error| format!("{name}: {error}"))
+    let counted = work::on_all_cores(&PRESETS, "presets", |(name, folder)| {
+        count(program, name, folder).map_err(|error| format!("{name}: {error}"))
     });
-    let names = YARDSTICKS.iter().map(|name| (*name).to_owned());
+    let names = PRESETS.iter().map(|(name, _)| (*name).to_owned());
     let counted = names.zip(counted);
     counted.map(|(name, counts)| Ok((name, counts?))).collect()
 }
@@ -144,8 +151,8 @@ fn has_avx2() -> bool {
     return false;
 }
 
-/// Counts a frame of a yardstick.
-fn count(program: &Inkstrand, name: &str) -> Outcome<Counts> {
+/// Counts a frame of a preset in that folder of the project.
+fn count(program: &Inkstrand, name: &str, presets: &str) -> Outcome<Counts> {
     let folder = tempfile::tempdir()?;
     let profile = folder.path().join("profile");
     let mut command = Command::new("valgrind");
@@ -155,7 +162,7 @@ fn count(program: &Inkstrand, name: &str) -> Outcome<Counts> {
         .arg(format!("--dump-before={}", STAGES[0].1))
         .arg(format!("--callgrind-out-file={}", profile.display()))
         .arg(program.path())
-        .args(["render", &format!("tests/yardsticks/{name}.ron")])
+        .args(["render", &format!("{presets}/{name}.ron")])
         .args(ARGS)
         .arg("-o")
         .arg(folder.path().join("frame_#.png"))

@@ -11,6 +11,7 @@ const TABLE: &[Row] = &[
     Row(0, "portable-math", Only(&[]), &[]),
     Row(0, "stroke-path", Only(&["portable-math"]), &[]),
     Row(0, "mesh-io", Only(&["portable-math"]), &[]),
+    Row(0, "mesh-lines", Only(&[]), &[]),
     Row(0, BUILD_TOOL, Only(&[]), &[]),
     Row(1, "hair-io", Only(&["hair-sim", "mesh-io"]), &[]),
     Row(1, "groom", Only(&["hair-sim", "portable-math"]), &[]),

@@ -2,6 +2,7 @@
 //! implementation of `effects::Program` over it.
 
 use crate::check::{self, Paints};
+use crate::choices;
 use crate::compose::{Entry, PRELUDE, Source};
 use crate::error::BuildError;
 use crate::inputs::Input;
@@ -60,9 +61,9 @@ pub(crate) fn effect(
         }
     }
     let own = quote! { #(#items)* };
-    let choices = choices(params);
+    let choices = named_choices(params);
     let program = match entry {
-        Entry::Effect => effect_program(source, params, paints),
+        Entry::Effect => effect_program(&module, source, params, paints),
         Entry::Clump => clump_program(source, params),
     };
     let file: syn::File = syn::parse2(quote! {
@@ -85,10 +86,15 @@ pub(crate) fn effect(
     Ok(prettyplease::unparse(&file))
 }
 
-fn effect_program(source: &Source, params: &[Param], paints: Paints) -> TokenStream {
+fn effect_program(
+    module: &Module,
+    source: &Source,
+    params: &[Param],
+    paints: Paints,
+) -> TokenStream {
     let common = program_items(source, params);
     let gather = gather(&source.inputs, &format_ident!("joints"));
-    let painting = painting(source, paints);
+    let painting = painting(module, source, params, paints);
     quote! {
         /// The effect's WGSL, and the same in Rust.
         #[derive(Clone, Copy, Debug)]
@@ -114,7 +120,7 @@ fn effect_program(source: &Source, params: &[Param], paints: Paints) -> TokenStr
 }
 
 /// What an effect that paints has beside its strokes.
-fn painting(source: &Source, paints: Paints) -> TokenStream {
+fn painting(module: &Module, source: &Source, params: &[Param], paints: Paints) -> TokenStream {
     let (Some(inputs), true) = (&source.sample_inputs, paints != Paints::No) else {
         return TokenStream::new();
     };
@@ -134,6 +140,8 @@ fn painting(source: &Source, paints: Paints) -> TokenStream {
         let _ = (samples, index, seed);
         let at = translated::Sample { #(#fields),* };
     };
+    let for_place = knowing("place", choices::of(module, "entry_place", params));
+    let for_paint = knowing("paint", choices::of(module, "entry_paint", params));
     let (place, texel) = match paints {
         Paints::WithTexture => {
             let place = quote! {
@@ -156,6 +164,8 @@ fn painting(source: &Source, paints: Paints) -> TokenStream {
     quote! {
         const PAINTS: ::core::option::Option<&'static [::effects::SampleInput]> = Some(&[#(#variants),*]);
         #place
+        #for_place
+        #for_paint
         #[inline(always)]
         fn paint(
             samples: &::effects::SampleBlock,
@@ -167,6 +177,24 @@ fn painting(source: &Source, paints: Paints) -> TokenStream {
             let _ = texel;
             #sample
             translated::entry_paint(at, #texel *params)
+        }
+    }
+}
+
+/// `knowing_place` or `knowing_paint`, where the function switches on a choice.
+fn knowing(function: &str, choice: Option<(&str, u32)>) -> TokenStream {
+    let Some((name, count)) = choice else {
+        return TokenStream::new();
+    };
+    let (function, field) = (format_ident!("knowing_{function}"), format_ident!("{name}"));
+    let known = (0..count).map(|choice| match choice + 1 == count {
+        true => quote!(_ => work(&Params { #field: #choice, ..*params })),
+        false => quote!(#choice => work(&Params { #field: #choice, ..*params })),
+    });
+    quote! {
+        #[inline(always)]
+        fn #function(params: &Params, mut work: impl FnMut(&Params)) {
+            match params.#field { #(#known),* }
         }
     }
 }
@@ -306,7 +334,7 @@ fn table_row(param: &Param) -> TokenStream {
 }
 
 /// `Params::KIND_RING` for the choice `ring` of the parameter `kind`, so that nobody compares with a number.
-fn choices(params: &[Param]) -> TokenStream {
+fn named_choices(params: &[Param]) -> TokenStream {
     let constants = params.iter().flat_map(|param| {
         let names = match &param.kind {
             Kind::Choice { names, .. } => &names[..],

@@ -35,6 +35,7 @@
 #![allow(clippy::print_stdout, reason = "cargo reads what build scripts print")]
 
 mod check;
+mod choices;
 mod compose;
 mod error;
 mod generate;

@@ -432,11 +432,17 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
             widest(
                 #[inline(always)]
                 || {
-                    for i in 0..BLOCK {
-                        if let Some(lookup) = E::Program::place(samples, i, seed, params) {
-                            lookups.set(i, &lookup);
-                        }
-                    }
+                    E::Program::knowing_place(
+                        params,
+                        #[inline(always)]
+                        |params| {
+                            for i in 0..BLOCK {
+                                if let Some(lookup) = E::Program::place(samples, i, seed, params) {
+                                    lookups.set(i, &lookup);
+                                }
+                            }
+                        },
+                    );
                 },
             );
             lookups.look_up(&self.textures, &mut texels);
@@ -444,9 +450,16 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         widest(
             #[inline(always)]
             || {
-                for i in 0..BLOCK {
-                    colors.set(i, E::Program::paint(samples, i, seed, texels.at(i), params));
-                }
+                E::Program::knowing_paint(
+                    params,
+                    #[inline(always)]
+                    |params| {
+                        for i in 0..BLOCK {
+                            let color = E::Program::paint(samples, i, seed, texels.at(i), params);
+                            colors.set(i, color);
+                        }
+                    },
+                );
             },
         );
     }

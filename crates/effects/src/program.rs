@@ -49,6 +49,18 @@ pub trait Program: Parameters {
         None
     }
 
+    /// Calls `work` with the parameters. Where [`Self::place`] switches on a choice, `work` is compiled once for each, which it then knows.
+    #[inline(always)]
+    fn knowing_place(params: &Self::Params, mut work: impl FnMut(&Self::Params)) {
+        work(params);
+    }
+
+    /// The same for [`Self::paint`].
+    #[inline(always)]
+    fn knowing_paint(params: &Self::Params, mut work: impl FnMut(&Self::Params)) {
+        work(params);
+    }
+
     /// Whether there is a [`Self::place`].
     const PLACES: bool = false;
 

@@ -250,11 +250,7 @@ impl Solver {
             .map(|group| {
                 let count = group.iter().map(Batch::count).max().unwrap_or(0);
                 let planes = group.iter().map(|batch| batch.planes).max().unwrap_or(0);
-                let mut scratch = Scratch::new(count, planes);
-                if let Some(locks) = &locks {
-                    scratch.finds = locks.finds(count);
-                }
-                scratch
+                Scratch::new(count, planes)
             })
             .collect();
         solver.locks = locks.map(|locks| (locks, Islands::one(solver.batches.len())));
@@ -368,7 +364,12 @@ impl Solver {
             );
         }
         if let Some((locks, _)) = &mut self.locks {
-            locks.follow(&self.batches, &state.batches, surroundings, dt);
+            let (batches, states) = (&self.batches, &state.batches);
+            match instructions {
+                Instructions::Compiled => locks.find::<Lane>(batches, states, surroundings, dt),
+                #[cfg(target_arch = "x86_64")]
+                Instructions::Avx2 => locks.find::<Avx2>(batches, states, surroundings, dt),
+            }
         }
         let interaction = self.interaction.as_ref();
         let locks = self.locks.as_ref().map(|(locks, _)| locks);

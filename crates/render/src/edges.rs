@@ -105,13 +105,12 @@ impl Edges {
         let [width, height] = planes.size().map(|side| side as usize);
         let words = width.div_ceil(64);
         let mut lines = vec![vec![0; words]; height];
-        let mut differ = vec![0; width];
+        let mut differ = Differences::new(width);
         let mut found = Vec::new();
         let mut classes: Vec<(usize, Bits)> = Vec::new();
         let mut grown = vec![0; words];
         let widest = self.widest();
         for y in 0..height {
-            differ.fill(0);
             self.find(planes, picture, y, &mut differ, &mut found);
             classes.clear();
             let objects = planes.ids(picture, Feature::Object, y);
@@ -165,13 +164,13 @@ impl Edges {
         widths.fold(0.0, f32::max)
     }
 
-    /// Finds the columns of a row where a line begins. `differ` is 0 in each.
+    /// Finds the columns of a row where a line begins; rows are asked for one after the other.
     fn find(
         &self,
         planes: &SamplePlanes,
         picture: usize,
         y: usize,
-        differ: &mut [u32],
+        differ: &mut Differences,
         found: &mut Vec<usize>,
     ) {
         found.clear();
@@ -179,7 +178,7 @@ impl Edges {
             EdgeChannel::Level => find_ids(planes, picture, Feature::Level, y, differ, found),
             EdgeChannel::Strand => find_ids(planes, picture, Feature::Strand, y, differ, found),
             EdgeChannel::Object => find_ids(planes, picture, Feature::Object, y, differ, found),
-            EdgeChannel::Depth => self.find_steps(planes, picture, y, differ, found),
+            EdgeChannel::Depth => self.find_steps(planes, picture, y, &mut differ.all, found),
             EdgeChannel::Normal => self.find_sobel(planes, picture, Feature::Normal, y, found),
             EdgeChannel::Color => self.find_sobel(planes, picture, Feature::Color, y, found),
         }
@@ -195,6 +194,7 @@ impl Edges {
     ) {
         let row = |y: usize| planes.numbers(picture, Feature::InvDepth, 0, y);
         let own = row(y);
+        differ.fill(0);
         for y in around(y, planes) {
             let other = row(y);
             for step in [-1, 0, 1] {
@@ -278,19 +278,93 @@ fn nonzero(differ: &[u32]) -> impl Iterator<Item = usize> {
     })
 }
 
+/// Where ids of a picture differ, as rows of numbers that are 0 where they don't. Of nine pixels all are alike where no two beside each
+/// other differ in one of the three rows, nor those of the middle column.
+struct Differences {
+    /// From a pixel to the next one of its row: of the row before, of this row and of the one behind it.
+    across: [Vec<u32>; 3],
+    /// From a pixel to the one below it: of the row before, and of this row.
+    down: [Vec<u32>; 2],
+    /// In the nine pixels around one.
+    all: Vec<u32>,
+}
+
+impl Differences {
+    fn new(width: usize) -> Self {
+        Self {
+            across: [0; 3].map(|_| vec![0; width]),
+            down: [0; 2].map(|_| vec![0; width]),
+            all: vec![0; width],
+        }
+    }
+
+    /// Works out [`Self::all`] of row `y`, after that of the row before.
+    fn advance(&mut self, planes: &SamplePlanes, picture: usize, feature: Feature, y: usize) {
+        let height = planes.size()[1] as usize;
+        let rows = |y: usize| [feature, Feature::Object].map(|id| planes.ids(picture, id, y));
+        let width = self.all.len();
+        self.across.rotate_left(1);
+        self.down.rotate_left(1);
+        if y == 0 {
+            self.across[0].fill(0);
+            self.down[0].fill(0);
+            fill_differences(
+                &mut self.across[1][..width - 1],
+                rows(0),
+                rows(0).map(|row| &row[1..]),
+            );
+        }
+        match y + 1 < height {
+            true => {
+                let (own, below) = (rows(y), rows(y + 1));
+                let next = below.map(|row| &row[1..]);
+                fill_differences(&mut self.across[2][..width - 1], below, next);
+                fill_differences(&mut self.down[1], own, below);
+            }
+            false => {
+                self.across[2].fill(0);
+                self.down[1].fill(0);
+            }
+        }
+        // Of one length, so that no place is checked.
+        let all = &mut self.all[..width];
+        let [a, b, c] = self.across.each_ref().map(|row| &row[..width]);
+        let [d, e] = self.down.each_ref().map(|row| &row[..width]);
+        for x in 0..width {
+            all[x] = a[x] | b[x] | c[x] | d[x] | e[x];
+        }
+        for x in 1..width {
+            all[x] |= a[x - 1] | b[x - 1] | c[x - 1];
+        }
+    }
+}
+
+/// Where one of two rows of ids differs from another.
+fn fill_differences(differ: &mut [u32], [a, b]: [&[u32]; 2], [c, d]: [&[u32]; 2]) {
+    let pairs = a.iter().zip(c).zip(b.iter().zip(d));
+    for (differ, ((a, c), (b, d))) in differ.iter_mut().zip(pairs) {
+        *differ = (a ^ c) | (b ^ d);
+    }
+}
+
 /// Finds pixels beside others of another id that aren't in front of them. What is equally near belongs to the greater id.
 fn find_ids(
     planes: &SamplePlanes,
     picture: usize,
     feature: Feature,
     y: usize,
-    differ: &mut [u32],
+    differ: &mut Differences,
     found: &mut Vec<usize>,
 ) {
     struct Row<'a> {
         ids: &'a [u32],
         objects: &'a [u32],
         depths: &'a [f32],
+    }
+    differ.advance(planes, picture, feature, y);
+    let mut candidates = nonzero(&differ.all).peekable();
+    if candidates.peek().is_none() {
+        return;
     }
     let rows = around(y, planes).map(|y| Row {
         ids: planes.ids(picture, feature, y),
@@ -299,16 +373,10 @@ fn find_ids(
     });
     let rows: Vec<Row> = rows.collect();
     let own = &rows[y - around(y, planes).start];
-    for other in &rows {
-        for step in [-1, 0, 1] {
-            for_pairs(differ, own.ids, other.ids, step, |a, b| a ^ b);
-            for_pairs(differ, own.objects, other.objects, step, |a, b| a ^ b);
-        }
-    }
     let has_hair_alone = feature != Feature::Object;
     let is_hair = |object: u32| object % 2 == 1;
-    let width = differ.len();
-    found.extend(nonzero(differ).filter(|&x| {
+    let width = differ.all.len();
+    found.extend(candidates.filter(|&x| {
         let key = |row: &Row, x: usize| (row.objects[x], row.ids[x]);
         let (own_key, own_depth) = (key(own, x), own.depths[x]);
         let columns = x.saturating_sub(1)..(x + 2).min(width);

@@ -229,30 +229,36 @@ impl SamplePlanes {
     /// With the last ones the sums become means.
     pub(crate) fn add_to(&self, pixels: &mut [[f32; 4]], samples: usize) {
         let width = self.size[0] as usize;
-        let is_last = self.samples().end == samples;
+        // Colour by colour, and then pixel by pixel: these loops are vector instructions.
+        let share = match self.samples().end == samples {
+            true => samples as f32,
+            false => 1.0,
+        };
         let rows = pixels.par_chunks_mut(width).enumerate();
-        rows.for_each(|(y, pixels)| {
-            if self.first == 0 {
-                pixels.fill([0.0; 4]);
-            }
-            for picture in 0..self.count {
-                let row = |component| &self.numbers(picture, Feature::Color, component, y)[..width];
-                let (red, green, blue, alpha) = (row(0), row(1), row(2), row(3));
-                for (x, pixel) in pixels.iter_mut().enumerate() {
-                    pixel[0] += red[x];
-                    pixel[1] += green[x];
-                    pixel[2] += blue[x];
-                    pixel[3] += alpha[x];
+        rows.for_each_init(
+            || vec![0.0; 4 * width],
+            |sums, (y, pixels)| {
+                for (component, sums) in sums.chunks_exact_mut(width).enumerate() {
+                    match self.first {
+                        0 => sums.fill(0.0),
+                        _ => {
+                            let before = pixels.iter().map(|pixel| pixel[component]);
+                            sums.iter_mut().zip(before).for_each(|(sum, it)| *sum = it);
+                        }
+                    }
+                    for picture in 0..self.count {
+                        let row = self.numbers(picture, Feature::Color, component, y);
+                        sums.iter_mut().zip(row).for_each(|(sum, it)| *sum += it);
+                    }
                 }
-            }
-            if is_last {
-                let count = samples as f32;
-                pixels
-                    .as_flattened_mut()
-                    .iter_mut()
-                    .for_each(|sum| *sum /= count);
-            }
-        });
+                let [red, green, blue, alpha] = [0, 1, 2, 3].map(|i| &sums[i * width..][..width]);
+                let pixels = &mut pixels[..width];
+                for x in 0..width {
+                    let sums = [red[x], green[x], blue[x], alpha[x]];
+                    pixels[x] = sums.map(|sum| sum / share);
+                }
+            },
+        );
     }
 
     /// Width and height, pixels.

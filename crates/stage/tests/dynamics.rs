@@ -276,6 +276,8 @@ fn what_a_solver_cannot_do_is_refused_at_its_place() {
         volume.contains("volume: solver: mass_spring has none"),
         "{volume}"
     );
+    let locks = error("solver: xpbd, locks: 1");
+    assert!(locks.contains("locks: solver: xpbd has none"), "{locks}");
     assert!(error("solver: mass_sprong").contains("mass_spring"));
     assert!(error("solver: rods, substeps: 4").contains("substeps: solver: rods"));
     for good in [
@@ -531,5 +533,65 @@ fn hair_that_has_come_to_rest_sleeps() {
         });
         println!("{look}: asleep after {asleep:?} s");
         assert!(asleep.is_some_and(|second| second < 30), "{look}");
+    }
+}
+
+/// Locks of looks that keep out of each other when a head turns fast, at 60 frames a second: it moves them, and costs few iterations more.
+#[test]
+fn locks_keep_out_of_each_other_in_looks() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let turn = file("turn.motion.ron", TURN);
+    let ponytail = file(
+        "ponytail.style.ron",
+        r#"(version: 1, zones: [
+            (name: "cap", roots: whorl, tips: hairline(-180, 180), count: 30, hang: 0.05, lift: 0.03),
+            (name: "tail", form: tail, roots: [(180, 40)], hang: 1.6, count: 20, tie: 0.07),
+        ])"#,
+    );
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1);
+    let one = one.build().unwrap();
+    let looks = [
+        ("twin-tails", None),
+        ("short-ash", None),
+        ("outlined", Some(&ponytail)),
+    ];
+    for (look, hair) in looks {
+        let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
+        let [free, kept] = ["0", "1"].map(|locks| {
+            let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+            preset.set("scene.fps", "60").unwrap();
+            preset.set("dynamics.locks", locks).unwrap();
+            let files = Files {
+                preset_folder: presets(),
+                hair: hair.cloned(),
+                motion: Some(turn.clone()),
+                ..Files::default()
+            };
+            let mut stage = Stage::new(&preset, &files).unwrap();
+            let (mut iterations, mut meetings) = (0, 0);
+            for frame in 1..=60 {
+                one.install(|| stage.advance_to(frame as f32 / 60.0))
+                    .unwrap();
+                let stats = stage.simulated();
+                assert_eq!(stats.set_aside, 0, "{look}");
+                iterations += stats.iterations;
+                meetings += stats.meetings;
+            }
+            (iterations, meetings, means(&mut stage, 1.0))
+        });
+        let ratio = kept.0 as f64 / free.0 as f64;
+        println!(
+            "{look}: {} particles meet other locks, {ratio:.2} times the iterations",
+            kept.1
+        );
+        assert!(free.1 == 0 && kept.1 > 0 && free.2 != kept.2, "{look}");
+        assert!(ratio < 1.4, "{look}: {ratio}");
     }
 }

@@ -110,10 +110,21 @@ impl Ramp {
     #[inline(always)] // compiled for its caller's instructions
     pub(crate) fn of_block(&self, x: &[f32; BLOCK], y: &[f32; BLOCK], colors: &mut Vectors) {
         let (x, y) = (finite(x), finite(y));
-        let mut before = &self.rows[0];
+        // Rows that none of them reaches are left out.
+        let (mut lowest, mut highest) = (y[0], y[0]);
+        for y in y {
+            lowest = if y < lowest { y } else { lowest };
+            highest = if y > highest { y } else { highest };
+        }
+        let first = self.rows.partition_point(|row| row.v <= lowest);
+        let rows = &self.rows[first.saturating_sub(1)..];
+        let mut before = &rows[0];
         before.of_block(&x, colors);
         let (mut from, mut to) = (colors.clone(), Vectors::NOTHING);
-        for row in &self.rows[1..] {
+        for row in &rows[1..] {
+            if before.v > highest {
+                break;
+            }
             row.of_block(&x, &mut to);
             let width = row.v - before.v;
             for i in 0..BLOCK {

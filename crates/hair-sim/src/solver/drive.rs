@@ -215,12 +215,8 @@ pub(crate) fn prepare<T: Number>(
         );
     }
     if let Some((index, locks)) = drive.locks {
-        let (finds, planes) = (
-            &mut scratch.finds,
-            (&mut loads.contacts[..], &mut loads.touched),
-        );
-        let here = (index, batch, &*state);
-        stats.meetings = locks.part(here, (root.root, drive.dt), active, finds, planes);
+        let planes = (&mut loads.contacts[..], &mut loads.touched);
+        stats.meetings = locks.part((index, batch, &*state), root.root, active, planes);
     }
     active
 }

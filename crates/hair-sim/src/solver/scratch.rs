@@ -2,7 +2,7 @@
 
 use crate::lanes::Vec3;
 
-use super::{chain::Chain, load::Loads, locks::Finds, rods};
+use super::{chain::Chain, load::Loads, rods};
 
 /// Lists that a step works with; their content decides nothing.
 #[derive(Clone, Debug)]
@@ -15,8 +15,6 @@ pub(crate) struct Scratch {
     /// The turn of every joint at the start of the step.
     pub turn_start: Vec<Vec3>,
     pub work: Work,
-    /// What finds other strands; nothing where they don't meet.
-    pub finds: Finds,
 }
 
 /// What a stage works with.
@@ -41,7 +39,6 @@ impl Scratch {
                 past: vec![Vec3::ZERO; count],
                 newton: rods::Scratch::new(count),
             },
-            finds: Finds::default(),
         }
     }
 }

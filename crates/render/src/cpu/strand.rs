@@ -197,20 +197,31 @@ impl StrandMasks {
             };
             offer.make(&inside, &mut self.row, target, &mut shown);
         }
+        let mut told_of_clump = NO_SAMPLES;
         for stroke in strokes {
             let placed = &self.placed[stroke.segments.clone()];
             let samples = both(&stroke.samples, &shown);
-            shade(placed, &samples, &mut self.row, target);
-            if TELLS {
-                tell(placed, &samples, &mut self.row, |cell, places, lanes| {
-                    told.put_stroke(cell, places, lanes);
-                });
+            if !TELLS {
+                shade(placed, &samples, &mut self.row, target);
+                continue;
+            }
+            let segments_of_clump = clump.as_ref().map(|clump| &clump.segments);
+            let is_clump = segments_of_clump == Some(&stroke.segments);
+            tell::<true>(placed, &samples, &mut self.row, |cell, places, lanes| {
+                paint(target, cell, &places.color, lanes);
+                told.put_stroke(cell, places, lanes);
+                if is_clump {
+                    told.put_clump(cell, places, lanes);
+                }
+            });
+            if is_clump {
+                add(&mut told_of_clump, &samples);
             }
         }
         if TELLS && let Some(clump) = clump {
             let placed = &self.placed[clump.segments.clone()];
-            let samples = both(&clump_samples, &shown);
-            tell(placed, &samples, &mut self.row, |cell, places, lanes| {
+            let samples = without(&both(&clump_samples, &shown), &told_of_clump);
+            tell::<false>(placed, &samples, &mut self.row, |cell, places, lanes| {
                 told.put_clump(cell, places, lanes);
             });
         }
@@ -234,13 +245,15 @@ impl StrandMasks {
             };
             let mut shown = NO_SAMPLES;
             offer.make(&stroke.samples, &mut self.row, target, &mut shown);
-            shade(placed, &shown, &mut self.row, target);
-            if TELLS {
-                tell(placed, &shown, &mut self.row, |cell, places, lanes| {
-                    told.put_stroke(cell, places, lanes);
-                    told.put_clump(cell, places, lanes);
-                });
+            if !TELLS {
+                shade(placed, &shown, &mut self.row, target);
+                continue;
             }
+            tell::<true>(placed, &shown, &mut self.row, |cell, places, lanes| {
+                paint(target, cell, &places.color, lanes);
+                told.put_stroke(cell, places, lanes);
+                told.put_clump(cell, places, lanes);
+            });
         }
     }
 }
@@ -369,9 +382,10 @@ fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Tar
     }
 }
 
-/// Finds the axis points of the samples, which the segments cover, and gives them cell by cell.
+/// Finds the axis points of the samples, which the segments cover, and gives them cell by cell. Where they are `COLORED`, with the colours
+/// there.
 #[inline(always)]
-fn tell(
+fn tell<const COLORED: bool>(
     placed: &[Placed],
     samples: &Mask,
     segments: &mut Row,
@@ -387,7 +401,7 @@ fn tell(
             let mut places = Places::new();
             for &(place, reached) in &segments.0 {
                 if reached & cell.columns() != 0 {
-                    placed[place].find_place(cell, &mut places);
+                    placed[place].find_place::<COLORED>(cell, &mut places);
                 }
             }
             give(cell.index, &places, &cell.lanes(samples));

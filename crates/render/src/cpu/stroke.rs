@@ -126,19 +126,22 @@ impl Placed {
 
 impl Placed {
     /// Where on its axis, and where across it, the samples of a cell lie that the segment covers, where its ratio is the least so far:
-    /// of the same axis points as [`Self::shade`] takes colours from.
+    /// of the same axis points as [`Self::shade`] takes colours from, which are found as well where they are `COLORED`.
     #[inline(always)]
-    pub(super) fn find_place(&self, cell: Cell, places: &mut Places) {
+    pub(super) fn find_place<const COLORED: bool>(&self, cell: Cell, places: &mut Places) {
         let covered = cell.lanes(&self.covered);
         let (x, y) = (self.x.of(cell), self.y.of(cell));
         // Seen from root to tip, whichever end is larger.
         let Shape { sweep, way, .. } = &self.shape;
         let side = select((way.rise < 0.0) & sweep.has_direction(), -1.0, 1.0);
         let mut index = places.index;
+        let (mut u, mut wins) = ([0.0; LANES], covered);
         for k in 0..LANES {
             let (at, ratio) = sweep.attribute_point(x[k], y[k]);
             let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
             let is_less = (covered[k] != 0) & (ratio < places.ratio[k]);
+            u[k] = at;
+            wins[k] = select(is_less, u32::MAX, 0);
             index[k] = select(is_less, self.index, index[k]);
             places.ratio[k] = select(is_less, ratio, places.ratio[k]);
             places.way[k] = select(is_less, way.at(at), places.way[k]);
@@ -147,6 +150,15 @@ impl Placed {
             places.side_ratio[k] = select(is_nearer, ratio, places.side_ratio[k]);
         }
         places.index = index;
+        if COLORED {
+            for (color, ramp) in places.color.iter_mut().zip(&self.shape.color) {
+                let mut new = [0.0; LANES];
+                for k in 0..LANES {
+                    new[k] = ramp.at(u[k]);
+                }
+                overwrite(color, &new, &wins);
+            }
+        }
     }
 }
 
@@ -156,6 +168,8 @@ pub(super) struct Places {
     pub(super) index: [u32; LANES],
     /// The way from the segment's first joint to the next.
     pub(super) way: Lanes,
+    /// The stroke's colours there, where they are asked for.
+    pub(super) color: [Lanes; 3],
     /// The square of distance over radius; infinite where no segment covers the sample.
     ratio: Lanes,
     /// 1 to the right of who walks from root to tip, else -1; and the ratio of the segment that says so.
@@ -173,6 +187,7 @@ impl Places {
         Self {
             index: [0; LANES],
             way: [0.0; LANES],
+            color: [[0.0; LANES]; 3],
             ratio: [f32::INFINITY; LANES],
             side: [1.0; LANES],
             side_ratio: [f32::INFINITY; LANES],

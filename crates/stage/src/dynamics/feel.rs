@@ -123,6 +123,8 @@ pub(crate) struct Feel {
     hold: Option<[f64; 3]>,
     /// The distance from the skin in metres, for a size of 1.
     distance: f64,
+    /// The radius in metres by which locks keep apart, for a size of 1.
+    lock_radius: f64,
     seed: u32,
 }
 
@@ -162,6 +164,7 @@ impl Feel {
             },
             hold,
             distance: f64::from(section.distance) * f64::from(head.unit_m()),
+            lock_radius: f64::from(section.locks) * f64::from(head.unit_m()),
             section: section.clone(),
             seed,
         }
@@ -195,6 +198,7 @@ impl Feel {
             wind: wind.all_along(Profile::constant(1.0)),
             goal: hold.all_along(Profile { root, middle, tip }),
             thickness: (self.distance * f64::from(strand.size)).clamp(1e-4, 0.1),
+            lock_radius: (self.lock_radius * f64::from(strand.size)).min(0.1),
             ..self.params
         }
     }

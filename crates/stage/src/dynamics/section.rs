@@ -70,6 +70,9 @@ section! {
         links: Option<f32> = number(1.0, 0.0..=100.0).optional(),
         /// Factor on how clumps keep each other at a distance; 0: they pass through each other.
         volume: Option<f32> = number(1.0, 0.0..=100.0).optional(),
+        /// How far the middle lines of clumps that are apart at rest stay from each other, in their radii, so that they don't pass through each
+        /// other, but no farther than half as far as at rest; 0: they pass. It takes the simulation twice its time and more.
+        locks: f32 = number(0.0, 0.0..=2.0),
         /// Factor on gravity.
         gravity: f32 = number(1.0, -10.0..=10.0),
         /// Friction on head and shoulders.
@@ -134,6 +137,7 @@ impl DynamicsSection {
                     ("damping", self.damping),
                     ("links", self.links),
                     ("volume", self.volume),
+                    ("locks", Some(self.locks)),
                 ];
                 let is_asked = |factor: Option<f32>| factor.is_some_and(|factor| factor > 0.0);
                 let (name, _) = asked.into_iter().find(|(_, factor)| is_asked(*factor))?;
