@@ -19,7 +19,7 @@
 //! let groups = vec![Some(0); triangles.len()];
 //! let hair = MeshHair { positions: &positions, triangles: &triangles, groups: &groups, depths: &[] };
 //!
-//! let found = locks(&hair, Vec3::new(0.0, 1.6, 0.0), 0.015);
+//! let found = locks(&hair, Vec3::new(0.0, 1.65, 0.0), 0.015);
 //! let strands = found.locks[0].strands(0.02);
 //! assert_eq!(strands.len(), 1);
 //! assert!(strands[0].points[0].distance(Vec3::new(0.0, 1.7, 0.1)) < 1e-3);

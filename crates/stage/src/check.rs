@@ -76,8 +76,7 @@ impl<'r> Preset<'r> {
             let shapes = parsed.shapes.into_iter().filter_map(|key| key.file);
             paths.extend(shapes.map(|name| script.with_file_name(name)));
         }
-        if let Some(character) = &self.sections.motion.gltf {
-            let character = files.preset_folder.join(character);
+        if let Some(character) = self.character_path(files) {
             paths.extend(BoneMotion::files(&character).into_iter().flatten());
         }
         for layer in &self.layers {
@@ -92,6 +91,16 @@ impl<'r> Preset<'r> {
         }));
         paths.extend(self.files_of_objects(files));
         paths
+    }
+
+    /// The character whose animation moves the head.
+    pub(crate) fn character_path(&self, files: &Files) -> Option<PathBuf> {
+        let section = &self.sections.motion;
+        if section.character {
+            let own = self.sections.head.file.as_ref();
+            return load::chosen(files.head.as_ref(), own, &files.preset_folder);
+        }
+        Some(files.preset_folder.join(section.gltf.as_ref()?))
     }
 
     fn script_path(&self, files: &Files) -> Option<PathBuf> {

@@ -112,7 +112,8 @@ impl Skeleton {
         };
         let body = |own: &mesh_io::SpringCollider| {
             let to_ours = self.to_ours[0] * self.rest[own.node][0];
-            let size = to_ours.matrix3.determinant().abs().cbrt();
+            let axes = to_ours.matrix3;
+            let size = (axes.x_axis.length() + axes.y_axis.length() + axes.z_axis.length()) / 3.0;
             Body {
                 node: own.node,
                 ends: own.ends.map(|end| to_ours.transform_point3(end)),

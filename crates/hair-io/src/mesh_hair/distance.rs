@@ -9,8 +9,8 @@ use std::collections::{BinaryHeap, HashMap, HashSet};
 
 /// How far along a line a place may come to lie from where it was before, as a share of the line: a curl's next turn is farther.
 const WINDOW: f64 = 0.12;
-/// How far levels of distances from a corner of a ribbon's end are off at its other corner, in radii of a tube with its outline.
-const SLANT: f64 = 3.2;
+/// How far levels of distances from a corner of a ribbon's end are off at its other corner, in half widths, and a little more.
+const SLANT: f64 = 2.2;
 
 /// An island whose corners at one place are one.
 pub(super) struct Surface {

@@ -2,7 +2,6 @@
 
 use super::distance::{Surface, range};
 use glam::DVec3;
-use std::f64::consts::TAU;
 
 /// How far from the ends the outermost sections are, as a share of the whole: there is no section at a point.
 const INSET: f64 = 0.02;
@@ -34,7 +33,7 @@ pub(super) struct Line {
     pub points: Vec<DVec3>,
     /// The levels of its ends.
     pub span: [f64; 2],
-    /// The radius of a tube whose outline is as long as the longest, in metres.
+    /// How far from it the island goes, in metres.
     pub radius: f64,
 }
 
@@ -71,8 +70,8 @@ pub(super) fn middles(surface: &Surface, along: &[f64], links: usize, trim: f64)
     for level in levels(along, links) {
         let cuts = cuts(surface, along, level);
         if let Some(middle) = middle(&cuts) {
-            // Of a tube its radius.
-            let radius = outline_length(&cuts) / TAU;
+            let far = cuts.iter().flatten().map(|place| place.distance(middle));
+            let radius = far.fold(0.0, f64::max);
             let from_end = (level - low).min(high - level);
             widest = widest.max(radius);
             middles.push((level, middle));

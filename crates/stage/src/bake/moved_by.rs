@@ -223,9 +223,9 @@ fn gltf_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
 
 /// The files that hold the numbers of the character, where it has them beside it.
 fn buffers_cause(preset: &Preset, files: &Files) -> Option<Cause> {
-    let name = preset.sections.motion.gltf.as_ref()?;
+    let path = preset.character_path(files)?;
     // Who reads the motion tells what is wrong with the files that it needs.
-    let buffers = BoneMotion::files(&files.preset_folder.join(name)).ok()?;
+    let buffers = BoneMotion::files(&path).ok()?;
     let mut hash = Hash::new();
     for buffer in &buffers {
         let _ = hash.file(buffer);
