@@ -13,7 +13,12 @@ const TABLE: &[Row] = &[
     Row(0, "mesh-io", Only(&["portable-math"]), &[]),
     Row(0, "mesh-lines", Only(&[]), &[]),
     Row(0, BUILD_TOOL, Only(&[]), &[]),
-    Row(1, "hair-io", Only(&["hair-sim", "mesh-io", "portable-math"]), &[]),
+    Row(
+        1,
+        "hair-io",
+        Only(&["hair-sim", "mesh-io", "portable-math"]),
+        &[],
+    ),
     Row(1, "groom", Only(&["hair-sim", "portable-math"]), &[]),
     Row(
         1,
