@@ -176,6 +176,12 @@ impl NodeTracks {
 }
 
 impl Rig {
+    /// The numbers of all nodes, each after its parent's.
+    #[must_use]
+    pub fn parents_first(&self) -> &[usize] {
+        &self.order
+    }
+
     /// The number of the animation of this name, or of this number as a text, 0 first.
     #[must_use]
     pub fn animation(&self, wanted: &str) -> Option<usize> {

@@ -238,6 +238,8 @@ impl<'r> Preset<'r> {
             StageError::Shapes(_) | StageError::Loop { .. } | StageError::NoCharacter => "motion",
             StageError::Texture { .. } | StageError::Zones { .. } => "layers",
             StageError::Path(_) => "path",
+            StageError::NoHeadsHair => "hair",
+            StageError::Unsupported { section, .. } => section,
             _ => "dynamics",
         };
         let place = place_of_section(file, text, section);

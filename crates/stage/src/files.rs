@@ -100,6 +100,14 @@ pub enum StageError {
         "{}: no mesh or material is called hair and no spring bones hang on the head, or nothing of them is a lock: `hair.meshes` says what is hair", .0.display()
     )]
     NoMeshHair(PathBuf),
+    /// Hair is of a head's file, and there is none.
+    #[error(
+        "`hair.from: character` takes the hair of the head's file: --character FILE, or head: (file: \"...\")"
+    )]
+    NoHeadsHair,
+    /// All of a head is its hair.
+    #[error("{}: all that is not hidden became hair, and no head is left: `hair.keep` says what stays", .0.display())]
+    AllHair(PathBuf),
     /// Nothing is left of a head.
     #[error("{}: `head.hide` hides all of its meshes", .0.display())]
     AllHidden(PathBuf),
@@ -141,9 +149,14 @@ pub enum StageError {
     /// The simulation refuses its parameters or a step.
     #[error("dynamics: {0}")]
     Dynamics(#[from] hair_sim::DynamicsError),
-    /// The solver cannot do what the preset asks of it.
-    #[error("dynamics: {0}")]
-    Unsupported(String),
+    /// What a section asks for cannot be: the solver has none of it, or the section contradicts itself.
+    #[error("{section}: {message}")]
+    Unsupported {
+        /// The section.
+        section: &'static str,
+        /// Which parameter, and why.
+        message: String,
+    },
     /// A layer measures the distance to the light.
     #[error(
         "layer `{0}` goes by the distance to the light, and this light has no place: \

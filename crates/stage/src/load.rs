@@ -15,7 +15,7 @@ use crate::style;
 use glam::{Vec2, Vec3};
 use groom::{Blush, Dress, Expression, Eyes, Face, Figure, Taper};
 use hair_io::orient::{Axes, Orientation};
-use hair_io::{HairError, HairFile, HairOptions, HeadFrame, Mesh};
+use hair_io::{HairError, HairFile, HairOptions, HeadFile, HeadFrame, Mesh};
 use hair_sim::Strands;
 use mesh_io::Model;
 use render::NO_TAPER;
@@ -64,6 +64,15 @@ pub(crate) fn head(
         if preset.sections.motion.character {
             return Err(StageError::NoCharacter);
         }
+        if wants_own_hair(preset, files) {
+            if preset.sections.hair.file.is_none() {
+                return Err(StageError::NoHeadsHair);
+            }
+            notes.push(
+                "hair: there is no head's file that it could be of, the preset's file is drawn"
+                    .to_owned(),
+            );
+        }
         let head = match section.shape {
             HeadShape::None => return Ok((no_head(preset)?, None)),
             HeadShape::Bust => HeadModel::bust(),
@@ -74,27 +83,36 @@ pub(crate) fn head(
         let beside = painted::of_sections(&sections, folder, &Orientation::OURS, notes)?;
         return Ok((Some(head.painted(Vec::new(), beside)), None));
     };
-    let file = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
-    notes.extend(file.notes);
-    let (model, orientation) = (&file.model, &file.orientation);
+    let HeadFile {
+        mesh,
+        model,
+        orientation,
+        notes: read,
+    } = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
+    notes.extend(read);
+    let orientation = &orientation;
     let hidden = MeshNames(Names(section.hide.as_deref().unwrap_or_default()));
-    hidden.check(model, &path)?;
-    let is_there = |mesh: &mesh_io::Mesh| !hidden.have(model, mesh);
+    hidden.check(&model, &path)?;
+    let is_there = |mesh: &mesh_io::Mesh| !hidden.have(&model, mesh);
     let own_hair = match wants_own_hair(preset, files) {
-        true => mesh_hair::find(model, &path, orientation, &preset.sections.hair, is_there)?,
+        true => mesh_hair::find(&model, &path, orientation, &preset.sections.hair, is_there)?,
         false => None,
     };
     let mut mesh = match (hidden.is_empty(), &own_hair) {
-        (true, None) => file.mesh,
+        (true, None) => mesh,
         _ => {
             let is_hair = own_hair.as_ref().map(|own| &own.is_hair[..]);
-            shape_of(model, orientation, is_there, is_hair)
-                .ok_or(StageError::AllHidden(path.clone()))?
+            let nothing_left = match own_hair {
+                Some(_) => StageError::AllHair,
+                None => StageError::AllHidden,
+            };
+            shape_of(&model, orientation, is_there, is_hair)
+                .ok_or_else(|| nothing_left(path.clone()))?
         }
     };
     let mut painted = match section.colors {
         HeadColors::Preset => Vec::new(),
-        HeadColors::File => painted::of_model(model, &path, orientation, None, is_there, notes)?,
+        HeadColors::File => painted::of_model(&model, &path, orientation, None, is_there, notes)?,
     };
     let hair_paint = own_hair.as_ref().map(|own| {
         let shown = (0..model.meshes.len()).filter(|index| is_there(&model.meshes[*index]));
@@ -105,6 +123,7 @@ pub(crate) fn head(
         turn_around(&mut mesh.triangles, &mut mesh.normals);
         for mesh in &mut painted {
             turn_around(&mut mesh.triangles, &mut mesh.normals);
+            mesh.is_turned = true;
         }
     }
     let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
@@ -115,8 +134,12 @@ pub(crate) fn head(
         if section.colors != HeadColors::File {
             return Err(StageError::NoCharacter);
         }
-        let model = Arc::new(file.model.clone());
-        let skeleton = Skeleton::new(model, &path, orientation, &preset.sections.motion)?;
+        // Its pictures are on the meshes; as the file has them they are of no more use.
+        let model = Model {
+            images: Vec::new(),
+            ..model
+        };
+        let skeleton = Skeleton::new(Arc::new(model), &path, orientation, &preset.sections.motion)?;
         head.skeleton = Some(Arc::new(skeleton));
     }
     let hair = own_hair.zip(hair_paint).map(|(own, paint)| {

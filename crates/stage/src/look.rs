@@ -51,8 +51,14 @@ impl Look {
             pass.check()
                 .map_err(|error| StageError::Section { section, error })?;
         }
-        if let Some((_, message)) = sections.dynamics.unsupported() {
-            return Err(StageError::Unsupported(message));
+        let asked = [
+            ("motion", sections.motion.unsupported()),
+            ("dynamics", sections.dynamics.unsupported()),
+        ];
+        for (section, unsupported) in asked {
+            if let Some((_, message)) = unsupported {
+                return Err(StageError::Unsupported { section, message });
+            }
         }
         let light = &sections.light;
         let light_direction = direction_from_angles(light.yaw, light.pitch)?;

@@ -49,8 +49,21 @@ struct OwnLock {
 struct Bones {
     /// Of each node the outermost spring bone on the way to the head, where it is a spring bone of hair.
     chains: Vec<Option<u32>>,
+    /// The same where it is one whose meshes stay; nothing where no such bone is named.
+    kept: Option<Vec<Option<u32>>>,
     /// Of each node how many spring bones are on the way to the head, and where it is at rest; nothing where it is none.
     springs: Vec<Option<(f32, Vec3)>>,
+}
+
+/// The spring bones on the way from a node to the head, itself one of them.
+#[derive(Clone, Copy, Default)]
+struct Way {
+    count: u32,
+    outermost: Option<u32>,
+    /// Whether one is called hair, is named as hair, or as what stays.
+    is_called_hair: bool,
+    is_wanted: bool,
+    is_kept: bool,
 }
 
 /// The hair of a model that lies in our space by `orientation`: what the section names, else the meshes and materials that are called hair, else what
@@ -78,10 +91,11 @@ pub(crate) fn find(
         true => has_hair_in_name(model, mesh),
         false => MeshNames(wanted).have(model, mesh),
     };
+    let is_kept = |mesh: &mesh_io::Mesh| MeshNames(kept).have(model, mesh);
     let by_name = model
         .meshes
         .iter()
-        .any(|mesh| is_there(mesh) && is_named(mesh));
+        .any(|mesh| is_there(mesh) && is_named(mesh) && !is_kept(mesh));
     let mut hair = OwnHair {
         is_hair: model
             .meshes
@@ -96,12 +110,18 @@ pub(crate) fn find(
         .iter()
         .enumerate()
         .map(|(index, mesh)| match &bones {
-            _ if !is_there(mesh) || MeshNames(kept).have(model, mesh) => {
-                vec![None; mesh.triangles.len()]
+            _ if !is_there(mesh) || is_kept(mesh) => vec![None; mesh.triangles.len()],
+            Some(Bones {
+                kept: Some(kept), ..
+            }) if is_named(mesh) => {
+                let stay = groups(kept, model, index);
+                stay.iter()
+                    .map(|kept| kept.is_none().then_some(0))
+                    .collect()
             }
             _ if is_named(mesh) => vec![Some(0); mesh.triangles.len()],
             // What is named is all that is meant, but for bones that are named too.
-            Some(bones) if !by_name || !wanted.is_empty() => bones.groups(model, index),
+            Some(bones) if !by_name || !wanted.is_empty() => groups(&bones.chains, model, index),
             _ => vec![None; mesh.triangles.len()],
         })
         .collect();
@@ -391,40 +411,55 @@ impl Bones {
         for &joint in &rig.springs.joints {
             is_spring[joint] = true;
         }
-        let name = |node: usize| rig.nodes[node].name.as_deref().unwrap_or_default();
         let head = rig.node("head");
-        // Of each spring bone the nodes up to the head or the root, itself first; nothing where the head isn't there.
-        let way = |joint: usize| {
-            let nodes = std::iter::successors(Some(joint), |node| rig.nodes[*node].parent);
-            let below: Vec<usize> = nodes.take_while(|node| Some(*node) != head).collect();
-            let last = below.last().copied().unwrap_or(joint);
-            let is_on_head = head.is_some() && rig.nodes[last].parent == head;
-            is_on_head.then_some(below)
-        };
-        let mut chains = vec![None; count];
-        let mut places = vec![None; count];
-        let world = rig.world(&rig.rest());
-        let any_called_hair = rig
-            .springs
-            .joints
-            .iter()
-            .any(|&joint| says_hair(name(joint)) && way(joint).is_some());
-        for &joint in &rig.springs.joints {
-            let Some(way) = way(joint) else { continue };
-            let springs: Vec<usize> = way.into_iter().filter(|node| is_spring[*node]).collect();
-            let place = world[joint].translation.as_vec3();
-            places[joint] = Some((springs.len() as f32, place));
-            let is_one = |is: &dyn Fn(&str) -> bool| springs.iter().any(|node| is(name(*node)));
-            let is_wanted = match wanted.is_empty() {
-                true => !any_called_hair || is_one(&says_hair),
-                false => is_one(&|name| wanted.have(name)),
+        // Of each node; nothing where it isn't on the head.
+        let mut ways: Vec<Option<Way>> = vec![None; count];
+        for &node in rig.parents_first() {
+            let Some(parent) = rig.nodes[node].parent else {
+                continue;
             };
-            if is_wanted && !is_one(&|name| kept.have(name)) {
-                chains[joint] = springs.last().map(|outermost| *outermost as u32);
+            let up = match head == Some(parent) {
+                true => Some(Way::default()),
+                false => ways[parent],
+            };
+            let name = rig.nodes[node].name.as_deref().unwrap_or_default();
+            ways[node] = up.map(|up| match is_spring[node] {
+                true => Way {
+                    count: up.count + 1,
+                    outermost: up.outermost.or(Some(node as u32)),
+                    is_called_hair: up.is_called_hair || says_hair(name),
+                    is_wanted: up.is_wanted || wanted.have(name),
+                    is_kept: up.is_kept || kept.have(name),
+                },
+                false => up,
+            });
+        }
+        let springs = || {
+            let joints = rig.springs.joints.iter();
+            joints.filter_map(|&joint| Some((joint, ways[joint]?)))
+        };
+        let any_called_hair = springs().any(|(_, way)| way.is_called_hair && !way.is_kept);
+        let is_hair = |way: &Way| match wanted.is_empty() {
+            true => !any_called_hair || way.is_called_hair,
+            false => way.is_wanted,
+        };
+        let chains_of = |is_meant: &dyn Fn(&Way) -> bool| {
+            let mut chains = vec![None; count];
+            for (joint, way) in springs().filter(|(_, way)| is_meant(way)) {
+                chains[joint] = way.outermost;
             }
+            chains
+        };
+        let world = rig.world(&rig.rest());
+        let mut places = vec![None; count];
+        for (joint, way) in springs() {
+            places[joint] = Some((way.count as f32, world[joint].translation.as_vec3()));
         }
         Self {
-            chains,
+            chains: chains_of(&|way| is_hair(way) && !way.is_kept),
+            kept: springs()
+                .any(|(_, way)| way.is_kept)
+                .then(|| chains_of(&|way| way.is_kept)),
             springs: places,
         }
     }
@@ -443,67 +478,66 @@ impl Bones {
         };
         vertices.map(depth).collect()
     }
+}
 
-    /// The chain that moves each triangle of a mesh: all of an island that chains move for the most part; else the triangles that one moves for the
-    /// most part, and those beside them as far as it moves their corners. A vertex that was painted by mistake moves none for the most part.
-    fn groups(&self, model: &Model, index: usize) -> Vec<Option<u32>> {
-        let mesh = &model.meshes[index];
-        let vertices = 0..mesh.positions.len();
-        let corners: Vec<BTreeMap<u32, f32>> = vertices
-            .map(|vertex| {
-                let mut weights = BTreeMap::new();
-                for (node, weight) in model.influences(index, vertex) {
-                    if let Some(chain) = self.chains[node] {
-                        *weights.entry(chain).or_insert(0.0) += weight;
-                    }
+/// The chain that moves each triangle of a mesh: all of an island that chains move for the most part; else the triangles that one moves for the
+/// most part, and those beside them as far as it moves their corners. A vertex that was painted by mistake moves none for the most part.
+fn groups(chains: &[Option<u32>], model: &Model, index: usize) -> Vec<Option<u32>> {
+    let mesh = &model.meshes[index];
+    let vertices = 0..mesh.positions.len();
+    let corners: Vec<BTreeMap<u32, f32>> = vertices
+        .map(|vertex| {
+            let mut weights = BTreeMap::new();
+            for (node, weight) in model.influences(index, vertex) {
+                if let Some(chain) = chains[node] {
+                    *weights.entry(chain).or_insert(0.0) += weight;
                 }
-                weights
-            })
-            .collect();
-        // Of each triangle the weights of its corners, and whether one is moved by them.
-        let weights = |triangle: &[u32; 3]| {
-            let mut sum: BTreeMap<u32, f32> = BTreeMap::new();
-            for (chain, weight) in triangle.iter().flat_map(|i| &corners[*i as usize]) {
-                *sum.entry(*chain).or_default() += weight / 3.0;
             }
-            sum
-        };
-        let most = |sum: &BTreeMap<u32, f32>| {
-            let most = sum
-                .iter()
-                .max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
-            most.map(|(chain, _)| *chain)
-        };
-        let islands = islands(&mesh.positions, &mesh.triangles);
-        let mut of_islands: BTreeMap<usize, (f32, BTreeMap<u32, f32>)> = BTreeMap::new();
-        for (triangle, island) in mesh.triangles.iter().zip(&islands) {
-            let (count, sum) = of_islands.entry(*island).or_default();
-            *count += 1.0;
-            for (chain, weight) in weights(triangle) {
-                *sum.entry(chain).or_default() += weight;
-            }
+            weights
+        })
+        .collect();
+    // Of each triangle the weights of its corners, and whether one is moved by them.
+    let weights = |triangle: &[u32; 3]| {
+        let mut sum: BTreeMap<u32, f32> = BTreeMap::new();
+        for (chain, weight) in triangle.iter().flat_map(|i| &corners[*i as usize]) {
+            *sum.entry(*chain).or_default() += weight / 3.0;
         }
-        let place = |corner: u32| mesh.positions[corner as usize].to_array().map(f32::to_bits);
-        let moved = |corner: u32, chain: u32| corners[corner as usize].get(&chain) >= Some(&MOST);
-        let mut moved_places = BTreeSet::new();
-        for triangle in &mesh.triangles {
-            let sum = weights(triangle);
-            if let Some(chain) = most(&sum).filter(|chain| sum[chain] >= MOST) {
-                let own = triangle.iter().filter(|corner| moved(**corner, chain));
-                moved_places.extend(own.map(|corner| (chain, place(*corner))));
-            }
+        sum
+    };
+    let most = |sum: &BTreeMap<u32, f32>| {
+        let most = sum
+            .iter()
+            .max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
+        most.map(|(chain, _)| *chain)
+    };
+    let islands = islands(&mesh.positions, &mesh.triangles);
+    let mut of_islands: BTreeMap<usize, (f32, BTreeMap<u32, f32>)> = BTreeMap::new();
+    for (triangle, island) in mesh.triangles.iter().zip(&islands) {
+        let (count, sum) = of_islands.entry(*island).or_default();
+        *count += 1.0;
+        for (chain, weight) in weights(triangle) {
+            *sum.entry(chain).or_default() += weight;
         }
-        let group = |(triangle, island): (&[u32; 3], &usize)| {
-            let (count, sum) = &of_islands[island];
-            if sum.values().sum::<f32>() > MOST * count {
-                return most(sum);
-            }
-            let chain = most(&weights(triangle))?;
-            let is_beside = |corner: &u32| {
-                moved(*corner, chain) && moved_places.contains(&(chain, place(*corner)))
-            };
-            triangle.iter().any(is_beside).then_some(chain)
-        };
-        mesh.triangles.iter().zip(&islands).map(group).collect()
     }
+    let place = |corner: u32| mesh.positions[corner as usize].to_array().map(f32::to_bits);
+    let moved = |corner: u32, chain: u32| corners[corner as usize].get(&chain) >= Some(&MOST);
+    let mut moved_places = BTreeSet::new();
+    for triangle in &mesh.triangles {
+        let sum = weights(triangle);
+        if let Some(chain) = most(&sum).filter(|chain| sum[chain] >= MOST) {
+            let own = triangle.iter().filter(|corner| moved(**corner, chain));
+            moved_places.extend(own.map(|corner| (chain, place(*corner))));
+        }
+    }
+    let group = |(triangle, island): (&[u32; 3], &usize)| {
+        let (count, sum) = &of_islands[island];
+        if sum.values().sum::<f32>() > MOST * count {
+            return most(sum);
+        }
+        let chain = most(&weights(triangle))?;
+        let is_beside =
+            |corner: &u32| moved(*corner, chain) && moved_places.contains(&(chain, place(*corner)));
+        triangle.iter().any(is_beside).then_some(chain)
+    };
+    mesh.triangles.iter().zip(&islands).map(group).collect()
 }

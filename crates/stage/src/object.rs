@@ -125,6 +125,10 @@ impl Object {
         Ok(Self {
             shapes: Arc::new(shapes(&hair, &self.look)?),
             neck: bare.map(|head| Arc::new(neck(head, &hair, &self.look))),
+            script: match self.script.skeleton() {
+                Some(_) => Arc::new(self.script.with_hair(&hair)),
+                None => self.script.clone(),
+            },
             hair: Arc::new(hair),
             ..self.clone()
         })

@@ -27,6 +27,8 @@ pub(crate) struct PaintedMesh {
     /// Which mesh of its file it is, and which of that mesh's vertices it has where triangles were taken away: empty is all.
     pub index: usize,
     pub kept: Vec<usize>,
+    /// Whether its outside is where its file has the inside: its normals and triangles are turned around.
+    pub is_turned: bool,
 }
 
 /// How a file paints a mesh.
@@ -175,6 +177,7 @@ pub(crate) fn of_model(
             section,
             index,
             kept: Vec::new(),
+            is_turned: false,
         });
     }
     notes.append(&mut pictures.notes);

@@ -176,7 +176,11 @@ impl<'r> Preset<'r> {
 
     /// What a section asks for that cannot be: a parameter, and why.
     fn unsupported(&self, section: &str) -> Option<(&'static str, String)> {
-        (section == "dynamics").then(|| self.sections.dynamics.unsupported())?
+        match section {
+            "dynamics" => self.sections.dynamics.unsupported(),
+            "motion" => self.sections.motion.unsupported(),
+            _ => None,
+        }
     }
 
     /// Looks for the files that the preset names and the caller gives no others for.

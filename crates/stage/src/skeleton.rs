@@ -106,10 +106,11 @@ impl Skeleton {
         let Some(rig) = &self.model.rig else {
             return self;
         };
-        let on_head = |node: usize| {
-            std::iter::successors(Some(node), |own| rig.nodes[*own].parent)
-                .any(|own| own == self.head)
-        };
+        let mut on_head = vec![false; rig.nodes.len()];
+        for &node in rig.parents_first() {
+            let parent = rig.nodes[node].parent;
+            on_head[node] = node == self.head || parent.is_some_and(|parent| on_head[parent]);
+        }
         let body = |own: &mesh_io::SpringCollider| {
             let to_ours = self.to_ours[0] * self.rest[own.node][0];
             let axes = to_ours.matrix3;
@@ -134,7 +135,7 @@ impl Skeleton {
             .springs
             .colliders
             .iter()
-            .filter(|own| !on_head(own.node));
+            .filter(|own| !on_head[own.node]);
         let is_whole =
             |body: &Body| body.ends.iter().all(|end| end.is_finite()) && body.radius.is_finite();
         self.bodies = colliders
@@ -165,12 +166,7 @@ impl Skeleton {
 
     /// How the head turns about its neck at `time` (seconds), and how far that moves it in m.
     pub fn head_at(&self, time: f64, head: Head) -> (DQuat, DVec3) {
-        let pose = self.at(time).motion(self.head);
-        let pivot = pivot(head).as_dvec3();
-        (
-            pose.rotation,
-            pose.rotation * pivot + pose.translation - pivot,
-        )
+        self.at(time).head(head)
     }
 
     /// Puts the meshes of its file where they are at `time` (seconds).
@@ -182,11 +178,12 @@ impl Skeleton {
         let own = painted.iter_mut().filter(|mesh| mesh.section.is_none());
         for mesh in own {
             let shape = &shapes[mesh.index];
+            let outwards = if mesh.is_turned { -1.0 } else { 1.0 };
             // What lost triangles lost vertices.
             for i in 0..mesh.positions.len() {
                 let vertex = mesh.vertex(i);
                 mesh.positions[i] = self.orientation.apply(shape.positions[vertex]);
-                mesh.normals[i] = self.orientation.up.to_y_up(shape.normals[vertex]);
+                mesh.normals[i] = outwards * self.orientation.up.to_y_up(shape.normals[vertex]);
             }
         }
     }
@@ -214,6 +211,16 @@ impl Bones<'_> {
         })
     }
 
+    /// How the head turns about its neck, and how far that moves it in m.
+    pub fn head(&self, head: Head) -> (DQuat, DVec3) {
+        let pose = self.motion(self.skeleton.head);
+        let pivot = pivot(head).as_dvec3();
+        (
+            pose.rotation,
+            pose.rotation * pivot + pose.translation - pivot,
+        )
+    }
+
     /// How the shoulders have moved since rest.
     pub fn shoulders(&self) -> Pose {
         self.skeleton
@@ -229,11 +236,7 @@ impl Skeleton {
     }
 
     /// The bodies in a step, whose bones move from one time's to another's, each moved as a whole by a pose on top.
-    pub fn colliders(&self, times: [f64; 2], on_top: [Pose; 2]) -> Vec<Collider<'_>> {
-        if self.bodies.is_empty() {
-            return Vec::new();
-        }
-        let bones = times.map(|time| self.at(time));
+    pub fn colliders(&self, bones: [&Bones; 2], on_top: [Pose; 2]) -> Vec<Collider<'_>> {
         let collider = |body: &Body| {
             let [before, now] = [0, 1].map(|i| after(bones[i].motion(body.node), on_top[i]));
             let [from, to] = body.ends;

@@ -17,7 +17,8 @@ use crate::hair::HairModel;
 use crate::hand::Driver;
 use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
-use crate::skeleton::after;
+use crate::script::HeadPose;
+use crate::skeleton::{Bones, after};
 use bodies::Bodies;
 use carried::Carried;
 pub(crate) use feel::ZoneDynamics;
@@ -55,6 +56,16 @@ struct Part {
     points: Range<usize>,
     /// Its first point of the solver's.
     strand: usize,
+}
+
+/// Where a head, its shoulders and the whole figure are at a time. The shoulders follow the head's shift and the whole figure's turn, not the
+/// head's.
+struct Posture<'s> {
+    head: Pose,
+    shoulders: Pose,
+    figure: Pose,
+    /// Of the skeleton that moves it, where one does.
+    bones: Option<Bones<'s>>,
 }
 
 /// The solver with its strands, and the time it has come to.
@@ -315,14 +326,17 @@ impl Dynamics {
     /// Whether the head's motion is even from the last step to the end of a long one.
     fn is_calm(&self, driver: Driver) -> bool {
         let height_m = f64::from(self.head.height_m);
-        let places = |steps: i64| {
+        let places = |by: i64| {
+            let steps = self.done + by;
             let pose = self.pose_at(self.time_of(steps), driver);
             let center = self.head.center.as_dvec3();
             [DVec3::X, DVec3::Z]
                 .map(|side| pose.rotation * (center + side * height_m) + pose.translation)
         };
-        (self.done..self.done + UNSEEN_STEPS).all(|at| {
-            let [before, now, after] = [at - 1, at, at + 1].map(places);
+        let places: [[DVec3; 2]; UNSEEN_STEPS as usize + 2] =
+            std::array::from_fn(|i| places(i as i64 - 1));
+        places.windows(3).all(|places| {
+            let [before, now, after] = [places[0], places[1], places[2]];
             (0..2).all(|i| {
                 let bend = before[i] + after[i] - 2.0 * now[i];
                 bend.length() <= CALM * self.step * self.step
@@ -366,8 +380,8 @@ impl Dynamics {
         step: impl Fn(&mut (dyn Running + 'static), &Surroundings) -> Result<Stats, DynamicsError>,
     ) -> Result<Stats, StageError> {
         let begin = self.time_of(self.done);
-        let [before, now] = [begin, end].map(|time| self.pose_at(time, driver));
-        let shoulders = [begin, end].map(|time| self.shoulders_at(time, driver));
+        let postures = [begin, end].map(|time| self.posture_at(time, driver));
+        let [before, now] = [0, 1].map(|i| postures[i].head);
         let [wind_before, wind] = [begin, end].map(|time| {
             let (steady, gust) = driver.wind_at(time);
             Wind {
@@ -386,12 +400,14 @@ impl Dynamics {
                 [-self.step, self.step].map(|by| self.pose_at(time + by, driver));
             Acceleration::between([earlier, pose, later], self.step)
         });
+        let shoulders = [0, 1].map(|i| postures[i].shoulders);
         let mut colliders = self.bodies.colliders([before, now], shoulders);
-        if let Some(skeleton) = driver.script.skeleton() {
-            let on_top = [begin, end].map(|time| self.figure_at(time, driver));
-            colliders.extend(
-                skeleton.colliders([begin, end].map(|time| driver.script.within(time)), on_top),
-            );
+        if let (Some(skeleton), [Some(before), Some(now)]) = (
+            driver.script.skeleton(),
+            [0, 1].map(|i| postures[i].bones.as_ref()),
+        ) {
+            let on_top = [0, 1].map(|i| postures[i].figure);
+            colliders.extend(skeleton.colliders([before, now], on_top));
         }
         let scene = Surroundings {
             roots: Roots::Head(now),
@@ -430,21 +446,32 @@ impl Dynamics {
         }
     }
 
-    /// Where the shoulders are: they follow the head's shift and the whole figure's turn, not the head's.
-    fn shoulders_at(&self, time: f64, driver: Driver) -> Pose {
-        let figure = self.figure_at(time, driver);
-        match driver.script.skeleton() {
-            Some(skeleton) => after(skeleton.at(driver.script.within(time)).shoulders(), figure),
-            None => figure,
+    /// Where all that hair is kept out of is.
+    fn posture_at<'s>(&self, time: f64, driver: Driver<'s>) -> Posture<'s> {
+        let pose = driver.head_at(time);
+        let skeleton = driver.script.skeleton();
+        let bones = skeleton.map(|skeleton| skeleton.at(driver.script.within(time)));
+        let figure = self.figure_in(pose, bones.as_ref());
+        let (rotation, translation) = rigid(pose, self.head);
+        Posture {
+            head: Pose {
+                rotation,
+                translation,
+            },
+            shoulders: match &bones {
+                Some(bones) => after(bones.shoulders(), figure),
+                None => figure,
+            },
+            figure,
+            bones,
         }
     }
 
     /// How the whole figure is moved by what its skeleton knows nothing of, where it has one.
-    fn figure_at(&self, time: f64, driver: Driver) -> Pose {
-        let pose = driver.head_at(time);
+    fn figure_in(&self, pose: HeadPose, bones: Option<&Bones>) -> Pose {
         let mut shift = pose.shift * f64::from(self.head.height_m);
-        if let (Some(skeleton), Some(time)) = (driver.script.skeleton(), pose.animated_s) {
-            shift -= skeleton.head_at(time, self.head).1;
+        if let Some(bones) = bones {
+            shift -= bones.head(self.head).1;
         }
         if pose.spin == 0.0 {
             return Pose {

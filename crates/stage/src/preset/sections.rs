@@ -326,6 +326,16 @@ section! {
     }
 }
 
+impl MotionSection {
+    /// What of it contradicts itself: a parameter, and why.
+    pub(crate) fn unsupported(&self) -> Option<(&'static str, String)> {
+        (self.gltf.is_some() && self.character).then(|| {
+            let message = "gltf: it and `character` both move the head: one of them";
+            ("gltf", message.to_owned())
+        })
+    }
+}
+
 choices! {
     /// How particles are joined.
     pub enum PathChoice {

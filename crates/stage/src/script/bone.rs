@@ -1,5 +1,6 @@
 //! The head's bone of a skeleton's animation.
 
+use crate::hair::HairModel;
 use crate::skeleton::Skeleton;
 use glam::{DQuat, DVec3};
 use hair_io::BoneMotion;
@@ -21,6 +22,15 @@ pub(crate) enum Below {
 }
 
 impl Below {
+    /// A character's skeleton under its hair: which of its bodies count hangs on where that is.
+    pub fn skeleton(skeleton: &Skeleton, hair: &HairModel) -> Self {
+        let points = hair.file.strands.points();
+        Self::Skeleton {
+            skeleton: Arc::new(skeleton.clone().with_bodies(points)),
+            head: hair.head,
+        }
+    }
+
     /// How far it has turned from its rest, moved in head heights, and the time that a skeleton is at, at `time` (seconds).
     pub fn at(&self, time: f64) -> (DQuat, DVec3, Option<f64>) {
         match self {

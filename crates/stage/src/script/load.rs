@@ -9,7 +9,6 @@ use crate::preset::Preset;
 use crate::shapes;
 use hair_io::BoneMotion;
 use std::path::Path;
-use std::sync::Arc;
 
 /// What moves head, wind and hair; the hair is given its key shapes.
 pub(crate) fn load(
@@ -39,11 +38,7 @@ pub(crate) fn load(
         }));
     }
     if let Some(skeleton) = head.and_then(|head| head.skeleton.as_deref()) {
-        let skeleton = skeleton.clone().with_bodies(hair.file.strands.points());
-        script.below = Some(Below::Skeleton {
-            skeleton: Arc::new(skeleton),
-            head: hair.head,
-        });
+        script.below = Some(Below::skeleton(skeleton, hair));
     }
     Ok(script)
 }

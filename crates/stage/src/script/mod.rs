@@ -13,6 +13,7 @@ pub use parse::MOTION_PARTS;
 pub(crate) use parse::parse;
 pub(crate) use pose::HeadPose;
 
+use crate::hair::HairModel;
 use crate::skeleton::Skeleton;
 use effects::choices;
 use effects::preset::Place;
@@ -183,6 +184,16 @@ impl MotionScript {
             turn,
             shift,
             animated_s,
+        }
+    }
+
+    /// The same for other hair.
+    pub fn with_hair(&self, hair: &HairModel) -> Self {
+        let skeleton = self.skeleton();
+        let below = skeleton.map(|skeleton| Below::skeleton(skeleton, hair));
+        Self {
+            below: below.or_else(|| self.below.clone()),
+            ..self.clone()
         }
     }
 

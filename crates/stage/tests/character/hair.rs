@@ -2,7 +2,7 @@
 
 use crate::made::{folder, points, scene, scene_of};
 use glam::Vec3;
-use serde_json::json;
+use serde_json::{Value, json};
 use stage::{Files, FrameMaker, Motion, Scene};
 use std::fs;
 use std::path::Path;
@@ -76,6 +76,106 @@ fn strands_have_the_colours_and_the_size_of_the_mesh() {
     assert!((0.0079..0.0115).contains(&half_width_m), "{half_width_m}");
 }
 
+/// A lock that is red in its upper half and green below.
+#[test]
+fn strands_have_the_colours_of_the_meshs_picture() {
+    let places = (0..27).flat_map(|row| [[0.5, (row % 9) as f32 / 8.0]; 4]);
+    let bytes: Vec<u8> = places.flatten().flat_map(f32::to_le_bytes).collect();
+    let folder = folder(|file| {
+        let list = |file: &mut Value, name: &str, value: Value| {
+            let list = file[name].as_array_mut().unwrap();
+            list.push(value);
+            list.len() - 1
+        };
+        let view = json!({"buffer": 1, "byteLength": bytes.len()});
+        let buffer = json!({"byteLength": bytes.len(), "uri": "places.bin"});
+        list(file, "buffers", buffer);
+        let view = list(file, "bufferViews", view);
+        let places = list(
+            file,
+            "accessors",
+            json!({"bufferView": view, "componentType": 5126, "count": 108, "type": "VEC2"}),
+        );
+        for mesh in 0..3 {
+            file["meshes"][mesh]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(places);
+        }
+        file["images"] = json!([{"uri": "lock.png"}]);
+        file["textures"] = json!([{"source": 0}]);
+        file["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"] = json!({"index": 0});
+    });
+    fs::write(folder.path().join("places.bin"), bytes).unwrap();
+    let picture = fs::File::create(folder.path().join("lock.png")).unwrap();
+    let mut encoder = png::Encoder::new(picture, 1, 8);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().unwrap();
+    let halves = [[[255, 0, 0]; 4], [[0, 255, 0]; 4]];
+    writer
+        .write_image_data(halves.as_flattened().as_flattened())
+        .unwrap();
+    writer.finish().unwrap();
+    let own = scene(folder.path(), "from: character").unwrap();
+    let (mut frames, motion) = (FrameMaker::new(), Motion::new());
+    let [root, tip] = frames.frame(&own, &motion).unwrap().strands[0].colors;
+    // The picture's times the material's.
+    assert!(root.distance(Vec3::new(0.1, 0.0, 0.0)) < 1e-3, "{root}");
+    assert!(tip.distance(Vec3::new(0.0, 0.2, 0.0)) < 1e-3, "{tip}");
+}
+
+#[test]
+fn what_is_kept_is_not_looked_for() {
+    // Only the clip is called hair, and bones move the hair.
+    let clip = folder(|file| file["meshes"][2]["name"] = json!("HairClip"));
+    let kept = scene(clip.path(), "from: character, keep: \"HairClip\"").unwrap();
+    assert_eq!(kept.strand_count(), 1);
+    assert!(points(&kept)[0].distance(Vec3::new(0.03, 1.69, 0.11)) < 2e-3);
+    // The same of bones.
+    let clip = folder(|file| {
+        file["nodes"][2]["name"] = json!("Front");
+        file["nodes"][3]["name"] = json!("HairClip");
+    });
+    let kept = scene(clip.path(), "from: character, keep: \"HairClip\"").unwrap();
+    assert_eq!(kept.strand_count(), 1);
+    assert!(points(&kept)[0].distance(Vec3::new(0.03, 1.69, 0.11)) < 2e-3);
+}
+
+/// One mesh is called hair, and a ribbon that a bone of its own moves is in it.
+#[test]
+fn a_bone_may_keep_a_part_of_a_mesh() {
+    let folder = folder(|file| {
+        file["nodes"][3]["name"] = json!("Ribbon");
+        for mesh in [1, 2] {
+            file["meshes"][mesh]["name"] = json!("Hair");
+        }
+    });
+    let all = scene(folder.path(), "from: character").unwrap();
+    assert_eq!(all.strand_count(), 2);
+    let kept = scene(folder.path(), "from: character, keep: \"Ribbon\"").unwrap();
+    assert_eq!(kept.strand_count(), 1);
+    assert!(points(&kept)[0].distance(Vec3::new(0.03, 1.69, 0.11)) < 2e-3);
+    assert!(triangles(&kept) > triangles(&all));
+}
+
+/// A bone far down a chain is hair by the one that the chain begins with.
+#[test]
+fn chains_may_be_long() {
+    const LINKS: usize = 20_000;
+    let folder = folder(|file| {
+        let nodes = file["nodes"].as_array_mut().unwrap();
+        let first = nodes.len();
+        nodes[1]["children"] = json!([2, 3, first]);
+        let last = first + LINKS - 1;
+        nodes.extend((first..last).map(|node| json!({"children": [node + 1]})));
+        nodes.push(json!({"translation": [0.0, 0.22, 0.0]}));
+        nodes[first]["name"] = json!("HairBack");
+        file["skins"][0]["joints"][2] = json!(last);
+        let joints: Vec<Value> = (first..=last).map(|node| json!({"node": node})).collect();
+        file["extensions"]["VRMC_springBone"]["springs"] =
+            json!([{"joints": [{"node": 2}]}, {"joints": joints}]);
+    });
+    let own = scene(folder.path(), "from: character").unwrap();
+    assert_eq!(own.strand_count(), 2);
+}
+
 #[test]
 fn mistakes_name_their_place() {
     let folder = folder(|_| {});
@@ -111,6 +211,39 @@ fn mistakes_name_their_place() {
             .notes()
             .iter()
             .any(|note| note.contains("the character has none of its own"))
+    );
+}
+
+#[test]
+fn hair_of_a_head_needs_the_heads_file() {
+    let folder = folder(|_| {});
+    let with = |hair: &str, head: &str| {
+        let text = format!(
+            "(version: 1, hair: (from: character, {hair}), head: ({head}), layers: [(effect: \"hair.base\")])"
+        );
+        scene_of(folder.path(), &text, &Files::default())
+    };
+    let message = with("", "shape: bust").err().unwrap();
+    assert!(
+        message.contains("look.ron:1:14: `hair.from: character` takes the hair of the head's file"),
+        "{message}"
+    );
+    fs::write(
+        folder.path().join("a.strands.ron"),
+        "(version: 1, strands: [(points: [(0, 1.72, 0), (0, 1.8, 0)])])",
+    )
+    .unwrap();
+    let own = with("file: \"a.strands.ron\"", "shape: bust").unwrap();
+    let notes = own.notes().join("\n");
+    assert!(notes.contains("there is no head's file"), "{notes}");
+    // Nor is there a head where all of it is hair.
+    let message = with("meshes: \"*\"", "file: \"girl.gltf\", hide: \"Skull\"")
+        .err()
+        .unwrap();
+    assert!(
+        message.contains("look.ron:1:")
+            && message.contains("girl.gltf: all that is not hidden became hair"),
+        "{message}"
     );
 }
 

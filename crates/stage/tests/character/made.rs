@@ -30,6 +30,16 @@ impl Character {
         own
     }
 
+    /// The same with its outside where the inside was, as some programs write it.
+    pub fn inside_out(mut self) -> Self {
+        for (_, triangles) in &mut self.meshes {
+            triangles
+                .chunks_exact_mut(3)
+                .for_each(|corners| corners.swap(1, 2));
+        }
+        self
+    }
+
     /// Adds a box in rows from top to bottom, which a joint moves.
     fn add(&mut self, name: &'static str, center: [f32; 3], half: [f32; 3], joint: u8) {
         const ROWS: u16 = 8;

@@ -2,8 +2,9 @@
 
 use crate::made::{Character, points, scene_of};
 use glam::{Quat, Vec3};
+use hair_sim::Strands;
 use serde_json::{Value, json};
-use stage::{Files, FrameMaker, Motion, Scene};
+use stage::{Files, FrameMaker, HairModel, Motion, Preset, Scene};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -27,6 +28,14 @@ struct Track {
 
 /// A folder of the character, which moves so.
 fn animated(tracks: &[Track], change: impl FnOnce(&mut Value)) -> TempDir {
+    animated_one(&Character::new(), tracks, change)
+}
+
+fn animated_one(
+    character: &Character,
+    tracks: &[Track],
+    change: impl FnOnce(&mut Value),
+) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mut numbers = vec![0.0, 1.0];
     let (mut samplers, mut channels, mut views) = (Vec::new(), Vec::new(), Vec::new());
@@ -44,7 +53,7 @@ fn animated(tracks: &[Track], change: impl FnOnce(&mut Value)) -> TempDir {
     let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
     let length = bytes.len();
     fs::write(folder.path().join("move.bin"), bytes).unwrap();
-    Character::new().write(&folder.path().join("girl.gltf"), |file| {
+    character.write(&folder.path().join("girl.gltf"), |file| {
         let list = |file: &mut Value, name: &str, value: Value| {
             let list = file[name].as_array_mut().unwrap();
             list.push(value);
@@ -221,6 +230,63 @@ fn bodies_follow_the_skeleton() {
     assert!(free < 0.04 && pushed > 0.047, "{free} {pushed}");
 }
 
+/// What was in the old hair and is not in the new one pushes that, as if it had been there from the beginning.
+#[test]
+fn bodies_are_chosen_anew_for_other_hair() {
+    let ball = Vec3::new(-0.06, 1.56, 0.17);
+    let arm = Track {
+        node: 7,
+        path: "translation",
+        values: vec![0.03, 1.56, 0.11, ball.x, ball.y, ball.z],
+    };
+    let folder = animated(&[arm], |file| {
+        file["nodes"]
+            .as_array_mut()
+            .unwrap()
+            .push(json!({"name": "arm", "translation": [0.03, 1.56, 0.11]}));
+        file["extensions"]["VRMC_springBone"]["colliders"] =
+            json!([{"node": 7, "shape": {"sphere": {"radius": 0.05}}}]);
+    });
+    let own = scene(folder.path(), "character: true", "dynamics: (feel: soft),").unwrap();
+    let mut strands = Strands::new();
+    let points: Vec<Vec3> = (0..8)
+        .map(|i| Vec3::new(-0.06, 1.69 - 0.02 * i as f32, 0.16))
+        .collect();
+    strands.push(0, &points, None).unwrap();
+    let distance = |scene: &Scene| {
+        let found = points_at(scene, 1.2);
+        let distances = found.iter().map(|p| p.distance(ball));
+        distances.fold(f32::INFINITY, f32::min)
+    };
+    let hair = HairModel::new(strands, None).unwrap();
+    let other = own.objects()[0].with_hair(hair).unwrap();
+    let other = own.with_object(0, other).unwrap();
+    assert!(distance(&other) > 0.047, "{}", distance(&other));
+}
+
+/// A file whose triangles face inwards is lit and outlined as one whose triangles face outwards, moved or not.
+#[test]
+fn what_is_inside_out_is_turned_around_in_each_pose() {
+    let [outwards, inwards] = [Character::new(), Character::new().inside_out()].map(|character| {
+        let folder = animated_one(&character, &[turn()], |_| {});
+        let hair = folder.path().join("a.strands.ron");
+        fs::write(
+            &hair,
+            "(version: 1, strands: [(points: [(0, 1.72, 0), (0, 1.8, 0)])])",
+        )
+        .unwrap();
+        let text = "(version: 1, hair: (file: \"a.strands.ron\"), head: (file: \"girl.gltf\", colors: file), motion: (character: true), \
+                    dynamics: (solver: none), scene: (size: (90, 90), samples: 4), layers: [(effect: \"hair.base\")])";
+        let scene = scene_of(folder.path(), text, &Files::default()).unwrap();
+        let mut motion = Motion::new();
+        motion.advance_to(&scene, 0.75).unwrap();
+        let frame_maker = &mut FrameMaker::new();
+        frame_maker.frame(&scene, &motion).unwrap().surfaces.clone()
+    });
+    assert!(!outwards.is_empty());
+    assert!(inwards == outwards);
+}
+
 #[test]
 fn mistakes_name_their_place() {
     let told = |folder: &TempDir, motion: &str| scene(folder.path(), motion, "").err().unwrap();
@@ -257,7 +323,29 @@ fn mistakes_name_their_place() {
         values: vec![0.0, 0.0, 0.0, f32::NAN, 0.0, 0.0],
     };
     let message = told(&animated(&[nan], |_| {}), "character: true");
-    assert!(message.contains("girl.gltf"), "{message}");
+    assert!(
+        message.contains("girl.gltf")
+            && message.contains("accessor 8 has numbers that are not finite"),
+        "{message}"
+    );
+    let message = told(&folder, "character: true, gltf: \"girl.gltf\"");
+    assert!(
+        message.contains("look.ron:1:") && message.contains("both move the head: one of them"),
+        "{message}"
+    );
+    let mut registry = effects::Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let text = "(version: 1, motion: (character: true), layers: [])";
+    let mut preset = Preset::parse("look.ron", text, &registry).unwrap();
+    preset.set("motion.gltf", "girl.gltf").unwrap();
+    let message = Scene::load(&preset, &Files::default())
+        .err()
+        .unwrap()
+        .to_string();
+    assert!(
+        message.starts_with("motion: gltf: it and `character` both move"),
+        "{message}"
+    );
     let text = "(version: 1, hair: (from: character), head: (file: \"girl.gltf\"), motion: (character: true), layers: [])";
     let message = scene_of(folder.path(), text, &Files::default())
         .err()
