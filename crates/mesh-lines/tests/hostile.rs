@@ -103,6 +103,21 @@ fn nothing_and_one_triangle() {
 }
 
 #[test]
+fn a_contour_through_two_triangles_alone_has_finite_t() {
+    let positions = [
+        Vec3::new(-3.0, 3.0, 0.0),
+        Vec3::new(0.0, 1.0, 0.0),
+        Vec3::new(2.0, 2.0, 1.0),
+        Vec3::new(3.0, 0.0, -3.0),
+        Vec3::new(-2.0, 2.0, -1.0),
+    ];
+    let topology = Topology::new(&positions, &[[1, 4, 3], [4, 2, 0]]).unwrap();
+    let eye = Vec3::new(-3.0, 2.0, 3.0);
+    all_of(&topology, &positions, &from(eye));
+    all_of(&topology, &positions, &View::orthographic(eye).unwrap());
+}
+
+#[test]
 fn bad_numbers_are_named() {
     assert!(matches!(
         View::perspective(Vec3::NAN),
