@@ -16,13 +16,13 @@ pub(crate) fn of<'a>(
     let function = functions.find(|it| it.name.as_deref() == Some(function))?;
     let mut switched = Vec::new();
     find(&function.body, &mut switched);
-    let mut fields = switched.into_iter();
-    let fields = fields.find_map(|selector| field(module, function, selector));
-    let param = params.get(fields?)?;
-    match &param.kind {
-        Kind::Choice { names, .. } => Some((&param.name, names.len() as u32)),
-        _ => None,
-    }
+    switched.into_iter().find_map(|selector| {
+        let param = params.get(field(module, function, selector)?)?;
+        match &param.kind {
+            Kind::Choice { names, .. } => Some((&*param.name, names.len() as u32)),
+            _ => None,
+        }
+    })
 }
 
 /// What is switched on, from the first on.

@@ -341,7 +341,9 @@ fn every_wrong_value_is_an_error_at_its_line() {
                     || place.kind.is_none()
                         && value == "()"
                         && !["layers", "meshes", "passes", "objects"].contains(&name)
-                    || ["layers", "meshes", "passes"].contains(&name) && value == "[]";
+                    || place.kind.is_none()
+                        && ["layers", "meshes", "passes"].contains(&name)
+                        && value == "[]";
                 match Preset::parse("look.ron", &spoilt, &registry) {
                     Ok(_) => assert!(legal, "{} is accepted", what()),
                     // Two layers of one name are the layer's mistake, not its name's; and substeps are

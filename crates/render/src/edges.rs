@@ -87,9 +87,8 @@ impl Edges {
 
     /// Draws the lines into samples of a picture that has so many a pixel.
     pub(crate) fn draw(&self, planes: &mut SamplePlanes, samples: usize) {
-        let numbers: Vec<usize> = planes.samples().enumerate().map(|(i, _)| i).collect();
         let first = planes.samples().start;
-        let masks: Vec<Vec<Bits>> = numbers
+        let masks: Vec<Vec<Bits>> = (0..planes.samples().len())
             .into_par_iter()
             .map(|picture| {
                 // A little less than the middle, so that half a pixel is none where there is one sample.

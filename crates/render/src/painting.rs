@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub struct Painting {
     /// The layers, by rising index.
     pub layers: Vec<PaintedLayer>,
-    /// What samples are told of joints: the lists that the layers declare ([`Self::of_joints`]) are parallel to
+    /// What samples are told of joints: the lists that the layers declare ([`Self::declared_lists`]) are parallel to
     /// [`Drawing::clump`](crate::Drawing::clump), the others empty.
     pub joints: Samples,
 }
@@ -24,6 +24,8 @@ pub struct PaintedLayer {
     pub program: Arc<dyn LayerProgram>,
     /// The layer's seed.
     pub seed: u32,
+    /// Of what its program declares of samples that which it makes use of.
+    pub(crate) read: SampleSet,
 }
 
 impl PartialEq for PaintedLayer {
@@ -42,9 +44,20 @@ impl fmt::Debug for PaintedLayer {
 }
 
 impl PaintedLayer {
-    /// What its program reads of samples.
+    /// One that this program paints.
     #[must_use]
-    pub fn reads(&self) -> SampleSet {
+    pub fn new(layer: usize, program: Arc<dyn LayerProgram>, seed: u32) -> Self {
+        Self {
+            layer,
+            read: program.reads(),
+            program,
+            seed,
+        }
+    }
+
+    /// What its program declares of samples.
+    #[must_use]
+    pub fn declares(&self) -> SampleSet {
         self.program.paints().unwrap_or_default()
     }
 }
@@ -113,17 +126,17 @@ impl Painting {
         self.layers.is_empty()
     }
 
-    /// The lists that the layers need.
+    /// The lists that the layers declare.
     #[must_use]
-    pub fn of_joints(&self) -> SampleSet {
-        let reads = self.layers.iter().map(PaintedLayer::reads);
-        of_joints(reads.fold(SampleSet::default(), SampleSet::union))
+    pub fn declared_lists(&self) -> SampleSet {
+        let declared = self.layers.iter().map(PaintedLayer::declares);
+        of_joints(declared.fold(SampleSet::default(), SampleSet::union))
     }
 
-    /// What samples are mixed of joints' lists for: of these what painting makes use of.
-    pub(crate) fn read_of_joints(&self) -> SampleSet {
-        let reads = self.layers.iter().map(|layer| layer.program.reads());
-        of_joints(reads.fold(SampleSet::default(), SampleSet::union))
+    /// Those of them that painting makes use of.
+    pub(crate) fn read_lists(&self) -> SampleSet {
+        let read = self.layers.iter().map(|layer| layer.read);
+        of_joints(read.fold(SampleSet::default(), SampleSet::union))
     }
 
     /// Takes on what a checked frame says, in place of what was there. `known` has the lists that [`inputs`] names.
@@ -134,16 +147,14 @@ impl Painting {
         for object in &frame.objects {
             for layer in object.layers {
                 if layer.program.paints().is_some() {
-                    self.layers.push(PaintedLayer {
-                        layer: index,
-                        program: layer.program.clone(),
-                        seed: layer_seed(object.seed, &layer.name),
-                    });
+                    let seed = layer_seed(object.seed, &layer.name);
+                    let painted = PaintedLayer::new(index, layer.program.clone(), seed);
+                    self.layers.push(painted);
                 }
                 index += 1;
             }
         }
-        for input in self.of_joints().iter() {
+        for input in self.declared_lists().iter() {
             self.fill_list(frame, known, input);
         }
     }
@@ -199,7 +210,7 @@ impl Painting {
 
     /// The lists that the layers need, with their lengths.
     pub(crate) fn needed_lists(&self) -> Vec<(&'static str, usize)> {
-        let lists = self.of_joints().iter();
+        let lists = self.declared_lists().iter();
         lists
             .map(|input| (input.name(), self.joints.count(input)))
             .collect()

@@ -25,6 +25,11 @@ fn layers(text: &str) -> Vec<Layer> {
 
 /// Strands that hang from a circle around the head's top and curl, drawn by these layers.
 fn drawing(list: &str, features: Features) -> Drawing {
+    drawing_of(STRANDS, list, features)
+}
+
+/// So many of them.
+fn drawing_of(count: usize, list: &str, features: Features) -> Drawing {
     let view = OrbitView {
         target: Vec3::ZERO,
         yaw_degrees: 20.0,
@@ -35,7 +40,7 @@ fn drawing(list: &str, features: Features) -> Drawing {
     let camera = Camera::orbit(view, SIZE, 0.01).unwrap();
     let mut paths = Paths::new();
     let kind = PathKind::CatmullRom { subdivision: 4 };
-    for strand in 0..STRANDS {
+    for strand in 0..count {
         let (sine, cosine) = (0.3 * strand as f32).sin_cos();
         let out = Vec3::new(sine, 0.0, cosine);
         let point = |i: usize| {
@@ -45,7 +50,7 @@ fn drawing(list: &str, features: Features) -> Drawing {
         let points: Vec<Vec3> = (0..6).map(point).collect();
         paths.push_strand(strand, &points, kind, &camera).unwrap();
     }
-    let strands: Vec<StrandInfo> = (0..STRANDS as u32)
+    let strands: Vec<StrandInfo> = (0..count as u32)
         .map(|id| StrandInfo {
             id,
             mean: Vec3::ZERO,
@@ -168,6 +173,17 @@ fn a_sample_is_painted_by_what_it_shows() {
                 "{sample:?}"
             );
         }
+    }
+}
+
+/// What a thread keeps of one drawing says nothing of the next, which may have fewer joints.
+#[test]
+fn a_rasteriser_paints_any_drawing_after_any_other() {
+    let list = format!("[{LINE}, {}]", toon("roundness: (value: 0.5, vary: 0.5)"));
+    let drawings = [24, 1, 3].map(|count| drawing_of(count, &list, Features::NONE));
+    let mut kept = Rasterizer::new(4, Some(1)).unwrap();
+    for drawing in &drawings {
+        assert_eq!(kept.draw(drawing).unwrap(), draw(drawing, 4, 1));
     }
 }
 

@@ -34,7 +34,7 @@ pub(super) struct JointRows {
 impl JointRows {
     /// Those of a drawing's joints, in place of what was there.
     pub(super) fn fill(&mut self, painting: &Painting, joints: usize) {
-        let read = painting.read_of_joints();
+        let read = painting.read_lists();
         for (list, all) in [
             (&mut self.numbers, &NUMBERS[..]),
             (&mut self.vectors, &VECTORS[..]),
@@ -134,11 +134,15 @@ impl Mixed {
         }
     }
 
-    /// Forgets the samples of a slot.
+    /// Has a plane for each number of a row.
     #[inline(always)]
-    pub(super) fn clear(&mut self, slot: usize, rows: &JointRows) {
+    pub(super) fn make_room(&mut self, rows: &JointRows) {
         self.planes.resize(rows.width(), [[0.0; LANES]; SLOTS]);
-        self.set[slot] = [0; LANES];
+    }
+
+    /// Forgets the samples that were mixed.
+    pub(super) fn clear(&mut self) {
+        self.set = [[0; LANES]; SLOTS];
     }
 
     /// Some samples of a slot lie so far on the way from a joint to the next.
@@ -177,7 +181,7 @@ impl Mixed {
         }
     }
 
-    /// Works out what samples have of what was mixed.
+    /// Works out what samples have of what was mixed, which is forgotten: the next block may be of another frame.
     #[inline(always)]
     pub(super) fn finish(&mut self, rows: &JointRows, joints: &Samples, read: SampleSet) {
         let Self {
@@ -186,7 +190,8 @@ impl Mixed {
             joint,
             samples,
         } = self;
-        let (set, joint) = (flat(set), flat(joint));
+        let mixed = std::mem::replace(set, [[0; LANES]; SLOTS]);
+        let (set, joint) = (flat(&mixed), flat(joint));
         let directions = |input| {
             let place = rows.place_of(input)?;
             let [x, y, z] = [0, 1, 2].map(|i| flat(&planes[place + i]));

@@ -5,7 +5,7 @@ use super::shown::{Planes, TRIANGLE};
 use super::tile::{LANES, LaneMask, Target, overwrite, select};
 use super::{Frame, Worker};
 use crate::painting::PaintedLayer;
-use effects::{SampleSet, Vectors};
+use effects::Vectors;
 
 /// A thread's memory for painting: a block of samples for each painted layer.
 #[derive(Default)]
@@ -13,8 +13,6 @@ pub(super) struct Painter(Vec<Block>);
 
 /// Samples that show one layer.
 struct Block {
-    /// What is read of them.
-    read: SampleSet,
     /// The cells that they are of, and which samples of these.
     cells: Vec<(usize, LaneMask)>,
     mixed: Box<Mixed>,
@@ -30,12 +28,13 @@ impl Worker {
         let (target, blocks) = (&mut self.target, &mut self.painter.0);
         let layers = &frame.drawing.painting.layers;
         blocks.resize_with(layers.len(), || Block {
-            read: SampleSet::NONE,
             cells: Vec::new(),
             mixed: Box::new(Mixed::new()),
         });
-        for (block, layer) in blocks.iter_mut().zip(layers) {
-            block.read = layer.program.reads();
+        // They are empty, but where a program panicked.
+        for block in blocks.iter_mut().filter(|block| !block.cells.is_empty()) {
+            block.cells.clear();
+            block.mixed.clear();
         }
         let segments = frame.parts.segments.list();
         for (cell, shows) in shown.what.iter().enumerate() {
@@ -91,7 +90,7 @@ impl Block {
     fn begin(&mut self, frame: &Frame, cell: usize, shown: &Planes, target: &Target) {
         let slot = self.cells.len();
         self.cells.push((cell, [0; LANES]));
-        self.mixed.clear(slot, &frame.parts.joint_rows);
+        self.mixed.make_room(&frame.parts.joint_rows);
         let samples = &mut self.mixed.samples;
         let [red, green, blue] = &target.color;
         for (numbers, plane) in [
@@ -125,7 +124,7 @@ impl Block {
         }
         let joints = &frame.drawing.painting.joints;
         let rows = &frame.parts.joint_rows;
-        self.mixed.finish(rows, joints, self.read);
+        self.mixed.finish(rows, joints, layer.read);
         let mut colors = Vectors::NOTHING;
         let program = &layer.program;
         program.paint_block(&self.mixed.samples, layer.seed, &mut colors);
