@@ -60,6 +60,9 @@ struct Params {
 /// A ball that mirrors as hair on a head does: its radius in head heights.
 const BALL: f32 = 0.5;
 
+/// Over how many head heights behind `start` the band comes to its width.
+const ROOT_FADE: f32 = 0.04;
+
 /// How many grays above `shade` the band is whole.
 const FADE: f32 = 0.4;
 
@@ -104,7 +107,7 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let along = saturate((half - away) / max(params.taper * half, 1e-6));
     let basic = params.spread * joint.clump_radius / f32(params.teeth);
     let size = params.fullness * basic;
-    let whole = along * lit * saturate(from_root / 0.04);
+    let whole = along * lit * saturate(from_root / ROOT_FADE);
     let share = without_hairlines(whole, size, 0.5 * params.thinnest * joint.unit);
     // A rim is as wide beside the tooth as before its ends, and gone where that is.
     return Stroke(offset, share * (size + rim), 0.0, color);

@@ -22,8 +22,8 @@ struct Params {
     /// How far it is along the strand from one tremble to the next.
     /// @unit head heights @range 0.01..10 @default 0.18
     wobble_length: f32,
-    /// How much of the line the brush is off the paper, in places of its own on each strand: 1 is all of it. Gaps are about as long as
-    /// trembles.
+    /// How much of the line the brush is off the paper, in places of its own on each strand: 1 is all of it. Gaps are about twice as
+    /// long as trembles.
     /// @range 0..1 @default 0
     gaps: f32,
     /// Colour of the line, or none for a dark shade of the hair's own.
@@ -39,7 +39,6 @@ struct Params {
 
 /// Over how many grays one colour becomes the other.
 const BLEND: f32 = 0.1;
-
 
 /// How bright a line is against the hair whose colour it takes.
 const DARK: f32 = 0.13;

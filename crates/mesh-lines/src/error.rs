@@ -40,10 +40,36 @@ pub enum MeshError {
     },
     /// A direction has no length.
     NoDirection,
-    /// A length that must be positive isn't.
+    /// A length that must be positive and finite isn't.
     NotPositive {
         /// Whose it is.
         what: &'static str,
+    },
+    /// A length that may be 0 is below it, NaN or infinite.
+    Negative {
+        /// Whose it is.
+        what: &'static str,
+    },
+    /// A line isn't one of this surface: its joints and segments don't fit together, or lie on triangles that there aren't.
+    OtherLine {
+        /// The line's index.
+        line: usize,
+    },
+    /// A span isn't one of these lines: it is of one that there isn't, or goes beyond its ends.
+    OtherSpan {
+        /// The span's index.
+        span: usize,
+    },
+    /// A tracker is given another mesh than in the frames before.
+    OtherMesh {
+        /// How many triangles it has.
+        triangles: usize,
+        /// How many that of the frames before has.
+        triangles_before: usize,
+        /// How many smooth vertices it has.
+        vertices: usize,
+        /// How many that of the frames before has.
+        vertices_before: usize,
     },
 }
 
@@ -75,7 +101,20 @@ impl fmt::Display for MeshError {
             ),
             Self::NotFinite { what, index } => write!(f, "{what} {index} is NaN or infinite"),
             Self::NoDirection => write!(f, "the direction towards the eye has no length"),
-            Self::NotPositive { what } => write!(f, "{what} must be a positive number"),
+            Self::NotPositive { what } => write!(f, "{what} must be a positive, finite number"),
+            Self::Negative { what } => write!(f, "{what} must be 0 or a positive, finite number"),
+            Self::OtherLine { line } => write!(f, "line {line} isn't one of this surface"),
+            Self::OtherSpan { span } => write!(f, "span {span} isn't one of these lines"),
+            Self::OtherMesh {
+                triangles,
+                triangles_before,
+                vertices,
+                vertices_before,
+            } => write!(
+                f,
+                "a mesh of {triangles} triangles and {vertices} smooth vertices isn't the one of the frames before, \
+                 of {triangles_before} and {vertices_before}: another mesh needs a tracker of its own"
+            ),
         }
     }
 }

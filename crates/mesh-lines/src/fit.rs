@@ -8,6 +8,9 @@ const AT_ONCE: usize = 4;
 const POINTS: f64 = 1.0;
 const SLOPE: f64 = 1.0;
 const BENDING: f64 = 1.0;
+/// How long a function is that may bend, in pixels. The points of a shorter one say next to nothing about its slope (it counts for length / 12 of the slope that is
+/// asked for), and bending it costs so much that points are lost in rounding; of one that is longer than any picture shows it is the slope that is lost.
+const BENT_PX: Range<f64> = 0.01..1e9;
 
 /// A function of length: a uniform cubic B-spline.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,9 +25,14 @@ pub(crate) struct Spline {
 impl Spline {
     /// The T over `range` (px) for which E(T) = 1/n sum (T(s_i) - t_i)^2 + int (T' - slope)^2 ds + int T''^2 ds is least. Knots are about `knot` (px) apart.
     ///
-    /// At least one point, and a range with a length.
+    /// At least one point, and a range with a length. Where that is beyond [`BENT_PX`] T is straight, with that slope.
     pub(crate) fn fit(range: Range<f64>, knot: f64, points: &[(f64, f64)], slope: f64) -> Self {
         let length = range.end - range.start;
+        if !BENT_PX.contains(&length) {
+            let straight = Self::straight(range, slope);
+            let above: f64 = points.iter().map(|&(s, t)| t - straight.at(s)).sum();
+            return straight.raised(above / points.len() as f64);
+        }
         // However long a line, no more than a picture could show.
         let pieces = (length / knot).round().clamp(1.0, 4096.0) as usize;
         let mut spline = Self {
@@ -66,6 +74,11 @@ impl Spline {
                 .map(|i| (i as f64 - 1.0) * step * slope)
                 .collect(),
         }
+    }
+
+    fn raised(mut self, by: f64) -> Self {
+        self.coefficients.iter_mut().for_each(|c| *c += by);
+        self
     }
 
     /// Its value; beyond the ends the last pieces go on.
@@ -199,6 +212,27 @@ mod tests {
             let mut other = spline.clone();
             other.coefficients.iter_mut().zip(&shake).for_each(|(c, d)| *c += d);
             prop_assert!(energy(&other, 20.0..320.0, &points, 1.0) >= least * (1.0 - 1e-6));
+        }
+
+        #[test]
+        fn however_short_or_long_it_is_finite_and_near_its_points(
+            magnitude in -300..300i32,
+            points in prop::collection::vec((0.0..1.0f64, -50.0..50.0f64), 1..9),
+        ) {
+            let length = 10_f64.powi(magnitude);
+            let slope = 0.01;
+            let points: Vec<(f64, f64)> = points.iter().map(|&(s, d)| (s * length, s * length * slope + d)).collect();
+            let spline = Spline::fit(0.0..length, 48.0, &points, slope);
+            // What rounding leaves of values so large.
+            let slack = 1e-6 + length * slope * 1e-14;
+            for share in [0.0, 0.3, 1.0] {
+                let off = spline.at(length * share) - length * share * slope;
+                prop_assert!(off.abs() < 200.0 + slack, "{} {}", length, off);
+            }
+            if length < 1.0 {
+                let above: f64 = points.iter().map(|&(s, t)| t - spline.at(s)).sum();
+                prop_assert!((above / points.len() as f64).abs() < slack, "{} {}", length, above);
+            }
         }
 
         #[test]

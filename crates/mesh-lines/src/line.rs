@@ -1,6 +1,6 @@
 //! What a line on a mesh is.
 
-use crate::{Place, Surface, View};
+use crate::{MeshError, Place, Surface, View};
 use glam::DVec3;
 
 /// What a line is a line of.
@@ -112,6 +112,32 @@ impl Line {
             .map(|i| images[i].distance(images[(i + 1) % images.len()]))
             .collect()
     }
+}
+
+/// Refuses lines of another mesh, as far as they can be told.
+pub(crate) fn check_lines(surface: &Surface, lines: &[Line]) -> Result<(), MeshError> {
+    let triangles = surface.topology().triangles().len();
+    let is_of_it = |line: &Line| {
+        let of_segments = line.segments.iter().map(|segment| segment.triangle);
+        let of_points = line.points.iter().map(|point| point.place.triangle);
+        let joints = line.segments.len() + usize::from(!line.closed);
+        (line.points.len() == joints || line.segments.is_empty())
+            && of_segments
+                .chain(of_points)
+                .all(|t| (t as usize) < triangles)
+    };
+    for (number, line) in lines.iter().enumerate() {
+        if !is_of_it(line) {
+            return Err(MeshError::OtherLine { line: number });
+        }
+        if !line.points.iter().all(|point| point.position.is_finite()) {
+            return Err(MeshError::NotFinite {
+                what: "a position of line",
+                index: number,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// A place on the edge of a triangle, said of the triangle beside it: of which `place` must be.

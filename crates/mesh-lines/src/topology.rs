@@ -36,7 +36,9 @@ pub enum Beside {
 /// - Two triangles at an edge are neighbours whichever way they are wound. In each set of neighbours all are turned as most of them are;
 ///   where that can't be (a Möbius strip), each as the neighbour from which it was first reached. What is closed is turned outwards.
 /// - At an edge of three triangles or more nobody is a neighbour; it is a crease.
-/// - Vertices of no triangle, and triangles that meet in a vertex alone, have nothing to do with each other.
+/// - Triangles that meet in a vertex alone are no neighbours.
+/// - Who aren't neighbours have one normal at a common vertex all the same, until [`Topology::with_creases`] parts them.
+/// - Vertices of no triangle have no normal and no lines.
 /// - Vertices with equal positions are different vertices: join them before, as `mesh_io::Welded` does.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Topology {
@@ -53,7 +55,7 @@ pub struct Topology {
     closed: Vec<bool>,
     /// Half-edges of sharp edges, in order.
     sharp: Vec<u32>,
-    /// Of each triangle its smooth vertices, and of each of these the vertex. Empty where nothing is sharp: then they are the vertices.
+    /// Of each triangle its smooth vertices, and of each of these the vertex. Empty where none is parted: then they are the vertices.
     smooth_corners: Vec<[u32; 3]>,
     smooth_vertices: Vec<u32>,
 }

@@ -1,7 +1,8 @@
 //! What contours are called from frame to frame, and what runs along them.
 
 use crate::{
-    Cut, Kind, Line, MeshError, Place, Span, Surface, View, fit::Spline, ruler::Ruler, walk_to_zero,
+    Cut, Kind, Line, MeshError, Place, Span, Surface, Topology, View, fit::Spline,
+    line::check_lines, ruler::Ruler, walk_to_zero,
 };
 use glam::DVec3;
 use std::{collections::HashMap, ops::Range};
@@ -33,12 +34,14 @@ pub struct Tracker {
     paths: Vec<Path>,
     memories: Vec<Memory>,
     next_id: u64,
+    /// How many triangles and smooth vertices the mesh has, from the first frame on.
+    mesh: Option<[usize; 2]>,
 }
 
 /// What the tracker needs to know of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
-    /// The mesh: of one topology in all frames.
+    /// The mesh: of one topology in all frames of a tracker.
     pub surface: &'a Surface<'a>,
     /// The eye.
     pub view: &'a View,
@@ -46,7 +49,7 @@ pub struct Frame<'a> {
     pub facing: &'a [f64],
     /// The lines of the frame.
     pub lines: &'a [Line],
-    /// What of them is seen.
+    /// What of them is seen, as [`crate::visible`] says it: those of one line do not overlap.
     pub spans: &'a [Span],
     /// How long a pixel is in the image ([`View`]).
     pub pixel: f64,
@@ -102,7 +105,9 @@ impl Tracker {
     ///
     /// # Errors
     ///
-    /// When `pixel` or `period_px` isn't a positive number, or there is not one value of `facing` for each smooth vertex.
+    /// When `pixel` or `period_px` isn't a positive number, there is not one value of `facing` for each smooth vertex, the mesh hasn't as many triangles and smooth
+    /// vertices as in the frames before, a line isn't one of it, a span isn't one of the lines, or a span's length in pixels or periods is beyond all numbers. The tracker
+    /// is then as it was.
     pub fn step(&mut self, frame: &Frame) -> Result<&[Path], MeshError> {
         for (what, length) in [
             ("a pixel's length", frame.pixel),
@@ -120,19 +125,33 @@ impl Tracker {
                 vertices,
             });
         }
+        let mesh = self.check_mesh(frame.surface.topology())?;
+        check_lines(frame.surface, frame.lines)?;
+        check_spans(frame)?;
         let mut votes = self.votes(frame);
-        self.paths.clear();
-        self.memories.clear();
+        let mut rulers = Vec::new();
         for (number, span) in frame.spans.iter().enumerate() {
             let line = &frame.lines[span.line];
             if line.kind != Kind::Contour {
                 continue;
             }
-            let votes = &mut votes[number];
-            let ruler = ruler(frame, line, span, votes);
-            if ruler.length() > 0.0 {
-                self.name(frame, number, line, &ruler, votes);
+            let ruler = ruler(frame, line, span, &mut votes[number]);
+            if !(ruler.length().is_finite() && (ruler.length() / frame.period_px).is_finite()) {
+                return Err(MeshError::NotFinite {
+                    what: "the length of span",
+                    index: number,
+                });
             }
+            if ruler.length() > 0.0 {
+                rulers.push((number, ruler));
+            }
+        }
+        self.mesh = Some(mesh);
+        self.paths.clear();
+        self.memories.clear();
+        for (number, ruler) in rulers {
+            let line = &frame.lines[frame.spans[number].line];
+            self.name(frame, number, line, &ruler, &votes[number]);
         }
         Ok(&self.paths)
     }
@@ -141,6 +160,20 @@ impl Tracker {
     #[must_use]
     pub fn paths(&self) -> &[Path] {
         &self.paths
+    }
+
+    /// The numbers by which a mesh is known, unless they aren't those of the frames before.
+    fn check_mesh(&self, topology: &Topology) -> Result<[usize; 2], MeshError> {
+        let mesh = [topology.triangles().len(), topology.smooth_vertices()];
+        match self.mesh {
+            Some(before) if before != mesh => Err(MeshError::OtherMesh {
+                triangles: mesh[0],
+                triangles_before: before[0],
+                vertices: mesh[1],
+                vertices_before: before[1],
+            }),
+            _ => Ok(mesh),
+        }
     }
 
     /// Where the samples of the last frame's paths are now, by span.
@@ -162,6 +195,10 @@ impl Tracker {
         let mut spans = vec![Vec::new(); frame.lines.len()];
         for (number, span) in frame.spans.iter().enumerate() {
             spans[span.line].push(number);
+        }
+        for spans in &mut spans {
+            let start = |span: &usize| frame.spans[*span].start;
+            spans.sort_by(|a, b| start(a).total_cmp(&start(b)));
         }
         let mut votes = vec![Vec::new(); frame.spans.len()];
         let reach = REACH_PX * frame.pixel;
@@ -185,8 +222,7 @@ impl Tracker {
                 continue;
             };
             let count = frame.lines[line].segments.len() as f64;
-            let reaches = |&&span: &&usize| on_span(&frame.spans[span], along, count).is_some();
-            if let Some(&span) = spans[line].iter().find(reaches) {
+            if let Some(span) = span_at(frame.spans, &spans[line], along, count) {
                 votes[span].push(Vote {
                     id: memory.id,
                     along,
@@ -282,6 +318,34 @@ fn ruler(frame: &Frame, line: &Line, span: &Span, votes: &mut [Vote]) -> Ruler {
     ruler
 }
 
+/// Refuses spans of other lines, as far as they can be told.
+fn check_spans(frame: &Frame) -> Result<(), MeshError> {
+    let is_of_them = |span: &Span| {
+        frame.lines.get(span.line).is_some_and(|line| {
+            let count = line.segments.len() as f64;
+            let most = if line.closed {
+                span.start + count
+            } else {
+                count
+            };
+            (0.0..=count).contains(&span.start) && (span.start..=most).contains(&span.end)
+        })
+    };
+    match frame.spans.iter().position(|span| !is_of_them(span)) {
+        Some(span) => Err(MeshError::OtherSpan { span }),
+        None => Ok(()),
+    }
+}
+
+/// The span in which a place on a line lies: of those of the line, by where they begin, since none overlaps another.
+fn span_at(spans: &[Span], of_line: &[usize], along: f64, count: f64) -> Option<usize> {
+    [along, along + count].into_iter().find_map(|at| {
+        let after = of_line.partition_point(|&span| spans[span].start <= at);
+        let last = of_line[..after].last().copied();
+        last.filter(|&span| at <= spans[span].end)
+    })
+}
+
 /// A place on a line as one between the ends of a span, which may go through the line's first point.
 fn on_span(span: &Span, along: f64, count: f64) -> Option<f64> {
     [along, along + count]
@@ -337,30 +401,24 @@ fn shares(mut groups: Vec<Vec<Vote>>, length: f64) -> Vec<(Range<f64>, Vec<Vote>
     });
     let mut taken: Vec<(Range<f64>, Vec<Vote>)> = Vec::new();
     for group in groups {
-        let is_free = |vote: &Vote| {
-            !taken
-                .iter()
-                .any(|(range, _)| (range.start..=range.end).contains(&vote.s))
+        // What is taken is in order, and doesn't overlap. Between two of them lies a gap, known by how many are before it.
+        let gap = |vote: &Vote| {
+            let before = taken.partition_point(|(range, _)| range.start <= vote.s);
+            let is_free = before == 0 || taken[before - 1].0.end < vote.s;
+            is_free.then_some(before)
         };
-        // A part is left where votes follow each other with nothing taken between.
-        let same_gap = |a: &Vote, b: &Vote| {
-            is_free(a)
-                && is_free(b)
-                && !taken
-                    .iter()
-                    .any(|(range, _)| range.start > a.s && range.end < b.s)
-        };
+        // A part is left where votes follow each other in one gap.
+        let same_gap = |a: &Vote, b: &Vote| gap(a).is_some() && gap(a) == gap(b);
         let extent = |part: &[Vote]| part[part.len() - 1].s - part[0].s;
         let longest = group
             .chunk_by(same_gap)
             .max_by(|a, b| extent(a).total_cmp(&extent(b)));
-        if let Some(part) =
-            longest.filter(|part| part.len() >= LEAST_VOTES && extent(part) >= least)
-        {
-            taken.push((part[0].s..part[part.len() - 1].s, part.to_vec()));
+        let longest = longest.filter(|part| part.len() >= LEAST_VOTES && extent(part) >= least);
+        if let Some((part, before)) = longest.and_then(|part| Some((part, gap(&part[0])?))) {
+            let range = part[0].s..part[part.len() - 1].s;
+            taken.insert(before, (range, part.to_vec()));
         }
     }
-    taken.sort_by(|a, b| a.0.start.total_cmp(&b.0.start));
     let borders: Vec<f64> = taken
         .windows(2)
         .map(|two| (two[0].0.end + two[1].0.start) / 2.0)

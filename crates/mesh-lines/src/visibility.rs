@@ -6,6 +6,7 @@
 
 use crate::{
     Bvh, Kind, Line, MeshError, Ray, Surface, View, crossings::crossings, junctions::junctions,
+    line::check_lines,
 };
 use glam::DVec3;
 use std::ops::ControlFlow;
@@ -53,7 +54,7 @@ pub enum Cut {
 ///
 /// # Errors
 ///
-/// When `shortest` isn't a number, or below 0.
+/// When `shortest` is NaN, infinite or below 0, or a line isn't one of `surface`.
 pub fn visible(
     surface: &Surface,
     bvh: &Bvh,
@@ -61,11 +62,12 @@ pub fn visible(
     lines: &[Line],
     shortest: f64,
 ) -> Result<Vec<Span>, MeshError> {
-    if shortest.is_nan() || shortest < 0.0 {
-        return Err(MeshError::NotPositive {
+    if !(shortest.is_finite() && shortest >= 0.0) {
+        return Err(MeshError::Negative {
             what: "the shortest piece's length",
         });
     }
+    check_lines(surface, lines)?;
     let rays = Rays::new(surface, bvh, view);
     let mut spans = Vec::new();
     let mut events = crossings(surface, lines, view);
@@ -82,7 +84,7 @@ pub fn visible(
         for piece in &mut pieces {
             piece.seen = !piece.inside && rays.see_most(line, piece, &lengths);
         }
-        join_short(&mut pieces, shortest);
+        join_short(&mut pieces, line, shortest);
         spans.extend(seen_spans(line, number, &pieces));
     }
     Ok(spans)
@@ -103,6 +105,7 @@ pub fn is_seen(surface: &Surface, bvh: &Bvh, view: &View, line: &Line, along: f6
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     start: f64,
+    /// Of the last piece of a closed line it may be beyond the number of segments, as that of a [`Span`].
     end: f64,
     /// In the image.
     length: f64,
@@ -141,25 +144,36 @@ fn pierced(surface: &Surface, bvh: &Bvh, line: &Line) -> Vec<f64> {
     places
 }
 
-/// Cuts a line at events: where it crosses or meets others or goes through a triangle, and at its cusps.
+/// Cuts a line at events: where it crosses or meets others or goes through a triangle, and at its cusps. The first point of a closed line is no event.
 fn pieces(surface: &Surface, line: &Line, events: &[f64], lengths: &[f64]) -> Vec<Piece> {
     let count = line.segments.len();
-    let mut cuts = vec![0.0];
-    cuts.extend_from_slice(events);
+    let end = count as f64;
+    let mut cuts = events.to_vec();
     cuts.extend(
-        (1..count)
-            .filter(|&i| line.segments[i - 1].folded != line.segments[i].folded)
+        (usize::from(!line.closed)..count)
+            .filter(|&i| line.segments[(i + count - 1) % count].folded != line.segments[i].folded)
             .map(|i| i as f64),
     );
-    cuts.push(count as f64);
+    if line.closed {
+        cuts.iter_mut().for_each(|cut| *cut %= end);
+    } else {
+        cuts.extend([0.0, end]);
+    }
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
+    if line.closed {
+        // Around from the first event to itself; where there is none, from the first point.
+        if cuts.is_empty() {
+            cuts.push(0.0);
+        }
+        cuts.push(end + cuts[0]);
+    }
     cuts.windows(2)
         .map(|ends| Piece {
             start: ends[0],
             end: ends[1],
             length: length_between(lengths, ends[0], ends[1]),
-            inside: line.segments[(ends[0] as usize).min(count - 1)].is_inside(surface),
+            inside: line.segments[ends[0] as usize].is_inside(surface),
             seen: false,
         })
         .collect()
@@ -167,9 +181,8 @@ fn pieces(surface: &Surface, line: &Line, events: &[f64], lengths: &[f64]) -> Ve
 
 /// How long a part of a line is, by the lengths of its segments.
 fn length_between(lengths: &[f64], start: f64, end: f64) -> f64 {
-    let last = lengths.len() - 1;
-    (start as usize..=(end as usize).min(last))
-        .map(|i| lengths[i] * (end.min(i as f64 + 1.0) - start.max(i as f64)).max(0.0))
+    (start as usize..end.ceil() as usize)
+        .map(|i| lengths[i % lengths.len()] * (end.min(i as f64 + 1.0) - start.max(i as f64)))
         .sum()
 }
 
@@ -180,7 +193,7 @@ fn place_at(piece: &Piece, lengths: &[f64], share: f64) -> f64 {
     while at < piece.end {
         let segment = at as usize;
         let next = (segment as f64 + 1.0).min(piece.end);
-        let length = lengths[segment] * (next - at);
+        let length = lengths[segment % lengths.len()] * (next - at);
         if left < length {
             return at + (next - at) * left / length;
         }
@@ -191,76 +204,84 @@ fn place_at(piece: &Piece, lengths: &[f64], share: f64) -> f64 {
     piece.start + (piece.end - piece.start) * share
 }
 
-/// Gives pieces shorter than `shortest` the answer of the longer neighbour, the shortest piece first.
-fn join_short(pieces: &mut Vec<Piece>, shortest: f64) {
-    // What is alike is one.
-    let join = |pieces: &mut Vec<Piece>| {
-        pieces.dedup_by(|next, before| {
-            let alike = (next.seen, next.inside) == (before.seen, before.inside);
-            if alike {
-                before.end = next.end;
-                before.length += next.length;
-            }
-            alike
-        });
+/// The index of the piece before or after one, if it isn't the same: of a closed line the first comes after the last.
+fn neighbour(pieces: &[Piece], line: &Line, at: usize, forward: bool) -> Option<usize> {
+    let count = pieces.len();
+    match (forward, line.closed) {
+        (_, true) if count == 1 => None,
+        (true, true) => Some((at + 1) % count),
+        (false, true) => Some((at + count - 1) % count),
+        (true, false) => Some(at + 1).filter(|&next| next < count),
+        (false, false) => at.checked_sub(1),
+    }
+}
+
+/// Joins neighbours that are alike.
+fn join(pieces: &mut Vec<Piece>, line: &Line) {
+    let joined = |before: &mut Piece, next: &Piece, end: f64| {
+        let alike = (next.seen, next.inside) == (before.seen, before.inside);
+        if alike {
+            before.end = end;
+            before.length += next.length;
+        }
+        alike
     };
-    join(pieces);
+    pieces.dedup_by(|next, before| joined(before, next, next.end));
+    if let [first, .., last] = pieces.as_mut_slice()
+        && line.closed
+        && joined(last, first, line.segments.len() as f64 + first.end)
+    {
+        pieces.remove(0);
+    }
+}
+
+/// Gives pieces shorter than `shortest` the answer of the longer neighbour, the shortest piece first.
+fn join_short(pieces: &mut Vec<Piece>, line: &Line, shortest: f64) {
+    join(pieces, line);
     // A fold stays what it is, however short: the line ends at its cusps.
     let mut short: Vec<usize> = (0..pieces.len())
         .filter(|&i| pieces[i].length < shortest && !pieces[i].inside)
         .collect();
     short.sort_by(|&a, &b| pieces[a].length.total_cmp(&pieces[b].length));
     for i in short {
-        let neighbours = [i.checked_sub(1), Some(i + 1)].into_iter().flatten();
-        let longer = neighbours
-            .filter_map(|n| pieces.get(n))
+        let longer = [false, true]
+            .into_iter()
+            .filter_map(|forward| Some(pieces[neighbour(pieces, line, i, forward)?]))
             .max_by(|a, b| a.length.total_cmp(&b.length));
         // A speck between two others has no side to take where it is the line itself.
         if let Some(longer) = longer.filter(|longer| longer.length >= pieces[i].length) {
             pieces[i].seen = longer.seen;
         }
     }
-    join(pieces);
+    join(pieces, line);
 }
 
-/// The pieces that are seen, joined where they meet, also at the first point of a closed line.
+/// The pieces that are seen, which don't meet each other.
 fn seen_spans(line: &Line, number: usize, pieces: &[Piece]) -> Vec<Span> {
-    let count = line.segments.len() as f64;
-    let cut = |beyond: Option<&Piece>| match beyond {
+    if let [Piece { seen: true, .. }] = pieces
+        && line.closed
+    {
+        return vec![Span {
+            line: number,
+            start: 0.0,
+            end: line.segments.len() as f64,
+            cuts: [Cut::None; 2],
+        }];
+    }
+    let cut = |at: usize, forward: bool| match neighbour(pieces, line, at, forward) {
         None => Cut::End,
-        Some(piece) if piece.inside => Cut::Cusp,
+        Some(beyond) if pieces[beyond].inside => Cut::Cusp,
         Some(_) => Cut::Hidden,
     };
-    let neighbour = |at: usize, forward: bool| match (forward, line.closed) {
-        (true, true) => pieces.get((at + 1) % pieces.len()),
-        (true, false) => pieces.get(at + 1),
-        (false, true) => pieces.get((at + pieces.len() - 1) % pieces.len()),
-        (false, false) => at.checked_sub(1).and_then(|at| pieces.get(at)),
-    };
-    let mut spans = Vec::new();
-    for (at, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.seen) {
-        spans.push(Span {
+    (0..pieces.len())
+        .filter(|&at| pieces[at].seen)
+        .map(|at| Span {
             line: number,
-            start: piece.start,
-            end: piece.end,
-            cuts: [cut(neighbour(at, false)), cut(neighbour(at, true))],
-        });
-    }
-    if line.closed && pieces.len() == 1 {
-        spans.iter_mut().for_each(|span| span.cuts = [Cut::None; 2]);
-    }
-    let through_start = line.closed
-        && spans.len() > 1
-        && spans[0].start == 0.0
-        && spans.last().is_some_and(|last| last.end == count);
-    if through_start {
-        let first = spans.remove(0);
-        if let Some(last) = spans.last_mut() {
-            last.end = count + first.end;
-            last.cuts[1] = first.cuts[1];
-        }
-    }
-    spans
+            start: pieces[at].start,
+            end: pieces[at].end,
+            cuts: [cut(at, false), cut(at, true)],
+        })
+        .collect()
 }
 
 /// Rays from lines to the eye.

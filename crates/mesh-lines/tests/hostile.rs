@@ -4,8 +4,8 @@ mod shapes;
 
 use glam::{DVec3, Vec3};
 use mesh_lines::{
-    Bvh, Frame, MeshError, Surface, TURN_COSINE, Topology, Tracker, View, borders, contours,
-    creases, curvatures, facing, visible,
+    Bvh, Frame, Line, MeshError, Span, Surface, TURN_COSINE, Topology, Tracker, View, borders,
+    contours, creases, curvatures, facing, visible,
 };
 use proptest::prelude::*;
 use shapes::{bumpy, cube, eyes, sphere};
@@ -44,7 +44,7 @@ fn all_of(topology: &Topology, positions: &[Vec3], view: &View) {
     for span in &spans {
         let count = lines[span.line].segments.len() as f64;
         assert!(
-            span.start < span.end && span.end - span.start <= count && span.start >= 0.0,
+            span.start < span.end && span.end <= span.start + count && span.start >= 0.0,
             "{span:?} {count}"
         );
     }
@@ -103,6 +103,21 @@ fn nothing_and_one_triangle() {
 }
 
 #[test]
+fn a_contour_through_two_triangles_alone_has_finite_t() {
+    let positions = [
+        Vec3::new(-3.0, 3.0, 0.0),
+        Vec3::new(0.0, 1.0, 0.0),
+        Vec3::new(2.0, 2.0, 1.0),
+        Vec3::new(3.0, 0.0, -3.0),
+        Vec3::new(-2.0, 2.0, -1.0),
+    ];
+    let topology = Topology::new(&positions, &[[1, 4, 3], [4, 2, 0]]).unwrap();
+    let eye = Vec3::new(-3.0, 2.0, 3.0);
+    all_of(&topology, &positions, &from(eye));
+    all_of(&topology, &positions, &View::orthographic(eye).unwrap());
+}
+
+#[test]
 fn bad_numbers_are_named() {
     assert!(matches!(
         View::perspective(Vec3::NAN),
@@ -131,9 +146,146 @@ fn bad_numbers_are_named() {
         contours(&surface, &view, &values),
         Err(MeshError::Count { .. })
     ));
-    for shortest in [-1.0, f64::NAN] {
-        assert!(visible(&surface, &shape.bvh(), &view, &[], shortest).is_err());
+    for shortest in [-1.0, f64::NAN, f64::INFINITY] {
+        let error = visible(&surface, &shape.bvh(), &view, &[], shortest).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the shortest piece's length must be 0 or a positive, finite number"
+        );
     }
+    assert!(visible(&surface, &shape.bvh(), &view, &[], 0.0).is_ok());
+}
+
+/// A sphere's frame, changed; what the tracker says to it after the right one, and that it is as it was.
+fn refusal(change: impl Fn(&mut Frame, &mut Vec<Line>, &mut Vec<Span>)) -> MeshError {
+    let shape = sphere(6, DVec3::ZERO, 1.0);
+    let surface = shape.surface();
+    let view = from(Vec3::new(0.5, 1.0, 4.0));
+    let values = facing(&surface, &view);
+    let mut lines = shape.lines(&view);
+    let mut spans = visible(&surface, &shape.bvh(), &view, &lines, 1e-3).unwrap();
+    let (right_lines, right_spans) = (lines.clone(), spans.clone());
+    let right = Frame {
+        surface: &surface,
+        view: &view,
+        facing: &values,
+        lines: &right_lines,
+        spans: &right_spans,
+        pixel: 1e-3,
+        period_px: 100.0,
+    };
+    let mut tracker = Tracker::default();
+    let before = tracker.step(&right).unwrap().to_vec();
+    assert!(!before.is_empty());
+    let mut wrong = right;
+    change(&mut wrong, &mut lines, &mut spans);
+    let error = tracker
+        .step(&Frame {
+            lines: &lines,
+            spans: &spans,
+            ..wrong
+        })
+        .unwrap_err();
+    assert_eq!(tracker.paths(), before);
+    let after = tracker.step(&right).unwrap();
+    assert!(after.iter().all(|path| !path.is_new));
+    error
+}
+
+#[test]
+fn frames_that_do_not_fit_together_are_refused() {
+    let span = MeshError::OtherSpan { span: 0 };
+    let line = MeshError::OtherLine { line: 0 };
+    assert_eq!(refusal(|_, _, spans| spans[0].line = 7), span);
+    assert_eq!(refusal(|_, lines, _| lines.clear()), span);
+    assert_eq!(refusal(|_, lines, _| lines[0].segments.clear()), span);
+    for bad in [-1.0, 1e4, f64::NAN, f64::INFINITY] {
+        assert_eq!(refusal(|_, _, spans| spans[0].start = bad), span);
+        assert_eq!(refusal(|_, _, spans| spans[0].end = bad), span);
+    }
+    assert_eq!(refusal(|_, lines, _| lines[0].points.clear()), line);
+    assert_eq!(
+        refusal(|_, lines, _| lines[0].segments[3].triangle = 432),
+        line
+    );
+    assert_eq!(
+        refusal(|_, lines, _| lines[0].points[3].place.triangle = u32::MAX),
+        line
+    );
+    for (error, message) in [
+        (
+            refusal(|_, lines, _| lines[0].points[3].position.x = f64::NAN),
+            "a position of line 0 is NaN or infinite",
+        ),
+        (
+            refusal(|frame, _, _| frame.period_px = 1e-310),
+            "the length of span 0 is NaN or infinite",
+        ),
+        (
+            refusal(|frame, _, _| frame.pixel = 1e-310),
+            "the length of span 0 is NaN or infinite",
+        ),
+    ] {
+        assert_eq!(error.to_string(), message);
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(
+            refusal(|frame, _, _| frame.pixel = bad).to_string(),
+            "a pixel's length must be a positive, finite number"
+        );
+    }
+}
+
+#[test]
+fn a_tracker_is_of_one_mesh() {
+    let mut tracker = Tracker::default();
+    let view = from(Vec3::new(0.5, 1.0, 4.0));
+    let mut step = |count: u32| {
+        let shape = sphere(count, DVec3::ZERO, 1.0);
+        let surface = shape.surface();
+        let values = facing(&surface, &view);
+        let lines = shape.lines(&view);
+        let spans = visible(&surface, &shape.bvh(), &view, &lines, 1e-3).unwrap();
+        let frame = Frame {
+            surface: &surface,
+            view: &view,
+            facing: &values,
+            lines: &lines,
+            spans: &spans,
+            pixel: 1e-3,
+            period_px: 100.0,
+        };
+        tracker.step(&frame).map(<[_]>::len)
+    };
+    assert_eq!(step(6), Ok(1));
+    for other in [5, 7] {
+        assert_eq!(
+            step(other),
+            Err(MeshError::OtherMesh {
+                triangles: (other * other * 12) as usize,
+                triangles_before: 432,
+                vertices: (other * other * 6 + 2) as usize,
+                vertices_before: 218
+            })
+        );
+    }
+    assert_eq!(step(6), Ok(1));
+}
+
+#[test]
+fn lines_of_another_mesh_are_refused() {
+    let [small, large] = [4, 8].map(|count| sphere(count, DVec3::ZERO, 1.0));
+    let view = from(Vec3::new(0.5, 1.0, 4.0));
+    assert_eq!(
+        visible(
+            &small.surface(),
+            &small.bvh(),
+            &view,
+            &large.lines(&view),
+            0.0
+        ),
+        Err(MeshError::OtherLine { line: 0 })
+    );
 }
 
 #[test]

@@ -3,7 +3,7 @@
 mod shapes;
 
 use glam::{DVec3, Vec3};
-use mesh_lines::{Bvh, Line, View, is_seen, visible};
+use mesh_lines::{Bvh, Cut, Line, Span, View, is_seen, visible};
 use shapes::{Shape, bumpy, cube, cup, eyes, sphere, torus};
 
 /// Length in the image of what two answers disagree about, and of all.
@@ -148,6 +148,66 @@ fn edges_of_boxes_are_hidden_where_the_exact_ones_are() {
         });
     }
     assert!(tally.share() < 0.001, "{}", tally.share());
+}
+
+/// A closed line that begins at another of its points.
+fn begun_at(line: &Line, first: usize) -> Line {
+    let mut line = line.clone();
+    line.points.rotate_left(first);
+    line.segments.rotate_left(first);
+    line
+}
+
+#[test]
+fn what_is_seen_of_a_closed_line_is_the_same_wherever_it_begins() {
+    let linked = torus([64, 40], 0.8, 0.25)
+        .and(torus([64, 40], 0.8, 0.25).moved(|p| Vec3::new(p.x + 0.8, p.z, p.y)));
+    let mut ends = 0;
+    for shape in [bumpy(24), linked] {
+        let (surface, bvh) = (shape.surface(), shape.bvh());
+        for eye in eyes(12, 3.0, 8.0) {
+            let view = View::perspective(eye.as_vec3()).unwrap();
+            let lines = shape.lines(&view);
+            // Without and with joining short pieces, of a pixel and of many.
+            for shortest in [0.0, 1e-3, 0.05, 0.2] {
+                let reference = visible(&surface, &bvh, &view, &lines, shortest).unwrap();
+                for share in [0.13, 0.5, 0.71] {
+                    let firsts: Vec<usize> = lines
+                        .iter()
+                        .map(|line| match line.closed {
+                            true => (line.segments.len() as f64 * share) as usize,
+                            false => 0,
+                        })
+                        .collect();
+                    let turned: Vec<Line> = lines
+                        .iter()
+                        .zip(&firsts)
+                        .map(|(line, &first)| begun_at(line, first))
+                        .collect();
+                    let spans = visible(&surface, &bvh, &view, &turned, shortest).unwrap();
+                    assert_eq!(spans.len(), reference.len(), "{eye} {shortest}");
+                    for expected in &reference {
+                        let count = lines[expected.line].segments.len() as f64;
+                        let first = firsts[expected.line] as f64;
+                        // All around it begins anywhere.
+                        let is_it = |span: &&Span| {
+                            let off = (span.start + first - expected.start).rem_euclid(count);
+                            let is_there = off.min(count - off) < 1e-6
+                                && (span.end - span.start - expected.end + expected.start).abs()
+                                    < 1e-6;
+                            span.line == expected.line
+                                && span.cuts == expected.cuts
+                                && (is_there || span.cuts == [Cut::None; 2])
+                        };
+                        let found = spans.iter().filter(is_it).count();
+                        assert_eq!(found, 1, "{eye} {shortest} {expected:?} {spans:?}");
+                        ends += usize::from(expected.cuts != [Cut::None; 2]);
+                    }
+                }
+            }
+        }
+    }
+    assert!(ends > 500, "{ends}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Names in a preset: several in one text.
 
-/// Names with commas between them; `*` at the end of one stands for anything. Large letters are as small ones.
+/// Names with commas between them; `*` at the end of one stands for anything. Large letters of ASCII are as small ones.
 #[derive(Clone, Copy)]
 pub(crate) struct Names<'a>(pub &'a str);
 

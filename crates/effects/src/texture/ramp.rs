@@ -339,14 +339,19 @@ mod tests {
             r#"(steps: [(0, "2A8F9D"), (0.25, "3FC1C0"), (0.25, "FFFFFF"), (0.6, "102030")])"#,
             r#"[(0, "2A8F9D"), (0.5, "3FC1C0"), (0.5, "FFFFFF"), (1, "102030")]"#,
             r#"[(v: 0, stops: [(0, "2A8F9D"), (1, "FFFFFF")]), (v: 0.5, steps: [(0.2, "3FC1C0"), (1, "000000")]), (v: 0.5, stops: [(0, "102030")])]"#,
+            r#"[(v: 0, stops: [(0, "2A8F9D")]), (v: 0.5, stops: [(0, "FFFFFF")]), (v: 1, stops: [(0, "3FC1C0")]), (v: 2, stops: [(0, "102030")])]"#,
         ] {
             let ramp = ramp(text);
             let mut colors = Vectors::NOTHING;
-            ramp.of_block(&x, &y, &mut colors);
-            for i in 0..BLOCK {
-                let [x, y] = [x[i], y[i]].map(|x| if x.is_finite() { x } else { 0.0 });
-                let color: [f32; 3] = colors.at(i).to_array();
-                assert_eq!(color, ramp.at(x, y), "{text} at {x}, {y}");
+            // Blocks that reach all rows, and some that reach few.
+            for (low, width) in [(0.0, 1.0), (0.6, 0.2), (1.2, 0.1), (-3.0, 0.5), (5.0, 1.0)] {
+                let y = y.map(|y: f32| low + width * y);
+                ramp.of_block(&x, &y, &mut colors);
+                for i in 0..BLOCK {
+                    let [x, y] = [x[i], y[i]].map(|x| if x.is_finite() { x } else { 0.0 });
+                    let color: [f32; 3] = colors.at(i).to_array();
+                    assert_eq!(color, ramp.at(x, y), "{text} at {x}, {y}");
+                }
             }
         }
     }

@@ -5,12 +5,12 @@ use super::section::Section;
 use glam::{DVec3, Vec3};
 use std::f64::consts::PI;
 
-/// Strands beside each other overlap: of what they are apart, half of their width and so much more.
+/// A strand's half width is this factor times half of how far strands beside each other are apart, so that they overlap.
 const OVERLAP: f64 = 1.2;
 /// A lock so much wider than a strand may be is still one.
 const STILL_ONE: f64 = 1.3;
-/// The most strands of a lock.
-const MOST: f64 = 32.0;
+/// The most strands of a lock: where more are asked for they are wider.
+const MOST: f64 = 64.0;
 
 /// A strand that lies in a lock.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +54,14 @@ impl Lock {
         }
         // Those of a ring touch where the lock is thickest.
         let around = PI * (half_width + half_thickness - 2.0 * widest);
-        let count = (OVERLAP * around / (2.0 * widest)).ceil().clamp(3.0, MOST) as usize;
+        let wanted = (OVERLAP * around / (2.0 * widest)).ceil();
+        let count = wanted.clamp(3.0, MOST) as usize;
+        let widest = if wanted > MOST {
+            // The same equation, solved for the width.
+            0.5 * OVERLAP * PI * (half_width + half_thickness) / (MOST + OVERLAP * PI)
+        } else {
+            widest
+        };
         (0..count)
             .map(|which| self.around(which, count, widest))
             .collect()

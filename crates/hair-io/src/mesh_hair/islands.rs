@@ -5,11 +5,8 @@ use glam::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// For each triangle the number of its island, which is the index of the island's first triangle: those that share a place, whatever
-/// their normals and textures there, hang together. Indices must be of a position.
-///
-/// # Panics
-///
-/// When an index is not below the number of positions.
+/// their normals and textures there, hang together. One with another index than a position's, or a corner that isn't finite, is an island of its
+/// own.
 #[must_use]
 pub fn islands(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<usize> {
     let groups = vec![Some(0); triangles.len()];

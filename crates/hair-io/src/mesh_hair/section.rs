@@ -48,16 +48,20 @@ fn levels(along: &[f64], links: usize) -> impl Iterator<Item = f64> {
 fn cuts(surface: &Surface, along: &[f64], level: f64) -> Vec<[DVec3; 2]> {
     let mut cuts = Vec::new();
     for &[a, b, c] in &surface.triangles {
-        let mut ends = Vec::with_capacity(2);
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            if (along[from] < level) != (along[to] < level) {
-                let share = (level - along[from]) / (along[to] - along[from]);
-                ends.push(surface.places[from].lerp(surface.places[to], share));
-            }
+        let below = [a, b, c].map(|i| along[i] < level);
+        if below[0] == below[1] && below[1] == below[2] {
+            continue;
         }
-        if let [one, other] = ends[..] {
-            cuts.push([one, other]);
-        }
+        let at = |from: usize, to: usize| {
+            let share = (level - along[from]) / (along[to] - along[from]);
+            surface.places[from].lerp(surface.places[to], share)
+        };
+        // The level goes through the two sides of one corner.
+        cuts.push(match below {
+            [own, next, _] if own == next => [at(b, c), at(c, a)],
+            [_, next, last] if next == last => [at(a, b), at(c, a)],
+            _ => [at(a, b), at(b, c)],
+        });
     }
     cuts
 }

@@ -208,6 +208,17 @@ fn balls_are_bundles() {
         let reach = strand.points[middle].distance(center) + strand.half_widths[middle];
         assert!(reach > 0.94 * radius, "{reach}");
     }
+    // However fine strands are asked for, there are no gaps between them.
+    for widest in [0.015, 0.004, 0.0005] {
+        let strands = lock.strands(widest);
+        assert!(strands.len() <= 64, "{}", strands.len());
+        let middle = strands[0].points.len() / 2;
+        for (own, next) in strands.iter().zip(strands.iter().cycle().skip(1)) {
+            let apart = own.points[middle].distance(next.points[middle]);
+            let wide = own.half_widths[middle] + next.half_widths[middle];
+            assert!(apart < wide, "{widest}: {apart} apart, {wide} wide");
+        }
+    }
 }
 
 /// A half of a ball's shell around the skull.

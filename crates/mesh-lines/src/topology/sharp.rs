@@ -8,7 +8,7 @@ impl Topology {
     /// The same mesh with sharp edges: those at which the angle between the two triangles' normals has a cosine below `cosine`
     /// ([`crate::CREASE_COSINE`]), in these positions. Normals are not smooth across them: a vertex there is several *smooth vertices*, and contours end at them.
     ///
-    /// Edges of three triangles or more are sharp always. What is NaN is no cosine: nothing else is sharp.
+    /// Normals are not smooth across edges of three triangles or more either, nor between triangles that meet in a vertex alone. What is NaN is no cosine: nothing else is sharp.
     ///
     /// # Errors
     ///
@@ -50,13 +50,13 @@ impl Topology {
         self.sharp.binary_search(&half_edge).is_ok()
     }
 
-    /// The half-edges of sharp edges, both of each, in order.
+    /// The half-edges of sharp edges between two triangles, both of each, in order.
     #[must_use]
     pub fn sharp(&self) -> &[u32] {
         &self.sharp
     }
 
-    /// How many smooth vertices there are: one for each vertex, the first ones, then those that sharp edges make besides.
+    /// How many smooth vertices there are: one for each vertex, the first ones, then those that [`Self::with_creases`] makes besides.
     #[must_use]
     pub fn smooth_vertices(&self) -> usize {
         self.vertices.max(self.smooth_vertices.len())
@@ -83,18 +83,12 @@ impl Topology {
         }
     }
 
-    /// Gives the corners at a vertex that are apart by sharp edges smooth vertices of their own.
+    /// Gives the corners at a vertex that no smooth edges join smooth vertices of their own.
     fn split_corners(&mut self) {
         (self.smooth_corners, self.smooth_vertices) = (Vec::new(), Vec::new());
-        if self.sharp.is_empty() {
-            return;
-        }
         let mut corners = self.triangles.clone();
         let mut vertices: Vec<u32> = (0..self.vertices as u32).collect();
-        let mut at_sharp: Vec<u32> = self.sharp.iter().flat_map(|&h| self.ends(h)).collect();
-        at_sharp.sort_unstable();
-        at_sharp.dedup();
-        for vertex in at_sharp {
+        for vertex in 0..self.vertices as u32 {
             let around = self.around(vertex);
             let mut reached = vec![false; around.len()];
             let mut groups = 0;
@@ -132,13 +126,16 @@ impl Topology {
                 }
             }
         }
-        (self.smooth_corners, self.smooth_vertices) = (corners, vertices);
+        if vertices.len() > self.vertices {
+            (self.smooth_corners, self.smooth_vertices) = (corners, vertices);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Surface;
 
     const TETRAHEDRON: [Vec3; 4] = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
 
@@ -166,5 +163,67 @@ mod tests {
         assert_eq!(topology.sharp(), [0, 3]);
         assert_eq!(topology.smooth_corners(), [[0, 1, 2], [5, 4, 3]]);
         assert_eq!([topology.vertex(4), topology.vertex(5)], [0, 1]);
+    }
+
+    #[test]
+    fn edges_of_three_triangles_part_normals() {
+        // A book that stands open: its spine along z, and three pages.
+        let book = [
+            Vec3::ZERO,
+            Vec3::Z,
+            Vec3::X,
+            Vec3::new(-0.5, 0.8, 0.0),
+            Vec3::new(-0.5, -0.8, 0.0),
+        ];
+        let topology = Topology::new(&book, &[[0, 1, 2], [0, 1, 3], [0, 1, 4]]).unwrap();
+        // Whatever the angle.
+        let topology = topology.with_creases(&book, -1.1).unwrap();
+        let mut at_ends = [0, 1].map(|end| {
+            let pages = topology.smooth_corners().iter();
+            pages.map(|corners| corners[end]).collect::<Vec<u32>>()
+        });
+        for (vertex, smooth) in at_ends.iter_mut().enumerate() {
+            assert!(
+                smooth
+                    .iter()
+                    .all(|&s| topology.vertex(s as usize) == vertex)
+            );
+            smooth.sort_unstable();
+            smooth.dedup();
+            assert_eq!(smooth.len(), 3);
+        }
+        assert_eq!(topology.smooth_vertices(), 5 + 4);
+        let surface = Surface::new(&topology, &book).unwrap();
+        for page in 0..3 {
+            let upright = surface.area_normal(page).normalize();
+            let normals = surface.corner_normals(page);
+            assert!(normals.iter().all(|n| n.distance(upright) < 1e-6));
+        }
+    }
+
+    #[test]
+    fn a_common_vertex_alone_parts_normals() {
+        // An hourglass of two tetrahedra.
+        let glass = [
+            Vec3::ZERO,
+            Vec3::new(1.0, 0.0, 1.0),
+            Vec3::new(-1.0, 1.0, 1.0),
+            Vec3::new(-1.0, -1.0, 1.0),
+            Vec3::new(1.0, 0.0, -1.0),
+            Vec3::new(-1.0, 1.0, -1.0),
+            Vec3::new(-1.0, -1.0, -1.0),
+        ];
+        let half = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]];
+        let triangles: Vec<[u32; 3]> = half
+            .into_iter()
+            .chain(half.map(|t| t.map(|v| if v == 0 { 0 } else { v + 3 })))
+            .collect();
+        let topology = Topology::new(&glass, &triangles).unwrap();
+        assert_eq!(topology.smooth_vertices(), 7);
+        let topology = topology.with_creases(&glass, -1.1).unwrap();
+        assert_eq!(topology.smooth_vertices(), 8);
+        let surface = Surface::new(&topology, &glass).unwrap();
+        let [upper, lower] = [surface.normals()[0], surface.normals()[7]];
+        assert!(upper.z < -0.5 && lower.z > 0.5, "{upper} {lower}");
     }
 }
