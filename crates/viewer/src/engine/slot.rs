@@ -41,6 +41,8 @@ struct From {
     has_objects: bool,
     /// Of each mesh which it is: how it is painted is the look's.
     meshes: Vec<([Option<String>; 4], AlphaChoice)>,
+    /// Those that layers name, which must be the hair's.
+    zones: Vec<String>,
     texts: Vec<(PathBuf, Arc<str>)>,
     files: Vec<(PathBuf, Option<(u64, SystemTime)>)>,
 }
@@ -90,10 +92,10 @@ impl<'r> Slot<'r> {
             .iter()
             .map(|layer| layer.name.clone())
             .collect();
+        let from = From::of(&preset, &files, look);
         preset
             .layers
             .retain(|layer| look.layers.is_shown(&layer.name));
-        let from = From::of(&preset, &files, look);
         let made = match self.loaded.take() {
             Some(loaded) if loaded.from == from => stage::Look::new(&preset, &files)
                 .and_then(|own| loaded.scene.with_look(own))
@@ -227,6 +229,9 @@ impl From {
                     let names = [&mesh.file, &mesh.only, &mesh.hide, &mesh.texture];
                     (names.map(Option::clone), mesh.alpha)
                 })
+                .collect(),
+            zones: (preset.layers.iter())
+                .filter_map(|layer| layer.zones.clone())
                 .collect(),
             texts: (look.texts.iter())
                 .filter(|(path, _)| named.contains(path))

@@ -143,3 +143,30 @@ fn a_still_scene_is_drawn_once_however_long_it_plays() {
     let other = drawn_at(12.0, &still.replace("yaw: 40", "yaw: 41"));
     assert_ne!(took(&pictures[11]), took(&other));
 }
+
+/// Hair and head stay loaded while layers are edited; but which zones there are is theirs to say.
+#[test]
+fn a_layer_of_no_zone_is_told_while_it_is_edited() {
+    let looks = Looks::new();
+    let mut engine = Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
+    let mut last_of = |text: &str| {
+        engine.wish(wish(&looks, text));
+        loop {
+            let answer = next_answer(&mut engine).expect("the look is drawn, or its mistake told");
+            if answer.is_final || !answer.problems.is_empty() {
+                return answer;
+            }
+        }
+    };
+    assert!(last_of(LOOK).problems.is_empty());
+    let told = last_of(&LOOK.replace(
+        "(effect: \"hair.base\"",
+        "(effect: \"hair.base\", zones: \"nowhere\"",
+    ));
+    let told = told
+        .problems
+        .first()
+        .expect("there is no such zone")
+        .to_string();
+    assert!(told.contains("no zone `nowhere`"), "{told}");
+}
