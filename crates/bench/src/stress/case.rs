@@ -473,7 +473,15 @@ fn fault(rng: &mut Rng, rest: &Strands, params: &[Params], frames: &[Frame]) -> 
     let not_finite = one_of(rng, &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
     let what = match rng.u8(..5) {
         0 => Broken::Rest(point, not_finite as f32),
-        1 if count > 2 => Broken::Folds(rng.usize(1..count - 1)),
+        1 if count > 2 => {
+            let point = rng.usize(1..count - 1);
+            // A link without a length, as rounding makes some, has no direction to fold back.
+            let points = rest.strand(strand);
+            if points[point] == points[point - 1] {
+                return None;
+            }
+            Broken::Folds(point)
+        }
         2 if count > 1 => Broken::IsPoint,
         3 if frames[frame].goal.is_some() && point > 0 => {
             // Where nothing pulls, nothing is broken.
