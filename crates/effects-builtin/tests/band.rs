@@ -205,7 +205,7 @@ proptest! {
         }
     }
 
-    /// However teeth and strands differ, the extent holds each joint at which one has a size, and not many others.
+    /// However teeth and strands differ, the extent holds not many joints beyond the band; that it holds all of the band's is the testkit's to try.
     #[test]
     fn the_extent_is_no_wider_than_the_band_may_be(strand in 0..500_u32, place in -0.3..0.4_f32) {
         let heights: Vec<f32> = (0..60).map(|i| 0.5 - 0.02 * i as f32).collect();
