@@ -66,8 +66,14 @@ pub(crate) fn effect(
         Entry::Effect => effect_program(&module, source, params, paints),
         Entry::Clump => clump_program(source, params),
     };
+    let inputs = (!source.is_for_meshes).then(|| {
+        quote!(
+            pub use self::translated::Inputs;
+        )
+    });
     let file: syn::File = syn::parse2(quote! {
-        pub use self::translated::{Inputs, Params};
+        #inputs
+        pub use self::translated::Params;
         #[allow(
             missing_docs,
             unused,
@@ -95,14 +101,8 @@ fn effect_program(
     let common = program_items(source, params);
     let gather = gather(&source.inputs, &format_ident!("joints"));
     let painting = painting(module, source, params, paints);
-    quote! {
-        /// The effect's WGSL, and the same in Rust.
-        #[derive(Clone, Copy, Debug)]
-        pub struct Program;
-        impl ::effects::Parameters for Program {
-            #common
-        }
-        impl ::effects::Program for Program {
+    let stroke = (!source.is_for_meshes).then(|| {
+        quote! {
             #[inline(always)]
             fn stroke(
                 joints: &::effects::Joints,
@@ -114,6 +114,17 @@ fn effect_program(
                 let _ = (joints, index, seed);
                 translated::entry_stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
             }
+        }
+    });
+    quote! {
+        /// The effect's WGSL, and the same in Rust.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Program;
+        impl ::effects::Parameters for Program {
+            #common
+        }
+        impl ::effects::Program for Program {
+            #stroke
             #painting
         }
     }
@@ -408,6 +419,7 @@ fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
         author_length: PRELUDE.len(),
         inputs: Vec::new(),
         sample_inputs: None,
+        is_for_meshes: false,
     };
     let (module, _) = check::parse(&source)?;
     let Some(comments) = &module.doc_comments else {

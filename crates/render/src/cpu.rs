@@ -14,6 +14,7 @@ mod evaluate;
 mod instructions;
 mod mixed;
 mod paint;
+mod paint_mesh;
 mod rows;
 mod samples;
 mod seen;
@@ -43,6 +44,7 @@ use bin::{Bins, cells};
 use instructions::Instructions;
 use mixed::JointRows;
 use paint::Painter;
+use paint_mesh::MeshPainter;
 use rayon::prelude::*;
 use segment::{Segments, Stroke};
 use shown::Shown;
@@ -277,6 +279,7 @@ struct Worker {
     /// What samples show; empty where nothing is declared or painted.
     shown: Shown,
     painter: Painter,
+    meshes: MeshPainter,
 }
 
 impl Worker {
@@ -290,6 +293,7 @@ impl Worker {
             sums: Sums::new(),
             shown: Shown::default(),
             painter: Painter::default(),
+            meshes: MeshPainter::default(),
         }
     }
 
@@ -349,11 +353,12 @@ impl Worker {
         scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts);
         for stack in frame.stacks {
             scene.stack = stack;
-            if frame.drawing.painting.is_empty() {
-                self.draw_stack::<false>(frame, &scene, tile, triangles);
-            } else {
+            if paint_mesh::tells(frame) {
                 self.draw_stack::<true>(frame, &scene, tile, triangles);
                 self.paint(frame);
+                self.paint_meshes(frame, origin, stack);
+            } else {
+                self.draw_stack::<false>(frame, &scene, tile, triangles);
             }
             self.sums.add(&mut self.target, stack, background.is_some());
         }
@@ -389,6 +394,9 @@ impl Worker {
                 shows,
             );
             self.target.finish_surfaces();
+        }
+        if TELLS && frame.drawing.mesh_painting.sees_through() {
+            self.keep_under(frame);
         }
         let segments_of_tile = self.segments_of_tiles.bin(tile);
         for part in &self.parts {

@@ -22,6 +22,8 @@ pub(crate) struct PaintedMesh {
     /// For each position its place in the picture; empty without one.
     pub places: Vec<Vec2>,
     pub paint: MeshPaint,
+    /// What layers may call it: the mesh's name, its material's, and that of its file beside a head.
+    pub names: Vec<String>,
     /// Which of the preset's `meshes` it is of; none is the head's own file.
     pub section: Option<usize>,
     /// Which mesh of its file it is, and which of that mesh's vertices it has where triangles were taken away: empty is all.
@@ -174,6 +176,7 @@ pub(crate) fn of_model(
                 None => Vec::new(),
             },
             paint,
+            names: names_of(model, mesh).map(str::to_owned).collect(),
             section,
             index,
             kept: Vec::new(),
@@ -297,7 +300,9 @@ pub(crate) fn of_sections(
             AlphaChoice::Cut => Some(Coverage::Cut(0.5)),
             AlphaChoice::Blend => Some(Coverage::Share),
         };
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         for mesh in &mut meshes {
+            mesh.names.extend(stem.iter().map(|stem| stem.to_string()));
             if let (Some(picture), Some(coverage)) = (&mut mesh.paint.picture, coverage) {
                 picture.coverage = coverage;
             }

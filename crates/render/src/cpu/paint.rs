@@ -66,7 +66,7 @@ impl Worker {
 
 /// The lanes whose numbers are as wanted.
 #[inline(always)]
-fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneMask {
+pub(super) fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneMask {
     let mut lanes = [0; LANES];
     for k in 0..LANES {
         lanes[k] = select(is_wanted(numbers[k]), u32::MAX, 0);
@@ -76,7 +76,7 @@ fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneM
 
 /// A bit for each lane.
 #[inline(always)]
-fn bits(lanes: &LaneMask) -> u32 {
+pub(super) fn bits(lanes: &LaneMask) -> u32 {
     let mut bits = 0;
     for k in 0..LANES {
         bits |= lanes[k] & 1 << k;
