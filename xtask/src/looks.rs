@@ -26,7 +26,7 @@ pub fn of_samples() -> Outcome<Vec<String>> {
     }
     let mut is_one = texts
         .iter()
-        .map(|text| text.contains("passes:") || text.contains("hair.toon"));
+        .map(|text| ["passes:", ".toon\"", "\"mesh."].iter().any(|word| text.contains(word)));
     found.retain(|_| is_one.next() == Some(true));
     Ok(found)
 }

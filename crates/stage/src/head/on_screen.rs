@@ -60,12 +60,6 @@ pub(super) struct Extra {
 }
 
 impl Extra {
-    pub(super) const NONE: Self = Self {
-        place: Vec2::ZERO,
-        normal: Vec3::ZERO,
-        occlusion: 0.0,
-    };
-
     fn lerp(&self, other: &Self, t: f32) -> Self {
         Self {
             place: self.place.lerp(other.place, t),
