@@ -75,7 +75,7 @@ pub use samples::{BLOCK, SampleBlock, SampleInput, SampleSet, Samples, Vectors};
 pub use section::Section;
 pub use seed::{layer_seed, strand_seed};
 pub use source::{PaintSource, ProgramSource};
-pub use texture::{Image, ImageError, Ramp, Row, Texture};
+pub use texture::{Blurred, Image, ImageError, Ramp, Row, Texture};
 pub use variation::Variation;
 pub use varied::Varied;
 

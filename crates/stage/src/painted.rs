@@ -31,6 +31,8 @@ pub(crate) struct PaintedMesh {
     pub kept: Vec<usize>,
     /// Whether its outside is where its file has the inside: its normals and triangles are turned around.
     pub is_turned: bool,
+    /// Whether hair lies on it, and covers it where it is a little deeper.
+    pub is_cap: bool,
 }
 
 /// How a file paints a mesh.
@@ -181,6 +183,7 @@ pub(crate) fn of_model(
             index,
             kept: Vec::new(),
             is_turned: false,
+            is_cap: false,
         });
     }
     notes.append(&mut pictures.notes);

@@ -292,6 +292,12 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// Whether a layer of this effect may say this field of [`LAYER`].
+#[must_use]
+pub fn may_say(effect: &dyn AnyEffect, field: &str) -> bool {
+    misfit(effect, field).is_none()
+}
+
 /// Why a layer of this effect can't say that.
 fn misfit(effect: &dyn AnyEffect, param: &str) -> Option<String> {
     let id = effect.id();

@@ -2,10 +2,10 @@
 
 use crate::agree::{on_cpu, share_beyond};
 use crate::scene::{Scene, driver, layers, noop, registry};
-use effects::Image;
+use effects::{Image, Variation};
 use glam::{Vec2, Vec3};
 use render::gpu::Offscreen;
-use render::{Coverage, Edges, Feature, Features, SurfacePaint, SurfaceTexture};
+use render::{Coverage, EdgeChannel, Edges, Feature, Features, SurfacePaint, SurfaceTexture};
 use std::sync::Arc;
 
 /// Layers for meshes with the same effect and parameters, the second of them seen through hair.
@@ -95,6 +95,18 @@ fn painted_meshes_agree() {
     assert_eq!(changed, WAYS.len());
 }
 
+fn lines() -> Edges {
+    Edges {
+        channel: EdgeChannel::Object,
+        threshold: 0.5,
+        step_m: 0.05,
+        width_px: Variation::constant(2.0),
+        seed: 1,
+        fade_to: 0.0,
+        color: [0.1, 0.0, 0.2],
+    }
+}
+
 /// With features and lines beside them, and without in the next frame.
 #[test]
 fn painted_meshes_come_and_go() {
@@ -104,7 +116,7 @@ fn painted_meshes_come_and_go() {
     let (effect, params) = WAYS[2];
     for through in [0.0, 0.5, 0.0] {
         paint(&mut scene, &two(effect, params, through));
-        for passes in [Vec::new(), vec![Edges::default()]] {
+        for passes in [Vec::new(), vec![lines()]] {
             scene.passes = passes;
             scene.features = Features::of(&[Feature::Object, Feature::Color]);
             let gpu = card.draw(&scene.frame(), 4).unwrap();

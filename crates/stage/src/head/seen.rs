@@ -244,7 +244,10 @@ fn painted_mesh(
     let front = Side {
         light: lit,
         shadow,
-        margin_m: 0.0,
+        margin_m: match mesh.is_cap {
+            true => -head.outline_margin_m,
+            false => 0.0,
+        },
         layer: layers.of(&mesh.names),
     };
     let back = match (own.both_sides, section) {
