@@ -159,7 +159,7 @@ fn depth_and_object_stay_the_hairs() {
     let mut told = Vec::new();
     rasterizer
         .draw_samples(&drawing, &mut planes, |planes| {
-            told.push(planes.sample(20, 20, 0));
+            told.push(planes.sample(0, 20, 20));
         })
         .unwrap();
     assert_eq!(told[0].object, render::object_of_hair(0));

@@ -272,7 +272,8 @@ pub(crate) fn of_sections(
     for (number, section) in sections.iter().enumerate() {
         let path = section.path(folder);
         let model = mesh_io::read_model(&path)?;
-        notes.extend(model.notes.iter().cloned());
+        let of_file = |note: &String| format!("{}: {note}", path.display());
+        notes.extend(model.notes.iter().map(of_file));
         let [only, hide] = [&section.only, &section.hide]
             .map(|names| MeshNames(Names(names.as_deref().unwrap_or_default())));
         only.check(&model, &path)?;
