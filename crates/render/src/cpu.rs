@@ -14,6 +14,7 @@ mod evaluate;
 mod instructions;
 mod mixed;
 mod paint;
+mod reached;
 mod rows;
 mod samples;
 mod seen;
@@ -44,7 +45,7 @@ use instructions::Instructions;
 use mixed::JointRows;
 use paint::Painter;
 use rayon::prelude::*;
-use segment::{Segments, Stroke};
+use segment::{Segment, Segments, Stroke};
 use shown::Shown;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -95,6 +96,8 @@ struct Parts {
     triangles_of_tiles: Bins,
     /// What painted samples are mixed of; empty where nothing is painted.
     joint_rows: JointRows,
+    /// For each stroke of a strand, in their order, the place of its layer among the painted ones, if it is one.
+    painted: Vec<Option<usize>>,
 }
 
 impl Rasterizer {
@@ -210,10 +213,21 @@ fn empty_picture(drawing: &Drawing, samples: usize) -> Result<Picture, DrawError
 }
 
 impl Parts {
+    /// The painted layer that a segment shows, by its place among them.
+    #[inline(always)]
+    fn painted_layer_of(&self, segment: &Segment) -> Option<usize> {
+        let stroke = segment.colored().checked_sub(1)?;
+        self.painted[stroke as usize]
+    }
+
     fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], stacks: &[Stack]) {
         let tile_height = tile::height(stacks);
         self.segments.collect(drawing, strokes, tile_height);
         self.joint_rows.fill(&drawing.painting, drawing.clump.len());
+        let painted = &drawing.painting.layers;
+        let place_of = |stroke: &Stroke| painted.iter().position(|it| it.layer == stroke.layer);
+        self.painted.clear();
+        self.painted.extend(strokes.iter().map(place_of));
         surface::collect(drawing, stacks, &mut self.triangles);
         let [width, height] = drawing.size.map(|side| side as usize);
         let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));

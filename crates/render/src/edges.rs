@@ -452,7 +452,7 @@ mod tests {
         for (band, (ids, numbers)) in bands.enumerate() {
             let mut planes = BandPlanes {
                 width: size[0] as usize,
-                declared: planes.declared,
+                layout: planes.layout,
                 band: 16,
                 count: 1,
                 ids,
@@ -476,7 +476,7 @@ mod tests {
             rows: 1,
             count: 1,
         };
-        for feature in planes.declared.iter() {
+        for feature in planes.layout.declared.iter() {
             if feature.is_id() {
                 planes.put_ids(feature, &at, &[sample.id(feature); 4]);
                 continue;

@@ -162,17 +162,18 @@ impl Mixed {
             let of_joint = &mut self.joint[slot][k];
             *of_joint = select(lanes[k] != 0, joint as u32, *of_joint);
         }
-        let ends = rows.row(joint).iter().zip(rows.row(next));
         let (numbers, vectors) = self.planes.split_at_mut(rows.numbers.len());
-        let mut ends = ends.map(|(from, to)| (*from, *to));
-        for (plane, (from, to)) in numbers.iter_mut().zip(&mut ends) {
+        let (from, from_vectors) = rows.row(joint).split_at(numbers.len());
+        let (to, to_vectors) = rows.row(next).split_at(numbers.len());
+        for (plane, (from, to)) in numbers.iter_mut().zip(from.iter().zip(to)) {
             let mut mixed = *way;
             for k in 0..LANES {
                 mixed[k] = from + way[k] * (to - from);
             }
             overwrite(&mut plane[slot], &mixed, lanes);
         }
-        for (plane, (from, to)) in vectors.iter_mut().zip(&mut ends) {
+        let ends = from_vectors.iter().zip(to_vectors);
+        for (plane, (from, to)) in vectors.iter_mut().zip(ends) {
             let mut mixed = *way;
             for k in 0..LANES {
                 mixed[k] = from * rest[k] + to * way[k];

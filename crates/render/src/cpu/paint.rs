@@ -2,7 +2,7 @@
 
 use super::mixed::{Mixed, SLOTS};
 use super::shown::{Planes, TRIANGLE};
-use super::tile::{LANES, LaneMask, Target, overwrite, select};
+use super::tile::{LANES, LaneMask, Target, bits, overwrite, select};
 use super::{Frame, Worker};
 use crate::painting::PaintedLayer;
 use effects::Vectors;
@@ -38,13 +38,13 @@ impl Worker {
         }
         let segments = frame.parts.segments.list();
         for (cell, shows) in shown.what.iter().enumerate() {
-            let mut left = bits(&lanes_where(shows, |what| what < TRIANGLE));
+            let mut left = bits(&strokes(shows));
             while left != 0 {
                 let index = shows[left.trailing_zeros() as usize];
-                let lanes = lanes_where(shows, |what| what == index);
+                let lanes = those_that_show(shows, index);
                 left &= !bits(&lanes);
                 let segment = &segments[index as usize];
-                let Some(number) = frame.painted_layer_of(segment) else {
+                let Some(number) = frame.parts.painted_layer_of(segment) else {
                     continue;
                 };
                 let block = &mut blocks[number];
@@ -64,24 +64,24 @@ impl Worker {
     }
 }
 
-/// The lanes whose numbers are as wanted.
+/// The lanes that show strokes.
 #[inline(always)]
-fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneMask {
-    let mut lanes = [0; LANES];
+fn strokes(shows: &[u32; LANES]) -> LaneMask {
+    let mut lanes = *shows;
     for k in 0..LANES {
-        lanes[k] = select(is_wanted(numbers[k]), u32::MAX, 0);
+        lanes[k] = select(shows[k] < TRIANGLE, u32::MAX, 0);
     }
     lanes
 }
 
-/// A bit for each lane.
+/// The lanes that show this.
 #[inline(always)]
-fn bits(lanes: &LaneMask) -> u32 {
-    let mut bits = 0;
+fn those_that_show(shows: &[u32; LANES], index: u32) -> LaneMask {
+    let mut lanes = *shows;
     for k in 0..LANES {
-        bits |= lanes[k] & 1 << k;
+        lanes[k] = select(shows[k] == index, u32::MAX, 0);
     }
-    bits
+    lanes
 }
 
 impl Block {

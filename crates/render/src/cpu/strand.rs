@@ -5,6 +5,7 @@
 //! stroke's nearest disc in the tile would show, its segments give depth and roundness, and what of that shows in the picture
 //! goes there; only that gets a colour.
 
+use super::reached::Reached;
 use super::segment::{Segment, Stroke};
 use super::shown::Shown;
 use super::stroke::{Measured, Placed, Places, Shaded};
@@ -32,7 +33,7 @@ pub(super) struct StrandMasks {
     placed: Vec<Placed>,
     /// Its strokes, lowest first; the clump before them.
     strokes: Vec<Covered>,
-    row: Row,
+    row: Reached,
 }
 
 /// A stroke in the tile.
@@ -60,7 +61,7 @@ impl StrandMasks {
         Self {
             placed: Vec::new(),
             strokes: Vec::new(),
-            row: Row::default(),
+            row: Reached::default(),
         }
     }
 
@@ -202,18 +203,25 @@ impl StrandMasks {
             let placed = &self.placed[stroke.segments.clone()];
             let samples = both(&stroke.samples, &shown);
             if !TELLS {
-                shade(placed, &samples, &mut self.row, target);
+                shade(scene.stack, placed, &samples, &mut self.row, target);
                 continue;
             }
             let segments_of_clump = clump.as_ref().map(|clump| &clump.segments);
             let is_clump = segments_of_clump == Some(&stroke.segments);
-            tell::<true>(placed, &samples, &mut self.row, |cell, places, lanes| {
-                paint(target, cell, &places.color, lanes);
-                told.put_stroke(cell, places, lanes);
-                if is_clump {
-                    told.put_clump(cell, places, lanes);
-                }
-            });
+            tell::<true>(
+                scene.stack,
+                placed,
+                &samples,
+                &mut self.row,
+                #[inline(always)]
+                |cell, places, lanes| {
+                    paint(target, cell, &places.color, lanes);
+                    told.put_stroke(cell, places, lanes);
+                    if is_clump {
+                        told.put_clump(cell, places, lanes);
+                    }
+                },
+            );
             if is_clump {
                 add(&mut told_of_clump, &samples);
             }
@@ -221,9 +229,16 @@ impl StrandMasks {
         if TELLS && let Some(clump) = clump {
             let placed = &self.placed[clump.segments.clone()];
             let samples = without(&both(&clump_samples, &shown), &told_of_clump);
-            tell::<false>(placed, &samples, &mut self.row, |cell, places, lanes| {
-                told.put_clump(cell, places, lanes);
-            });
+            tell::<false>(
+                scene.stack,
+                placed,
+                &samples,
+                &mut self.row,
+                #[inline(always)]
+                |cell, places, lanes| {
+                    told.put_clump(cell, places, lanes);
+                },
+            );
         }
     }
 
@@ -246,32 +261,21 @@ impl StrandMasks {
             let mut shown = NO_SAMPLES;
             offer.make(&stroke.samples, &mut self.row, target, &mut shown);
             if !TELLS {
-                shade(placed, &shown, &mut self.row, target);
+                shade(scene.stack, placed, &shown, &mut self.row, target);
                 continue;
             }
-            tell::<true>(placed, &shown, &mut self.row, |cell, places, lanes| {
-                paint(target, cell, &places.color, lanes);
-                told.put_stroke(cell, places, lanes);
-                told.put_clump(cell, places, lanes);
-            });
-        }
-    }
-}
-
-/// The segments of a stroke that cover some samples of a row of stacks: their places among its segments, and the columns.
-#[derive(Default)]
-struct Row(Vec<(usize, u32)>);
-
-impl Row {
-    /// Finds those that cover one of the columns.
-    #[inline(always)]
-    fn find(&mut self, placed: &[Placed], row: usize, wanted: u32) {
-        self.0.clear();
-        for (i, placed) in placed.iter().enumerate() {
-            let reached = columns(&placed.covered, row) & wanted;
-            if reached != 0 {
-                self.0.push((i, reached));
-            }
+            tell::<true>(
+                scene.stack,
+                placed,
+                &shown,
+                &mut self.row,
+                #[inline(always)]
+                |cell, places, lanes| {
+                    paint(target, cell, &places.color, lanes);
+                    told.put_stroke(cell, places, lanes);
+                    told.put_clump(cell, places, lanes);
+                },
+            );
         }
     }
 }
@@ -289,7 +293,7 @@ struct Offer<'a> {
 impl Offer<'_> {
     /// Puts the samples, which the segments cover, into the picture; those that show are added to `shown`.
     #[inline(always)]
-    fn make(&self, samples: &Mask, segments: &mut Row, target: &mut Target, shown: &mut Mask) {
+    fn make(&self, samples: &Mask, segments: &mut Reached, target: &mut Target, shown: &mut Mask) {
         let (mut nearest, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
         for placed in self.placed {
             nearest = greater(placed.shape.inv_depth.greatest(), nearest);
@@ -300,19 +304,16 @@ impl Offer<'_> {
             if wanted == 0 {
                 continue;
             }
-            segments.find(self.placed, row, wanted);
+            segments.find(self.placed, self.scene.stack, row, wanted);
             for cell in cells(row, wanted) {
                 let taken = target.may_show(cell, &cell.lanes(samples), nearest, biased);
                 if !any(&taken) {
                     continue;
                 }
-                let mut stroke = Measured::new();
-                for &(place, reached) in &segments.0 {
-                    if reached & cell.columns() != 0 {
-                        let placed = &self.placed[place];
-                        placed.measure(cell, &mut stroke);
-                    }
-                }
+                let stroke = match self.roundness {
+                    Roundness::Flat => segments.measure::<false>(self.placed, cell, &taken),
+                    _ => segments.measure::<true>(self.placed, cell, &taken),
+                };
                 let (inv_depth, biased) = self.round(&stroke);
                 let wins = target.offer(cell, &taken, &inv_depth, &biased, self.priority);
                 cell.add_to(shown, &wins);
@@ -351,7 +352,13 @@ fn deeper(inv_depth: f32, metres: f32) -> f32 {
 
 /// Gives the samples, which the stroke covers, its colour.
 #[inline(always)]
-fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Target) {
+fn shade(
+    stack: &Stack,
+    placed: &[Placed],
+    samples: &Mask,
+    segments: &mut Reached,
+    target: &mut Target,
+) {
     let first = &placed[0].shape;
     let is_one_color = placed
         .iter()
@@ -368,16 +375,11 @@ fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Tar
             }
             continue;
         }
-        segments.find(placed, row, wanted);
+        segments.find(placed, stack, row, wanted);
         for cell in cells(row, wanted) {
-            let mut stroke = Shaded::new();
-            for &(place, reached) in &segments.0 {
-                if reached & cell.columns() != 0 {
-                    let placed = &placed[place];
-                    placed.shade(cell, &mut stroke);
-                }
-            }
-            paint(target, cell.index, &stroke.color, &cell.lanes(samples));
+            let (mut stroke, lanes) = (Shaded::new(), cell.lanes(samples));
+            segments.find_nearest(placed, cell, &lanes, &mut stroke);
+            paint(target, cell.index, &stroke.color, &lanes);
         }
     }
 }
@@ -386,25 +388,22 @@ fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Tar
 /// there.
 #[inline(always)]
 fn tell<const COLORED: bool>(
+    stack: &Stack,
     placed: &[Placed],
     samples: &Mask,
-    segments: &mut Row,
-    mut give: impl FnMut(usize, &Places, &LaneMask),
+    segments: &mut Reached,
+    mut give: impl FnMut(usize, &Places<COLORED>, &LaneMask),
 ) {
     for row in 0..ROWS {
         let wanted = columns(samples, row);
         if wanted == 0 {
             continue;
         }
-        segments.find(placed, row, wanted);
+        segments.find(placed, stack, row, wanted);
         for cell in cells(row, wanted) {
-            let mut places = Places::new();
-            for &(place, reached) in &segments.0 {
-                if reached & cell.columns() != 0 {
-                    placed[place].find_place::<COLORED>(cell, &mut places);
-                }
-            }
-            give(cell.index, &places, &cell.lanes(samples));
+            let (mut places, lanes) = (Places::new(), cell.lanes(samples));
+            segments.find_nearest(placed, cell, &lanes, &mut places);
+            give(cell.index, &places, &lanes);
         }
     }
 }

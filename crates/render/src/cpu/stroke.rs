@@ -4,8 +4,8 @@ use super::rows::{self, ROWS_AT_ONCE};
 use super::segment::Shape;
 use super::strand::TileContext;
 use super::tile::{
-    Cell, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, greater, lesser,
-    overwrite, select,
+    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, greater,
+    least_of, lesser, overwrite, select,
 };
 use glam::DVec2;
 
@@ -72,9 +72,15 @@ impl Placed {
         })
     }
 
-    /// Brings the segment's depth and ratio at the samples of a cell that it covers into those of its stroke.
+    /// The segment's frame: along its axis, and across.
     #[inline(always)]
-    pub(super) fn measure(&self, cell: Cell, stroke: &mut Measured) {
+    pub(super) fn frame(&self) -> [&Samples; 2] {
+        [&self.x, &self.y]
+    }
+
+    /// Brings the segment's depth at the samples of a cell that it covers into that of its stroke; its ratio too where it is `ROUND`.
+    #[inline(always)]
+    pub(super) fn measure<const ROUND: bool>(&self, cell: Cell, stroke: &mut Measured) {
         let Shape {
             sweep,
             inv_depth,
@@ -89,86 +95,134 @@ impl Placed {
             // Linear, so the greatest is at one of the ends.
             let depth = greater(inv_depth.at(low), inv_depth.at(high));
             let biased = greater(inv_depth_biased.at(low), inv_depth_biased.at(high));
-            let (_, ratio) = sweep.attribute_point(x[k], y[k]);
             let depth = select(is_covered, depth, NOTHING);
             stroke.inv_depth[k] = greater(depth, stroke.inv_depth[k]);
             let biased = select(is_covered, biased, NOTHING);
             stroke.biased[k] = greater(biased, stroke.biased[k]);
-            let ratio = select(is_covered, ratio, 1.0);
-            stroke.ratio[k] = lesser(ratio, stroke.ratio[k]);
+            if ROUND {
+                let (_, ratio) = sweep.attribute_point(x[k], y[k]);
+                let ratio = select(is_covered, ratio, 1.0);
+                stroke.ratio[k] = lesser(ratio, stroke.ratio[k]);
+            }
         }
     }
 
-    /// Gives the samples of a cell that the segment covers its colour where its ratio is the least so far.
+    /// The squares of distance over radius at the samples of a cell; infinite where it doesn't cover them.
     #[inline(always)]
-    pub(super) fn shade(&self, cell: Cell, stroke: &mut Shaded) {
+    pub(super) fn ratios(&self, cell: Cell) -> Lanes {
         let covered = cell.lanes(&self.covered);
         let (x, y) = (self.x.of(cell), self.y.of(cell));
-        let (mut u, mut wins) = ([0.0; LANES], covered);
+        let mut ratios = [0.0; LANES];
         for k in 0..LANES {
-            let (at, ratio) = self.shape.sweep.attribute_point(x[k], y[k]);
-            // A covered sample has a colour, even at a tip that is a point.
-            let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
-            let is_less = (covered[k] != 0) & (ratio < stroke.ratio[k]);
-            u[k] = at;
-            wins[k] = select(is_less, u32::MAX, 0);
-            stroke.ratio[k] = select(is_less, ratio, stroke.ratio[k]);
+            let (_, ratio) = self.shape.sweep.attribute_point(x[k], y[k]);
+            ratios[k] = select(covered[k] != 0, ratio, f32::INFINITY);
         }
-        for (color, ramp) in stroke.color.iter_mut().zip(&self.shape.color) {
-            let mut new = [0.0; LANES];
-            for k in 0..LANES {
-                new[k] = ramp.at(u[k]);
-            }
-            overwrite(color, &new, &wins);
-        }
+        ratios
     }
 }
 
-impl Placed {
-    /// Where on its axis, and where across it, the samples of a cell lie that the segment covers, where its ratio is the least so far:
-    /// of the same axis points as [`Self::shade`] takes colours from, which are found as well where they are `COLORED`.
+/// What is known of the nearest axis points of a stroke's segments to the samples of a cell.
+pub(super) trait Nearest {
+    /// Takes on what the segment has at those that it covers, where its ratio is the least so far.
+    fn offer(&mut self, segment: &Placed, cell: Cell);
+    /// The least so far.
+    fn ratios(&self) -> &Lanes;
+}
+
+impl Nearest for Measured {
     #[inline(always)]
-    pub(super) fn find_place<const COLORED: bool>(&self, cell: Cell, places: &mut Places) {
-        let covered = cell.lanes(&self.covered);
-        let (x, y) = (self.x.of(cell), self.y.of(cell));
+    fn offer(&mut self, segment: &Placed, cell: Cell) {
+        let ratios = segment.ratios(cell);
+        for k in 0..LANES {
+            self.ratio[k] = lesser(ratios[k], self.ratio[k]);
+        }
+    }
+
+    #[inline(always)]
+    fn ratios(&self) -> &Lanes {
+        &self.ratio
+    }
+}
+
+impl Nearest for Shaded {
+    #[inline(always)]
+    fn offer(&mut self, segment: &Placed, cell: Cell) {
+        let covered = cell.lanes(&segment.covered);
+        let (x, y) = (segment.x.of(cell), segment.y.of(cell));
+        let (mut u, mut wins) = ([0.0; LANES], covered);
+        for k in 0..LANES {
+            let (at, ratio) = segment.shape.sweep.attribute_point(x[k], y[k]);
+            // A covered sample has a colour, even at a tip that is a point.
+            let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
+            let is_less = (covered[k] != 0) & (ratio < self.ratio[k]);
+            u[k] = at;
+            wins[k] = select(is_less, u32::MAX, 0);
+            self.ratio[k] = select(is_less, ratio, self.ratio[k]);
+        }
+        mix_colors(&segment.shape, &u, &wins, &mut self.color);
+    }
+
+    #[inline(always)]
+    fn ratios(&self) -> &Lanes {
+        &self.ratio
+    }
+}
+
+/// Takes on a segment's colours at places of its axis.
+#[inline(always)]
+fn mix_colors(shape: &Shape, u: &Lanes, wins: &LaneMask, colors: &mut [Lanes; 3]) {
+    for (color, ramp) in colors.iter_mut().zip(&shape.color) {
+        let mut new = [0.0; LANES];
+        for k in 0..LANES {
+            new[k] = ramp.at(u[k]);
+        }
+        overwrite(color, &new, wins);
+    }
+}
+
+impl<const COLORED: bool> Nearest for Places<COLORED> {
+    #[inline(always)]
+    fn offer(&mut self, segment: &Placed, cell: Cell) {
+        let covered = cell.lanes(&segment.covered);
+        let (x, y) = (segment.x.of(cell), segment.y.of(cell));
         // Seen from root to tip, whichever end is larger.
-        let Shape { sweep, way, .. } = &self.shape;
+        let Shape { sweep, way, .. } = &segment.shape;
         let side = select((way.rise < 0.0) & sweep.has_direction(), -1.0, 1.0);
-        let mut index = places.index;
+        let mut index = self.index;
         let (mut u, mut wins) = ([0.0; LANES], covered);
         for k in 0..LANES {
             let (at, ratio) = sweep.attribute_point(x[k], y[k]);
             let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
-            let is_less = (covered[k] != 0) & (ratio < places.ratio[k]);
+            let is_less = (covered[k] != 0) & (ratio < self.ratio[k]);
             u[k] = at;
             wins[k] = select(is_less, u32::MAX, 0);
-            index[k] = select(is_less, self.index, index[k]);
-            places.ratio[k] = select(is_less, ratio, places.ratio[k]);
-            places.way[k] = select(is_less, way.at(at), places.way[k]);
-            let is_nearer = (covered[k] != 0) & (ratio < places.side_ratio[k] * NEARER);
-            places.side[k] = select(is_nearer, select(y[k] < 0.0, -side, side), places.side[k]);
-            places.side_ratio[k] = select(is_nearer, ratio, places.side_ratio[k]);
+            index[k] = select(is_less, segment.index, index[k]);
+            self.ratio[k] = select(is_less, ratio, self.ratio[k]);
+            self.way[k] = select(is_less, way.at(at), self.way[k]);
+            let is_nearer = (covered[k] != 0) & (ratio < self.side_ratio[k] * NEARER);
+            self.side[k] = select(is_nearer, select(y[k] < 0.0, -side, side), self.side[k]);
+            self.side_ratio[k] = select(is_nearer, ratio, self.side_ratio[k]);
         }
-        places.index = index;
+        self.index = index;
         if COLORED {
-            for (color, ramp) in places.color.iter_mut().zip(&self.shape.color) {
-                let mut new = [0.0; LANES];
-                for k in 0..LANES {
-                    new[k] = ramp.at(u[k]);
-                }
-                overwrite(color, &new, &wins);
-            }
+            mix_colors(&segment.shape, &u, &wins, &mut self.color);
         }
+    }
+
+    #[inline(always)]
+    fn ratios(&self) -> &Lanes {
+        &self.ratio
     }
 }
 
-/// The axis points of a stroke that samples of a cell lie beside.
-pub(super) struct Places {
+/// The axis points of a stroke that samples of a cell lie beside: those of the least ratios, which [`Shaded`] takes colours from. Where they are
+/// `COLORED`, they have these colours too.
+pub(super) struct Places<const COLORED: bool> {
     /// The segments, by their places in the list.
     pub(super) index: [u32; LANES],
     /// The way from the segment's first joint to the next.
     pub(super) way: Lanes,
-    /// The stroke's colours there, where they are asked for.
+    /// The stroke's colours there.
     pub(super) color: [Lanes; 3],
     /// The square of distance over radius; infinite where no segment covers the sample.
     ratio: Lanes,
@@ -181,7 +235,7 @@ pub(super) struct Places {
 /// segments are equally near and may see the sample on other sides, which rounding must not decide.
 const NEARER: f32 = 0.999;
 
-impl Places {
+impl<const COLORED: bool> Places<COLORED> {
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self {
@@ -222,6 +276,15 @@ impl Measured {
             biased: [NOTHING; LANES],
             ratio: [1.0; LANES],
         }
+    }
+
+    /// The farthest depths of some samples.
+    #[inline(always)]
+    pub(super) fn farthest(&self, samples: &LaneMask) -> [f32; 2] {
+        [
+            least_of(&self.inv_depth, samples),
+            least_of(&self.biased, samples),
+        ]
     }
 }
 

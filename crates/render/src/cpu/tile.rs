@@ -22,6 +22,9 @@ pub(super) const LANES: usize = 8;
 pub(super) const CELLS_ACROSS: usize = WIDTH * STACK / LANES;
 const CELLS: usize = ROWS * CELLS_ACROSS;
 
+/// More than places in a picture are wrong by, pixels: they have 24 bits, and pictures at most 2^14 of them.
+const ROUNDING: f32 = 0.05;
+
 /// Pixels that a cell is wide.
 pub(super) const CELL_WIDTH: usize = LANES / STACK;
 
@@ -121,6 +124,13 @@ impl Stack {
             }
         };
         samples.chunks(STACK).enumerate().map(stack).collect()
+    }
+
+    /// How far a cell's samples are from its middle at most, pixels, and some more than what rounding may come to.
+    #[inline(always)]
+    pub(super) fn cell_radius(&self) -> f32 {
+        let (width, height) = (CELL_WIDTH as f32, self.height as f32);
+        0.5 * (width * width + height * height).sqrt() + ROUNDING
     }
 
     /// How many lanes one after the other are a pixel's.
@@ -472,6 +482,36 @@ pub(super) fn any(lanes: &LaneMask) -> bool {
     any != 0
 }
 
+/// A bit for each lane that is set.
+#[inline(always)]
+pub(super) fn bits(lanes: &LaneMask) -> u32 {
+    let mut bits = 0;
+    for k in 0..LANES {
+        bits |= lanes[k] & 1 << k;
+    }
+    bits
+}
+
+/// The least number of some samples of a cell; infinite where there are none.
+#[inline(always)]
+pub(super) fn least_of(lanes: &Lanes, samples: &LaneMask) -> f32 {
+    let mut those = *lanes;
+    for k in 0..LANES {
+        those[k] = select(samples[k] != 0, lanes[k], f32::INFINITY);
+    }
+    least(&those)
+}
+
+/// The greatest of some, none of which is below 0; 0 where there are none.
+#[inline(always)]
+pub(super) fn greatest_of(lanes: &Lanes, samples: &LaneMask) -> f32 {
+    let mut those = *lanes;
+    for k in 0..LANES {
+        those[k] = select(samples[k] != 0, -lanes[k], 0.0);
+    }
+    -least(&those)
+}
+
 /// The least of a cell's numbers.
 #[inline(always)]
 pub(super) fn least(lanes: &Lanes) -> f32 {
@@ -576,9 +616,10 @@ pub(super) struct Slope {
 /// A [`Slope`] at a tile's samples.
 #[derive(Clone, Copy)]
 pub(super) struct Samples {
-    /// At the lanes of the tile's first cell.
+    /// At the lanes of the tile's first cell, and in its middle.
     first: Lanes,
-    per_column: f32,
+    middle: f32,
+    pub(super) per_column: f32,
     per_row: f32,
 }
 
@@ -600,10 +641,12 @@ impl Slope {
         for k in 0..LANES {
             first[k] += x[k] * self.per_x + y[k] * self.per_y;
         }
+        let per_row = self.per_y * stack.height as f32;
         Samples {
             first,
+            middle: self.corner + 0.5 * (self.per_x * CELL_WIDTH as f32 + per_row),
             per_column: self.per_x,
-            per_row: self.per_y * stack.height as f32,
+            per_row,
         }
     }
 }
@@ -612,15 +655,25 @@ impl Samples {
     /// At the samples of a cell.
     #[inline(always)]
     pub(super) fn of(&self, cell: Cell) -> Lanes {
-        // By way of small numbers, as those of 64 bits take a branch.
-        let [column, row] = [cell.column, cell.row].map(|number| f32::from(number as u16));
-        let step = column * self.per_column + row * self.per_row;
+        let step = number(cell.column) * self.per_column + number(cell.row) * self.per_row;
         let mut lanes = self.first;
         for k in 0..LANES {
             lanes[k] += step;
         }
         lanes
     }
+
+    /// In the middle of a row's first cell.
+    #[inline(always)]
+    pub(super) fn middle_of_row(&self, row: usize) -> f32 {
+        self.middle + number(row) * self.per_row
+    }
+}
+
+/// A row or a column. By way of small numbers, as those of 64 bits take a branch.
+#[inline(always)]
+pub(super) fn number(place: usize) -> f32 {
+    f32::from(place as u16)
 }
 
 #[cfg(test)]
