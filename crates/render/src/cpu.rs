@@ -11,7 +11,7 @@
 
 mod bin;
 mod evaluate;
-mod instructions;
+pub(crate) mod instructions;
 mod mixed;
 mod paint;
 mod reached;
@@ -115,12 +115,11 @@ impl Rasterizer {
         }
         let own_pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = threads.map(own_pool).transpose()?;
-        let available = Instructions::available();
         Ok(Self {
             pool,
             samples: samples.len(),
             stacks: Stack::of_pixel(&samples),
-            instructions: *available.last().unwrap_or(&Instructions::Compiled),
+            instructions: Instructions::best(),
             parts: Parts::default(),
             workers: Vec::new(),
             planes: SamplePlanes::default(),
@@ -179,7 +178,10 @@ impl Rasterizer {
                     let mut worker = workers[thread]
                         .lock()
                         .unwrap_or_else(PoisonError::into_inner);
-                    instructions.draw_band(&mut worker, &frame, band, Output::Pixels(pixels));
+                    instructions.run(
+                        #[inline(always)]
+                        || worker.draw_band(&frame, band, Output::Pixels(pixels)),
+                    );
                 });
             Ok(picture)
         };

@@ -52,7 +52,7 @@ impl Worker {
                     if block.cells.len() == SLOTS {
                         block.paint(frame, &layers[number], target);
                     }
-                    block.begin(frame, cell, shown, target);
+                    block.begin(cell, shown, target);
                 }
                 let way = &shown.way[cell];
                 block.add(frame, segment.joints(), way, &lanes);
@@ -87,10 +87,9 @@ fn those_that_show(shows: &[u32; LANES], index: u32) -> LaneMask {
 impl Block {
     /// Begins with a cell.
     #[inline(always)]
-    fn begin(&mut self, frame: &Frame, cell: usize, shown: &Planes, target: &Target) {
+    fn begin(&mut self, cell: usize, shown: &Planes, target: &Target) {
         let slot = self.cells.len();
         self.cells.push((cell, [0; LANES]));
-        self.mixed.make_room(&frame.parts.joint_rows);
         let samples = &mut self.mixed.samples;
         let [red, green, blue] = &target.color;
         for (numbers, plane) in [

@@ -4,13 +4,13 @@
 //! nearest disc, and its colour that of the nearest point of the axis. Where there are many segments, eight at a time are held against
 //! what is known of the cell so far, and those that are surely farther are left out: the same bits, as they would have changed nothing.
 
-use super::stroke::{Measured, Nearest, Placed};
+use super::stroke::{Depths, Nearest, Placed, Ratios};
 use super::tile::{
     Cell, LANES, LaneMask, Lanes, Stack, bits, columns, greater, greatest_of, number, select,
 };
 
 /// So many segments are all worked out: to choose among them would take longer.
-const FEW: usize = 3;
+const FEW: usize = 10;
 
 /// Segments of a stroke that cover some samples of a row of stacks.
 #[derive(Default)]
@@ -45,26 +45,43 @@ impl Reached {
         }
     }
 
-    /// What they come to at some samples of a cell; elsewhere numbers without meaning. Ratios are worked out where they are `ROUND`.
+    /// Offers those to `depths` and `nearest` that may make a difference to them at some samples of a cell; elsewhere these are numbers without
+    /// meaning.
     #[inline(always)]
-    pub(super) fn measure<const ROUND: bool>(
+    pub(super) fn measure(
         &mut self,
         placed: &[Placed],
         cell: Cell,
         samples: &LaneMask,
-    ) -> Measured {
-        let mut stroke = Measured::new();
-        if self.segments.len() <= FEW {
-            for &(place, reached) in &self.segments {
-                if reached & cell.columns() != 0 {
-                    placed[place].measure::<ROUND>(cell, &mut stroke);
-                }
-            }
-            return stroke;
+        depths: &mut Depths,
+        nearest: &mut impl Nearest,
+    ) {
+        if self.segments.len() > FEW {
+            self.find_depths(placed, cell, samples, depths);
+            self.find_nearest(placed, cell, samples, nearest);
+            return;
         }
-        placed[self.to_eye].measure::<false>(cell, &mut stroke);
-        let mut farthest = stroke.farthest(samples);
+        for &(place, reached) in &self.segments {
+            if reached & cell.columns() != 0 {
+                let at = placed[place].at(cell);
+                depths.offer(&placed[place], &at);
+                nearest.offer(&placed[place], &at);
+            }
+        }
+    }
+
+    /// Offers those of many that may be the nearest to the eye.
+    #[inline(always)]
+    fn find_depths(
+        &mut self,
+        placed: &[Placed],
+        cell: Cell,
+        samples: &LaneMask,
+        depths: &mut Depths,
+    ) {
         let first = self.to_eye;
+        depths.offer(&placed[first], &placed[first].at(cell));
+        let mut farthest = depths.farthest(samples);
         for (eight, some) in self.eights.iter().zip(self.segments.chunks(LANES)) {
             let mut left = eight.nearer_to_eye(cell, farthest);
             while left != 0 {
@@ -73,21 +90,17 @@ impl Reached {
                 if place == first {
                     continue;
                 }
-                placed[place].measure::<false>(cell, &mut stroke);
-                let now = stroke.farthest(samples);
+                depths.offer(&placed[place], &placed[place].at(cell));
+                let now = depths.farthest(samples);
                 if now != farthest {
                     (farthest, self.to_eye) = (now, place);
                     left &= eight.nearer_to_eye(cell, farthest);
                 }
             }
         }
-        if ROUND {
-            self.find_nearest(placed, cell, samples, &mut stroke);
-        }
-        stroke
     }
 
-    /// Offers those to `nearest` whose axes may be the nearest to some samples of a cell, in order.
+    /// Offers those to `nearest`, in order, that may be the nearest to the axis.
     #[inline(always)]
     pub(super) fn find_nearest(
         &mut self,
@@ -99,19 +112,21 @@ impl Reached {
         if self.segments.len() <= FEW {
             for &(place, reached) in &self.segments {
                 if reached & cell.columns() != 0 {
-                    nearest.offer(&placed[place], cell);
+                    nearest.offer(&placed[place], &placed[place].at(cell));
                 }
             }
             return;
         }
-        // No segment before it has been taken, so that of equals the first one is.
-        let mut farthest = greatest_of(&placed[self.to_axis].ratios(cell), samples);
+        // It is offered in its turn: of equals the first one is taken.
+        let mut known = Ratios::new();
+        known.offer(&placed[self.to_axis], &placed[self.to_axis].at(cell));
+        let mut farthest = greatest_of(known.ratios(), samples);
         for (eight, some) in self.eights.iter().zip(self.segments.chunks(LANES)) {
             let mut left = eight.nearer_to_axis(cell, farthest);
             while left != 0 {
                 let (place, _) = some[left.trailing_zeros() as usize];
                 left &= left - 1;
-                nearest.offer(&placed[place], cell);
+                nearest.offer(&placed[place], &placed[place].at(cell));
                 let now = greatest_of(nearest.ratios(), samples);
                 if now < farthest {
                     (farthest, self.to_axis) = (now, place);
@@ -142,7 +157,7 @@ struct Eight {
 }
 
 /// Ratios that are larger by less than this factor may still decide on which side of a stroke a sample lies
-/// ([`Placed::find_place`]): each of a hundred segments may have kept the one before it from doing so by a thousandth.
+/// ([`Places`](super::stroke::Places)): each of a hundred segments may have kept the one before it from doing so by a thousandth.
 const BESIDE: f32 = 1.1;
 
 impl Eight {

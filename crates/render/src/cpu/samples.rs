@@ -78,7 +78,10 @@ impl Rasterizer {
                             ids,
                             numbers,
                         };
-                        instructions.draw_band(&mut worker, &frame, band, Output::Samples(planes));
+                        instructions.run(
+                            #[inline(always)]
+                            || worker.draw_band(&frame, band, Output::Samples(planes)),
+                        );
                     });
                 take(planes);
             }

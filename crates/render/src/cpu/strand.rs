@@ -8,10 +8,10 @@
 use super::reached::Reached;
 use super::segment::{Segment, Stroke};
 use super::shown::Shown;
-use super::stroke::{Measured, Placed, Places, Shaded};
+use super::stroke::{Depths, Nearest, Placed, Places, Ratios, Shaded, Unasked};
 use super::tile::{
-    LANES, LaneMask, Lanes, Mask, NO_SAMPLES, ROWS, Stack, Target, add, any, both, cells, columns,
-    greater, is_empty, overwrite, without,
+    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, ROWS, Stack, Target, add, any, both, cells,
+    columns, greater, is_empty, lesser, overwrite, without,
 };
 use crate::drawing::{Drawing, Order};
 use std::ops::Range;
@@ -185,8 +185,13 @@ impl StrandMasks {
                 roundness: of_outline,
                 priority,
             };
-            offer.make(&outside, &mut self.row, target, &mut shown);
+            offer.make::<false>(&outside, &mut self.row, target, &mut shown, unasked);
         }
+        // What shows is told at once where a stroke is the clump: others, which are fewer, afterwards.
+        let is_clump = |stroke: &Covered| {
+            let segments_of_clump = clump.as_ref().map(|clump| &clump.segments);
+            segments_of_clump == Some(&stroke.segments)
+        };
         if let Some(clump) = &clump {
             let placed = &self.placed[clump.segments.clone()];
             let inside = both(&drawn, &clump_samples);
@@ -196,7 +201,22 @@ impl StrandMasks {
                 roundness: of_clump,
                 priority,
             };
-            offer.make(&inside, &mut self.row, target, &mut shown);
+            if TELLS && strokes.iter().any(is_clump) {
+                offer.make::<true>(
+                    &inside,
+                    &mut self.row,
+                    target,
+                    &mut shown,
+                    #[inline(always)]
+                    |target, cell, places, lanes| {
+                        paint(target, cell, &places.color, lanes);
+                        told.put_stroke(cell, places, lanes);
+                        told.put_clump(cell, places, lanes);
+                    },
+                );
+            } else {
+                offer.make::<false>(&inside, &mut self.row, target, &mut shown, unasked);
+            }
         }
         let mut told_of_clump = NO_SAMPLES;
         for stroke in strokes {
@@ -206,8 +226,10 @@ impl StrandMasks {
                 shade(scene.stack, placed, &samples, &mut self.row, target);
                 continue;
             }
-            let segments_of_clump = clump.as_ref().map(|clump| &clump.segments);
-            let is_clump = segments_of_clump == Some(&stroke.segments);
+            if is_clump(stroke) {
+                add(&mut told_of_clump, &samples);
+                continue;
+            }
             tell::<true>(
                 scene.stack,
                 placed,
@@ -217,14 +239,8 @@ impl StrandMasks {
                 |cell, places, lanes| {
                     paint(target, cell, &places.color, lanes);
                     told.put_stroke(cell, places, lanes);
-                    if is_clump {
-                        told.put_clump(cell, places, lanes);
-                    }
                 },
             );
-            if is_clump {
-                add(&mut told_of_clump, &samples);
-            }
         }
         if TELLS && let Some(clump) = clump {
             let placed = &self.placed[clump.segments.clone()];
@@ -259,26 +275,29 @@ impl StrandMasks {
                 priority: stroke.number,
             };
             let mut shown = NO_SAMPLES;
-            offer.make(&stroke.samples, &mut self.row, target, &mut shown);
-            if !TELLS {
+            if TELLS {
+                offer.make::<true>(
+                    &stroke.samples,
+                    &mut self.row,
+                    target,
+                    &mut shown,
+                    #[inline(always)]
+                    |target, cell, places, lanes| {
+                        paint(target, cell, &places.color, lanes);
+                        told.put_stroke(cell, places, lanes);
+                        told.put_clump(cell, places, lanes);
+                    },
+                );
+            } else {
+                offer.make::<false>(&stroke.samples, &mut self.row, target, &mut shown, unasked);
                 shade(scene.stack, placed, &shown, &mut self.row, target);
-                continue;
             }
-            tell::<true>(
-                scene.stack,
-                placed,
-                &shown,
-                &mut self.row,
-                #[inline(always)]
-                |cell, places, lanes| {
-                    paint(target, cell, &places.color, lanes);
-                    told.put_stroke(cell, places, lanes);
-                    told.put_clump(cell, places, lanes);
-                },
-            );
         }
     }
 }
+
+/// Nobody asks where samples that show lie.
+fn unasked(_: &mut Target, _: usize, _: &Places<true>, _: &LaneMask) {}
 
 /// A stroke that is held against what the samples show.
 struct Offer<'a> {
@@ -291,9 +310,17 @@ struct Offer<'a> {
 }
 
 impl Offer<'_> {
-    /// Puts the samples, which the segments cover, into the picture; those that show are added to `shown`.
+    /// Puts the samples, which the segments cover, into the picture; those that show are added to `shown`. Where it `TELLS`, gives the axis
+    /// points of these.
     #[inline(always)]
-    fn make(&self, samples: &Mask, segments: &mut Reached, target: &mut Target, shown: &mut Mask) {
+    fn make<const TELLS: bool>(
+        &self,
+        samples: &Mask,
+        segments: &mut Reached,
+        target: &mut Target,
+        shown: &mut Mask,
+        mut give: impl FnMut(&mut Target, usize, &Places<true>, &LaneMask),
+    ) {
         let (mut nearest, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
         for placed in self.placed {
             nearest = greater(placed.shape.inv_depth.greatest(), nearest);
@@ -310,25 +337,42 @@ impl Offer<'_> {
                 if !any(&taken) {
                     continue;
                 }
-                let stroke = match self.roundness {
-                    Roundness::Flat => segments.measure::<false>(self.placed, cell, &taken),
-                    _ => segments.measure::<true>(self.placed, cell, &taken),
+                if TELLS {
+                    let mut places = Places::new();
+                    let depths = self.depths(segments, cell, &taken, &mut places);
+                    let wins = target.offer(cell, &taken, &depths, self.priority);
+                    cell.add_to(shown, &wins);
+                    give(target, cell.index, &places, &wins);
+                    continue;
+                }
+                let depths = match self.roundness {
+                    Roundness::Flat => self.depths(segments, cell, &taken, &mut Unasked),
+                    _ => self.depths(segments, cell, &taken, &mut Ratios::new()),
                 };
-                let (inv_depth, biased) = self.round(&stroke);
-                let wins = target.offer(cell, &taken, &inv_depth, &biased, self.priority);
+                let wins = target.offer(cell, &taken, &depths, self.priority);
                 cell.add_to(shown, &wins);
             }
         }
     }
 
-    /// Takes the samples as much deeper as they are far from the stroke's middle.
+    /// The depths of some samples of a cell, by how far they are from the stroke's middle.
     #[inline(always)]
-    fn round(&self, stroke: &Measured) -> (Lanes, Lanes) {
-        let (mut inv_depth, mut biased) = (stroke.inv_depth, stroke.biased);
+    fn depths(
+        &self,
+        segments: &mut Reached,
+        cell: Cell,
+        samples: &LaneMask,
+        nearest: &mut impl Nearest,
+    ) -> Depths {
+        let mut depths = Depths::new();
+        segments.measure(self.placed, cell, samples, &mut depths, nearest);
         if self.roundness == Roundness::Flat {
-            return (inv_depth, biased);
+            return depths;
         }
-        let mut part = stroke.ratio;
+        let mut part = *nearest.ratios();
+        for k in 0..LANES {
+            part[k] = lesser(part[k], 1.0);
+        }
         if self.roundness == Roundness::Outline {
             for k in 0..LANES {
                 let square = part[k] * part[k];
@@ -337,10 +381,10 @@ impl Offer<'_> {
         }
         for k in 0..LANES {
             let deeper_m = self.scene.drawing.edge_depth_m * part[k];
-            inv_depth[k] = deeper(inv_depth[k], deeper_m);
-            biased[k] = deeper(biased[k], deeper_m);
+            depths.inv_depth[k] = deeper(depths.inv_depth[k], deeper_m);
+            depths.biased[k] = deeper(depths.biased[k], deeper_m);
         }
-        (inv_depth, biased)
+        depths
     }
 }
 

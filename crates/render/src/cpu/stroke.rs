@@ -78,84 +78,144 @@ impl Placed {
         [&self.x, &self.y]
     }
 
-    /// Brings the segment's depth at the samples of a cell that it covers into that of its stroke; its ratio too where it is `ROUND`.
+    /// The samples of a cell in its frame.
     #[inline(always)]
-    pub(super) fn measure<const ROUND: bool>(&self, cell: Cell, stroke: &mut Measured) {
+    pub(super) fn at(&self, cell: Cell) -> InFrame {
+        InFrame {
+            covered: cell.lanes(&self.covered),
+            x: self.x.of(cell),
+            y: self.y.of(cell),
+        }
+    }
+}
+
+/// A cell's samples in a segment's frame, and those that it covers.
+pub(super) struct InFrame {
+    covered: LaneMask,
+    x: Lanes,
+    y: Lanes,
+}
+
+/// How near a stroke is at the samples of a cell, 1/m; [`NOTHING`] where no segment of it covers them.
+pub(super) struct Depths {
+    pub(super) inv_depth: Lanes,
+    pub(super) biased: Lanes,
+}
+
+impl Depths {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self {
+            inv_depth: [NOTHING; LANES],
+            biased: [NOTHING; LANES],
+        }
+    }
+
+    /// Takes on a segment's where they are nearer.
+    #[inline(always)]
+    pub(super) fn offer(&mut self, segment: &Placed, at: &InFrame) {
         let Shape {
             sweep,
             inv_depth,
             inv_depth_biased,
             ..
-        } = &self.shape;
-        let covered = cell.lanes(&self.covered);
-        let (x, y) = (self.x.of(cell), self.y.of(cell));
+        } = &segment.shape;
         for k in 0..LANES {
-            let is_covered = covered[k] != 0;
-            let (low, high) = sweep.interval(x[k], y[k]);
+            let is_covered = at.covered[k] != 0;
+            let (low, high) = sweep.interval(at.x[k], at.y[k]);
             // Linear, so the greatest is at one of the ends.
             let depth = greater(inv_depth.at(low), inv_depth.at(high));
             let biased = greater(inv_depth_biased.at(low), inv_depth_biased.at(high));
             let depth = select(is_covered, depth, NOTHING);
-            stroke.inv_depth[k] = greater(depth, stroke.inv_depth[k]);
+            self.inv_depth[k] = greater(depth, self.inv_depth[k]);
             let biased = select(is_covered, biased, NOTHING);
-            stroke.biased[k] = greater(biased, stroke.biased[k]);
-            if ROUND {
-                let (_, ratio) = sweep.attribute_point(x[k], y[k]);
-                let ratio = select(is_covered, ratio, 1.0);
-                stroke.ratio[k] = lesser(ratio, stroke.ratio[k]);
-            }
+            self.biased[k] = greater(biased, self.biased[k]);
         }
     }
 
-    /// The squares of distance over radius at the samples of a cell; infinite where it doesn't cover them.
+    /// The farthest ones of some samples.
     #[inline(always)]
-    pub(super) fn ratios(&self, cell: Cell) -> Lanes {
-        let covered = cell.lanes(&self.covered);
-        let (x, y) = (self.x.of(cell), self.y.of(cell));
-        let mut ratios = [0.0; LANES];
-        for k in 0..LANES {
-            let (_, ratio) = self.shape.sweep.attribute_point(x[k], y[k]);
-            ratios[k] = select(covered[k] != 0, ratio, f32::INFINITY);
-        }
-        ratios
+    pub(super) fn farthest(&self, samples: &LaneMask) -> [f32; 2] {
+        [
+            least_of(&self.inv_depth, samples),
+            least_of(&self.biased, samples),
+        ]
     }
 }
 
-/// What is known of the nearest axis points of a stroke's segments to the samples of a cell.
+/// What is known of the axis points that are the nearest to the samples of a cell: those of the least ratio, the square of distance over radius.
 pub(super) trait Nearest {
-    /// Takes on what the segment has at those that it covers, where its ratio is the least so far.
-    fn offer(&mut self, segment: &Placed, cell: Cell);
-    /// The least so far.
+    /// Takes on what a segment has at those that it covers, where its ratio is less.
+    fn offer(&mut self, segment: &Placed, at: &InFrame);
+    /// The least ratios so far; infinite where no segment covers the sample.
     fn ratios(&self) -> &Lanes;
 }
 
-impl Nearest for Measured {
+/// Nothing is asked.
+pub(super) struct Unasked;
+
+impl Nearest for Unasked {
     #[inline(always)]
-    fn offer(&mut self, segment: &Placed, cell: Cell) {
-        let ratios = segment.ratios(cell);
+    fn offer(&mut self, _: &Placed, _: &InFrame) {}
+
+    #[inline(always)]
+    fn ratios(&self) -> &Lanes {
+        &[0.0; LANES]
+    }
+}
+
+/// Their ratios alone.
+pub(super) struct Ratios(Lanes);
+
+impl Ratios {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self([f32::INFINITY; LANES])
+    }
+}
+
+impl Nearest for Ratios {
+    #[inline(always)]
+    fn offer(&mut self, segment: &Placed, at: &InFrame) {
         for k in 0..LANES {
-            self.ratio[k] = lesser(ratios[k], self.ratio[k]);
+            let (_, ratio) = segment.shape.sweep.attribute_point(at.x[k], at.y[k]);
+            let ratio = select(at.covered[k] != 0, ratio, f32::INFINITY);
+            self.0[k] = lesser(ratio, self.0[k]);
         }
     }
 
     #[inline(always)]
     fn ratios(&self) -> &Lanes {
-        &self.ratio
+        &self.0
+    }
+}
+
+/// Their colours.
+pub(super) struct Shaded {
+    ratio: Lanes,
+    pub(super) color: [Lanes; 3],
+}
+
+impl Shaded {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self {
+            ratio: [f32::INFINITY; LANES],
+            color: [[0.0; LANES]; 3],
+        }
     }
 }
 
 impl Nearest for Shaded {
     #[inline(always)]
-    fn offer(&mut self, segment: &Placed, cell: Cell) {
-        let covered = cell.lanes(&segment.covered);
-        let (x, y) = (segment.x.of(cell), segment.y.of(cell));
-        let (mut u, mut wins) = ([0.0; LANES], covered);
+    fn offer(&mut self, segment: &Placed, at: &InFrame) {
+        let (mut u, mut wins) = ([0.0; LANES], at.covered);
         for k in 0..LANES {
-            let (at, ratio) = segment.shape.sweep.attribute_point(x[k], y[k]);
+            let (at_u, ratio) = segment.shape.sweep.attribute_point(at.x[k], at.y[k]);
             // A covered sample has a colour, even at a tip that is a point.
             let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
-            let is_less = (covered[k] != 0) & (ratio < self.ratio[k]);
-            u[k] = at;
+            let is_less = (at.covered[k] != 0) & (ratio < self.ratio[k]);
+            u[k] = at_u;
             wins[k] = select(is_less, u32::MAX, 0);
             self.ratio[k] = select(is_less, ratio, self.ratio[k]);
         }
@@ -182,25 +242,25 @@ fn mix_colors(shape: &Shape, u: &Lanes, wins: &LaneMask, colors: &mut [Lanes; 3]
 
 impl<const COLORED: bool> Nearest for Places<COLORED> {
     #[inline(always)]
-    fn offer(&mut self, segment: &Placed, cell: Cell) {
-        let covered = cell.lanes(&segment.covered);
-        let (x, y) = (segment.x.of(cell), segment.y.of(cell));
+    fn offer(&mut self, segment: &Placed, at: &InFrame) {
         // Seen from root to tip, whichever end is larger.
         let Shape { sweep, way, .. } = &segment.shape;
         let side = select((way.rise < 0.0) & sweep.has_direction(), -1.0, 1.0);
         let mut index = self.index;
-        let (mut u, mut wins) = ([0.0; LANES], covered);
+        let (mut u, mut wins) = ([0.0; LANES], at.covered);
         for k in 0..LANES {
-            let (at, ratio) = sweep.attribute_point(x[k], y[k]);
+            let (at_u, ratio) = sweep.attribute_point(at.x[k], at.y[k]);
             let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
-            let is_less = (covered[k] != 0) & (ratio < self.ratio[k]);
-            u[k] = at;
+            let is_covered = at.covered[k] != 0;
+            let is_less = is_covered & (ratio < self.ratio[k]);
+            u[k] = at_u;
             wins[k] = select(is_less, u32::MAX, 0);
             index[k] = select(is_less, segment.index, index[k]);
             self.ratio[k] = select(is_less, ratio, self.ratio[k]);
-            self.way[k] = select(is_less, way.at(at), self.way[k]);
-            let is_nearer = (covered[k] != 0) & (ratio < self.side_ratio[k] * NEARER);
-            self.side[k] = select(is_nearer, select(y[k] < 0.0, -side, side), self.side[k]);
+            self.way[k] = select(is_less, way.at(at_u), self.way[k]);
+            let is_nearer = is_covered & (ratio < self.side_ratio[k] * NEARER);
+            let own = select(at.y[k] < 0.0, -side, side);
+            self.side[k] = select(is_nearer, own, self.side[k]);
             self.side_ratio[k] = select(is_nearer, ratio, self.side_ratio[k]);
         }
         self.index = index;
@@ -256,50 +316,5 @@ impl<const COLORED: bool> Places<COLORED> {
             across[k] *= lesser(self.ratio[k], 1.0).sqrt();
         }
         across
-    }
-}
-
-/// What a stroke's segments that cover the samples of a cell come to.
-pub(super) struct Measured {
-    /// The nearest, 1/m; [`NOTHING`] where none covers the sample.
-    pub(super) inv_depth: Lanes,
-    pub(super) biased: Lanes,
-    /// The least square of distance over radius, at most 1.
-    pub(super) ratio: Lanes,
-}
-
-impl Measured {
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self {
-            inv_depth: [NOTHING; LANES],
-            biased: [NOTHING; LANES],
-            ratio: [1.0; LANES],
-        }
-    }
-
-    /// The farthest depths of some samples.
-    #[inline(always)]
-    pub(super) fn farthest(&self, samples: &LaneMask) -> [f32; 2] {
-        [
-            least_of(&self.inv_depth, samples),
-            least_of(&self.biased, samples),
-        ]
-    }
-}
-
-/// The colours of a stroke at the samples of a cell, and the ratios at which they were found.
-pub(super) struct Shaded {
-    ratio: Lanes,
-    pub(super) color: [Lanes; 3],
-}
-
-impl Shaded {
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self {
-            ratio: [f32::INFINITY; LANES],
-            color: [[0.0; LANES]; 3],
-        }
     }
 }

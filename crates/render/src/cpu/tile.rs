@@ -6,6 +6,7 @@
 //! numbers of a plane, and every loop over a cell's lanes compiles to vector instructions. A cell is two pixels wide and not eight,
 //! as strokes are thin: twice as many of its lanes have something to do.
 
+use super::stroke::Depths;
 use glam::Vec2;
 use std::ops::Range;
 
@@ -447,10 +448,13 @@ impl Target {
         &mut self,
         cell: Cell,
         samples: &LaneMask,
-        depth: &Lanes,
-        biased: &Lanes,
+        depths: &Depths,
         priority: u32,
     ) -> LaneMask {
+        let Depths {
+            inv_depth: depth,
+            biased,
+        } = depths;
         let (surface, margin) = (self.surface[cell.index], self.margin[cell.index]);
         let mut nearest = self.strand[cell.index];
         let mut top = self.priority[cell.index];
