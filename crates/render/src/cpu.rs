@@ -172,6 +172,7 @@ impl Rasterizer {
                 .pixels
                 .par_chunks_mut(band_length)
                 .enumerate()
+                .with_max_len(1) // so that all threads end at one time
                 .for_each(|(band, pixels)| {
                     let thread = rayon::current_thread_index().unwrap_or(0);
                     // Its planes are cleared before use, so a panic elsewhere can't harm them.
@@ -224,26 +225,42 @@ impl Parts {
 
     fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], stacks: &[Stack]) {
         let tile_height = tile::height(stacks);
-        self.segments.collect(drawing, strokes, tile_height);
-        self.joint_rows.fill(&drawing.painting, drawing.clump.len());
-        let painted = &drawing.painting.layers;
-        let place_of = |stroke: &Stroke| painted.iter().position(|it| it.layer == stroke.layer);
-        self.painted.clear();
-        self.painted.extend(strokes.iter().map(place_of));
-        surface::collect(drawing, stacks, &mut self.triangles);
-        let [width, height] = drawing.size.map(|side| side as usize);
-        let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
-        self.rows_of_triangles.clear();
-        for (triangle, i) in self.triangles.iter().zip(0..) {
-            let columns = cells(triangle.bounds.x, tile::WIDTH);
-            for band in cells(triangle.bounds.y, tile_height) {
-                let first = band * across;
-                let tiles = first + columns.start..first + columns.end;
-                self.rows_of_triangles.push((i, tiles));
-            }
-        }
-        let triangles = self.rows_of_triangles.iter().cloned();
-        self.triangles_of_tiles.fill(across * bands, triangles);
+        let Self {
+            segments,
+            triangles,
+            rows_of_triangles,
+            triangles_of_tiles,
+            joint_rows,
+            painted,
+        } = self;
+        let place_of = |stroke: &Stroke| {
+            let layers = &drawing.painting.layers;
+            layers.iter().position(|it| it.layer == stroke.layer)
+        };
+        painted.clear();
+        painted.extend(strokes.iter().map(place_of));
+        // Some of both goes on in one thread.
+        rayon::join(
+            || {
+                segments.collect(drawing, strokes, tile_height);
+                joint_rows.fill(&drawing.painting, drawing.clump.len());
+            },
+            || {
+                surface::collect(drawing, stacks, triangles);
+                let [width, height] = drawing.size.map(|side| side as usize);
+                let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
+                rows_of_triangles.clear();
+                for (triangle, i) in triangles.iter().zip(0..) {
+                    let columns = cells(triangle.bounds.x, tile::WIDTH);
+                    for band in cells(triangle.bounds.y, tile_height) {
+                        let first = band * across;
+                        let tiles = first + columns.start..first + columns.end;
+                        rows_of_triangles.push((i, tiles));
+                    }
+                }
+                triangles_of_tiles.fill(across * bands, rows_of_triangles.iter().cloned());
+            },
+        );
     }
 }
 

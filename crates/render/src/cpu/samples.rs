@@ -65,6 +65,7 @@ impl Rasterizer {
                 let numbers = planes.numbers.par_chunks_mut(numbers);
                 ids.zip(numbers)
                     .enumerate()
+                    .with_max_len(1)
                     .for_each(|(band, (ids, numbers))| {
                         let thread = rayon::current_thread_index().unwrap_or(0);
                         let mut worker = workers[thread]

@@ -223,7 +223,7 @@ impl StrandMasks {
             let placed = &self.placed[stroke.segments.clone()];
             let samples = both(&stroke.samples, &shown);
             if !TELLS {
-                shade(scene.stack, placed, &samples, &mut self.row, target);
+                shade(placed, &samples, &mut self.row, target);
                 continue;
             }
             if is_clump(stroke) {
@@ -231,7 +231,6 @@ impl StrandMasks {
                 continue;
             }
             tell::<true>(
-                scene.stack,
                 placed,
                 &samples,
                 &mut self.row,
@@ -246,7 +245,6 @@ impl StrandMasks {
             let placed = &self.placed[clump.segments.clone()];
             let samples = without(&both(&clump_samples, &shown), &told_of_clump);
             tell::<false>(
-                scene.stack,
                 placed,
                 &samples,
                 &mut self.row,
@@ -290,7 +288,7 @@ impl StrandMasks {
                 );
             } else {
                 offer.make::<false>(&stroke.samples, &mut self.row, target, &mut shown, unasked);
-                shade(scene.stack, placed, &shown, &mut self.row, target);
+                shade(placed, &shown, &mut self.row, target);
             }
         }
     }
@@ -331,7 +329,7 @@ impl Offer<'_> {
             if wanted == 0 {
                 continue;
             }
-            segments.find(self.placed, self.scene.stack, row, wanted);
+            segments.find(self.placed, row, wanted);
             for cell in cells(row, wanted) {
                 let taken = target.may_show(cell, &cell.lanes(samples), nearest, biased);
                 if !any(&taken) {
@@ -396,13 +394,7 @@ fn deeper(inv_depth: f32, metres: f32) -> f32 {
 
 /// Gives the samples, which the stroke covers, its colour.
 #[inline(always)]
-fn shade(
-    stack: &Stack,
-    placed: &[Placed],
-    samples: &Mask,
-    segments: &mut Reached,
-    target: &mut Target,
-) {
+fn shade(placed: &[Placed], samples: &Mask, segments: &mut Reached, target: &mut Target) {
     let first = &placed[0].shape;
     let is_one_color = placed
         .iter()
@@ -419,7 +411,7 @@ fn shade(
             }
             continue;
         }
-        segments.find(placed, stack, row, wanted);
+        segments.find(placed, row, wanted);
         for cell in cells(row, wanted) {
             let (mut stroke, lanes) = (Shaded::new(), cell.lanes(samples));
             segments.find_nearest(placed, cell, &lanes, &mut stroke);
@@ -432,7 +424,6 @@ fn shade(
 /// there.
 #[inline(always)]
 fn tell<const COLORED: bool>(
-    stack: &Stack,
     placed: &[Placed],
     samples: &Mask,
     segments: &mut Reached,
@@ -443,7 +434,7 @@ fn tell<const COLORED: bool>(
         if wanted == 0 {
             continue;
         }
-        segments.find(placed, stack, row, wanted);
+        segments.find(placed, row, wanted);
         for cell in cells(row, wanted) {
             let (mut places, lanes) = (Places::new(), cell.lanes(samples));
             segments.find_nearest(placed, cell, &lanes, &mut places);

@@ -4,8 +4,8 @@ use super::rows::{self, ROWS_AT_ONCE};
 use super::segment::Shape;
 use super::strand::TileContext;
 use super::tile::{
-    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, greater,
-    least_of, lesser, overwrite, select,
+    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, any,
+    greater, lesser, overwrite, select,
 };
 use glam::DVec2;
 
@@ -72,12 +72,6 @@ impl Placed {
         })
     }
 
-    /// The segment's frame: along its axis, and across.
-    #[inline(always)]
-    pub(super) fn frame(&self) -> [&Samples; 2] {
-        [&self.x, &self.y]
-    }
-
     /// The samples of a cell in its frame.
     #[inline(always)]
     pub(super) fn at(&self, cell: Cell) -> InFrame {
@@ -133,13 +127,17 @@ impl Depths {
         }
     }
 
-    /// The farthest ones of some samples.
+    /// Whether a segment may have a disc that is nearer at some samples.
     #[inline(always)]
-    pub(super) fn farthest(&self, samples: &LaneMask) -> [f32; 2] {
-        [
-            least_of(&self.inv_depth, samples),
-            least_of(&self.biased, samples),
-        ]
+    pub(super) fn may_gain(&self, segment: &Placed, at: &InFrame, samples: &LaneMask) -> bool {
+        let inv_depth = segment.shape.inv_depth.greatest();
+        let biased = segment.shape.inv_depth_biased.greatest();
+        let mut gains = at.covered;
+        for k in 0..LANES {
+            let is_nearer = (inv_depth > self.inv_depth[k]) | (biased > self.biased[k]);
+            gains[k] &= samples[k] & select(is_nearer, u32::MAX, 0);
+        }
+        any(&gains)
     }
 }
 
@@ -149,7 +147,26 @@ pub(super) trait Nearest {
     fn offer(&mut self, segment: &Placed, at: &InFrame);
     /// The least ratios so far; infinite where no segment covers the sample.
     fn ratios(&self) -> &Lanes;
+    /// Whether a segment may make a difference at some samples, where those `known` are offered too: at a distance `d` from its axis a ratio is at
+    /// least (d / radius)^2.
+    #[inline(always)]
+    fn may_gain(&self, known: &Ratios, segment: &Placed, at: &InFrame, samples: &LaneMask) -> bool {
+        let (length, radius) = (segment.shape.sweep.length(), segment.shape.sweep.radius());
+        let most = BESIDE * radius * radius;
+        let mut gains = at.covered;
+        for k in 0..LANES {
+            let beyond = greater(greater(-at.x[k], at.x[k] - length), 0.0);
+            let square = beyond * beyond + at.y[k] * at.y[k];
+            let ratio = lesser(known.0[k], self.ratios()[k]);
+            gains[k] &= samples[k] & select(square <= ratio * most, u32::MAX, 0);
+        }
+        any(&gains)
+    }
 }
+
+/// Ratios that are larger by less than this factor may still decide on which side of a stroke a sample lies
+/// ([`Places`]): each of a hundred segments may have kept the one before it from doing so by a thousandth.
+const BESIDE: f32 = 1.1;
 
 /// Nothing is asked.
 pub(super) struct Unasked;
@@ -161,6 +178,11 @@ impl Nearest for Unasked {
     #[inline(always)]
     fn ratios(&self) -> &Lanes {
         &[0.0; LANES]
+    }
+
+    #[inline(always)]
+    fn may_gain(&self, _: &Ratios, _: &Placed, _: &InFrame, _: &LaneMask) -> bool {
+        false
     }
 }
 

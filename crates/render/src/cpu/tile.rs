@@ -23,9 +23,6 @@ pub(super) const LANES: usize = 8;
 pub(super) const CELLS_ACROSS: usize = WIDTH * STACK / LANES;
 const CELLS: usize = ROWS * CELLS_ACROSS;
 
-/// More than places in a picture are wrong by, pixels: they have 24 bits, and pictures at most 2^14 of them.
-const ROUNDING: f32 = 0.05;
-
 /// Pixels that a cell is wide.
 pub(super) const CELL_WIDTH: usize = LANES / STACK;
 
@@ -125,13 +122,6 @@ impl Stack {
             }
         };
         samples.chunks(STACK).enumerate().map(stack).collect()
-    }
-
-    /// How far a cell's samples are from its middle at most, pixels, and some more than what rounding may come to.
-    #[inline(always)]
-    pub(super) fn cell_radius(&self) -> f32 {
-        let (width, height) = (CELL_WIDTH as f32, self.height as f32);
-        0.5 * (width * width + height * height).sqrt() + ROUNDING
     }
 
     /// How many lanes one after the other are a pixel's.
@@ -496,26 +486,6 @@ pub(super) fn bits(lanes: &LaneMask) -> u32 {
     bits
 }
 
-/// The least number of some samples of a cell; infinite where there are none.
-#[inline(always)]
-pub(super) fn least_of(lanes: &Lanes, samples: &LaneMask) -> f32 {
-    let mut those = *lanes;
-    for k in 0..LANES {
-        those[k] = select(samples[k] != 0, lanes[k], f32::INFINITY);
-    }
-    least(&those)
-}
-
-/// The greatest of some, none of which is below 0; 0 where there are none.
-#[inline(always)]
-pub(super) fn greatest_of(lanes: &Lanes, samples: &LaneMask) -> f32 {
-    let mut those = *lanes;
-    for k in 0..LANES {
-        those[k] = select(samples[k] != 0, -lanes[k], 0.0);
-    }
-    -least(&those)
-}
-
 /// The least of a cell's numbers.
 #[inline(always)]
 pub(super) fn least(lanes: &Lanes) -> f32 {
@@ -620,10 +590,9 @@ pub(super) struct Slope {
 /// A [`Slope`] at a tile's samples.
 #[derive(Clone, Copy)]
 pub(super) struct Samples {
-    /// At the lanes of the tile's first cell, and in its middle.
+    /// At the lanes of the tile's first cell.
     first: Lanes,
-    middle: f32,
-    pub(super) per_column: f32,
+    per_column: f32,
     per_row: f32,
 }
 
@@ -645,12 +614,10 @@ impl Slope {
         for k in 0..LANES {
             first[k] += x[k] * self.per_x + y[k] * self.per_y;
         }
-        let per_row = self.per_y * stack.height as f32;
         Samples {
             first,
-            middle: self.corner + 0.5 * (self.per_x * CELL_WIDTH as f32 + per_row),
             per_column: self.per_x,
-            per_row,
+            per_row: self.per_y * stack.height as f32,
         }
     }
 }
@@ -666,17 +633,11 @@ impl Samples {
         }
         lanes
     }
-
-    /// In the middle of a row's first cell.
-    #[inline(always)]
-    pub(super) fn middle_of_row(&self, row: usize) -> f32 {
-        self.middle + number(row) * self.per_row
-    }
 }
 
 /// A row or a column. By way of small numbers, as those of 64 bits take a branch.
 #[inline(always)]
-pub(super) fn number(place: usize) -> f32 {
+fn number(place: usize) -> f32 {
     f32::from(place as u16)
 }
 
