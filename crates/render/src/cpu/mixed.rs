@@ -1,10 +1,9 @@
 //! What painted samples are told of joints: mixed of two joints eight samples at a time, and finished for a block of them.
 
-use super::tile::{LANES, LaneMask, Lanes, greater, overwrite, select};
+use super::tile::{LANES, LaneMask, Lanes, OneByOne, greater, overwrite, select};
 use crate::painting::Painting;
 use effects::wgsl::{Vec3, vec3};
 use effects::{BLOCK, SampleBlock, SampleInput, SampleSet, Samples, Vectors};
-use std::ops::Range;
 
 /// What is linear between joints.
 const NUMBERS: [SampleInput; 6] = [
@@ -101,27 +100,6 @@ type Plane = [Lanes; SLOTS];
 /// A vector of each sample of a block.
 type Directions<'a> = [&'a [f32; BLOCK]; 3];
 
-/// Places in a row, a bit each: by a range, compilers would go along rows in vector instructions, and not along lanes.
-struct Places(u32);
-
-impl Places {
-    #[inline(always)]
-    fn of(range: Range<usize>) -> Self {
-        Self((1 << range.end) - (1 << range.start))
-    }
-}
-
-impl Iterator for Places {
-    type Item = usize;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<usize> {
-        let place = self.0.trailing_zeros() as usize;
-        self.0 &= self.0.wrapping_sub(1);
-        (place < WIDTH).then_some(place)
-    }
-}
-
 /// A block of samples while they are gathered.
 pub(super) struct Mixed {
     /// As a joint's row, of each sample; vectors are no unit vectors yet.
@@ -170,14 +148,14 @@ impl Mixed {
         let (from, to) = (&rows.rows[joint], &rows.rows[next]);
         let numbers = rows.numbers.len();
         let width = numbers + 3 * rows.vectors.len();
-        for i in Places::of(0..numbers) {
+        for i in OneByOne::of(&(0..numbers)) {
             let mut mixed = *way;
             for k in 0..LANES {
                 mixed[k] = from[i] + way[k] * (to[i] - from[i]);
             }
             overwrite(&mut self.planes[i][slot], &mixed, lanes);
         }
-        for i in Places::of(numbers..width) {
+        for i in OneByOne::of(&(numbers..width)) {
             let mut mixed = *way;
             for k in 0..LANES {
                 mixed[k] = from[i] * rest[k] + to[i] * way[k];

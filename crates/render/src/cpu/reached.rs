@@ -8,7 +8,7 @@ use super::stroke::{Depths, Nearest, Placed, Ratios};
 use super::tile::{Cell, LaneMask, columns};
 
 /// So many segments are all worked out: to choose among them would take longer.
-const FEW: usize = 2;
+const FEW: usize = 4;
 
 /// Segments of a stroke that cover some samples of a row of stacks.
 #[derive(Default)]

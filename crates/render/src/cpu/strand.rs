@@ -10,8 +10,8 @@ use super::segment::{Segment, Stroke};
 use super::shown::Shown;
 use super::stroke::{Depths, Nearest, Placed, Places, Ratios, Shaded, Unasked};
 use super::tile::{
-    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, ROWS, Stack, Target, add, any, both, cells,
-    columns, greater, is_empty, lesser, overwrite, without,
+    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, OneByOne, ROWS, Stack, Target, add, any, both,
+    cells, columns, greater, is_empty, lesser, overwrite, without,
 };
 use crate::drawing::{Drawing, Order};
 use std::ops::Range;
@@ -499,7 +499,7 @@ impl TileContext<'_> {
     #[inline(always)]
     fn open(&self, part: &Part, target: &Target) -> [u32; ROWS] {
         let mut open = [0; ROWS];
-        for row in part.rows.clone() {
+        for row in OneByOne::of(&part.rows) {
             open[row] = part.columns & target.open(row, part.inv_depth, part.biased);
         }
         open

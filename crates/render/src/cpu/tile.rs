@@ -54,6 +54,32 @@ pub(super) fn greater(a: f32, b: f32) -> f32 {
     select(a > b, a, b)
 }
 
+/// Numbers below 32, a bit each, from the least on: in place of a range around loops over lanes, or compilers would go along the
+/// range in vector instructions, and pick their numbers together, in place of along the lanes.
+pub(super) struct OneByOne(u32);
+
+impl OneByOne {
+    /// Those of a range.
+    #[inline(always)]
+    pub(super) fn of(range: &Range<usize>) -> Self {
+        Self((1_u32 << range.end) - (1 << range.start))
+    }
+}
+
+impl Iterator for OneByOne {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        if self.0 == 0 {
+            return None;
+        }
+        let number = self.0.trailing_zeros() as usize;
+        self.0 &= self.0 - 1;
+        Some(number)
+    }
+}
+
 /// A number for each sample of a tile that stands for something.
 pub(super) type IdPlane = Box<[[u32; LANES]; CELLS]>;
 
@@ -512,19 +538,21 @@ pub(super) fn empty_pixel(background: Option<[f32; 3]>, samples: usize) -> [f32;
     })
 }
 
-/// The sums over the samples of a tile's pixels, row by row: red, green, blue and alpha.
-pub(super) struct Sums(Vec<[f32; 4]>);
+/// The sums over the samples of a tile's pixels, row by row: of red, green, blue and alpha.
+pub(super) struct Sums([Vec<[f32; WIDTH]>; 4]);
 
 impl Sums {
     pub(super) fn new() -> Self {
-        Self(Vec::new())
+        Self([const { Vec::new() }; 4])
     }
 
     /// Forgets them; a tile is then so many pixels high.
     #[inline(always)]
     pub(super) fn clear(&mut self, height: usize) {
-        self.0.clear();
-        self.0.resize(height * WIDTH, [0.0; 4]);
+        for rows in &mut self.0 {
+            rows.clear();
+            rows.resize(height, [0.0; WIDTH]);
+        }
     }
 
     /// Adds the samples of the target, which are such stacks. Light beyond 0..1 counts as 0 or 1.
@@ -543,24 +571,18 @@ impl Sums {
     fn add_pixels<const HEIGHT: usize>(&mut self, target: &Target) {
         let of_pixel = STACK / HEIGHT;
         let [red, green, blue] = &target.color;
-        for (row, sums) in self.0.chunks_mut(WIDTH * HEIGHT).enumerate() {
-            let cells = row * CELLS_ACROSS..(row + 1) * CELLS_ACROSS;
-            let light = [
-                red[cells.clone()].as_flattened(),
-                green[cells.clone()].as_flattened(),
-                blue[cells.clone()].as_flattened(),
-                target.surface[cells].as_flattened(),
-            ];
-            for column in 0..WIDTH {
-                for below in 0..HEIGHT {
-                    let mut sum = sums[below * WIDTH + column];
-                    let first = column * STACK + below * of_pixel;
-                    for (sum, light) in sum.iter_mut().zip(light) {
-                        for value in &light[first..first + of_pixel] {
-                            *sum += value;
+        for (rows, light) in self.0.iter_mut().zip([red, green, blue, &target.surface]) {
+            let (light, _) = light.as_flattened().as_chunks::<{ WIDTH * STACK }>();
+            for (sums, light) in rows.chunks_exact_mut(HEIGHT).zip(light) {
+                for (below, sums) in sums.iter_mut().enumerate() {
+                    for column in 0..WIDTH {
+                        let first = column * STACK + below * of_pixel;
+                        let mut sum = sums[column];
+                        for k in 0..of_pixel {
+                            sum += light[first + k];
                         }
+                        sums[column] = sum;
                     }
-                    sums[below * WIDTH + column] = sum;
                 }
             }
         }
@@ -570,9 +592,11 @@ impl Sums {
     #[inline(always)]
     pub(super) fn write(&self, row: usize, samples: usize, pixels: &mut [[f32; 4]]) {
         let count = samples as f32;
-        for (pixel, sum) in pixels.iter_mut().zip(&self.0[row * WIDTH..]) {
+        let [red, green, blue, alpha] = self.0.each_ref().map(|rows| &rows[row]);
+        for (column, pixel) in pixels.iter_mut().enumerate().take(WIDTH) {
+            let sums = [red[column], green[column], blue[column], alpha[column]];
             for channel in 0..4 {
-                pixel[channel] = sum[channel] / count;
+                pixel[channel] = sums[channel] / count;
             }
         }
     }
