@@ -1,11 +1,10 @@
 //! Samples of a tile that layers for meshes paint: those that show a surface, and those whose hair such a surface is seen through.
 
-use super::paint::{bits, lanes_where};
 use super::shown::{NOTHING, TRIANGLE};
 use super::surface::Interpolated;
 use super::tile::{
-    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Samples, Stack, Target, id_plane, overwrite,
-    plane, select,
+    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Samples, Stack, Target, bits, id_plane,
+    overwrite, plane, select,
 };
 use super::{Frame, Worker};
 use crate::frame::{FAR_LIGHT, Light};
@@ -438,6 +437,16 @@ fn put(block: &mut [f32; BLOCK], slot: usize, new: &Lanes, lanes: &LaneMask) {
     for k in 0..LANES {
         numbers[k] = select(lanes[k] != 0, new[k], numbers[k]);
     }
+}
+
+/// The lanes whose numbers are as wanted.
+#[inline(always)]
+fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneMask {
+    let mut lanes = [0; LANES];
+    for k in 0..LANES {
+        lanes[k] = select(is_wanted(numbers[k]), u32::MAX, 0);
+    }
+    lanes
 }
 
 /// Whether tiles must know what their samples show, to be painted.
