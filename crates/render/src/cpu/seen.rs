@@ -244,7 +244,8 @@ fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
         }
     }
     let around = (high - low).max(Vec2::ONE);
-    if !(area > LEAST_LAYERS * around.x * around.y) {
+    let is_dense = area > LEAST_LAYERS * around.x * around.y;
+    if !is_dense {
         return false;
     }
     let edge_depth_m = match frame.order {
