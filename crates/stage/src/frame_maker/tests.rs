@@ -149,7 +149,7 @@ fn hair_behind_hair_is_not_worked_out() {
         assert!(some <= all);
         // Half discs hide nothing for sure where links meet, which is at one height here; outlines of others reach farther.
         if ["twin-tails", "short-ash"].contains(&look) {
-            assert!(2 * some < all, "{look}, {size}: {some} discs of {all}");
+            assert!(3 * some < 2 * all, "{look}, {size}: {some} discs of {all}");
         }
     }
 }
