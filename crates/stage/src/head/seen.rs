@@ -170,6 +170,16 @@ pub(crate) fn surfaces(
     surfaces
 }
 
+/// What the camera sees of a mesh in its own colours that is no part of a head.
+pub(crate) fn painted(
+    mesh: &PaintedMesh,
+    paint: &HeadPaint,
+    camera: &Camera,
+    light: &Light,
+) -> Vec<Surface> {
+    painted_mesh(mesh, MESHES - 1, paint, &[], camera, light)
+}
+
 /// A slightly larger mesh, whose inside is seen around the edges of the mesh itself; `widths` as in [`HeadModel`].
 fn hull(
     positions: &[Vec3],
@@ -273,7 +283,12 @@ fn painted_mesh(
 }
 
 /// What the hair wears. Hair goes by its depth alone here: what is in a band does not hide it.
-fn worn(ornaments: &Mesh, paint: &HeadPaint, camera: &Camera, light: &Light) -> Vec<Surface> {
+pub(crate) fn worn(
+    ornaments: &Mesh,
+    paint: &HeadPaint,
+    camera: &Camera,
+    light: &Light,
+) -> Vec<Surface> {
     let corners: Vec<Corner> = ornaments
         .positions
         .iter()
