@@ -444,7 +444,9 @@ fn translate(module: &Module, path: &str) -> Result<Vec<Item>, BuildError> {
     // Builtins whose own code compilers don't take into that of their callers: `effects::wgsl` has them once more.
     let rust = rust
         .replace(".smoothstep(", ".smooth_step(")
-        .replace(".cast_elem_as_f32(", ".as_f32(");
+        .replace(".cast_elem_as_f32(", ".as_f32(")
+        .replace(".cast_elem_as_u32(", ".as_u32(")
+        .replace(".cast_elem_as_i32(", ".as_i32(");
     let file: syn::File = syn::parse_str(&rust)
         .map_err(|e| BuildError(format!("{path}: the translation is not Rust: {e}")))?;
     Ok(file.items)
