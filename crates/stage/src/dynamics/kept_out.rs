@@ -1,5 +1,10 @@
 //! How deep drawn hair is in head, shoulders and bodies: of every look of `presets` in every motion there.
 
+#![allow(
+    clippy::print_stdout,
+    reason = "a test shows the figures that it holds"
+)]
+
 use super::bodies::cut;
 use crate::motion::Motion;
 use crate::posture::Posture;
