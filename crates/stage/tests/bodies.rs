@@ -362,8 +362,8 @@ fn tied_hair_stays_together_and_its_tie_goes_with_it() {
              fullness: 0.25, sway: 0.5, length_variation: 0, feel: limp{low})])"
         )
     };
-    let thrown = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.3, angle: 80), (move: turn, start: 0.8, length: 0.3, angle: -120)], \
-                  winds: [(speed: 6, gusts: 4, yaw: 60)])";
+    let thrown = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: 60), (move: turn, start: 1.1, length: 0.5, angle: -60)], \
+                  winds: [(speed: 4, gusts: 2, yaw: 60)])";
     let tie = ", low_tie: 0.5, low_tie_size: 0.06";
     let scenes = |rate: f32| {
         let more = format!("scene: (fps: {rate}),");

@@ -19,7 +19,7 @@ const BODY_CELL: f64 = 1.0 / 32.0;
 /// How far from the skin carried hair is kept, in head heights.
 const GAP: f64 = 0.005;
 /// How far from bodies the links of simulated hair are drawn, m: paths bulge between their points.
-const LINK_GAP_M: f32 = 1e-3;
+const LINK_GAP_M: f32 = 1.3e-3;
 /// What is styled deeper in the head or the shoulders, m, stays as deep; what is less deep comes out.
 const STYLED_IN_M: f32 = 1e-3;
 
