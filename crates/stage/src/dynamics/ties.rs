@@ -11,8 +11,8 @@ use hair_sim::{Anchor, Collider, Pose};
 
 /// How strongly a point is held in its place, 1/s^2: 30 m/s^2 take it 0.15 mm away.
 const STIFFNESS: f64 = 2e5;
-/// A tie that would move by less in a step, m, stays: so that hair can come to rest.
-const RESTS: f64 = 2e-6;
+/// A tie that would come less far away, m, stays where it is, so that hair can come to rest: half the radius of a hair.
+const RESTS: f64 = 2e-5;
 
 /// The ties of simulated hair.
 #[derive(Default)]
