@@ -25,8 +25,6 @@ struct Simulated {
     members: Vec<Member>,
     /// At rest, on a head at rest.
     axis: DVec3,
-    /// Of the hair in it, m.
-    radius: f64,
 }
 
 /// A point in a tie: a strand of the solver, its point, and its place about the tie's middle at rest.
@@ -55,7 +53,6 @@ impl Ties {
             let members: Vec<Member> = tie.members.iter().filter_map(member).collect();
             Simulated {
                 axis: tie.axis.as_dvec3(),
-                radius: f64::from(tie.radius_m),
                 members,
             }
         };
@@ -107,9 +104,9 @@ impl Ties {
                 way += (points[after] - points[member.point - 1]).normalize_or_zero();
             }
             let (mut center, rest) = (center / count, rest / count);
-            // A tie lies on what it meets: its hair, on both sides of a body, would else be pulled into that.
+            // A tie is in no body: its hair, on both sides of a body, would else be pulled into that.
             for collider in colliders {
-                let inside = tie.radius - collider.distance(center);
+                let inside = -collider.distance(center);
                 if inside > 0.0 {
                     center += collider.outwards(center) * inside;
                 }
