@@ -41,9 +41,16 @@ pub trait StrokeEffect: Send + Sync + 'static {
     /// Whether the strokes follow paths that the effect makes ([`Self::make_paths`]), in place of the
     /// strands. These are strands of their own in the order, whose clump is their first stroke.
     const OWN_PATHS: bool = false;
+    /// Whether it paints meshes and draws no strokes: [`MeshEffect`](crate::MeshEffect).
+    const IS_FOR_MESHES: bool = false;
     /// Whether there are strokes on the coat of clumps below a hair style's own, too. It shows in gaps alone,
     /// where highlights would be specks.
     const ON_UNDERCOAT: bool = true;
+
+    /// Whether its first strokes are the clump itself: at every joint the offset and the radius of the discs of
+    /// [`clump_disc`](crate::wgsl::clump_disc), in any colour. What other hair has behind it is then never seen, and need not be
+    /// worked out. Only of effects with a rank of 0 or more.
+    const IS_CLUMP: bool = false;
 
     /// How many strokes there are for each strand (feathers). At least 1.
     fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
@@ -162,6 +169,8 @@ pub trait AnyEffect: Send + Sync {
     fn params(&self) -> &'static [Param];
     /// [`Parameters::INPUTS`].
     fn inputs(&self) -> &'static [Input];
+    /// Whether it paints meshes ([`MeshEffect`](crate::MeshEffect)) and draws no strokes.
+    fn is_for_meshes(&self) -> bool;
     /// [`Program::PAINTS`].
     fn paints(&self) -> Option<&'static [SampleInput]>;
     /// [`Parameters::WGSL`].
@@ -203,6 +212,10 @@ pub trait LayerProgram: Send + Sync {
     fn has_own_paths(&self) -> bool;
     /// [`StrokeEffect::ON_UNDERCOAT`].
     fn is_on_undercoat(&self) -> bool;
+    /// [`StrokeEffect::IS_CLUMP`].
+    fn is_clump(&self) -> bool;
+    /// [`Program::MAY_BE_NEARER`].
+    fn may_be_nearer(&self) -> bool;
     /// [`StrokeEffect::reach`].
     fn reach(&self) -> Reach;
     /// [`StrokeEffect::make_paths`].
@@ -283,6 +296,9 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
     fn inputs(&self) -> &'static [Input] {
         E::Program::INPUTS
     }
+    fn is_for_meshes(&self) -> bool {
+        E::IS_FOR_MESHES
+    }
     fn paints(&self) -> Option<&'static [SampleInput]> {
         E::Program::PAINTS
     }
@@ -328,6 +344,14 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn is_on_undercoat(&self) -> bool {
         E::ON_UNDERCOAT
+    }
+
+    fn is_clump(&self) -> bool {
+        E::IS_CLUMP
+    }
+
+    fn may_be_nearer(&self) -> bool {
+        E::Program::MAY_BE_NEARER
     }
 
     fn reach(&self) -> Reach {

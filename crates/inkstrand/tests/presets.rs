@@ -1,7 +1,7 @@
 //! Every field of every preset, spoilt in every way: an error that names the line, or a value that is
 //! legal. Never a panic, never silence.
 
-use effects::preset::{LAYER, Reader};
+use effects::preset::{LAYER, Reader, may_say};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
@@ -62,7 +62,9 @@ fn everything(registry: &Registry) -> String {
     let _ = writeln!(text, "    passes: [\n        (\n{pass}        ),\n    ],");
     text += "    layers: [\n";
     for effect in registry.iter() {
-        let fields = list(LAYER, "            ").replace("effect: \"x\"", "effect: \"ID\"");
+        let own = LAYER.iter().filter(|param| may_say(effect, param.name));
+        let own: Vec<Param> = own.copied().collect();
+        let fields = list(&own, "            ").replace("effect: \"x\"", "effect: \"ID\"");
         let fields = fields.replace("\"x\"", "\"ID\"").replace("ID", effect.id());
         let params = list(effect.params(), "                ");
         let _ = writeln!(
