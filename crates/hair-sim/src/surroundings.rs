@@ -62,6 +62,19 @@ impl Acceleration {
     }
 }
 
+/// A place in the world that one point of a strand is pulled to, damped critically.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// The strand, by its index.
+    pub strand: usize,
+    /// The point, root first; the root itself is where its pose has it.
+    pub point: usize,
+    /// In 1/s^2, 0 to 1e9: acceleration per metre.
+    pub stiffness: f64,
+    /// Where the place is when the step starts and when it ends, in m.
+    pub places: [DVec3; 2],
+}
+
 /// What acts on the strands in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
@@ -83,6 +96,8 @@ pub struct Surroundings<'a> {
     /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; `None`
     /// is the style itself.
     pub goal: Option<&'a [Vec3]>,
+    /// What single points are pulled to. Those of a strand or point that is not there pull at nothing.
+    pub anchors: &'a [Anchor],
 }
 
 impl Default for Surroundings<'_> {
@@ -96,6 +111,7 @@ impl Default for Surroundings<'_> {
             streams: &[],
             colliders: &[],
             goal: None,
+            anchors: &[],
         }
     }
 }
@@ -127,6 +143,13 @@ impl Surroundings<'_> {
         if !self.colliders.iter().all(Collider::is_finite) {
             return Err(DynamicsError::Surroundings("collider"));
         }
+        let is_whole = |anchor: &Anchor| {
+            let places = anchor.places.iter().all(|place| place.is_finite());
+            places && (0.0..=1e9).contains(&anchor.stiffness)
+        };
+        if !self.anchors.iter().all(is_whole) {
+            return Err(DynamicsError::Surroundings("anchor"));
+        }
         if let Some(found) = self.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
             return Err(DynamicsError::Goal {
                 found,
@@ -153,7 +176,9 @@ impl Surroundings<'_> {
         let still = |c: &Collider| c.before == c.now;
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
         let steady = self.streams.iter().all(Stream::is_steady);
-        self.wind.gust == 0.0 && is_even && steady && self.colliders.iter().all(still)
+        let holds_still = |anchor: &Anchor| anchor.places[0] == anchor.places[1];
+        let anchored = self.anchors.iter().all(holds_still);
+        self.wind.gust == 0.0 && is_even && steady && anchored && self.colliders.iter().all(still)
     }
 
     /// The motion of the air at `share` of the step, 0 to 1, which is at `time` seconds.
@@ -201,6 +226,10 @@ impl Surroundings<'_> {
         }
         if let Some(goal) = self.goal {
             hash.add_all(goal);
+        }
+        for anchor in self.anchors {
+            hash.add(anchor.places[1]);
+            hash.add_number(anchor.stiffness);
         }
         hash.sum()
     }

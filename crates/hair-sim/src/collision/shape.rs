@@ -27,6 +27,17 @@ pub enum Shape<'a> {
     },
     /// A closed mesh, by its distances on a grid.
     Grid(&'a SignedDistance),
+    /// A closed mesh on its way from one form to another, `size` times as large: its distances are the mean of theirs.
+    Form {
+        /// The form that it leaves.
+        from: &'a SignedDistance,
+        /// The form that it comes to.
+        to: &'a SignedDistance,
+        /// How much of the way it has gone, 0 to 1.
+        share: f64,
+        /// Above 0.
+        size: f64,
+    },
 }
 
 /// A body and how it moves in a step.
@@ -51,6 +62,19 @@ impl<'a> Collider<'a> {
         }
     }
 
+    /// The distance of a place in the world from its surface when the step ends, in m, negative inside; never more than the true one by
+    /// more than a grid's error.
+    #[must_use]
+    pub fn distance(&self, at: DVec3) -> f64 {
+        self.shape.distance(self.now.to_local(at))
+    }
+
+    /// The way out of it at a place in the world when the step ends, a unit vector.
+    #[must_use]
+    pub fn outwards(&self, at: DVec3) -> DVec3 {
+        self.now.rotation * self.shape.normal(self.now.to_local(at))
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
         let shape = match self.shape {
             Shape::Sphere { center, radius } => {
@@ -60,6 +84,9 @@ impl<'a> Collider<'a> {
                 from.is_finite() && to.is_finite() && radius.is_finite() && radius >= 0.0
             }
             Shape::Grid(_) => true,
+            Shape::Form { share, size, .. } => {
+                (0.0..=1.0).contains(&share) && size.is_finite() && size > 0.0
+            }
         };
         shape && self.before.is_finite() && self.now.is_finite()
     }
@@ -75,6 +102,15 @@ impl Shape<'_> {
                 (at - nearest_on_line(*from, *to, at)).length() - radius
             }
             Self::Grid(grid) => grid.distance(at),
+            Self::Form {
+                from,
+                to,
+                share,
+                size,
+            } => {
+                let at = at / *size;
+                size * mix(|form| form.distance(at), [from, to], *share)
+            }
         }
     }
 
@@ -86,6 +122,11 @@ impl Shape<'_> {
                 ((*from + *to) * 0.5, radius + 0.5 * (*to - *from).length())
             }
             Self::Grid(grid) => grid.ball(),
+            Self::Form { from, to, size, .. } => {
+                let [(center, radius), (other, other_radius)] = [from, to].map(|grid| grid.ball());
+                let radius = radius.max(center.distance(other) + other_radius);
+                (center * *size, radius * size)
+            }
         }
     }
 
@@ -95,6 +136,19 @@ impl Shape<'_> {
             Self::Sphere { center, radius } => [*center, DVec3::splat(*radius), DVec3::ZERO],
             Self::Capsule { from, to, radius } => [*from, *to, DVec3::splat(*radius)],
             Self::Grid(grid) => grid.numbers(),
+            Self::Form {
+                from,
+                to,
+                share,
+                size,
+            } => {
+                let [from, to] = [from, to].map(|grid| grid.numbers());
+                [
+                    from[0] + to[0] * 3.0,
+                    from[2] + to[2] * 3.0,
+                    DVec3::new(*share, *size, 2.0),
+                ]
+            }
         }
     }
 
@@ -104,8 +158,29 @@ impl Shape<'_> {
             Self::Sphere { center, .. } => at - *center,
             Self::Capsule { from, to, .. } => at - nearest_on_line(*from, *to, at),
             Self::Grid(grid) => grid.gradient(at),
+            Self::Form {
+                from,
+                to,
+                share,
+                size,
+            } => {
+                let at = at / *size;
+                mix(|form| form.gradient(at), [from, to], *share)
+            }
         };
         away.normalize_or(DVec3::Y)
+    }
+}
+
+/// What `of` says of two forms, mixed.
+fn mix<T>(of: impl Fn(&SignedDistance) -> T, forms: [&SignedDistance; 2], share: f64) -> T
+where
+    T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
+{
+    match share {
+        0.0 => of(forms[0]),
+        1.0 => of(forms[1]),
+        _ => of(forms[0]) * (1.0 - share) + of(forms[1]) * share,
     }
 }
 
