@@ -517,14 +517,7 @@ fn hair_that_has_come_to_rest_sleeps() {
     let folder = tempfile::tempdir().unwrap();
     let turn = folder.path().join("turn.motion.ron");
     fs::write(&turn, TURN).unwrap();
-    for look in [
-        "twin-tails",
-        "short-ash",
-        "side-braid",
-        "long-pink",
-        "low-tie",
-        "flat-tails-red",
-    ] {
+    for look in ["twin-tails", "short-ash", "side-braid", "long-pink"] {
         let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
         let preset = Preset::parse("look.ron", &text, &registry).unwrap();
         let files = Files {

@@ -195,6 +195,8 @@ pub(crate) struct BatchState {
     pub skin_known: bool,
     /// The pressure of planes on particles in m/s^2: of bodies, then those of other strands, where there may be any.
     pub press: Vec<Lane>,
+    /// Where on links those of bodies press, as shares of them.
+    pub shares: Vec<Lane>,
     /// The speeds in m/s below which friction with them is viscous; 0 where the pressure is that of a blow, which is over.
     pub creep: Vec<Lane>,
     /// Where goals were, from the root; empty before the first step with goals.
@@ -233,6 +235,7 @@ impl BatchState {
             skin: vec![Lane::ZERO; 2 * count],
             skin_known: false,
             press: vec![Lane::ZERO; batch.planes],
+            shares: vec![Lane::ZERO; count],
             creep: vec![Lane::splat(CREEP); batch.planes],
             goal: Vec::new(),
             broken: Vec::new(),
@@ -279,6 +282,7 @@ impl BatchState {
         let planes = [&self.press, &self.creep];
         vectors.iter().all(|list| list.len() == count)
             && self.skin.len() == 2 * count
+            && self.shares.len() == count
             && planes.iter().all(|list| list.len() == batch.planes)
             && (self.goal.is_empty() || self.goal.len() == count)
     }

@@ -23,6 +23,9 @@ const SETTLE: f64 = 2e-4;
 /// The speed in m/s at which a strand that is found inside a body is pushed out.
 const PUSH_OUT: f64 = 3.0;
 
+/// The time in s in which the depth of a link in a body falls to a third, at that speed at most.
+const OUT_WITHIN: f64 = 0.05;
+
 /// Where friction holds a particle, that speed becomes so much less in every step, and this at the least: what sticks creeps a finite way,
 /// about one step's at [`CREEP`], and comes to rest.
 const STICKS: f64 = 0.25;

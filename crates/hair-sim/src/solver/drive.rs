@@ -60,6 +60,7 @@ impl<'a> Drive<'a> {
             before,
             now,
             dt: self.dt,
+            calm: self.calm,
         }
     }
 }

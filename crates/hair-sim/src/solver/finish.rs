@@ -112,6 +112,21 @@ pub(super) fn forget_planes(state: &mut BatchState, which: Mask) {
     }
 }
 
+/// Remembers where a plane holds a link.
+#[inline(always)]
+pub(super) fn keep_share(
+    state: &mut BatchState,
+    contact: &Contact,
+    (plane, k): (usize, usize),
+    which: Mask,
+) {
+    if plane == state.y.len() + k {
+        // Where a strand has no plane there, its share is another batch's.
+        let share = (contact.on.gt(Lane::splat(0.5))).pick(contact.share, Lane::ZERO);
+        state.shares[k] = which.pick(share, state.shares[k]);
+    }
+}
+
 /// Remembers the pressure of a plane on the place `y` of link `k`, and takes the blow of a contact out of its acceleration: that is over, and
 /// the next step must not start with it. Returns the strands that were struck: they start anew.
 #[inline(always)]
@@ -124,6 +139,7 @@ fn settle_contact(
 ) -> Mask {
     let press = contact.pressure(y);
     state.press[plane] = which.pick(press, state.press[plane]);
+    keep_share(state, contact, (plane, k), which);
     // Of a place on the link as much out of either end as it hangs on that.
     let (share, other) = (contact.share, Lane::ONE - contact.share);
     let a = at_share(&state.a, k, share);

@@ -15,7 +15,7 @@ use super::{
     chain::{Chain, at_share},
     contact::Due,
     drive::{Drive, RootMotion},
-    finish::forget_planes,
+    finish::{forget_planes, keep_share},
     rods::{
         Rods,
         curled::{find_turns, sweep::potential, turn_links},
@@ -175,8 +175,9 @@ fn take(
     }
     forget_planes(state, good);
     for &plane in &loads.touched {
-        let contact = &loads.contacts[plane];
-        let press = contact.pressure(at_share(&trial.y, batch.held_by(plane).0, contact.share));
+        let (contact, k) = (&loads.contacts[plane], batch.held_by(plane).0);
+        let press = contact.pressure(at_share(&trial.y, k, contact.share));
+        keep_share(state, contact, (plane, k), good);
         state.press[plane] = good.pick(press, state.press[plane]);
     }
     rods.keep_frames(state, trial, good);

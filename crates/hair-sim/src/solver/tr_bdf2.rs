@@ -34,7 +34,7 @@ const FRAME: f64 = 1.0 / 60.0;
 const LARGEST_TURN: f64 = 1.0;
 
 /// Newton steps in a stage before it counts as failed.
-const MOST_ITERATIONS: usize = 16;
+const MOST_ITERATIONS: usize = 12;
 
 /// What came of both stages.
 #[derive(Clone, Copy)]

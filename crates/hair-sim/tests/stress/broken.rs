@@ -328,6 +328,7 @@ fn a_state_whose_lists_are_too_short_is_refused() {
         "past",
         "skin",
         "press",
+        "shares",
         "creep",
         "quiet_at",
         "trembling_at",

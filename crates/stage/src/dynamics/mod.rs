@@ -75,7 +75,7 @@ pub(crate) struct Dynamics {
     /// The points of the scene that nothing here moves: the head holds them.
     still: Vec<Range<usize>>,
     /// All of them.
-    all: [Range<usize>; 1],
+    all: Vec<Range<usize>>,
     /// The shapes that pull at all points of the scene; where they have these at a time, and the guides' points.
     shapes: Option<PointCache>,
     shape: Vec<Vec3>,
@@ -229,7 +229,10 @@ impl Dynamics {
             carried,
             guides,
             still,
-            all: [0..all.points().len()],
+            all: vec![Range {
+                start: 0,
+                end: all.points().len(),
+            }],
             bodies: Bodies::new(mesh, hair.head),
             strands,
             head: hair.head,

@@ -26,6 +26,12 @@ use super::{
 const SAG: f64 = 3e-4;
 const LEAST_SAG: f64 = 1.5e-4;
 
+/// One that has pressed goes on to do so at the same place unless another is deeper by this, in m.
+const HARDLY: f64 = 1e-4;
+
+/// Below this speed, in m/s, a link is about to come to rest.
+const SLOW: f64 = 0.1;
+
 /// How near the ends of a link its own plane may be, as a share of it: there the particle's will do.
 const END: f64 = 0.05;
 
@@ -33,7 +39,7 @@ const END: f64 = 0.05;
 /// plane moved, so often at most; unless both ends of its link are nearer to where they were expected than the last.
 const CUTS: f64 = 1.5e-4;
 const HOVERS: f64 = 1e-3;
-const MOST_MOVES: usize = 10;
+const MOST_MOVES: usize = 6;
 const EXPECTED: f64 = 1e-3;
 /// A plane that holds something too far from a body isn't turned farther than this, a cosine, at once.
 const ALIKE: f64 = 0.3;
@@ -82,13 +88,16 @@ pub(crate) struct Bodies<'a> {
     pub before: Vec3,
     pub now: Vec3,
     pub dt: f64,
+    /// Whether what acts is the same as in the last step, and does not move.
+    pub calm: bool,
 }
 
 impl Bodies<'_> {
     /// A plane of a body as a strand's surface.
     fn surface(&self, lane: usize, collider: &Collider, plane: &Plane) -> Surface {
         let normal = collider.now.rotation * plane.normal;
-        let start = plane.at;
+        // A surface that deforms has come along its normal.
+        let start = plane.at + plane.normal * collider.shape.change(plane.at);
         let (s0, s1) = (
             collider.before.to_world(start),
             collider.now.to_world(plane.at),
@@ -263,6 +272,7 @@ impl Pair<'_> {
                 to: b1,
                 keep: thickness + self.state.skin[of_particle][lane],
                 dt,
+                is_link: false,
             };
             let (mut own, mut its) = (None, None);
             for (collider, ends) in self.bodies.colliders.iter().zip(&mut finder.ends) {
@@ -283,17 +293,30 @@ impl Pair<'_> {
                 }
                 passes.set(lane, true);
                 let presses = self.state.press[of_link][lane] > 0.0;
+                // What comes to rest would press and bounce by turns: where nothing that acts changes, a slow link that has let go waits for a change.
+                if self.bodies.calm && !presses && way < SLOW * dt {
+                    continue;
+                }
                 let sag = if presses { LEAST_SAG } else { SAG };
                 let ends = [(start.at, start.distance), (end.at, end.distance)];
-                let Some((share, _)) = deepest(&collider.shape, ends, sag, thickness + way + NEAR)
-                else {
+                let most = thickness + way + NEAR;
+                let Some((mut share, deepest)) = deepest(&collider.shape, ends, sag, most) else {
                     continue;
                 };
+                // What presses at a place goes on to, while another is hardly deeper: a plane that went to and fro would make it tremble.
+                let last = self.state.shares[k][lane];
+                if presses && last != share {
+                    let at = start.at.lerp(end.at, last);
+                    if collider.shape.distance(at) < deepest + HARDLY {
+                        share = last;
+                    }
+                }
                 let path = Path {
                     from: a0.lerp(b0, share),
                     to: a1.lerp(b1, share),
                     keep: thickness + self.state.skin[of_link][lane],
                     dt,
+                    is_link: true,
                 };
                 let end = End::new(collider, path.from, path.to);
                 let plane = path.against(collider, &end);
@@ -419,7 +442,10 @@ pub(crate) fn move_planes(
                     false => loaded.contacts[plane].share[lane],
                 };
                 let holds = loaded.holds(plane, lane);
-                let above = answer.above(plane, share);
+                let above = match holds {
+                    true => answer.above(plane, share),
+                    false => 0.0,
+                };
                 let found = if holds && above > HOVERS {
                     // What a body has struck stays on its side of that.
                     let normal = loaded.contacts[plane].normal.get(lane);
@@ -545,6 +571,7 @@ impl Answer<'_> {
             to: at(self.now),
             keep,
             dt: self.bodies.dt,
+            is_link: share < 1.0,
         }
     }
 }
@@ -667,6 +694,7 @@ mod tests {
                 to,
                 keep: 1e-3,
                 dt: 0.01,
+                is_link: false,
             };
             let keep = Lane::splat(path.keep);
             let near = guard.is_near(Vec3::splat(from), Vec3::splat(to), keep);

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::collision::shape::{Collider, Shape};
 
-use super::{NEAR, PUSH_OUT, TOUCH};
+use super::{NEAR, OUT_WITHIN, PUSH_OUT, TOUCH};
 
 /// The way through the world in a step of `dt` seconds of what keeps `keep` metres from bodies.
 pub(super) struct Path {
@@ -12,6 +12,8 @@ pub(super) struct Path {
     pub to: DVec3,
     pub keep: f64,
     pub dt: f64,
+    /// Whether it is of a link, which comes out of a body slowly: what is out at once comes with a speed, and bounces.
+    pub is_link: bool,
 }
 
 /// A plane in a body's space.
@@ -67,7 +69,11 @@ impl Path {
             } else {
                 (from - first * (start + shape.change(from)), first)
             };
-            let level = (start + PUSH_OUT * self.dt).min(0.0);
+            let speed = match self.is_link {
+                true => (-start / OUT_WITHIN).clamp(0.0, PUSH_OUT),
+                false => PUSH_OUT,
+            };
+            let level = (start + speed * self.dt).min(0.0);
             return Some(self.plane(at + normal * level, normal, to));
         }
         // Along the path by steps that cannot pass the surface (Hart 1996, sphere tracing).
