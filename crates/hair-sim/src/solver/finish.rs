@@ -121,9 +121,8 @@ pub(super) fn keep_share(
     which: Mask,
 ) {
     if plane == state.y.len() + k {
-        // Where a strand has no plane there, its share is another batch's.
-        let share = (contact.on.gt(Lane::splat(0.5))).pick(contact.share, Lane::ZERO);
-        state.shares[k] = which.pick(share, state.shares[k]);
+        let presses = state.press[plane].gt(Lane::ZERO).and(which);
+        state.shares[k] = presses.pick(contact.share, state.shares[k]);
     }
 }
 

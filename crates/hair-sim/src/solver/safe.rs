@@ -177,8 +177,8 @@ fn take(
     for &plane in &loads.touched {
         let (contact, k) = (&loads.contacts[plane], batch.held_by(plane).0);
         let press = contact.pressure(at_share(&trial.y, k, contact.share));
-        keep_share(state, contact, (plane, k), good);
         state.press[plane] = good.pick(press, state.press[plane]);
+        keep_share(state, contact, (plane, k), good);
     }
     rods.keep_frames(state, trial, good);
     let bad = which.and(good.not());

@@ -152,6 +152,12 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
     if !drive.calm {
         state.quiet = active.pick(Lane::ZERO, state.quiet);
         state.trembling = active.pick(Lane::ZERO, state.trembling);
+        // What lets go of a body now may press on it again.
+        let count = state.shares.len();
+        for k in 0..count {
+            let gone = active.and(state.press[count + k].gt(Lane::ZERO).not());
+            state.shares[k] = gone.pick(Lane::ZERO, state.shares[k]);
+        }
         return;
     }
     let mut press = Lane::ZERO;

@@ -294,7 +294,8 @@ impl Pair<'_> {
                 passes.set(lane, true);
                 let presses = self.state.press[of_link][lane] > 0.0;
                 // What comes to rest would press and bounce by turns: where nothing that acts changes, a slow link that has let go waits for a change.
-                if self.bodies.calm && !presses && way < SLOW * dt {
+                let has_pressed = self.state.shares[k][lane] > 0.0;
+                if self.bodies.calm && has_pressed && !presses && way < SLOW * dt {
                     continue;
                 }
                 let sag = if presses { LEAST_SAG } else { SAG };
@@ -452,7 +453,14 @@ pub(crate) fn move_planes(
                     let tangent = answer.tangent(plane, share);
                     tangent.filter(|(_, surface)| surface.normal.dot(normal) > ALIKE)
                 } else if plane != k {
-                    answer.link()
+                    let way = (now[1] - before[1])
+                        .length()
+                        .max((now[0] - before[0]).length());
+                    let waits = strands.1.shares[k][lane] > 0.0 && way < SLOW * bodies.dt;
+                    match bodies.calm && waits && !holds {
+                        true => None,
+                        false => answer.link(),
+                    }
                 } else if holds && above > -CUTS {
                     None
                 } else {
