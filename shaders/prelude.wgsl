@@ -119,10 +119,7 @@ fn log_to_two(x: f32) -> f32 {
 
 /// `x` to the power `y` within 2e-5 of its size, for x and y of 0 or more; 0 to any power is 0.
 fn power(x: f32, y: f32) -> f32 {
-    if (x <= 0.0) {
-        return 0.0;
-    }
-    return power_of_two(y * log_to_two(x));
+    return select(power_of_two(y * log_to_two(x)), 0.0, x <= 0.0);
 }
 
 /// Size of a stroke that shrinks to its tail from a point on (5.1), as a share of its full size.

@@ -60,11 +60,23 @@ impl Backends {
             Err(error) => return Err(error.to_string().into()),
         };
         Ok(Self {
+            card,
+            ..Self::without_card(samples, threads)?
+        })
+    }
+
+    /// The CPU alone.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such number of samples.
+    pub fn without_card(samples: u32, threads: usize) -> Result<Self, BenchError> {
+        Ok(Self {
             samples,
             evaluator: Evaluator::default(),
             rasterizer: Rasterizer::new(samples, Some(threads)).map_err(|e| e.to_string())?,
             drawing: Drawing::default(),
-            card,
+            card: None,
         })
     }
 

@@ -118,7 +118,8 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
             progress.set_message(name.clone());
             let mut stage = subject.open(&options.root, look, &registry)?;
             let mut backends = Backends::new(SAMPLES, options.threads, options.card)?;
-            let rows = pool.install(|| frame::look(&name, &mut stage, &mut backends, frames))?;
+            let rows =
+                pool.install(|| frame::look(&name, SAMPLES, &mut stage, &mut backends, frames))?;
             for method in ["cpu", "gpu"] {
                 let whole = rows.iter().find(|row| row.method == method);
                 measured.targets.extend(whole.map(|row| Target {

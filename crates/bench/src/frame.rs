@@ -1,5 +1,5 @@
-//! Suite `frame`: what a whole frame of each yardstick takes, by stages, on both backends. Camera and hair move, so that
-//! nothing can be reused.
+//! Suite `frame`: what a whole frame of each yardstick takes, by stages, on both backends; and what one takes in other sizes and with more samples.
+//! Camera and hair move, so that nothing can be reused.
 
 use crate::BenchError;
 use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
@@ -17,6 +17,12 @@ const SAMPLES: u32 = 4;
 const FPS: f64 = 60.0;
 /// Milliseconds of a frame that a look's simulation may take.
 const SIMULATION_MS: f64 = 1.5;
+/// The yardstick that is drawn in other sizes and with other samples.
+const SIZED: &str = "twin-tails";
+/// These, with [`SAMPLES`], beside the yardsticks' own: time grows no faster than pixels.
+const SIZES: [[u32; 2]; 4] = [[480, 360], [960, 720], [1920, 1440], [3840, 2880]];
+/// These, in the yardsticks' own size: beyond [`SAMPLES`] time grows less than they do.
+const MORE_SAMPLES: [u32; 2] = [8, 16];
 /// Frames that are drawn before any is counted.
 const WARM_UP: u32 = 3;
 
@@ -56,7 +62,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         presets.truncate(3);
     }
     let frames: u32 = if options.quick { 12 } else { 60 };
-    progress.set_length(presets.len() as u64);
+    progress.set_length(presets.len() as u64 + 1);
     let mut measured = Measured {
         rows: Vec::new(),
         targets: Vec::new(),
@@ -73,9 +79,9 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
             .to_string_lossy()
             .into_owned();
         progress.set_message(name.clone());
-        let mut stage = open(preset, &options.root)?;
+        let mut stage = open(preset, &options.root, None)?;
         let mut backends = Backends::new(SAMPLES, options.threads, options.card)?;
-        let rows = pool.install(|| look(&name, &mut stage, &mut backends, frames))?;
+        let rows = pool.install(|| look(&name, SAMPLES, &mut stage, &mut backends, frames))?;
         let simulate = rows.iter().find(|row| row.method == BEFORE[0]);
         measured.targets.extend(simulate.map(|row| Target {
             text: format!("{name}: milliseconds of simulation a frame"),
@@ -94,6 +100,11 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         measured.card = backends.card_name();
         progress.inc(1);
     }
+    progress.set_message("other sizes and samples");
+    let sized = pool.install(|| sizes(options, if options.quick { 4 } else { 24 }))?;
+    measured.rows.extend(sized.rows);
+    measured.targets.extend(sized.targets);
+    progress.inc(1);
     let mut comments = vec![
         format!(
             "whole frames and their stages, {SAMPLES} samples a pixel, medians of {frames} frames 1/{FPS} s apart"
@@ -142,10 +153,62 @@ pub(crate) fn preset<'r>(path: &Path, registry: &'r Registry) -> Result<Preset<'
     Preset::parse(&name, &text, registry).map_err(|errors| errors.to_string().into())
 }
 
-/// A look whose head nods and shakes.
-fn open(path: &Path, root: &Path) -> Result<Stage, BenchError> {
+/// [`SIZED`] in several sizes, and with several numbers of samples, on the CPU.
+fn sizes(options: &Options, frames: u32) -> Result<Measured, BenchError> {
+    let path = options.root.join(YARDSTICKS).join(format!("{SIZED}.ron"));
+    let mut measured = Measured {
+        rows: Vec::new(),
+        targets: Vec::new(),
+        card: None,
+    };
+    // What rasterising takes for each pixel, and for each sample of one.
+    let mut raster = |size: [u32; 2], samples: u32| -> Result<f64, BenchError> {
+        let mut stage = open(&path, &options.root, Some(size))?;
+        let mut backends = Backends::without_card(samples, options.threads)?;
+        let [width, height] = size;
+        let name = format!("{SIZED}, {width} x {height}");
+        let rows = look(&name, samples, &mut stage, &mut backends, frames)?;
+        let raster = rows.iter().find(|row| row.method == "cpu:raster");
+        let seconds = raster.map_or(f64::NAN, |row| row.seconds);
+        measured.rows.extend(rows);
+        Ok(seconds / (f64::from(width) * f64::from(height)))
+    };
+    let mut targets = Vec::new();
+    let mut target = |text: String, found: f64| {
+        targets.push(Target {
+            text,
+            found: Some(Found::Is(found)),
+            limit: Limit::AtMost(1.0),
+        });
+    };
+    let own = SIZES[1];
+    let (mut before, mut few) = (None, f64::NAN);
+    for size @ [width, height] in SIZES {
+        let now = raster(size, SAMPLES)?;
+        if size == own {
+            few = now / f64::from(SAMPLES);
+        }
+        if let Some(before) = before.replace(now) {
+            let text = format!("{SIZED}, {width} x {height}: raster a pixel, of half as wide");
+            target(text, now / before);
+        }
+    }
+    for samples in MORE_SAMPLES {
+        let now = raster(own, samples)? / f64::from(samples);
+        let text = format!("{SIZED}, {samples} samples: raster a sample, of {SAMPLES}");
+        target(text, now / few);
+    }
+    measured.targets = targets;
+    Ok(measured)
+}
+
+/// A look whose head nods and shakes, in its own size or another.
+fn open(path: &Path, root: &Path, size: Option<[u32; 2]>) -> Result<Stage, BenchError> {
     let registry = registry()?;
     let mut preset = preset(path, &registry)?;
+    if let Some(size) = size {
+        preset.sections.scene.size = size;
+    }
     preset.sections.scene.fps = FPS as f32;
     let files = Files {
         motion: Some(
@@ -164,6 +227,7 @@ const BEFORE: [&str; 2] = ["simulate", "paths"];
 /// Rows of so many frames of a stage, 1/60 s apart, seen by a camera that goes round.
 pub(crate) fn look(
     name: &str,
+    samples: u32,
     stage: &mut Stage,
     backends: &mut Backends,
     frames: u32,
@@ -195,7 +259,7 @@ pub(crate) fn look(
         }
     }
     let stages = BEFORE.into_iter().chain(STAGES).zip(&times);
-    Ok(rows(name, SAMPLES as usize, stages, error))
+    Ok(rows(name, samples as usize, stages, error))
 }
 
 #[cfg(test)]
@@ -209,9 +273,9 @@ mod tests {
     #[test]
     fn a_look_has_all_its_stages() {
         let path = root().join(YARDSTICKS).join("short-ash.ron");
-        let mut stage = open(&path, &root()).unwrap();
+        let mut stage = open(&path, &root(), None).unwrap();
         let mut backends = Backends::new(1, 1, Card::Hardware).unwrap();
-        let rows = look("short-ash", &mut stage, &mut backends, 2).unwrap();
+        let rows = look("short-ash", 1, &mut stage, &mut backends, 2).unwrap();
         let of = |method: &str| {
             rows.iter()
                 .find(|row| row.method == method)

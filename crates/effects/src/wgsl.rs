@@ -55,14 +55,25 @@ pub trait SmoothStep {
     fn smooth_step(self, low: Self, high: Self) -> Self;
 }
 
-/// WGSL's `f32()` and the like, compiled into their callers, which the runtime's aren't.
-pub trait AsFloat {
-    /// Of the same shape.
-    type Floats;
-    /// As the runtime's `cast_elem_as_f32`.
-    #[must_use]
-    fn as_f32(self) -> Self::Floats;
+/// WGSL's `f32()`, `u32()`, `i32()` and the like, compiled into their callers, which the runtime's aren't.
+macro_rules! cast_traits {
+    ($($trait:ident $method:ident: $cast:literal),*) => {$(
+        #[doc = concat!("As the runtime's `", $cast, "`.")]
+        pub trait $trait {
+            /// Of the same shape.
+            type Numbers;
+            #[doc = concat!("As the runtime's `", $cast, "`.")]
+            #[must_use]
+            fn $method(self) -> Self::Numbers;
+        }
+    )*};
 }
+
+cast_traits!(
+    AsFloat as_f32: "cast_elem_as_f32",
+    AsUnsigned as_u32: "cast_elem_as_u32",
+    AsSigned as_i32: "cast_elem_as_i32"
+);
 
 macro_rules! smooth_step {
     ($($vector:ident),*) => {$(
@@ -78,36 +89,40 @@ macro_rules! smooth_step {
 
 smooth_step!(Scalar, Vec2, Vec3, Vec4);
 
-macro_rules! as_float {
-    ($($number:ty),*) => {$(
-        impl AsFloat for Scalar<$number> {
-            type Floats = Scalar<f32>;
+macro_rules! casts {
+    ($($trait:ident $method:ident $to:ident: $($number:ident),*;)*) => {$($(
+        impl $trait for Scalar<$number> {
+            type Numbers = Scalar<$to>;
             #[inline]
-            fn as_f32(self) -> Scalar<f32> {
-                Scalar(self.0 as f32)
+            fn $method(self) -> Scalar<$to> {
+                Scalar(self.0 as $to)
             }
         }
-        as_float!($number, Vec2 x y);
-        as_float!($number, Vec3 x y z);
-        as_float!($number, Vec4 x y z w);
-    )*};
-    ($number:ty, $vector:ident $($component:ident)*) => {
-        impl AsFloat for $vector<$number> {
-            type Floats = $vector<f32>;
+        casts!($trait $method $to $number Vec2 x y);
+        casts!($trait $method $to $number Vec3 x y z);
+        casts!($trait $method $to $number Vec4 x y z w);
+    )*)*};
+    ($trait:ident $method:ident $to:ident $number:ident $vector:ident $($component:ident)*) => {
+        impl $trait for $vector<$number> {
+            type Numbers = $vector<$to>;
             #[inline]
-            fn as_f32(self) -> $vector<f32> {
-                $vector { $($component: self.$component as f32),* }
+            fn $method(self) -> $vector<$to> {
+                $vector { $($component: self.$component as $to),* }
             }
         }
     };
 }
 
-as_float!(u32, i32, f32);
+casts! {
+    AsFloat as_f32 f32: u32, i32, f32;
+    AsUnsigned as_u32 u32: u32, i32, f32, bool;
+    AsSigned as_i32 i32: u32, i32, f32, bool;
+}
 
 macro_rules! bools_as_float {
     ($($vector:ident),*) => {$(
         impl AsFloat for $vector<bool> {
-            type Floats = $vector<f32>;
+            type Numbers = $vector<f32>;
             #[inline]
             fn as_f32(self) -> $vector<f32> {
                 self.cast_elem_as_f32()

@@ -45,7 +45,12 @@ fn everything(registry: &Registry) -> String {
             text
         })
     };
-    let mut text = format!("(\n{}", list(Preset::TOP, "    "));
+    // A base would be another file.
+    let of_base =
+        |line: &&str| !["base", "without"].contains(&line.trim().split(':').next().unwrap());
+    let top = list(Preset::TOP, "    ");
+    let top: Vec<&str> = top.lines().filter(of_base).collect();
+    let mut text = format!("(\n{}\n", top.join("\n"));
     for (name, _, table) in Sections::ALL {
         let _ = writeln!(text, "    {name}: (\n{}    ),", list(table, "        "));
     }

@@ -33,15 +33,21 @@ fn the_examples_of_the_readme_are_drawn() {
     let mut seen = Vec::new();
     for example in readme.split("```ron\n").skip(1) {
         let text = example.split("```").next().unwrap();
-        let name = ["layers:", "objects:", "zones:", "moves:", "strands:"]
-            .into_iter()
-            .find(|word| text.contains(&format!("\n    {word} [")))
-            .unwrap();
+        let name = [
+            "base:", "layers:", "objects:", "zones:", "moves:", "strands:",
+        ]
+        .into_iter()
+        .find(|word| text.contains(&format!("\n    {word} ")))
+        .unwrap();
         let write = |name: &str| fs::write(folder.path().join(name), text).unwrap();
         match name {
             "layers:" => {
                 write("look.ron");
                 drawn(&folder, &["look.ron"]);
+            }
+            "base:" => {
+                write("red.ron");
+                assert_ne!(drawn(&folder, &["red.ron"]), drawn(&folder, &["look.ron"]));
             }
             "objects:" => {
                 write("two.ron");
@@ -68,7 +74,9 @@ fn the_examples_of_the_readme_are_drawn() {
     seen.sort_unstable();
     assert_eq!(
         seen,
-        ["layers:", "moves:", "objects:", "strands:", "zones:"]
+        [
+            "base:", "layers:", "moves:", "objects:", "strands:", "zones:"
+        ]
     );
     inkstrand(&folder, &["check", "."]).success();
 }

@@ -10,10 +10,12 @@
 //! `inline(always)`, or it would be compiled without them.
 
 mod bin;
+mod cover;
 mod evaluate;
-mod instructions;
+pub(crate) mod instructions;
 mod mixed;
 mod paint;
+mod reached;
 mod rows;
 mod samples;
 mod seen;
@@ -44,7 +46,7 @@ use instructions::Instructions;
 use mixed::JointRows;
 use paint::Painter;
 use rayon::prelude::*;
-use segment::{Segments, Stroke};
+use segment::{Segment, Segments, Stroke};
 use shown::Shown;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -95,6 +97,8 @@ struct Parts {
     triangles_of_tiles: Bins,
     /// What painted samples are mixed of; empty where nothing is painted.
     joint_rows: JointRows,
+    /// For each stroke of a strand, in their order, the place of its layer among the painted ones, if it is one.
+    painted: Vec<Option<usize>>,
 }
 
 impl Rasterizer {
@@ -112,12 +116,11 @@ impl Rasterizer {
         }
         let own_pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = threads.map(own_pool).transpose()?;
-        let available = Instructions::available();
         Ok(Self {
             pool,
             samples: samples.len(),
             stacks: Stack::of_pixel(&samples),
-            instructions: *available.last().unwrap_or(&Instructions::Compiled),
+            instructions: Instructions::best(),
             parts: Parts::default(),
             workers: Vec::new(),
             planes: SamplePlanes::default(),
@@ -170,13 +173,17 @@ impl Rasterizer {
                 .pixels
                 .par_chunks_mut(band_length)
                 .enumerate()
+                .with_max_len(1) // so that all threads end at one time
                 .for_each(|(band, pixels)| {
                     let thread = rayon::current_thread_index().unwrap_or(0);
                     // Its planes are cleared before use, so a panic elsewhere can't harm them.
                     let mut worker = workers[thread]
                         .lock()
                         .unwrap_or_else(PoisonError::into_inner);
-                    instructions.draw_band(&mut worker, &frame, band, Output::Pixels(pixels));
+                    instructions.run(
+                        #[inline(always)]
+                        || worker.draw_band(&frame, band, Output::Pixels(pixels)),
+                    );
                 });
             Ok(picture)
         };
@@ -210,24 +217,51 @@ fn empty_picture(drawing: &Drawing, samples: usize) -> Result<Picture, DrawError
 }
 
 impl Parts {
+    /// The painted layer that a segment shows, by its place among them.
+    #[inline(always)]
+    fn painted_layer_of(&self, segment: &Segment) -> Option<usize> {
+        let stroke = segment.colored().checked_sub(1)?;
+        self.painted[stroke as usize]
+    }
+
     fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], stacks: &[Stack]) {
         let tile_height = tile::height(stacks);
-        self.segments.collect(drawing, strokes, tile_height);
-        self.joint_rows.fill(&drawing.painting, drawing.clump.len());
-        surface::collect(drawing, stacks, &mut self.triangles);
-        let [width, height] = drawing.size.map(|side| side as usize);
-        let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
-        self.rows_of_triangles.clear();
-        for (triangle, i) in self.triangles.iter().zip(0..) {
-            let columns = cells(triangle.bounds.x, tile::WIDTH);
-            for band in cells(triangle.bounds.y, tile_height) {
-                let first = band * across;
-                let tiles = first + columns.start..first + columns.end;
-                self.rows_of_triangles.push((i, tiles));
-            }
-        }
-        let triangles = self.rows_of_triangles.iter().cloned();
-        self.triangles_of_tiles.fill(across * bands, triangles);
+        let Self {
+            segments,
+            triangles,
+            rows_of_triangles,
+            triangles_of_tiles,
+            joint_rows,
+            painted,
+        } = self;
+        let place_of = |stroke: &Stroke| {
+            let layers = &drawing.painting.layers;
+            layers.iter().position(|it| it.layer == stroke.layer)
+        };
+        painted.clear();
+        painted.extend(strokes.iter().map(place_of));
+        // Some of both goes on in one thread.
+        rayon::join(
+            || {
+                segments.collect(drawing, strokes, tile_height);
+                joint_rows.fill(&drawing.painting, drawing.clump.len());
+            },
+            || {
+                surface::collect(drawing, stacks, triangles);
+                let [width, height] = drawing.size.map(|side| side as usize);
+                let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
+                rows_of_triangles.clear();
+                for (triangle, i) in triangles.iter().zip(0..) {
+                    let columns = cells(triangle.bounds.x, tile::WIDTH);
+                    for band in cells(triangle.bounds.y, tile_height) {
+                        let first = band * across;
+                        let tiles = first + columns.start..first + columns.end;
+                        rows_of_triangles.push((i, tiles));
+                    }
+                }
+                triangles_of_tiles.fill(across * bands, rows_of_triangles.iter().cloned());
+            },
+        );
     }
 }
 

@@ -4,6 +4,7 @@
 //! smooth. Lines lie on what is in front. They are grown by discs, whose rows are shifted words of 64 pixels, so that wide lines take
 //! hardly longer than thin ones.
 
+use crate::cpu::instructions::Instructions;
 use crate::features::{Feature, Features};
 use crate::planes::SamplePlanes;
 use effects::wgsl::random_signed;
@@ -266,15 +267,33 @@ fn for_pairs<T: Copy>(
     }
 }
 
+/// Numbers that are looked at at once.
+const SOME: usize = 16;
+
 /// The columns of what isn't 0, most of which is.
 fn nonzero(differ: &[u32]) -> impl Iterator<Item = usize> {
-    const SOME: usize = 16;
     let some = differ.chunks(SOME).enumerate();
-    let some = some.filter(|(_, numbers)| numbers.iter().fold(0, |all, number| all | number) != 0);
+    let some = some.filter(|(_, numbers)| any(numbers) != 0);
     some.flat_map(|(chunk, numbers)| {
         let columns = (chunk * SOME..).zip(numbers);
         columns.filter_map(|(x, number)| (*number != 0).then_some(x))
     })
+}
+
+/// All bits of some numbers.
+#[inline(always)]
+fn any(numbers: &[u32]) -> u32 {
+    // Without branches where there are as many as there mostly are.
+    match <&[u32; SOME]>::try_from(numbers) {
+        Ok(numbers) => {
+            let mut all = 0;
+            for number in numbers {
+                all |= number;
+            }
+            all
+        }
+        Err(_) => numbers.iter().fold(0, |all, number| all | number),
+    }
 }
 
 /// Where ids of a picture differ, as rows of numbers that are 0 where they don't. Of nine pixels all are alike where no two beside each
@@ -286,6 +305,7 @@ struct Differences {
     down: [Vec<u32>; 2],
     /// In the nine pixels around one.
     all: Vec<u32>,
+    instructions: Instructions,
 }
 
 impl Differences {
@@ -294,10 +314,12 @@ impl Differences {
             across: [0; 3].map(|_| vec![0; width]),
             down: [0; 2].map(|_| vec![0; width]),
             all: vec![0; width],
+            instructions: Instructions::best(),
         }
     }
 
     /// Works out [`Self::all`] of row `y`, after that of the row before.
+    #[inline(always)] // compiled for the best instructions
     fn advance(&mut self, planes: &SamplePlanes, picture: usize, feature: Feature, y: usize) {
         let height = planes.size()[1] as usize;
         let rows = |y: usize| [feature, Feature::Object].map(|id| planes.ids(picture, id, y));
@@ -307,17 +329,12 @@ impl Differences {
         if y == 0 {
             self.across[0].fill(0);
             self.down[0].fill(0);
-            fill_differences(
-                &mut self.across[1][..width - 1],
-                rows(0),
-                rows(0).map(|row| &row[1..]),
-            );
+            fill_beside(&mut self.across[1], rows(0));
         }
         match y + 1 < height {
             true => {
                 let (own, below) = (rows(y), rows(y + 1));
-                let next = below.map(|row| &row[1..]);
-                fill_differences(&mut self.across[2][..width - 1], below, next);
+                fill_beside(&mut self.across[2], below);
                 fill_differences(&mut self.down[1], own, below);
             }
             false => {
@@ -329,20 +346,28 @@ impl Differences {
         let all = &mut self.all[..width];
         let [a, b, c] = self.across.each_ref().map(|row| &row[..width]);
         let [d, e] = self.down.each_ref().map(|row| &row[..width]);
-        for x in 0..width {
-            all[x] = a[x] | b[x] | c[x] | d[x] | e[x];
-        }
+        all[0] = a[0] | b[0] | c[0] | d[0] | e[0];
         for x in 1..width {
-            all[x] |= a[x - 1] | b[x - 1] | c[x - 1];
+            let left = a[x - 1] | b[x - 1] | c[x - 1];
+            all[x] = left | a[x] | b[x] | c[x] | d[x] | e[x];
         }
     }
 }
 
+/// Where the pixels of a row of two ids differ from those to their right.
+#[inline(always)]
+fn fill_beside(differ: &mut [u32], [a, b]: [&[u32]; 2]) {
+    let last = differ.len() - 1;
+    fill_differences(&mut differ[..last], [a, b], [&a[1..], &b[1..]]);
+}
+
 /// Where one of two rows of ids differs from another.
+#[inline(always)]
 fn fill_differences(differ: &mut [u32], [a, b]: [&[u32]; 2], [c, d]: [&[u32]; 2]) {
-    let pairs = a.iter().zip(c).zip(b.iter().zip(d));
-    for (differ, ((a, c), (b, d))) in differ.iter_mut().zip(pairs) {
-        *differ = (a ^ c) | (b ^ d);
+    let width = differ.len();
+    let (a, b, c, d) = (&a[..width], &b[..width], &c[..width], &d[..width]);
+    for x in 0..width {
+        differ[x] = (a[x] ^ c[x]) | (b[x] ^ d[x]);
     }
 }
 
@@ -360,7 +385,10 @@ fn find_ids(
         objects: &'a [u32],
         depths: &'a [f32],
     }
-    differ.advance(planes, picture, feature, y);
+    differ.instructions.run(
+        #[inline(always)]
+        || differ.advance(planes, picture, feature, y),
+    );
     let mut candidates = nonzero(&differ.all).peekable();
     if candidates.peek().is_none() {
         return;
@@ -452,7 +480,7 @@ mod tests {
         for (band, (ids, numbers)) in bands.enumerate() {
             let mut planes = BandPlanes {
                 width: size[0] as usize,
-                declared: planes.declared,
+                layout: planes.layout,
                 band: 16,
                 count: 1,
                 ids,
@@ -476,7 +504,7 @@ mod tests {
             rows: 1,
             count: 1,
         };
-        for feature in planes.declared.iter() {
+        for feature in planes.layout.declared.iter() {
             if feature.is_id() {
                 planes.put_ids(feature, &at, &[sample.id(feature); 4]);
                 continue;

@@ -3,6 +3,7 @@
 use crate::features::{Feature, Features, NO_ID};
 use glam::Vec3;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Up to four samples of each pixel of a picture, with the features that are declared.
 ///
@@ -11,7 +12,7 @@ use rayon::prelude::*;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SamplePlanes {
     pub(crate) size: [u32; 2],
-    pub(crate) declared: Features,
+    pub(crate) layout: Layout,
     /// The number of the first sample, and how many there are.
     pub(crate) first: usize,
     pub(crate) count: usize,
@@ -109,25 +110,46 @@ impl Sample {
 /// What is there of every picture: whether anything is shown, and how near.
 pub(crate) const ALWAYS: Features = Features::of(&[Feature::Object, Feature::InvDepth]);
 
+/// Where the planes of features are among those of their kind, in a sample's.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Layout {
+    pub(crate) declared: Features,
+    /// The first one of each feature that is declared, by its number.
+    first: [u8; Feature::ALL.len()],
+    /// How many there are: of ids, and of numbers.
+    pub(crate) planes: [usize; 2],
+}
+
+impl Layout {
+    /// That of what is declared, and of what is [there always](ALWAYS).
+    pub(crate) fn new(declared: Features) -> Self {
+        let mut layout = Self {
+            declared: declared.union(ALWAYS),
+            ..Self::default()
+        };
+        for feature in layout.declared.iter() {
+            let planes = &mut layout.planes[usize::from(!feature.is_id())];
+            layout.first[feature as usize] = *planes as u8;
+            *planes += feature.components();
+        }
+        layout
+    }
+
+    /// Where a feature's planes begin; none where it isn't declared.
+    #[inline(always)] // compiled for the rasteriser's instructions
+    fn first(&self, feature: Feature) -> Option<usize> {
+        let first = usize::from(self.first[feature as usize]);
+        self.declared.has(feature).then_some(first)
+    }
+
+    /// How many planes of its kind there are.
+    #[inline(always)]
+    fn beside(&self, feature: Feature) -> usize {
+        self.planes[usize::from(!feature.is_id())]
+    }
+}
+
 impl SamplePlanes {
-    /// Where the planes of a feature begin among those of its kind, in a sample's; none where it isn't declared.
-    fn plane(declared: Features, feature: Feature) -> Option<usize> {
-        let before = declared
-            .iter()
-            .take_while(|other| *other != feature)
-            .filter(|other| other.is_id() == feature.is_id());
-        let place = before.map(Feature::components).sum();
-        declared.has(feature).then_some(place)
-    }
-
-    /// How many planes a sample has: of ids, and of numbers.
-    pub(crate) fn planes(declared: Features) -> [usize; 2] {
-        [true, false].map(|ids| {
-            let of_kind = declared.iter().filter(|feature| feature.is_id() == ids);
-            of_kind.map(Feature::components).sum()
-        })
-    }
-
     /// Makes room for samples, all of which are then to be put in; `None` where there isn't enough memory.
     /// [`Feature::Object`] and [`Feature::InvDepth`] are always there.
     pub(crate) fn make_room(
@@ -137,7 +159,7 @@ impl SamplePlanes {
         [first, count]: [usize; 2],
         band: usize,
     ) -> Option<()> {
-        (self.size, self.declared) = (size, declared.union(ALWAYS));
+        (self.size, self.layout) = (size, Layout::new(declared));
         (self.first, self.count, self.band) = (first, count, band);
         let bands = (size[1] as usize).div_ceil(band);
         let [ids, numbers] = self.of_band().map(|of_band| bands * of_band);
@@ -160,7 +182,7 @@ impl SamplePlanes {
         declared: Features,
         [first, count]: [usize; 2],
     ) -> Option<()> {
-        (self.size, self.declared) = (size, declared.union(ALWAYS));
+        (self.size, self.layout) = (size, Layout::new(declared));
         (self.first, self.count, self.band) = (first, count, size[1] as usize);
         let [ids, numbers] = self.of_band();
         self.ids.clear();
@@ -188,13 +210,13 @@ impl SamplePlanes {
     /// Ids and numbers of a band.
     pub(crate) fn of_band(&self) -> [usize; 2] {
         let plane = self.size[0] as usize * self.band;
-        Self::planes(self.declared).map(|planes| planes * plane * self.count)
+        (self.layout.planes).map(|planes| planes * plane * self.count)
     }
 
     /// Gives the samples that are set, 64 in a word for each row of each sample, a colour.
     pub(crate) fn set_color(&mut self, set: &[Vec<Vec<u64>>], color: [f32; 3]) {
-        let [_, planes] = Self::planes(self.declared);
-        let Some(first) = Self::plane(self.declared, Feature::Color) else {
+        let [_, planes] = self.layout.planes;
+        let Some(first) = self.layout.first(Feature::Color) else {
             return;
         };
         let [red, green, blue] = color;
@@ -270,17 +292,17 @@ impl SamplePlanes {
     /// What is declared, [`Feature::Object`] and [`Feature::InvDepth`] always.
     #[must_use]
     pub fn declared(&self) -> Features {
-        self.declared
+        self.layout.declared
     }
 
     /// The numbers of its samples, as [`sample_positions`](crate::sample_positions) counts them.
     #[must_use]
-    pub fn samples(&self) -> std::ops::Range<usize> {
+    pub fn samples(&self) -> Range<usize> {
         self.first..self.first + self.count
     }
 
     /// Where a row of a plane is.
-    fn row(&self, picture: usize, plane: usize, planes: usize, y: usize) -> std::ops::Range<usize> {
+    fn row(&self, picture: usize, plane: usize, planes: usize, y: usize) -> Range<usize> {
         let width = self.size[0] as usize;
         let band = y / self.band;
         let of_sample = (band * self.count + picture) * planes + plane;
@@ -296,8 +318,8 @@ impl SamplePlanes {
     #[must_use]
     pub fn ids(&self, picture: usize, feature: Feature, y: usize) -> &[u32] {
         assert!(picture < self.count && y < self.size[1] as usize);
-        let [planes, _] = Self::planes(self.declared);
-        match Self::plane(self.declared, feature).filter(|_| feature.is_id()) {
+        let planes = self.layout.beside(feature);
+        match self.layout.first(feature).filter(|_| feature.is_id()) {
             Some(plane) => &self.ids[self.row(picture, plane, planes, y)],
             None => &[],
         }
@@ -312,8 +334,8 @@ impl SamplePlanes {
     pub fn numbers(&self, picture: usize, feature: Feature, component: usize, y: usize) -> &[f32] {
         assert!(picture < self.count && y < self.size[1] as usize);
         assert!(component < feature.components());
-        let [_, planes] = Self::planes(self.declared);
-        match Self::plane(self.declared, feature).filter(|_| !feature.is_id()) {
+        let planes = self.layout.beside(feature);
+        match self.layout.first(feature).filter(|_| !feature.is_id()) {
             Some(plane) => &self.numbers[self.row(picture, plane + component, planes, y)],
             None => &[],
         }
@@ -358,7 +380,7 @@ impl SamplePlanes {
 /// The samples of a band as they are drawn.
 pub(crate) struct BandPlanes<'a> {
     pub(crate) width: usize,
-    pub(crate) declared: Features,
+    pub(crate) layout: Layout,
     /// Rows of the band, and samples of each pixel.
     pub(crate) band: usize,
     pub(crate) count: usize,
@@ -420,11 +442,9 @@ struct PlanePlace {
 impl BandPlanes<'_> {
     #[inline(always)]
     fn place(&self, feature: Feature, component: usize) -> PlanePlace {
-        let [ids, numbers] = SamplePlanes::planes(self.declared);
-        let first = SamplePlanes::plane(self.declared, feature).unwrap_or_default();
         PlanePlace {
-            number: first + component,
-            of_sample: if feature.is_id() { ids } else { numbers },
+            number: self.layout.first(feature).unwrap_or_default() + component,
+            of_sample: self.layout.beside(feature),
             length: self.band * self.width,
         }
     }
@@ -449,13 +469,16 @@ impl BandPlanes<'_> {
         stacks.put(self.numbers, self.width, place, numbers);
     }
 
-    /// Puts in samples that show nothing but a background, in so many columns and rows from a column of the band on.
+    /// Puts in samples that show nothing but a background, in some columns of so many rows.
     pub(crate) fn clear(
         &mut self,
-        column: usize,
-        [columns, rows]: [usize; 2],
+        columns: Range<usize>,
+        rows: usize,
         background: Option<[f32; 3]>,
     ) {
+        if columns.is_empty() {
+            return;
+        }
         let color = background.map_or([0.0; 4], |light| {
             let [red, green, blue] = light.map(|light| light.clamp(0.0, 1.0));
             [red, green, blue, 1.0]
@@ -465,20 +488,19 @@ impl BandPlanes<'_> {
             ..Sample::NOTHING
         };
         let rows = rows.min(self.band);
-        for feature in self.declared.iter() {
+        for feature in self.layout.declared.iter() {
             for component in 0..feature.components() {
                 let place = self.place(feature, component);
                 for picture in 0..self.count {
                     let plane = (picture * place.of_sample + place.number) * place.length;
-                    for row in 0..rows {
-                        let start = plane + row * self.width + column;
-                        match feature.is_id() {
-                            true => self.ids[start..][..columns].fill(nothing.id(feature)),
-                            false => {
-                                let number = nothing.number(feature, component);
-                                self.numbers[start..][..columns].fill(number);
-                            }
-                        }
+                    let starts = (0..rows).map(|row| plane + row * self.width + columns.start);
+                    if feature.is_id() {
+                        let id = nothing.id(feature);
+                        starts.for_each(|start| self.ids[start..][..columns.len()].fill(id));
+                    } else {
+                        let number = nothing.number(feature, component);
+                        starts
+                            .for_each(|start| self.numbers[start..][..columns.len()].fill(number));
                     }
                 }
             }

@@ -3,13 +3,13 @@
 use crate::files::{Files, StageError};
 use crate::load;
 use crate::painted;
-use crate::preset::{Preset, missing};
+use crate::preset::{Origin, Preset, missing};
 use crate::script;
 use crate::stage::Stage;
 use crate::style;
 use crate::textures;
 use effects::Registry;
-use effects::preset::{Place, PresetError, PresetErrors, Reader};
+use effects::preset::{PresetError, PresetErrors, Reader};
 use hair_io::{BoneMotion, HairOptions};
 use std::path::{Path, PathBuf};
 
@@ -36,7 +36,8 @@ impl<'r> Preset<'r> {
         files: &Files,
     ) -> Result<(), PresetErrors> {
         let mut reader = Reader::new(file, text);
-        let preset = Self::read(&mut reader, registry)?;
+        let origin = Origin::of(&files.preset_folder, file);
+        let preset = Self::read(&mut reader, registry, &origin)?;
         let mut found = Found::default();
         let own = reader.report();
         let is_whole = own.is_ok();
@@ -90,6 +91,7 @@ impl<'r> Preset<'r> {
                 .chain(texture)
         }));
         paths.extend(self.files_of_objects(files));
+        paths.extend(self.bases().iter().cloned());
         paths
     }
 
@@ -242,7 +244,13 @@ impl<'r> Preset<'r> {
             StageError::Unsupported { section, .. } => section,
             _ => "dynamics",
         };
-        let place = place_of_section(file, text, section);
+        let place = match self.place_of_part(section) {
+            Some(place) => place.clone(),
+            None => {
+                let reader = Reader::new(file, text);
+                reader.place(reader.text())
+            }
+        };
         Err(PresetErrors(vec![PresetError { place, message }]))
     }
 
@@ -257,14 +265,6 @@ impl<'r> Preset<'r> {
             None => Ok(()),
         }
     }
-}
-
-/// Where a preset says that section, or where it begins.
-fn place_of_section(file: &str, text: &str, section: &str) -> Place {
-    let mut reader = Reader::new(file, text);
-    let fields = reader.fields(reader.text(), "the preset");
-    let field = fields.iter().find(|field| field.name == section);
-    reader.place(field.map_or(reader.text(), |field| field.name))
 }
 
 /// Looks for all that is wrong with a motion script and with the names of the shapes in it.

@@ -1,10 +1,12 @@
 //! Presets: one RON file that says what is drawn and how.
 
+mod base;
 mod meshes;
 mod objects;
 mod passes;
 mod sections;
 
+pub(crate) use base::Origin;
 pub use meshes::{AlphaChoice, MESHES, MeshSection, NamedMesh};
 pub use objects::{NamedObject, ObjectSection};
 pub use passes::{EdgesChoice, PASSES, PassSection};
@@ -16,7 +18,7 @@ use effects::preset::{
     suggestion,
 };
 use effects::{Param, Registry, Texture};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The newest version of presets that this build reads.
 pub const VERSION: u32 = 1;
@@ -39,6 +41,10 @@ pub struct Preset<'r> {
     registry: Option<&'r Registry>,
     /// Where the file names other files.
     named: Vec<Named>,
+    /// The presets that it builds on: its base, that one's base and so on.
+    bases: Vec<PathBuf>,
+    /// Where its sections and lists stand, in the file or in a base.
+    parts: Vec<(String, Place)>,
 }
 
 /// A place where a preset names a file.
@@ -74,23 +80,44 @@ impl<'r> Preset<'r> {
             passes: Vec::new(),
             registry: None,
             named: Vec::new(),
+            bases: Vec::new(),
+            parts: Vec::new(),
         }
     }
 
-    /// Reads the preset `text`, which messages call `file`.
+    /// Reads the preset `text` of the file `file`. Where it builds on another preset, that one is looked for beside it.
     ///
     /// # Errors
     ///
-    /// All mistakes of the file, each with its line and column.
+    /// All mistakes of the file, or of the preset that it builds on, each with its file, line and column.
     pub fn parse(file: &str, text: &str, registry: &'r Registry) -> Result<Self, PresetErrors> {
+        let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+        Self::parse_in(folder, file, text, registry)
+    }
+
+    /// As [`Self::parse`], of a preset in `folder`, whatever messages call it.
+    ///
+    /// # Errors
+    ///
+    /// As those of [`Self::parse`].
+    pub fn parse_in(
+        folder: &Path,
+        file: &str,
+        text: &str,
+        registry: &'r Registry,
+    ) -> Result<Self, PresetErrors> {
         let mut reader = Reader::new(file, text);
-        let preset = Self::read(&mut reader, registry)?;
+        let preset = Self::read(&mut reader, registry, &Origin::of(folder, file))?;
         reader.report()?;
         Ok(preset)
     }
 
     /// Reads what can be read, and notes mistakes; those after which nothing can be read are returned.
-    pub(crate) fn read(reader: &mut Reader, registry: &'r Registry) -> Result<Self, PresetErrors> {
+    pub(crate) fn read(
+        reader: &mut Reader,
+        registry: &'r Registry,
+        origin: &Origin,
+    ) -> Result<Self, PresetErrors> {
         let fields = reader.fields(reader.text(), "the preset");
         if fields.is_empty() {
             reader.report()?;
@@ -103,20 +130,32 @@ impl<'r> Preset<'r> {
             .chain(names)
             .chain(["layers", "meshes", "passes", "objects"])
             .collect();
-        let mut preset = Self {
-            registry: Some(registry),
-            ..Self::new(0, Sections::default(), Vec::new())
-        };
-        let mut plain = Vec::new();
+        let is_plain = |field: &&Field| Self::TOP.iter().any(|param| param.name == field.name);
+        let plain: Vec<Field> = fields.iter().filter(is_plain).copied().collect();
+        let top: TopSection = reader.section_of(&plain, "the preset");
+        let mut preset = Self::on_base(reader, &plain, &top, registry, origin)?;
+        let has_seed = plain.iter().any(|field| field.name == "seed");
+        if preset.bases.is_empty() || has_seed {
+            preset.seed = top.seed;
+        }
         let mut layers = None;
         let objects = fields.iter().find(|field| field.name == "objects");
+        let has_objects = objects.is_some() || !preset.objects.is_empty();
         for field in &fields {
+            preset.parts.retain(|(name, _)| name != field.name);
+            let place = reader.place(field.name);
+            preset.parts.push((field.name.to_owned(), place));
             let is_section = Sections::ALL.iter().any(|(name, ..)| *name == field.name);
             if field.name == "objects" {
+                if !preset.layers.is_empty() {
+                    let message =
+                        "this preset's base describes hair itself, so it can't name objects";
+                    reader.error(field.name, message);
+                }
                 preset.objects = NamedObject::read_list(reader, field.value);
             } else if field.name == "passes" {
                 preset.passes = PassSection::read_list(reader, field.value);
-            } else if objects.is_some()
+            } else if has_objects
                 && (["layers", "meshes"].contains(&field.name)
                     || is_section && objects::is_of_objects(field.name))
             {
@@ -127,24 +166,23 @@ impl<'r> Preset<'r> {
                 layers = Some(field);
             } else if preset.sections.by_name(field.name).is_some() {
                 preset.read_section(reader, field);
-            } else if Self::TOP.iter().any(|param| param.name == field.name) {
-                plain.push(*field);
-            } else {
+            } else if !is_plain(&field) {
                 let hint = suggestion(field.name, known.iter().copied());
                 let message = format!("a preset has no `{}`{hint}", field.name);
                 reader.error(field.name, message);
             }
         }
-        let top: TopSection = reader.section_of(&plain, "the preset");
-        preset.seed = top.seed;
         if plain.iter().all(|field| field.name != "version") {
             let message =
                 format!("the preset needs `version: {VERSION}`, the version of its format");
             reader.error(reader.text(), message);
         }
         match layers {
-            Some(field) => preset.layers = reader.layers(field.value, registry, &known),
-            None if objects.is_some() => {}
+            Some(field) => {
+                let of_base = std::mem::take(&mut preset.layers);
+                preset.layers = reader.layers_on(field.value, registry, &known, of_base);
+            }
+            None if has_objects || !preset.layers.is_empty() => {}
             None => {
                 let message = "the preset has no `layers`, so it would draw nothing";
                 reader.error(reader.text(), message);
@@ -158,12 +196,15 @@ impl<'r> Preset<'r> {
         let name = field.name;
         let fields = reader.fields(field.value, name);
         for (section, param) in FILES.into_iter().filter(|(section, _)| *section == name) {
-            let file = fields.iter().find(|field| field.name == param);
-            self.named.extend(file.map(|file| Named {
+            let Some(file) = fields.iter().find(|field| field.name == param) else {
+                continue;
+            };
+            self.forget_named(section, param);
+            self.named.push(Named {
                 section,
                 param,
                 place: reader.place(file.value),
-            }));
+            });
         }
         if let Some(section) = self.sections.by_name(name) {
             reader.fill(&fields, section, name);
@@ -224,6 +265,18 @@ impl<'r> Preset<'r> {
         PresetErrors::report(errors)
     }
 
+    /// Where a section or list stands, in the file or in a base.
+    pub(crate) fn place_of_part(&self, name: &str) -> Option<&Place> {
+        let part = self.parts.iter().find(|(part, _)| part == name);
+        part.map(|(_, place)| place)
+    }
+
+    /// The presets that this one builds on: its base, that one's base and so on.
+    #[must_use]
+    pub fn bases(&self) -> &[PathBuf] {
+        &self.bases
+    }
+
     /// Where the file names the file of this section and parameter.
     pub(crate) fn place_of(&self, section: &str, param: &str) -> Option<&Place> {
         let is_it = |named: &&Named| (named.section, named.param) == (section, param);
@@ -264,9 +317,13 @@ impl<'r> Preset<'r> {
         }
         set_text(section, owner, param, text)?;
         // What the file says is no longer what is meant.
-        self.named
-            .retain(|named| (named.section, named.param) != (owner, param));
+        self.forget_named(owner, param);
         Ok(())
+    }
+
+    fn forget_named(&mut self, section: &str, param: &str) {
+        self.named
+            .retain(|named| (named.section, named.param) != (section, param));
     }
 
     /// Sets what stands beside the sections: the seed, as the version is the file's.

@@ -174,6 +174,20 @@ impl Sweep {
         self.length > 0.0
     }
 
+    /// From the larger circle's centre to the smaller one's.
+    #[inline(always)]
+    #[must_use]
+    pub fn length(&self) -> f32 {
+        self.length
+    }
+
+    /// The larger circle's.
+    #[inline(always)]
+    #[must_use]
+    pub fn radius(&self) -> f32 {
+        self.radius
+    }
+
     /// A screen position in the segment's frame.
     #[must_use]
     pub fn local(&self, position: DVec2) -> DVec2 {

@@ -24,6 +24,7 @@ pub mod edit;
 pub mod engine;
 pub mod export;
 pub mod grip;
+pub mod inherited;
 pub mod layers_shown;
 pub mod light;
 pub mod menu;

@@ -6,6 +6,7 @@ use crate::documents::{Documents, Which};
 use crate::edit::{Edit, Place};
 use crate::engine::{Backend, Drawn, Engine, Look, Problem, Thumbnails, Wish};
 use crate::grip::Grip;
+use crate::inherited::Inherited;
 use crate::layers_shown::LayersShown;
 use crate::motion_script::MotionTrack;
 use crate::prompt::Prompt;
@@ -99,6 +100,8 @@ pub struct Studio {
     pub prompt: Option<Prompt>,
     /// The light and camera of the preset, as its text has them; of its last text that could be read.
     pub sections: stage::Sections,
+    /// What its base says where it says nothing itself.
+    pub inherited: Inherited,
     /// Counts changes of files on the disk.
     files_changed: u64,
     /// Which text the track and sections were read from.
@@ -162,6 +165,7 @@ impl Studio {
             focuses_search: false,
             prompt: None,
             sections: stage::Sections::default(),
+            inherited: Inherited::default(),
             files_changed: 0,
             read: None,
             last_housekeeping: Instant::now(),
@@ -194,6 +198,7 @@ impl Studio {
                 self.shown = [None, None];
                 self.problems.clear();
                 self.sections = stage::Sections::default();
+                self.inherited = Inherited::default();
                 self.opened += 1;
                 if let Some(folder) = path.parent() {
                     folder.clone_into(&mut self.folder);
@@ -649,13 +654,16 @@ impl Studio {
         }
         self.read = Some(versions);
         let preset = documents.preset();
-        if let Ok(read) = stage::Preset::parse(&preset.name(), preset.text(), &self.registry) {
+        let folder = preset.path().parent().unwrap_or(Path::new(""));
+        let (name, text) = (preset.name(), preset.text());
+        if let Ok(read) = stage::Preset::parse_in(folder, &name, text, &self.registry) {
             let names: BTreeSet<&str> = read
                 .layers
                 .iter()
                 .map(|layer| layer.name.as_str())
                 .collect();
             self.layers.forget_others(&names);
+            self.inherited = Inherited::below(&read);
             // Motion that begins anew is simulated from the beginning: where no script says what is when, that is now.
             let [own, new] =
                 [&self.sections, &read.sections].map(|s| (&s.hair, &s.head, &s.dynamics));

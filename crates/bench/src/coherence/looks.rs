@@ -80,18 +80,22 @@ pub struct Look {
     passes: bool,
 }
 
-/// The project's looks, by name.
+/// The project's looks, by name. A preset that puts other presets' heads into one picture is none of its own.
 ///
 /// # Errors
 ///
 /// When the folder cannot be read.
 pub fn looks(root: &Path) -> Result<Vec<Look>, BenchError> {
+    let registry = frame::registry()?;
     let folder = root.join("presets");
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
     let mut looks = Vec::new();
     for entry in std::fs::read_dir(&folder).map_err(failed)? {
         let preset = entry.map_err(failed)?.path();
         if preset.extension().is_some_and(|ending| ending == "ron") {
+            if !frame::preset(&preset, &registry)?.objects.is_empty() {
+                continue;
+            }
             let name = preset.file_stem().unwrap_or_default();
             looks.push(Look {
                 name: name.to_string_lossy().into_owned(),
@@ -174,6 +178,10 @@ impl Look {
             sections.hair.guides = self.guides;
         }
         let script = motion.and_then(Motion::script);
+        if script.is_none() {
+            // Still, or the camera moves alone: whatever the preset's own script would do.
+            sections.motion.file = None;
+        }
         let files = Files {
             hair: self.hair.clone(),
             head: self.head.clone(),

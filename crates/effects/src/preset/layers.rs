@@ -31,6 +31,20 @@ section! {
     }
 }
 
+impl LayerFields {
+    /// What a layer of the base has said.
+    fn of(layer: &LayerSpec) -> Self {
+        Self {
+            effect: Some(layer.effect.id().to_owned()),
+            name: Some(layer.name.clone()),
+            rank: Some(layer.rank),
+            depth_offset: Some(layer.depth_offset),
+            units: layer.units,
+            zones: layer.zones.clone(),
+        }
+    }
+}
+
 /// What a layer may say, beside the effect's own parameters.
 pub const LAYER: &[Param] = LayerFields::TABLE;
 
@@ -120,12 +134,28 @@ impl<'a> Reader<'a> {
         registry: &'r Registry,
         reserved: &[&str],
     ) -> Vec<LayerSpec<'r>> {
-        let mut layers: Vec<LayerSpec<'r>> = Vec::new();
+        self.layers_on(list, registry, reserved, Vec::new())
+    }
+
+    /// As [`Self::layers`], of a preset that builds on another one, whose layers are `base`: an item with the name of one of them says
+    /// what of it is otherwise, and needs no `effect`; one that names another effect takes its place. Others come after them.
+    pub fn layers_on<'r>(
+        &mut self,
+        list: &'a str,
+        registry: &'r Registry,
+        reserved: &[&str],
+        base: Vec<LayerSpec<'r>>,
+    ) -> Vec<LayerSpec<'r>> {
+        let mut layers = base;
+        let of_base = layers.len();
         let mut names = HashSet::new();
         for item in self.list(list, "layers") {
-            let Some(layer) = self.layer(item, registry) else {
+            let Some(layer) = self.layer(item, registry, &layers[..of_base]) else {
                 continue;
             };
+            let changed = layers[..of_base]
+                .iter()
+                .position(|other| other.name == layer.name);
             if reserved.contains(&layer.name.as_str()) {
                 self.error(
                     item,
@@ -142,6 +172,8 @@ impl<'a> Reader<'a> {
                         shown(&layer.name)
                     ),
                 );
+            } else if let Some(index) = changed {
+                layers[index] = layer;
             } else {
                 layers.push(layer);
             }
@@ -149,7 +181,12 @@ impl<'a> Reader<'a> {
         layers
     }
 
-    fn layer<'r>(&mut self, item: &'a str, registry: &'r Registry) -> Option<LayerSpec<'r>> {
+    fn layer<'r>(
+        &mut self,
+        item: &'a str,
+        registry: &'r Registry,
+        base: &[LayerSpec<'r>],
+    ) -> Option<LayerSpec<'r>> {
         if !item.starts_with('(') {
             let found = shown(item);
             let message =
@@ -161,9 +198,14 @@ impl<'a> Reader<'a> {
             .fields(item, "a layer")
             .into_iter()
             .partition(|field| field.name == "params");
-        let effect = self.effect(item, &own, registry);
+        let effect = self.effect(item, &own, registry, base);
+        let changed = effect.and_then(|effect| {
+            let name = named(&own).unwrap_or_else(|| effect.id().to_owned());
+            let is_it = |layer: &&LayerSpec| layer.name == name && layer.effect.id() == effect.id();
+            base.iter().find(is_it)
+        });
         let table = effect.map_or(&[][..], AnyEffect::params);
-        let mut layer = LayerFields::default();
+        let mut layer = changed.map_or_else(LayerFields::default, LayerFields::of);
         self.fill_or(&own, &mut layer, |field| {
             let name = field.name;
             if has(table, name) {
@@ -179,10 +221,15 @@ impl<'a> Reader<'a> {
         });
         let effect = effect?;
         let zones = own.iter().find(|field| field.name == "zones");
-        let (values, textures) = match params.first() {
-            Some(field) => self.params(field.value, effect),
-            None => (Values::defaults(effect.params()), Vec::new()),
+        let mut values = match changed {
+            Some(changed) => changed.values.clone(),
+            None => Values::defaults(effect.params()),
         };
+        let mut textures = changed.map_or_else(Vec::new, |changed| changed.textures.clone());
+        if let Some(field) = params.first() {
+            self.params(field.value, effect, &mut values, &mut textures);
+        }
+        let zones_of_base = changed.and_then(|changed| changed.zones_place.clone());
         Some(LayerSpec {
             name: layer.name.unwrap_or_else(|| effect.id().to_owned()),
             effect,
@@ -190,24 +237,34 @@ impl<'a> Reader<'a> {
             depth_offset: layer.depth_offset.unwrap_or(effect.depth_offset()),
             units: layer.units,
             zones: layer.zones,
-            zones_place: zones.map(|field| self.place(field.value)),
+            zones_place: zones.map_or(zones_of_base, |field| Some(self.place(field.value))),
             values,
             textures,
         })
     }
 
-    /// The effect that a layer names. Where its `effect` is no text, that is told with the other values.
+    /// The effect that a layer names, or that of the layer of the base which it changes. Where its `effect` is no text, that is
+    /// told with the other values.
     fn effect<'r>(
         &mut self,
         item: &'a str,
         fields: &[Field<'a>],
         registry: &'r Registry,
+        base: &[LayerSpec<'r>],
     ) -> Option<&'r dyn AnyEffect> {
         let Some(field) = fields.iter().find(|field| field.name == "effect") else {
-            self.error(
-                item,
-                "a layer needs `effect`, such as effect: \"hair.base\"",
-            );
+            let message = match named(fields) {
+                Some(name) if !base.is_empty() => {
+                    if let Some(changed) = base.iter().find(|layer| layer.name == name) {
+                        return Some(changed.effect);
+                    }
+                    let hint = suggestion(&name, base.iter().map(|layer| layer.name.as_str()));
+                    let name = shown(&name);
+                    format!("a new layer needs `effect`, and the base has no layer `{name}`{hint}")
+                }
+                _ => "a layer needs `effect`, such as effect: \"hair.base\"".to_owned(),
+            };
+            self.error(item, message);
             return None;
         };
         let Ok(Value::Text(Some(id))) = parse_value(field.value, &ParamKind::Text) else {
@@ -222,28 +279,37 @@ impl<'a> Reader<'a> {
         effect
     }
 
-    /// The effect's parameters, and where textures' files are named.
+    /// Sets the effect's parameters, and where textures' files are named.
     fn params(
         &mut self,
         section: &'a str,
         effect: &dyn AnyEffect,
-    ) -> (Values, Vec<(&'static str, Place)>) {
+        values: &mut Values,
+        textures: &mut Vec<(&'static str, Place)>,
+    ) {
         let fields = self.fields(section, effect.id());
-        let mut values = Values::defaults(effect.params());
-        self.fill_or(&fields, &mut values, |field| {
+        self.fill_or(&fields, values, |field| {
             if has(LAYER, field.name) {
                 format!("`{}` belongs to the layer, outside of `params`", field.name)
             } else {
                 unknown(field.name, effect.params(), effect.id())
             }
         });
-        let textures = effect.params().iter().filter_map(|param| {
+        textures.retain(|(name, _)| fields.iter().all(|field| field.name != *name));
+        textures.extend(effect.params().iter().filter_map(|param| {
             let field = fields.iter().find(|field| field.name == param.name)?;
             let is_file = matches!(values.value(param.name), Value::Texture(Texture::File(_)));
             is_file.then(|| (param.name, self.place(field.value)))
-        });
-        let textures = textures.collect();
-        (values, textures)
+        }));
+    }
+}
+
+/// The name that a layer gives itself.
+fn named(fields: &[Field]) -> Option<String> {
+    let field = fields.iter().find(|field| field.name == "name")?;
+    match parse_value(field.value, &ParamKind::Text) {
+        Ok(Value::Text(name)) => name,
+        _ => None,
     }
 }
 

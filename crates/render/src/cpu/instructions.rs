@@ -7,11 +7,9 @@
 //! instructions which not every machine has. Measured on the benchmark `raster`, 84 thick strands at
 //! 16 samples, when cells were eight pixels of one sample: 96 ms as compiled (SSE2), 67 ms with AVX2, 55 ms with AVX-512.
 
-use super::{Frame, Output, Worker};
-
 /// Vector instructions that this machine has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Instructions {
+pub(crate) enum Instructions {
     /// Those that the program was compiled for.
     Compiled,
     /// Eight numbers at once.
@@ -43,28 +41,34 @@ impl Instructions {
         available
     }
 
-    /// [`Worker::draw_band`] in these instructions.
+    /// The best that this machine has.
+    pub(crate) fn best() -> Self {
+        Self::available().last().copied().unwrap_or(Self::Compiled)
+    }
+
+    /// Calls `work`, compiled for these instructions, as is all that it calls that is `inline(always)`, and no more.
     #[allow(unsafe_code, reason = "a third to a half of the time, see above")]
-    pub(super) fn draw_band(self, worker: &mut Worker, frame: &Frame, band: usize, output: Output) {
+    #[inline]
+    pub(crate) fn run<R>(self, work: impl FnOnce() -> R) -> R {
         match self {
-            Self::Compiled => worker.draw_band(frame, band, output),
+            Self::Compiled => work(),
             // SAFETY: a value of this type is made by `available` only, which looked for each.
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => unsafe { avx2(worker, frame, band, output) },
+            Self::Avx2 => unsafe { avx2(work) },
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 => unsafe { avx512(worker, frame, band, output) },
+            Self::Avx512 => unsafe { avx512(work) },
         }
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn avx2(worker: &mut Worker, frame: &Frame, band: usize, output: Output) {
-    worker.draw_band(frame, band, output);
+fn avx2<R>(work: impl FnOnce() -> R) -> R {
+    work()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
-fn avx512(worker: &mut Worker, frame: &Frame, band: usize, output: Output) {
-    worker.draw_band(frame, band, output);
+fn avx512<R>(work: impl FnOnce() -> R) -> R {
+    work()
 }

@@ -1,6 +1,6 @@
 //! What painted samples are told of joints: mixed of two joints eight samples at a time, and finished for a block of them.
 
-use super::tile::{LANES, LaneMask, Lanes, greater, overwrite, select};
+use super::tile::{LANES, LaneMask, Lanes, OneByOne, greater, overwrite, select};
 use crate::painting::Painting;
 use effects::wgsl::{Vec3, vec3};
 use effects::{BLOCK, SampleBlock, SampleInput, SampleSet, Samples, Vectors};
@@ -22,13 +22,18 @@ const VECTORS: [SampleInput; 5] = [
     SampleInput::ViewDirection,
 ];
 
+/// Most numbers of a joint.
+const WIDTH: usize = NUMBERS.len() + 3 * VECTORS.len();
+
+const _: () = assert!(WIDTH < u32::BITS as usize);
+
 /// What samples are mixed of, a row of numbers for each joint: so that all of a joint lies together.
 #[derive(Default)]
 pub(super) struct JointRows {
-    /// What is in a row, in order: first the numbers, then the vectors.
+    /// What is in a row, in order: first the numbers, then the vectors. What is behind is anything.
     numbers: Vec<SampleInput>,
     vectors: Vec<SampleInput>,
-    rows: Vec<f32>,
+    rows: Vec<[f32; WIDTH]>,
 }
 
 impl JointRows {
@@ -42,41 +47,22 @@ impl JointRows {
             list.clear();
             list.extend(all.iter().filter(|input| read.has(**input)));
         }
-        let width = self.width();
-        self.rows.clear();
-        self.rows.resize(joints * width, 0.0);
-        if width == 0 {
-            return;
-        }
+        let is_empty = self.numbers.is_empty() && self.vectors.is_empty();
+        self.rows
+            .resize(if is_empty { 0 } else { joints }, [0.0; WIDTH]);
         for (place, input) in self.numbers.iter().enumerate() {
-            let rows = self.rows.chunks_exact_mut(width);
-            for (row, number) in rows.zip(numbers(&painting.joints, *input)) {
+            let numbers = numbers(&painting.joints, *input);
+            for (row, number) in self.rows.iter_mut().zip(numbers) {
                 row[place] = *number;
             }
         }
         for (i, input) in self.vectors.iter().enumerate() {
             let place = self.numbers.len() + 3 * i;
-            let rows = self.rows.chunks_exact_mut(width);
-            for (row, vector) in rows.zip(vectors(&painting.joints, *input)) {
+            let vectors = of_joints(&painting.joints, *input);
+            for (row, vector) in self.rows.iter_mut().zip(vectors) {
                 row[place..place + 3].copy_from_slice(&vector.to_array());
             }
         }
-    }
-
-    fn width(&self) -> usize {
-        self.numbers.len() + 3 * self.vectors.len()
-    }
-
-    #[inline(always)]
-    fn row(&self, joint: usize) -> &[f32] {
-        let width = self.width();
-        &self.rows[joint * width..][..width]
-    }
-
-    /// Where a vector begins in a row.
-    fn place_of(&self, vector: SampleInput) -> Option<usize> {
-        let place = self.vectors.iter().position(|input| *input == vector);
-        Some(self.numbers.len() + 3 * place?)
     }
 }
 
@@ -94,7 +80,7 @@ fn numbers(joints: &Samples, input: SampleInput) -> &[f32] {
 }
 
 /// A list of vectors of joints; empty of what isn't one.
-fn vectors(joints: &Samples, input: SampleInput) -> &[Vec3<f32>] {
+fn of_joints(joints: &Samples, input: SampleInput) -> &[Vec3<f32>] {
     match input {
         SampleInput::Position => &joints.position,
         SampleInput::Forward => &joints.forward,
@@ -117,7 +103,7 @@ type Directions<'a> = [&'a [f32; BLOCK]; 3];
 /// A block of samples while they are gathered.
 pub(super) struct Mixed {
     /// As a joint's row, of each sample; vectors are no unit vectors yet.
-    planes: Vec<Plane>,
+    planes: [Plane; WIDTH],
     /// Which samples there are, and the first of the joints that they are mixed of.
     set: [LaneMask; SLOTS],
     joint: [[u32; LANES]; SLOTS],
@@ -127,17 +113,11 @@ pub(super) struct Mixed {
 impl Mixed {
     pub(super) fn new() -> Self {
         Self {
-            planes: Vec::new(),
+            planes: [[[0.0; LANES]; SLOTS]; WIDTH],
             set: [[0; LANES]; SLOTS],
             joint: [[0; LANES]; SLOTS],
             samples: SampleBlock::NOTHING,
         }
-    }
-
-    /// Has a plane for each number of a row.
-    #[inline(always)]
-    pub(super) fn make_room(&mut self, rows: &JointRows) {
-        self.planes.resize(rows.width(), [[0.0; LANES]; SLOTS]);
     }
 
     /// Forgets the samples that were mixed.
@@ -162,22 +142,25 @@ impl Mixed {
             let of_joint = &mut self.joint[slot][k];
             *of_joint = select(lanes[k] != 0, joint as u32, *of_joint);
         }
-        let ends = rows.row(joint).iter().zip(rows.row(next));
-        let (numbers, vectors) = self.planes.split_at_mut(rows.numbers.len());
-        let mut ends = ends.map(|(from, to)| (*from, *to));
-        for (plane, (from, to)) in numbers.iter_mut().zip(&mut ends) {
-            let mut mixed = *way;
-            for k in 0..LANES {
-                mixed[k] = from + way[k] * (to - from);
-            }
-            overwrite(&mut plane[slot], &mixed, lanes);
+        if rows.rows.is_empty() {
+            return; // nothing is read of joints that is linear between them
         }
-        for (plane, (from, to)) in vectors.iter_mut().zip(&mut ends) {
+        let (from, to) = (&rows.rows[joint], &rows.rows[next]);
+        let numbers = rows.numbers.len();
+        let width = numbers + 3 * rows.vectors.len();
+        for i in OneByOne::of(&(0..numbers)) {
             let mut mixed = *way;
             for k in 0..LANES {
-                mixed[k] = from * rest[k] + to * way[k];
+                mixed[k] = from[i] + way[k] * (to[i] - from[i]);
             }
-            overwrite(&mut plane[slot], &mixed, lanes);
+            overwrite(&mut self.planes[i][slot], &mixed, lanes);
+        }
+        for i in OneByOne::of(&(numbers..width)) {
+            let mut mixed = *way;
+            for k in 0..LANES {
+                mixed[k] = from[i] * rest[k] + to[i] * way[k];
+            }
+            overwrite(&mut self.planes[i][slot], &mixed, lanes);
         }
     }
 
@@ -192,12 +175,10 @@ impl Mixed {
         } = self;
         let mixed = std::mem::replace(set, [[0; LANES]; SLOTS]);
         let (set, joint) = (flat(&mixed), flat(joint));
-        let directions = |input| {
-            let place = rows.place_of(input)?;
-            let [x, y, z] = [0, 1, 2].map(|i| flat(&planes[place + i]));
-            Some([x, y, z])
-        };
-        for (input, plane) in rows.numbers.iter().zip(&*planes) {
+        let (numbers, vectors) = planes.split_at(rows.numbers.len());
+        let (vectors, _) = vectors.as_chunks::<3>();
+        let vectors = rows.vectors.iter().zip(vectors);
+        for (input, plane) in rows.numbers.iter().zip(numbers) {
             let number = match input {
                 SampleInput::U => &mut samples.u,
                 SampleInput::S => &mut samples.s,
@@ -208,10 +189,17 @@ impl Mixed {
             };
             *number = *flat(plane);
         }
-        for input in read.iter() {
-            let Some(mixed) = directions(input) else {
-                continue;
-            };
+        let mut tube = (None, None);
+        for (input, [x, y, z]) in vectors {
+            let mixed = [flat(x), flat(y), flat(z)];
+            match input {
+                SampleInput::Forward => tube.0 = Some(mixed),
+                SampleInput::ViewDirection => tube.1 = Some(mixed),
+                _ => {}
+            }
+            if !read.has(*input) {
+                continue; // but by another layer, or for the tube alone
+            }
             let unit = match input {
                 SampleInput::Position => {
                     let [x, y, z] = mixed.map(|numbers| *numbers);
@@ -225,7 +213,7 @@ impl Mixed {
             };
             if !make_unit(&mixed, set, unit) {
                 // Joints that look against each other: as at the first one.
-                let list = vectors(joints, input);
+                let list = of_joints(joints, *input);
                 for i in (0..BLOCK).filter(|i| set[*i] != 0) {
                     let vector = glam::Vec3::from_array(mixed.map(|numbers| numbers[i]));
                     let first = glam::Vec3::from_array(list[joint[i] as usize].to_array());
@@ -250,10 +238,6 @@ impl Mixed {
                 }
             }
         }
-        let tube = (
-            directions(SampleInput::Forward),
-            directions(SampleInput::ViewDirection),
-        );
         if let (true, (Some(forward), Some(to_eye))) = (read.has(SampleInput::Tube), tube) {
             make_tube(&forward, &to_eye, &samples.w, &mut samples.tube);
         }

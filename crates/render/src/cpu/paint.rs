@@ -2,7 +2,7 @@
 
 use super::mixed::{Mixed, SLOTS};
 use super::shown::{Planes, TRIANGLE};
-use super::tile::{LANES, LaneMask, Target, overwrite, select};
+use super::tile::{LANES, LaneMask, Target, bits, overwrite, select};
 use super::{Frame, Worker};
 use crate::painting::PaintedLayer;
 use effects::Vectors;
@@ -38,13 +38,13 @@ impl Worker {
         }
         let segments = frame.parts.segments.list();
         for (cell, shows) in shown.what.iter().enumerate() {
-            let mut left = bits(&lanes_where(shows, |what| what < TRIANGLE));
+            let mut left = bits(&strokes(shows));
             while left != 0 {
                 let index = shows[left.trailing_zeros() as usize];
-                let lanes = lanes_where(shows, |what| what == index);
+                let lanes = those_that_show(shows, index);
                 left &= !bits(&lanes);
                 let segment = &segments[index as usize];
-                let Some(number) = frame.painted_layer_of(segment) else {
+                let Some(number) = frame.parts.painted_layer_of(segment) else {
                     continue;
                 };
                 let block = &mut blocks[number];
@@ -52,7 +52,7 @@ impl Worker {
                     if block.cells.len() == SLOTS {
                         block.paint(frame, &layers[number], target);
                     }
-                    block.begin(frame, cell, shown, target);
+                    block.begin(cell, shown, target);
                 }
                 let way = &shown.way[cell];
                 block.add(frame, segment.joints(), way, &lanes);
@@ -64,33 +64,32 @@ impl Worker {
     }
 }
 
-/// The lanes whose numbers are as wanted.
+/// The lanes that show strokes.
 #[inline(always)]
-fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneMask {
-    let mut lanes = [0; LANES];
+fn strokes(shows: &[u32; LANES]) -> LaneMask {
+    let mut lanes = *shows;
     for k in 0..LANES {
-        lanes[k] = select(is_wanted(numbers[k]), u32::MAX, 0);
+        lanes[k] = select(shows[k] < TRIANGLE, u32::MAX, 0);
     }
     lanes
 }
 
-/// A bit for each lane.
+/// The lanes that show this.
 #[inline(always)]
-fn bits(lanes: &LaneMask) -> u32 {
-    let mut bits = 0;
+fn those_that_show(shows: &[u32; LANES], index: u32) -> LaneMask {
+    let mut lanes = *shows;
     for k in 0..LANES {
-        bits |= lanes[k] & 1 << k;
+        lanes[k] = select(shows[k] == index, u32::MAX, 0);
     }
-    bits
+    lanes
 }
 
 impl Block {
     /// Begins with a cell.
     #[inline(always)]
-    fn begin(&mut self, frame: &Frame, cell: usize, shown: &Planes, target: &Target) {
+    fn begin(&mut self, cell: usize, shown: &Planes, target: &Target) {
         let slot = self.cells.len();
         self.cells.push((cell, [0; LANES]));
-        self.mixed.make_room(&frame.parts.joint_rows);
         let samples = &mut self.mixed.samples;
         let [red, green, blue] = &target.color;
         for (numbers, plane) in [

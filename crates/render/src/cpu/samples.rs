@@ -59,12 +59,13 @@ impl Rasterizer {
                     stacks: std::slice::from_ref(stack),
                     runs_of_joints: &runs_of_joints,
                 };
-                let declared = planes.declared;
+                let layout = planes.layout;
                 let [ids, numbers] = planes.of_band();
                 let ids = planes.ids.par_chunks_mut(ids);
                 let numbers = planes.numbers.par_chunks_mut(numbers);
                 ids.zip(numbers)
                     .enumerate()
+                    .with_max_len(1)
                     .for_each(|(band, (ids, numbers))| {
                         let thread = rayon::current_thread_index().unwrap_or(0);
                         let mut worker = workers[thread]
@@ -72,13 +73,16 @@ impl Rasterizer {
                             .unwrap_or_else(PoisonError::into_inner);
                         let planes = BandPlanes {
                             width: width as usize,
-                            declared,
+                            layout,
                             band: tile_height,
                             count,
                             ids,
                             numbers,
                         };
-                        instructions.draw_band(&mut worker, &frame, band, Output::Samples(planes));
+                        instructions.run(
+                            #[inline(always)]
+                            || worker.draw_band(&frame, band, Output::Samples(planes)),
+                        );
                     });
                 take(planes);
             }
@@ -126,15 +130,19 @@ impl Worker {
         let [width, height] = frame.drawing.size.map(|side| side as usize);
         let tiles = width.div_ceil(tile::WIDTH);
         let top = band * tile::height(frame.stacks);
+        // Tiles of nothing are written together, as rows as long as may be.
+        let mut nothing = 0..0;
         for tile in 0..tiles {
             let left = tile * tile::WIDTH;
             let triangles = frame.parts.triangles_of_tiles.bin(band * tiles + tile);
             let segments = self.segments_of_tiles.bin(tile);
             let size = [(width - left).min(tile::WIDTH), height - top];
             if triangles.is_empty() && segments.is_empty() {
-                planes.clear(left, size, frame.drawing.background);
+                nothing.end = left + size[0];
                 continue;
             }
+            planes.clear(nothing, height - top, frame.drawing.background);
+            nothing = left + size[0]..left + size[0];
             let scene = frame.tile_at([left, top]);
             scene.strands(segments, &mut self.parts);
             self.draw_stack::<true>(frame, &scene, tile, triangles);
@@ -143,5 +151,6 @@ impl Worker {
             }
             self.tell(frame, size, left, &mut planes);
         }
+        planes.clear(nothing, height - top, frame.drawing.background);
     }
 }

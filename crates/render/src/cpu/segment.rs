@@ -66,6 +66,8 @@ pub(super) struct Segment {
     is_side: bool,
     /// There is no other joint: a segment from the first to itself.
     is_dot: bool,
+    /// All of it lies in the picture.
+    is_whole: bool,
     pub(super) bounds: Bounds,
     /// No disc of it is nearer than these.
     pub(super) inv_depth: f32,
@@ -338,7 +340,7 @@ impl<'a> Strand<'a> {
                 if a.radius <= 0.0 && b.radius <= 0.0 {
                     continue;
                 }
-                if let Some(bounds) = bounds(a, b, self.drawing.size) {
+                if let Some((bounds, is_whole)) = bounds(a, b, self.drawing.size) {
                     give(Segment {
                         strand,
                         stroke: part.stroke,
@@ -348,6 +350,7 @@ impl<'a> Strand<'a> {
                         color: (part.first_color + i) as u32,
                         is_side: part.is_side,
                         is_dot: own.len() == 1,
+                        is_whole,
                         bounds,
                         inv_depth: greater(a.inv_depth, b.inv_depth),
                         biased: greater(a.inv_depth_biased, b.inv_depth_biased),
@@ -451,9 +454,9 @@ fn seen_part(a: &Disc, b: &Disc, size: [u32; 2]) -> Option<[f64; 2]> {
     visible_part(circle(a), circle(b), min, max)
 }
 
-/// The pixels that the segment between two discs may reach, if any.
+/// The pixels that the segment between two discs may reach, if any, and whether all of it lies in the picture.
 #[inline]
-fn bounds(a: &Disc, b: &Disc, size: [u32; 2]) -> Option<Bounds> {
+fn bounds(a: &Disc, b: &Disc, size: [u32; 2]) -> Option<(Bounds, bool)> {
     let around = |a: &Disc, b: &Disc| {
         let (min_a, min_b) = (a.center - a.radius, b.center - b.radius);
         let (max_a, max_b) = (a.center + a.radius, b.center + b.radius);
@@ -469,7 +472,7 @@ fn bounds(a: &Disc, b: &Disc, size: [u32; 2]) -> Option<Bounds> {
         let part = |u| between((*a, [0.0; 3]), (*b, [0.0; 3]), u).0;
         (min, max) = around(&part(from), &part(to));
     }
-    Bounds::of_box(min, max, size)
+    Some((Bounds::of_box(min, max, size)?, is_inside))
 }
 
 impl Segment {
@@ -503,16 +506,24 @@ impl Segment {
             colors = [layer.colors[first], layer.colors[first + next]];
         }
         let (a, b) = ((discs[first], colors[0]), (discs[first + next], colors[1]));
-        Shape::new(a, b, drawing.size, drawing.brush)
+        if self.is_whole {
+            return Shape::new(a, b, [0.0, 1.0], drawing.brush);
+        }
+        Shape::seen(a, b, drawing.size, drawing.brush)
     }
 }
 
 impl Shape {
     /// The part of the segment between two joints that may be seen in a picture of that size, if any.
     #[inline(always)]
-    fn new(a: ColoredDisc, b: ColoredDisc, size: [u32; 2], brush: Brush) -> Option<Self> {
+    fn seen(a: ColoredDisc, b: ColoredDisc, size: [u32; 2], brush: Brush) -> Option<Self> {
         let [from, to] = seen_part(&a.0, &b.0, size)?;
-        let (a, b) = (between(a, b, from), between(a, b, to));
+        Self::new(between(a, b, from), between(a, b, to), [from, to], brush)
+    }
+
+    /// That between two discs, which lie so far on the way from one joint to the other.
+    #[inline(always)]
+    fn new(a: ColoredDisc, b: ColoredDisc, [from, to]: [f64; 2], brush: Brush) -> Option<Self> {
         let shrinks = a.0.radius >= b.0.radius;
         let (large, small) = if shrinks { (a, b) } else { (b, a) };
         let way = if shrinks { [from, to] } else { [to, from] };
@@ -583,7 +594,7 @@ mod tests {
         let far = 1e6;
         let a = (disc(-far, 1.0, 1.0), [0.0, 0.5, 1.0]);
         let b = (disc(far, 3.0, 3.0), [1.0, 0.5, 0.0]);
-        let segment = Shape::new(a, b, [10, 10], Brush::Circle).unwrap();
+        let segment = Shape::seen(a, b, [10, 10], Brush::Circle).unwrap();
         // The middle of the screen is the middle of the segment.
         let local = segment.sweep.local(DVec2::new(5.0, 5.0)).as_vec2();
         assert!(segment.sweep.covers(local.x, local.y));
@@ -601,7 +612,7 @@ mod tests {
     #[test]
     fn what_is_not_seen_is_left_out() {
         let new = |a, b| {
-            let shape = Shape::new((a, [0.0; 3]), (b, [0.0; 3]), [10, 10], Brush::Circle);
+            let shape = Shape::seen((a, [0.0; 3]), (b, [0.0; 3]), [10, 10], Brush::Circle);
             shape.and_then(|_| bounds(&a, &b, [10, 10]))
         };
         assert!(new(disc(20.0, 1.0, 1.0), disc(30.0, 1.0, 1.0)).is_none());

@@ -50,7 +50,12 @@ impl Shown {
 
     /// Some samples of a cell show a stroke; they are taken to lie outside of its clump.
     #[inline(always)]
-    pub(super) fn put_stroke(&mut self, cell: usize, places: &Places, samples: &LaneMask) {
+    pub(super) fn put_stroke<const COLORED: bool>(
+        &mut self,
+        cell: usize,
+        places: &Places<COLORED>,
+        samples: &LaneMask,
+    ) {
         if let Some(planes) = &mut self.0 {
             let across = places.across();
             put(&mut planes.what[cell], &places.index, samples);
@@ -66,7 +71,12 @@ impl Shown {
 
     /// Some samples of a cell, which show a stroke, lie within the clump.
     #[inline(always)]
-    pub(super) fn put_clump(&mut self, cell: usize, places: &Places, samples: &LaneMask) {
+    pub(super) fn put_clump<const COLORED: bool>(
+        &mut self,
+        cell: usize,
+        places: &Places<COLORED>,
+        samples: &LaneMask,
+    ) {
         if let Some(planes) = &mut self.0 {
             overwrite(&mut planes.w[cell], &places.across(), samples);
         }

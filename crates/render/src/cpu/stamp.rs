@@ -84,9 +84,7 @@ impl Stamper {
             stacks: Stack::of_pixel(&samples),
             stamps: Vec::new(),
             bands: Bins::default(),
-            instructions: Instructions::available()
-                .pop()
-                .unwrap_or(Instructions::Compiled),
+            instructions: Instructions::best(),
             workers: (0..pool.current_num_threads())
                 .map(|_| Mutex::new(worker()))
                 .collect(),
@@ -133,7 +131,10 @@ impl Stamper {
                 let mut worker = workers[thread]
                     .lock()
                     .unwrap_or_else(PoisonError::into_inner);
-                worker.draw_band_with(*instructions, &band, pixels);
+                instructions.run(
+                    #[inline(always)]
+                    || worker.draw_band(&band, pixels),
+                );
             });
             Ok(picture)
         })
@@ -210,19 +211,6 @@ fn of_stretch<'a>(
 }
 
 impl Worker {
-    /// In instructions that this machine has, as the rasteriser.
-    #[allow(unsafe_code)]
-    fn draw_band_with(&mut self, instructions: Instructions, band: &Band, pixels: &mut [[f32; 4]]) {
-        match instructions {
-            Instructions::Compiled => self.draw_band(band, pixels),
-            // SAFETY: a value of this type is made by `available` only, which looked for each.
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx2 => unsafe { avx2(self, band, pixels) },
-            #[cfg(target_arch = "x86_64")]
-            Instructions::Avx512 => unsafe { avx512(self, band, pixels) },
-        }
-    }
-
     #[inline(always)] // compiled for each set of `Instructions`
     fn draw_band(&mut self, band: &Band, pixels: &mut [[f32; 4]]) {
         let Band {
@@ -256,18 +244,6 @@ impl Worker {
             }
         }
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn avx2(worker: &mut Worker, band: &Band, pixels: &mut [[f32; 4]]) {
-    worker.draw_band(band, pixels);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
-fn avx512(worker: &mut Worker, band: &Band, pixels: &mut [[f32; 4]]) {
-    worker.draw_band(band, pixels);
 }
 
 impl Stamp {

@@ -5,12 +5,13 @@
 //! stroke's nearest disc in the tile would show, its segments give depth and roundness, and what of that shows in the picture
 //! goes there; only that gets a colour.
 
+use super::reached::Reached;
 use super::segment::{Segment, Stroke};
 use super::shown::Shown;
-use super::stroke::{Measured, Placed, Places, Shaded};
+use super::stroke::{Depths, Nearest, Placed, Places, Ratios, Shaded, Unasked};
 use super::tile::{
-    LANES, LaneMask, Lanes, Mask, NO_SAMPLES, ROWS, Stack, Target, add, any, both, cells, columns,
-    greater, is_empty, overwrite, without,
+    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, OneByOne, ROWS, Stack, Target, add, any, both,
+    cells, columns, greater, is_empty, lesser, overwrite, without,
 };
 use crate::drawing::{Drawing, Order};
 use std::ops::Range;
@@ -32,7 +33,7 @@ pub(super) struct StrandMasks {
     placed: Vec<Placed>,
     /// Its strokes, lowest first; the clump before them.
     strokes: Vec<Covered>,
-    row: Row,
+    row: Reached,
 }
 
 /// A stroke in the tile.
@@ -60,7 +61,7 @@ impl StrandMasks {
         Self {
             placed: Vec::new(),
             strokes: Vec::new(),
-            row: Row::default(),
+            row: Reached::default(),
         }
     }
 
@@ -184,8 +185,13 @@ impl StrandMasks {
                 roundness: of_outline,
                 priority,
             };
-            offer.make(&outside, &mut self.row, target, &mut shown);
+            offer.make::<false>(&outside, &mut self.row, target, &mut shown, unasked);
         }
+        // What shows is told at once where a stroke is the clump: others, which are fewer, afterwards.
+        let is_clump = |stroke: &Covered| {
+            let segments_of_clump = clump.as_ref().map(|clump| &clump.segments);
+            segments_of_clump == Some(&stroke.segments)
+        };
         if let Some(clump) = &clump {
             let placed = &self.placed[clump.segments.clone()];
             let inside = both(&drawn, &clump_samples);
@@ -195,7 +201,22 @@ impl StrandMasks {
                 roundness: of_clump,
                 priority,
             };
-            offer.make(&inside, &mut self.row, target, &mut shown);
+            if TELLS && strokes.iter().any(is_clump) {
+                offer.make::<true>(
+                    &inside,
+                    &mut self.row,
+                    target,
+                    &mut shown,
+                    #[inline(always)]
+                    |target, cell, places, lanes| {
+                        paint(target, cell, &places.color, lanes);
+                        told.put_stroke(cell, places, lanes);
+                        told.put_clump(cell, places, lanes);
+                    },
+                );
+            } else {
+                offer.make::<false>(&inside, &mut self.row, target, &mut shown, unasked);
+            }
         }
         let mut told_of_clump = NO_SAMPLES;
         for stroke in strokes {
@@ -205,25 +226,33 @@ impl StrandMasks {
                 shade(placed, &samples, &mut self.row, target);
                 continue;
             }
-            let segments_of_clump = clump.as_ref().map(|clump| &clump.segments);
-            let is_clump = segments_of_clump == Some(&stroke.segments);
-            tell::<true>(placed, &samples, &mut self.row, |cell, places, lanes| {
-                paint(target, cell, &places.color, lanes);
-                told.put_stroke(cell, places, lanes);
-                if is_clump {
-                    told.put_clump(cell, places, lanes);
-                }
-            });
-            if is_clump {
+            if is_clump(stroke) {
                 add(&mut told_of_clump, &samples);
+                continue;
             }
+            tell::<true>(
+                placed,
+                &samples,
+                &mut self.row,
+                #[inline(always)]
+                |cell, places, lanes| {
+                    paint(target, cell, &places.color, lanes);
+                    told.put_stroke(cell, places, lanes);
+                },
+            );
         }
         if TELLS && let Some(clump) = clump {
             let placed = &self.placed[clump.segments.clone()];
             let samples = without(&both(&clump_samples, &shown), &told_of_clump);
-            tell::<false>(placed, &samples, &mut self.row, |cell, places, lanes| {
-                told.put_clump(cell, places, lanes);
-            });
+            tell::<false>(
+                placed,
+                &samples,
+                &mut self.row,
+                #[inline(always)]
+                |cell, places, lanes| {
+                    told.put_clump(cell, places, lanes);
+                },
+            );
         }
     }
 
@@ -244,37 +273,29 @@ impl StrandMasks {
                 priority: stroke.number,
             };
             let mut shown = NO_SAMPLES;
-            offer.make(&stroke.samples, &mut self.row, target, &mut shown);
-            if !TELLS {
+            if TELLS {
+                offer.make::<true>(
+                    &stroke.samples,
+                    &mut self.row,
+                    target,
+                    &mut shown,
+                    #[inline(always)]
+                    |target, cell, places, lanes| {
+                        paint(target, cell, &places.color, lanes);
+                        told.put_stroke(cell, places, lanes);
+                        told.put_clump(cell, places, lanes);
+                    },
+                );
+            } else {
+                offer.make::<false>(&stroke.samples, &mut self.row, target, &mut shown, unasked);
                 shade(placed, &shown, &mut self.row, target);
-                continue;
-            }
-            tell::<true>(placed, &shown, &mut self.row, |cell, places, lanes| {
-                paint(target, cell, &places.color, lanes);
-                told.put_stroke(cell, places, lanes);
-                told.put_clump(cell, places, lanes);
-            });
-        }
-    }
-}
-
-/// The segments of a stroke that cover some samples of a row of stacks: their places among its segments, and the columns.
-#[derive(Default)]
-struct Row(Vec<(usize, u32)>);
-
-impl Row {
-    /// Finds those that cover one of the columns.
-    #[inline(always)]
-    fn find(&mut self, placed: &[Placed], row: usize, wanted: u32) {
-        self.0.clear();
-        for (i, placed) in placed.iter().enumerate() {
-            let reached = columns(&placed.covered, row) & wanted;
-            if reached != 0 {
-                self.0.push((i, reached));
             }
         }
     }
 }
+
+/// Nobody asks where samples that show lie.
+fn unasked(_: &mut Target, _: usize, _: &Places<true>, _: &LaneMask) {}
 
 /// A stroke that is held against what the samples show.
 struct Offer<'a> {
@@ -287,9 +308,17 @@ struct Offer<'a> {
 }
 
 impl Offer<'_> {
-    /// Puts the samples, which the segments cover, into the picture; those that show are added to `shown`.
+    /// Puts the samples, which the segments cover, into the picture; those that show are added to `shown`. Where it `TELLS`, gives the axis
+    /// points of these.
     #[inline(always)]
-    fn make(&self, samples: &Mask, segments: &mut Row, target: &mut Target, shown: &mut Mask) {
+    fn make<const TELLS: bool>(
+        &self,
+        samples: &Mask,
+        segments: &mut Reached,
+        target: &mut Target,
+        shown: &mut Mask,
+        mut give: impl FnMut(&mut Target, usize, &Places<true>, &LaneMask),
+    ) {
         let (mut nearest, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
         for placed in self.placed {
             nearest = greater(placed.shape.inv_depth.greatest(), nearest);
@@ -306,28 +335,42 @@ impl Offer<'_> {
                 if !any(&taken) {
                     continue;
                 }
-                let mut stroke = Measured::new();
-                for &(place, reached) in &segments.0 {
-                    if reached & cell.columns() != 0 {
-                        let placed = &self.placed[place];
-                        placed.measure(cell, &mut stroke);
-                    }
+                if TELLS {
+                    let mut places = Places::new();
+                    let depths = self.depths(segments, cell, &taken, &mut places);
+                    let wins = target.offer(cell, &taken, &depths, self.priority);
+                    cell.add_to(shown, &wins);
+                    give(target, cell.index, &places, &wins);
+                    continue;
                 }
-                let (inv_depth, biased) = self.round(&stroke);
-                let wins = target.offer(cell, &taken, &inv_depth, &biased, self.priority);
+                let depths = match self.roundness {
+                    Roundness::Flat => self.depths(segments, cell, &taken, &mut Unasked),
+                    _ => self.depths(segments, cell, &taken, &mut Ratios::new()),
+                };
+                let wins = target.offer(cell, &taken, &depths, self.priority);
                 cell.add_to(shown, &wins);
             }
         }
     }
 
-    /// Takes the samples as much deeper as they are far from the stroke's middle.
+    /// The depths of some samples of a cell, by how far they are from the stroke's middle.
     #[inline(always)]
-    fn round(&self, stroke: &Measured) -> (Lanes, Lanes) {
-        let (mut inv_depth, mut biased) = (stroke.inv_depth, stroke.biased);
+    fn depths(
+        &self,
+        segments: &mut Reached,
+        cell: Cell,
+        samples: &LaneMask,
+        nearest: &mut impl Nearest,
+    ) -> Depths {
+        let mut depths = Depths::new();
+        segments.measure(self.placed, cell, samples, &mut depths, nearest);
         if self.roundness == Roundness::Flat {
-            return (inv_depth, biased);
+            return depths;
         }
-        let mut part = stroke.ratio;
+        let mut part = *nearest.ratios();
+        for k in 0..LANES {
+            part[k] = lesser(part[k], 1.0);
+        }
         if self.roundness == Roundness::Outline {
             for k in 0..LANES {
                 let square = part[k] * part[k];
@@ -336,10 +379,10 @@ impl Offer<'_> {
         }
         for k in 0..LANES {
             let deeper_m = self.scene.drawing.edge_depth_m * part[k];
-            inv_depth[k] = deeper(inv_depth[k], deeper_m);
-            biased[k] = deeper(biased[k], deeper_m);
+            depths.inv_depth[k] = deeper(depths.inv_depth[k], deeper_m);
+            depths.biased[k] = deeper(depths.biased[k], deeper_m);
         }
-        (inv_depth, biased)
+        depths
     }
 }
 
@@ -351,7 +394,7 @@ fn deeper(inv_depth: f32, metres: f32) -> f32 {
 
 /// Gives the samples, which the stroke covers, its colour.
 #[inline(always)]
-fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Target) {
+fn shade(placed: &[Placed], samples: &Mask, segments: &mut Reached, target: &mut Target) {
     let first = &placed[0].shape;
     let is_one_color = placed
         .iter()
@@ -370,14 +413,9 @@ fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Tar
         }
         segments.find(placed, row, wanted);
         for cell in cells(row, wanted) {
-            let mut stroke = Shaded::new();
-            for &(place, reached) in &segments.0 {
-                if reached & cell.columns() != 0 {
-                    let placed = &placed[place];
-                    placed.shade(cell, &mut stroke);
-                }
-            }
-            paint(target, cell.index, &stroke.color, &cell.lanes(samples));
+            let (mut stroke, lanes) = (Shaded::new(), cell.lanes(samples));
+            segments.find_nearest(placed, cell, &lanes, &mut stroke);
+            paint(target, cell.index, &stroke.color, &lanes);
         }
     }
 }
@@ -388,8 +426,8 @@ fn shade(placed: &[Placed], samples: &Mask, segments: &mut Row, target: &mut Tar
 fn tell<const COLORED: bool>(
     placed: &[Placed],
     samples: &Mask,
-    segments: &mut Row,
-    mut give: impl FnMut(usize, &Places, &LaneMask),
+    segments: &mut Reached,
+    mut give: impl FnMut(usize, &Places<COLORED>, &LaneMask),
 ) {
     for row in 0..ROWS {
         let wanted = columns(samples, row);
@@ -398,13 +436,9 @@ fn tell<const COLORED: bool>(
         }
         segments.find(placed, row, wanted);
         for cell in cells(row, wanted) {
-            let mut places = Places::new();
-            for &(place, reached) in &segments.0 {
-                if reached & cell.columns() != 0 {
-                    placed[place].find_place::<COLORED>(cell, &mut places);
-                }
-            }
-            give(cell.index, &places, &cell.lanes(samples));
+            let (mut places, lanes) = (Places::new(), cell.lanes(samples));
+            segments.find_nearest(placed, cell, &lanes, &mut places);
+            give(cell.index, &places, &lanes);
         }
     }
 }
@@ -465,7 +499,7 @@ impl TileContext<'_> {
     #[inline(always)]
     fn open(&self, part: &Part, target: &Target) -> [u32; ROWS] {
         let mut open = [0; ROWS];
-        for row in part.rows.clone() {
+        for row in OneByOne::of(&part.rows) {
             open[row] = part.columns & target.open(row, part.inv_depth, part.biased);
         }
         open

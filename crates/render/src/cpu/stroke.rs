@@ -4,8 +4,8 @@ use super::rows::{self, ROWS_AT_ONCE};
 use super::segment::Shape;
 use super::strand::TileContext;
 use super::tile::{
-    Cell, LANES, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, greater, lesser,
-    overwrite, select,
+    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, any,
+    greater, lesser, overwrite, select,
 };
 use glam::DVec2;
 
@@ -72,103 +72,239 @@ impl Placed {
         })
     }
 
-    /// Brings the segment's depth and ratio at the samples of a cell that it covers into those of its stroke.
+    /// The samples of a cell in its frame.
     #[inline(always)]
-    pub(super) fn measure(&self, cell: Cell, stroke: &mut Measured) {
+    pub(super) fn at(&self, cell: Cell) -> InFrame {
+        InFrame {
+            covered: cell.lanes(&self.covered),
+            x: self.x.of(cell),
+            y: self.y.of(cell),
+        }
+    }
+}
+
+/// A cell's samples in a segment's frame, and those that it covers.
+pub(super) struct InFrame {
+    covered: LaneMask,
+    x: Lanes,
+    y: Lanes,
+}
+
+/// How near a stroke is at the samples of a cell, 1/m; [`NOTHING`] where no segment of it covers them.
+pub(super) struct Depths {
+    pub(super) inv_depth: Lanes,
+    pub(super) biased: Lanes,
+}
+
+impl Depths {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self {
+            inv_depth: [NOTHING; LANES],
+            biased: [NOTHING; LANES],
+        }
+    }
+
+    /// Takes on a segment's where they are nearer.
+    #[inline(always)]
+    pub(super) fn offer(&mut self, segment: &Placed, at: &InFrame) {
         let Shape {
             sweep,
             inv_depth,
             inv_depth_biased,
             ..
-        } = &self.shape;
-        let covered = cell.lanes(&self.covered);
-        let (x, y) = (self.x.of(cell), self.y.of(cell));
+        } = &segment.shape;
         for k in 0..LANES {
-            let is_covered = covered[k] != 0;
-            let (low, high) = sweep.interval(x[k], y[k]);
+            let is_covered = at.covered[k] != 0;
+            let (low, high) = sweep.interval(at.x[k], at.y[k]);
             // Linear, so the greatest is at one of the ends.
             let depth = greater(inv_depth.at(low), inv_depth.at(high));
             let biased = greater(inv_depth_biased.at(low), inv_depth_biased.at(high));
-            let (_, ratio) = sweep.attribute_point(x[k], y[k]);
             let depth = select(is_covered, depth, NOTHING);
-            stroke.inv_depth[k] = greater(depth, stroke.inv_depth[k]);
+            self.inv_depth[k] = greater(depth, self.inv_depth[k]);
             let biased = select(is_covered, biased, NOTHING);
-            stroke.biased[k] = greater(biased, stroke.biased[k]);
-            let ratio = select(is_covered, ratio, 1.0);
-            stroke.ratio[k] = lesser(ratio, stroke.ratio[k]);
+            self.biased[k] = greater(biased, self.biased[k]);
         }
     }
 
-    /// Gives the samples of a cell that the segment covers its colour where its ratio is the least so far.
+    /// Whether a segment may have a disc that is nearer at some samples.
     #[inline(always)]
-    pub(super) fn shade(&self, cell: Cell, stroke: &mut Shaded) {
-        let covered = cell.lanes(&self.covered);
-        let (x, y) = (self.x.of(cell), self.y.of(cell));
-        let (mut u, mut wins) = ([0.0; LANES], covered);
+    pub(super) fn may_gain(&self, segment: &Placed, at: &InFrame, samples: &LaneMask) -> bool {
+        let inv_depth = segment.shape.inv_depth.greatest();
+        let biased = segment.shape.inv_depth_biased.greatest();
+        let mut gains = at.covered;
         for k in 0..LANES {
-            let (at, ratio) = self.shape.sweep.attribute_point(x[k], y[k]);
+            let is_nearer = (inv_depth > self.inv_depth[k]) | (biased > self.biased[k]);
+            gains[k] &= samples[k] & select(is_nearer, u32::MAX, 0);
+        }
+        any(&gains)
+    }
+}
+
+/// What is known of the axis points that are the nearest to the samples of a cell: those of the least ratio, the square of distance over radius.
+pub(super) trait Nearest {
+    /// Takes on what a segment has at those that it covers, where its ratio is less.
+    fn offer(&mut self, segment: &Placed, at: &InFrame);
+    /// The least ratios so far; infinite where no segment covers the sample.
+    fn ratios(&self) -> &Lanes;
+    /// Whether a segment may make a difference at some samples, where those `known` are offered too: at a distance `d` from its axis a ratio is at
+    /// least (d / radius)^2.
+    #[inline(always)]
+    fn may_gain(&self, known: &Ratios, segment: &Placed, at: &InFrame, samples: &LaneMask) -> bool {
+        let (length, radius) = (segment.shape.sweep.length(), segment.shape.sweep.radius());
+        let most = BESIDE * radius * radius;
+        let mut gains = at.covered;
+        for k in 0..LANES {
+            let beyond = greater(greater(-at.x[k], at.x[k] - length), 0.0);
+            let square = beyond * beyond + at.y[k] * at.y[k];
+            let ratio = lesser(known.0[k], self.ratios()[k]);
+            gains[k] &= samples[k] & select(square <= ratio * most, u32::MAX, 0);
+        }
+        any(&gains)
+    }
+}
+
+/// Ratios that are larger by less than this factor may still decide on which side of a stroke a sample lies
+/// ([`Places`]): each of a hundred segments may have kept the one before it from doing so by a thousandth.
+const BESIDE: f32 = 1.1;
+
+/// Nothing is asked.
+pub(super) struct Unasked;
+
+impl Nearest for Unasked {
+    #[inline(always)]
+    fn offer(&mut self, _: &Placed, _: &InFrame) {}
+
+    #[inline(always)]
+    fn ratios(&self) -> &Lanes {
+        &[0.0; LANES]
+    }
+
+    #[inline(always)]
+    fn may_gain(&self, _: &Ratios, _: &Placed, _: &InFrame, _: &LaneMask) -> bool {
+        false
+    }
+}
+
+/// Their ratios alone.
+pub(super) struct Ratios(Lanes);
+
+impl Ratios {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self([f32::INFINITY; LANES])
+    }
+}
+
+impl Nearest for Ratios {
+    #[inline(always)]
+    fn offer(&mut self, segment: &Placed, at: &InFrame) {
+        for k in 0..LANES {
+            let (_, ratio) = segment.shape.sweep.attribute_point(at.x[k], at.y[k]);
+            let ratio = select(at.covered[k] != 0, ratio, f32::INFINITY);
+            self.0[k] = lesser(ratio, self.0[k]);
+        }
+    }
+
+    #[inline(always)]
+    fn ratios(&self) -> &Lanes {
+        &self.0
+    }
+}
+
+/// Their colours.
+pub(super) struct Shaded {
+    ratio: Lanes,
+    pub(super) color: [Lanes; 3],
+}
+
+impl Shaded {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self {
+            ratio: [f32::INFINITY; LANES],
+            color: [[0.0; LANES]; 3],
+        }
+    }
+}
+
+impl Nearest for Shaded {
+    #[inline(always)]
+    fn offer(&mut self, segment: &Placed, at: &InFrame) {
+        let (mut u, mut wins) = ([0.0; LANES], at.covered);
+        for k in 0..LANES {
+            let (at_u, ratio) = segment.shape.sweep.attribute_point(at.x[k], at.y[k]);
             // A covered sample has a colour, even at a tip that is a point.
             let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
-            let is_less = (covered[k] != 0) & (ratio < stroke.ratio[k]);
-            u[k] = at;
+            let is_less = (at.covered[k] != 0) & (ratio < self.ratio[k]);
+            u[k] = at_u;
             wins[k] = select(is_less, u32::MAX, 0);
-            stroke.ratio[k] = select(is_less, ratio, stroke.ratio[k]);
+            self.ratio[k] = select(is_less, ratio, self.ratio[k]);
         }
-        for (color, ramp) in stroke.color.iter_mut().zip(&self.shape.color) {
-            let mut new = [0.0; LANES];
-            for k in 0..LANES {
-                new[k] = ramp.at(u[k]);
-            }
-            overwrite(color, &new, &wins);
-        }
+        mix_colors(&segment.shape, &u, &wins, &mut self.color);
     }
-}
 
-impl Placed {
-    /// Where on its axis, and where across it, the samples of a cell lie that the segment covers, where its ratio is the least so far:
-    /// of the same axis points as [`Self::shade`] takes colours from, which are found as well where they are `COLORED`.
     #[inline(always)]
-    pub(super) fn find_place<const COLORED: bool>(&self, cell: Cell, places: &mut Places) {
-        let covered = cell.lanes(&self.covered);
-        let (x, y) = (self.x.of(cell), self.y.of(cell));
-        // Seen from root to tip, whichever end is larger.
-        let Shape { sweep, way, .. } = &self.shape;
-        let side = select((way.rise < 0.0) & sweep.has_direction(), -1.0, 1.0);
-        let mut index = places.index;
-        let (mut u, mut wins) = ([0.0; LANES], covered);
-        for k in 0..LANES {
-            let (at, ratio) = sweep.attribute_point(x[k], y[k]);
-            let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
-            let is_less = (covered[k] != 0) & (ratio < places.ratio[k]);
-            u[k] = at;
-            wins[k] = select(is_less, u32::MAX, 0);
-            index[k] = select(is_less, self.index, index[k]);
-            places.ratio[k] = select(is_less, ratio, places.ratio[k]);
-            places.way[k] = select(is_less, way.at(at), places.way[k]);
-            let is_nearer = (covered[k] != 0) & (ratio < places.side_ratio[k] * NEARER);
-            places.side[k] = select(is_nearer, select(y[k] < 0.0, -side, side), places.side[k]);
-            places.side_ratio[k] = select(is_nearer, ratio, places.side_ratio[k]);
-        }
-        places.index = index;
-        if COLORED {
-            for (color, ramp) in places.color.iter_mut().zip(&self.shape.color) {
-                let mut new = [0.0; LANES];
-                for k in 0..LANES {
-                    new[k] = ramp.at(u[k]);
-                }
-                overwrite(color, &new, &wins);
-            }
-        }
+    fn ratios(&self) -> &Lanes {
+        &self.ratio
     }
 }
 
-/// The axis points of a stroke that samples of a cell lie beside.
-pub(super) struct Places {
+/// Takes on a segment's colours at places of its axis.
+#[inline(always)]
+fn mix_colors(shape: &Shape, u: &Lanes, wins: &LaneMask, colors: &mut [Lanes; 3]) {
+    for (color, ramp) in colors.iter_mut().zip(&shape.color) {
+        let mut new = [0.0; LANES];
+        for k in 0..LANES {
+            new[k] = ramp.at(u[k]);
+        }
+        overwrite(color, &new, wins);
+    }
+}
+
+impl<const COLORED: bool> Nearest for Places<COLORED> {
+    #[inline(always)]
+    fn offer(&mut self, segment: &Placed, at: &InFrame) {
+        // Seen from root to tip, whichever end is larger.
+        let Shape { sweep, way, .. } = &segment.shape;
+        let side = select((way.rise < 0.0) & sweep.has_direction(), -1.0, 1.0);
+        let mut index = self.index;
+        let (mut u, mut wins) = ([0.0; LANES], at.covered);
+        for k in 0..LANES {
+            let (at_u, ratio) = sweep.attribute_point(at.x[k], at.y[k]);
+            let ratio = select(ratio < f32::MAX, ratio, f32::MAX);
+            let is_covered = at.covered[k] != 0;
+            let is_less = is_covered & (ratio < self.ratio[k]);
+            u[k] = at_u;
+            wins[k] = select(is_less, u32::MAX, 0);
+            index[k] = select(is_less, segment.index, index[k]);
+            self.ratio[k] = select(is_less, ratio, self.ratio[k]);
+            self.way[k] = select(is_less, way.at(at_u), self.way[k]);
+            let is_nearer = is_covered & (ratio < self.side_ratio[k] * NEARER);
+            let own = select(at.y[k] < 0.0, -side, side);
+            self.side[k] = select(is_nearer, own, self.side[k]);
+            self.side_ratio[k] = select(is_nearer, ratio, self.side_ratio[k]);
+        }
+        self.index = index;
+        if COLORED {
+            mix_colors(&segment.shape, &u, &wins, &mut self.color);
+        }
+    }
+
+    #[inline(always)]
+    fn ratios(&self) -> &Lanes {
+        &self.ratio
+    }
+}
+
+/// The axis points of a stroke that samples of a cell lie beside: those of the least ratios, which [`Shaded`] takes colours from. Where they are
+/// `COLORED`, they have these colours too.
+pub(super) struct Places<const COLORED: bool> {
     /// The segments, by their places in the list.
     pub(super) index: [u32; LANES],
     /// The way from the segment's first joint to the next.
     pub(super) way: Lanes,
-    /// The stroke's colours there, where they are asked for.
+    /// The stroke's colours there.
     pub(super) color: [Lanes; 3],
     /// The square of distance over radius; infinite where no segment covers the sample.
     ratio: Lanes,
@@ -181,7 +317,7 @@ pub(super) struct Places {
 /// segments are equally near and may see the sample on other sides, which rounding must not decide.
 const NEARER: f32 = 0.999;
 
-impl Places {
+impl<const COLORED: bool> Places<COLORED> {
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self {
@@ -202,41 +338,5 @@ impl Places {
             across[k] *= lesser(self.ratio[k], 1.0).sqrt();
         }
         across
-    }
-}
-
-/// What a stroke's segments that cover the samples of a cell come to.
-pub(super) struct Measured {
-    /// The nearest, 1/m; [`NOTHING`] where none covers the sample.
-    pub(super) inv_depth: Lanes,
-    pub(super) biased: Lanes,
-    /// The least square of distance over radius, at most 1.
-    pub(super) ratio: Lanes,
-}
-
-impl Measured {
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self {
-            inv_depth: [NOTHING; LANES],
-            biased: [NOTHING; LANES],
-            ratio: [1.0; LANES],
-        }
-    }
-}
-
-/// The colours of a stroke at the samples of a cell, and the ratios at which they were found.
-pub(super) struct Shaded {
-    ratio: Lanes,
-    pub(super) color: [Lanes; 3],
-}
-
-impl Shaded {
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self {
-            ratio: [f32::INFINITY; LANES],
-            color: [[0.0; LANES]; 3],
-        }
     }
 }

@@ -37,10 +37,16 @@ impl Worker {
                 rows: stack.height.min(height - top),
                 count: stack.samples / stack.height,
             };
-            for feature in planes.declared.iter() {
+            for feature in planes.layout.declared.iter() {
                 if feature.is_id() {
                     let ids = frame.ids(feature, row_of(&shown.what, row));
                     planes.put_ids(feature, &stacks, &ids);
+                    continue;
+                }
+                if feature == Feature::Normal {
+                    for (component, numbers) in self.normals(frame, shown, row).iter().enumerate() {
+                        planes.put_numbers(feature, component, &stacks, numbers);
+                    }
                     continue;
                 }
                 for component in 0..feature.components() {
@@ -105,30 +111,40 @@ impl Worker {
                     &mut numbers,
                 );
             }
-            Feature::Normal => {
-                let (way, w) = (row_of(&shown.way, row), row_of(&shown.w, row));
-                let mut triangle = (NOTHING, Vec3::ZERO);
-                for i in 0..ROW {
-                    let normal = if what[i] < TRIANGLE {
-                        let segment = &frame.parts.segments.list()[what[i] as usize];
-                        let [joint, next] = segment.joints();
-                        features.normal_of_hair(joint, next, way[i], w[i])
-                    } else {
-                        if what[i] != triangle.0 {
-                            triangle = (what[i], frame.normal_of_triangle(what[i]));
-                        }
-                        triangle.1
-                    };
-                    numbers[i] = normal[component];
-                }
-            }
-            Feature::Object
+            // Three at once, or no numbers.
+            Feature::Normal
+            | Feature::Object
             | Feature::Strand
             | Feature::Piece
             | Feature::Layer
             | Feature::Level => {}
         }
         numbers
+    }
+
+    /// The components of the normals of the samples of a row.
+    fn normals(&self, frame: &Frame, shown: &Planes, row: usize) -> [Row<f32>; 3] {
+        let what = row_of(&shown.what, row);
+        let (way, w) = (row_of(&shown.way, row), row_of(&shown.w, row));
+        let mut normals = [[0.0; ROW]; 3];
+        let mut triangle = (NOTHING, Sample::NOTHING.normal);
+        for i in 0..ROW {
+            let normal = if what[i] < TRIANGLE {
+                let segment = &frame.parts.segments.list()[what[i] as usize];
+                let [joint, next] = segment.joints();
+                let features = &frame.drawing.features;
+                features.normal_of_hair(joint, next, way[i], w[i])
+            } else {
+                if what[i] != triangle.0 {
+                    triangle = (what[i], frame.normal_of_triangle(what[i]));
+                }
+                triangle.1
+            };
+            for (numbers, number) in normals.iter_mut().zip(normal.to_array()) {
+                numbers[i] = number;
+            }
+        }
+        normals
     }
 }
 
@@ -140,6 +156,16 @@ fn row_of<T>(plane: &[[T; LANES]; ROWS * CELLS_ACROSS], row: usize) -> &Row<T> {
     samples.unwrap_or_else(|_| unreachable!("a row is {CELLS_ACROSS} cells"))
 }
 
+/// Whether all samples of a cell show this.
+#[inline(always)]
+fn all_are(what: &[u32; LANES], this: u32) -> bool {
+    let mut others = 0;
+    for k in 0..LANES {
+        others |= what[k] ^ this;
+    }
+    others == 0
+}
+
 impl Frame<'_> {
     /// The layer whose colour a segment has.
     fn layer_of(&self, segment: &Segment) -> Option<usize> {
@@ -147,25 +173,25 @@ impl Frame<'_> {
         Some(self.strokes[stroke as usize].layer)
     }
 
-    /// The painted layer that a segment shows, by its place among them.
-    #[inline(always)]
-    pub(super) fn painted_layer_of(&self, segment: &Segment) -> Option<usize> {
-        let layer = self.layer_of(segment)?;
-        let layers = &self.drawing.painting.layers;
-        layers.iter().position(|painted| painted.layer == layer)
-    }
-
     /// An id of each of the samples that show this.
     #[inline(always)]
     fn ids(&self, feature: Feature, what: &Row<u32>) -> Row<u32> {
         let mut ids = [0; ROW];
         let mut last = (NOTHING, Sample::NOTHING.id(feature));
-        for i in 0..ROW {
-            // Samples beside each other mostly show the same.
-            if what[i] != last.0 {
-                last = (what[i], self.id(feature, what[i]));
+        let (cells, _) = what.as_chunks::<LANES>();
+        let (of_cells, _) = ids.as_chunks_mut::<LANES>();
+        // Samples beside each other mostly show the same.
+        for (what, ids) in cells.iter().zip(of_cells) {
+            if !all_are(what, last.0) {
+                for k in 0..LANES {
+                    if what[k] != last.0 {
+                        last = (what[k], self.id(feature, what[k]));
+                    }
+                    ids[k] = last.1;
+                }
+            } else {
+                *ids = [last.1; LANES];
             }
-            ids[i] = last.1;
         }
         ids
     }
@@ -199,17 +225,27 @@ impl Frame<'_> {
     /// What a list of joints has at the places of the samples that show hair.
     #[inline(always)]
     fn mix(&self, list: &[f32], what: &Row<u32>, way: &Row<f32>, numbers: &mut Row<f32>) {
-        let mut last = (NOTHING, [0.0; 2]);
-        for i in 0..ROW {
-            if what[i] >= TRIANGLE {
+        let (cells, _) = what.as_chunks::<LANES>();
+        let (ways, _) = way.as_chunks::<LANES>();
+        let (of_cells, _) = numbers.as_chunks_mut::<LANES>();
+        for ((what, way), numbers) in cells.iter().zip(ways).zip(of_cells) {
+            let ends = |what: u32| {
+                let segment = &self.parts.segments.list()[what as usize];
+                segment.joints().map(|joint| list[joint])
+            };
+            if all_are(what, what[0]) {
+                if what[0] < TRIANGLE {
+                    let [from, to] = ends(what[0]);
+                    for k in 0..LANES {
+                        numbers[k] = from + way[k] * (to - from);
+                    }
+                }
                 continue;
             }
-            if what[i] != last.0 {
-                let segment = &self.parts.segments.list()[what[i] as usize];
-                last = (what[i], segment.joints().map(|joint| list[joint]));
+            for k in (0..LANES).filter(|k| what[*k] < TRIANGLE) {
+                let [from, to] = ends(what[k]);
+                numbers[k] = from + way[k] * (to - from);
             }
-            let [from, to] = last.1;
-            numbers[i] = from + way[i] * (to - from);
         }
     }
 

@@ -6,6 +6,7 @@
 //! numbers of a plane, and every loop over a cell's lanes compiles to vector instructions. A cell is two pixels wide and not eight,
 //! as strokes are thin: twice as many of its lanes have something to do.
 
+use super::stroke::Depths;
 use glam::Vec2;
 use std::ops::Range;
 
@@ -51,6 +52,32 @@ pub(super) fn lesser(a: f32, b: f32) -> f32 {
 #[inline(always)]
 pub(super) fn greater(a: f32, b: f32) -> f32 {
     select(a > b, a, b)
+}
+
+/// Numbers below 32, a bit each, from the least on: in place of a range around loops over lanes, or compilers would go along the
+/// range in vector instructions, and pick their numbers together, in place of along the lanes.
+pub(super) struct OneByOne(u32);
+
+impl OneByOne {
+    /// Those of a range.
+    #[inline(always)]
+    pub(super) fn of(range: &Range<usize>) -> Self {
+        Self((1_u32 << range.end) - (1 << range.start))
+    }
+}
+
+impl Iterator for OneByOne {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        if self.0 == 0 {
+            return None;
+        }
+        let number = self.0.trailing_zeros() as usize;
+        self.0 &= self.0 - 1;
+        Some(number)
+    }
 }
 
 /// A number for each sample of a tile that stands for something.
@@ -437,10 +464,13 @@ impl Target {
         &mut self,
         cell: Cell,
         samples: &LaneMask,
-        depth: &Lanes,
-        biased: &Lanes,
+        depths: &Depths,
         priority: u32,
     ) -> LaneMask {
+        let Depths {
+            inv_depth: depth,
+            biased,
+        } = depths;
         let (surface, margin) = (self.surface[cell.index], self.margin[cell.index]);
         let mut nearest = self.strand[cell.index];
         let mut top = self.priority[cell.index];
@@ -472,6 +502,16 @@ pub(super) fn any(lanes: &LaneMask) -> bool {
     any != 0
 }
 
+/// A bit for each lane that is set.
+#[inline(always)]
+pub(super) fn bits(lanes: &LaneMask) -> u32 {
+    let mut bits = 0;
+    for k in 0..LANES {
+        bits |= lanes[k] & 1 << k;
+    }
+    bits
+}
+
 /// The least of a cell's numbers.
 #[inline(always)]
 pub(super) fn least(lanes: &Lanes) -> f32 {
@@ -498,19 +538,21 @@ pub(super) fn empty_pixel(background: Option<[f32; 3]>, samples: usize) -> [f32;
     })
 }
 
-/// The sums over the samples of a tile's pixels, row by row: red, green, blue and alpha.
-pub(super) struct Sums(Vec<[f32; 4]>);
+/// The sums over the samples of a tile's pixels, row by row: of red, green, blue and alpha.
+pub(super) struct Sums([Vec<[f32; WIDTH]>; 4]);
 
 impl Sums {
     pub(super) fn new() -> Self {
-        Self(Vec::new())
+        Self([const { Vec::new() }; 4])
     }
 
     /// Forgets them; a tile is then so many pixels high.
     #[inline(always)]
     pub(super) fn clear(&mut self, height: usize) {
-        self.0.clear();
-        self.0.resize(height * WIDTH, [0.0; 4]);
+        for rows in &mut self.0 {
+            rows.clear();
+            rows.resize(height, [0.0; WIDTH]);
+        }
     }
 
     /// Adds the samples of the target, which are such stacks. Light beyond 0..1 counts as 0 or 1.
@@ -529,24 +571,18 @@ impl Sums {
     fn add_pixels<const HEIGHT: usize>(&mut self, target: &Target) {
         let of_pixel = STACK / HEIGHT;
         let [red, green, blue] = &target.color;
-        for (row, sums) in self.0.chunks_mut(WIDTH * HEIGHT).enumerate() {
-            let cells = row * CELLS_ACROSS..(row + 1) * CELLS_ACROSS;
-            let light = [
-                red[cells.clone()].as_flattened(),
-                green[cells.clone()].as_flattened(),
-                blue[cells.clone()].as_flattened(),
-                target.surface[cells].as_flattened(),
-            ];
-            for column in 0..WIDTH {
-                for below in 0..HEIGHT {
-                    let mut sum = sums[below * WIDTH + column];
-                    let first = column * STACK + below * of_pixel;
-                    for (sum, light) in sum.iter_mut().zip(light) {
-                        for value in &light[first..first + of_pixel] {
-                            *sum += value;
+        for (rows, light) in self.0.iter_mut().zip([red, green, blue, &target.surface]) {
+            let (light, _) = light.as_flattened().as_chunks::<{ WIDTH * STACK }>();
+            for (sums, light) in rows.chunks_exact_mut(HEIGHT).zip(light) {
+                for (below, sums) in sums.iter_mut().enumerate() {
+                    for column in 0..WIDTH {
+                        let first = column * STACK + below * of_pixel;
+                        let mut sum = sums[column];
+                        for k in 0..of_pixel {
+                            sum += light[first + k];
                         }
+                        sums[column] = sum;
                     }
-                    sums[below * WIDTH + column] = sum;
                 }
             }
         }
@@ -556,9 +592,11 @@ impl Sums {
     #[inline(always)]
     pub(super) fn write(&self, row: usize, samples: usize, pixels: &mut [[f32; 4]]) {
         let count = samples as f32;
-        for (pixel, sum) in pixels.iter_mut().zip(&self.0[row * WIDTH..]) {
+        let [red, green, blue, alpha] = self.0.each_ref().map(|rows| &rows[row]);
+        for (column, pixel) in pixels.iter_mut().enumerate().take(WIDTH) {
+            let sums = [red[column], green[column], blue[column], alpha[column]];
             for channel in 0..4 {
-                pixel[channel] = sum[channel] / count;
+                pixel[channel] = sums[channel] / count;
             }
         }
     }
@@ -612,15 +650,19 @@ impl Samples {
     /// At the samples of a cell.
     #[inline(always)]
     pub(super) fn of(&self, cell: Cell) -> Lanes {
-        // By way of small numbers, as those of 64 bits take a branch.
-        let [column, row] = [cell.column, cell.row].map(|number| f32::from(number as u16));
-        let step = column * self.per_column + row * self.per_row;
+        let step = number(cell.column) * self.per_column + number(cell.row) * self.per_row;
         let mut lanes = self.first;
         for k in 0..LANES {
             lanes[k] += step;
         }
         lanes
     }
+}
+
+/// A row or a column. By way of small numbers, as those of 64 bits take a branch.
+#[inline(always)]
+fn number(place: usize) -> f32 {
+    f32::from(place as u16)
 }
 
 #[cfg(test)]

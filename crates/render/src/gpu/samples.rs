@@ -13,7 +13,7 @@ use super::scene::SceneWords;
 use crate::edges::Edges;
 use crate::features::{Feature, Features, normal_of_triangle, object_of_mesh};
 use crate::frame::Frame;
-use crate::planes::SamplePlanes;
+use crate::planes::Layout;
 use effects::{Layer, PaintSource, ProgramSource};
 use rayon::prelude::*;
 use wgpu::{
@@ -228,7 +228,7 @@ impl SampleStage {
         }
         let words = tell_words(frame, scene, wanted.tells);
         made += usize::from(self.tell_words.write(device, queue, &words)?);
-        let planes: usize = SamplePlanes::planes(wanted.tells).iter().sum();
+        let planes: usize = Layout::new(wanted.tells).planes.iter().sum();
         let bytes = 4 * planes as u64 * pixels(wanted.size);
         made += usize::from(self.planes.reserve(device, bytes)?);
         made += usize::from(write_numbers(&mut self.numbers, device, queue, wanted)?);

@@ -19,6 +19,7 @@ pub struct Form<'a> {
     table: &'a [Param],
     section: Option<&'a str>,
     place: Place,
+    below: &'a [(&'static str, String)],
     elsewhere: Vec<&'a str>,
     needed: &'a [&'a str],
     refusal: Option<Refusal<'a>>,
@@ -31,6 +32,14 @@ type Refusal<'a> = Box<dyn Fn(&str, &str) -> Option<String> + 'a>;
 struct Shown<'a> {
     param: &'a Param,
     written: Option<&'a str>,
+    /// What is said where the text says nothing, if it isn't the default.
+    below: Option<&'a str>,
+}
+
+impl<'a> Shown<'a> {
+    fn said(&self) -> Option<&'a str> {
+        self.written.or(self.below)
+    }
 }
 
 impl<'a> Form<'a> {
@@ -44,6 +53,7 @@ impl<'a> Form<'a> {
             table,
             section,
             place,
+            below: &[],
             elsewhere: Vec::new(),
             needed: &[],
             refusal: None,
@@ -54,6 +64,12 @@ impl<'a> Form<'a> {
     #[must_use]
     pub fn about(self, doc: &'a str) -> Self {
         Self { doc, ..self }
+    }
+
+    /// What a base says of the parameters, by their names: it stands where the text says nothing.
+    #[must_use]
+    pub fn over(self, below: &'a [(&'static str, String)]) -> Self {
+        Self { below, ..self }
     }
 
     /// Fields that have controls of their own elsewhere: they are no mistakes of the text, and have no rows.
@@ -108,8 +124,13 @@ impl<'a> Form<'a> {
         let fields = edit::fields(section, &[]);
         for param in self.table.iter().filter(|param| self.finds(search, param)) {
             let field = fields.iter().find(|(name, _)| *name == param.name);
-            let written = field.map(|(_, value)| *value);
-            self.row(ui, &Shown { param, written }, edits);
+            let below = self.below.iter().find(|(name, _)| *name == param.name);
+            let shown = Shown {
+                param,
+                written: field.map(|(_, value)| *value),
+                below: below.map(|(_, text)| &text[..]),
+            };
+            self.row(ui, &shown, edits);
         }
         for (i, (name, value)) in fields.iter().enumerate() {
             let is_known =
@@ -126,9 +147,10 @@ impl<'a> Form<'a> {
     }
 
     fn row(&self, ui: &mut Ui, shown: &Shown, edits: &mut Vec<Edit>) {
-        let Shown { param, written } = *shown;
-        let value = match written.map(|text| read_value(text, &param.kind)) {
+        let Shown { param, written, .. } = *shown;
+        let value = match shown.said().map(|text| read_value(text, &param.kind)) {
             None => param.kind.default_value(),
+            Some(Err(_)) if written.is_none() => param.kind.default_value(),
             Some(Ok(value)) => value,
             Some(Err(message)) => {
                 let text = written.unwrap_or_default();
@@ -202,7 +224,8 @@ fn in_cell<R>(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui) -> R) -> R
 
 /// The control of one parameter.
 fn control(ui: &mut Ui, row: &Row, shown: &Shown, value: &Value, width: f32) -> Option<Asked> {
-    let Shown { param, written } = *shown;
+    let param = shown.param;
+    let said = shown.said();
     let kind = &param.kind;
     let (response, asked) = match (kind, value) {
         (ParamKind::Number { varies: true, .. }, _) => {
@@ -234,13 +257,13 @@ fn control(ui: &mut Ui, row: &Row, shown: &Shown, value: &Value, width: f32) -> 
             (Some(response), new.map(|new| Asked::value(&new, kind)))
         }
         (ParamKind::Color { default }, _) => {
-            let hex = written.and_then(digits_of);
+            let hex = said.and_then(digits_of);
             let (response, new) = color(ui, row, hex.as_deref().unwrap_or(default));
             (Some(response), new.map(|new| written_text(&new)))
         }
         (ParamKind::OptionalColor { default }, Value::Color(now)) => {
             let hex = match now {
-                Some(_) => written.and_then(digits_of).or(default.map(str::to_owned)),
+                Some(_) => said.and_then(digits_of).or(default.map(str::to_owned)),
                 None => None,
             };
             let otherwise = default.unwrap_or("808080");
@@ -252,7 +275,7 @@ fn control(ui: &mut Ui, row: &Row, shown: &Shown, value: &Value, width: f32) -> 
             (Some(response), new)
         }
         (ParamKind::Texture { default, .. }, Value::Texture(_)) => {
-            let new = text_line(ui, row, "", written.unwrap_or(default), width, None);
+            let new = text_line(ui, row, "", said.unwrap_or(default), width, None);
             let new = new.map(|new| match new.trim() {
                 "" => Asked::Default,
                 // A gradient, none, or a name in quotes; else a file's name without them.

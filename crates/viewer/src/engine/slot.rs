@@ -79,8 +79,8 @@ impl<'r> Slot<'r> {
     }
 
     fn take_on(&mut self, look: &Look) -> Result<(), Vec<Problem>> {
-        let mut preset =
-            Preset::parse(&look.name, &look.text, self.registry).map_err(|e| mistakes(&e))?;
+        let mut preset = Preset::parse_in(&look.folder, &look.name, &look.text, self.registry)
+            .map_err(|e| mistakes(&e))?;
         let files = Files {
             preset_folder: look.folder.clone(),
             texts: look.texts.clone(),

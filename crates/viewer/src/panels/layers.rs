@@ -4,6 +4,7 @@ use super::items::{Change, List, new_name};
 use super::look::about;
 use crate::controls::{Cells, Form, Icon, Row, Search, cell_text, icon_button, text_line};
 use crate::edit::{Edit, Place};
+use crate::inherited::{Inherited, InheritedLayer};
 use crate::layers_shown::LayersShown;
 use effects::preset::edit::{self, Step, written};
 use effects::preset::{LAYER, read_value, suggestion};
@@ -23,12 +24,16 @@ struct Found<'a> {
     place: Place,
     /// The layer's own fields, with the effect's defaults.
     own: Vec<Param>,
+    /// The layer of the base that it changes.
+    below: Option<&'a InheritedLayer>,
 }
 
-/// Shows the layers of the preset `text`. Which of them are drawn is the viewer's to know, not the preset's: `shown`.
+/// Shows the layers of the preset `text`, and those of its base. Which of them are drawn is the viewer's to know, not the
+/// preset's: `shown`.
 pub fn layers(
     ui: &mut Ui,
     text: &str,
+    inherited: &Inherited,
     registry: &Registry,
     shown: &mut LayersShown,
     search: &str,
@@ -45,9 +50,25 @@ pub fn layers(
     let layers: Vec<Found> = items
         .iter()
         .enumerate()
-        .map(|(index, item)| Found::read(item, index, place.item(index), registry))
+        .map(|(index, item)| Found::read(item, index, place.item(index), inherited, registry))
         .collect();
-    forget_gone(shown, &layers);
+    let is_changed = |of_base: &&InheritedLayer| layers.iter().any(|own| own.name == of_base.name);
+    let of_base: Vec<&InheritedLayer> = inherited
+        .layers
+        .iter()
+        .filter(|layer| !is_changed(layer))
+        .collect();
+    let all = layers.iter().map(|layer| &layer.name);
+    forget_gone(
+        shown,
+        &all.chain(of_base.iter().map(|layer| &layer.name)).collect(),
+    );
+    let mut changed = None;
+    for layer in &of_base {
+        if search.matches(&[&layer.name, layer.effect]) && of_base_row(ui, layer, shown) {
+            changed = Some(format!("(name: {})", quoted(&layer.name)));
+        }
+    }
 
     let list = List {
         noun: "layer",
@@ -56,7 +77,8 @@ pub fn layers(
         is_movable: true,
         may_remove: true,
     };
-    let names: BTreeSet<String> = list.titles.iter().cloned().collect();
+    let mut names: BTreeSet<String> = list.titles.iter().cloned().collect();
+    names.extend(of_base.iter().map(|layer| layer.name.clone()));
     let mut renamed = None;
     let seen = std::cell::RefCell::new(&mut *shown);
     let change = list.show(
@@ -82,7 +104,7 @@ pub fn layers(
             Edit::Insert(place.clone(), index + 1, copy)
         }
     }));
-    if let Some(layer) = add_layer(ui, registry, &names) {
+    if let Some(layer) = add_layer(ui, registry, &names).or(changed) {
         edits.push(match is_there {
             true => Edit::Insert(place, items.len(), layer),
             false => Edit::Set(place, format!("[{layer}]")),
@@ -91,13 +113,28 @@ pub fn layers(
 }
 
 /// Forgets layers that are not there any more: one that is looked at alone and gone would hide all others.
-fn forget_gone(shown: &mut LayersShown, layers: &[Found]) {
+fn forget_gone(shown: &mut LayersShown, layers: &BTreeSet<&String>) {
     if layers.is_empty() {
         return;
     }
-    let is_there = |name: &String| layers.iter().any(|layer| layer.name == *name);
+    let is_there = |name: &String| layers.contains(name);
     shown.hidden.retain(is_there);
     shown.solo.retain(is_there);
+}
+
+/// A layer of the base of which the preset says nothing. Gives whether its user wants to say something.
+fn of_base_row(ui: &mut Ui, layer: &InheritedLayer, shown: &mut LayersShown) -> bool {
+    ui.horizontal(|ui| {
+        switches(ui, &layer.name, shown);
+        ui.label(&layer.name)
+            .on_hover_text(format!("The base's: {}", layer.effect));
+        let help = "The base has this layer. Say here what of it is otherwise.";
+        let button = ui.small_button("change").on_hover_text(help);
+        button
+            .accessible_name(format!("change layer {}", layer.name))
+            .clicked()
+    })
+    .inner
 }
 
 fn rename(names: &mut BTreeSet<String>, old: &str, new: &str) {
@@ -160,10 +197,21 @@ fn quoted(text: &str) -> String {
 }
 
 impl<'a> Found<'a> {
-    fn read(item: &'a str, index: usize, place: Place, registry: &'a Registry) -> Self {
-        let id = text_of(item, "effect").unwrap_or_default();
+    fn read(
+        item: &'a str,
+        index: usize,
+        place: Place,
+        inherited: &'a Inherited,
+        registry: &'a Registry,
+    ) -> Self {
+        let own_name = text_of(item, "name");
+        let of_name = own_name.as_deref().and_then(|name| inherited.layer(name));
+        let own_id = text_of(item, "effect");
+        let id = own_id.or_else(|| of_name.map(|layer| layer.effect.to_owned()));
+        let id = id.unwrap_or_default();
         let effect = registry.get(&id);
-        let name = text_of(item, "name").unwrap_or_else(|| id.clone());
+        let name = own_name.unwrap_or_else(|| id.clone());
+        let below = inherited.layer(&name).filter(|layer| layer.effect == id);
         Self {
             item,
             name: match name.is_empty() {
@@ -174,12 +222,14 @@ impl<'a> Found<'a> {
             id,
             effect,
             place,
+            below,
         }
     }
 
     fn own_form(&self) -> Form<'_> {
         Form::new(&self.name, &self.own, Some(self.item), self.place.clone())
             .about("layer")
+            .over(self.below.map_or(&[], |below| &below.own))
             .without(&["effect", "name", "params"])
     }
 
@@ -187,7 +237,8 @@ impl<'a> Found<'a> {
         let effect = self.effect?;
         let params = edit::get(self.item, &[Step::Field("params")]);
         let place = self.place.field("params");
-        Some(Form::new(&self.name, effect.params(), params, place).about(effect.id()))
+        let form = Form::new(&self.name, effect.params(), params, place).about(effect.id());
+        Some(form.over(self.below.map_or(&[], |below| &below.params)))
     }
 
     fn matches(&self, search: &Search) -> bool {

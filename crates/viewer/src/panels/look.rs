@@ -6,6 +6,7 @@ use super::items::{Change, List};
 use super::parts::{Asked, Parts, items_of, value_of};
 use crate::controls::{Form, Search};
 use crate::edit::{Edit, Place};
+use crate::inherited::Inherited;
 use effects::preset::edit;
 use effects::{Param, ParamKind, Value};
 use eframe::egui::{RichText, Ui};
@@ -20,11 +21,11 @@ const PRESET_DOC: &str = "What stands in a preset beside its sections and layers
 /// The sections that a preset of objects says itself; the others are said by its objects' presets.
 const OF_THE_SCENE: [&str; 3] = ["scene", "camera", "light"];
 
-/// All of a preset's text but its layers, each section as a part to open.
-pub fn look(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
+/// All of a preset's text but its layers, each section as a part to open; where it says nothing, what its base says.
+pub fn look(ui: &mut Ui, text: &str, inherited: &Inherited, search: &str, edits: &mut Vec<Edit>) {
     let names = Sections::ALL.iter().map(|(name, ..)| *name);
     for name in std::iter::once(PRESET).chain(names) {
-        section(ui, text, name, search, edits);
+        section(ui, text, name, inherited, search, edits);
     }
     meshes(ui, text, search, edits);
     passes(ui, text, search, edits);
@@ -116,7 +117,14 @@ fn list(
 
 /// A section of the preset `text`, one of [`Sections::ALL`] or [`PRESET`], as a part to open; nothing where a search finds
 /// nothing in it, or there is none of that name.
-pub fn section(ui: &mut Ui, text: &str, name: &str, search: &str, edits: &mut Vec<Edit>) {
+pub fn section(
+    ui: &mut Ui,
+    text: &str,
+    name: &str,
+    inherited: &Inherited,
+    search: &str,
+    edits: &mut Vec<Edit>,
+) {
     let Some((doc, table)) = schema(name) else {
         return;
     };
@@ -129,6 +137,7 @@ pub fn section(ui: &mut Ui, text: &str, name: &str, search: &str, edits: &mut Ve
         }
     };
     let mut form = Form::new(name, table, section, place).about(doc);
+    form = form.over(inherited.section(name));
     if name == PRESET {
         let sections = Sections::ALL.iter().map(|(name, ..)| *name);
         let others: Vec<&str> = sections

@@ -140,12 +140,13 @@ fn parameters(ui: &mut Ui, studio: &mut Studio, pane: Pane) {
             Pane::Layers => panels::layers(
                 ui,
                 &text,
+                &studio.inherited,
                 &registry,
                 &mut studio.layers,
                 &search,
                 &mut edits,
             ),
-            Pane::Look => panels::look(ui, &text, &search, &mut edits),
+            Pane::Look => panels::look(ui, &text, &studio.inherited, &search, &mut edits),
             Pane::Style => panels::style(ui, &text, &search, &mut edits),
             _ => panels::motion_script(ui, &text, &search, &mut edits),
         });

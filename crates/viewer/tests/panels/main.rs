@@ -1,5 +1,6 @@
 //! Panes of parameters without a window: their user is the accessibility tree's.
 
+mod base;
 mod controls;
 mod layers;
 mod lists;

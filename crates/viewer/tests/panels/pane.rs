@@ -5,6 +5,7 @@ use eframe::egui::accesskit::Toggled;
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, Node};
 use viewer::edit::Edit;
+use viewer::inherited::Inherited;
 use viewer::layers_shown::LayersShown;
 use viewer::panels;
 
@@ -59,9 +60,13 @@ impl Pane {
                 let Self {
                     registry, shown, ..
                 } = pane;
-                panels::layers(ui, &text, registry, shown, &search, &mut edits);
+                let inherited = inherited(&text, registry);
+                panels::layers(ui, &text, &inherited, registry, shown, &search, &mut edits);
             }
-            Kind::Look => panels::look(ui, &text, &search, &mut edits),
+            Kind::Look => {
+                let inherited = inherited(&text, &pane.registry);
+                panels::look(ui, &text, &inherited, &search, &mut edits);
+            }
             Kind::Style => panels::style(ui, &text, &search, &mut edits),
             Kind::Motion => panels::motion_script(ui, &text, &search, &mut edits),
         }
@@ -73,6 +78,13 @@ impl Pane {
             pane.edits.push(edit);
         }
     }
+}
+
+/// What the base of a preset says, as the window knows it: nothing of one that has none, or mistakes.
+fn inherited(text: &str, registry: &Registry) -> Inherited {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets");
+    let read = stage::Preset::parse_in(&folder, "look.ron", text, registry);
+    read.map_or_else(|_| Inherited::default(), |read| Inherited::below(&read))
 }
 
 /// Names of all nodes that have one.

@@ -1,0 +1,79 @@
+//! Presets that build on another one: what the base says is shown, and what is changed is written into the preset alone.
+
+use crate::pane::{Kind, Pane, click, names, node, open_all, set_number, shows};
+use egui_kittest::Harness;
+use egui_kittest::kittest::NodeT;
+
+const LOOK: &str = r#"(
+    version: 1,
+    base: "twin-tails.ron",
+    camera: (yaw: -10),
+    layers: [
+        (effect: "hair.fine"),
+    ],
+)
+"#;
+
+fn shown<'a>(kind: Kind) -> Harness<'a, Pane> {
+    let mut harness = Pane::new(kind, LOOK).harness(300.0);
+    open_all(&mut harness);
+    harness
+}
+
+fn number(harness: &Harness<Pane>, name: &str) -> f64 {
+    let value = node(harness, name).accesskit_node().numeric_value();
+    value.unwrap_or_else(|| panic!("{name} has no number"))
+}
+
+#[test]
+fn sections_show_what_the_base_says_and_write_what_is_otherwise() {
+    let mut harness = shown(Kind::Look);
+    assert_eq!(number(&harness, "camera yaw"), -10.0);
+    assert_eq!(number(&harness, "camera pitch"), 4.0);
+    set_number(&mut harness, "camera pitch", 9.0);
+    let text = &harness.state().text;
+    assert!(text.contains("camera: (yaw: -10, pitch: 9)"), "{text}");
+    // Taken back, it is the base's again.
+    click(&mut harness, "reset camera pitch");
+    assert!(!harness.state().text.contains("pitch"));
+    harness.run();
+    assert_eq!(number(&harness, "camera pitch"), 4.0);
+    assert!(shows(&harness, "F9DFCC"), "a colour of the base");
+}
+
+#[test]
+fn layers_of_the_base_are_changed_by_their_names() {
+    let mut harness = shown(Kind::Layers);
+    for layer in [
+        "hair.silhouette",
+        "hair.base",
+        "hair.cel",
+        "ring",
+        "tail light",
+    ] {
+        assert!(
+            names(&harness).contains(&format!("change layer {layer}")),
+            "{layer}"
+        );
+    }
+    click(&mut harness, "change layer hair.silhouette");
+    harness.run();
+    open_all(&mut harness);
+    assert!(!names(&harness).contains(&"change layer hair.silhouette".to_owned()));
+    assert_eq!(number(&harness, "hair.silhouette width"), 2.0);
+    set_number(&mut harness, "hair.silhouette width", 4.0);
+    let Pane { text, refused, .. } = harness.state();
+    assert_eq!(*refused, Vec::<String>::new());
+    assert!(
+        text.contains(r#"(name: "hair.silhouette", params: (width: 4))"#),
+        "{text}"
+    );
+    // A new layer of the effect doesn't change the base's by its name.
+    click(&mut harness, "add layer");
+    click(&mut harness, "add hair.cel");
+    let text = &harness.state().text;
+    assert!(
+        text.contains(r#"(effect: "hair.cel", name: "hair.cel-2")"#),
+        "{text}"
+    );
+}
