@@ -4,6 +4,7 @@
 use crate::check::{self, Paints};
 use crate::choices;
 use crate::compose::{Entry, PRELUDE, Source};
+use crate::depth;
 use crate::error::BuildError;
 use crate::inputs::Input;
 use crate::params::{Kind, Param};
@@ -94,6 +95,7 @@ fn effect_program(
 ) -> TokenStream {
     let common = program_items(source, params);
     let gather = gather(&source.inputs, &format_ident!("joints"));
+    let may_be_nearer = depth::may_be_nearer(module);
     let painting = painting(module, source, params, paints);
     quote! {
         /// The effect's WGSL, and the same in Rust.
@@ -103,6 +105,7 @@ fn effect_program(
             #common
         }
         impl ::effects::Program for Program {
+            const MAY_BE_NEARER: bool = #may_be_nearer;
             #[inline(always)]
             fn stroke(
                 joints: &::effects::Joints,

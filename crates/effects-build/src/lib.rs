@@ -37,6 +37,7 @@
 mod check;
 mod choices;
 mod compose;
+mod depth;
 mod error;
 mod generate;
 mod inputs;

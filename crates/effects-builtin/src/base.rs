@@ -10,6 +10,7 @@ impl effects::StrokeEffect for Base {
     const ID: &'static str = "hair.base";
     const DOC: &'static str = "the hair itself: each strand's clump in its basic colour";
     const RANK: i32 = 0;
+    const IS_CLUMP: bool = true;
 
     fn instances(_: &Params) -> u32 {
         effects::CLUMP_DISCS

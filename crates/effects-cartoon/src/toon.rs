@@ -13,6 +13,7 @@ impl effects::StrokeEffect for Toon {
     const DOC: &'static str =
         "the hair itself, painted by light: two, three or more tones, gradients, rims, highlights";
     const RANK: i32 = 0;
+    const IS_CLUMP: bool = true;
 
     fn instances(_: &Params) -> u32 {
         effects::CLUMP_DISCS

@@ -61,6 +61,10 @@ const CHECKS: &[(&str, Check)] = &[
     ("where it draws nothing the radius is 0", strokes::nothing),
     ("its strokes lie where it says", strokes::in_extent),
     (
+        "it is the clump, and no nearer, where it says so",
+        strokes::clump,
+    ),
+    (
         "the same joint has the same stroke, bit for bit",
         repeat::check,
     ),

@@ -3,8 +3,8 @@
 use crate::hair;
 use crate::joint::{Joint, list};
 use crate::values::{Case, defaults, extremes, some_instances};
-use effects::wgsl::Stroke;
-use effects::{AnyEffect, Input, LayerProgram, Reach};
+use effects::wgsl::{Stroke, clump_disc};
+use effects::{AnyEffect, CLUMP_DISCS, Input, LayerProgram, Reach};
 
 /// Strokes side by side, at most: no clump is so wide that more would be seen.
 const MOST_INSTANCES: u32 = 1024;
@@ -63,6 +63,46 @@ pub(crate) fn near(effect: &dyn AnyEffect) -> Result<(), String> {
                     return Err(format!(
                         "{}: stroke {instance} reaches {reach} from its clump's middle, and by its `reach` {most} is the most",
                         case.name
+                    ));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is hidden by what an effect only claims to draw would be missing.
+pub(crate) fn clump(effect: &dyn AnyEffect) -> Result<(), String> {
+    let hostile = hair::hostile_joints();
+    let hostile = hostile.into_iter().map(|(_, joint)| joint);
+    let joints: Vec<Joint> = hair::joints().into_iter().chain(hostile).collect();
+    let mut cases = extremes(effect);
+    cases.push(defaults(effect));
+    for case in cases {
+        let program = effect.program(&case.values);
+        let count = program.instances();
+        if program.is_clump() && (effect.rank() < 0 || count < CLUMP_DISCS) {
+            return Err(format!(
+                "{}: it `IS_CLUMP`, and has the rank {} and {count} strokes: at least 0 and {CLUMP_DISCS} are needed",
+                case.name,
+                effect.rank()
+            ));
+        }
+        for instance in some_instances(count) {
+            let strokes = evaluate(&*program, &joints, instance);
+            for (stroke, joint) in strokes.iter().zip(&joints) {
+                let disc = clump_disc(instance, joint.clump_radius, joint.clump_shift);
+                let is_disc = [stroke.offset.x, stroke.offset.y, stroke.radius] == disc.to_array();
+                if program.is_clump() && instance < CLUMP_DISCS && !is_disc {
+                    return Err(format!(
+                        "{}: it `IS_CLUMP`, and stroke {instance} is another than the clump's disc: {stroke:?}",
+                        case.name
+                    ));
+                }
+                if !program.may_be_nearer() && stroke.depth_offset < 0.0 {
+                    return Err(format!(
+                        "{}: stroke {instance} has the depth offset {}, which its WGSL doesn't tell",
+                        case.name, stroke.depth_offset
                     ));
                 }
             }

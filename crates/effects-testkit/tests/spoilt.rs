@@ -20,6 +20,7 @@ trait Spoil: Send + Sync + 'static {
     const DEPTH_OFFSET: f32 = 0.0;
     const PARAMS: &'static [Param] = Program::PARAMS;
     const OWN_PATHS: bool = false;
+    const IS_CLUMP: bool = false;
     const WGSL: &'static str = Program::WGSL;
     fn stroke(good: Stroke, _joints: &Joints, _index: usize, _params: &Params) -> Stroke {
         good
@@ -65,6 +66,7 @@ impl<S: Spoil> StrokeEffect for Spoilt<S> {
     const RANK: i32 = S::RANK;
     const DEPTH_OFFSET: f32 = S::DEPTH_OFFSET;
     const OWN_PATHS: bool = S::OWN_PATHS;
+    const IS_CLUMP: bool = S::IS_CLUMP;
     fn instances(params: &Params) -> u32 {
         S::instances(params)
     }
@@ -284,6 +286,17 @@ fn strokes_lie_in_their_extent() {
         }
     });
     assert_fails::<Cut>("lie where it says", "must hold every joint with a size");
+}
+
+#[test]
+fn it_is_the_clump_where_it_says_so() {
+    spoil!(Feathers { const IS_CLUMP: bool = true; });
+    assert_fails::<Feathers>("it is the clump", "another than the clump's disc");
+    spoil!(Below {
+        const IS_CLUMP: bool = true;
+        const RANK: i32 = -1;
+    });
+    assert_fails::<Below>("it is the clump", "has the rank -1");
 }
 
 #[test]

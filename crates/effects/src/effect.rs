@@ -45,6 +45,11 @@ pub trait StrokeEffect: Send + Sync + 'static {
     /// where highlights would be specks.
     const ON_UNDERCOAT: bool = true;
 
+    /// Whether its first strokes are the clump itself: at every joint the offset and the radius of the discs of
+    /// [`clump_disc`](crate::wgsl::clump_disc), in any colour. What other hair has behind it is then never seen, and need not be
+    /// worked out. Only of effects with a rank of 0 or more.
+    const IS_CLUMP: bool = false;
+
     /// How many strokes there are for each strand (feathers). At least 1.
     fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
         let _ = params;
@@ -203,6 +208,10 @@ pub trait LayerProgram: Send + Sync {
     fn has_own_paths(&self) -> bool;
     /// [`StrokeEffect::ON_UNDERCOAT`].
     fn is_on_undercoat(&self) -> bool;
+    /// [`StrokeEffect::IS_CLUMP`].
+    fn is_clump(&self) -> bool;
+    /// [`Program::MAY_BE_NEARER`].
+    fn may_be_nearer(&self) -> bool;
     /// [`StrokeEffect::reach`].
     fn reach(&self) -> Reach;
     /// [`StrokeEffect::make_paths`].
@@ -328,6 +337,14 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn is_on_undercoat(&self) -> bool {
         E::ON_UNDERCOAT
+    }
+
+    fn is_clump(&self) -> bool {
+        E::IS_CLUMP
+    }
+
+    fn may_be_nearer(&self) -> bool {
+        E::Program::MAY_BE_NEARER
     }
 
     fn reach(&self) -> Reach {

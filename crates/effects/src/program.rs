@@ -34,6 +34,10 @@ pub trait Program: Parameters {
         params: &Self::Params,
     ) -> Stroke;
 
+    /// Whether a stroke's own `depth_offset` may be below 0; that it never is, is told from the WGSL where only written numbers are
+    /// given.
+    const MAY_BE_NEARER: bool = true;
+
     /// What is read of a sample, in the order of the fields of `struct Sample`, by an effect that paints what its strokes show;
     /// nothing where it doesn't.
     const PAINTS: Option<&'static [SampleInput]> = None;

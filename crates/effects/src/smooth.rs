@@ -133,12 +133,33 @@ impl Smoother {
     }
 }
 
+/// The places from which values reach those `within` when sizes at `places` are smoothed over `length`: whatever the sizes are elsewhere, those
+/// within come out the same, bit for bit.
+///
+/// `places` never decrease, and `within` holds some of them.
+#[must_use]
+pub fn seen_from(places: &[f32], within: Range<usize>, length: f32) -> Range<usize> {
+    // A value is filled by windows that hold it, and so by values up to a length away and the next one beyond; then it is removed by such.
+    let before = |i: usize| {
+        let reached = places[..i].partition_point(|place| *place < places[i] - length);
+        reached.saturating_sub(1)
+    };
+    let after = |i: usize| {
+        let reached = places[i..].partition_point(|place| *place <= places[i] + length);
+        (i + reached).min(places.len() - 1)
+    };
+    before(before(within.start))..after(after(within.end - 1)) + 1
+}
+
 /// Whether values rise again after they fell.
 fn has_gap(values: &[f32]) -> bool {
     let mut pairs = values.windows(2);
     let falls = pairs.by_ref().any(|pair| pair[1] < pair[0]);
     falls && pairs.any(|pair| pair[1] > pair[0])
 }
+
+/// Windows of no more values than this on average are looked through one by one, which takes less time.
+const SHORT: usize = 5;
 
 /// Finds extremes of windows, of which each begins and ends no earlier than the one before. Every value enters and leaves a list
 /// of candidates once (Lemire, "Streaming Maximum-Minimum Filter Using No More than Three Comparisons per Element", 2006).
@@ -158,11 +179,24 @@ impl Extremes {
         is_more: impl Fn(f32, f32) -> bool,
         extremes: &mut Vec<f32>,
     ) {
+        extremes.clear();
+        let looked_at: usize = windows.iter().map(ExactSizeIterator::len).sum();
+        if looked_at <= SHORT * windows.len() {
+            extremes.extend(windows.iter().map(|window| {
+                let (first, others) = (values[window.start], window.start + 1..window.end);
+                values[others]
+                    .iter()
+                    .fold(first, |best, value| match is_more(*value, best) {
+                        true => *value,
+                        false => best,
+                    })
+            }));
+            return;
+        }
         self.candidates.resize(values.len(), (0, 0.0));
         let candidates = &mut self.candidates[..];
         // Those that are left, and the next value to enter.
         let (mut first, mut end, mut next) = (0, 0, 0);
-        extremes.clear();
         extremes.extend(windows.iter().map(|window| {
             for value in &values[next..window.end] {
                 while end > first && !is_more(candidates[end - 1].1, *value) {
@@ -343,6 +377,27 @@ mod tests {
                 smoother.open(&places, &mut fast, length, ends);
                 prop_assert_eq!(fast, opened(&places, &values, length, ends));
             }
+        }
+
+        #[test]
+        fn what_is_far_away_makes_no_difference(
+            (places, values) in line(),
+            length in prop_oneof![0.0..3.0f32, 0.0..0.5f32],
+            ends in (0.0..1.0f32, 0.0..1.0f32),
+        ) {
+            let count = values.len();
+            let [a, b] = [ends.0, ends.1].map(|end| (end * count as f32) as usize);
+            let within = a.min(b)..a.max(b) + 1;
+            let seen = seen_from(&places, within.clone(), length);
+            prop_assert!(seen.start <= within.start && within.end <= seen.end);
+            let mut all = values.clone();
+            let mut some = values;
+            some[..seen.start].fill(0.0);
+            some[seen.end..].fill(0.0);
+            let mut smoother = Smoother::default();
+            smoother.smooth(&places, &mut all, length);
+            smoother.smooth(&places, &mut some, length);
+            prop_assert_eq!(&all[within.clone()], &some[within]);
         }
 
         #[test]

@@ -10,6 +10,7 @@
 //! `inline(always)`, or it would be compiled without them.
 
 mod bin;
+mod cover;
 mod evaluate;
 pub(crate) mod instructions;
 mod mixed;

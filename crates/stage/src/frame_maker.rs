@@ -721,7 +721,7 @@ fn made_at_rest(
     let with_detail = |(strand, number, points): (usize, u32, &[Vec3])| {
         Ok(MadeAtRest {
             name: (strand, number, points.len()),
-            detail: Detail::of(points, path, &[])?,
+            detail: Detail::of(points, path, &[], 1.0)?,
         })
     };
     made.iter().map(with_detail).collect()

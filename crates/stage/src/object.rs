@@ -13,6 +13,7 @@ use crate::script::{self, MotionScript};
 use crate::zones;
 use glam::Vec3;
 use hair_io::Mesh;
+use rayon::prelude::*;
 use render::{Head, StrandInfo};
 use std::sync::Arc;
 use stroke_path::{Cut, Detail};
@@ -232,12 +233,32 @@ fn neck(head: &HeadModel, hair: &HairModel, look: &Look) -> Neck {
 }
 
 fn shapes(hair: &HairModel, look: &Look) -> Result<Vec<PathShape>, StageError> {
+    let apart = joints_apart(hair);
     let shape = |(i, info): (usize, &StrandInfo)| {
         let overlap_m = OVERLAP * info.size * hair.head.unit_m();
         let rest = hair.file.strands.strand(i);
         let cuts = stroke_path::cuts(rest, look.path(), overlap_m)?;
-        let detail = Detail::of(rest, look.path(), &cuts)?;
+        let detail = Detail::of(rest, look.path(), &cuts, apart)?;
         Ok(PathShape { cuts, detail })
     };
-    hair.infos.iter().enumerate().map(shape).collect()
+    hair.infos.par_iter().enumerate().map(shape).collect()
+}
+
+/// From how many clumps over each other on, spread on the head, hair is dense.
+const DENSE: f32 = 11.0;
+
+/// How many times as far apart joints of dense hair may be, at most.
+const MOST_APART: f32 = 2.0;
+
+/// How many times as far apart as else neighbouring joints of hair may be: where many strands lie over each other what one's strokes do
+/// between them makes less of a difference.
+fn joints_apart(hair: &HairModel) -> f32 {
+    let strands = hair.file.strands.iter().zip(&hair.infos);
+    let areas = strands.map(|(points, info)| {
+        let links = points.windows(2).map(|link| link[0].distance(link[1]));
+        2.0 * info.size * hair.head.unit_m() * links.sum::<f32>()
+    });
+    let head = std::f32::consts::PI * hair.head.height_m.powi(2);
+    let layers = areas.sum::<f32>() / head;
+    (layers / DENSE).clamp(1.0, MOST_APART)
 }

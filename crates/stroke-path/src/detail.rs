@@ -13,7 +13,7 @@ use glam::Vec3;
 const TOLERANCE_PX: f32 = 0.05;
 
 /// No two neighbours are so many tolerances apart, but where the strand has no joint between them: what varies along a strand besides its
-/// place, as its strokes' radii do, is not known here. 8 px.
+/// place, as its strokes' radii do, is not known here. 8 px, or more of strands that hardly anybody sees by themselves.
 const WIDEST: f32 = 160.0;
 
 /// A strand is divided where it is farthest from a line so many times, and twice for each doubling of its joints; then in its middle, or there are
@@ -37,12 +37,13 @@ struct JointDetail {
 }
 
 impl Detail {
-    /// That of a strand that is cut there ([`cuts`](crate::cuts())), by its particles at rest, in metres.
+    /// That of a strand that is cut there ([`cuts`](crate::cuts())), by its particles at rest, in metres. Neighbouring joints may be
+    /// `apart` times as far apart as else, 1 or more: of dense hair no strand is looked at by itself.
     ///
     /// # Errors
     ///
     /// When the subdivision is not within 1 to 64.
-    pub fn of(rest: &[Vec3], kind: PathKind, cuts: &[Cut]) -> Result<Self, PathError> {
+    pub fn of(rest: &[Vec3], kind: PathKind, cuts: &[Cut], apart: f32) -> Result<Self, PathError> {
         let places: Vec<Vec3> = kind.joints(rest)?.collect();
         let always = JointDetail {
             error_m: f32::INFINITY,
@@ -57,7 +58,13 @@ impl Detail {
         ends.sort_unstable();
         for pair in ends.windows(2) {
             let levels = 2 * (pair[1] - pair[0]).max(1).ilog2() + LEVELS;
-            divide(&places, &mut joints, [pair[0], pair[1]], levels);
+            divide(
+                &places,
+                &mut joints,
+                [pair[0], pair[1]],
+                levels,
+                WIDEST * apart,
+            );
         }
         Ok(Self { joints })
     }
@@ -103,6 +110,7 @@ fn divide(
     joints: &mut [JointDetail],
     [start, end]: [usize; 2],
     levels: u32,
+    widest: f32,
 ) -> f32 {
     if end - start < 2 {
         return 0.0;
@@ -126,9 +134,10 @@ fn divide(
         _ => farthest,
     };
     let length = |links: &[Vec3]| -> f32 { links.windows(2).map(|l| l[0].distance(l[1])).sum() };
-    let too_wide = length(&places[start..=end]) / WIDEST;
+    let too_wide = length(&places[start..=end]) / widest;
     let levels = levels.saturating_sub(1);
-    let [before, after] = [[start, i], [i, end]].map(|part| divide(places, joints, part, levels));
+    let [before, after] =
+        [[start, i], [i, end]].map(|part| divide(places, joints, part, levels, widest));
     let error_m = error(farthest).max(too_wide).max(before).max(after);
     joints[i] = JointDetail {
         error_m,
@@ -159,7 +168,7 @@ mod tests {
     /// The joints that are there, where they are.
     fn path(px_per_metre: f32) -> Vec<(usize, Vec3)> {
         let all: Vec<Vec3> = SPLINE.joints(&arc()).unwrap().collect();
-        let detail = Detail::of(&arc(), SPLINE, &[]).unwrap();
+        let detail = Detail::of(&arc(), SPLINE, &[], 1.0).unwrap();
         let kept = kept(&detail, px_per_metre);
         let mut places: Vec<Vec3> = kept.iter().map(|(i, _)| all[*i]).collect();
         detail.blend(&kept, &mut places);
@@ -224,8 +233,30 @@ mod tests {
             Vec3::new(side * (COUNT - i) as f32, 0.0, 0.0)
         };
         let strand: Vec<Vec3> = (0..COUNT).map(to_and_fro).collect();
-        let detail = Detail::of(&strand, PathKind::Linear { subdivision: 1 }, &[]).unwrap();
+        let detail = Detail::of(&strand, PathKind::Linear { subdivision: 1 }, &[], 1.0).unwrap();
         assert!(kept(&detail, 1.0).len() > COUNT / 2);
+    }
+
+    #[test]
+    fn joints_of_dense_hair_are_farther_apart() {
+        let longest = |apart: f32| {
+            let straight = [Vec3::ZERO, Vec3::X];
+            let kind = PathKind::Linear { subdivision: 64 };
+            let detail = Detail::of(&straight, kind, &[], apart).unwrap();
+            let kept = kept(&detail, 200.0);
+            let steps = kept.windows(2).map(|pair| pair[1].0 - pair[0].0);
+            steps.max().unwrap() as f32 * 200.0 / 64.0
+        };
+        assert!(
+            longest(1.0) > 4.0 && longest(1.0) <= 8.0,
+            "{}",
+            longest(1.0)
+        );
+        assert!(
+            longest(2.0) > 8.0 && longest(2.0) <= 16.0,
+            "{}",
+            longest(2.0)
+        );
     }
 
     #[test]
@@ -234,11 +265,16 @@ mod tests {
             at: 20,
             overlap: 17..=23,
         };
-        let detail = Detail::of(&arc(), SPLINE, &[cut]).unwrap();
+        let detail = Detail::of(&arc(), SPLINE, &[cut], 1.0).unwrap();
         let joints: Vec<usize> = kept(&detail, 1e-6).iter().map(|(i, _)| *i).collect();
         assert_eq!(joints, [0, 17, 20, 23, 64]);
         for count in 0..3 {
-            let detail = Detail::of(&arc()[..count], PathKind::Linear { subdivision: 1 }, &[]);
+            let detail = Detail::of(
+                &arc()[..count],
+                PathKind::Linear { subdivision: 1 },
+                &[],
+                1.0,
+            );
             assert_eq!(kept(&detail.unwrap(), 1.0).len(), count);
         }
     }

@@ -1,11 +1,11 @@
 //! Joints to strokes on the screen, by the layers' own WGSL in Rust.
 
-use super::seen::fill_needed;
+use super::seen::{Needed, Seen};
 use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches};
 use crate::features::{DrawnFeatures, Feature};
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_COLOR, NO_TAPER, Object, seen_lengths};
 use crate::painting;
-use effects::smooth::Smoother;
+use effects::smooth::{self, Smoother};
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
 use effects::{
     CLUMP_DISCS, Input, InputSet, Joints, Layer, StrandJoints, Units, clump, layer_seed,
@@ -24,8 +24,8 @@ pub struct Evaluator {
     /// For each joint the length of its run up to there as it is seen, metres at its depth; empty where no
     /// layer has a shortest stroke.
     seen_length: Vec<f32>,
-    /// Whether strokes make a difference at each joint; empty where they do everywhere.
-    needed: Vec<bool>,
+    needed: Needed,
+    seen: Seen,
     /// How much nearer each joint is ordered among strands, head heights; empty where none is.
     lift: Vec<f32>,
     is_everywhere: bool,
@@ -54,8 +54,12 @@ impl Evaluator {
         self.fill_clumps(frame, read);
         self.fill_seen_length(frame);
         self.fill_lift(frame);
+        self.needed.clear();
+        self.fill_clump_discs(frame, &mut drawing.clump);
         if !self.is_everywhere {
-            fill_needed(frame, &self.joints, &mut self.needed);
+            let Self { seen, needed, .. } = self;
+            seen.find(frame, &self.joints, &drawing.clump, needed);
+            leave_out(&needed.all, &mut drawing.clump);
         }
 
         drawing.size = frame.camera.size_px();
@@ -70,7 +74,6 @@ impl Evaluator {
             strand: run.piece as u32,
             joints: run.joints.clone(),
         }));
-        self.fill_clump_discs(frame, &mut drawing.clump);
         self.fill_sides(frame, drawing);
 
         self.fill_features(frame, &mut drawing.features);
@@ -153,7 +156,7 @@ impl Evaluator {
                 scratch.radii.resize(extent.start - joints.start, 0.0);
                 scratch.radii.extend(extent.map(size));
                 scratch.radii.resize(joints.len(), 0.0);
-                leave_out_unneeded(&self.needed, &joints, &mut scratch.radii);
+                leave_out_unneeded(&self.needed.all, &joints, &mut scratch.radii);
                 let mut made = Made::new(number - 1);
                 made.find_stretches(frame.paths, &joints, &scratch.radii);
                 let drawn = made.stretches.iter().flat_map(|s| s.joints.clone());
@@ -171,7 +174,7 @@ impl Evaluator {
     }
 
     fn is_needed(&self, joint: usize) -> bool {
-        self.needed.get(joint).is_none_or(|needed| *needed)
+        self.needed.all.get(joint).is_none_or(|needed| *needed)
     }
 
     /// Disc `number` of the clump at a joint.
@@ -206,7 +209,7 @@ impl Evaluator {
             inputs: &self.joints,
             joints,
             seen_length: &self.seen_length,
-            needed: &self.needed,
+            needed: self.needed.of(frame.order, layer),
             lift: &self.lift,
             seed: layer_seed(object.seed, &layer.name),
         };
@@ -248,48 +251,50 @@ impl Evaluator {
     fn fill_input(&mut self, frame: &Frame, input: Input) {
         let (paths, joints) = (frame.paths, &mut self.joints);
         let world = |v: &Vec3| vec3(v.to_array());
-        let strands = || {
-            let runs = paths.runs.iter();
-            runs.flat_map(|run| run.joints.clone().map(|_| &frame.strands[run.strand]))
-        };
-        let points = paths.position.iter();
+        let runs = &paths.runs[..];
+        let of = |run: &PathRun| &frame.strands[run.strand];
         let to_light = |point: &Vec3| frame.light.seen_from(*point);
         match input {
-            Input::Position => joints.position.extend(points.map(world)),
-            Input::Forward => joints.forward.extend(paths.forward.iter().map(world)),
-            Input::Backward => joints.backward.extend(paths.backward.iter().map(world)),
-            Input::U => joints.u.extend(&paths.u),
-            Input::ArcLength => joints.arc_length.extend(&paths.arc_length),
+            Input::Position => of_each(&mut joints.position, &paths.position, world),
+            Input::Forward => of_each(&mut joints.forward, &paths.forward, world),
+            Input::Backward => of_each(&mut joints.backward, &paths.backward, world),
+            Input::U => joints.u.extend_from_slice(&paths.u),
+            Input::ArcLength => joints.arc_length.extend_from_slice(&paths.arc_length),
             Input::Across => {
-                let across = paths.across.iter().map(|v| vec2(v.to_array()));
-                joints.across.extend(across);
+                of_each(&mut joints.across, &paths.across, |v: &Vec2| {
+                    vec2(v.to_array())
+                });
             }
             Input::MaterialNormal => {
-                let normals = frame.material_normals.iter().map(world);
-                joints.material_normal.extend(normals);
+                of_each(&mut joints.material_normal, frame.material_normals, world);
             }
             Input::RestPosition => {
-                let positions = frame.rest_positions.iter().map(world);
-                joints.rest_position.extend(positions);
+                of_each(&mut joints.rest_position, frame.rest_positions, world);
             }
-            Input::Strand => joints.strand.extend(strands().map(|s| s.id)),
-            Input::Seed => joints.seed.extend(strands().map(|s| hash(s.id))),
-            Input::StrandMean => joints.strand_mean.extend(strands().map(|s| world(&s.mean))),
-            Input::StrandSize => joints.strand_size.extend(strands().map(|s| s.size)),
+            Input::Strand => of_runs(&mut joints.strand, runs, |run| of(run).id),
+            Input::Seed => of_runs(&mut joints.seed, runs, |run| hash(of(run).id)),
+            Input::StrandMean => {
+                of_runs(&mut joints.strand_mean, runs, |run| world(&of(run).mean));
+            }
+            Input::StrandSize => of_runs(&mut joints.strand_size, runs, |run| of(run).size),
             // Empty where no strand has one.
             Input::StrandTaper if frame.strands.iter().all(|s| s.taper == NO_TAPER) => {}
             Input::StrandTaper => {
-                let tapers = strands().map(|s| vec2(s.taper.to_array()));
-                joints.strand_taper.extend(tapers);
+                let taper = |run: &PathRun| vec2(of(run).taper.to_array());
+                of_runs(&mut joints.strand_taper, runs, taper);
             }
             Input::StrandColor => {
                 if frame.strands.iter().any(|s| s.colors[0] != NO_COLOR) {
-                    (joints.strand_color).extend(strands().map(|s| world(&s.colors[0])));
+                    of_runs(&mut joints.strand_color, runs, |run| {
+                        world(&of(run).colors[0])
+                    });
                 }
             }
             Input::StrandTipColor => {
                 if frame.strands.iter().any(|s| s.colors[1] != NO_COLOR) {
-                    (joints.strand_tip_color).extend(strands().map(|s| world(&s.colors[1])));
+                    of_runs(&mut joints.strand_tip_color, runs, |run| {
+                        world(&of(run).colors[1])
+                    });
                 }
             }
             Input::HeadCenter => {
@@ -309,8 +314,8 @@ impl Evaluator {
                 }
             }
             Input::LightDirection => {
-                let directions = points.map(|p| world(&to_light(p).0));
-                joints.light_direction.extend(directions);
+                let direction = |p: &Vec3| world(&to_light(p).0);
+                of_each(&mut joints.light_direction, &paths.position, direction);
             }
             Input::LightDistance => {
                 for Object {
@@ -318,9 +323,9 @@ impl Evaluator {
                 } in &frame.objects
                 {
                     let in_heads = |metres: f32| metres / head.height_m;
-                    let points = paths.position[own.clone()].iter();
-                    let distances = points.map(|p| to_light(p).1.map_or(FAR_LIGHT, in_heads));
-                    joints.light_distance.extend(distances);
+                    let distance = |p: &Vec3| to_light(p).1.map_or(FAR_LIGHT, in_heads);
+                    let own = &paths.position[own.clone()];
+                    of_each(&mut joints.light_distance, own, distance);
                 }
             }
             // Of the place: `paths.depth` is deeper where a piece goes on beyond its cut.
@@ -330,17 +335,15 @@ impl Evaluator {
                 } in &frame.objects
                 {
                     let view = |p: &Vec3| frame.camera.view_from_world(*p);
-                    let points = paths.position[own.clone()].iter();
-                    joints
-                        .depth
-                        .extend(points.map(|p| view(p).z / head.height_m));
+                    let depth = |p: &Vec3| view(p).z / head.height_m;
+                    of_each(&mut joints.depth, &paths.position[own.clone()], depth);
                 }
             }
             Input::Time => joints.time.resize(paths.len(), frame.time_s),
             Input::ViewDirection => {
                 let eye = frame.camera.eye();
-                let to_eye = points.map(|p| world(&(eye - *p).normalize_or(Vec3::Z)));
-                joints.view_direction.extend(to_eye);
+                let to_eye = |p: &Vec3| world(&(eye - *p).normalize_or(Vec3::Z));
+                of_each(&mut joints.view_direction, &paths.position, to_eye);
             }
             // From the clump: `fill_clumps`.
             Input::Normal
@@ -360,16 +363,15 @@ impl Evaluator {
         clumps.clear();
         for object in &frame.objects {
             let seed = layer_seed(object.seed, "clump");
-            let starts: Vec<usize> = object.joints.clone().step_by(CHUNK).collect();
-            let made = starts.into_par_iter().flat_map_iter(|start| {
-                let range = start..(start + CHUNK).min(object.joints.end);
-                let mut clumps = Vec::with_capacity(range.len());
+            clumps.resize(object.joints.end, NO_CLUMP);
+            let own = clumps[object.joints.clone()].par_chunks_mut(CHUNK);
+            own.enumerate().for_each(|(number, own)| {
+                let start = object.joints.start + number * CHUNK;
+                let range = start..start + own.len();
                 object.clump.for_each(joints, range, seed, |i, params| {
-                    clumps.push(clump::Program::clump(joints, i, seed, params));
+                    own[i - start] = clump::Program::clump(joints, i, seed, params);
                 });
-                clumps
             });
-            clumps.par_extend(made);
         }
         let Joints {
             light_direction,
@@ -381,22 +383,21 @@ impl Evaluator {
             ..
         } = &mut self.joints;
         if read.has(Input::Gray) {
-            let lit = clumps.iter().zip(light_direction);
-            gray.extend(lit.map(|(clump, light)| clump.normal.dot(*light).0.max(0.0)));
+            let lit = clumps.par_iter().zip(light_direction).with_min_len(CHUNK);
+            gray.par_extend(lit.map(|(clump, light)| clump.normal.dot(*light).0.max(0.0)));
         }
         if read.has(Input::Normal) {
-            normal.extend(clumps.iter().map(|clump| clump.normal));
+            of_each(normal, &clumps, |clump| clump.normal);
         }
         if read.has(Input::ClumpColor) {
-            clump_color.extend(clumps.iter().map(|clump| clump.color));
+            of_each(clump_color, &clumps, |clump| clump.color);
         }
-        clump_radius.extend(clumps.iter().map(|clump| clump.radius));
-        let on_screen = |clump: &Clump| {
+        of_each(clump_radius, &clumps, |clump| clump.radius);
+        of_each(clump_shift, &clumps, |clump: &Clump| {
             let shift = Vec3::from(clump.shift.to_array());
             let view = frame.camera.view_from_world_direction(shift);
             vec2([view.x, -view.y])
-        };
-        clump_shift.extend(clumps.iter().map(on_screen));
+        });
         self.clumps = clumps;
     }
 
@@ -433,6 +434,18 @@ impl Evaluator {
             unit.resize(drawn.start, 1.0); // which nobody reads
             unit.extend(scales.map(|scale| pixel_px / (scale * unit_m)));
         }
+    }
+}
+
+/// Appends what is made of each item, in all threads.
+fn of_each<T: Sync, R: Send>(list: &mut Vec<R>, items: &[T], make: impl Fn(&T) -> R + Send + Sync) {
+    list.par_extend(items.par_iter().with_min_len(CHUNK).map(make));
+}
+
+/// Appends what each joint of some runs has of its strand.
+fn of_runs<R: Clone>(list: &mut Vec<R>, runs: &[PathRun], of: impl Fn(&PathRun) -> R) {
+    for run in runs {
+        list.resize(run.joints.end, of(run));
     }
 }
 
@@ -557,17 +570,33 @@ impl Part<'_> {
         {
             return Made::new(number);
         }
-        let radii = &mut scratch.radii;
+        let is_direct = self.is_mostly_there(number, scratch);
+        let Scratch { radii, strokes, .. } = scratch;
         radii.clear();
-        for run in self.runs() {
-            if frame.strands[run.strand].is_left_out_by(self.layer_number) {
-                continue;
+        strokes.clear();
+        for pieces in self.strands() {
+            for (i, run) in pieces.iter().enumerate() {
+                let part = self.counted(pieces, i);
+                let is_left_out = frame.strands[run.strand].is_left_out_by(self.layer_number);
+                if part.is_empty() || is_left_out {
+                    continue;
+                }
+                let start = self.joints.start;
+                if is_direct {
+                    // Those beside, to which strokes taper, too.
+                    let part = part.start.saturating_sub(1).max(run.joints.start)
+                        ..(part.end + 1).min(run.joints.end);
+                    strokes.resize(part.start - start, NO_STROKE);
+                    program.evaluate(inputs, part.clone(), number, self.seed, strokes);
+                    let own = &strokes[part.start - start..];
+                    radii.resize(part.start - start, 0.0);
+                    radii.extend(own.iter().map(|stroke| stroke.radius));
+                    continue;
+                }
+                let extent = program.extent(inputs, part, number, self.seed);
+                radii.resize(extent.start - start, 0.0);
+                program.radii(inputs, extent, number, self.seed, radii);
             }
-            let run = run.joints.clone();
-            let extent = program.extent(inputs, run.clone(), number, self.seed);
-            radii.resize(extent.start - self.joints.start, 0.0);
-            program.radii(inputs, extent, number, self.seed, radii);
-            radii.resize(run.end - self.joints.start, 0.0);
         }
         radii.resize(self.joints.len(), 0.0);
         // A stroke that an effect failed to work out is not drawn.
@@ -590,10 +619,16 @@ impl Part<'_> {
         made.colors.reserve_exact(count);
         for stretch in &made.stretches {
             let joints = stretch.joints.clone();
-            strokes.clear();
-            program.evaluate(inputs, joints.clone(), number, self.seed, strokes);
-            let radii = &radii[joints.start - self.joints.start..];
-            for (stroke, radius) in strokes.iter_mut().zip(radii) {
+            let places = joints.start - self.joints.start..joints.end - self.joints.start;
+            let strokes = match is_direct {
+                true => &mut strokes[places.clone()],
+                false => {
+                    strokes.clear();
+                    program.evaluate(inputs, joints.clone(), number, self.seed, strokes);
+                    &mut strokes[..]
+                }
+            };
+            for (stroke, radius) in strokes.iter_mut().zip(&radii[places]) {
                 stroke.radius = *radius;
                 drop_if_not_finite(stroke);
             }
@@ -644,6 +679,68 @@ impl Part<'_> {
         }
     }
 
+    /// Whether strokes are best worked out at once, as they have a size at most joints: else radii come first. The first strand tells.
+    fn is_mostly_there(&self, number: u32, scratch: &mut Scratch) -> bool {
+        if self.layer.program.shortest() > 0.0 {
+            return false; // smoothing takes radii alone
+        }
+        let strands = self.strands();
+        let mut parts = strands.flat_map(|pieces| (0..pieces.len()).map(move |i| (pieces, i)));
+        let part = parts.find_map(|(pieces, i)| {
+            let part = self.counted(pieces, i);
+            let strand = &self.frame.strands[pieces[i].strand];
+            let is_there = !part.is_empty() && !strand.is_left_out_by(self.layer_number);
+            is_there.then_some(part)
+        });
+        let Some(part) = part else {
+            return false;
+        };
+        let Self { inputs, seed, .. } = *self;
+        let program = &self.layer.program;
+        let extent = program.extent(inputs, part.clone(), number, seed);
+        if 2 * extent.len() < part.len() {
+            return false;
+        }
+        scratch.radii.clear();
+        program.radii(inputs, extent, number, seed, &mut scratch.radii);
+        let sizes = scratch.radii.iter().filter(|radius| **radius > 0.0);
+        2 * sizes.count() > part.len()
+    }
+
+    /// Of the joints of piece `i` of a strand those whose radii are asked for: where strokes make a difference, and as far as smoothing
+    /// looks from there.
+    fn counted(&self, pieces: &[PathRun], i: usize) -> Range<usize> {
+        let all = pieces[i].joints.clone();
+        if self.needed.is_empty() {
+            return all;
+        }
+        let is_needed = |joint: &usize| self.needed[*joint];
+        let length_m = self.layer.program.shortest() * self.head.height_m;
+        if length_m > 0.0 && pieces.len() > 1 {
+            // It looks from piece to piece.
+            let mut joints = pieces.iter().flat_map(|piece| piece.joints.clone());
+            return match joints.any(|joint| is_needed(&joint)) {
+                true => all,
+                false => all.start..all.start,
+            };
+        }
+        let Some(first) = all.clone().find(is_needed) else {
+            return all.start..all.start;
+        };
+        let last = all.clone().rfind(is_needed).unwrap_or(first);
+        if length_m <= 0.0 {
+            return first..last + 1;
+        }
+        let places = &self.seen_length[all.clone()];
+        let seen = smooth::seen_from(places, first - all.start..last + 1 - all.start, length_m);
+        all.start + seen.start..all.start + seen.end
+    }
+
+    /// Their runs by strands, as far as smoothing knows: pieces of one, of which each overlaps the one before.
+    fn strands(&self) -> impl Iterator<Item = &[PathRun]> {
+        self.runs().chunk_by(|_, next| next.overlap > 0)
+    }
+
     /// Their runs.
     fn runs(&self) -> &[PathRun] {
         runs_of(self.frame.paths, &self.joints)
@@ -665,7 +762,7 @@ impl Part<'_> {
         } = scratch;
         let start = self.joints.start;
         // Pieces of one strand together, and what they share once.
-        for pieces in self.runs().chunk_by(|_, next| next.overlap > 0) {
+        for pieces in self.strands() {
             let joints = || {
                 let own = |run: &PathRun| run.joints.start + run.overlap..run.joints.end;
                 pieces.iter().flat_map(own)
@@ -688,6 +785,13 @@ impl Part<'_> {
                 }
             }
         }
+    }
+}
+
+/// Takes their sizes from discs of all joints where strokes make no difference.
+fn leave_out(needed: &[bool], discs: &mut [Disc]) {
+    for (disc, is_needed) in discs.iter_mut().zip(needed) {
+        disc.radius = if *is_needed { disc.radius } else { 0.0 };
     }
 }
 
@@ -736,6 +840,26 @@ fn pieces(paths: &Paths, joints: &Range<usize>) -> impl Iterator<Item = Range<us
         Some(std::mem::replace(&mut start, next)..next)
     })
 }
+
+const NO_CLUMP: Clump = Clump {
+    normal: NOWHERE,
+    radius: 0.0,
+    color: NOWHERE,
+    shift: NOWHERE,
+};
+
+const NOWHERE: effects::wgsl::Vec3<f32> = effects::wgsl::Vec3 {
+    x: 0.0,
+    y: 0.0,
+    z: 0.0,
+};
+
+const NO_STROKE: Stroke = Stroke {
+    offset: effects::wgsl::Vec2 { x: 0.0, y: 0.0 },
+    radius: 0.0,
+    depth_offset: 0.0,
+    color: NOWHERE,
+};
 
 const NO_DISC: Disc = Disc {
     center: Vec2::ZERO,
@@ -795,11 +919,6 @@ fn drop_if_not_finite(stroke: &mut Stroke) {
         .chain(&stroke.color.to_array())
         .all(|x| x.is_finite());
     if !all {
-        *stroke = Stroke {
-            offset: vec2([0.0; 2]),
-            radius: 0.0,
-            depth_offset: 0.0,
-            color: vec3([0.0; 3]),
-        };
+        *stroke = NO_STROKE;
     }
 }

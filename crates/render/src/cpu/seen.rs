@@ -1,12 +1,19 @@
-//! Where along a path strokes are needed: not where no picture can show them, and not behind a head.
+//! Where along a path strokes are needed: not where no picture can show them, not behind a head, and not behind other hair.
 
-use crate::drawing::Order;
+use super::cover::{Area, Cover, Link};
+use super::tile::lesser;
+use crate::drawing::{Brush, Disc, Order};
 use crate::frame::{Ball, CLUMP_REACH, Frame, Object, reach_of};
-use effects::{Joints, Units};
+use effects::{Joints, Layer, Units};
 use glam::{Vec2, Vec3};
+use rayon::prelude::*;
+use std::ops::Range;
+use stroke_path::PathRun;
 
 /// A pixel more than the picture makes up for rounding.
 const MARGIN_PX: f32 = 1.0;
+/// The same against what hair covers, which is thinner there than it is.
+const COVER_MARGIN_PX: f32 = 0.125;
 
 /// Sides on which a disc lies wholly: beyond an edge of the picture, or behind a head. What is between two discs of one side, as all
 /// discs of a segment are, is there too, since each is convex.
@@ -16,85 +23,416 @@ const ABOVE: u8 = 4;
 const BELOW: u8 = 8;
 const HIDDEN: u8 = 16;
 
-/// For each joint of the frame whether a stroke's disc there makes any difference. Nothing where all do.
+/// Runs that a thread works on at a time, at least.
+const SOME_RUNS: usize = 64;
+
+/// Where strokes make a difference: for each joint of a frame whether a stroke's disc there does. Both lists are empty where all do.
 ///
 /// Of a joint that makes none both segments are unseen, with any size of its own, so that with a radius of 0 it makes the same picture.
-pub(super) fn fill_needed(frame: &Frame, joints: &Joints, needed: &mut Vec<bool>) {
-    needed.clear();
-    let mut sides = Vec::with_capacity(frame.paths.len());
-    for object in &frame.objects {
-        let reach = Room::of(frame, object);
-        sides.extend(object.joints.clone().map(|i| reach.sides(frame, joints, i)));
+#[derive(Default)]
+pub(super) struct Needed {
+    /// Of all strokes, and of the clump.
+    pub(super) all: Vec<bool>,
+    /// Of strokes that show within their clump alone, and aren't it.
+    pub(super) within: Vec<bool>,
+}
+
+impl Needed {
+    /// As all joints do.
+    pub(super) fn clear(&mut self) {
+        self.all.clear();
+        self.within.clear();
     }
-    if sides.iter().all(|side| *side == 0) {
-        return;
-    }
-    needed.resize(frame.paths.len(), false);
-    for run in &frame.paths.runs {
-        if let [one] = sides[run.joints.clone()] {
-            needed[run.joints.start] = one == 0;
-        }
-        for i in run.joints.start..run.joints.end - 1 {
-            let is_seen = sides[i] & sides[i + 1] == 0;
-            needed[i] |= is_seen;
-            needed[i + 1] |= is_seen;
+
+    /// That of a layer's strokes.
+    pub(super) fn of(&self, order: Order, layer: &Layer) -> &[bool] {
+        match is_within(order, layer) && !layer.program.is_clump() {
+            true => &self.within,
+            false => &self.all,
         }
     }
 }
 
-/// What an object's strokes take of the screen around their clumps, and what hides them.
+/// Whether a layer's strokes show within their clump alone, at its depth; made paths have none but their strokes.
+fn is_within(order: Order, layer: &Layer) -> bool {
+    layer.rank >= 0 && order != Order::Shifted && !layer.program.has_own_paths()
+}
+
+/// Finds where strokes are needed. Keeps its memory.
+#[derive(Default)]
+pub(super) struct Seen {
+    cover: Cover,
+    rooms: Vec<Room>,
+}
+
+/// The number of a run, and whether its joints make a difference.
+type OfRun<'a> = (usize, &'a mut [bool], &'a mut [bool]);
+
+/// What a thread knows of a run's segments.
+#[derive(Default)]
+struct Segments {
+    /// Of its joints: the sides on which they lie, and how far discs reach.
+    sides: Vec<u8>,
+    reaches: Vec<ReachPx>,
+    /// Whether anything may be seen of each segment, and where its clump lies if that may be.
+    seen: Vec<bool>,
+    clumps: Vec<Option<Area>>,
+}
+
+impl Seen {
+    /// Finds where a frame's strokes are needed. `clumps` are the discs of all clumps but made paths'.
+    pub(super) fn find(
+        &mut self,
+        frame: &Frame,
+        joints: &Joints,
+        clumps: &[Disc],
+        needed: &mut Needed,
+    ) {
+        let Needed { all, within } = needed;
+        all.clear();
+        within.clear();
+        self.rooms.clear();
+        let rooms = (frame.objects.iter()).flat_map(|object| Room::all_of(frame, object));
+        self.rooms.extend(rooms);
+        let has_cover = covers(frame, &mut self.cover, clumps);
+        let view = View {
+            frame,
+            joints,
+            clumps,
+            cover: has_cover.then_some(&self.cover),
+        };
+        all.resize(frame.paths.len(), false);
+        within.resize(frame.paths.len(), false);
+        let (mut rest, mut rest_within) = (&mut all[..], &mut within[..]);
+        let runs = &frame.paths.runs;
+        let own = runs.iter().enumerate().map(|(number, run)| {
+            let (own, own_within);
+            (own, rest) = std::mem::take(&mut rest).split_at_mut(run.joints.len());
+            (own_within, rest_within) =
+                std::mem::take(&mut rest_within).split_at_mut(run.joints.len());
+            (number, own, own_within)
+        });
+        let own: Vec<OfRun> = own.collect();
+        let rooms = &self.rooms;
+        own.into_par_iter().with_min_len(SOME_RUNS).for_each_init(
+            Segments::default,
+            |segments, (number, all, within)| {
+                let run = &runs[number];
+                let room = rooms.partition_point(|room| room.joints.end <= run.joints.start);
+                segments.find(&view, &rooms[room], run, all, within);
+                let is_of_piece =
+                    |other: Option<&PathRun>| other.is_some_and(|other| other.piece == run.piece);
+                let before = number.checked_sub(1).and_then(|before| runs.get(before));
+                if has_cover && (is_of_piece(before) || is_of_piece(runs.get(number + 1))) {
+                    within.fill(true); // the clump of one run may show strokes of another
+                }
+            },
+        );
+        if !within.contains(&false) {
+            all.clear();
+            within.clear();
+        }
+    }
+}
+
+impl Segments {
+    fn find(
+        &mut self,
+        view: &View,
+        room: &Room,
+        run: &PathRun,
+        all: &mut [bool],
+        within: &mut [bool],
+    ) {
+        let Self {
+            sides,
+            reaches,
+            seen,
+            clumps,
+        } = self;
+        reaches.clear();
+        reaches.extend(run.joints.clone().map(|i| room.reach_px(view, i)));
+        let joints = run.joints.clone().zip(&*reaches);
+        sides.clear();
+        sides.extend(joints.map(|(i, reach)| room.sides(view.frame, view.joints, i, reach.all)));
+        // One joint alone is a segment from itself to itself.
+        let last = sides.len() - 1;
+        let pairs = (0..last.max(1)).map(|k| [k, (k + 1).min(last)]);
+        seen.clear();
+        clumps.clear();
+        let centers = &view.frame.paths.center[run.joints.clone()];
+        let area = |[a, b]: [usize; 2], reach: fn(&ReachPx) -> f32| {
+            let [ra, rb] = [a, b].map(|k| Vec2::splat(reach(&reaches[k]) + COVER_MARGIN_PX));
+            Area {
+                low: (centers[a] - ra).min(centers[b] - rb),
+                high: (centers[a] + ra).max(centers[b] + rb),
+            }
+        };
+        for ends in pairs.clone() {
+            let may_be = sides[ends[0]] & sides[ends[1]] == 0;
+            let Some(cover) = view.cover else {
+                seen.push(may_be);
+                continue;
+            };
+            let nearness = room.nearness(view, ends.map(|k| run.joints.start + k));
+            let clump = area(ends, |reach| reach.clump);
+            let shows = may_be && !cover.hides(clump, nearness);
+            let is_seen = shows || may_be && !cover.hides(area(ends, |reach| reach.all), nearness);
+            seen.push(is_seen);
+            clumps.push(shows.then_some(clump));
+        }
+        for ([a, b], is_seen) in pairs.clone().zip(&*seen) {
+            all[a] |= is_seen;
+            all[b] |= is_seen;
+        }
+        if view.cover.is_none() {
+            within.copy_from_slice(all);
+            return;
+        }
+        // Strokes reach over to where the clump of another segment shows.
+        let is_shown = clumps.iter().any(Option::is_some);
+        for (ends, clump) in pairs.zip(&*clumps).filter(|_| is_shown) {
+            let is_needed = clump.is_some() || {
+                let area = area(ends, |reach| reach.within);
+                clumps.iter().flatten().any(|clump| clump.meets(&area))
+            };
+            within[ends[0]] |= is_needed;
+            within[ends[1]] |= is_needed;
+        }
+    }
+}
+
+/// How far discs of a joint reach from its place on the screen, pixels.
+struct ReachPx {
+    all: f32,
+    /// Those of strokes that show within their clump alone.
+    within: f32,
+    /// The clump's.
+    clump: f32,
+}
+
+/// What is looked at.
+struct View<'a> {
+    frame: &'a Frame<'a>,
+    joints: &'a Joints,
+    clumps: &'a [Disc],
+    cover: Option<&'a Cover>,
+}
+
+/// How many clumps must lie one over the other, on average, for it to be worth while to find out which of them are hidden.
+const LEAST_LAYERS: f32 = 8.0;
+
+/// Fills the cover by hair, where a frame's hair may hide much of itself.
+fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
+    if frame.order == Order::Shifted {
+        return false; // each stroke by its own depth, whatever its clump
+    }
+    let size = Vec2::from(frame.camera.size_px().map(|side| side as f32));
+    let (mut low, mut high) = (size, Vec2::ZERO);
+    let (mut area, mut radii, mut count) = (0.0, 0.0, 0);
+    let runs = &frame.paths.runs;
+    for run in runs {
+        for pair in clumps[run.joints.clone()].windows(2) {
+            let center = pair[0].center;
+            if center.cmpge(Vec2::ZERO).all() && center.cmple(size).all() {
+                (low, high) = (low.min(center), high.max(center));
+                let radius = lesser(pair[0].radius, pair[1].radius);
+                area += 2.0 * radius * center.distance(pair[1].center);
+                radii += radius;
+                count += 1;
+            }
+        }
+    }
+    let around = (high - low).max(Vec2::ONE);
+    let is_dense = area > LEAST_LAYERS * around.x * around.y;
+    if !is_dense {
+        return false;
+    }
+    let edge_depth_m = match frame.order {
+        Order::Rounded => frame.edge_depth_m,
+        _ => 0.0,
+    };
+    let is_covered = |object: &Object, run: &PathRun| {
+        let strand = &frame.strands[run.strand];
+        let layers = object.layers.iter().zip(object.layer_joints).enumerate();
+        let mut layers =
+            layers.filter(|(_, (layer, _))| layer.program.is_clump() && layer.rank >= 0);
+        layers.any(|(number, (_, drawn))| {
+            let draws = drawn.start <= run.joints.start && run.joints.end <= drawn.end;
+            draws && !strand.is_left_out_by(number)
+        })
+    };
+    let mut parts = Vec::new();
+    for object in &frame.objects {
+        let start = runs.partition_point(|run| run.joints.start < object.joints.start);
+        let end = runs.partition_point(|run| run.joints.end <= object.joints.end);
+        let own = &runs[start..end.max(start)];
+        let length = own.len().div_ceil(rayon::current_num_threads());
+        for runs in own.chunks(length.max(SOME_RUNS)) {
+            let runs = runs.iter().filter(move |run| is_covered(object, run));
+            parts.push(runs.flat_map(move |run| {
+                // A tip of half discs may be drawn farther on than its clump ends.
+                let ends = usize::from(frame.brush == Brush::Semicircle);
+                let discs = &clumps[run.joints.start..run.joints.end - ends];
+                discs
+                    .windows(2)
+                    .map(|pair| -> Link { [&pair[0], &pair[1]] })
+            }));
+        }
+    }
+    let radius_px = radii / count as f32;
+    cover.fill(
+        frame.camera.size_px(),
+        frame.brush,
+        edge_depth_m,
+        radius_px,
+        parts,
+    );
+    true
+}
+
+/// What strokes on some joints take of the screen around their clumps, and what hides them.
 struct Room {
-    clumps: f32,
-    units: f32,
-    pixels_px: f32,
+    /// The joints of an object's hair, or of paths that an effect made, up to the next room's.
+    joints: Range<usize>,
+    reach: RoomAround,
+    /// The same of strokes that show within their clump alone, and aren't it.
+    within: RoomAround,
     unit_m: f32,
+    /// How much nearer than their clumps strokes may lie among strands, metres.
+    nearer_m: f32,
     shadow: Option<Shadow>,
 }
 
+/// How far strokes reach from their clumps' middles.
+#[derive(Clone, Copy)]
+struct RoomAround {
+    /// In radii of the clump, and in 1/300 of the head's height.
+    clumps: f32,
+    units: f32,
+    pixels_px: f32,
+}
+
+impl RoomAround {
+    fn add(&mut self, frame: &Frame, layer: &Layer) {
+        let reach = reach_of(layer, frame.brush);
+        self.clumps = self.clumps.max(reach.clumps);
+        match layer.units {
+            Units::Pixels => {
+                let pixels_px = reach.units * frame.camera.size_px()[1] as f32 / 720.0;
+                self.pixels_px = self.pixels_px.max(pixels_px);
+            }
+            Units::World => self.units = self.units.max(reach.units),
+        }
+    }
+}
+
 impl Room {
-    fn of(frame: &Frame, object: &Object) -> Self {
-        let (mut clumps, mut units, mut pixels) = (CLUMP_REACH.clumps, CLUMP_REACH.units, 0.0_f32);
-        for layer in object.layers {
-            // Clumps clip what lies on them; made paths have none but their strokes.
-            let is_clipped = layer.rank >= 0 && frame.order != Order::Shifted;
-            if is_clipped && !layer.program.has_own_paths() {
+    /// Those of an object, by rising joints.
+    fn all_of(frame: &Frame, object: &Object) -> Vec<Self> {
+        let layers = || object.layers.iter().zip(object.layer_joints);
+        let mut made: Vec<&Range<usize>> = layers()
+            .filter(|(layer, _)| layer.program.has_own_paths())
+            .map(|(_, joints)| joints)
+            .collect();
+        made.sort_by_key(|joints| joints.start);
+        let mut ends: Vec<usize> = made.iter().flat_map(|own| [own.start, own.end]).collect();
+        ends.push(object.joints.end);
+        let mut start = object.joints.start;
+        let mut rooms = Vec::with_capacity(ends.len());
+        for end in ends {
+            let joints = start..end.max(start);
+            start = joints.end;
+            if joints.is_empty() {
                 continue;
             }
-            let reach = reach_of(layer, frame.brush);
-            clumps = clumps.max(reach.clumps);
-            match layer.units {
-                Units::Pixels => pixels = pixels.max(reach.units),
-                Units::World => units = units.max(reach.units),
+            let own =
+                layers().filter(|(_, drawn)| drawn.start < joints.end && joints.start < drawn.end);
+            let own = own.map(|(layer, _)| layer);
+            rooms.push(Self::of(frame, object, joints.clone(), own));
+        }
+        rooms
+    }
+
+    fn of<'a>(
+        frame: &Frame,
+        object: &Object,
+        joints: Range<usize>,
+        layers: impl Iterator<Item = &'a Layer>,
+    ) -> Self {
+        let clump = RoomAround {
+            clumps: CLUMP_REACH.clumps,
+            units: CLUMP_REACH.units,
+            pixels_px: 0.0,
+        };
+        let (mut reach, mut within) = (clump, clump);
+        let mut nearer = 0.0_f32;
+        for layer in layers {
+            if is_within(frame.order, layer) {
+                within.add(frame, layer);
+                continue;
             }
+            nearer = nearer.max(match layer.program.may_be_nearer() {
+                true => f32::INFINITY,
+                false => -layer.depth_offset,
+            });
+            reach.add(frame, layer);
         }
         Self {
-            clumps,
-            units,
-            pixels_px: pixels * frame.camera.size_px()[1] as f32 / 720.0,
+            joints,
+            reach,
+            within,
             unit_m: object.head.unit_m(),
+            nearer_m: nearer * object.head.height_m,
             shadow: object.solid.and_then(|ball| Shadow::new(frame, ball)),
         }
     }
 
-    /// The sides on which all discs of joint `i` lie.
-    fn sides(&self, frame: &Frame, joints: &Joints, i: usize) -> u8 {
+    fn reach_px(&self, View { frame, joints, .. }: &View, i: usize) -> ReachPx {
+        let unit_px = self.unit_m * frame.paths.px_per_metre[i];
+        let (radius, shift) = (joints.clump_radius[i], joints.clump_shift[i].length().0);
+        let reach = |around: &RoomAround| {
+            (shift + around.clumps * radius + around.units) * unit_px + around.pixels_px
+        };
+        // Where a clump is hardly flat it is one disc, of its radius and as far off as it is shifted.
+        let clumps = match shift < 0.19 * radius {
+            true => 1.0,
+            false => CLUMP_REACH.clumps,
+        };
+        ReachPx {
+            all: reach(&self.reach),
+            within: reach(&self.within),
+            clump: (shift + clumps * radius) * unit_px,
+        }
+    }
+
+    /// The sides on which all discs of joint `i` lie, which reach so far (px).
+    fn sides(&self, frame: &Frame, joints: &Joints, i: usize, reach_px: f32) -> u8 {
         let paths = frame.paths;
-        let unit_px = self.unit_m * paths.px_per_metre[i];
-        let (radius, shift) = (joints.clump_radius[i], joints.clump_shift[i]);
-        let reach = shift.length().0 + self.clumps * radius + self.units;
-        let reach_px = reach * unit_px + self.pixels_px + MARGIN_PX;
+        let reach_px = reach_px + MARGIN_PX;
         let (center, size) = (
             paths.center[i],
             frame.camera.size_px().map(|side| side as f32),
         );
         let side = |is_there: bool, side: u8| if is_there { side } else { 0 };
-        let nearest_m = paths.depth[i] - radius * self.unit_m;
+        let nearest_m = paths.depth[i] - joints.clump_radius[i] * self.unit_m;
         let is_hidden = |shadow: &Shadow| shadow.holds(center, reach_px, nearest_m);
         side(center.x < -reach_px, LEFT)
             | side(center.x > size[0] + reach_px, RIGHT)
             | side(center.y < -reach_px, ABOVE)
             | side(center.y > size[1] + reach_px, BELOW)
             | side(self.shadow.as_ref().is_some_and(is_hidden), HIDDEN)
+    }
+
+    /// No disc between two neighbouring joints is nearer, 1/m.
+    fn nearness(&self, View { frame, clumps, .. }: &View, ends: [usize; 2]) -> f32 {
+        let [a, b] = ends.map(|i| clumps[i].inv_depth.max(clumps[i].inv_depth_biased));
+        let nearness = a.max(b);
+        if self.nearer_m <= 0.0 {
+            return nearness;
+        }
+        let nearest_m = (1.0 / nearness - self.nearer_m).max(frame.camera.near_m());
+        1.0 / nearest_m
     }
 }
 
