@@ -220,6 +220,10 @@ impl Locks {
             planes.clear();
         }
         self.find_all(self.pairs.all(), &mut found[..tasks]);
+        for planes in &mut found {
+            // Room ahead of need, so that a warm step allocates nothing.
+            planes.reserve(planes.len());
+        }
         self.holds.fill(None);
         for (task, planes) in found.iter().enumerate() {
             for (index, plane) in planes.iter().enumerate() {
@@ -358,16 +362,17 @@ impl Locks {
         let holds = &self.holds[self.particles[index]..self.particles[index + 1]];
         let mut found = 0;
         for (k, holds) in holds.chunks_exact(LANES).enumerate() {
-            let contact = &mut contacts[count + k];
-            (contact.on, contact.holds) = (Lane::ZERO, Lane::ZERO);
+            let plane_of = 2 * count + k;
+            let contact = &mut contacts[plane_of];
+            contact.clear();
             for lane in (0..LANES).filter(|&lane| active.get(lane)) {
                 let Some((task, plane)) = holds[lane] else {
                     continue;
                 };
                 let plane = &self.found[task as usize][plane as usize];
                 found += 1;
-                if touched.last() != Some(&(count + k)) {
-                    touched.push(count + k);
+                if touched.last() != Some(&plane_of) {
+                    touched.push(plane_of);
                 }
                 let (y, v) = (state.y[k].get(lane), state.v[k].get(lane));
                 let before = plane.normal.dot(y) + plane.past;
@@ -379,7 +384,7 @@ impl Locks {
                     end,
                     flow: (plane.flow - shift) / self.dt,
                 };
-                contact.set(lane, &surface, (batch, state), (count + k, k));
+                contact.set(lane, &surface, (batch, state), (plane_of, k), 1.0);
             }
         }
         found

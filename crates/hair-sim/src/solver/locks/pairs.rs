@@ -43,6 +43,8 @@ impl Pairs {
                 }
             }
         }
+        // Room ahead of need, so that a warm step allocates nothing.
+        self.pairs.reserve(self.pairs.len());
     }
 
     /// The pairs, each once, the earlier strand first.
