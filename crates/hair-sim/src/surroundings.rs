@@ -68,7 +68,8 @@ pub struct Surroundings<'a> {
     /// Where the roots are at the end of the step.
     pub roots: Roots<'a>,
     /// The head's acceleration when the step starts and when it ends. Where it is not given, it is the change of the
-    /// roots' mean velocity from the middle of the step before to that of this one: what acts then lags by half a step.
+    /// roots' mean velocity from the middle of the step before to that of this one: what acts then lags by half a step, and an acceleration that
+    /// begins at once, as of a root that is let fall, jolts hair by the speed of half a step.
     pub acceleration: Option<[Acceleration; 2]>,
     /// In m/s^2.
     pub gravity: DVec3,
@@ -150,7 +151,7 @@ impl Surroundings<'_> {
     /// Whether nothing in it moves but, perhaps, roots that have poses of their own: a head that moves tells by its
     /// [`Self::fingerprint`].
     pub(crate) fn is_calm(&self) -> bool {
-        let still = |c: &Collider| c.before == c.now;
+        let still = |c: &Collider| !c.moves();
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
         let steady = self.streams.iter().all(Stream::is_steady);
         self.wind.gust == 0.0 && is_even && steady && self.colliders.iter().all(still)

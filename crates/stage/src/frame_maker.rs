@@ -2,7 +2,7 @@
 
 use crate::files::StageError;
 use crate::hair::HairModel;
-use crate::head;
+use crate::head::{self, layers::MeshLayers};
 use crate::levels::levels;
 use crate::look::Look;
 use crate::material::Material;
@@ -17,7 +17,7 @@ use effects::wgsl::hash;
 use effects::{HairStrand, Layer, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
-use render::{Ball, Frame, Light, StrandInfo, Surface};
+use render::{Ball, Frame, Light, MeshLayer, StrandInfo, Surface};
 use std::ops::Range;
 use std::sync::Arc;
 use stroke_path::{Camera, Detail, PathError, PathKind, Paths};
@@ -140,6 +140,7 @@ impl FrameMaker {
         let light = scene.look().light(&camera, motion.head(scene));
         let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
+        let mut mesh_layers = Vec::new();
         for (index, object) in scene.objects().iter().enumerate() {
             match objects.get_mut(index) {
                 Some(frame) => frame.follow(object),
@@ -162,7 +163,15 @@ impl FrameMaker {
             object
                 .placement()
                 .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
-            surfaces.extend(frame.surfaces(index, motion, &sight, light));
+            let first_layer = mesh_layers.len();
+            surfaces.extend(frame.surfaces(index, motion, &sight, light, first_layer));
+            let look = object.look();
+            let head = object.placement().head(motion.head(object));
+            mesh_layers.extend(look.mesh_layers.iter().map(|layer| MeshLayer {
+                layer,
+                head,
+                seed: look.seed,
+            }));
         }
         let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
             let look = object.look();
@@ -190,6 +199,7 @@ impl FrameMaker {
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
             surfaces,
+            mesh_layers,
             background: section.background,
             order: scene.look().order(),
             edge_depth_m: section.edge_depth * scene.head().height_m,
@@ -587,6 +597,7 @@ impl ObjectFrame {
         motion: &ObjectMotion,
         sight: &Sight,
         light: Light,
+        first_layer: usize,
     ) -> Vec<Surface> {
         self.solid = None;
         let Some(neck) = self.of.neck() else {
@@ -612,11 +623,15 @@ impl ObjectFrame {
             model,
             &paint,
             self.of.look().meshes(),
+            &MeshLayers::new(&self.of.look().mesh_layers, first_layer),
             sight.camera(),
             &light,
         );
         for surface in &mut surfaces {
             surface.mesh += first_mesh;
+            if let Some(paint) = &mut surface.paint {
+                placement.turn(&mut paint.normals);
+            }
         }
         surfaces
     }

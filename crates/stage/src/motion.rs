@@ -1,7 +1,7 @@
 //! The motion of a scene: where its heads are, and their hair.
 
 use crate::bake::Bake;
-use crate::closed::{Closed, Return, move_by, off_head};
+use crate::closed::{Closed, Return, hold_on, move_by, off_head};
 use crate::dynamics::Dynamics;
 use crate::files::StageError;
 use crate::hand::{Driver, Hand};
@@ -298,7 +298,8 @@ impl ObjectMotion {
         };
         dynamics.stand(object.placement());
         let reached = dynamics.advance_to(time, driver, is_seen, goes_on)?;
-        self.place(object, driver, reached);
+        self.pose = driver.head_at(reached);
+        hold_on(object, self.pose, dynamics.still(), &mut self.points);
         dynamics.write(driver, &mut self.points);
         self.dynamics = Some(dynamics);
         Ok(reached)

@@ -72,6 +72,10 @@ struct Posture<'s> {
 pub(crate) struct Dynamics {
     strands: Box<dyn Running>,
     guides: Vec<Part>,
+    /// The points of the scene that nothing here moves: the head holds them.
+    still: Vec<Range<usize>>,
+    /// All of them.
+    all: Vec<Range<usize>>,
     /// The shapes that pull at all points of the scene; where they have these at a time, and the guides' points.
     shapes: Option<PointCache>,
     shape: Vec<Vec3>,
@@ -125,6 +129,27 @@ fn simulated(
         solver.interact(&mut state, &mutual)?;
     }
     Ok(Box::new(Run::new((solver, state))))
+}
+
+/// Of so many points those that neither guides nor what they carry moves, of which the first points stay with the head. `parts` are the
+/// points of the free strands, of which `guides` are some.
+fn still(points: usize, parts: &[Range<usize>], guides: &[usize]) -> Vec<Range<usize>> {
+    let mut moves = vec![false; points];
+    for part in parts {
+        moves[part.start + 1..part.end].fill(true);
+    }
+    for &guide in guides {
+        moves[parts[guide].start] = true;
+    }
+    let (mut still, mut from) = (Vec::new(), 0);
+    for run in moves.chunk_by(|one, next| one == next) {
+        let to = from + run.len();
+        if !run[0] {
+            still.push(from..to);
+        }
+        from = to;
+    }
+    still
 }
 
 /// The time of a frame, or a part of it that is at most `longest` s.
@@ -191,6 +216,7 @@ impl Dynamics {
             }
             step => step,
         };
+        let still = still(all.points().len(), &parts, &guides);
         let guides = (0..).zip(&guides).map(|(strand, &part)| Part {
             points: parts[part].clone(),
             strand,
@@ -202,6 +228,11 @@ impl Dynamics {
             goal: Vec::new(),
             carried,
             guides,
+            still,
+            all: vec![Range {
+                start: 0,
+                end: all.points().len(),
+            }],
             bodies: Bodies::new(mesh, hair.head),
             strands,
             head: hair.head,
@@ -296,6 +327,14 @@ impl Dynamics {
         }
         self.shown = shown;
         Ok(if is_there { time } else { shown })
+    }
+
+    /// The points that [`Self::write`] leaves as they are.
+    pub fn still(&self) -> &[Range<usize>] {
+        match self.is_at_start() {
+            true => &self.all,
+            false => &self.still,
+        }
     }
 
     /// Writes where it came to into the points of what moves; those of the others are where the head has them.
