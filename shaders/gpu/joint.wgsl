@@ -1,32 +1,10 @@
-// A joint's inputs to an effect, and its discs on the screen. Composed behind an effect's own text and the
-// prelude, with constants that crates/render/src/gpu/program.rs writes: JOINT_WORDS, the AT_ places in a joint's record, and
-// the parameters.
+// A joint's inputs to an effect, and its discs on the screen. Composed behind an effect's own text, the prelude and words.wgsl, with
+// constants that crates/render/src/gpu/program.rs writes: JOINT_WORDS, the AT_ places in a joint's record, and the parameters.
 
 @group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
 @group(0) @binding(1) var<storage, read> gpu_joints: array<u32>;
 /// Id, mean of the particles, size, taper, how much nearer it is ordered, level.
 @group(0) @binding(2) var<storage, read> gpu_strands: array<u32>;
-/// What the layer or the clump is and on which head (the places below), its parameters, and how they vary.
-@group(0) @binding(3) var<storage, read> gpu_words: array<u32>;
-
-const GPU_LAYER_SEED: u32 = 0u;
-const GPU_FIRST_DISC: u32 = 1u;
-const GPU_FIRST_JOINT: u32 = 2u;
-const GPU_JOINT_COUNT: u32 = 3u;
-const GPU_SHORTEST: u32 = 4u;
-const GPU_DEPTH_OFFSET: u32 = 5u;
-const GPU_IS_IN_PIXELS: u32 = 6u;
-const GPU_HAS_OWN_PATHS: u32 = 7u;
-/// Metres, as are the next two words.
-const GPU_HEAD_CENTER: u32 = 8u;
-/// Metres.
-const GPU_HEAD_HEIGHT: u32 = 11u;
-/// Metres in 1/300 of the head's height.
-const GPU_UNIT: u32 = 12u;
-/// Where the words begin that paint_main.wgsl reads.
-const GPU_PAINT: u32 = 13u;
-/// The layer's bit in `GPU_STRAND_LEFT_OUT_BY`, 0 of a clump.
-const GPU_LAYER_BIT: u32 = 14u;
 
 /// A strand: its id, mean place, size, taper, lift, colours at root and tip, level, the layers that leave it out.
 const GPU_STRAND_WORDS: u32 = 16u;
@@ -118,10 +96,6 @@ fn gpu_unit(joint: u32) -> f32 {
 /// Pixels in a unit of size.
 fn gpu_unit_px(joint: u32) -> f32 {
     return gpu_word(GPU_UNIT) * gpu_scalar(joint, GPU_AT_PX_PER_METRE);
-}
-
-fn gpu_word(at: u32) -> f32 {
-    return bitcast<f32>(gpu_words[at]);
 }
 
 /// The value of a number that varies. Its table begins at `table`: seed, share by which strands differ, least and

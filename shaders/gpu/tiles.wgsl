@@ -92,6 +92,9 @@ fn draw_tile(
     let tile_index = group.y * gpu_frame.tiles.x + group.x;
     let tile_count = gpu_frame.tiles.x * gpu_frame.tiles.y;
     var sum = vec4<f32>(0.0);
+    var surface_red: vec4<f32>;
+    var surface_green: vec4<f32>;
+    var surface_blue: vec4<f32>;
     for (var first_sample = 0u; first_sample < gpu_frame.samples; first_sample += 4u) {
         let places = array<vec4<f32>, 2>(sample_places[first_sample / 2u], sample_places[first_sample / 2u + 1u]);
         let x = vec4<f32>(places[0].x, places[0].z, places[1].x, places[1].z) + f32(pixel.x);
@@ -104,7 +107,15 @@ fn draw_tile(
         samples.green = vec4<f32>(gpu_frame.background.y);
         samples.blue = vec4<f32>(gpu_frame.background.z);
         draw_surfaces(tile, tile_count + 1u + tile_index, local, vec2<f32>(pixel.xy), x, y, first_sample, &samples);
+        if (KEEPS_UNDER) {
+            surface_red = samples.red;
+            surface_green = samples.green;
+            surface_blue = samples.blue;
+        }
         draw_strands(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
+        if (KEEPS_UNDER) {
+            write_under(corner + pixel.xy, first_sample, samples, surface_red, surface_green, surface_blue);
+        }
         sum += write_samples(corner + pixel.xy, first_sample, samples);
     }
     let at = corner + pixel.xy;
@@ -131,6 +142,21 @@ fn write_samples(at: vec2<u32>, first_sample: u32, samples: Samples) -> vec4<f32
         }
     }
     return sum;
+}
+
+/// Keeps the surfaces behind the hair that samples show.
+fn write_under(at: vec2<u32>, first_sample: u32, samples: Samples, red: vec4<f32>, green: vec4<f32>, blue: vec4<f32>) {
+    if (any(at >= gpu_frame.size)) {
+        return;
+    }
+    for (var k = 0u; k < min(4u, gpu_frame.samples - first_sample); k++) {
+        var what = vec4<u32>(SHOWS_NOTHING, 0u, 0u, 0u);
+        if (samples.strand[k] > NOTHING && samples.surface[k] > NOTHING) {
+            let colors = vec2<u32>(pack2x16float(vec2<f32>(red[k], green[k])), pack2x16float(vec2<f32>(blue[k], 0.0)));
+            what = vec4<u32>(SHOWS_TRIANGLE | samples.triangle[k], colors, bitcast<u32>(samples.surface[k]));
+        }
+        keep_under(at, first_sample + k, what);
+    }
 }
 
 /// What a sample shows, as shown.wgsl reads it.

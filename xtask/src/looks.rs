@@ -24,9 +24,11 @@ pub fn of_samples() -> Outcome<Vec<String>> {
         let path = program::root().join(format!("presets/{name}.ron"));
         texts.push(fs::read_to_string(path)?);
     }
-    let mut is_one = texts
-        .iter()
-        .map(|text| text.contains("passes:") || text.contains("hair.toon"));
+    let mut is_one = texts.iter().map(|text| {
+        ["passes:", ".toon\"", "\"mesh."]
+            .iter()
+            .any(|word| text.contains(word))
+    });
     found.retain(|_| is_one.next() == Some(true));
     Ok(found)
 }

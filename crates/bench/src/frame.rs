@@ -3,13 +3,15 @@
 
 use crate::BenchError;
 use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
+use crate::character;
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
+use crate::timing::Effort;
 use effects::Registry;
 use indicatif::ProgressBar;
 use stage::{Files, Preset, Stage};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Samples a pixel: what a live picture has.
 const SAMPLES: u32 = 4;
@@ -105,11 +107,22 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
     measured.rows.extend(sized.rows);
     measured.targets.extend(sized.targets);
     progress.inc(1);
+    progress.set_message("character");
+    let effort = Effort {
+        rounds: frames as usize,
+        each: Duration::from_secs(if options.quick { 5 } else { 20 }),
+    };
+    let (rows, targets) =
+        pool.install(|| character::measure(&options.root, &options.out, effort))?;
+    measured.rows.extend(rows);
+    measured.targets.extend(targets);
     let mut comments = vec![
         format!(
             "whole frames and their stages, {SAMPLES} samples a pixel, medians of {frames} frames 1/{FPS} s apart"
         ),
         "method: a backend and its stage; simulate and paths are of both; knob: samples".to_owned(),
+        "character: what its meshes add to a frame on the CPU, flat and painted by a layer: the shortest of frames with them less that without"
+            .to_owned(),
         "error of gpu: share of pixels that differ from the CPU's by more than 2/255".to_owned(),
         format!(
             "graphics card: {}",

@@ -224,6 +224,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             material_normals: &[],
             rest_positions: &[],
             surfaces: Vec::new(),
+            mesh_layers: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),
             edge_depth_m: 0.02 * HEAD_M,

@@ -113,7 +113,7 @@ pub(crate) fn entry_points(
         Entry::Effect => STROKE,
         Entry::Clump => CLUMP,
     };
-    if !has(module, source, &signature)? {
+    if !source.is_for_meshes && !has(module, source, &signature)? {
         return Err(BuildError(format!(
             "{}:1:1: an effect needs the function `{signature}`",
             source.path
@@ -127,8 +127,13 @@ pub(crate) fn entry_points(
     let paint = if places { PAINT_WITH_TEXEL } else { PAINT };
     if !has(module, source, &paint)? {
         return Err(BuildError(format!(
-            "{}:1:1: an effect that reads samples needs the function `{paint}`",
-            source.path
+            "{}:1:1: an effect that reads {} needs the function `{paint}`",
+            source.path,
+            if source.is_for_meshes {
+                "meshes"
+            } else {
+                "samples"
+            }
         )));
     }
     Ok(if places {

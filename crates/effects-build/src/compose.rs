@@ -39,6 +39,8 @@ pub(crate) struct Source {
     pub inputs: Vec<&'static Input>,
     /// What is declared of a sample, in the order of [`SAMPLE_INPUTS`]; nothing where the effect doesn't paint.
     pub sample_inputs: Option<Vec<&'static Input>>,
+    /// Whether it paints meshes and has no strokes.
+    pub is_for_meshes: bool,
 }
 
 impl Source {
@@ -53,16 +55,44 @@ impl Source {
 }
 
 pub(crate) fn compose(author: &str, path: &str, entry: Entry) -> Result<Source, BuildError> {
+    let samples_of = |others: Offered| {
+        let offered = SAMPLE_INPUTS.iter();
+        offered.filter(move |input| input.offered != others)
+    };
+    if entry == Entry::Effect
+        && let Some(inputs) = declared(author, path, "mesh", samples_of(Offered::ToHair).collect())?
+    {
+        if let Some(line) = (author.lines()).position(|line| key_of(line) == Some("inputs")) {
+            return Err(BuildError(format!(
+                "{path}:{}:1: an effect draws strokes (`//! inputs:`) or paints meshes (`//! mesh:`), not both",
+                line + 1
+            )));
+        }
+        let mut text = String::from(author);
+        structure(&mut text, "Sample", &inputs);
+        text.push_str(PRELUDE);
+        return Ok(Source {
+            path: path.to_owned(),
+            text,
+            author_length: author.len(),
+            inputs: Vec::new(),
+            sample_inputs: Some(inputs),
+            is_for_meshes: true,
+        });
+    }
     let offered = INPUTS.iter().filter(|input| entry.offers(input)).collect();
     let Some(inputs) = declared(author, path, "inputs", offered)? else {
         return Err(BuildError(format!(
             "{path}:1:1: the first line must declare what is read of a joint, such as \
-             `//! inputs: clump_radius, clump_color`; there are: {}",
+             `//! inputs: clump_radius, clump_color`, or of a mesh, such as `//! mesh: color, normal`; of joints there are: {}",
             names(INPUTS.iter().filter(|input| entry.offers(input)))
         )));
     };
     let sample_inputs = match entry {
-        Entry::Effect => declared(author, path, "sample", SAMPLE_INPUTS.iter().collect())?,
+        Entry::Effect => {
+            let offered = samples_of(Offered::ToMeshes).collect();
+            declared(author, path, "sample", offered)?
+        }
         Entry::Clump => None,
     };
     let mut text = String::from(author);
@@ -77,7 +107,14 @@ pub(crate) fn compose(author: &str, path: &str, entry: Entry) -> Result<Source, 
         author_length: author.len(),
         inputs,
         sample_inputs,
+        is_for_meshes: false,
     })
+}
+
+/// What a line `//! KEY: a, b` declares.
+fn key_of(line: &str) -> Option<&str> {
+    let words = line.trim_start().strip_prefix("//!")?;
+    Some(words.split_once(':')?.0.trim())
 }
 
 fn structure(text: &mut String, name: &str, inputs: &[&Input]) {
@@ -88,7 +125,7 @@ fn structure(text: &mut String, name: &str, inputs: &[&Input]) {
     text.push_str("}\n");
 }
 
-/// The inputs named by the author's line `//! inputs: a, b` or `//! sample: a, b`, in the order of those offered.
+/// The inputs named by the author's line `//! inputs: a, b`, `//! sample: a, b` or `//! mesh: a, b`, in the order of those offered.
 fn declared(
     author: &str,
     path: &str,
@@ -107,10 +144,10 @@ fn declared(
     for name in &listed {
         if !offered.iter().any(|input| input.name == *name) {
             let column = line.find(name).unwrap_or(0) + 1;
-            let what = if key == "inputs" {
-                "input"
-            } else {
-                "sample input"
+            let what = match key {
+                "inputs" => "input",
+                "mesh" => "input of meshes",
+                _ => "sample input",
             };
             return Err(BuildError(format!(
                 "{path}:{line_number}:{column}: there is no {what} `{name}`; there are: {}",

@@ -67,8 +67,14 @@ pub(crate) fn effect(
         Entry::Effect => effect_program(&module, source, params, paints),
         Entry::Clump => clump_program(source, params),
     };
+    let inputs = (!source.is_for_meshes).then(|| {
+        quote!(
+            pub use self::translated::Inputs;
+        )
+    });
     let file: syn::File = syn::parse2(quote! {
-        pub use self::translated::{Inputs, Params};
+        #inputs
+        pub use self::translated::Params;
         #[allow(
             missing_docs,
             unused,
@@ -97,15 +103,8 @@ fn effect_program(
     let gather = gather(&source.inputs, &format_ident!("joints"));
     let may_be_nearer = depth::may_be_nearer(module);
     let painting = painting(module, source, params, paints);
-    quote! {
-        /// The effect's WGSL, and the same in Rust.
-        #[derive(Clone, Copy, Debug)]
-        pub struct Program;
-        impl ::effects::Parameters for Program {
-            #common
-        }
-        impl ::effects::Program for Program {
-            const MAY_BE_NEARER: bool = #may_be_nearer;
+    let stroke = (!source.is_for_meshes).then(|| {
+        quote! {
             #[inline(always)]
             fn stroke(
                 joints: &::effects::Joints,
@@ -117,6 +116,18 @@ fn effect_program(
                 let _ = (joints, index, seed);
                 translated::entry_stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
             }
+        }
+    });
+    quote! {
+        /// The effect's WGSL, and the same in Rust.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Program;
+        impl ::effects::Parameters for Program {
+            #common
+        }
+        impl ::effects::Program for Program {
+            const MAY_BE_NEARER: bool = #may_be_nearer;
+            #stroke
             #painting
         }
     }
@@ -411,6 +422,7 @@ fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
         author_length: PRELUDE.len(),
         inputs: Vec::new(),
         sample_inputs: None,
+        is_for_meshes: false,
     };
     let (module, _) = check::parse(&source)?;
     let Some(comments) = &module.doc_comments else {

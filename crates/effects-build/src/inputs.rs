@@ -4,7 +4,7 @@
 //! A new input is a row here, and what works it out: the compiler asks for that in `render`, on the CPU in
 //! `cpu/evaluate.rs` and on a graphics card in `gpu/inputs.rs`, and for values to try it with in `effects-testkit`.
 
-use Offered::{Both, ToEffects};
+use Offered::{Both, ToEffects, ToHair, ToMeshes};
 use Type::{F32, U32, Vec2, Vec3};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -53,8 +53,13 @@ impl Type {
 /// Who may declare an input.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Offered {
-    /// Effects alone: it comes from the clump, or is a layer's own.
+    /// Of joints: effects alone, as it comes from the clump, or is a layer's own.
     ToEffects,
+    /// Of samples: those that show strokes alone.
+    ToHair,
+    /// Of samples: those that show meshes alone.
+    ToMeshes,
+    /// Effects and the clump; samples of strokes and of meshes.
     Both,
 }
 
@@ -120,25 +125,27 @@ pub(crate) const INPUTS: &[Input] = &[
 /// What a painted sample offers, in the order in which it stands in `struct Sample`.
 #[rustfmt::skip]
 pub(crate) const SAMPLE_INPUTS: &[Input] = &[
-    input("color", Vec3, ToEffects, "the stroke's own colour here, linear"),
-    input("position", Vec3, ToEffects, "place in the world of the stroke's axis beside the sample, metres"),
-    input("forward", Vec3, ToEffects, "unit vector along the strand, to its tip"),
-    input("normal", Vec3, ToEffects, "the clump's unit normal (5.4)"),
-    input("tube", Vec3, ToEffects, "unit normal of the stroke as a round tube: `rounded(normal, tube, roundness)` is between both"),
-    input("u", F32, ToEffects, "place along the strand, 0 at the root, 1 at the tip"),
-    input("s", F32, ToEffects, "length of the strand up to here, head heights"),
-    input("v", F32, ToEffects, "place across the stroke, -1 to 1"),
-    input("w", F32, ToEffects, "place across the clump, -1 to 1"),
-    input("strand", U32, ToEffects, "the strand's stable id"),
-    input("seed", U32, ToEffects, "for `random`: a hash of style seed, layer name and strand"),
-    input("level", U32, ToEffects, "0 back, 1 middle, 2 front, where the clump has levels; else 0"),
-    input("depth", F32, ToEffects, "distance from the eye along the view's axis, head heights"),
-    input("head_depth", F32, ToEffects, "the same of the head's centre, head heights"),
-    input("light_direction", Vec3, ToEffects, "unit vector to the light"),
-    input("light_distance", F32, ToEffects, "distance to the light, head heights; 1e6 for a direction"),
-    input("view_direction", Vec3, ToEffects, "unit vector to the eye"),
-    input("pixels", F32, ToEffects, "pixels that a head's height takes at this depth"),
-    input("time", F32, ToEffects, "time of the scene, seconds: what reads it changes while nothing moves"),
+    input("color", Vec3, Both, "own colour of the stroke here, or of the mesh in light with its picture, linear"),
+    input("shade_color", Vec3, ToMeshes, "the mesh's own colour away from the light with its picture, linear"),
+    input("position", Vec3, Both, "place in the world, metres: of hair that of the stroke's axis beside the sample"),
+    input("forward", Vec3, ToHair, "unit vector along the strand, to its tip"),
+    input("normal", Vec3, Both, "unit normal: of hair the clump's (5.4), of a mesh as smooth as its corners' are"),
+    input("occlusion", F32, ToMeshes, "how much the mesh lies in shadow whatever the light, 0 to 1: what is to be taken off the cosine to the light"),
+    input("tube", Vec3, ToHair, "unit normal of the stroke as a round tube: `rounded(normal, tube, roundness)` is between both"),
+    input("u", F32, ToHair, "place along the strand, 0 at the root, 1 at the tip"),
+    input("s", F32, ToHair, "length of the strand up to here, head heights"),
+    input("v", F32, ToHair, "place across the stroke, -1 to 1"),
+    input("w", F32, ToHair, "place across the clump, -1 to 1"),
+    input("strand", U32, ToHair, "the strand's stable id"),
+    input("seed", U32, ToHair, "for `random`: a hash of style seed, layer name and strand"),
+    input("level", U32, ToHair, "0 back, 1 middle, 2 front, where the clump has levels; else 0"),
+    input("depth", F32, Both, "distance from the eye along the view's axis, head heights"),
+    input("head_depth", F32, Both, "the same of the head's centre, head heights"),
+    input("light_direction", Vec3, Both, "unit vector to the light"),
+    input("light_distance", F32, Both, "distance to the light, head heights; 1e6 for a direction"),
+    input("view_direction", Vec3, Both, "unit vector to the eye"),
+    input("pixels", F32, Both, "pixels that a head's height takes at this depth"),
+    input("time", F32, Both, "time of the scene, seconds: what reads it changes while nothing moves"),
 ];
 
 /// `for_each_input!` and `for_each_sample_input!`, which give the tables to a macro of another crate: for each input its comment, its

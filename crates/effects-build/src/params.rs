@@ -133,6 +133,21 @@ pub(crate) fn read(module: &Module, source: &Source) -> Result<Vec<Param>, Build
                 &module.types[member.ty].inner,
                 &Annotations::read(comments),
             )
+            .map(|param| match param.kind {
+                // A mesh has no place along a strand.
+                Kind::Number {
+                    min, max, default, ..
+                } if source.is_for_meshes => Param {
+                    kind: Kind::Number {
+                        min,
+                        max,
+                        default,
+                        varies: false,
+                    },
+                    ..param
+                },
+                _ => param,
+            })
             .map_err(|message| {
                 let place = member_span(source, span, &name);
                 source.error(place, format!("Params.{name}: {message}"))

@@ -43,7 +43,7 @@ fn each_input_is_documented_as_it_is() {
         (
             "## Paint",
             samples,
-            message("//! inputs: u\n//! sample: nonsense"),
+            message("//! inputs: u\n//! sample: nonsense") + &message("//! mesh: nonsense"),
         ),
     ] {
         let rows = rows(&text, heading);

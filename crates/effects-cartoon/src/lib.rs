@@ -1,4 +1,4 @@
-//! Effects of cartoon hair that paint what their strokes show, sample by sample: after Shin, Haller and Mukundan, "A Stylized Cartoon
+//! Effects that paint what strokes and meshes show, sample by sample: after Shin, Haller and Mukundan, "A Stylized Cartoon
 //! Hair Renderer" (2006), and Barla, Thollot and Markosian, "X-Toon" (2006).
 //!
 //! ```
@@ -9,8 +9,14 @@
 //! # Ok::<(), effects::RegistryError>(())
 //! ```
 
+mod mesh_flat;
+mod mesh_toon;
+#[cfg(test)]
+mod on_mesh;
 mod toon;
 
+pub use mesh_flat::MeshFlat;
+pub use mesh_toon::MeshToon;
 pub use toon::Toon;
 
 use effects::{Registry, RegistryError};
@@ -21,5 +27,7 @@ use effects::{Registry, RegistryError};
 ///
 /// When the registry already has an effect of the same id.
 pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
-    registry.register::<Toon>()
+    registry.register::<Toon>()?;
+    registry.register_mesh::<MeshFlat>()?;
+    registry.register_mesh::<MeshToon>()
 }

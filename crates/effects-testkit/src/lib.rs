@@ -16,7 +16,7 @@
 //! # nothing_pops();
 //! ```
 //!
-//! [`assert_conforms`] is for all effects. [`assert_steady`] is for those whose strokes change little
+//! [`assert_conforms`] is for all effects that draw strokes, [`assert_mesh_conforms`] for those that paint meshes. [`assert_steady`] is for those whose strokes change little
 //! where their inputs do; with a hard step they can't, so it takes the parameters to hold it for.
 
 mod constants;
@@ -34,7 +34,7 @@ mod unread;
 mod values;
 mod wgsl;
 
-use effects::{AnyEffect, Registry, StrokeEffect};
+use effects::{AnyEffect, MeshEffect, Registry, RegistryError, StrokeEffect};
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -86,6 +86,29 @@ const CHECKS: &[(&str, Check)] = &[
     ),
     ("it declares what it reads, and no more", unread::check),
     ("its Rust is its WGSL", wgsl::check),
+    (
+        "what it paints in Rust is what its WGSL says",
+        wgsl::check_paint,
+    ),
+];
+
+/// The same of effects for meshes.
+const MESH_CHECKS: &[(&str, Check)] = &[
+    ("it says what it is", descriptor::words),
+    (
+        "its parameters are documented and their defaults allowed",
+        descriptor::parameters,
+    ),
+    (READS_OF_SAMPLES, paint::reads_what_it_declares),
+    (
+        "what it paints is a colour, whatever the sample and the parameters",
+        paint::is_a_color,
+    ),
+    (
+        "the same sample has the same colour, bit for bit",
+        paint::is_the_same,
+    ),
+    ("it declares what it reads, and no more", unread::check),
     (
         "what it paints in Rust is what its WGSL says",
         wgsl::check_paint,
@@ -151,19 +174,47 @@ pub fn assert_conforms<E: StrokeEffect>() {
 ///
 /// With all checks that fail, and what is wrong.
 pub fn conforms<E: StrokeEffect>() -> Result<(), Failures> {
-    with_effect::<E>(|effect| {
-        let mut failures = Vec::new();
-        for (check, run) in CHECKS {
-            failures.extend(failure(check, || run(effect)));
-            if failures
-                .last()
-                .is_some_and(|last| [READS, READS_OF_SAMPLES].contains(&last.check))
-            {
-                break;
-            }
-        }
-        failures
+    with_effect(E::ID, Registry::register::<E>, |effect| {
+        all_failures(CHECKS, effect)
     })
+}
+
+/// Panics with all that is wrong with an effect for meshes ([`mesh_conforms`]).
+///
+/// # Panics
+///
+/// When a check fails.
+#[track_caller]
+pub fn assert_mesh_conforms<E: MeshEffect>() {
+    if let Err(failures) = mesh_conforms::<E>() {
+        panic!("{failures}");
+    }
+}
+
+/// Holds an effect for meshes to what every such effect must hold to.
+///
+/// # Errors
+///
+/// With all checks that fail, and what is wrong.
+pub fn mesh_conforms<E: MeshEffect>() -> Result<(), Failures> {
+    with_effect(E::ID, Registry::register_mesh::<E>, |effect| {
+        all_failures(MESH_CHECKS, effect)
+    })
+}
+
+/// What is wrong with an effect, up to what makes the rest say nothing new.
+fn all_failures(checks: &[(&'static str, Check)], effect: &dyn AnyEffect) -> Vec<Failure> {
+    let mut failures = Vec::new();
+    for (check, run) in checks {
+        failures.extend(failure(check, || run(effect)));
+        if failures
+            .last()
+            .is_some_and(|last| [READS, READS_OF_SAMPLES].contains(&last.check))
+        {
+            break;
+        }
+    }
+    failures
 }
 
 /// Panics where strokes jump ([`steady`]).
@@ -188,7 +239,7 @@ pub fn assert_steady<E: StrokeEffect>(parameters: &[(&str, &str)]) {
 ///
 /// With the input that makes the strokes jump and where.
 pub fn steady<E: StrokeEffect>(parameters: &[(&str, &str)]) -> Result<(), Failures> {
-    with_effect::<E>(|effect| {
+    with_effect(E::ID, Registry::register::<E>, |effect| {
         let check = "small changes of its inputs change its strokes little";
         failure(check, || motion::check(effect, parameters))
             .into_iter()
@@ -197,12 +248,14 @@ pub fn steady<E: StrokeEffect>(parameters: &[(&str, &str)]) -> Result<(), Failur
 }
 
 /// Runs checks on a registered effect.
-fn with_effect<E: StrokeEffect>(
+fn with_effect(
+    id: &'static str,
+    register: impl FnOnce(&mut Registry) -> Result<(), RegistryError>,
     check: impl FnOnce(&dyn AnyEffect) -> Vec<Failure>,
 ) -> Result<(), Failures> {
     let mut registry = Registry::new();
-    let failures = match registry.register::<E>() {
-        Ok(()) => registry.get(E::ID).map(check).unwrap_or_default(),
+    let failures = match register(&mut registry) {
+        Ok(()) => registry.get(id).map(check).unwrap_or_default(),
         Err(error) => vec![Failure {
             check: "its id is well formed",
             message: error.to_string(),
@@ -212,7 +265,7 @@ fn with_effect<E: StrokeEffect>(
         return Ok(());
     }
     Err(Failures {
-        effect: E::ID,
+        effect: id,
         failures,
     })
 }

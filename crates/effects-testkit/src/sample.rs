@@ -58,6 +58,8 @@ fn sample(joint: &Joint, w: f32) -> Sample {
     let tube = w * side + facing * glam::Vec3::from(view.to_array());
     Sample {
         color: joint.clump_color,
+        shade_color: vec3(joint.clump_color.to_array().map(|x| 0.6 * x)),
+        occlusion: (0.5 * w).max(0.0),
         position: joint.position,
         forward: joint.forward,
         normal: joint.normal,
@@ -109,6 +111,13 @@ pub(crate) fn hostile_samples() -> Vec<(&'static str, Sample)> {
             "light from behind the eye's place",
             Sample {
                 light_direction: -good.view_direction,
+                ..good
+            },
+        ),
+        (
+            "what no light reaches",
+            Sample {
+                occlusion: 1.0,
                 ..good
             },
         ),

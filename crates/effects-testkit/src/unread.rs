@@ -9,9 +9,13 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
     let wrong = |message: String| format!("WGSL is not WGSL: {message}");
     let module = naga::front::wgsl::parse_str(effect.wgsl())
         .map_err(|error| wrong(error.emit_to_string(effect.wgsl())))?;
+    let of_samples = match effect.is_for_meshes() {
+        true => "`//! mesh:`",
+        false => "`//! sample:`",
+    };
     for (structure, of, line) in [
         ("Inputs", "joint", "`//! inputs:`"),
-        ("Sample", "sample", "`//! sample:`"),
+        ("Sample", "sample", of_samples),
     ] {
         let unread = unread(&module, structure).map_err(wrong)?;
         if !unread.is_empty() {

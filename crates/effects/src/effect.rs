@@ -41,6 +41,8 @@ pub trait StrokeEffect: Send + Sync + 'static {
     /// Whether the strokes follow paths that the effect makes ([`Self::make_paths`]), in place of the
     /// strands. These are strands of their own in the order, whose clump is their first stroke.
     const OWN_PATHS: bool = false;
+    /// Whether it paints meshes and draws no strokes: [`MeshEffect`](crate::MeshEffect).
+    const IS_FOR_MESHES: bool = false;
     /// Whether there are strokes on the coat of clumps below a hair style's own, too. It shows in gaps alone,
     /// where highlights would be specks.
     const ON_UNDERCOAT: bool = true;
@@ -167,6 +169,8 @@ pub trait AnyEffect: Send + Sync {
     fn params(&self) -> &'static [Param];
     /// [`Parameters::INPUTS`].
     fn inputs(&self) -> &'static [Input];
+    /// Whether it paints meshes ([`MeshEffect`](crate::MeshEffect)) and draws no strokes.
+    fn is_for_meshes(&self) -> bool;
     /// [`Program::PAINTS`].
     fn paints(&self) -> Option<&'static [SampleInput]>;
     /// [`Parameters::WGSL`].
@@ -291,6 +295,9 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
     }
     fn inputs(&self) -> &'static [Input] {
         E::Program::INPUTS
+    }
+    fn is_for_meshes(&self) -> bool {
+        E::IS_FOR_MESHES
     }
     fn paints(&self) -> Option<&'static [SampleInput]> {
         E::Program::PAINTS

@@ -31,6 +31,10 @@ pub struct Layer {
     /// The zones of a hair style whose hair it draws: names with commas between them, `*` at the end of one for any end. All hair
     /// where it says nothing.
     pub zones: Option<String>,
+    /// The meshes that it paints, of an effect for meshes: names with commas between them, `*` for any end.
+    pub on: Option<String>,
+    /// How much of what it paints is seen through hair before it, 0 to 1.
+    pub through_hair: f32,
     /// The effect with its parameters.
     pub program: Arc<dyn LayerProgram>,
 }

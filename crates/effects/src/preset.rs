@@ -13,7 +13,7 @@ mod syntax;
 mod value;
 
 pub use error::{Place, PresetError, PresetErrors, nearest, suggestion};
-pub use layers::{LAYER, LayerSpec, OF_THE_EFFECT};
+pub use layers::{LAYER, LayerSpec, OF_THE_EFFECT, may_say};
 pub use reader::{Field, Reader};
 pub use set::{SetError, set_text};
 pub use value::read_value;

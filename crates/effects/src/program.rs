@@ -3,7 +3,7 @@
 use crate::joints::{Input, Joints};
 use crate::param::{Param, Values};
 use crate::samples::{SampleBlock, SampleInput};
-use crate::wgsl::{Lookup, Stroke, Vec3, Vec4};
+use crate::wgsl::{Lookup, Stroke, Vec3, Vec4, vec2, vec3};
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
 pub trait Parameters: Send + Sync + 'static {
@@ -25,14 +25,22 @@ pub trait Parameters: Send + Sync + 'static {
 
 /// An effect's WGSL in Rust. Implemented by the translated code.
 pub trait Program: Parameters {
-    /// The disc of stroke `instance` at joint `index`. `seed` is the layer's.
+    /// The disc of stroke `instance` at joint `index`. `seed` is the layer's. Of an effect for meshes it has no size.
     fn stroke(
         joints: &Joints,
         index: usize,
         instance: u32,
         seed: u32,
         params: &Self::Params,
-    ) -> Stroke;
+    ) -> Stroke {
+        let _ = (joints, index, instance, seed, params);
+        Stroke {
+            offset: vec2([0.0; 2]),
+            radius: 0.0,
+            depth_offset: 0.0,
+            color: vec3([0.0; 3]),
+        }
+    }
 
     /// Whether a stroke's own `depth_offset` may be below 0; that it never is, is told from the WGSL where only written numbers are
     /// given.

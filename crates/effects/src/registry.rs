@@ -1,6 +1,7 @@
 //! The registry: which effects a program has. Registration is explicit.
 
 use crate::effect::{AnyEffect, Erased, StrokeEffect};
+use crate::mesh_effect::{MeshEffect, OnMeshes};
 use std::collections::BTreeMap;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -60,6 +61,15 @@ impl Registry {
         self.effects
             .insert(E::ID, Arc::new(Erased::<E>(PhantomData)));
         Ok(())
+    }
+
+    /// Adds an effect that paints meshes.
+    ///
+    /// # Errors
+    ///
+    /// When there is an effect of that id, or the id is not `vendor.name`.
+    pub fn register_mesh<E: MeshEffect>(&mut self) -> Result<(), RegistryError> {
+        self.register::<OnMeshes<E>>()
     }
 
     /// The effect of this id.

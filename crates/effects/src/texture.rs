@@ -3,7 +3,7 @@
 mod image;
 mod ramp;
 
-pub use image::{Image, ImageError};
+pub use image::{Blurred, Image, ImageError};
 pub use ramp::{Ramp, Row};
 
 use crate::lanes::widest;

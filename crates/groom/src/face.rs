@@ -27,9 +27,27 @@ pub enum Ink {
     Mouth,
 }
 
+/// What of a drawn face a patch is a piece of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FacePart {
+    /// An eye with its lids and lashes.
+    Eyes,
+    /// A brow.
+    Brows,
+    /// The mouth.
+    Mouth,
+    /// Blush on a cheek.
+    Blush,
+    /// What else is drawn on the skin: nose, ears, neck.
+    #[default]
+    Lines,
+}
+
 /// A shape on the skin.
 #[derive(Clone, Debug)]
 pub struct Patch {
+    /// What it is a piece of.
+    pub part: FacePart,
     /// Its colour.
     pub ink: Ink,
     /// Drawn where light is away from this direction, a unit vector that turns with the head; none is always drawn.
@@ -62,17 +80,29 @@ pub(crate) const FRONT: Sheet = Sheet {
     up: Vec3::Y,
 };
 
+/// Says of the patches from the `first` on what they are pieces of.
+pub(crate) fn mark(patches: &mut [Patch], first: usize, part: FacePart) {
+    for patch in &mut patches[first..] {
+        patch.part = part;
+    }
+}
+
 /// All patches, lowest first.
 pub(crate) fn patches() -> Vec<Patch> {
     let mut patches = Vec::new();
     for side in [1.0, -1.0] {
-        let mut add = |ink, flat: Flat, layer| {
-            patches.push(FRONT.lay(ink, &mirrored(flat, side), layer));
-        };
-        eye(&mut add, side);
-        for line in [brow(), collarbone(), neck()] {
-            add(Ink::Line, line, 1.0);
-        }
+        let lay = |ink, flat: Flat, layer| FRONT.lay(ink, &mirrored(flat, side), layer);
+        let first = patches.len();
+        eye(
+            &mut |ink, flat, layer| patches.push(lay(ink, flat, layer)),
+            side,
+        );
+        mark(&mut patches, first, FacePart::Eyes);
+        patches.push(Patch {
+            part: FacePart::Brows,
+            ..lay(Ink::Line, brow(), 1.0)
+        });
+        patches.extend([collarbone(), neck()].map(|line| lay(Ink::Line, line, 1.0)));
         // The right ear is drawn in a mirror, so that its sheet too faces outwards.
         let ear = Sheet {
             origin: EAR * Vec3::new(side, 1.0, 1.0),
@@ -84,9 +114,12 @@ pub(crate) fn patches() -> Vec<Patch> {
         }
     }
     // The skin's triangles are coarse where lips meet.
-    for (line, layer) in [(nose(), 1.0), (mouth(), 4.0), (lower_lip(), 1.0)] {
+    patches.push(FRONT.lay(Ink::Line, &nose(), 1.0));
+    let first = patches.len();
+    for (line, layer) in [(mouth(), 4.0), (lower_lip(), 1.0)] {
         patches.push(FRONT.lay(Ink::Line, &line, layer));
     }
+    mark(&mut patches, first, FacePart::Mouth);
     patches
 }
 
@@ -329,6 +362,7 @@ impl Sheet {
             }
         });
         Patch {
+            part: FacePart::default(),
             ink,
             away_from: None,
             positions: positions.collect(),

@@ -47,7 +47,7 @@ mod surface_nets;
 mod trig;
 
 pub use bust::{Bust, bust};
-pub use face::{Ink, Patch};
+pub use face::{FacePart, Ink, Patch};
 pub use figure::{Blush, Cloth, Dress, Expression, Eyes, Face, Figure};
 pub use guides::Guides;
 pub use shell::{Place, Shell, direction};

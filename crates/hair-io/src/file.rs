@@ -155,7 +155,8 @@ pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<He
         .iter_mut()
         .for_each(|n| *n = orientation.up.to_y_up(*n));
     check_finite(path, &orientation, &mesh.positions)?;
-    let mut notes = model.notes.clone();
+    let of_file = |note: &String| format!("{}: {note}", path.display());
+    let mut notes: Vec<String> = model.notes.iter().map(of_file).collect();
     notes.push(note);
     Ok(HeadFile {
         mesh,

@@ -103,10 +103,10 @@ impl Candidates {
     /// What of it may touch the box from `min` to `max`.
     pub fn within(&self, min: DVec2, max: DVec2) -> Self {
         let strands = self.strands.iter().map(|strand| strand.within(min, max));
-        let triangles = self.triangles.iter().copied();
+        let triangles = self.triangles.iter();
         Self {
             strands: strands.filter(|s| !s.strokes.is_empty()).collect(),
-            triangles: triangles.filter(|t| t.touches(min, max)).collect(),
+            triangles: triangles.filter(|t| t.touches(min, max)).cloned().collect(),
             ..*self
         }
     }

@@ -41,6 +41,8 @@
 //! `candidates` puts the answers in order. Nothing is shared with the rasterisers but the data types,
 //! so that agreement means something.
 //!
+//! Pictures on surfaces are looked up in each sample by itself. What layers paint is not drawn: surfaces have their two tones.
+//!
 //! Where the conventions leave a choice among exact equals: of axis points equally near the first
 //! along the strand lends its colour, of surfaces equally near the first triangle is seen, and a
 //! stroke exactly as deep as a surface is in front of it.
@@ -49,6 +51,7 @@ mod candidates;
 pub mod compare;
 mod features;
 mod segment;
+mod texture;
 mod triangle;
 
 use candidates::Candidates;

@@ -1,11 +1,15 @@
 //! One triangle of a surface.
 
+use crate::texture::Texture;
 use glam::{DVec2, DVec3};
 use render::{Surface, SurfaceVertex};
+use std::sync::Arc;
 
 /// A triangle in two tones, seen from both sides, its edges included.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Triangle {
+    /// A picture, and the corners' places there.
+    texture: Option<(Arc<Texture>, [DVec2; 3])>,
     corners: [Corner; 3],
     margin_m: f64,
     light: [f64; 3],
@@ -44,8 +48,14 @@ pub struct Hit {
 
 impl Triangle {
     /// The triangles of a surface, in its order.
-    pub fn of(surface: &Surface) -> impl Iterator<Item = Self> {
-        surface.triangles.iter().map(|corners| Self {
+    pub fn of(surface: &Surface) -> impl Iterator<Item = Self> + use<'_> {
+        let texture = surface.texture.as_ref();
+        let texture = texture.map(|texture| (Arc::new(Texture::from(texture)), &texture.places));
+        surface.triangles.iter().map(move |corners| Self {
+            texture: texture.as_ref().map(|(texture, places)| {
+                let places = corners.map(|index| places[index as usize].as_dvec2());
+                (texture.clone(), places)
+            }),
             corners: corners.map(|index| surface.vertices[index as usize].into()),
             margin_m: surface.margin_m.into(),
             light: surface.light.map(f64::from),
@@ -86,9 +96,22 @@ impl Triangle {
             terms.map(|(corner, weight)| weight * value(corner)).sum()
         };
         let lit = interpolate(|corner| corner.tone) >= 0.0;
-        let color = if lit { self.light } else { self.shadow };
+        let mut color = if lit { self.light } else { self.shadow };
+        let inv_depth = interpolate(|corner| corner.inv_depth);
+        if let Some((texture, places)) = &self.texture {
+            // Places run linearly in the world.
+            let corners = self.corners.iter().zip(weights).zip(places);
+            let sum = corners.map(|((corner, weight), place)| weight * corner.inv_depth * *place);
+            let [red, green, blue, alpha] = texture.at(sum.sum::<DVec2>() / inv_depth);
+            if alpha < texture.cut {
+                return None;
+            }
+            for (color, texel) in color.iter_mut().zip([red, green, blue]) {
+                *color *= texel;
+            }
+        }
         Some(Hit {
-            inv_depth: interpolate(|corner| corner.inv_depth),
+            inv_depth,
             margin_m: self.margin_m,
             color,
         })
@@ -114,6 +137,7 @@ mod tests {
             texture: None,
             margin_m: 0.0,
             mesh: 0,
+            paint: None,
             vertices: vec![
                 vertex(0.0, 0.0, 1.0, -1.0),
                 vertex(8.0, 0.0, 2.0, 1.0),

@@ -6,7 +6,8 @@ use crate::drawing::{
 };
 use crate::edges::Edges;
 use crate::features::{Feature, Features};
-use glam::Vec2;
+use crate::mesh_paint::{PaintedMeshes, SurfacePaint};
+use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -264,6 +265,29 @@ pub enum DrawError {
         /// How many joints there are.
         needed: usize,
     },
+    /// A layer for meshes has no head, or is seen through hair by no share from 0 to 1, or nothing says what sees it.
+    #[error("mesh painting: layer {0} needs a head, an eye, and a share from 0 to 1")]
+    MeshLayer(usize),
+    /// A surface is painted by a layer that isn't there.
+    #[error("surface {surface} is painted by mesh layer {layer}, and there are {layers}")]
+    SurfaceLayer {
+        /// Index of the surface.
+        surface: usize,
+        /// Its layer.
+        layer: u32,
+        /// How many there are.
+        layers: usize,
+    },
+    /// What paints a surface is told too much or too little of its vertices.
+    #[error(
+        "surface {surface}: for each of its {vertices} vertices there must be a unit normal to paint it, and a share of shadow from 0 to 1 or none at all"
+    )]
+    SurfacePaint {
+        /// Index of the surface.
+        surface: usize,
+        /// How many vertices it has.
+        vertices: usize,
+    },
     /// Only so many triangles can be numbered.
     #[error("{0} triangles are more than can be drawn")]
     TriangleCount(usize),
@@ -286,7 +310,8 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     }
     check_features(drawing)?;
     check_painting(drawing)?;
-    check_surfaces(&drawing.surfaces)
+    check_mesh_painting(drawing)?;
+    check_surfaces(&drawing.surfaces, drawing.mesh_painting.layers.len())
 }
 
 fn check_features(drawing: &Drawing) -> Result<(), DrawError> {
@@ -340,6 +365,19 @@ fn check_painting(drawing: &Drawing) -> Result<(), DrawError> {
     }
 }
 
+fn check_mesh_painting(drawing: &Drawing) -> Result<(), DrawError> {
+    let painting = &drawing.mesh_painting;
+    let is_whole = |layer: &PaintedMeshes| {
+        let is_head = layer.head_height_m > 0.0 && layer.head_height_m.is_finite();
+        is_head && layer.head_depth.is_finite() && (0.0..=1.0).contains(&layer.through_hair)
+    };
+    let seen = painting.seen.is_some() || painting.layers.is_empty();
+    match painting.layers.iter().position(|layer| !is_whole(layer)) {
+        None if seen => Ok(()),
+        index => Err(DrawError::MeshLayer(index.unwrap_or(0))),
+    }
+}
+
 /// Looks at what a picture is, whatever is in it.
 pub(crate) fn check_picture(
     [width, height]: [u32; 2],
@@ -359,8 +397,11 @@ pub(crate) fn check_picture(
 }
 
 /// Looks at every number of the surfaces.
-pub(crate) fn check_surfaces(surfaces: &[Surface]) -> Result<(), DrawError> {
+pub(crate) fn check_surfaces(surfaces: &[Surface], mesh_layers: usize) -> Result<(), DrawError> {
     for (index, surface) in surfaces.iter().enumerate() {
+        if let Some(paint) = &surface.paint {
+            check_paint(index, paint, surface.vertices.len(), mesh_layers)?;
+        }
         check_surface(index, surface)?;
     }
     let triangles = surfaces.iter().map(|s| s.triangles.len()).sum();
@@ -589,6 +630,36 @@ fn check_surface(index: usize, surface: &Surface) -> Result<(), DrawError> {
             vertex: vertex.unwrap_or_default(),
             vertices,
         });
+    }
+    Ok(())
+}
+
+fn check_paint(
+    surface: usize,
+    paint: &SurfacePaint,
+    vertices: usize,
+    layers: usize,
+) -> Result<(), DrawError> {
+    let SurfacePaint {
+        layer,
+        normals,
+        occlusion,
+    } = paint;
+    if *layer as usize >= layers {
+        return Err(DrawError::SurfaceLayer {
+            surface,
+            layer: *layer,
+            layers,
+        });
+    }
+    let is_list = normals.len() == vertices && [0, vertices].contains(&occlusion.len());
+    let is_normal = |normal: &Vec3| normal.is_finite() & (normal.length_squared() < 2.0);
+    let is_share = |share: &f32| (0.0..=1.0).contains(share);
+    if !is_list
+        || first_that_is_not(normals, is_normal).is_some()
+        || first_that_is_not(occlusion, is_share).is_some()
+    {
+        return Err(DrawError::SurfacePaint { surface, vertices });
     }
     Ok(())
 }

@@ -15,6 +15,7 @@ mod evaluate;
 pub(crate) mod instructions;
 mod mixed;
 mod paint;
+mod paint_mesh;
 mod reached;
 mod rows;
 mod samples;
@@ -45,6 +46,7 @@ use bin::{Bins, cells};
 use instructions::Instructions;
 use mixed::JointRows;
 use paint::Painter;
+use paint_mesh::MeshPainter;
 use rayon::prelude::*;
 use segment::{Segment, Segments, Stroke};
 use shown::Shown;
@@ -311,6 +313,7 @@ struct Worker {
     /// What samples show; empty where nothing is declared or painted.
     shown: Shown,
     painter: Painter,
+    meshes: MeshPainter,
 }
 
 impl Worker {
@@ -324,6 +327,7 @@ impl Worker {
             sums: Sums::new(),
             shown: Shown::default(),
             painter: Painter::default(),
+            meshes: MeshPainter::default(),
         }
     }
 
@@ -383,11 +387,12 @@ impl Worker {
         scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts);
         for stack in frame.stacks {
             scene.stack = stack;
-            if frame.drawing.painting.is_empty() {
-                self.draw_stack::<false>(frame, &scene, tile, triangles);
-            } else {
+            if paint_mesh::tells(frame) {
                 self.draw_stack::<true>(frame, &scene, tile, triangles);
                 self.paint(frame);
+                self.paint_meshes(frame, origin, stack);
+            } else {
+                self.draw_stack::<false>(frame, &scene, tile, triangles);
             }
             self.sums.add(&mut self.target, stack, background.is_some());
         }
@@ -423,6 +428,9 @@ impl Worker {
                 shows,
             );
             self.target.finish_surfaces();
+        }
+        if TELLS && frame.drawing.mesh_painting.sees_through() {
+            self.keep_under(frame);
         }
         let segments_of_tile = self.segments_of_tiles.bin(tile);
         for part in &self.parts {

@@ -7,6 +7,7 @@
 
 use crate::edges::Edges;
 use crate::features::DrawnFeatures;
+use crate::mesh_paint::{MeshPainting, SurfacePaint};
 use crate::painting::Painting;
 use effects::Image;
 use glam::Vec2;
@@ -143,6 +144,8 @@ pub struct Surface {
     pub shadow: [f32; 3],
     /// A picture on it; without one it is of those colours everywhere.
     pub texture: Option<SurfaceTexture>,
+    /// What paints its samples; without it they are of those colours by the tone.
+    pub paint: Option<SurfacePaint>,
 }
 
 /// Which stroke a sample shows where several cover it.
@@ -284,6 +287,8 @@ pub struct Drawing {
     pub features: DrawnFeatures,
     /// Layers whose samples are painted.
     pub painting: Painting,
+    /// Layers that paint surfaces.
+    pub mesh_painting: MeshPainting,
     /// What is done with the samples of the whole picture, one after the other, before their means are taken. What they need is to be
     /// declared by the features.
     pub passes: Vec<Edges>,

@@ -7,6 +7,7 @@ pub use check::FrameError;
 use crate::drawing::{Order, Surface};
 use crate::edges::Edges;
 use crate::features::Features;
+use crate::mesh_paint::MeshLayer;
 use effects::{InputSet, Layer, Reach, Varied, clump};
 use glam::{Vec2, Vec3};
 use std::ops::Range;
@@ -123,6 +124,8 @@ pub struct Frame<'a> {
     pub rest_positions: &'a [Vec3],
     /// The heads' surfaces on the screen.
     pub surfaces: Vec<Surface>,
+    /// Layers that paint surfaces, which name them by their places here ([`Surface::paint`]).
+    pub mesh_layers: Vec<MeshLayer<'a>>,
     /// Linear colour behind everything, or a transparent picture.
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.

@@ -49,6 +49,7 @@ mod features;
 mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+mod mesh_paint;
 mod painting;
 mod picture;
 mod planes;
@@ -67,6 +68,7 @@ pub use frame::{
     Ball, CLUMP_REACH, Frame, FrameError, Head, Light, NO_COLOR, NO_TAPER, Object, StrandInfo,
     reach_of,
 };
+pub use mesh_paint::{MeshLayer, MeshPainting, PaintedMeshes, Seen, SurfacePaint};
 pub use painting::{PaintedLayer, Painting};
 pub use picture::Picture;
 pub use planes::{Sample, SamplePlanes};

@@ -97,6 +97,8 @@ fn joint_inputs(lists: SampleSet) -> InputSet {
         SampleInput::Time => Some(Input::Time),
         // Of the frame, or of the sample itself.
         SampleInput::Level
+        | SampleInput::ShadeColor
+        | SampleInput::Occlusion
         | SampleInput::HeadDepth
         | SampleInput::Pixels
         | SampleInput::Color
@@ -205,6 +207,8 @@ impl Painting {
             }
             // Of the sample itself.
             SampleInput::Color | SampleInput::Tube | SampleInput::V | SampleInput::W => {}
+            // Of meshes.
+            SampleInput::ShadeColor | SampleInput::Occlusion => {}
         }
     }
 

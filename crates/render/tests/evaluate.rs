@@ -109,6 +109,7 @@ fn drawing_of(
         material_normals: &[],
         rest_positions: &[],
         surfaces: Vec::new(),
+        mesh_layers: Vec::new(),
         background: None,
         order: Order::Rounded,
         edge_depth_m: 0.005,

@@ -99,6 +99,7 @@ impl Scene {
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
             surfaces: Vec::new(),
+            mesh_layers: Vec::new(),
             background: None,
             order: Order::Rounded,
             edge_depth_m: 0.005,

@@ -86,6 +86,7 @@ fn drawing_of(count: usize, list: &str, features: Features) -> Drawing {
         material_normals: &[],
         rest_positions: &[],
         surfaces: Vec::new(),
+        mesh_layers: Vec::new(),
         background: Some([0.5; 3]),
         order: Order::Rounded,
         edge_depth_m: 0.005,

@@ -247,7 +247,9 @@ impl<'r> Preset<'r> {
             _ if !self.objects.is_empty() => "objects",
             StageError::NoPointLight(_) | StageError::Camera(_) => "light",
             StageError::Shapes(_) | StageError::Loop { .. } | StageError::NoCharacter => "motion",
-            StageError::Texture { .. } | StageError::Zones { .. } => "layers",
+            StageError::Texture { .. }
+            | StageError::Zones { .. }
+            | StageError::MeshLayer { .. } => "layers",
             StageError::Path(_) => "path",
             StageError::NoHeadsHair => "hair",
             StageError::Body { .. } => "bodies",

@@ -72,6 +72,14 @@ pub enum StageError {
         /// What is wrong.
         message: String,
     },
+    /// A layer paints meshes that aren't there.
+    #[error("{layer}.{message}")]
+    MeshLayer {
+        /// The layer's name.
+        layer: String,
+        /// What is wrong.
+        message: String,
+    },
     /// A file has no mesh and no bone of a name that the preset says of its hair.
     #[error("{}: no mesh, material or spring bone is called `{name}`{hint}", .path.display())]
     NoMeshOrBone {

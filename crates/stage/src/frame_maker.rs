@@ -3,7 +3,7 @@
 use crate::bodies::Body;
 use crate::files::StageError;
 use crate::hair::HairModel;
-use crate::head;
+use crate::head::{self, layers::MeshLayers};
 use crate::levels::levels;
 use crate::look::Look;
 use crate::material::Material;
@@ -19,7 +19,7 @@ use effects::wgsl::hash;
 use effects::{HairStrand, Layer, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
-use render::{Ball, Frame, Light, StrandInfo, Surface};
+use render::{Ball, Frame, Light, MeshLayer, StrandInfo, Surface};
 use std::ops::Range;
 use std::sync::Arc;
 use stroke_path::{Camera, Detail, PathError, PathKind, Paths};
@@ -144,6 +144,7 @@ impl FrameMaker {
         let light = scene.look().light(&camera, motion.head(scene));
         let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
+        let mut mesh_layers = Vec::new();
         for (index, object) in scene.objects().iter().enumerate() {
             match objects.get_mut(index) {
                 Some(frame) => frame.follow(object),
@@ -166,7 +167,15 @@ impl FrameMaker {
             object
                 .placement()
                 .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
-            surfaces.extend(frame.surfaces(index, motion, &sight, light));
+            let first_layer = mesh_layers.len();
+            surfaces.extend(frame.surfaces(index, motion, &sight, light, first_layer));
+            let look = object.look();
+            let head = object.placement().head(motion.head(object));
+            mesh_layers.extend(look.mesh_layers.iter().map(|layer| MeshLayer {
+                layer,
+                head,
+                seed: look.seed,
+            }));
         }
         let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
             let look = object.look();
@@ -194,6 +203,7 @@ impl FrameMaker {
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
             surfaces,
+            mesh_layers,
             background: section.background,
             order: scene.look().order(),
             edge_depth_m: section.edge_depth * scene.head().height_m,
@@ -594,27 +604,40 @@ impl ObjectFrame {
         motion: &ObjectMotion,
         sight: &Sight,
         light: Light,
+        first_layer: usize,
     ) -> Vec<Surface> {
-        let light = self.of.placement().own_light(light);
-        let mut surfaces = self.head_surfaces(motion, sight, light);
-        surfaces.extend(self.body_surfaces(motion, sight, light));
+        let placement = self.of.placement();
+        let light = placement.own_light(light);
+        let of = self.of.clone();
+        let layers = MeshLayers::new(&of.look().mesh_layers, first_layer);
+        let mut surfaces = self.head_surfaces(motion, sight, light, &layers);
+        surfaces.extend(self.body_surfaces(motion, sight, light, &layers));
         let ties = self
             .of
             .hair()
             .low_ties_at(motion.points(&self.of), motion.head_pose());
         if !ties.triangles.is_empty() {
             let paint = self.of.look().paint(self.of.hair().head);
-            surfaces.extend(head::worn(&ties, &paint, sight.camera(), &light));
+            surfaces.extend(head::worn(&ties, &paint, &layers, sight.camera(), &light));
         }
         let first_mesh = head::MESHES * index as u32;
         for surface in &mut surfaces {
             surface.mesh += first_mesh;
+            if let Some(paint) = &mut surface.paint {
+                placement.turn(&mut paint.normals);
+            }
         }
         surfaces
     }
 
     /// The surfaces of bodies that are drawn.
-    fn body_surfaces(&self, motion: &ObjectMotion, sight: &Sight, light: Light) -> Vec<Surface> {
+    fn body_surfaces(
+        &self,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        light: Light,
+        layers: &MeshLayers,
+    ) -> Vec<Surface> {
         let script = self.of.script();
         if script
             .bodies
@@ -630,7 +653,7 @@ impl ObjectFrame {
             let mesh = body.drawn(motion.posed_s(), &posture)?;
             let (center, radius_m) = ball_around(&mesh.positions);
             let is_seen = sight.may_see_ball(center, radius_m + paint.width_m);
-            is_seen.then(|| head::painted(&mesh, &paint, sight.camera(), &light))
+            is_seen.then(|| head::painted(&mesh, &paint, layers, sight.camera(), &light))
         });
         drawn.flatten().collect()
     }
@@ -641,6 +664,7 @@ impl ObjectFrame {
         motion: &ObjectMotion,
         sight: &Sight,
         light: Light,
+        layers: &MeshLayers,
     ) -> Vec<Surface> {
         self.solid = None;
         let Some(neck) = self.of.neck() else {
@@ -664,6 +688,7 @@ impl ObjectFrame {
             model,
             &paint,
             self.of.look().meshes(),
+            layers,
             sight.camera(),
             &light,
         )

@@ -1,5 +1,6 @@
 //! The head: its shape, what is drawn on it, and how it comes onto the screen.
 
+pub(crate) mod layers;
 mod on_screen;
 mod paint;
 mod seen;

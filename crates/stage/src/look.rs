@@ -27,6 +27,8 @@ pub struct Look {
     pub(crate) sections: Sections,
     pub(crate) clump: Varied<clump::Program>,
     pub(crate) layers: Vec<Layer>,
+    /// Those that paint meshes.
+    pub(crate) mesh_layers: Vec<Layer>,
     passes: Vec<PassSection>,
     /// How the preset's meshes are painted, in their order.
     meshes: Vec<MeshSection>,
@@ -66,12 +68,24 @@ impl Look {
             let values = with_textures(layer, files)?;
             Ok(layer.build_with(&values))
         });
-        let layers = layers.collect::<Result<_, StageError>>()?;
+        let layers = layers.collect::<Result<Vec<_>, StageError>>()?;
+        let for_meshes = preset
+            .layers
+            .iter()
+            .map(|layer| layer.effect.is_for_meshes());
+        let (mut strokes, mut mesh_layers) = (Vec::new(), Vec::new());
+        for (layer, is_for_meshes) in layers.into_iter().zip(for_meshes) {
+            match is_for_meshes {
+                true => mesh_layers.push(layer),
+                false => strokes.push(layer),
+            }
+        }
         let look = Self {
             seed: preset.seed,
             clump: Varied::new(&sections.clump.0),
             sections,
-            layers,
+            layers: strokes,
+            mesh_layers,
             passes: preset.passes.clone(),
             meshes: preset
                 .meshes
@@ -114,7 +128,7 @@ impl Look {
             let painted = layer.program.paints().unwrap_or_default();
             layer.program.inputs().has(Input::Time) || painted.has(SampleInput::Time)
         };
-        self.layers.iter().any(reads)
+        self.layers.iter().chain(&self.mesh_layers).any(reads)
     }
 
     /// Whether a layer paints its samples.

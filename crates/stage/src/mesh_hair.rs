@@ -35,6 +35,8 @@ const COLORS_AT: [f32; 2] = [0.15, 0.85];
 pub(crate) struct OwnHair {
     /// For each mesh of the model and each of its triangles, whether it became a strand.
     pub is_hair: Vec<Vec<bool>>,
+    /// The same of what hair lies on: shells around the skull, and the rest of pieces that hair was cut off.
+    is_cap: Vec<Vec<bool>>,
     locks: Vec<OwnLock>,
     notes: Vec<String>,
 }
@@ -102,6 +104,7 @@ pub(crate) fn find(
             .iter()
             .map(|mesh| vec![false; mesh.triangles.len()])
             .collect(),
+        is_cap: Vec::new(),
         locks: Vec::new(),
         notes: Vec::new(),
     };
@@ -162,11 +165,32 @@ pub(crate) fn find(
             hair.locks.push(OwnLock { mesh: index, lock });
         }
     }
+    let caps = model.meshes.iter().zip(&groups).zip(&hair.is_hair);
+    hair.is_cap = caps
+        .map(|((mesh, groups), is_hair)| cap_of(mesh, groups, is_hair))
+        .collect();
     if shells > 0 {
         hair.notes
             .push(format!("hair: {shells} shells around the head stay meshes"));
     }
     Ok((!hair.locks.is_empty()).then_some(hair))
+}
+
+/// Which triangles of a mesh hair lies on, by which were taken for hair and which became strands.
+fn cap_of(mesh: &mesh_io::Mesh, groups: &[Option<u32>], is_hair: &[bool]) -> Vec<bool> {
+    if !is_hair.contains(&true) {
+        return groups.iter().map(Option::is_some).collect();
+    }
+    let islands = islands(&mesh.positions, &mesh.triangles);
+    let with_hair: BTreeSet<usize> = (islands.iter().zip(is_hair))
+        .filter_map(|(island, is_hair)| is_hair.then_some(*island))
+        .collect();
+    let triangles = groups.iter().zip(&islands).zip(is_hair);
+    triangles
+        .map(|((group, island), is_hair)| {
+            !is_hair && (group.is_some() || with_hair.contains(island))
+        })
+        .collect()
 }
 
 /// Where the head under the hair is.
@@ -206,13 +230,25 @@ impl OwnHair {
         painted: &mut Vec<PaintedMesh>,
     ) -> BTreeMap<usize, PaintedMesh> {
         let mut whole = BTreeMap::new();
+        let mut caps = Vec::new();
         for (index, mesh) in shown.zip(painted.iter_mut()) {
-            let is_hair = &self.is_hair[index];
+            let (is_hair, is_cap) = (&self.is_hair[index], &self.is_cap[index]);
             if is_hair.contains(&true) {
                 whole.insert(index, mesh.clone());
-                mesh.take_away(is_hair);
+            }
+            if is_cap.contains(&true) {
+                let mut cap = mesh.clone();
+                cap.take_away(&is_cap.iter().map(|is_cap| !is_cap).collect::<Vec<_>>());
+                cap.is_cap = true;
+                caps.push(cap);
+            }
+            let is_gone = is_hair.iter().zip(is_cap).map(|(hair, cap)| *hair || *cap);
+            let is_gone: Vec<bool> = is_gone.collect();
+            if is_gone.contains(&true) {
+                mesh.take_away(&is_gone);
             }
         }
+        painted.append(&mut caps);
         painted.retain(|mesh| !mesh.triangles.is_empty());
         whole
     }

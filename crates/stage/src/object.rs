@@ -3,7 +3,7 @@
 use crate::bake;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
-use crate::head::HeadModel;
+use crate::head::{self, HeadModel};
 use crate::load::{self, ReadHead};
 use crate::look::Look;
 use crate::neck::Neck;
@@ -76,6 +76,8 @@ impl Object {
         hair.move_out_of_bodies(&script, &preset.sections.dynamics);
         bake::load(preset, files, &mut hair, notes)?;
         zones::check(&preset.layers, &hair, files.hair.is_some(), notes)?;
+        let (wears_ties, is_given) = (!hair.ornaments.is_empty(), files.head.is_some());
+        head::layers::check(&preset.layers, head.as_ref(), wears_ties, is_given, notes)?;
         Self::of(hair, head, look, script)
     }
 

@@ -22,6 +22,8 @@ pub(crate) struct PaintedMesh {
     /// For each position its place in the picture; empty without one.
     pub places: Vec<Vec2>,
     pub paint: MeshPaint,
+    /// What layers may call it: the mesh's name, its material's, and that of its file beside a head.
+    pub names: Vec<String>,
     /// Which of the preset's `meshes` it is of; none is the head's own file.
     pub section: Option<usize>,
     /// Which mesh of its file it is, and which of that mesh's vertices it has where triangles were taken away: empty is all.
@@ -29,6 +31,8 @@ pub(crate) struct PaintedMesh {
     pub kept: Vec<usize>,
     /// Whether its outside is where its file has the inside: its normals and triangles are turned around.
     pub is_turned: bool,
+    /// Whether hair lies on it, and covers it where it is a little deeper.
+    pub is_cap: bool,
 }
 
 /// How a file paints a mesh.
@@ -174,10 +178,12 @@ pub(crate) fn of_model(
                 None => Vec::new(),
             },
             paint,
+            names: names_of(model, mesh).map(str::to_owned).collect(),
             section,
             index,
             kept: Vec::new(),
             is_turned: false,
+            is_cap: false,
         });
     }
     notes.append(&mut pictures.notes);
@@ -266,7 +272,8 @@ pub(crate) fn of_sections(
     for (number, section) in sections.iter().enumerate() {
         let path = section.path(folder);
         let model = mesh_io::read_model(&path)?;
-        notes.extend(model.notes.iter().cloned());
+        let of_file = |note: &String| format!("{}: {note}", path.display());
+        notes.extend(model.notes.iter().map(of_file));
         let [only, hide] = [&section.only, &section.hide]
             .map(|names| MeshNames(Names(names.as_deref().unwrap_or_default())));
         only.check(&model, &path)?;
@@ -297,7 +304,9 @@ pub(crate) fn of_sections(
             AlphaChoice::Cut => Some(Coverage::Cut(0.5)),
             AlphaChoice::Blend => Some(Coverage::Share),
         };
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         for mesh in &mut meshes {
+            mesh.names.extend(stem.iter().map(|stem| stem.to_string()));
             if let (Some(picture), Some(coverage)) = (&mut mesh.paint.picture, coverage) {
                 picture.coverage = coverage;
             }

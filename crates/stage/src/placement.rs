@@ -77,6 +77,15 @@ impl Placement {
         }
     }
 
+    /// Turns directions of the object's own.
+    pub fn turn(&self, directions: &mut [Vec3]) {
+        if !self.is_none() {
+            for direction in directions {
+                *direction = self.rotation * *direction;
+            }
+        }
+    }
+
     /// Places joints that a camera of the object's own has seen, and their normals.
     pub fn joints(&self, paths: &mut Paths, joints: Range<usize>, normals: &mut [Vec3]) {
         if self.is_none() {

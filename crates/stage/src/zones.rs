@@ -39,7 +39,8 @@ pub(crate) fn check(
     notes: &mut Vec<String>,
 ) -> Result<(), StageError> {
     let mut mistakes = Vec::new();
-    for (number, layer) in layers.iter().enumerate() {
+    let strokes = layers.iter().filter(|layer| !layer.effect.is_for_meshes());
+    for (number, layer) in strokes.enumerate() {
         for message in faults(number, layer, hair) {
             match &layer.zones_place {
                 _ if is_given || hair.zone_names.is_empty() => {

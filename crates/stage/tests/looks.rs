@@ -37,7 +37,7 @@ const MOST_IDS: u32 = 1_000_000;
 /// Share of the eyes that hair may hide, seen from the front.
 const HIDDEN: f64 = 0.01;
 /// Looks whose hair hides an eye, as their first lines say.
-const OVER_AN_EYE: [&str; 0] = [];
+const OVER_AN_EYE: [&str; 1] = ["long-fringe"];
 
 fn presets() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets")

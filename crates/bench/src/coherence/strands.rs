@@ -177,6 +177,7 @@ impl Animation for Strands {
             material_normals: &[],
             rest_positions: &[],
             surfaces: Vec::new(),
+            mesh_layers: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),
             edge_depth_m: EDGE_DEPTH * HEAD.height_m,

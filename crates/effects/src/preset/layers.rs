@@ -28,6 +28,11 @@ section! {
         /// The zones of the hair's style that it draws on: their names with commas between them, `*` for any end, such as "fringe, tail*".
         /// Without it all hair.
         zones: Option<String> = text(),
+        /// Of effects for meshes: what is painted, names of meshes or of their materials with commas between them, `*` for any end, such as "Face*,
+        /// Body". Of the head that comes with inkstrand: skin, dress, eyes, brows, mouth, blush; of the hair: ties.
+        on: Option<String> = text(),
+        /// Of effects for meshes: how much of it is seen through hair that hangs before it: 0 nothing, 1 as if there were no hair.
+        through_hair: f32 = number(0.0, 0.0..=1.0),
     }
 }
 
@@ -41,6 +46,8 @@ impl LayerFields {
             depth_offset: Some(layer.depth_offset),
             units: layer.units,
             zones: layer.zones.clone(),
+            on: layer.on.clone(),
+            through_hair: layer.through_hair,
         }
     }
 }
@@ -67,6 +74,12 @@ pub struct LayerSpec<'r> {
     pub zones: Option<String>,
     /// Where the file says them.
     pub zones_place: Option<Place>,
+    /// The meshes that it paints, of an effect for meshes.
+    pub on: Option<String>,
+    /// Where the file says them.
+    pub on_place: Option<Place>,
+    /// How much of what it paints is seen through hair, 0 to 1.
+    pub through_hair: f32,
     /// The effect's parameters.
     pub values: Values,
     /// Where the file names its textures' files: their parameters, and the place of each value.
@@ -74,23 +87,34 @@ pub struct LayerSpec<'r> {
 }
 
 impl LayerSpec<'_> {
-    /// Sets one parameter of the effect, or the layer's own `rank`, `depth_offset`, `units` or `zones`,
-    /// from its text, as `--set` gives it.
+    /// Sets one parameter of the effect, or one of the layer's own, such as `rank`, from its text, as `--set` gives it.
     ///
     /// # Errors
     ///
     /// When there is no such parameter, or the text is not one of its values.
     pub fn set(&mut self, param: &str, text: &str) -> Result<(), SetError> {
-        let own = ["rank", "depth_offset", "units", "zones"];
+        let own = [
+            "rank",
+            "depth_offset",
+            "units",
+            "zones",
+            "on",
+            "through_hair",
+        ];
         // What the file says is no longer what is meant.
         self.textures.retain(|(name, _)| *name != param);
         let is_own = own.contains(&param) && self.effect.params().iter().all(|p| p.name != param);
         if !is_own {
             return set_text(&mut self.values, &self.name, param, text);
         }
+        if let Some(message) = misfit(self.effect, param) {
+            return Err(SetError::Unknown(message));
+        }
         let mut fields = LayerFields {
             units: self.units,
             zones: self.zones.clone(),
+            on: self.on.clone(),
+            through_hair: self.through_hair,
             ..LayerFields::default()
         };
         set_text(&mut fields, &self.name, param, text)?;
@@ -101,6 +125,11 @@ impl LayerSpec<'_> {
             self.zones_place = None;
         }
         self.zones = fields.zones;
+        if param == "on" {
+            self.on_place = None;
+        }
+        self.on = fields.on;
+        self.through_hair = fields.through_hair;
         Ok(())
     }
 
@@ -120,6 +149,8 @@ impl LayerSpec<'_> {
             depth_offset: self.depth_offset,
             units: self.units,
             zones: self.zones.clone(),
+            on: self.on.clone(),
+            through_hair: self.through_hair,
             program: self.effect.program(values).into(),
         }
     }
@@ -220,6 +251,20 @@ impl<'a> Reader<'a> {
             )
         });
         let effect = effect?;
+        for field in &own {
+            if let Some(message) = misfit(effect, field.name) {
+                self.error(field.name, message);
+            }
+        }
+        let says_on = layer.on.is_some() || own.iter().any(|field| field.name == "on");
+        if effect.is_for_meshes() && !says_on {
+            let id = effect.id();
+            let message = format!(
+                "`{id}` paints meshes, and the layer doesn't say which: on: \"skin, dress\", the names of a file's meshes, or \"*\" for all"
+            );
+            self.error(item, message);
+        }
+        let on = own.iter().find(|field| field.name == "on");
         let zones = own.iter().find(|field| field.name == "zones");
         let mut values = match changed {
             Some(changed) => changed.values.clone(),
@@ -230,6 +275,7 @@ impl<'a> Reader<'a> {
             self.params(field.value, effect, &mut values, &mut textures);
         }
         let zones_of_base = changed.and_then(|changed| changed.zones_place.clone());
+        let on_of_base = changed.and_then(|changed| changed.on_place.clone());
         Some(LayerSpec {
             name: layer.name.unwrap_or_else(|| effect.id().to_owned()),
             effect,
@@ -238,6 +284,9 @@ impl<'a> Reader<'a> {
             units: layer.units,
             zones: layer.zones,
             zones_place: zones.map_or(zones_of_base, |field| Some(self.place(field.value))),
+            on: layer.on,
+            on_place: on.map_or(on_of_base, |field| Some(self.place(field.value))),
+            through_hair: layer.through_hair,
             values,
             textures,
         })
@@ -309,6 +358,31 @@ fn named(fields: &[Field]) -> Option<String> {
     let field = fields.iter().find(|field| field.name == "name")?;
     match parse_value(field.value, &ParamKind::Text) {
         Ok(Value::Text(name)) => name,
+        _ => None,
+    }
+}
+
+/// Whether a layer of this effect may say this field of [`LAYER`].
+#[must_use]
+pub fn may_say(effect: &dyn AnyEffect, field: &str) -> bool {
+    misfit(effect, field).is_none()
+}
+
+/// Why a layer of this effect can't say that.
+fn misfit(effect: &dyn AnyEffect, param: &str) -> Option<String> {
+    let id = effect.id();
+    let of_strokes = ["rank", "depth_offset", "units", "zones"];
+    let of_meshes = ["on", "through_hair"];
+    if effect.params().iter().any(|own| own.name == param) {
+        return None;
+    }
+    match effect.is_for_meshes() {
+        true if of_strokes.contains(&param) => {
+            Some(format!("`{param}` is of strokes, and `{id}` paints meshes"))
+        }
+        false if of_meshes.contains(&param) => Some(format!(
+            "`{param}` is of effects for meshes, such as `mesh.toon`; `{id}` draws strokes"
+        )),
         _ => None,
     }
 }

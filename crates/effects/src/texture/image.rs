@@ -113,6 +113,12 @@ impl Image {
     /// nearest of the two copies nearest in size. Colour, and coverage.
     #[must_use]
     pub fn at(&self, place: [f32; 2], size: f32, repeats: bool) -> [f32; 4] {
+        self.blurred(size).at(place, repeats)
+    }
+
+    /// The picture blurred over `size` of its width, for many places.
+    #[must_use]
+    pub fn blurred(&self, size: f32) -> Blurred<'_> {
         let last = (self.levels.len() - 1) as f32;
         let texels = size.max(0.0) * self.size()[0] as f32;
         // No size, or one that is no number, is the whole's.
@@ -123,10 +129,29 @@ impl Image {
         };
         let finer = level.floor();
         let share = level - finer;
-        let mut texel = self.levels[finer as usize].at(place, repeats);
-        if share > 0.0 {
-            let coarser = self.levels[finer as usize + 1].at(place, repeats);
-            texel = mix(texel, coarser, share);
+        Blurred {
+            finer: &self.levels[finer as usize],
+            coarser: (share > 0.0).then(|| (&self.levels[finer as usize + 1], share)),
+        }
+    }
+}
+
+/// The two copies of a picture nearest in size to what a pixel covers.
+#[derive(Clone, Copy, Debug)]
+pub struct Blurred<'a> {
+    finer: &'a Level,
+    /// What comes of the smaller one.
+    coarser: Option<(&'a Level, f32)>,
+}
+
+impl Blurred<'_> {
+    /// The texel at a place, 0 to 1 from left to right and from top to bottom: colour, and coverage.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, place: [f32; 2], repeats: bool) -> [f32; 4] {
+        let mut texel = self.finer.at(place, repeats);
+        if let Some((coarser, share)) = self.coarser {
+            texel = mix(texel, coarser.at(place, repeats), share);
         }
         let [red, green, blue, alpha] = texel;
         if alpha <= 0.0 {
@@ -146,17 +171,26 @@ impl Level {
     }
 
     /// Between the middles of the four nearest texels.
+    #[inline]
     fn at(&self, place: [f32; 2], repeats: bool) -> [f32; 4] {
         let [across, down] = [0, 1].map(|i| nearest(place[i], self.size[i], repeats));
         let row = |y: usize| {
-            let texel = |x: usize| self.texels[y * self.size[0] + x].map(f16::to_f32);
+            let texel = |x: usize| self.texels[y * self.size[0] + x].map(number);
             mix(texel(across.0), texel(across.1), across.2)
         };
         mix(row(down.0), row(down.1), down.2)
     }
 }
 
+/// The number that a texel's is, exactly: none is below 0, above 1 or no number, so that a shift and a product do.
+#[inline]
+fn number(half: f16) -> f32 {
+    const SCALE: f32 = f32::from_bits((127 + 112) << 23);
+    f32::from_bits(u32::from(half.to_bits()) << 13) * SCALE
+}
+
 /// The two texels nearest to a place along a side, and how far it is from the first's middle to the second's.
+#[inline]
 fn nearest(place: f32, side: usize, repeats: bool) -> (usize, usize, f32) {
     let place = if repeats {
         place - place.floor()
@@ -220,6 +254,7 @@ fn mean(shares: &[(usize, f32)], texel: impl Fn(usize) -> [f32; 4]) -> [f32; 4] 
     sum
 }
 
+#[inline]
 fn mix(from: [f32; 4], to: [f32; 4], share: f32) -> [f32; 4] {
     std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share)
 }
@@ -228,6 +263,14 @@ fn mix(from: [f32; 4], to: [f32; 4], share: f32) -> [f32; 4] {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn halves_are_the_numbers_that_they_are() {
+        for bits in 0..=f16::ONE.to_bits() {
+            let half = f16::from_bits(bits);
+            assert_eq!(number(half).to_bits(), half.to_f32().to_bits(), "{bits}");
+        }
+    }
 
     const WHITE: [u16; 4] = [65535; 4];
     const BLACK: [u16; 4] = [0, 0, 0, 65535];

@@ -1,7 +1,8 @@
 //! A figure's drawn face.
 
 use crate::face::{
-    FRONT, Ink, Patch, Sheet, collarbone, ear_lines, keep_inside, line, mirrored, neck,
+    FRONT, FacePart, Ink, Patch, Sheet, collarbone, ear_lines, keep_inside, line, mark, mirrored,
+    neck,
 };
 use crate::ribbon::{Flat, curve, ellipse, fill, stroke};
 use crate::shape::{EAR, EAR_BACK, EAR_UP, EYE_HEIGHT};
@@ -375,15 +376,25 @@ pub(crate) fn patches(face: &Face, skin: &impl Fn(Vec3) -> f32, is_bare: bool) -
     let mut patches = Vec::new();
     for side in [1.0, -1.0] {
         patches.push(nose_side(skin, side));
-        let mut add = |ink, flat: Flat, layer| patches.push(FRONT.lay_on(skin, ink, &flat, layer));
-        eye(face, &mut add, side);
-        for flat in blush(face.blush) {
-            add(Ink::Blush, mirrored(flat, side), 0.0);
-        }
+        let lay = |ink, flat: Flat, layer| FRONT.lay_on(skin, ink, &flat, layer);
+        let first = patches.len();
+        eye(
+            face,
+            &mut |ink, flat, layer| patches.push(lay(ink, flat, layer)),
+            side,
+        );
+        mark(&mut patches, first, FacePart::Eyes);
+        patches.extend(brow(face).map(|flat| Patch {
+            part: FacePart::Brows,
+            ..lay(Ink::Line, mirrored(flat, side), 1.0)
+        }));
+        patches.extend(blush(face.blush).into_iter().map(|flat| Patch {
+            part: FacePart::Blush,
+            ..lay(Ink::Blush, mirrored(flat, side), 0.0)
+        }));
         if is_bare {
-            for line in [collarbone(), neck()] {
-                add(Ink::Line, mirrored(line, side), 1.0);
-            }
+            let lines = [collarbone(), neck()].map(|line| mirrored(line, side));
+            patches.extend(lines.map(|line| lay(Ink::Line, line, 1.0)));
         }
         // The right ear is drawn in a mirror, so that its sheet too faces outwards.
         let ear = Sheet {
@@ -396,9 +407,11 @@ pub(crate) fn patches(face: &Face, skin: &impl Fn(Vec3) -> f32, is_bare: bool) -
         }
     }
     patches.push(under_lip(skin));
+    let first = patches.len();
     for (ink, flat, layer) in mouth(face.expression) {
         patches.push(FRONT.lay_on(skin, ink, &flat, layer));
     }
+    mark(&mut patches, first, FacePart::Mouth);
     patches.push(FRONT.lay_on(skin, Ink::Line, &nose(), 1.0));
     patches
 }
@@ -410,26 +423,26 @@ fn eye(face: &Face, patches: &mut dyn FnMut(Ink, Flat, f32), side: f32) {
         size: face.eye_size,
         side,
     };
-    let mut raised = 0.0;
     match face.expression {
         Expression::Neutral => eye.open(&cut, 0.0, face.highlights),
-        Expression::Smile => {
-            eye.open(&cut, 2.6, face.highlights);
-            raised = 1.5;
-        }
-        Expression::Laugh => {
-            eye.closed(&cut, true);
-            raised = 3.0;
-        }
+        Expression::Smile => eye.open(&cut, 2.6, face.highlights),
+        Expression::Laugh => eye.closed(&cut, true),
         Expression::Closed => eye.closed(&cut, false),
     }
-    if face.brow > 0.0 {
-        let brow = cut.brow.map(|([x, y], width)| {
-            let at = EYE + Vec2::new(x, y + raised) * 1e-3;
-            (at, width * face.brow * 1e-3)
-        });
-        eye.add(Ink::Line, stroke(&brow), 1.0);
-    }
+}
+
+/// One brow, drawn for the viewer's right, if there are any.
+fn brow(face: &Face) -> Option<Flat> {
+    let raised = match face.expression {
+        Expression::Neutral | Expression::Closed => 0.0,
+        Expression::Smile => 1.5,
+        Expression::Laugh => 3.0,
+    };
+    let brow = face.eyes.cut().brow.map(|([x, y], width)| {
+        let at = EYE + Vec2::new(x, y + raised) * 1e-3;
+        (at, width * face.brow * 1e-3)
+    });
+    (face.brow > 0.0).then(|| stroke(&brow))
 }
 
 fn blush(blush: Blush) -> Vec<Flat> {

@@ -144,7 +144,10 @@ impl Locks {
             dt: 0.0,
             ways: Ways::new(batches, pieces.len()),
             pairs: Pairs::new(strands.len() - 1),
-            found: vec![Vec::new(); TASKS],
+            // Room ahead of need, so that a warm step allocates nothing.
+            found: (0..TASKS)
+                .map(|_| Vec::with_capacity(particles[batches.len()]))
+                .collect(),
             holds: vec![None; particles[batches.len()]],
             pieces,
             strands,
@@ -220,10 +223,6 @@ impl Locks {
             planes.clear();
         }
         self.find_all(self.pairs.all(), &mut found[..tasks]);
-        for planes in &mut found {
-            // Room ahead of need, so that a warm step allocates nothing.
-            planes.reserve(planes.len());
-        }
         self.holds.fill(None);
         for (task, planes) in found.iter().enumerate() {
             for (index, plane) in planes.iter().enumerate() {

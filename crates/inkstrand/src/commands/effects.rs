@@ -66,19 +66,19 @@ fn parts() -> impl Iterator<Item = &'static FilePart> {
 
 fn list(registry: &Registry) -> String {
     let mut effects: Vec<&dyn AnyEffect> = registry.iter().collect();
-    effects.sort_by_key(|effect| (effect.rank(), effect.id()));
+    effects.sort_by_key(|effect| (effect.is_for_meshes(), effect.rank(), effect.id()));
     let mut text = format!(
-        "{:<20} {:>5} {:>13}  what it draws\n",
+        "{:<20} {:>6} {:>12}  what it draws\n",
         "effect", "rank", "depth_offset"
     );
     for effect in effects {
-        text += &format!(
-            "{:<20} {:>5} {:>13}  {}\n",
-            effect.id(),
-            effect.rank(),
-            effect.depth_offset(),
-            effect.doc()
-        );
+        // Meshes have no order among strokes.
+        let [rank, depth_offset] = match effect.is_for_meshes() {
+            true => ["meshes".to_owned(), String::new()],
+            false => [effect.rank().to_string(), effect.depth_offset().to_string()],
+        };
+        let (id, doc) = (effect.id(), effect.doc());
+        text += &format!("{id:<20} {rank:>6} {depth_offset:>12}  {doc}\n");
     }
     text += &format!("\n{:<20} what it says\n", "section");
     for section in sections() {
@@ -102,17 +102,22 @@ const HOW_NUMBERS_VARY: &str = "\
 
 fn effect_text(effect: &dyn AnyEffect) -> String {
     let id = effect.id();
-    let mut text = format!(
-        "{id}: {}\nrank {}, depth_offset {} head heights\n",
-        effect.doc(),
-        effect.rank(),
-        effect.depth_offset()
-    );
-    text += &format!("In a preset's layers: (effect: \"{id}\", params: (name: value, ...))\n");
+    let mut text = format!("{id}: {}\n", effect.doc());
+    let on = if effect.is_for_meshes() {
+        " on: \"skin, dress\","
+    } else {
+        let (rank, depth_offset) = (effect.rank(), effect.depth_offset());
+        text += &format!("rank {rank}, depth_offset {depth_offset} head heights\n");
+        ""
+    };
+    text += &format!("In a preset's layers: (effect: \"{id}\",{on} params: (name: value, ...))\n");
     for param in effect.params() {
         text += &param_text(param, &default(param));
     }
-    text + HOW_NUMBERS_VARY
+    match effect.is_for_meshes() {
+        true => text,
+        false => text + HOW_NUMBERS_VARY,
+    }
 }
 
 fn section_text(section: &Section) -> String {

@@ -81,6 +81,7 @@ pub(super) fn effect(effect: &dyn AnyEffect) -> Value {
     json!({
         "id": effect.id(),
         "meaning": effect.doc(),
+        "paints_meshes": effect.is_for_meshes(),
         "rank": effect.rank(),
         "depth_offset": number(effect.depth_offset()),
         "parameters": effect.params().iter().map(parameter).collect::<Vec<_>>(),

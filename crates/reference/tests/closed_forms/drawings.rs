@@ -69,6 +69,7 @@ pub fn add_wall(drawing: &mut Drawing, inv_depth: f32, tone: f32, [light, shadow
         texture: None,
         margin_m: 0.0,
         mesh: 0,
+        paint: None,
         vertices: vec![
             vertex(-10.0, -10.0),
             vertex(300.0, -10.0),

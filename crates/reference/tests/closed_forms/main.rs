@@ -3,3 +3,4 @@
 mod areas;
 mod drawings;
 mod order;
+mod textures;

@@ -78,6 +78,7 @@ impl Evaluator {
 
         self.fill_features(frame, &mut drawing.features);
         drawing.painting.fill(frame, &self.joints);
+        drawing.mesh_painting.fill(frame);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {

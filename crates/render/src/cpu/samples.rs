@@ -1,5 +1,6 @@
 //! Pictures of which each sample tells what it shows: four samples of each pixel at a time.
 
+use super::paint_mesh;
 use super::segment::strokes_in_order;
 use super::tile;
 use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture};
@@ -146,8 +147,9 @@ impl Worker {
             let scene = frame.tile_at([left, top]);
             scene.strands(segments, &mut self.parts);
             self.draw_stack::<true>(frame, &scene, tile, triangles);
-            if !frame.drawing.painting.is_empty() {
+            if paint_mesh::tells(frame) {
                 self.paint(frame);
+                self.paint_meshes(frame, [left, top], scene.stack);
             }
             self.tell(frame, size, left, &mut planes);
         }

@@ -220,7 +220,7 @@ struct View<'a> {
 }
 
 /// How many clumps must lie one over the other, on average, for it to be worth while to find out which of them are hidden.
-const LEAST_LAYERS: f32 = 8.0;
+const LEAST_LAYERS: f32 = 32.0;
 
 /// Fills the cover by hair, where a frame's hair may hide much of itself.
 fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {

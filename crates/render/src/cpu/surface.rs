@@ -111,6 +111,27 @@ impl Triangle {
         ]
     }
 
+    /// Values of the corners as they run over the tile at `origin`; none of a triangle without an inside.
+    #[inline(always)]
+    pub(super) fn interpolated<const N: usize>(
+        &self,
+        drawing: &Drawing,
+        origin: [usize; 2],
+        values: [[f32; 3]; N],
+    ) -> Option<[Interpolated; N]> {
+        let [a, b, c] = self.corners(drawing);
+        let corner = DVec2::new(origin[0] as f64, origin[1] as f64);
+        let seen = |vertex: &SurfaceVertex| vertex.position.as_dvec2() - corner;
+        let points = [seen(a), seen(b), seen(c)];
+        let area = twice_area(points);
+        let edges = [
+            Edge::new(points[1], points[2]),
+            Edge::new(points[2], points[0]),
+            Edge::new(points[0], points[1]),
+        ];
+        (area != 0.0).then(|| values.map(|values| Interpolated::new(values, &edges, area)))
+    }
+
     /// Draws the triangle's part of the tile at `origin` into the target's samples. Gives the cells' samples where it shows.
     /// Twice, for surfaces with a picture and without, so that these don't pay for the others.
     #[inline(always)]
@@ -154,12 +175,9 @@ impl Triangle {
         // Between corners that are all in light, or all in shadow, nothing else is.
         let is_lit = (a.tone >= 0.0) & (b.tone >= 0.0) & (c.tone >= 0.0);
         let is_dark = (a.tone < 0.0) & (b.tone < 0.0) & (c.tone < 0.0);
-        let is_one_color = is_lit | is_dark | (surface.light == surface.shadow);
-        let one_color = if is_dark {
-            &surface.shadow
-        } else {
-            &surface.light
-        };
+        let [light, shadow] = surface.drawn_colors();
+        let is_one_color = is_lit | is_dark | (light == shadow);
+        let one_color = if is_dark { &shadow } else { &light };
         let tones = match is_one_color {
             true if is_dark => Interpolated::DARK,
             true => Interpolated::NONE,
@@ -220,7 +238,7 @@ impl Triangle {
                 }
                 let tone = tone_at.of(cell);
                 for (channel, plane) in target.color.iter_mut().enumerate() {
-                    let (light, shadow) = (surface.light[channel], surface.shadow[channel]);
+                    let (light, shadow) = (light[channel], shadow[channel]);
                     let mut color = [0.0; LANES];
                     for k in 0..LANES {
                         color[k] = select(tones.clamp(tone[k]) >= 0.0, light, shadow);

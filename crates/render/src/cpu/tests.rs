@@ -292,6 +292,7 @@ fn square(inv_depth: f32) -> Surface {
         texture: None,
         margin_m: 0.0,
         mesh: 0,
+        paint: None,
         vertices: vec![
             vertex(0.0, 0.0, inv_depth, 1.0),
             vertex(20.0, 0.0, inv_depth, -1.0),
@@ -330,6 +331,7 @@ fn a_sample_on_an_edge_is_inside_and_a_flat_triangle_is_nothing() {
         texture: None,
         margin_m: 0.0,
         mesh: 0,
+        paint: None,
         vertices: vec![a, b, c],
         triangles: vec![[0, 1, 2]],
         light: GREEN,

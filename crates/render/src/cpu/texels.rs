@@ -3,6 +3,7 @@
 use super::surface::{Edge, Interpolated};
 use super::tile::{Cell, LANES, LaneMask, Lanes, Samples, Stack, select};
 use crate::drawing::{Coverage, SurfaceTexture, SurfaceVertex, scatter};
+use effects::Blurred;
 use glam::Vec2;
 
 /// A texture as a triangle shows it.
@@ -15,8 +16,8 @@ pub(super) struct Texels<'a> {
     /// The least and the greatest places of the corners: the middle of some samples may lie outside of the triangle.
     low: Vec2,
     high: Vec2,
-    /// What a pixel covers of the picture's width, in the mean over the triangle.
-    size: f32,
+    /// Blurred over what a pixel covers of it, in the mean over the triangle.
+    image: Blurred<'a>,
 }
 
 impl<'a> Texels<'a> {
@@ -49,7 +50,9 @@ impl<'a> Texels<'a> {
             depths,
             low: a.min(b).min(c),
             high: a.max(b).max(c),
-            size: (twice_area / twice_area_px.abs() as f32).sqrt(),
+            image: texture
+                .image
+                .blurred((twice_area / twice_area_px.abs() as f32).sqrt()),
         }
     }
 
@@ -75,8 +78,7 @@ impl<'a> Texels<'a> {
             let depth_m = 1.0 / self.depths.clamp(inv_depth[first]);
             let place = Vec2::new(across[first], down[first]) * depth_m;
             let place = place.clamp(self.low, self.high);
-            let image = &self.texture.image;
-            let texel = image.at(place.to_array(), self.size, self.texture.repeats);
+            let texel = self.image.at(place.to_array(), self.texture.repeats);
             for k in lanes {
                 for channel in 0..3 {
                     colors[channel][k] = texel[channel];

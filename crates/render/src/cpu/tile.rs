@@ -263,6 +263,12 @@ impl Cell {
         }
     }
 
+    /// The cell of that index.
+    #[inline(always)]
+    pub(super) fn of_index(index: usize) -> Self {
+        Self::new(index / CELLS_ACROSS, index % CELLS_ACROSS * CELL_WIDTH)
+    }
+
     /// Its columns, a bit for each.
     #[inline(always)]
     pub(super) fn columns(&self) -> u32 {

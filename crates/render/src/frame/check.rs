@@ -2,6 +2,7 @@
 
 use super::{Frame, Light, Object};
 use crate::check::{DrawError, check_picture, check_surfaces};
+use crate::mesh_paint::MeshLayer;
 use effects::{Input, Layer, clump};
 use std::ops::Range;
 use stroke_path::PathRun;
@@ -155,6 +156,16 @@ pub enum FrameError {
         /// How many joints the paths have.
         joints: usize,
     },
+    /// A layer for meshes doesn't paint, its head is nowhere or without height, or it is seen through hair by no share from 0 to 1.
+    #[error(
+        "mesh layer {index}, \"{layer}\": its effect must paint, its head be somewhere and have a height, and through_hair lie in 0 to 1"
+    )]
+    MeshLayer {
+        /// Its place among the frame's.
+        index: usize,
+        /// Its name.
+        layer: String,
+    },
     /// The light is nowhere.
     #[error("the light's numbers are not finite")]
     Light,
@@ -172,7 +183,8 @@ impl Frame<'_> {
     /// The first thing that is wrong.
     pub fn check(&self) -> Result<(), FrameError> {
         check_picture(self.camera.size_px(), self.background, self.edge_depth_m)?;
-        check_surfaces(&self.surfaces)?;
+        check_surfaces(&self.surfaces, self.mesh_layers.len())?;
+        self.check_mesh_layers()?;
         let (Light::Direction(light) | Light::Point(light)) = self.light;
         if !light.is_finite() {
             return Err(FrameError::Light);
@@ -205,6 +217,21 @@ impl Frame<'_> {
         let reads_rest = |object: &Object| object.inputs().has(Input::RestPosition);
         if positions != joints && (positions > 0 || self.objects.iter().any(reads_rest)) {
             return Err(FrameError::RestPositions { positions, joints });
+        }
+        Ok(())
+    }
+
+    fn check_mesh_layers(&self) -> Result<(), FrameError> {
+        for (index, MeshLayer { layer, head, .. }) in self.mesh_layers.iter().enumerate() {
+            let is_head = head.height_m > 0.0 && head.height_m.is_finite();
+            let is_share = (0.0..=1.0).contains(&layer.through_hair);
+            if layer.program.paints().is_none() || !is_head || !head.center.is_finite() || !is_share
+            {
+                return Err(FrameError::MeshLayer {
+                    index,
+                    layer: layer.name.clone(),
+                });
+            }
         }
         Ok(())
     }

@@ -119,5 +119,32 @@ pub(super) fn sample_in_wgsl(input: SampleInput) -> &'static str {
         }
         SampleInput::Pixels => "gpu_scalar_at(p, GPU_AT_PX_PER_METRE) * gpu_word(GPU_HEAD_HEIGHT)",
         SampleInput::Time => "gpu_frame.time_s",
+        // Of meshes.
+        SampleInput::ShadeColor => "vec3<f32>(0.0)",
+        SampleInput::Occlusion => "0.0",
+    }
+}
+
+/// What a sample of a mesh offers, as an expression of WGSL of `p`, what is seen there.
+pub(super) fn mesh_sample_in_wgsl(input: SampleInput) -> &'static str {
+    match input {
+        SampleInput::Color => "p.color",
+        SampleInput::ShadeColor => "p.shade_color",
+        SampleInput::Position => "p.position",
+        SampleInput::Normal => "p.normal",
+        SampleInput::Occlusion => "p.occlusion",
+        SampleInput::Depth => "p.depth_m / gpu_word(GPU_HEAD_HEIGHT)",
+        SampleInput::HeadDepth => "bitcast<f32>(gpu_paint_word(GPU_HEAD_DEPTH))",
+        SampleInput::LightDirection => "gpu_mesh_light_direction(p)",
+        SampleInput::LightDistance => "gpu_mesh_light_distance(p)",
+        SampleInput::ViewDirection => {
+            "unit_or(gpu_frame.eye - p.position, vec3<f32>(0.0, 0.0, 1.0))"
+        }
+        SampleInput::Pixels => "gpu_mesh.focal_px / p.depth_m * gpu_word(GPU_HEAD_HEIGHT)",
+        SampleInput::Time => "gpu_frame.time_s",
+        // Of hair: the checks of effects for meshes refuse them.
+        SampleInput::Seed | SampleInput::Strand | SampleInput::Level => "0u",
+        SampleInput::Forward | SampleInput::Tube => "vec3<f32>(0.0)",
+        SampleInput::U | SampleInput::S | SampleInput::V | SampleInput::W => "0.0",
     }
 }

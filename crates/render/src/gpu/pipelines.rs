@@ -1,6 +1,7 @@
 //! Compute pipelines, and what they bind.
 
 use super::error::GpuError;
+use super::programs::Tells;
 use wgpu::{BindGroupLayout, BufferBindingType, ComputePipeline, Device};
 
 /// What a binding of group 0 is; its number is its place in the list.
@@ -42,11 +43,22 @@ pub(super) const EDGES: &[Binding] = &[Uniform, Read, Write, Write, Write, Read,
 /// `mean`: frame, samples, means.
 pub(super) const MEAN: &[Binding] = &[Uniform, Read, Write];
 
-/// The bindings of what draws tiles: what samples show where it `tells`, and the surfaces' pictures where they are `textured`.
-pub(super) fn tiles_bindings(tells: bool, textured: bool) -> Vec<Binding> {
-    let more = [(tells, Told), (textured, Image)].into_iter();
-    let more = more.filter_map(|(is_there, binding)| is_there.then_some(binding));
-    TILES.iter().copied().chain(more).collect()
+/// `mesh_main`: frame, surfaces, corners, words, triangles, sample places, what samples show, samples, what lies under hair; then images.
+const PAINT_MESHES: &[Binding] = &[
+    Uniform, Read, Read, Read, Read, Uniform, Shown, Write, Shown,
+];
+
+/// The bindings of what draws tiles: what samples tell, and the surfaces' pictures where they are `textured`.
+pub(super) fn tiles_bindings(tells: Tells, textured: bool) -> Vec<Binding> {
+    let told = std::iter::repeat_n(Told, tells.textures());
+    let pictures = textured.then_some(Image);
+    TILES.iter().copied().chain(told).chain(pictures).collect()
+}
+
+/// The bindings of a program that paints meshes with so many textures.
+pub(super) fn mesh_bindings(textures: usize) -> Vec<Binding> {
+    let images = std::iter::repeat_n(Image, textures);
+    PAINT_MESHES.iter().copied().chain(images).collect()
 }
 
 /// The bindings of a program that paints with so many textures.
@@ -56,6 +68,11 @@ pub(super) fn paint_bindings(textures: usize) -> Vec<Binding> {
 }
 
 impl Binding {
+    /// Whether it is a texture that is read.
+    pub(super) fn is_sampled(self) -> bool {
+        matches!(self, Shown | Image)
+    }
+
     fn in_wgpu(self) -> wgpu::BindingType {
         let buffer = |ty, has_dynamic_offset| wgpu::BindingType::Buffer {
             ty,

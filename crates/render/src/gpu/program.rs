@@ -1,12 +1,14 @@
 //! The text of a compute shader that runs an effect, or the clump, at every joint.
 
-use super::inputs::sample_in_wgsl;
+use super::inputs::{mesh_sample_in_wgsl, sample_in_wgsl};
 use super::layout::JointLayout;
+use super::programs::Tells;
 use crate::features::{Feature, Features};
-use effects::{PaintSource, ParamKind, ProgramSource};
+use effects::{PaintSource, ParamKind, ProgramSource, SampleInput};
 use std::fmt::Write as _;
 
 const FRAME: &str = include_str!("../../../../shaders/gpu/frame.wgsl");
+const WORDS: &str = include_str!("../../../../shaders/gpu/words.wgsl");
 const JOINT: &str = include_str!("../../../../shaders/gpu/joint.wgsl");
 const PRELUDE: &str = include_str!("../../../../shaders/prelude.wgsl");
 const CLUMP_MAIN: &str = include_str!("../../../../shaders/gpu/clump_main.wgsl");
@@ -27,6 +29,10 @@ const UNTOLD: &str = include_str!("../../../../shaders/gpu/untold.wgsl");
 const IMAGE: &str = include_str!("../../../../shaders/gpu/image.wgsl");
 const TEXTURED: &str = include_str!("../../../../shaders/gpu/textured.wgsl");
 const UNTEXTURED: &str = include_str!("../../../../shaders/gpu/untextured.wgsl");
+const UNDER: &str = include_str!("../../../../shaders/gpu/under.wgsl");
+const NO_UNDER: &str = include_str!("../../../../shaders/gpu/no_under.wgsl");
+const LOOKUP: &str = include_str!("../../../../shaders/gpu/lookup.wgsl");
+const MESH_MAIN: &str = include_str!("../../../../shaders/gpu/mesh_main.wgsl");
 const SHOWN: &str = include_str!("../../../../shaders/gpu/shown.wgsl");
 const TELL: &str = include_str!("../../../../shaders/gpu/tell.wgsl");
 const PAINT_MAIN: &str = include_str!("../../../../shaders/gpu/paint_main.wgsl");
@@ -44,6 +50,7 @@ pub(super) fn clump(source: &ProgramSource, layout: &JointLayout) -> String {
         source.wgsl,
         FRAME,
         &layout.constants(),
+        WORDS,
         JOINT,
         &gather(source, layout),
         CLUMP_MAIN,
@@ -57,6 +64,7 @@ pub(super) fn strokes(source: &ProgramSource, layout: &JointLayout) -> String {
         source.wgsl,
         FRAME,
         &layout.constants(),
+        WORDS,
         JOINT,
         &gather(source, layout),
         STROKE_MAIN,
@@ -66,7 +74,7 @@ pub(super) fn strokes(source: &ProgramSource, layout: &JointLayout) -> String {
 
 /// What smooths layers: entry points `find_gaps`, `close_gaps`, `find_specks` and `open_specks`, in that order.
 pub(super) fn smooth(layout: &JointLayout) -> String {
-    [PRELUDE, FRAME, &layout.constants(), JOINT, SMOOTH].join("\n")
+    [PRELUDE, FRAME, &layout.constants(), WORDS, JOINT, SMOOTH].join("\n")
 }
 
 /// What sorts into tiles.
@@ -74,19 +82,22 @@ pub(super) fn bins() -> String {
     [FRAME, DRAWN, BINS].join("\n")
 }
 
-/// What draws tiles in an order, given by its number in `tiles.wgsl`, keeps what samples show where it `tells`, and looks up the surfaces'
-/// pictures where they are `textured`.
-pub(super) fn tiles(order: u32, tells: bool, textured: bool) -> String {
+/// What draws tiles in an order, given by its number in `tiles.wgsl`, keeps of samples what they tell, and looks up the surfaces' pictures where
+/// they are `textured`.
+pub(super) fn tiles(order: u32, tells: Tells, textured: bool) -> String {
     let order = format!("const ORDER: u32 = {order}u;\n");
-    let told = if tells { TOLD } else { UNTOLD };
-    let binding = if tells { 11 } else { 10 };
+    let (told, under, binding) = match tells {
+        Tells::Nothing => (UNTOLD, NO_UNDER, 10),
+        Tells::Shown => (TOLD, NO_UNDER, 11),
+        Tells::Under => (TOLD, UNDER, 12),
+    };
     let atlas = format!("@group(0) @binding({binding}) var atlas: texture_2d<f32>;\n");
     let textures: &[&str] = match textured {
         true => &[PRELUDE, IMAGE, &atlas, TEXTURED],
         false => &[UNTEXTURED],
     };
     let parts = [
-        &[&order, told, FRAME, DRAWN][..],
+        &[&order, told, under, FRAME, DRAWN][..],
         textures,
         &[SWEEP, SEGMENTS, SURFACES, STRANDS, TILES],
     ];
@@ -99,13 +110,31 @@ pub(super) fn paint(source: &ProgramSource, paint: &PaintSource, layout: &JointL
         source.wgsl,
         FRAME,
         &layout.constants(),
+        WORDS,
         JOINT,
         SHOWN,
         &params(source),
-        &sample(paint),
-        &images(paint.textures.len()),
+        &sample(paint, "GpuPoint", sample_in_wgsl),
+        &images(paint.textures.len(), IMAGES_AT),
         IMAGE,
+        LOOKUP,
         PAINT_MAIN,
+    ]
+    .join("\n")
+}
+
+/// What paints the samples of meshes.
+pub(super) fn paint_meshes(source: &ProgramSource, paint: &PaintSource) -> String {
+    [
+        source.wgsl,
+        FRAME,
+        WORDS,
+        &params(source),
+        &sample(paint, "GpuSeen", mesh_sample_in_wgsl),
+        &images(paint.textures.len(), MESH_IMAGES_AT),
+        IMAGE,
+        LOOKUP,
+        MESH_MAIN,
     ]
     .join("\n")
 }
@@ -116,6 +145,7 @@ pub(super) fn tell(features: Features, layout: &JointLayout) -> String {
         PRELUDE,
         FRAME,
         &layout.constants(),
+        WORDS,
         JOINT,
         SHOWN,
         &planes(features),
@@ -171,24 +201,25 @@ fn plane_name(feature: Feature) -> &'static str {
 }
 
 /// `gpu_sample`, what a program that paints reads of a sample, and `gpu_painted`, the sample's colour.
-fn sample(paint: &PaintSource) -> String {
-    let inputs: Vec<&str> = paint.inputs.iter().map(|i| sample_in_wgsl(*i)).collect();
+fn sample(paint: &PaintSource, point: &str, in_wgsl: fn(SampleInput) -> &'static str) -> String {
+    let inputs: Vec<&str> = paint.inputs.iter().map(|input| in_wgsl(*input)).collect();
     let texel = match paint.places {
         true => "gpu_texel(place(at, params)), ",
         false => "",
     };
     format!(
-        "fn gpu_sample(p: GpuPoint, color: vec3<f32>) -> Sample {{\n    return Sample({});\n}}\n\
+        "fn gpu_sample(p: {point}, color: vec3<f32>) -> Sample {{\n    return Sample({});\n}}\n\
          fn gpu_painted(at: Sample, params: Params) -> vec3<f32> {{\n    return paint(at, {texel}params);\n}}\n",
         inputs.join(", ")
     )
 }
 
-/// First binding of images.
-pub(super) const IMAGES_AT: u32 = 8;
+/// First binding of images, of what paints strokes and of what paints meshes.
+const IMAGES_AT: u32 = 8;
+const MESH_IMAGES_AT: u32 = 9;
 
-/// As many images as there are textures, and functions that take their number.
-fn images(count: usize) -> String {
+/// As many images as there are textures, from that binding on, and functions that take their number.
+fn images(count: usize, first: u32) -> String {
     let mut text = format!("const GPU_TEXTURE_COUNT: u32 = {count}u;\n");
     let mut functions = [
         "fn gpu_image_levels(image: u32) -> u32 {\n    switch image {\n".to_owned(),
@@ -196,7 +227,7 @@ fn images(count: usize) -> String {
         "fn gpu_image_texel(image: u32, level: u32, at: vec2<u32>) -> vec4<f32> {\n    switch image {\n"
             .to_owned(),
     ];
-    for (image, binding) in (0..count).zip(IMAGES_AT..) {
+    for (image, binding) in (0..count).zip(first..) {
         let _ = writeln!(
             text,
             "@group(0) @binding({binding}) var gpu_image_{image}: texture_2d<f32>;"

@@ -28,10 +28,29 @@ pub(super) struct Programs {
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct TilesKey {
     pub(super) order: Order,
-    /// Whether samples are kept with what they show.
-    pub(super) tells: bool,
+    /// What samples are kept with.
+    pub(super) tells: Tells,
     /// Whether there are pictures on surfaces.
     pub(super) textured: bool,
+}
+
+/// What tiles keep of samples beside their colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tells {
+    Nothing,
+    /// What they show.
+    Shown,
+    /// The same, and the surfaces that hair hides.
+    Under,
+}
+
+impl Tells {
+    const ALL: [Self; 3] = [Self::Nothing, Self::Shown, Self::Under];
+
+    /// How many textures that takes.
+    pub(super) fn textures(self) -> usize {
+        self as usize
+    }
 }
 
 /// What following a frame took.
@@ -71,14 +90,14 @@ pub(super) struct Layouts {
     pub(super) strokes: BindGroupLayout,
     pub(super) smooth: BindGroupLayout,
     pub(super) bins: BindGroupLayout,
-    /// By whether they tell, and whether surfaces are textured.
-    tiles: [[BindGroupLayout; 2]; 2],
+    /// By what they tell, and whether surfaces are textured.
+    tiles: [[BindGroupLayout; 2]; 3],
 }
 
 impl Layouts {
     /// What the pipeline that draws tiles binds.
-    pub(super) fn tiles(&self, tells: bool, textured: bool) -> &BindGroupLayout {
-        &self.tiles[usize::from(tells)][usize::from(textured)]
+    pub(super) fn tiles(&self, tells: Tells, textured: bool) -> &BindGroupLayout {
+        &self.tiles[tells as usize][usize::from(textured)]
     }
 }
 
@@ -91,7 +110,7 @@ impl Programs {
             strokes: of("strokes", pipelines::STROKES),
             smooth: of("smooth", pipelines::SMOOTH),
             bins: of("bins", pipelines::BINS),
-            tiles: [false, true].map(|tells| {
+            tiles: Tells::ALL.map(|tells| {
                 [false, true].map(|textured| of("tiles", &tiles_bindings(tells, textured)))
             }),
         };

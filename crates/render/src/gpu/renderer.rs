@@ -6,7 +6,7 @@ use super::buffer::{Buffers, Growing};
 use super::compose::{Composer, PassFormat};
 use super::error::GpuError;
 use super::layout::{CLUMP_BYTES, GpuFrame, TILE, WORKGROUP};
-use super::programs::{Programs, TilesKey};
+use super::programs::{Programs, Tells, TilesKey};
 use super::report::Report;
 use super::samples::{self, SampleStage, Wanted, pixels, whole};
 use super::scene::SceneWords;
@@ -88,7 +88,11 @@ fn wanted(frame: &Frame, samples: u32, keeps: Keeps) -> Option<Wanted> {
         Keeps::Features => frame.all_features().union(ALWAYS),
         Keeps::Means | Keeps::Samples => of_passes.fold(Features::NONE, Features::union),
     };
+    let through = frame.mesh_layers.iter();
+    let mut through = through.filter(|mesh| mesh.layer.through_hair > 0.0);
+    let is_painted = is_painted || !frame.mesh_layers.is_empty();
     (is_painted || !tells.is_empty()).then_some(Wanted {
+        under: through.next().is_some(),
         size: frame.camera.size_px(),
         samples,
         tells,
@@ -98,7 +102,8 @@ fn wanted(frame: &Frame, samples: u32, keeps: Keeps) -> Option<Wanted> {
 
 /// Refuses what is drawn of frames alone.
 fn check_supported(drawing: &Drawing) -> Result<(), GpuError> {
-    if !drawing.painting.is_empty() || !drawing.passes.is_empty() {
+    let is_painted = !(drawing.painting.is_empty() && drawing.mesh_painting.is_empty());
+    if is_painted || !drawing.passes.is_empty() {
         let what = "a drawing of strokes with painted layers or passes".to_owned();
         return Err(GpuError::Unsupported(what));
     }
@@ -290,7 +295,7 @@ impl Renderer {
             self.groups = None;
             self.stats.made += 1;
         }
-        let tells = self.samples.is_some();
+        let tells = self.tells();
         let key = TilesKey {
             order,
             tells,
@@ -301,7 +306,7 @@ impl Renderer {
         let tiles = size.map(|side| side.div_ceil(TILE));
         let tile_count = u64::from(tiles[0]) * u64::from(tiles[1]);
         let [chunk_capacity, triangle_capacity] = self.capacities(tile_count);
-        let has_samples = tells || keeps != Keeps::Means;
+        let has_samples = tells != Tells::Nothing || keeps != Keeps::Means;
         let in_pixel = if has_samples { samples } else { 1 };
         let values = pixels(size) * u64::from(in_pixel);
         let settings = GpuFrame {
@@ -328,6 +333,12 @@ impl Renderer {
         self.record(encoder, &groups, &settings)?;
         self.groups = Some(groups);
         Ok(is_new)
+    }
+
+    /// What tiles keep of samples.
+    fn tells(&self) -> Tells {
+        let samples = self.samples.as_ref();
+        samples.map_or(Tells::Nothing, SampleStage::tells)
     }
 
     /// Capacities of the tiles' lists, in entries: what the last frame needed and half as much, or a
@@ -388,10 +399,10 @@ impl Renderer {
             Keeps::Features => &[][..],
             Keeps::Means | Keeps::Samples => &frame.passes,
         };
-        let was_shown = stage.shown().clone();
+        let was_told = stage.told();
         let (device, queue) = (&self.device, &self.queue);
         let made = stage.follow(device, queue, frame, passes, &self.scene, wanted)?;
-        let is_same = had_samples && *stage.shown() == was_shown;
+        let is_same = had_samples && stage.told() == was_told;
         self.groups = groups.filter(|_| is_same);
         self.stats.made += made + usize::from(!had_samples);
         self.samples = Some(stage);
@@ -508,10 +519,11 @@ impl Renderer {
             .map(whole)
             .collect::<Result<Vec<_>, _>>()?;
         let layouts = &self.programs.layouts;
-        let shown = self.samples.as_ref().map(SampleStage::shown);
-        let textures = [shown, self.atlas.view()].into_iter().flatten();
+        let told = self.samples.as_ref().map(SampleStage::told);
+        let told = told.unwrap_or_default();
+        let textures = told.iter().chain(self.atlas.view());
         tiles.extend(textures.map(wgpu::BindingResource::TextureView));
-        let tiles_layout = layouts.tiles(self.samples.is_some(), self.atlas.view().is_some());
+        let tiles_layout = layouts.tiles(self.tells(), self.atlas.view().is_some());
         Ok(Groups {
             clumps: clumps.collect::<Result<_, GpuError>>()?,
             layers: layers.collect::<Result<_, GpuError>>()?,

@@ -6,15 +6,14 @@ use super::edges::EdgePasses;
 use super::error::GpuError;
 use super::images::Images;
 use super::layout::GpuFrame;
-use super::pipelines::{self, layout, paint_bindings, pipelines};
+use super::pipelines::{self, Binding, layout, mesh_bindings, paint_bindings, pipelines};
 use super::program;
-use super::programs::{Programs, one_pipeline};
+use super::programs::{Programs, Tells, one_pipeline};
 use super::scene::SceneWords;
 use crate::edges::Edges;
 use crate::features::{Feature, Features, normal_of_triangle, object_of_mesh};
 use crate::frame::Frame;
 use crate::planes::Layout;
-use effects::{Layer, PaintSource, ProgramSource};
 use rayon::prelude::*;
 use wgpu::{
     BindGroup, BindGroupLayout, BindingResource, BufferUsages, ComputePass, ComputePipeline,
@@ -34,12 +33,20 @@ pub(super) struct Wanted {
     pub(super) tells: Features,
     /// Whether their means are taken.
     pub(super) means: bool,
+    /// Whether surfaces are seen through hair.
+    pub(super) under: bool,
 }
 
 /// Pipelines, textures and buffers.
 pub(super) struct SampleStage {
     shown: Shown,
+    /// Surfaces that hair hides; of one texel where none is seen through it.
+    under: Shown,
     paints: Vec<Paint>,
+    /// Those of meshes, with the words of each layer.
+    mesh_paints: Vec<Paint>,
+    mesh_layers: Vec<MeshLayer>,
+    meshes: Growing,
     images: Images,
     /// The painted layers, by their places among all, with what they run.
     layers: Vec<(usize, usize, Vec<wgpu::TextureView>)>,
@@ -50,6 +57,13 @@ pub(super) struct SampleStage {
     planes: Growing,
     means: Growing,
     numbers: Growing,
+}
+
+/// A layer for meshes: which program paints it, its words, and its pictures.
+struct MeshLayer {
+    program: usize,
+    words: Growing,
+    images: Vec<wgpu::TextureView>,
 }
 
 /// What each sample shows.
@@ -79,8 +93,12 @@ impl SampleStage {
     pub(super) fn new(device: &Device, wanted: Wanted) -> Result<Self, GpuError> {
         let storage = BufferUsages::STORAGE;
         Ok(Self {
-            shown: Shown::new(device, wanted)?,
+            shown: Shown::new(device, shown_size(wanted))?,
+            under: Shown::new(device, under_size(wanted))?,
             paints: Vec::new(),
+            mesh_paints: Vec::new(),
+            mesh_layers: Vec::new(),
+            meshes: Growing::new("painted surfaces", storage | BufferUsages::COPY_DST),
             images: Images::default(),
             layers: Vec::new(),
             tell: None,
@@ -107,11 +125,17 @@ impl SampleStage {
         wanted: Wanted,
     ) -> Result<usize, GpuError> {
         let mut made = 0;
-        if !self.shown.fits(wanted) {
-            self.shown = Shown::new(device, wanted)?;
-            made += 1;
+        let sizes = [shown_size(wanted), under_size(wanted)];
+        for (texture, size) in [&mut self.shown, &mut self.under].into_iter().zip(sizes) {
+            if texture.size != size {
+                *texture = Shown::new(device, size)?;
+                made += 1;
+            }
         }
+        self.images.begin();
         made += self.follow_layers(device, queue, frame, scene)?;
+        made += self.follow_meshes(device, queue, frame, scene)?;
+        self.images.end();
         made += self.follow_features(device, queue, frame, scene, wanted)?;
         if passes.is_empty() {
             self.edges = None;
@@ -154,7 +178,6 @@ impl SampleStage {
         let mut before = std::mem::take(&mut self.paints);
         let mut made = 0;
         self.layers.clear();
-        self.images.begin();
         let layers = frame.objects.iter().flat_map(|object| object.layers);
         for (index, layer) in layers.enumerate() {
             let source = layer.program.source();
@@ -176,7 +199,9 @@ impl SampleStage {
                         Some(place) => before.swap_remove(place),
                         None => {
                             made += 1;
-                            Paint::new(device, scene, layer, &source, &paint)?
+                            let text = program::paint(&source, &paint, &scene.layout);
+                            let bindings = paint_bindings(textures);
+                            Paint::new(device, layer.effect, &text, &bindings, made_from)?
                         }
                     };
                     self.paints.push(program);
@@ -191,8 +216,66 @@ impl SampleStage {
             }
             self.layers.push((index, number, views));
         }
-        self.images.end();
         Ok(made)
+    }
+
+    /// The programs, words and images of layers for meshes.
+    fn follow_meshes(
+        &mut self,
+        device: &Device,
+        queue: &Queue,
+        frame: &Frame,
+        scene: &SceneWords,
+    ) -> Result<usize, GpuError> {
+        let mut before = std::mem::take(&mut self.mesh_paints);
+        let mut words = std::mem::take(&mut self.mesh_layers).into_iter();
+        let mut made = 0;
+        for (layer, own) in frame.mesh_layers.iter().zip(&scene.mesh_layers) {
+            let source = layer.layer.program.source();
+            let Some(paint) = source.paint else {
+                continue;
+            };
+            let textures = paint.textures.len();
+            let made_from = (source.wgsl, Vec::new(), String::new(), textures);
+            let is_it = |paint: &Paint| paint.made_from == made_from;
+            let program = match self.mesh_paints.iter().position(is_it) {
+                Some(number) => number,
+                None => {
+                    let program = match before.iter().position(is_it) {
+                        Some(place) => before.swap_remove(place),
+                        None => {
+                            made += 1;
+                            let text = program::paint_meshes(&source, &paint);
+                            let bindings = mesh_bindings(textures);
+                            let effect = layer.layer.effect;
+                            Paint::new(device, effect, &text, &bindings, made_from)?
+                        }
+                    };
+                    self.mesh_paints.push(program);
+                    self.mesh_paints.len() - 1
+                }
+            };
+            let mut images = Vec::with_capacity(textures);
+            for (texture, _) in paint.textures {
+                let (view, is_new) = self.images.view(device, queue, texture)?;
+                made += usize::from(is_new);
+                images.push(view);
+            }
+            let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+            let of_before = words.next().map(|layer| layer.words);
+            let mut words = of_before.unwrap_or_else(|| Growing::new("parameters", usage));
+            made += usize::from(words.write(device, queue, own)?);
+            self.mesh_layers.push(MeshLayer {
+                program,
+                words,
+                images,
+            });
+        }
+        if self.mesh_layers.is_empty() {
+            self.meshes.drop_buffer();
+            return Ok(made);
+        }
+        Ok(made + usize::from(self.meshes.write(device, queue, &scene.meshes)?))
     }
 
     /// What fills planes, and their room.
@@ -236,8 +319,18 @@ impl SampleStage {
     }
 
     /// What tiles write.
-    pub(super) fn shown(&self) -> &wgpu::TextureView {
-        &self.shown.view
+    pub(super) fn told(&self) -> Vec<wgpu::TextureView> {
+        let all = [&self.shown, &self.under];
+        let told = all.into_iter().take(self.tells().textures());
+        told.map(|texture| texture.view.clone()).collect()
+    }
+
+    /// What tiles keep.
+    pub(super) fn tells(&self) -> Tells {
+        match self.under.size == NO_UNDER {
+            true => Tells::Shown,
+            false => Tells::Under,
+        }
     }
 
     /// The means, once they are taken.
@@ -254,15 +347,23 @@ impl SampleStage {
     pub(super) fn pipelines(&self) -> usize {
         let edges = self.edges.as_ref().map_or(0, |_| EdgePasses::PIPELINES);
         let others = usize::from(self.tell.is_some()) + usize::from(self.mean.is_some());
-        self.paints.len() + edges + others
+        self.paints.len() + self.mesh_paints.len() + edges + others
     }
 
     /// Bytes of buffers and textures alive.
     pub(super) fn bytes(&self) -> Vec<u64> {
-        let own = [&self.tell_words, &self.planes, &self.means, &self.numbers];
+        let own = [
+            &self.tell_words,
+            &self.planes,
+            &self.means,
+            &self.numbers,
+            &self.meshes,
+        ];
+        let words = self.mesh_layers.iter().map(|layer| &layer.words);
         let edges = self.edges.iter().flat_map(EdgePasses::buffers);
-        let buffers = own.into_iter().chain(edges).map(Growing::size);
-        let textures = [self.shown.bytes(), self.images.bytes()];
+        let buffers = own.into_iter().chain(words).chain(edges);
+        let buffers = buffers.map(Growing::size);
+        let textures = [self.shown.bytes(), self.under.bytes(), self.images.bytes()];
         let all = buffers.chain(textures);
         all.filter(|bytes| *bytes > 0).collect()
     }
@@ -285,6 +386,29 @@ impl SampleStage {
             bound.push(BindingResource::TextureView(&self.shown.view));
             bound.push(whole(&buffers.picture)?);
             bound.extend(images.iter().map(BindingResource::TextureView));
+            pass.set_bind_group(0, &group(device, &paint.layout, bound), &[]);
+            pass.set_pipeline(&paint.pipeline);
+            pass.dispatch_workgroups(columns, rows, frame.samples);
+        }
+        for layer in &self.mesh_layers {
+            let paint = &self.mesh_paints[layer.program];
+            let buffers = [
+                &buffers.frame,
+                &self.meshes,
+                &buffers.corners,
+                &layer.words,
+                &buffers.triangles,
+                &buffers.sample_places,
+                &buffers.picture,
+            ];
+            let mut bound = Vec::with_capacity(buffers.len() + 2 + layer.images.len());
+            for buffer in buffers {
+                bound.push(whole(buffer)?);
+            }
+            let shown = BindingResource::TextureView(&self.shown.view);
+            bound.insert(6, shown);
+            bound.push(BindingResource::TextureView(&self.under.view));
+            bound.extend(layer.images.iter().map(BindingResource::TextureView));
             pass.set_bind_group(0, &group(device, &paint.layout, bound), &[]);
             pass.set_pipeline(&paint.pipeline);
             pass.dispatch_workgroups(columns, rows, frame.samples);
@@ -345,9 +469,23 @@ impl SampleStage {
     }
 }
 
+/// Nothing is kept of what lies under hair.
+const NO_UNDER: [u32; 3] = [1, 1, 1];
+
+fn shown_size(wanted: Wanted) -> [u32; 3] {
+    let [width, height] = wanted.size;
+    [width, height, wanted.samples]
+}
+
+fn under_size(wanted: Wanted) -> [u32; 3] {
+    match wanted.under {
+        true => shown_size(wanted),
+        false => NO_UNDER,
+    }
+}
+
 impl Shown {
-    fn new(device: &Device, wanted: Wanted) -> Result<Self, GpuError> {
-        let ([width, height], samples) = (wanted.size, wanted.samples);
+    fn new(device: &Device, [width, height, samples]: [u32; 3]) -> Result<Self, GpuError> {
         let limits = device.limits();
         let needed = [
             (
@@ -395,11 +533,6 @@ impl Shown {
         })
     }
 
-    fn fits(&self, wanted: Wanted) -> bool {
-        let [width, height] = wanted.size;
-        self.size == [width, height, wanted.samples]
-    }
-
     fn bytes(&self) -> u64 {
         16 * self.size.map(u64::from).iter().product::<u64>()
     }
@@ -408,31 +541,25 @@ impl Shown {
 impl Paint {
     fn new(
         device: &Device,
-        scene: &SceneWords,
-        layer: &Layer,
-        source: &ProgramSource,
-        paint: &PaintSource,
+        effect: &str,
+        text: &str,
+        bindings: &[Binding],
+        made_from: (&'static str, Vec<usize>, String, usize),
     ) -> Result<Self, GpuError> {
-        let textures = paint.textures.len();
         let most = device.limits().max_sampled_textures_per_shader_stage;
-        // One more has what samples show.
-        if textures as u64 + 1 > u64::from(most) {
+        let textures = bindings.iter().filter(|binding| binding.is_sampled());
+        let needs = textures.count() as u64;
+        if needs > u64::from(most) {
             return Err(GpuError::Limit {
                 what: "textures in a shader",
                 has: most.into(),
-                needs: textures as u64 + 1,
+                needs,
             });
         }
-        let layout = layout(device, layer.effect, &paint_bindings(textures));
-        let text = program::paint(source, paint, &scene.layout);
+        let layout = layout(device, effect, bindings);
         Ok(Self {
-            made_from: (
-                source.wgsl,
-                source.varying.to_vec(),
-                scene.layout.constants(),
-                textures,
-            ),
-            pipeline: one_pipeline(device, layer.effect, &text, &layout)?,
+            made_from,
+            pipeline: one_pipeline(device, effect, text, &layout)?,
             layout,
         })
     }

@@ -6,6 +6,7 @@ use super::program::{LAYER_WORDS, PAINT_WORD};
 use crate::drawing::{Coverage, Disc, Drawing, Surface};
 use crate::features::{Feature, Features};
 use crate::frame::{Frame, Head, Object, layer_bit};
+use crate::mesh_paint::PaintedMeshes;
 use crate::painting;
 use effects::{
     CLUMP_DISCS, Image, Input, InputSet, Layer, PaintSource, Texture, Units, layer_seed,
@@ -34,6 +35,10 @@ pub(super) struct SceneWords {
     pub(super) clumps: Vec<ClumpScene>,
     /// Those of all objects, in their order.
     pub(super) layers: Vec<LayerScene>,
+    /// The words of each layer for meshes; empty where there are none, and then so is what follows.
+    pub(super) mesh_layers: Vec<Vec<u32>>,
+    /// What they know of surfaces.
+    pub(super) meshes: Vec<u32>,
     /// Discs of all strokes, the clump's first.
     pub(super) discs: usize,
     /// The discs themselves, of a drawing; empty for a frame, whose discs the card makes.
@@ -128,12 +133,15 @@ impl SceneWords {
         let runs = runs.map(|run| (run.piece as u32, run.joints.clone()));
         self.fill_chunks_and_tables(runs, &placed, frame.paths.len());
         self.fill_surfaces(&frame.surfaces);
+        self.fill_meshes(frame);
     }
 
     /// Takes a checked drawing apart, in place of the frame before.
     pub(super) fn fill_drawing(&mut self, drawing: &Drawing) {
         self.clumps.clear();
         self.layers.clear();
+        self.mesh_layers.clear();
+        self.meshes.clear();
         self.disc_words.clear();
         let joints = drawing.clump.len();
         let black = [0.0; 3];
@@ -380,8 +388,7 @@ impl SceneWords {
         let images = self.push_images(surfaces);
         let records = (records..).step_by(SURFACE_WORDS);
         for ((surface, number), record) in surfaces.iter().zip(0..).zip(records) {
-            let [lr, lg, lb] = surface.light;
-            let [sr, sg, sb] = surface.shadow;
+            let [[lr, lg, lb], [sr, sg, sb]] = surface.drawn_colors();
             let numbers = [lr, lg, lb, sr, sg, sb, surface.margin_m];
             self.tables[record..record + 7].copy_from_slice(&numbers.map(f32::to_bits));
             let first = self.corners.len() as u32 / 4;
@@ -413,6 +420,50 @@ impl SceneWords {
         }
     }
 
+    /// What `shaders/gpu/mesh_main.wgsl` knows of layers and surfaces.
+    fn fill_meshes(&mut self, frame: &Frame) {
+        const RECORD: usize = 8;
+        self.mesh_layers.clear();
+        self.meshes.clear();
+        if frame.mesh_layers.is_empty() {
+            return;
+        }
+        let of_layers = frame.mesh_layers.iter().enumerate();
+        self.mesh_layers.extend(of_layers.map(|(number, mesh)| {
+            let painted = PaintedMeshes::new(mesh, frame.camera);
+            let (number, through) = (number as u32 + 1, painted.through_hair.to_bits());
+            let focal = frame.camera.focal_px().to_bits();
+            let mut words = vec![painted.seed, number, through, focal, 0, 0, 0, 0];
+            push_head(&mut words, mesh.head, 0);
+            let source = mesh.layer.program.source();
+            words.extend(source.words);
+            if let Some(paint) = source.paint {
+                push_paint(&mut words, 0, painted.head_depth, &paint);
+            }
+            words
+        }));
+        let words = &mut self.meshes;
+        words.resize(RECORD * frame.surfaces.len(), 0);
+        let mut first_corner = 0;
+        for (number, surface) in frame.surfaces.iter().enumerate() {
+            if let Some(paint) = &surface.paint {
+                let corners = (words.len() as u32).wrapping_sub(4 * first_corner);
+                let colors = surface.light.iter().chain(&surface.shadow);
+                let record = &mut words[RECORD * number..][..RECORD];
+                record[0] = paint.layer + 1;
+                for (word, color) in record[1..].iter_mut().zip(colors) {
+                    *word = color.to_bits();
+                }
+                record[RECORD - 1] = corners;
+                for (i, normal) in paint.normals.iter().enumerate() {
+                    let occlusion = paint.occlusion.get(i).copied().unwrap_or(0.0);
+                    words.extend(normal.extend(occlusion).to_array().map(f32::to_bits));
+                }
+            }
+            first_corner += surface.vertices.len() as u32;
+        }
+    }
+
     /// Adds the records of the surfaces' pictures to the tables, and says where each begins.
     fn push_images<'s>(&mut self, surfaces: &'s [Surface]) -> Vec<(&'s Arc<Image>, u32)> {
         let mut next = 0;
@@ -438,7 +489,7 @@ fn push_head(words: &mut Vec<u32>, head: Head, layer_bit: u32) {
     debug_assert_eq!(words.len(), LAYER_WORDS as usize);
 }
 
-/// Adds what `shaders/gpu/paint_main.wgsl` knows of a layer and its textures, and notes where that begins.
+/// Adds what `shaders/gpu/lookup.wgsl` knows of a layer and its textures, and notes where that begins.
 fn push_paint(words: &mut Vec<u32>, discs: u32, head_depth: f32, paint: &PaintSource) {
     const TEXTURE_WORDS: usize = 3;
     words[PAINT_WORD] = words.len() as u32;

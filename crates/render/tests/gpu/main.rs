@@ -6,6 +6,7 @@
 mod agree;
 mod faults;
 mod inputs;
+mod meshes;
 mod prelude;
 mod samples;
 mod scene;

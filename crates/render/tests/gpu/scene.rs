@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3, vec2};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
 use render::{
-    Brush, Edges, Features, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo,
-    Surface, SurfaceVertex,
+    Brush, Edges, Features, Frame, Head, Light, MeshLayer, NO_COLOR, NO_TAPER, Object, Order,
+    StrandInfo, Surface, SurfaceVertex,
 };
 use std::iter;
 use std::ops::Range;
@@ -25,6 +25,7 @@ pub struct Scene {
     pub material_normals: Vec<Vec3>,
     pub rest_positions: Vec<Vec3>,
     pub surfaces: Vec<Surface>,
+    pub mesh_layers: Vec<Layer>,
     pub light: Light,
     pub background: Option<[f32; 3]>,
     pub order: Order,
@@ -189,6 +190,7 @@ impl Scene {
         let surface = |margin_m, triangles| Surface {
             texture: None,
             mesh: 0,
+            paint: None,
             vertices: vec![
                 corner(-20.0, 10.0, 0.8, 1.0),
                 corner(80.0, 5.0, 1.1, -1.0),
@@ -218,6 +220,7 @@ impl Scene {
                 surface(0.0, vec![[0, 1, 2]]),
                 surface(0.05, vec![[0, 2, 3]]),
             ],
+            mesh_layers: Vec::new(),
             light: if seed.is_multiple_of(2) {
                 Light::Direction(Vec3::new(0.48, 0.6, 0.64))
             } else {
@@ -279,15 +282,16 @@ impl Scene {
     }
 
     pub fn frame(&self) -> Frame<'_> {
+        let head = Head {
+            center: Vec3::new(0.0, 0.02, 0.0),
+            height_m: 0.24,
+        };
         let first = Object {
             joints: 0..self
                 .second
                 .as_ref()
                 .map_or(self.paths.len(), |second| second.joints.start),
-            head: Head {
-                center: Vec3::new(0.0, 0.02, 0.0),
-                height_m: 0.24,
-            },
+            head,
             solid: None,
             clump: &self.clump,
             seed: self.seed,
@@ -311,6 +315,15 @@ impl Scene {
             material_normals: &self.material_normals,
             rest_positions: &self.rest_positions,
             surfaces: self.surfaces.clone(),
+            mesh_layers: self
+                .mesh_layers
+                .iter()
+                .map(|layer| MeshLayer {
+                    layer,
+                    head,
+                    seed: 7,
+                })
+                .collect(),
             background: self.background,
             order: self.order,
             edge_depth_m: 0.005,

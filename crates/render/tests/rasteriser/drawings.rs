@@ -65,6 +65,7 @@ fn surface(extent: f32) -> impl Strategy<Value = Surface> {
             texture: None,
             margin_m,
             mesh: 1,
+            paint: None,
             vertices,
             triangles,
             light,

@@ -7,4 +7,6 @@ mod drawings;
 mod exact;
 mod features;
 mod portrait;
+mod sphere;
 mod stamping;
+mod textures;

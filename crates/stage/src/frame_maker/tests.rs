@@ -119,9 +119,9 @@ fn dense(preset: &Preset, files: &Files, size: f32) -> Scene {
 fn hair_behind_hair_is_not_worked_out() {
     let motion = Motion::new();
     for (look, size, yaw) in [
-        ("twin-tails", 16.0, 0.0),
-        ("twin-tails", 5.0, 25.0),
-        ("short-ash", 16.0, -15.0),
+        ("twin-tails", 30.0, 0.0),
+        ("twin-tails", 40.0, 25.0),
+        ("short-ash", 30.0, -15.0),
         ("flat-tails-red", 12.0, 10.0),
         ("manga-ink", 16.0, 35.0),
         ("outlined", 16.0, 0.0),

@@ -2,7 +2,7 @@
 
 use crate::painted::MeshPicture;
 use glam::{Vec2, Vec3};
-use render::{Surface, SurfaceTexture, SurfaceVertex};
+use render::{Surface, SurfacePaint, SurfaceTexture, SurfaceVertex};
 use stroke_path::Camera;
 
 /// A corner before it is projected: in view space, with its tone.
@@ -23,6 +23,10 @@ pub(super) struct Part<'a> {
     pub(super) mesh: u32,
     /// The picture on it, and each corner's place there.
     pub(super) picture: Option<(&'a MeshPicture, &'a [Vec2])>,
+    /// Of each corner, for sides that a layer paints: its unit normal, and how much it lies in shadow whatever the light, nothing where
+    /// none does.
+    pub(super) normals: &'a [Vec3],
+    pub(super) occlusion: &'a [f32],
 }
 
 /// What one side of a part is painted as; as [`Surface`] has them.
@@ -31,15 +35,47 @@ pub(super) struct Side {
     pub(super) light: [f32; 3],
     pub(super) shadow: [f32; 3],
     pub(super) margin_m: f32,
+    /// The layer that paints it, by its place among the frame's.
+    pub(super) layer: Option<u32>,
+}
+
+impl Side {
+    /// Of one colour, whatever the light.
+    pub(super) fn flat(color: [f32; 3], margin_m: f32) -> Self {
+        Self {
+            light: color,
+            shadow: color,
+            margin_m,
+            layer: None,
+        }
+    }
+}
+
+/// What a corner has beside its place and tone.
+#[derive(Clone, Copy)]
+pub(super) struct Extra {
+    place: Vec2,
+    normal: Vec3,
+    occlusion: f32,
+}
+
+impl Extra {
+    fn lerp(&self, other: &Self, t: f32) -> Self {
+        Self {
+            place: self.place.lerp(other.place, t),
+            normal: self.normal.lerp(other.normal, t),
+            occlusion: self.occlusion + (other.occlusion - self.occlusion) * t,
+        }
+    }
 }
 
 impl Part<'_> {
     /// Its triangles on the screen, cut at the near plane: a surface for each side that is painted, the front first.
     pub(super) fn seen_by(&self, camera: &Camera) -> impl Iterator<Item = Surface> + use<> {
         let near = camera.near_m();
-        let places = self.picture.map_or(&[][..], |(_, places)| places);
-        let on = |side: &Option<Side>| side.map(|side| OnScreen::new(side, self));
-        let (mut front, mut back) = (on(&self.front), on(&self.back));
+        let on =
+            |side: &Option<Side>, facing: f32| side.map(|side| OnScreen::new(side, facing, self));
+        let (mut front, mut back) = (on(&self.front, 1.0), on(&self.back, -1.0));
         for triangle in self.triangles {
             let seen = triangle.map(|i| self.corners[i as usize]);
             let side = if is_front(&seen) {
@@ -51,16 +87,25 @@ impl Part<'_> {
                 continue;
             };
             if seen.iter().all(|corner| corner.view.z >= near) {
-                side.push(*triangle, &seen, places, camera);
+                side.push(*triangle, &seen, self, camera);
             } else {
-                let places = match places {
-                    [] => [Vec2::ZERO; 3],
-                    places => triangle.map(|i| places[i as usize]),
-                };
-                side.push_polygon(&cut(&seen, &places, near), camera);
+                let extras = triangle.map(|i| self.extra(i as usize));
+                side.push_polygon(&cut(&seen, &extras, near), camera);
             }
         }
         front.into_iter().chain(back).map(OnScreen::finish)
+    }
+
+    /// What a corner has.
+    #[inline]
+    fn extra(&self, corner: usize) -> Extra {
+        Extra {
+            place: self
+                .picture
+                .map_or(Vec2::ZERO, |(_, places)| places[corner]),
+            normal: self.normals.get(corner).copied().unwrap_or_default(),
+            occlusion: self.occlusion.get(corner).copied().unwrap_or(0.0),
+        }
     }
 }
 
@@ -69,11 +114,14 @@ struct OnScreen {
     surface: Surface,
     /// For each corner of the mesh its vertex: only those that are seen are projected.
     entered: Vec<u32>,
+    /// What normals are multiplied by, so that they face the side that is seen.
+    facing: f32,
 }
 
 impl OnScreen {
-    fn new(side: Side, part: &Part) -> Self {
+    fn new(side: Side, facing: f32, part: &Part) -> Self {
         Self {
+            facing,
             surface: Surface {
                 texture: part.picture.map(|(picture, _)| SurfaceTexture {
                     image: picture.image.clone(),
@@ -87,6 +135,11 @@ impl OnScreen {
                 mesh: part.mesh,
                 light: side.light,
                 shadow: side.shadow,
+                paint: side.layer.map(|layer| SurfacePaint {
+                    layer,
+                    normals: Vec::new(),
+                    occlusion: Vec::new(),
+                }),
             },
             entered: vec![u32::MAX; part.corners.len()],
         }
@@ -94,47 +147,45 @@ impl OnScreen {
 
     /// Adds a triangle of the mesh, whose corners those are.
     #[inline]
-    fn push(
-        &mut self,
-        mut triangle: [u32; 3],
-        seen: &[Corner; 3],
-        places: &[Vec2],
-        camera: &Camera,
-    ) {
-        let Surface {
-            vertices, texture, ..
-        } = &mut self.surface;
+    fn push(&mut self, mut triangle: [u32; 3], seen: &[Corner; 3], part: &Part, camera: &Camera) {
+        let has_extra = self.surface.texture.is_some() | self.surface.paint.is_some();
         for (index, corner) in triangle.iter_mut().zip(seen) {
-            let entered = &mut self.entered[*index as usize];
-            if *entered == u32::MAX {
-                *entered = vertices.len() as u32;
-                vertices.push(corner.project(camera));
-                if let Some(texture) = texture {
-                    texture.places.push(places[*index as usize]);
+            let entered = self.entered[*index as usize];
+            *index = if entered == u32::MAX {
+                let new = self.surface.vertices.len() as u32;
+                self.entered[*index as usize] = new;
+                self.surface.vertices.push(corner.project(camera));
+                if has_extra {
+                    self.push_extra(&part.extra(*index as usize));
                 }
-            }
-            *index = *entered;
+                new
+            } else {
+                entered
+            };
         }
         self.surface.triangles.push(triangle);
     }
 
-    /// Adds what is left of a triangle that was cut.
-    fn push_polygon(&mut self, corners: &[(Corner, Vec2)], camera: &Camera) {
-        let Surface {
-            vertices,
-            triangles,
-            texture,
-            ..
-        } = &mut self.surface;
-        let first = vertices.len() as u32;
-        vertices.extend(corners.iter().map(|(corner, _)| corner.project(camera)));
-        if let Some(texture) = texture {
-            texture
-                .places
-                .extend(corners.iter().map(|(_, place)| *place));
+    /// Adds what the last vertex has beside its place and tone.
+    fn push_extra(&mut self, extra: &Extra) {
+        if let Some(texture) = &mut self.surface.texture {
+            texture.places.push(extra.place);
         }
-        let others = first + 1..vertices.len() as u32;
-        triangles.extend(
+        if let Some(paint) = &mut self.surface.paint {
+            paint.normals.push(self.facing * extra.normal);
+            paint.occlusion.push(extra.occlusion);
+        }
+    }
+
+    /// Adds what is left of a triangle that was cut.
+    fn push_polygon(&mut self, corners: &[(Corner, Extra)], camera: &Camera) {
+        let first = self.surface.vertices.len() as u32;
+        for (corner, extra) in corners {
+            self.surface.vertices.push(corner.project(camera));
+            self.push_extra(extra);
+        }
+        let others = first + 1..self.surface.vertices.len() as u32;
+        self.surface.triangles.extend(
             others
                 .clone()
                 .zip(others.skip(1))
@@ -191,13 +242,13 @@ fn is_front([a, b, c]: &[Corner; 3]) -> bool {
     normal.dot(a.view) > 0.0
 }
 
-/// The part of a triangle at depth `near` or beyond: three or four corners with their places in the picture.
-pub(super) fn cut(triangle: &[Corner; 3], places: &[Vec2; 3], near: f32) -> Vec<(Corner, Vec2)> {
+/// The part of a triangle at depth `near` or beyond: three or four corners.
+pub(super) fn cut(triangle: &[Corner; 3], extras: &[Extra; 3], near: f32) -> Vec<(Corner, Extra)> {
     let mut kept = Vec::with_capacity(4);
     for i in 0..3 {
         let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
         if a.view.z >= near {
-            kept.push((a, places[i]));
+            kept.push((a, extras[i]));
         }
         if (a.view.z >= near) != (b.view.z >= near) {
             let t = (near - a.view.z) / (b.view.z - a.view.z);
@@ -205,7 +256,7 @@ pub(super) fn cut(triangle: &[Corner; 3], places: &[Vec2; 3], near: f32) -> Vec<
                 view: a.view.lerp(b.view, t).with_z(near),
                 tone: a.tone + (b.tone - a.tone) * t,
             };
-            kept.push((corner, places[i].lerp(places[(i + 1) % 3], t)));
+            kept.push((corner, extras[i].lerp(&extras[(i + 1) % 3], t)));
         }
     }
     kept

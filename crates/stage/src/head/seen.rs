@@ -1,6 +1,7 @@
 //! What the camera sees of a head: its outside, its inside through openings, its outline, what is drawn on it and worn.
 
 use super::HeadModel;
+use super::layers::{DRESS, MeshLayers, SKIN, TIES, name_of};
 use super::on_screen::{Corner, Part, Side};
 use super::paint::HeadPaint;
 use crate::painted::PaintedMesh;
@@ -28,6 +29,7 @@ pub(crate) fn surfaces(
     model: &HeadModel,
     paint: &HeadPaint,
     meshes: &[MeshSection],
+    layers: &MeshLayers,
     camera: &Camera,
     light: &Light,
 ) -> Vec<Surface> {
@@ -49,6 +51,7 @@ pub(crate) fn surfaces(
         true => &mesh.normals,
         false => facing,
     };
+    let occlusion = &shade[..];
     let shade = shade.iter().copied().chain(repeat(0.0));
     let corners: Vec<Corner> = mesh
         .positions
@@ -74,40 +77,37 @@ pub(crate) fn surfaces(
         ),
         false => Vec::new(),
     };
-    let inside = Side {
-        light: paint.shadow,
-        shadow: paint.shadow,
-        margin_m: paint.inside_margin_m,
-    };
-    let part = |triangles, light, shadow, mesh| Part {
+    let inside = Side::flat(paint.shadow, paint.inside_margin_m);
+    let part = |triangles, light, shadow, mesh, layer| Part {
         triangles,
         corners: &corners,
         front: Some(Side {
             light,
             shadow,
             margin_m: 0.0,
+            layer,
         }),
         back: Some(inside),
         mesh,
         picture: None,
+        normals: facing,
+        occlusion,
     };
+    let skin_layer = layers.of(&[SKIN]);
     let is_flat = !model.is_painted();
     let mut parts = Vec::new();
     if is_flat {
-        parts.push(part(bare, paint.light, paint.shadow, 0));
+        parts.push(part(bare, paint.light, paint.shadow, 0, skin_layer));
     }
     if is_flat && !scalp.is_empty() {
-        parts.push(part(scalp, paint.scalp, paint.scalp, 0));
+        parts.push(part(scalp, paint.scalp, paint.scalp, 0, None));
     }
+    let dress_layer = layers.of(&[DRESS]);
     for (cloth, triangles) in clothes {
         let [light, shadow, _] = paint.of_cloth(*cloth);
         parts.push(Part {
-            back: Some(Side {
-                light: shadow,
-                shadow,
-                ..inside
-            }),
-            ..part(triangles, light, shadow, CLOTHES)
+            back: Some(Side::flat(shadow, inside.margin_m)),
+            ..part(triangles, light, shadow, CLOTHES, dress_layer)
         });
     }
     if is_flat && paint.width_m > 0.0 {
@@ -120,20 +120,18 @@ pub(crate) fn surfaces(
                 triangles,
                 corners: &hull,
                 front: None,
-                back: Some(Side {
-                    light: line,
-                    shadow: line,
-                    margin_m: -paint.outline_margin_m,
-                }),
+                back: Some(Side::flat(line, -paint.outline_margin_m)),
                 mesh: if is_skin { 0 } else { CLOTHES },
                 picture: None,
+                normals: &[],
+                occlusion: &[],
             });
         }
     }
     let surfaces = parts.par_iter().flat_map_iter(|part| part.seen_by(camera));
     let mut surfaces: Vec<Surface> = surfaces.collect();
     if !ornaments.triangles.is_empty() {
-        surfaces.extend(worn(ornaments, paint, camera, light));
+        surfaces.extend(worn(ornaments, paint, layers, camera, light));
     }
     let center = model.frame.map_or(Vec3::ZERO, |head| head.center);
     let is_drawn = |patch: &&Patch| {
@@ -143,7 +141,8 @@ pub(crate) fn surfaces(
     let painted = model.painted.par_iter().enumerate();
     let painted = painted.flat_map_iter(|(number, mesh)| {
         let number = PAINTED + number as u32;
-        painted_mesh(mesh, number.min(MESHES - 1), paint, meshes, camera, light)
+        let number = number.min(MESHES - 1);
+        painted_mesh(mesh, number, paint, meshes, layers, camera, light)
     });
     surfaces.par_extend(painted);
     surfaces.extend(patches.iter().filter(is_drawn).flat_map(|patch| {
@@ -152,18 +151,23 @@ pub(crate) fn surfaces(
             tone: 0.0,
         };
         let corners: Vec<Corner> = patch.positions.iter().map(corner).collect();
-        let color = paint.of(patch.ink);
+        let layer = layers.of(&[name_of(patch.part)]);
+        let normals = match layer {
+            Some(_) => vec![normal_of(patch); patch.positions.len()],
+            None => Vec::new(),
+        };
         let part = Part {
             triangles: &patch.triangles,
             corners: &corners,
             front: Some(Side {
-                light: color,
-                shadow: color,
-                margin_m: 0.0,
+                layer,
+                ..Side::flat(paint.of(patch.ink), 0.0)
             }),
             back: None,
             mesh: 0,
             picture: None,
+            normals: &normals,
+            occlusion: &[],
         };
         part.seen_by(camera)
     }));
@@ -174,10 +178,21 @@ pub(crate) fn surfaces(
 pub(crate) fn painted(
     mesh: &PaintedMesh,
     paint: &HeadPaint,
+    layers: &MeshLayers,
     camera: &Camera,
     light: &Light,
 ) -> Vec<Surface> {
-    painted_mesh(mesh, MESHES - 1, paint, &[], camera, light)
+    painted_mesh(mesh, MESHES - 1, paint, &[], layers, camera, light)
+}
+
+/// The unit normal of a patch, which is nearly flat.
+fn normal_of(patch: &Patch) -> Vec3 {
+    let normals = patch.triangles.iter().map(|triangle| {
+        let [a, b, c] = triangle.map(|i| patch.positions[i as usize]);
+        (b - a).cross(c - a)
+    });
+    // Millimetres, or their squares would be too small.
+    (normals.sum::<Vec3>() * 1e6).normalize_or(Vec3::Z)
 }
 
 /// A slightly larger mesh, whose inside is seen around the edges of the mesh itself; `widths` as in [`HeadModel`].
@@ -206,6 +221,7 @@ fn painted_mesh(
     number: u32,
     head: &HeadPaint,
     sections: &[MeshSection],
+    layers: &MeshLayers,
     camera: &Camera,
     light: &Light,
 ) -> Vec<Surface> {
@@ -239,16 +255,16 @@ fn painted_mesh(
     let front = Side {
         light: lit,
         shadow,
-        margin_m: 0.0,
+        margin_m: match mesh.is_cap {
+            true => -head.outline_margin_m,
+            false => 0.0,
+        },
+        layer: layers.of(&mesh.names),
     };
     let back = match (own.both_sides, section) {
         (true, _) => Some(front),
         // Seen through openings, as other heads' insides.
-        (false, None) => Some(Side {
-            light: shadow,
-            shadow,
-            margin_m: head.inside_margin_m,
-        }),
+        (false, None) => Some(Side::flat(shadow, head.inside_margin_m)),
         (false, Some(_)) => None,
     };
     let part = Part {
@@ -261,17 +277,15 @@ fn painted_mesh(
             .picture
             .as_ref()
             .map(|picture| (picture, &mesh.places[..])),
+        normals: &mesh.normals,
+        occlusion: &[],
     };
     let mut surfaces: Vec<Surface> = part.seen_by(camera).collect();
     if width_m > 0.0 && own.has_outline() {
         let outline = Part {
             corners: &hull(&mesh.positions, &mesh.normals, &[], width_m, camera),
             front: None,
-            back: Some(Side {
-                light: line,
-                shadow: line,
-                margin_m: -head.outline_margin_m,
-            }),
+            back: Some(Side::flat(line, -head.outline_margin_m)),
             picture: part
                 .picture
                 .filter(|(picture, _)| picture.coverage != Coverage::Ignored),
@@ -286,6 +300,7 @@ fn painted_mesh(
 pub(crate) fn worn(
     ornaments: &Mesh,
     paint: &HeadPaint,
+    layers: &MeshLayers,
     camera: &Camera,
     light: &Light,
 ) -> Vec<Surface> {
@@ -305,10 +320,13 @@ pub(crate) fn worn(
             light: paint.tie,
             shadow: paint.tie_shadow,
             margin_m: BAND_MARGIN_M,
+            layer: layers.of(&[TIES]),
         }),
         back: None,
         mesh: ORNAMENTS,
         picture: None,
+        normals: &ornaments.normals,
+        occlusion: &[],
     };
     let mut worn: Vec<Surface> = ties.seen_by(camera).collect();
     if paint.width_m > 0.0 {
@@ -321,11 +339,7 @@ pub(crate) fn worn(
                 camera,
             ),
             front: None,
-            back: Some(Side {
-                light: paint.line,
-                shadow: paint.line,
-                margin_m: BAND_MARGIN_M,
-            }),
+            back: Some(Side::flat(paint.line, BAND_MARGIN_M)),
             ..ties
         };
         worn.extend(outline.seen_by(camera));

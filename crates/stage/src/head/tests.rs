@@ -1,5 +1,6 @@
 //! What is seen of heads.
 
+use super::layers::MeshLayers;
 use super::*;
 use render::{Light, Surface};
 use stroke_path::{Camera, OrbitView};
@@ -55,7 +56,14 @@ const PAINT: HeadPaint = HeadPaint {
 #[test]
 fn the_outside_is_lit_and_the_inside_is_in_shadow() {
     let light = Light::Direction(Vec3::Z);
-    let front = surfaces(&plate().into(), &PAINT, &[], &camera(0.0), &light);
+    let front = surfaces(
+        &plate().into(),
+        &PAINT,
+        &[],
+        &MeshLayers::new(&[], 0),
+        &camera(0.0),
+        &light,
+    );
     assert_eq!(front[0].triangles.len(), 1);
     assert_eq!(front[1].triangles.len(), 0);
     assert_eq!(
@@ -65,7 +73,14 @@ fn the_outside_is_lit_and_the_inside_is_in_shadow() {
     );
     assert!(front[0].vertices.iter().all(|v| v.tone > 0.0));
 
-    let behind = surfaces(&plate().into(), &PAINT, &[], &camera(180.0), &light);
+    let behind = surfaces(
+        &plate().into(),
+        &PAINT,
+        &[],
+        &MeshLayers::new(&[], 0),
+        &camera(180.0),
+        &light,
+    );
     assert_eq!(behind[0].triangles.len(), 0);
     assert_eq!(behind[1].triangles.len(), 1);
     assert_eq!(behind[1].light, PAINT.shadow);
@@ -80,6 +95,7 @@ fn shade_is_dark_in_full_light() {
         &model,
         &PAINT,
         &[],
+        &MeshLayers::new(&[], 0),
         &camera(0.0),
         &Light::Direction(Vec3::Z),
     );
@@ -108,6 +124,7 @@ fn clothes_have_colours_of_their_own() {
         &sailor,
         &PAINT,
         &[],
+        &MeshLayers::new(&[], 0),
         &bust_camera(),
         &Light::Direction(Vec3::Z),
     );
@@ -131,7 +148,14 @@ fn the_side_of_the_nose_is_dark_where_light_is_away() {
     let figure = HeadModel::figure(&Figure::default());
     let dark = |light: Vec3| {
         let light = Light::Direction(light.normalize());
-        let seen = surfaces(&figure, &PAINT, &[], &bust_camera(), &light);
+        let seen = surfaces(
+            &figure,
+            &PAINT,
+            &[],
+            &MeshLayers::new(&[], 0),
+            &bust_camera(),
+            &light,
+        );
         // Patches are flat in one tone; the skin has two.
         let flat = |surface: &&Surface| surface.light == surface.shadow;
         let own = seen.iter().filter(|surface| surface.light == PAINT.shadow);
@@ -165,6 +189,7 @@ fn triangles_are_cut_at_the_near_plane() {
         &mesh.into(),
         &PAINT,
         &[],
+        &MeshLayers::new(&[], 0),
         &camera(0.0),
         &Light::Direction(Vec3::Z),
     );

@@ -7,7 +7,7 @@ use crate::edit::{Edit, Place};
 use crate::inherited::{Inherited, InheritedLayer};
 use crate::layers_shown::LayersShown;
 use effects::preset::edit::{self, Step, written};
-use effects::preset::{LAYER, read_value, suggestion};
+use effects::preset::{LAYER, may_say, read_value, suggestion};
 use effects::{AnyEffect, Param, ParamKind, Registry, Value};
 use eframe::egui::{ComboBox, RichText, ScrollArea, Ui};
 use stage::{Preset, Sections};
@@ -384,7 +384,8 @@ fn own_fields(effect: &dyn AnyEffect) -> Vec<Param> {
         }
         param
     };
-    LAYER.iter().map(of_effect).collect()
+    let own = LAYER.iter().filter(|param| may_say(effect, param.name));
+    own.map(of_effect).collect()
 }
 
 /// A button with a list of all effects. Gives the text of the layer that was chosen.
@@ -398,7 +399,7 @@ fn add_layer(ui: &mut Ui, registry: &Registry, names: &BTreeSet<String>) -> Opti
                 let button = ui.button(effect.id());
                 let name = format!("add {}", effect.id());
                 if button.accessible_name(name).clicked() {
-                    chosen = Some(new_layer(effect.id(), names));
+                    chosen = Some(new_layer(effect, names));
                 }
                 about(ui, effect.doc());
             }
@@ -411,10 +412,15 @@ fn add_layer(ui: &mut Ui, registry: &Registry, names: &BTreeSet<String>) -> Opti
 }
 
 /// The text of a layer of that effect.
-fn new_layer(id: &str, names: &BTreeSet<String>) -> String {
-    let effect = quoted(id);
-    match new_name(id, |name| is_taken(name, names)) {
-        name if name == id => format!("(effect: {effect})"),
-        name => format!("(effect: {effect}, name: {})", quoted(&name)),
+fn new_layer(effect: &dyn AnyEffect, names: &BTreeSet<String>) -> String {
+    let id = effect.id();
+    let mut text = format!("(effect: {}", quoted(id));
+    let name = new_name(id, |name| is_taken(name, names));
+    if name != id {
+        text += &format!(", name: {}", quoted(&name));
     }
+    if effect.is_for_meshes() {
+        text += ", on: \"*\"";
+    }
+    text + ")"
 }

@@ -18,7 +18,8 @@ impl Pairs {
         Self {
             sorted: Vec::with_capacity(strands),
             boxes: Vec::with_capacity(strands),
-            pairs: Vec::new(),
+            // Room ahead of need, so that a warm step allocates nothing: all of some, and many of many.
+            pairs: Vec::with_capacity((strands * strands / 2).min(256 * strands)),
         }
     }
 
@@ -43,8 +44,6 @@ impl Pairs {
                 }
             }
         }
-        // Room ahead of need, so that a warm step allocates nothing.
-        self.pairs.reserve(self.pairs.len());
     }
 
     /// The pairs, each once, the earlier strand first.

@@ -1,0 +1,456 @@
+//! Samples of a tile that layers for meshes paint: those that show a surface, and those whose hair such a surface is seen through.
+
+use super::shown::{NOTHING, TRIANGLE};
+use super::surface::Interpolated;
+use super::tile::{
+    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Samples, Stack, Target, bits, id_plane,
+    overwrite, plane, select,
+};
+use super::{Frame, Worker};
+use crate::frame::{FAR_LIGHT, Light};
+use crate::mesh_paint::{PaintedMeshes, Seen};
+use effects::wgsl::vec3;
+use effects::{BLOCK, SampleBlock, SampleInput, Vectors};
+use glam::{Vec2, Vec3};
+
+/// Cells of a block.
+const SLOTS: usize = BLOCK / LANES;
+
+/// A thread's memory: what lies under hair and is seen through it, and for each layer a block of samples of either kind.
+#[derive(Default)]
+pub(super) struct MeshPainter {
+    under: Option<Under>,
+    blocks: Vec<[Block; 2]>,
+}
+
+/// Samples that show a surface which is seen through hair, before there is hair.
+struct Under {
+    /// [`NOTHING`], or a triangle's number with [`TRIANGLE`].
+    what: IdPlane,
+    color: [Plane; 3],
+}
+
+/// Samples that show one layer.
+struct Block {
+    /// The cells that they are of, and which samples of these.
+    cells: Vec<(usize, LaneMask)>,
+    /// Places in pixels, and inverse depths (1/m).
+    x: [Lanes; SLOTS],
+    y: [Lanes; SLOTS],
+    inv_depth: [Lanes; SLOTS],
+    /// Of any length.
+    normal: [[Lanes; SLOTS]; 3],
+    samples: Box<SampleBlock>,
+}
+
+/// A triangle as its samples are told of it.
+struct Corners {
+    /// As [`Shown`](super::shown::Shown) has it.
+    what: u32,
+    layer: usize,
+    light: [f32; 3],
+    shadow: [f32; 3],
+    /// Numbers times inverse depth, which run linearly on the screen: the normal's, and the occlusion.
+    numbers: [(Interpolated, Samples); 4],
+    has_occlusion: bool,
+}
+
+impl Worker {
+    /// Keeps what is seen through hair, once all surfaces are drawn.
+    #[inline(always)] // compiled for each set of `Instructions`
+    pub(super) fn keep_under(&mut self, frame: &Frame) {
+        let Some(shown) = self.shown.planes() else {
+            return;
+        };
+        let under = self.meshes.under.get_or_insert_with(|| Under {
+            what: id_plane(),
+            color: [plane(), plane(), plane()],
+        });
+        let mut last = (NOTHING, false);
+        for (cell, shows) in shown.what.iter().enumerate() {
+            let mut kept = [NOTHING; LANES];
+            for k in 0..LANES {
+                if shows[k] != last.0 {
+                    last = (shows[k], frame.is_seen_through_hair(shows[k]));
+                }
+                kept[k] = select(last.1, shows[k], NOTHING);
+            }
+            under.what[cell] = kept;
+            for (under, plane) in under.color.iter_mut().zip(&self.target.color) {
+                under[cell] = plane[cell];
+            }
+        }
+    }
+
+    /// Gives the samples of painted surfaces the colours that their programs say: of those under hair as much as is seen through it.
+    #[inline(always)] // compiled for each set of `Instructions`
+    pub(super) fn paint_meshes(&mut self, frame: &Frame, origin: [usize; 2], stack: &Stack) {
+        let painting = &frame.drawing.mesh_painting;
+        let (Some(shown), Some(seen)) = (self.shown.planes(), &painting.seen) else {
+            return;
+        };
+        let MeshPainter { under, blocks } = &mut self.meshes;
+        let under = under.as_ref().filter(|_| painting.sees_through());
+        let target = &mut self.target;
+        blocks.resize_with(painting.layers.len(), || [Block::new(), Block::new()]);
+        for block in blocks.as_flattened_mut() {
+            block.cells.clear(); // empty, but where a program panicked
+        }
+        let place = Place {
+            frame,
+            seen,
+            origin,
+            stack,
+        };
+        let mut corners = None;
+        for (cell, shows) in shown.what.iter().enumerate() {
+            let is_mesh = lanes_where(shows, |what| (what >= TRIANGLE) & (what != NOTHING));
+            let on_top = (shows, is_mesh, 0);
+            let below = under.map(|under| {
+                let mut is_under = lanes_where(shows, |what| what < TRIANGLE);
+                for k in 0..LANES {
+                    is_under[k] &= select(under.what[cell][k] != NOTHING, u32::MAX, 0);
+                }
+                (&under.what[cell], is_under, 1)
+            });
+            for (shows, lanes, kind) in [Some(on_top), below].into_iter().flatten() {
+                let mut left = bits(&lanes);
+                while left != 0 {
+                    let what = shows[left.trailing_zeros() as usize];
+                    let mut own = lanes_where(shows, |other| other == what);
+                    for k in 0..LANES {
+                        own[k] &= lanes[k];
+                    }
+                    left &= !bits(&own);
+                    if corners
+                        .as_ref()
+                        .is_none_or(|known: &Corners| known.what != what)
+                    {
+                        let Some(new) = place.corners(what) else {
+                            continue;
+                        };
+                        corners = Some(new);
+                    }
+                    let Some(corners) = &corners else {
+                        continue;
+                    };
+                    let block = &mut blocks[corners.layer][kind];
+                    if block.cells.last().is_none_or(|(last, _)| *last != cell) {
+                        if block.cells.len() == SLOTS {
+                            let layer = &painting.layers[corners.layer];
+                            block.paint(&place, layer, kind == 1, target);
+                        }
+                        block.begin(&place, cell, target);
+                    }
+                    let colors = match (kind, under) {
+                        (1, Some(under)) => &under.color,
+                        _ => &target.color,
+                    };
+                    block.add(cell, corners, colors, &own);
+                }
+            }
+        }
+        for (blocks, layer) in blocks.iter_mut().zip(&painting.layers) {
+            let [on_top, below] = blocks;
+            on_top.paint(&place, layer, false, target);
+            below.paint(&place, layer, true, target);
+        }
+    }
+}
+
+impl Frame<'_> {
+    /// The surface that a sample shows.
+    #[inline(always)]
+    fn surface_of(&self, what: u32) -> Option<&crate::Surface> {
+        if what < TRIANGLE || what == NOTHING {
+            return None;
+        }
+        let triangle = &self.parts.triangles[(what & !TRIANGLE) as usize];
+        Some(&self.drawing.surfaces[triangle.surface as usize])
+    }
+
+    fn is_seen_through_hair(&self, what: u32) -> bool {
+        let paint = self
+            .surface_of(what)
+            .and_then(|surface| surface.paint.as_ref());
+        let layers = &self.drawing.mesh_painting.layers;
+        paint.is_some_and(|paint| layers[paint.layer as usize].through_hair > 0.0)
+    }
+}
+
+/// Where a tile's samples lie.
+struct Place<'a> {
+    frame: &'a Frame<'a>,
+    seen: &'a Seen,
+    origin: [usize; 2],
+    stack: &'a Stack,
+}
+
+impl Place<'_> {
+    /// A painted triangle, by what a sample shows; none where it isn't painted.
+    #[inline(always)]
+    fn corners(&self, what: u32) -> Option<Corners> {
+        let surface = self.frame.surface_of(what)?;
+        let paint = surface.paint.as_ref()?;
+        let drawing = self.frame.drawing;
+        let triangle = &self.frame.parts.triangles[(what & !TRIANGLE) as usize];
+        let own = surface.triangles[triangle.number as usize];
+        let mut values = [[0.0; 3]; 4];
+        for corner in 0..3 {
+            let index = own[corner] as usize;
+            let inv_depth = surface.vertices[index].inv_depth;
+            let normal = paint.normals[index];
+            values[0][corner] = normal.x * inv_depth;
+            values[1][corner] = normal.y * inv_depth;
+            values[2][corner] = normal.z * inv_depth;
+            let occlusion = paint.occlusion.get(index).copied().unwrap_or(0.0);
+            values[3][corner] = occlusion * inv_depth;
+        }
+        let numbers = triangle.interpolated(drawing, self.origin, values)?;
+        Some(Corners {
+            what,
+            layer: paint.layer as usize,
+            light: surface.light,
+            shadow: surface.shadow,
+            numbers: numbers.map(|number| {
+                let samples = number.slope.at_samples(self.stack);
+                (number, samples)
+            }),
+            has_occlusion: !paint.occlusion.is_empty(),
+        })
+    }
+}
+
+impl Block {
+    fn new() -> Self {
+        Self {
+            cells: Vec::new(),
+            x: [[0.0; LANES]; SLOTS],
+            y: [[0.0; LANES]; SLOTS],
+            inv_depth: [[1.0; LANES]; SLOTS],
+            normal: [[[1.0; LANES]; SLOTS]; 3],
+            samples: Box::new(SampleBlock::NOTHING),
+        }
+    }
+
+    /// Begins with a cell.
+    #[inline(always)]
+    fn begin(&mut self, place: &Place, index: usize, target: &Target) {
+        let slot = self.cells.len();
+        self.cells.push((index, [0; LANES]));
+        let cell = Cell::of_index(index);
+        let left = (place.origin[0] + cell.column) as f32;
+        let top = (place.origin[1] + cell.row * place.stack.height) as f32;
+        for k in 0..LANES {
+            self.x[slot][k] = left + place.stack.x[k];
+            self.y[slot][k] = top + place.stack.y[k];
+        }
+        // Of samples that show no surface there is none.
+        self.inv_depth[slot] = target.surface[index];
+    }
+
+    /// Adds samples of the last cell, which show one triangle.
+    #[inline(always)]
+    fn add(&mut self, index: usize, corners: &Corners, colors: &[Plane; 3], lanes: &LaneMask) {
+        let slot = self.cells.len() - 1;
+        for k in 0..LANES {
+            self.cells[slot].1[k] |= lanes[k];
+        }
+        let cell = Cell::of_index(index);
+        let inv_depth = self.inv_depth[slot];
+        for axis in 0..3 {
+            let (number, samples) = &corners.numbers[axis];
+            let mut numbers = samples.of(cell);
+            for k in 0..LANES {
+                numbers[k] = number.clamp(numbers[k]);
+            }
+            overwrite(&mut self.normal[axis][slot], &numbers, lanes);
+        }
+        if corners.has_occlusion {
+            let (number, samples) = &corners.numbers[3];
+            let mut numbers = samples.of(cell);
+            for k in 0..LANES {
+                numbers[k] = number.clamp(numbers[k]) / inv_depth[k];
+            }
+            put(&mut self.samples.occlusion, slot, &numbers, lanes);
+        } else {
+            put(&mut self.samples.occlusion, slot, &[0.0; LANES], lanes);
+        }
+        let (own, shade) = (&mut self.samples.color, &mut self.samples.shade_color);
+        let own = [&mut own.x, &mut own.y, &mut own.z];
+        let shade = [&mut shade.x, &mut shade.y, &mut shade.z];
+        for (axis, (own, shade)) in own.into_iter().zip(shade).enumerate() {
+            let texel = colors[axis][index];
+            let (mut light, mut shadow) = (texel, texel);
+            for k in 0..LANES {
+                light[k] *= corners.light[axis];
+                shadow[k] *= corners.shadow[axis];
+            }
+            put(own, slot, &light, lanes);
+            put(shade, slot, &shadow, lanes);
+        }
+    }
+
+    /// Paints the samples that were gathered, and begins anew. What isn't finite has the mesh's own colour.
+    #[inline(always)]
+    fn paint(&mut self, place: &Place, layer: &PaintedMeshes, is_under: bool, target: &mut Target) {
+        if self.cells.is_empty() {
+            return;
+        }
+        self.finish(place.seen, layer);
+        let mut painted = Vectors::NOTHING;
+        let samples = &self.samples;
+        layer.program.paint_block(samples, layer.seed, &mut painted);
+        let share = if is_under { layer.through_hair } else { 1.0 };
+        let painted = [&painted.x, &painted.y, &painted.z];
+        let own = [&samples.color.x, &samples.color.y, &samples.color.z];
+        for (slot, (cell, lanes)) in self.cells.drain(..).enumerate() {
+            let first = slot * LANES;
+            let mut finite = [true; LANES];
+            for k in 0..LANES {
+                let sum = painted[0][first + k] + painted[1][first + k] + painted[2][first + k];
+                finite[k] = sum.is_finite();
+            }
+            for axis in 0..3 {
+                let plane = &mut target.color[axis][cell];
+                let mut color = *plane;
+                for k in 0..LANES {
+                    let (new, own) = (painted[axis][first + k], own[axis][first + k]);
+                    let new = select(finite[k], new, own);
+                    // Light beyond 0 to 1 is cut before it is mixed.
+                    let new = select(is_under, new.clamp(0.0, 1.0), new);
+                    let hair = color[k].clamp(0.0, 1.0);
+                    color[k] = select(is_under, hair + (new - hair) * share, new);
+                }
+                overwrite(plane, &color, &lanes);
+            }
+        }
+    }
+
+    /// Works out what the layer reads of the samples.
+    #[inline(always)]
+    fn finish(&mut self, seen: &Seen, layer: &PaintedMeshes) {
+        let reads = |input| layer.read.has(input);
+        let samples = &mut *self.samples;
+        let (x, y) = (self.x.as_flattened(), self.y.as_flattened());
+        let inv_depth = self.inv_depth.as_flattened();
+        if reads(SampleInput::Normal) {
+            let [nx, ny, nz] = self.normal.each_ref().map(|plane| plane.as_flattened());
+            for i in 0..BLOCK {
+                let square = nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i];
+                // Where normals cancel out it is none.
+                let inverse = select(square > 1e-30, 1.0 / square.sqrt(), 0.0);
+                samples.normal.x[i] = nx[i] * inverse;
+                samples.normal.y[i] = ny[i] * inverse;
+                samples.normal.z[i] = nz[i] * inverse;
+            }
+        }
+        if reads(SampleInput::Depth) {
+            for i in 0..BLOCK {
+                samples.depth[i] = 1.0 / (inv_depth[i] * layer.head_height_m);
+            }
+        }
+        if reads(SampleInput::HeadDepth) {
+            samples.head_depth = [layer.head_depth; BLOCK];
+        }
+        if reads(SampleInput::Time) {
+            samples.time = [seen.time_s; BLOCK];
+        }
+        if reads(SampleInput::Pixels) {
+            let scale = seen.camera.focal_px() * layer.head_height_m;
+            for i in 0..BLOCK {
+                samples.pixels[i] = scale * inv_depth[i];
+            }
+        }
+        let of_light = [SampleInput::LightDirection, SampleInput::LightDistance];
+        let of_light = of_light.map(reads).contains(&true);
+        let of_point = of_light && matches!(seen.light, Light::Point(_));
+        if reads(SampleInput::Position) || reads(SampleInput::ViewDirection) || of_point {
+            let lens = Lens::of(seen);
+            for i in 0..BLOCK {
+                // From the eye.
+                let away = lens.away([x[i], y[i]], 1.0 / inv_depth[i]);
+                let position = lens.eye + away;
+                samples.position.set(i, vec3(position.to_array()));
+                let to_eye = -away * (1.0 / away.length());
+                samples.view_direction.set(i, vec3(to_eye.to_array()));
+            }
+        }
+        match seen.light {
+            _ if !of_light => {}
+            Light::Direction(direction) => {
+                for i in 0..BLOCK {
+                    samples.light_direction.set(i, vec3(direction.to_array()));
+                }
+                samples.light_distance = [FAR_LIGHT; BLOCK];
+            }
+            Light::Point(_) => {
+                for i in 0..BLOCK {
+                    let position = Vec3::from_array(samples.position.at(i).to_array());
+                    let (direction, distance_m) = seen.light.seen_from(position);
+                    samples.light_direction.set(i, vec3(direction.to_array()));
+                    let distance_m = distance_m.unwrap_or(0.0);
+                    samples.light_distance[i] = distance_m / layer.head_height_m;
+                }
+            }
+        }
+    }
+}
+
+/// Where the points of a picture lie in the world.
+struct Lens {
+    eye: Vec3,
+    right: Vec3,
+    up: Vec3,
+    ahead: Vec3,
+    middle: Vec2,
+    focal_px: f32,
+}
+
+impl Lens {
+    fn of(seen: &Seen) -> Self {
+        let camera = &seen.camera;
+        let [width, height] = camera.size_px().map(|side| side as f32);
+        Self {
+            eye: camera.eye(),
+            right: camera.world_from_view_direction(Vec3::X),
+            up: camera.world_from_view_direction(Vec3::Y),
+            ahead: camera.world_from_view_direction(Vec3::Z),
+            middle: Vec2::new(width, height) / 2.0,
+            focal_px: camera.focal_px(),
+        }
+    }
+
+    /// From the eye to what is seen at a place of the picture, so deep.
+    #[inline(always)]
+    fn away(&self, [x, y]: [f32; 2], depth_m: f32) -> Vec3 {
+        let scale = depth_m / self.focal_px;
+        let (across, above) = ((x - self.middle.x) * scale, (self.middle.y - y) * scale);
+        self.right * across + self.up * above + self.ahead * depth_m
+    }
+}
+
+/// Takes on the new numbers of a slot where `lanes` is set.
+#[inline(always)]
+fn put(block: &mut [f32; BLOCK], slot: usize, new: &Lanes, lanes: &LaneMask) {
+    let numbers = &mut block[slot * LANES..][..LANES];
+    for k in 0..LANES {
+        numbers[k] = select(lanes[k] != 0, new[k], numbers[k]);
+    }
+}
+
+/// The lanes whose numbers are as wanted.
+#[inline(always)]
+fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneMask {
+    let mut lanes = [0; LANES];
+    for k in 0..LANES {
+        lanes[k] = select(is_wanted(numbers[k]), u32::MAX, 0);
+    }
+    lanes
+}
+
+/// Whether tiles must know what their samples show, to be painted.
+pub(super) fn tells(frame: &Frame) -> bool {
+    let drawing = frame.drawing;
+    !(drawing.painting.is_empty() && drawing.mesh_painting.is_empty())
+}
