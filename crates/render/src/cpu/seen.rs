@@ -222,6 +222,10 @@ struct View<'a> {
 /// How many clumps must lie one over the other, on average, for it to be worth while to find out which of them are hidden.
 const LEAST_LAYERS: f32 = 32.0;
 
+/// The same where there are so many links of clumps that what is hidden would take long.
+const LEAST_OF_MANY: f32 = 8.0;
+const MANY: usize = 1 << 16;
+
 /// Fills the cover by hair, where a frame's hair may hide much of itself.
 fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
     if frame.order == Order::Shifted {
@@ -244,7 +248,11 @@ fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
         }
     }
     let around = (high - low).max(Vec2::ONE);
-    let is_dense = area > LEAST_LAYERS * around.x * around.y;
+    let least = match count < MANY {
+        true => LEAST_LAYERS,
+        false => LEAST_OF_MANY,
+    };
+    let is_dense = area > least * around.x * around.y;
     if !is_dense {
         return false;
     }
