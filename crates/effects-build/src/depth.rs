@@ -1,7 +1,7 @@
 //! Whether an effect moves its strokes nearer than their layer is, as its WGSL tells.
 
 use crate::check::named_type;
-use naga::{Arena, Expression, Literal, Module};
+use naga::{Arena, Expression, Handle, Literal, Module, Type, TypeInner};
 
 /// Place of `depth_offset` among the fields of `struct Stroke`.
 const FIELD: usize = 2;
@@ -23,12 +23,24 @@ pub(crate) fn may_be_nearer(module: &Module) -> bool {
     // A variable's fields may be set one by one.
     let has_variable = |function: &naga::Function| {
         let mut variables = function.local_variables.iter();
-        variables.any(|(_, variable)| variable.ty == stroke)
+        variables.any(|(_, variable)| holds(module, variable.ty, stroke))
     };
     let all = || module.functions.iter().map(|(_, function)| function);
     all().any(has_variable)
         || !all().all(|function| is_no_nearer(&function.expressions))
         || !is_no_nearer(&module.global_expressions)
+}
+
+/// Whether a type is that of strokes, or has such in it.
+fn holds(module: &Module, ty: Handle<Type>, stroke: Handle<Type>) -> bool {
+    ty == stroke
+        || match &module.types[ty].inner {
+            TypeInner::Array { base, .. } => holds(module, *base, stroke),
+            TypeInner::Struct { members, .. } => members
+                .iter()
+                .any(|member| holds(module, member.ty, stroke)),
+            _ => false,
+        }
 }
 
 #[cfg(test)]
@@ -65,6 +77,9 @@ mod tests {
         )));
         assert!(of(
             "var made = line(1.0); made.depth_offset = -params.width; return made;"
+        ));
+        assert!(of(
+            "var made: array<Stroke, 2>; made[0] = line(1.0); made[0].depth_offset = -params.width; return made[0];"
         ));
     }
 }

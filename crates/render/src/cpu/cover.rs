@@ -85,8 +85,10 @@ impl Cover {
             down,
             nearness: vec![0.0; across * down],
         };
-        let covered = links.into_par_iter().map(|links| {
-            let mut level = nothing();
+        // A level for each thread, not for each list: of a crowd there are many.
+        let of_thread = links.len().div_ceil(rayon::current_num_threads()).max(1);
+        let links = links.into_par_iter().with_min_len(of_thread);
+        let covered = links.fold(nothing, |mut level, links| {
             links.for_each(|link| level.put(link, brush, edge_depth_m));
             level
         });
@@ -112,9 +114,10 @@ impl Cover {
         };
         let count = [first.across, first.down];
         let range = |low: f32, high: f32, count: usize| {
-            let start = (greater(low, 0.0) / self.cell_px) as usize;
-            let end = (greater(high, 0.0) / self.cell_px) as usize + 1;
-            start.min(count - 1)..end.min(count)
+            // Of strokes of any size, also larger than what can be counted.
+            let cell = |place: f32| ((greater(place, 0.0) / self.cell_px) as usize).min(count - 1);
+            let start = cell(low);
+            start..cell(high).max(start) + 1
         };
         let columns = range(low.x, high.x, count[0]);
         let rows = range(low.y, high.y, count[1]);

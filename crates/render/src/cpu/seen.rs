@@ -77,6 +77,8 @@ struct Segments {
     /// Whether anything may be seen of each segment, and where its clump lies if that may be.
     seen: Vec<bool>,
     clumps: Vec<Option<Area>>,
+    /// Where all of each segment's strokes lie, if only other hair may hide them.
+    areas: Vec<Option<Area>>,
 }
 
 impl Seen {
@@ -119,13 +121,16 @@ impl Seen {
             |segments, (number, all, within)| {
                 let run = &runs[number];
                 let room = rooms.partition_point(|room| room.joints.end <= run.joints.start);
-                segments.find(&view, &rooms[room], run, all, within);
                 let is_of_piece =
                     |other: Option<&PathRun>| other.is_some_and(|other| other.piece == run.piece);
                 let before = number.checked_sub(1).and_then(|before| runs.get(before));
-                if has_cover && (is_of_piece(before) || is_of_piece(runs.get(number + 1))) {
-                    within.fill(true); // the clump of one run may show strokes of another
-                }
+                // Samples of a piece show all of its runs as one.
+                let is_whole = !is_of_piece(before) && !is_of_piece(runs.get(number + 1));
+                let view = View {
+                    cover: view.cover.filter(|_| is_whole),
+                    ..view
+                };
+                segments.find(&view, &rooms[room], run, all, within);
             },
         );
         if !within.contains(&false) {
@@ -149,6 +154,7 @@ impl Segments {
             reaches,
             seen,
             clumps,
+            areas,
         } = self;
         reaches.clear();
         reaches.extend(run.joints.clone().map(|i| room.reach_px(view, i)));
@@ -160,6 +166,7 @@ impl Segments {
         let pairs = (0..last.max(1)).map(|k| [k, (k + 1).min(last)]);
         seen.clear();
         clumps.clear();
+        areas.clear();
         let centers = &view.frame.paths.center[run.joints.clone()];
         let area = |[a, b]: [usize; 2], reach: fn(&ReachPx) -> f32| {
             let [ra, rb] = [a, b].map(|k| Vec2::splat(reach(&reaches[k]) + COVER_MARGIN_PX));
@@ -177,13 +184,23 @@ impl Segments {
             let nearness = room.nearness(view, ends.map(|k| run.joints.start + k));
             let clump = area(ends, |reach| reach.clump);
             let shows = may_be && !cover.hides(clump, nearness);
-            let is_seen = shows || may_be && !cover.hides(area(ends, |reach| reach.all), nearness);
+            let strokes = area(ends, |reach| reach.all);
+            let is_seen = shows || may_be && !cover.hides(strokes, nearness);
             seen.push(is_seen);
             clumps.push(shows.then_some(clump));
+            areas.push(may_be.then_some(strokes));
         }
-        for ([a, b], is_seen) in pairs.clone().zip(&*seen) {
-            all[a] |= is_seen;
-            all[b] |= is_seen;
+        // What a sample shows of a strand is of all its segments there, also of those that other hair hides by themselves.
+        let shown = || areas.iter().zip(&*seen).filter(|(_, is_seen)| **is_seen);
+        for (k, [a, b]) in pairs.clone().enumerate() {
+            let lies_over = |hidden: &Area| {
+                let mut shown = shown().filter_map(|(area, _)| area.as_ref());
+                shown.any(|area| area.meets(hidden))
+            };
+            let hidden = areas.get(k).and_then(Option::as_ref);
+            let is_needed = seen[k] || hidden.is_some_and(lies_over);
+            all[a] |= is_needed;
+            all[b] |= is_needed;
         }
         if view.cover.is_none() {
             within.copy_from_slice(all);
@@ -212,6 +229,7 @@ struct ReachPx {
 }
 
 /// What is looked at.
+#[derive(Clone, Copy)]
 struct View<'a> {
     frame: &'a Frame<'a>,
     joints: &'a Joints,

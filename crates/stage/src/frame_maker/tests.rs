@@ -97,22 +97,31 @@ fn strokes_behind_the_head_are_not_worked_out() {
     }
 }
 
-/// Waves in front of a face, many one behind the other.
-fn dense(preset: &Preset, files: &Files, size: f32) -> Scene {
+/// Waves in front of a face, many one behind the other; where they `dive`, they wind through those before and behind them.
+fn dense(preset: &Preset, files: &Files, size: f32, dive: f32) -> Scene {
     let head = HeadModel::bust();
     let mut strands = Strands::new();
     for id in 0..1200_u32 {
         let (column, row) = (id % 40, id / 40);
         let [x, z] = [0.005 * (column as f32 - 19.5), 0.15 + 0.006 * row as f32];
         let point = |i: usize| {
-            let wave = 0.004 * (1.3 * i as f32 + id as f32).sin();
-            Vec3::new(x + wave, 1.62 - 0.02 * i as f32, z)
+            let (sine, cosine) = (1.3 * i as f32 + id as f32).sin_cos();
+            let wave = (0.004 + 0.2 * dive) * sine;
+            Vec3::new(x + wave, 1.62 - 0.02 * i as f32, z + dive * cosine)
         };
         let points: Vec<Vec3> = (0..12).map(point).collect();
         strands.push(id, &points, Some(size)).unwrap();
     }
     let hair = HairModel::new(strands, Some(&head)).unwrap();
     Scene::of_one(hair, Some(head), Look::new(preset, files).unwrap()).unwrap()
+}
+
+/// A frame's picture, and how many discs of strokes it takes.
+fn with_discs(frame: &Frame, mut evaluator: Evaluator) -> (Vec<[u32; 4]>, usize) {
+    let mut drawing = Drawing::default();
+    evaluator.evaluate(frame, &mut drawing).unwrap();
+    let layers = drawing.layers.iter().map(|layer| layer.discs.len());
+    (picture(frame, evaluator).0, layers.sum())
 }
 
 #[test]
@@ -126,24 +135,59 @@ fn hair_behind_hair_is_not_worked_out() {
         ("manga-ink", 16.0, 35.0),
         ("outlined", 16.0, 0.0),
     ] {
-        let mut scene =
-            with_yardstick(look, [320, 240], |preset, files| dense(preset, files, size));
+        let mut scene = with_yardstick(look, [320, 240], |preset, files| {
+            dense(preset, files, size, 0.0)
+        });
         (scene.camera.target, scene.camera.distance) = ([0.0; 3], 2.5);
         (scene.camera.yaw, scene.camera.pitch) = (yaw, 5.0);
         let mut frames = FrameMaker::new();
         let frame = frames.frame(&scene, &motion).unwrap();
         let [(picture_of_some, some), (picture_of_all, all)] =
-            [Evaluator::default(), Evaluator::everywhere()].map(|mut evaluator| {
-                let mut drawing = Drawing::default();
-                evaluator.evaluate(&frame, &mut drawing).unwrap();
-                let layers = drawing.layers.iter().map(|layer| layer.discs.len());
-                (picture(&frame, evaluator).0, layers.sum::<usize>())
-            });
+            [Evaluator::default(), Evaluator::everywhere()]
+                .map(|evaluator| with_discs(&frame, evaluator));
         assert!(picture_of_some == picture_of_all, "{look}, {size}");
         assert!(some <= all);
         // Half discs hide nothing for sure where links meet, which is at one height here; outlines of others reach farther.
         if ["twin-tails", "short-ash"].contains(&look) {
             assert!(2 * some < all, "{look}, {size}: {some} discs of {all}");
+        }
+    }
+}
+
+/// What shows of a strand that other hair hides in part is what all of it makes, also where it goes under and comes up again.
+#[test]
+fn hair_that_winds_through_hair_looks_the_same() {
+    let motion = Motion::new();
+    for (look, size, dive, yaw) in [
+        ("twin-tails", 30.0, 0.03, 0.0),
+        ("twin-tails", 24.0, 0.06, 40.0),
+        ("short-ash", 40.0, 0.02, -15.0),
+        ("long-pink", 30.0, 0.09, 70.0),
+    ] {
+        let mut scene = with_yardstick(look, [320, 240], |preset, files| {
+            dense(preset, files, size, dive)
+        });
+        (scene.camera.target, scene.camera.distance) = ([0.0; 3], 2.5);
+        (scene.camera.yaw, scene.camera.pitch) = (yaw, 5.0);
+        let mut frames = FrameMaker::new();
+        let frame = frames.frame(&scene, &motion).unwrap();
+        let [some, all] = [Evaluator::default(), Evaluator::everywhere()]
+            .map(|evaluator| with_discs(&frame, evaluator));
+        assert!(some.0 == all.0, "{look}, {size}, {dive}");
+        assert!(some.1 < all.1, "{look}: {} of {}", some.1, all.1);
+    }
+}
+
+#[test]
+fn hair_of_any_size_is_drawn_or_refused() {
+    for size in [1e9, 1e30, 3e38] {
+        let scene = with_yardstick("twin-tails", [64, 48], |preset, files| {
+            dense(preset, files, size, 0.0)
+        });
+        let mut frames = FrameMaker::new();
+        if let Ok(frame) = frames.frame(&scene, &Motion::new()) {
+            let mut drawing = Drawing::default();
+            let _ = Evaluator::default().evaluate(&frame, &mut drawing);
         }
     }
 }
