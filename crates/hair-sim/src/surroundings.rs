@@ -230,7 +230,9 @@ impl Surroundings<'_> {
         }
         for anchor in self.anchors {
             hash.add(anchor.places[1]);
-            hash.add_number(anchor.stiffness);
+            for number in [anchor.strand as f64, anchor.point as f64, anchor.stiffness] {
+                hash.add_number(number);
+            }
         }
         hash.sum()
     }

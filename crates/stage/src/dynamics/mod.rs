@@ -98,6 +98,8 @@ pub(crate) struct Dynamics {
     /// How far each point of the scene is kept from bodies, m.
     gaps: Vec<f32>,
     ties: Ties,
+    /// Whether all strands slept in the last step. What is looked at between two steps doesn't count.
+    is_asleep: bool,
     bodies: Bodies,
     head: Head,
     placement: Placement,
@@ -257,6 +259,7 @@ impl Dynamics {
             gaps: bodies.gaps(all.points()),
             bodies,
             ties,
+            is_asleep: false,
             shapes: hair.shapes.clone(),
             shape: all.points().to_vec(),
             goal: Vec::new(),
@@ -328,6 +331,7 @@ impl Dynamics {
             let first = Roots::Head(self.pose_at(self.time_of(0), driver));
             self.strands.restart(first)?;
             self.ties.restart();
+            self.is_asleep = false;
         }
         let mut goes_on_to = |done: i64| done < wanted && goes_on();
         let is_seen = seen == Seen::Well;
@@ -525,8 +529,8 @@ impl Dynamics {
             anchors: &[],
         };
         if !self.ties.are_none() {
-            // What sleeps stays in its ties.
-            if self.stats.strands == 0 && self.stats.asleep > 0 {
+            // What sleeps stays in its ties, until its head moves.
+            if self.is_asleep && before == now {
                 self.ties.stay();
             } else {
                 self.strands.look_ahead(&scene, dt)?;
@@ -538,7 +542,11 @@ impl Dynamics {
             ..scene
         };
         Ok(match drives {
-            Drives::Step => self.strands.step(&scene, dt)?,
+            Drives::Step => {
+                let stats = self.strands.step(&scene, dt)?;
+                self.is_asleep = stats.strands == 0 && stats.asleep > 0;
+                stats
+            }
             Drives::Look => self.strands.look_ahead(&scene, dt)?,
         })
     }
