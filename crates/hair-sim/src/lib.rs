@@ -93,6 +93,7 @@ mod threads;
 
 pub use collision::{
     grid::{GridError, SignedDistance},
+    outside::keep_out,
     shape::{Collider, Shape},
 };
 pub use error::{DynamicsError, Fault, Reason};

@@ -54,7 +54,7 @@ use crate::{
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::avx2::Avx2;
 use batch::{Batch, BatchState};
-use contact::Guard;
+use contact::find::Guard;
 use drive::{Anchored, Drive, Others, roots, whole_poses};
 use energy::whole_energy;
 use locks::Locks;
@@ -231,7 +231,7 @@ impl Solver {
                 .map(|&i| (i, &strands[i].0, &strands[i].1))
                 .collect();
             let mut batch = Batch::new(&described);
-            batch.planes = batch.count() * if meets { 2 } else { 1 };
+            batch.planes = batch.count() * if meets { 3 } else { 2 };
             let mut rests = [None; LANES];
             for (lane, &i) in members.iter().enumerate() {
                 rests[lane] = Some(&strands[i].0);

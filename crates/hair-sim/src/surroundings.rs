@@ -81,7 +81,8 @@ pub struct Surroundings<'a> {
     /// Where the roots are at the end of the step.
     pub roots: Roots<'a>,
     /// The head's acceleration when the step starts and when it ends. Where it is not given, it is the change of the
-    /// roots' mean velocity from the middle of the step before to that of this one: what acts then lags by half a step.
+    /// roots' mean velocity from the middle of the step before to that of this one: what acts then lags by half a step, and an acceleration that
+    /// begins at once, as of a root that is let fall, jolts hair by the speed of half a step.
     pub acceleration: Option<[Acceleration; 2]>,
     /// In m/s^2.
     pub gravity: DVec3,
@@ -173,7 +174,7 @@ impl Surroundings<'_> {
     /// Whether nothing in it moves but, perhaps, roots that have poses of their own: a head that moves tells by its
     /// [`Self::fingerprint`].
     pub(crate) fn is_calm(&self) -> bool {
-        let still = |c: &Collider| c.before == c.now;
+        let still = |c: &Collider| !c.moves();
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
         let steady = self.streams.iter().all(Stream::is_steady);
         let holds_still = |anchor: &Anchor| anchor.places[0] == anchor.places[1];
@@ -229,7 +230,9 @@ impl Surroundings<'_> {
         }
         for anchor in self.anchors {
             hash.add(anchor.places[1]);
-            hash.add_number(anchor.stiffness);
+            for number in [anchor.strand as f64, anchor.point as f64, anchor.stiffness] {
+                hash.add_number(number);
+            }
         }
         hash.sum()
     }

@@ -210,6 +210,23 @@ pub(crate) fn move_by(object: &Object, pose: HeadPose, points: &mut [Vec3]) {
     }
 }
 
+/// Puts the points of the object in these ranges where the head has them in this pose.
+pub(crate) fn hold_on(
+    object: &Object,
+    pose: HeadPose,
+    ranges: &[Range<usize>],
+    points: &mut [Vec3],
+) {
+    let hair = object.hair();
+    let (rotation, translation) = rigid(pose, hair.head);
+    let rest = hair.file.strands.points();
+    for range in ranges {
+        for (point, rest) in points[range.clone()].iter_mut().zip(&rest[range.clone()]) {
+            *point = (rotation * rest.as_dvec3() + translation).as_vec3();
+        }
+    }
+}
+
 /// Moves points with the head, from this pose to rest.
 pub(crate) fn off_head(object: &Object, pose: HeadPose, points: &mut [Vec3]) {
     let (rotation, translation) = rigid(pose, object.hair().head);

@@ -38,6 +38,48 @@ pub enum Shape<'a> {
         /// Above 0.
         size: f64,
     },
+    /// A closed mesh that deforms, by its distances when the step starts and when it ends; in between they change evenly.
+    ///
+    /// ```
+    /// use glam::{DVec3, Vec3};
+    /// use hair_sim::{Collider, Params, Pose, Shape, SignedDistance, Solver, Strands, Surroundings};
+    ///
+    /// // A box that bulges upwards, and a strand over it.
+    /// let bulged = |by: f32| {
+    ///     let corner = |i: u32| {
+    ///         let side = |bit: u32| if i & bit == 0 { -0.1_f32 } else { 0.1 };
+    ///         Vec3::new(side(1), if i & 2 == 0 { -0.1 } else { 0.1 + by }, side(4))
+    ///     };
+    ///     let points: Vec<Vec3> = (0..8).map(corner).collect();
+    ///     let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    ///     let triangles: Vec<[u32; 3]> = (faces.iter())
+    ///         .flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]])
+    ///         .collect();
+    ///     SignedDistance::new(&points, &triangles, 0.02).expect("a closed mesh")
+    /// };
+    /// let mut rest = Strands::new();
+    /// let points: Vec<Vec3> = (0..=10).map(|i| Vec3::new(-0.05 + 0.01 * i as f32, 0.12, 0.0)).collect();
+    /// rest.push(0, &points, None).expect("finite points");
+    /// let (mut solver, mut state) = Solver::new(&rest, &Params::default())?;
+    /// let mut before = bulged(0.0);
+    /// for step in 1..=10 {
+    ///     let now = bulged(0.005 * step as f32);
+    ///     let shape = Shape::Deforming { before: &before, now: &now };
+    ///     let bodies = [Collider::fixed(shape, Pose::IDENTITY)];
+    ///     let surroundings = Surroundings { colliders: &bodies, ..Surroundings::default() };
+    ///     solver.step(&mut state, &surroundings, 1.0 / 60.0)?;
+    ///     before = now;
+    /// }
+    /// // It is lifted by the box, which is 0.15 m high now.
+    /// assert!(solver.points(&state, 0).skip(2).all(|point: DVec3| point.y > 0.15));
+    /// # Ok::<(), hair_sim::DynamicsError>(())
+    /// ```
+    Deforming {
+        /// When the step starts.
+        before: &'a SignedDistance,
+        /// When it ends.
+        now: &'a SignedDistance,
+    },
 }
 
 /// A body and how it moves in a step.
@@ -75,6 +117,15 @@ impl<'a> Collider<'a> {
         self.now.rotation * self.shape.normal(self.now.to_local(at))
     }
 
+    /// Whether it moves in the step, as a whole or by its shape.
+    pub(crate) fn moves(&self) -> bool {
+        let deforms = match self.shape {
+            Shape::Deforming { before, now } => before.numbers() != now.numbers(),
+            _ => false,
+        };
+        deforms || self.before != self.now
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
         let shape = match self.shape {
             Shape::Sphere { center, radius } => {
@@ -83,7 +134,7 @@ impl<'a> Collider<'a> {
             Shape::Capsule { from, to, radius } => {
                 from.is_finite() && to.is_finite() && radius.is_finite() && radius >= 0.0
             }
-            Shape::Grid(_) => true,
+            Shape::Grid(_) | Shape::Deforming { .. } => true,
             Shape::Form { share, size, .. } => {
                 (0.0..=1.0).contains(&share) && size.is_finite() && size > 0.0
             }
@@ -101,7 +152,6 @@ impl Shape<'_> {
             Self::Capsule { from, to, radius } => {
                 (at - nearest_on_line(*from, *to, at)).length() - radius
             }
-            Self::Grid(grid) => grid.distance(at),
             Self::Form {
                 from,
                 to,
@@ -111,6 +161,37 @@ impl Shape<'_> {
                 let at = at / *size;
                 size * mix(|form| form.distance(at), [from, to], *share)
             }
+            Self::Grid(grid) | Self::Deforming { now: grid, .. } => grid.distance(at),
+        }
+    }
+
+    /// The same when the step starts.
+    #[inline]
+    pub(crate) fn distance_before(&self, at: DVec3) -> f64 {
+        match self {
+            Self::Deforming { before, .. } => before.distance(at),
+            _ => self.distance(at),
+        }
+    }
+
+    /// The same at a share of the step.
+    #[inline]
+    pub(crate) fn distance_at(&self, at: DVec3, share: f64) -> f64 {
+        match self {
+            Self::Deforming { before, now } => {
+                let (before, now) = (before.distance(at), now.distance(at));
+                before + (now - before) * share
+            }
+            _ => self.distance(at),
+        }
+    }
+
+    /// How much the distance of a place changes in the step.
+    #[inline]
+    pub(crate) fn change(&self, at: DVec3) -> f64 {
+        match self {
+            Self::Deforming { before, now } => now.distance(at) - before.distance(at),
+            _ => 0.0,
         }
     }
 
@@ -127,6 +208,13 @@ impl Shape<'_> {
                 let radius = radius.max(center.distance(other) + other_radius);
                 (center * *size, radius * size)
             }
+            Self::Deforming { before, now } => {
+                let ((from, one), (to, other)) = (before.ball(), now.ball());
+                (
+                    (from + to) * 0.5,
+                    one.max(other) + 0.5 * (to - from).length(),
+                )
+            }
         }
     }
 
@@ -135,7 +223,6 @@ impl Shape<'_> {
         match self {
             Self::Sphere { center, radius } => [*center, DVec3::splat(*radius), DVec3::ZERO],
             Self::Capsule { from, to, radius } => [*from, *to, DVec3::splat(*radius)],
-            Self::Grid(grid) => grid.numbers(),
             Self::Form {
                 from,
                 to,
@@ -149,6 +236,15 @@ impl Shape<'_> {
                     DVec3::new(*share, *size, 2.0),
                 ]
             }
+            Self::Grid(grid) | Self::Deforming { now: grid, .. } => grid.numbers(),
+        }
+    }
+
+    /// The direction away from the surface when the step starts.
+    pub(crate) fn normal_before(&self, at: DVec3) -> DVec3 {
+        match self {
+            Self::Deforming { before, .. } => Shape::Grid(before).normal(at),
+            _ => self.normal(at),
         }
     }
 
@@ -157,7 +253,6 @@ impl Shape<'_> {
         let away = match self {
             Self::Sphere { center, .. } => at - *center,
             Self::Capsule { from, to, .. } => at - nearest_on_line(*from, *to, at),
-            Self::Grid(grid) => grid.gradient(at),
             Self::Form {
                 from,
                 to,
@@ -167,6 +262,7 @@ impl Shape<'_> {
                 let at = at / *size;
                 mix(|form| form.gradient(at), [from, to], *share)
             }
+            Self::Grid(grid) | Self::Deforming { now: grid, .. } => grid.gradient(at),
         };
         away.normalize_or(DVec3::Y)
     }

@@ -16,7 +16,7 @@ use crate::{
 
 use super::{
     batch::{Batch, BatchState},
-    contact::{self, Guard},
+    contact::find::{self, Bodies, Guard},
     load::Loads,
     locks::Locks,
     rods::Rods,
@@ -60,6 +60,20 @@ pub(crate) struct Anchored {
     pub lane: usize,
     pub particle: usize,
     pub anchor: Anchor,
+}
+
+impl<'a> Drive<'a> {
+    /// What hair can't enter, where roots go from one place to another.
+    pub(crate) fn bodies(&self, before: Vec3, now: Vec3) -> Bodies<'a> {
+        Bodies {
+            colliders: self.surroundings.colliders,
+            guards: self.guards,
+            before,
+            now,
+            dt: self.dt,
+            calm: self.calm,
+        }
+    }
 }
 
 /// The pairs of a batch with other strands, and where all particles are.
@@ -210,23 +224,19 @@ pub(crate) fn prepare<T: Number>(
     if batch.has_drag.any() && drive.gusts[1].blows {
         stats.wind = active.count() * batch.count();
     }
-    loads.touched.clear();
+    loads.clear_planes();
+    if !state.skin_known {
+        find::settle_in(batch, state, drive.surroundings.colliders);
+        state.skin_known = true;
+    }
     if !drive.surroundings.colliders.is_empty() {
-        if !state.skin_known {
-            contact::settle_in(batch, state, drive.surroundings.colliders);
-            state.skin_known = true;
-        }
-        let bodies = (drive.surroundings.colliders, drive.guards);
-        let (contacts, touched) = (&mut loads.contacts, &mut loads.touched);
-        stats.contacts = contact::detect::<T>(
-            batch,
-            state,
-            bodies,
-            (root.root, drive.dt),
-            active,
-            contacts,
-            touched,
+        let bodies = drive.bodies(state.root, root.root);
+        let planes = (
+            &mut loads.contacts[..],
+            &mut loads.touched,
+            &mut loads.finder,
         );
+        stats.contacts = find::detect::<T>(batch, state, &bodies, active, planes);
     }
     if let Some((index, locks)) = drive.locks {
         let planes = (&mut loads.contacts[..], &mut loads.touched);

@@ -12,10 +12,10 @@ use crate::{
 
 use super::{
     batch::{Batch, BatchState},
-    chain::Chain,
+    chain::{Chain, at_share},
     contact::Due,
     drive::{Drive, RootMotion},
-    finish::forget_planes,
+    finish::{forget_planes, keep_share},
     rods::{
         Rods,
         curled::{find_turns, sweep::potential, turn_links},
@@ -26,6 +26,8 @@ use super::{
 
 const MOST_ITERATIONS: usize = 40;
 const MOST_HALVINGS: usize = 10;
+/// How often planes that a shape has met are taken up.
+const MOST_PLANES: usize = 8;
 const SMALL_TURN: f64 = 1e-3;
 const LARGEST_TURN: f64 = 0.7;
 
@@ -78,11 +80,18 @@ pub(crate) fn step<T: Number>(
     }
     work.loads.add::<T>(batch, &stage, trial);
     minimise::<T>(batch, &stage, trial, end, work, which);
-    if !work.loads.touched.is_empty() {
+    let bodies = drive.bodies(state.root, root.root);
+    for _ in 0..MOST_PLANES {
         // Planes that the strand met on the way.
-        let met = work
-            .loads
-            .hold::<T>(batch, &stage, trial, Due::Passed, which);
+        let (loads, mut moved) = (&mut work.loads, Mask::NONE);
+        if !loads.finder.is_clear() {
+            moved = loads.move_planes((batch, &*state), &bodies, (&stage, &*trial), which);
+        }
+        let met = loads.hold::<T>(batch, &stage, trial, Due::Passed, which);
+        let met = met.or(moved);
+        if !met.any() {
+            break;
+        }
         minimise::<T>(batch, &stage, trial, end, work, met);
     }
     take(rods, batch, state, scratch, which, drive.dt);
@@ -101,6 +110,7 @@ fn minimise<T: Number>(
     let model = Model {
         base: &stage.base,
         nodes: &work.loads.nodes,
+        levers: &work.loads.levers,
         past: &work.past,
         elastic: stage.elastic(),
     };
@@ -165,8 +175,10 @@ fn take(
     }
     forget_planes(state, good);
     for &plane in &loads.touched {
-        let press = loads.contacts[plane].pressure(trial.y[batch.held_by(plane)]);
+        let (contact, k) = (&loads.contacts[plane], batch.held_by(plane).0);
+        let press = contact.pressure(at_share(&trial.y, k, contact.share));
         state.press[plane] = good.pick(press, state.press[plane]);
+        keep_share(state, contact, (plane, k), good);
     }
     rods.keep_frames(state, trial, good);
     let bad = which.and(good.not());

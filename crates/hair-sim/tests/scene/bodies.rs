@@ -1,5 +1,7 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Collider, Params, Pose, Shape, SignedDistance, Solver, State, Surroundings};
+use hair_sim::{
+    Collider, Params, Pose, Shape, SignedDistance, Solver, State, Strands, Surroundings, keep_out,
+};
 
 use crate::{after, among, farthest, params, run, shape, straight};
 
@@ -246,5 +248,132 @@ fn friction_acts_from_the_first_touch() {
         );
         let error = (rough - exact).abs();
         assert!(error < 0.3 * (smooth - exact), "1/{rate} s: {error}");
+    }
+}
+
+#[test]
+fn what_a_body_swallows_comes_out() {
+    // A ball that is suddenly around the middle of a strand, and one that came there in a step.
+    let rest = straight(
+        Vec3::new(0.0, 0.2, 0.0),
+        Vec3::new(0.1, -1.0, 0.0).normalize(),
+    );
+    let there = Pose {
+        translation: DVec3::new(0.03, 0.05, 0.01),
+        ..Pose::IDENTITY
+    };
+    for rate in [24.0, 60.0] {
+        for moves in [false, true] {
+            let (mut solver, mut state) = Solver::new(&rest, &params(20.0)).unwrap();
+            // It hangs beside the ball first: what a strand starts in is let be.
+            run(
+                &mut solver,
+                &mut state,
+                &Surroundings::default(),
+                1.0 / rate,
+                2,
+            );
+            let mut out = None;
+            for step in 0..(2.0 * rate) as usize {
+                let far = Pose {
+                    translation: there.translation + 0.5 * DVec3::Z,
+                    ..there
+                };
+                let colliders = [Collider {
+                    shape: BALL,
+                    before: if moves && step == 0 { far } else { there },
+                    now: there,
+                }];
+                run(&mut solver, &mut state, &among(&colliders), 1.0 / rate, 1);
+                let deep = depth(&solver, &state, there.translation);
+                if deep < 5e-4 {
+                    out.get_or_insert(step);
+                } else {
+                    out = None;
+                }
+            }
+            println!("1/{rate} s, comes in a step: {moves}: out after {out:?} steps");
+            assert!(out.is_some_and(|step| (step as f64) < rate));
+        }
+    }
+}
+
+#[test]
+fn hair_that_is_moved_out_of_bodies_before_it_starts_does_not_sag() {
+    // Styled up to 25 mm deep in the ball.
+    let rest = straight(
+        Vec3::new(-0.08, 0.07, 0.0),
+        Vec3::new(1.0, 0.05, 0.0).normalize(),
+    );
+    let colliders = [Collider::fixed(BALL, Pose::IDENTITY)];
+    let mut points = rest.strand(0).to_vec();
+    let moved = keep_out(&mut points, &colliders, 1e-3);
+    assert!(moved > 10, "{moved}");
+    let mut rest = Strands::new();
+    rest.push(7, &points, None).unwrap();
+    let p = Params {
+        natural: hair_sim::Natural::Balanced,
+        ..params(20.0)
+    };
+    let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
+    let before = shape(&solver, &state);
+    let links = before
+        .windows(2)
+        .flat_map(|link| (0..=10).map(|i| link[0].lerp(link[1], f64::from(i) / 10.0).length()));
+    let deepest = links.skip(20).map(|far| 0.1 - far).fold(f64::MIN, f64::max);
+    assert!(deepest < -5e-4, "{deepest}");
+    run(&mut solver, &mut state, &among(&colliders), 1.0 / 60.0, 600);
+    let sagged = farthest(&before, &shape(&solver, &state));
+    println!("{moved} points moved out, {deepest:.5} m deep; sagged by {sagged:.1e} m in 10 s");
+    assert!(sagged < 2e-4, "{sagged}");
+}
+
+#[test]
+fn a_mesh_that_deforms_lifts_hair() {
+    // A ball that grows from 8 to 10 cm in a third of a second.
+    let grown = |radius: f32| {
+        let (points, triangles) = mesh();
+        let points: Vec<Vec3> = points.iter().map(|p| *p * (10.0 * radius)).collect();
+        SignedDistance::new(&points, &triangles, 0.005).unwrap()
+    };
+    for rate in [24_u32, 60] {
+        let rest = straight(Vec3::new(0.0, 0.102, 0.0), Vec3::X);
+        let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
+        let mut before = grown(0.08);
+        let small = [Collider::fixed(Shape::Grid(&before), Pose::IDENTITY)];
+        run(&mut solver, &mut state, &among(&small), 1.0 / 60.0, 120);
+        let mut deepest = 0.0_f64;
+        for step in 1..=2 * rate {
+            let radius = (0.08 + 0.06 * step as f32 / rate as f32).min(0.1);
+            let now = grown(radius);
+            let shape = Shape::Deforming {
+                before: &before,
+                now: &now,
+            };
+            let colliders = [Collider::fixed(shape, Pose::IDENTITY)];
+            run(
+                &mut solver,
+                &mut state,
+                &among(&colliders),
+                1.0 / f64::from(rate),
+                1,
+            );
+            let radius = f64::from(radius);
+            for link in crate::shape(&solver, &state).windows(2).skip(1) {
+                for i in 0..=10 {
+                    let at = link[0].lerp(link[1], f64::from(i) / 10.0);
+                    deepest = deepest.max(radius - at.length());
+                }
+            }
+            before = now;
+        }
+        let ball = [Collider::fixed(BALL, Pose::IDENTITY)];
+        let lies = after(&rest, &params(200.0), &among(&ball), 1.0 / 60.0, 240);
+        let error = farthest(&lies, &shape(&solver, &state));
+        println!(
+            "1/{rate} s: links {:.2} mm in it, {error:.4} m from one that lay there",
+            deepest * 1e3
+        );
+        assert!(deepest < 5e-4 && error < 5e-3, "{deepest} {error}");
     }
 }

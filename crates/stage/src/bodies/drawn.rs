@@ -61,10 +61,12 @@ pub(super) fn painted(
             picture: None,
             both_sides: false,
         },
+        names: Vec::new(),
         section: None,
         index: 0,
         kept: Vec::new(),
         is_turned: false,
+        is_cap: false,
     }
 }
 

@@ -86,6 +86,10 @@ enum Drives {
 pub(crate) struct Dynamics {
     strands: Box<dyn Running>,
     guides: Vec<Part>,
+    /// The points of the scene that nothing here moves: the head holds them.
+    still: Vec<Range<usize>>,
+    /// All of them.
+    all: Vec<Range<usize>>,
     /// The shapes that pull at all points of the scene; where they have these at a time, and the guides' points.
     shapes: Option<PointCache>,
     shape: Vec<Vec3>,
@@ -94,6 +98,8 @@ pub(crate) struct Dynamics {
     /// How far each point of the scene is kept from bodies, m.
     gaps: Vec<f32>,
     ties: Ties,
+    /// Whether all strands slept in the last step. What is looked at between two steps doesn't count.
+    is_asleep: bool,
     bodies: Bodies,
     head: Head,
     placement: Placement,
@@ -142,6 +148,27 @@ fn simulated(
         solver.interact(&mut state, &mutual)?;
     }
     Ok(Box::new(Run::new((solver, state))))
+}
+
+/// Of so many points those that neither guides nor what they carry moves, of which the first points stay with the head. `parts` are the
+/// points of the free strands, of which `guides` are some.
+fn still(points: usize, parts: &[Range<usize>], guides: &[usize]) -> Vec<Range<usize>> {
+    let mut moves = vec![false; points];
+    for part in parts {
+        moves[part.start + 1..part.end].fill(true);
+    }
+    for &guide in guides {
+        moves[parts[guide].start] = true;
+    }
+    let (mut still, mut from) = (Vec::new(), 0);
+    for run in moves.chunk_by(|one, next| one == next) {
+        let to = from + run.len();
+        if !run[0] {
+            still.push(from..to);
+        }
+        from = to;
+    }
+    still
 }
 
 /// The time of a frame, or a part of it that is at most `longest` s.
@@ -208,6 +235,7 @@ impl Dynamics {
             }
             step => step,
         };
+        let still = still(all.points().len(), &parts, &guides);
         let guides = (0..).zip(&guides).map(|(strand, &part)| Part {
             points: parts[part].clone(),
             strand,
@@ -231,11 +259,17 @@ impl Dynamics {
             gaps: bodies.gaps(all.points()),
             bodies,
             ties,
+            is_asleep: false,
             shapes: hair.shapes.clone(),
             shape: all.points().to_vec(),
             goal: Vec::new(),
             carried,
             guides,
+            still,
+            all: vec![Range {
+                start: 0,
+                end: all.points().len(),
+            }],
             strands,
             head: hair.head,
             placement: Placement::default(),
@@ -297,6 +331,7 @@ impl Dynamics {
             let first = Roots::Head(self.pose_at(self.time_of(0), driver));
             self.strands.restart(first)?;
             self.ties.restart();
+            self.is_asleep = false;
         }
         let mut goes_on_to = |done: i64| done < wanted && goes_on();
         let is_seen = seen == Seen::Well;
@@ -335,6 +370,14 @@ impl Dynamics {
         }
         self.shown = shown;
         Ok(if is_there { time } else { shown })
+    }
+
+    /// The points that [`Self::write`] leaves as they are.
+    pub fn still(&self) -> &[Range<usize>] {
+        match self.is_at_start() {
+            true => &self.all,
+            false => &self.still,
+        }
     }
 
     /// Writes where it came to into the points of what moves; those of the others are where the head has them. Hair that comes after is on the head
@@ -486,8 +529,8 @@ impl Dynamics {
             anchors: &[],
         };
         if !self.ties.are_none() {
-            // What sleeps stays in its ties.
-            if self.stats.strands == 0 && self.stats.asleep > 0 {
+            // What sleeps stays in its ties, until its head moves.
+            if self.is_asleep && before == now {
                 self.ties.stay();
             } else {
                 self.strands.look_ahead(&scene, dt)?;
@@ -499,7 +542,11 @@ impl Dynamics {
             ..scene
         };
         Ok(match drives {
-            Drives::Step => self.strands.step(&scene, dt)?,
+            Drives::Step => {
+                let stats = self.strands.step(&scene, dt)?;
+                self.is_asleep = stats.strands == 0 && stats.asleep > 0;
+                stats
+            }
             Drives::Look => self.strands.look_ahead(&scene, dt)?,
         })
     }

@@ -18,7 +18,8 @@ impl Pairs {
         Self {
             sorted: Vec::with_capacity(strands),
             boxes: Vec::with_capacity(strands),
-            pairs: Vec::new(),
+            // Room ahead of need, so that a warm step allocates nothing: all of some, and many of many.
+            pairs: Vec::with_capacity((strands * strands / 2).min(256 * strands)),
         }
     }
 
