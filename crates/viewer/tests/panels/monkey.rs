@@ -58,8 +58,7 @@ fn play(kind: Kind, text: &str, seed: u64, steps: usize) -> Pane {
                 let node = node.accesskit_node();
                 // A base is another file.
                 let label = node.label().unwrap_or_default();
-                let is_of_base =
-                    ["preset base", "preset without"].contains(&label.as_str());
+                let is_of_base = ["preset base", "preset without"].contains(&label.as_str());
                 controls.contains(&node.role()) && !node.is_disabled() && !is_of_base
             })
             .collect();
