@@ -1,7 +1,6 @@
 //! Bodies that hair cannot enter.
 
 pub(crate) mod grid;
-pub(crate) mod outside;
 pub(crate) mod shape;
 
 #[cfg(test)]

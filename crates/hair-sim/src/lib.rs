@@ -93,7 +93,6 @@ mod threads;
 
 pub use collision::{
     grid::{GridError, SignedDistance},
-    outside::keep_out,
     shape::{Collider, Shape},
 };
 pub use error::{DynamicsError, Fault, Reason};
@@ -109,4 +108,4 @@ pub use solver::{Solver, State};
 pub use stats::Stats;
 pub use strand_solver::StrandSolver;
 pub use strands::{StrandError, Strands};
-pub use surroundings::{Acceleration, Anchor, Roots, Surroundings};
+pub use surroundings::{Acceleration, Roots, Surroundings};

@@ -47,15 +47,15 @@ use crate::{
     rest::RestStrand,
     stats::Stats,
     strands::Strands,
-    surroundings::{Acceleration, Anchor, Roots, Surroundings},
+    surroundings::{Acceleration, Roots, Surroundings},
     threads::join,
 };
 
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::avx2::Avx2;
 use batch::{Batch, BatchState};
-use contact::find::Guard;
-use drive::{Anchored, Drive, Others, roots, whole_poses};
+use contact::Guard;
+use drive::{Drive, Others, roots, whole_poses};
 use energy::whole_energy;
 use locks::Locks;
 use rods::Rods;
@@ -231,7 +231,7 @@ impl Solver {
                 .map(|&i| (i, &strands[i].0, &strands[i].1))
                 .collect();
             let mut batch = Batch::new(&described);
-            batch.planes = batch.count() * if meets { 3 } else { 2 };
+            batch.planes = batch.count() * if meets { 2 } else { 1 };
             let mut rests = [None; LANES];
             for (lane, &i) in members.iter().enumerate() {
                 rests[lane] = Some(&strands[i].0);
@@ -374,11 +374,6 @@ impl Solver {
         let interaction = self.interaction.as_ref();
         let locks = self.locks.as_ref().map(|(locks, _)| locks);
         let (first_points, guards) = (&self.first_points, &self.guards);
-        let anchored = self.anchored(surroundings.anchors);
-        let of_batch = |index: usize| {
-            let range = [index, index + 1].map(|i| anchored.partition_point(|own| own.batch < i));
-            &anchored[range[0]..range[1]]
-        };
         let sleepers = &self.sleepers;
         let last_dt = if state.last_dt > 0.0 {
             state.last_dt
@@ -405,7 +400,6 @@ impl Solver {
                     courses: &all.courses,
                 }),
                 locks: locks.map(|locks| (index, locks)),
-                anchors: of_batch(index),
             };
             match instructions {
                 Instructions::Compiled => advance::<Lane>(batch, state, scratch, &drive),
@@ -423,23 +417,6 @@ impl Solver {
         state.time += dt;
         state.last_dt = dt;
         Ok(sum)
-    }
-
-    /// Anchors with the particles that they pull at, batch by batch.
-    fn anchored(&self, anchors: &[Anchor]) -> Vec<Anchored> {
-        let known = |anchor: &Anchor| {
-            let &(batch, lane) = self.places.get(anchor.strand)?;
-            let is_there = (1..self.points[anchor.strand]).contains(&anchor.point);
-            is_there.then(|| Anchored {
-                batch,
-                lane,
-                particle: anchor.point - 1,
-                anchor: *anchor,
-            })
-        };
-        let mut anchored: Vec<Anchored> = anchors.iter().filter_map(known).collect();
-        anchored.sort_by_key(|own| (own.batch, own.lane, own.particle));
-        anchored
     }
 
     /// Puts the roots elsewhere at once: shape and motion are carried along, as if nothing had happened.

@@ -2,7 +2,6 @@
 //! strokes.
 
 mod bake;
-mod bodies;
 mod check;
 mod closed;
 mod dynamics;
@@ -25,7 +24,6 @@ mod painted;
 mod part;
 mod pictures;
 mod placement;
-mod posture;
 mod preset;
 mod reach;
 mod scalp;
@@ -40,7 +38,6 @@ mod textures;
 mod zones;
 
 pub use bake::{Bake, is_bake};
-pub use bodies::{BODIES, BodyKeySection, BodyOn, BodySection, BodyShape, NamedBody};
 pub use check::{check_hair, check_motion, check_style};
 pub use closed::Return;
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};

@@ -2,7 +2,7 @@
 
 use super::description::{Form, Zone};
 use super::group::Member;
-use super::hang::{Hanging, hang, keep_clear};
+use super::hang::{Hanging, hang};
 use super::ornament::Tie;
 use super::scalp::Scalp;
 use crate::random::Random;
@@ -203,7 +203,6 @@ impl Gathered<'_> {
             let gap = 0.6 * self.size() / 300.0;
             points.push(self.shell.keep_out(center + offset * full, gap));
         }
-        keep_clear(&mut points[1..], self.shell);
         (points, 2)
     }
 }

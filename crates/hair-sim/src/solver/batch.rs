@@ -38,11 +38,8 @@ pub(crate) struct Batch {
     pub friction: Lane,
     /// Half the thickness of the lock that a strand stands for, in m.
     pub lock_radius: Lane,
-    /// Planes that may hold particles: one of bodies for each particle, then one for each link, and where hair meets hair one of other strands for
-    /// each particle.
+    /// Planes that may hold particles: one of bodies for each, and where hair meets hair one of other strands for each.
     pub planes: usize,
-    /// Of every particle: half the length of the longer one of the links beside it, in m.
-    pub reaches: Vec<Lane>,
     /// Particles from the root in style space.
     pub styled: Vec<Vec3>,
     /// Root and skin frame in style space.
@@ -92,8 +89,7 @@ impl Batch {
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
             lock_radius: Lane::ZERO,
-            planes: 2 * count,
-            reaches: vec![Lane::ZERO; count],
+            planes: count,
             styled: vec![Vec3::ZERO; count],
             root: Vec3::ZERO,
             base: Quat::IDENTITY,
@@ -102,13 +98,6 @@ impl Batch {
         };
         for (lane, (index, rest, params)) in members.iter().enumerate() {
             batch.fill(lane, *index, rest, params);
-        }
-        for k in 0..count {
-            let next = batch
-                .links
-                .get(k + 1)
-                .map_or(Lane::ZERO, |link| link.length);
-            batch.reaches[k] = batch.links[k].length.max(next) * 0.5;
         }
         batch.used = Mask::new(batch.counts.map(|count| count > 0));
         batch
@@ -147,15 +136,11 @@ impl Batch {
         self.links.len()
     }
 
-    /// The link whose particle, or of which a place, a plane holds; and whether it is a place on the link.
+    /// The particle that a plane holds.
     #[inline(always)]
-    pub(crate) fn held_by(&self, plane: usize) -> (usize, bool) {
+    pub(crate) fn held_by(&self, plane: usize) -> usize {
         let count = self.count();
-        match plane / count {
-            0 => (plane, false),
-            1 => (plane - count, true),
-            _ => (plane - 2 * count, false),
-        }
+        if plane < count { plane } else { plane - count }
     }
 
     /// Whether a state with `count` frames will do: straight strands need none, and keep them as they are.
@@ -190,13 +175,11 @@ pub(crate) struct BatchState {
     pub root: Vec3,
     pub root_velocity: Vec3,
     pub base: Quat,
-    /// How far particles, then links between them, may be inside of bodies (0 or less, in m), and whether that has been found out.
+    /// How far particles may be inside of bodies (0 or less, in m), and whether that has been found out.
     pub skin: Vec<Lane>,
     pub skin_known: bool,
     /// The pressure of planes on particles in m/s^2: of bodies, then those of other strands, where there may be any.
     pub press: Vec<Lane>,
-    /// Where on links those of bodies press, as shares of them.
-    pub shares: Vec<Lane>,
     /// The speeds in m/s below which friction with them is viscous; 0 where the pressure is that of a blow, which is over.
     pub creep: Vec<Lane>,
     /// Where goals were, from the root; empty before the first step with goals.
@@ -210,9 +193,6 @@ pub(crate) struct BatchState {
     /// For how long strands have hardly moved, in s, and where their particles were when that began.
     pub quiet: Lane,
     pub quiet_at: Vec<Vec3>,
-    /// The same for those that tremble.
-    pub trembling: Lane,
-    pub trembling_at: Vec<Vec3>,
     /// Strands whose accelerations are unknown: the next step starts by backward Euler.
     pub restart: [bool; LANES],
     /// Strands that do not move by themselves, and why.
@@ -232,10 +212,9 @@ impl BatchState {
             root: batch.root,
             root_velocity: Vec3::ZERO,
             base: batch.base,
-            skin: vec![Lane::ZERO; 2 * count],
+            skin: vec![Lane::ZERO; count],
             skin_known: false,
             press: vec![Lane::ZERO; batch.planes],
-            shares: vec![Lane::ZERO; count],
             creep: vec![Lane::splat(CREEP); batch.planes],
             goal: Vec::new(),
             broken: Vec::new(),
@@ -243,8 +222,6 @@ impl BatchState {
             ceiling: Lane::ZERO,
             quiet: Lane::ZERO,
             quiet_at: vec![Vec3::ZERO; count],
-            trembling: Lane::ZERO,
-            trembling_at: vec![Vec3::ZERO; count],
             restart: [true; LANES],
             set_aside: [None; LANES],
         };
@@ -271,18 +248,10 @@ impl BatchState {
     /// Whether all lists are as long as a batch needs them, which what was read from a file may not be.
     pub(crate) fn has_lengths(&self, batch: &Batch) -> bool {
         let count = batch.count();
-        let vectors = [
-            &self.y,
-            &self.v,
-            &self.a,
-            &self.past,
-            &self.quiet_at,
-            &self.trembling_at,
-        ];
+        let vectors = [&self.y, &self.v, &self.a, &self.past, &self.quiet_at];
         let planes = [&self.press, &self.creep];
         vectors.iter().all(|list| list.len() == count)
-            && self.skin.len() == 2 * count
-            && self.shares.len() == count
+            && self.skin.len() == count
             && planes.iter().all(|list| list.len() == batch.planes)
             && (self.goal.is_empty() || self.goal.len() == count)
     }
@@ -306,7 +275,6 @@ impl BatchState {
         self.a.iter_mut().for_each(turned);
         self.goal.iter_mut().for_each(turned);
         self.quiet_at.iter_mut().for_each(turned);
-        self.trembling_at.iter_mut().for_each(turned);
         turned(&mut self.root_velocity);
         // The next step finds out anew what energy there is.
         self.pull = NO_PULL;

@@ -50,12 +50,6 @@ impl ShapeEnergy {
     }
 }
 
-/// What a list says of particles, at a share of link `k` from its start: at 1 that of its particle, to the bit.
-#[inline(always)]
-pub(crate) fn at_share(list: &[Vec3], k: usize, share: Lane) -> Vec3 {
-    list[k] - chord::<Lane>(list, k) * (Lane::ONE - share)
-}
-
 /// The way from the particle at the start of link `k` to that at its end.
 #[inline(always)]
 pub(crate) fn chord<T: Number>(y: &[Vec3], k: usize) -> Vec3<T> {

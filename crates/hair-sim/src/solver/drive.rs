@@ -11,12 +11,12 @@ use crate::{
     },
     lanes::{LANES, Lane, Mask, Number, Quat, Vec3},
     stats::Stats,
-    surroundings::{Anchor, Surroundings},
+    surroundings::Surroundings,
 };
 
 use super::{
     batch::{Batch, BatchState},
-    contact::find::{self, Bodies, Guard},
+    contact::{self, Guard},
     load::Loads,
     locks::Locks,
     rods::Rods,
@@ -49,31 +49,6 @@ pub(crate) struct Drive<'a> {
     pub others: Option<Others<'a>>,
     /// The batch's number, and what its strands can't pass through.
     pub locks: Option<(usize, &'a Locks)>,
-    /// What pulls at single particles of the batch, each with its lane.
-    pub anchors: &'a [Anchored],
-}
-
-/// An anchor with the batch, the lane and the particle that it pulls at.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Anchored {
-    pub batch: usize,
-    pub lane: usize,
-    pub particle: usize,
-    pub anchor: Anchor,
-}
-
-impl<'a> Drive<'a> {
-    /// What hair can't enter, where roots go from one place to another.
-    pub(crate) fn bodies(&self, before: Vec3, now: Vec3) -> Bodies<'a> {
-        Bodies {
-            colliders: self.surroundings.colliders,
-            guards: self.guards,
-            before,
-            now,
-            dt: self.dt,
-            calm: self.calm,
-        }
-    }
 }
 
 /// The pairs of a batch with other strands, and where all particles are.
@@ -193,15 +168,12 @@ pub(crate) fn prepare<T: Number>(
     stats: &mut Stats,
 ) -> Mask {
     let loads = &mut scratch.work.loads;
-    loads.has_springs = batch.has_goal.any() || drive.others.is_some() || !drive.anchors.is_empty();
+    loads.has_springs = batch.has_goal.any() || drive.others.is_some();
     if loads.has_springs {
         loads.springs.fill(Spring::NONE);
     }
     if batch.has_goal.any() {
         pull_to_goals(batch, state, loads, drive);
-    }
-    for own in drive.anchors {
-        pull_to_anchor(own, state, root.root, loads, drive.dt);
     }
     if let Some(others) = &drive.others {
         let held = (&state.base, &state.y[..], &state.frames[..]);
@@ -224,37 +196,29 @@ pub(crate) fn prepare<T: Number>(
     if batch.has_drag.any() && drive.gusts[1].blows {
         stats.wind = active.count() * batch.count();
     }
-    loads.clear_planes();
-    if !state.skin_known {
-        find::settle_in(batch, state, drive.surroundings.colliders);
-        state.skin_known = true;
-    }
+    loads.touched.clear();
     if !drive.surroundings.colliders.is_empty() {
-        let bodies = drive.bodies(state.root, root.root);
-        let planes = (
-            &mut loads.contacts[..],
-            &mut loads.touched,
-            &mut loads.finder,
+        if !state.skin_known {
+            contact::settle_in(batch, state, drive.surroundings.colliders);
+            state.skin_known = true;
+        }
+        let bodies = (drive.surroundings.colliders, drive.guards);
+        let (contacts, touched) = (&mut loads.contacts, &mut loads.touched);
+        stats.contacts = contact::detect::<T>(
+            batch,
+            state,
+            bodies,
+            (root.root, drive.dt),
+            active,
+            contacts,
+            touched,
         );
-        stats.contacts = find::detect::<T>(batch, state, &bodies, active, planes);
     }
     if let Some((index, locks)) = drive.locks {
         let planes = (&mut loads.contacts[..], &mut loads.touched);
         stats.meetings = locks.part((index, batch, &*state), root.root, active, planes);
     }
     active
-}
-
-/// Adds the spring of an anchor, in its lane alone.
-fn pull_to_anchor(own: &Anchored, state: &BatchState, root: Vec3, loads: &mut Loads, dt: f64) {
-    let (mut stiffness, mut places) = (Lane::ZERO, [Vec3::ZERO; 2]);
-    stiffness[own.lane] = own.anchor.stiffness;
-    for ((place, root), at) in (places.iter_mut().zip([state.root, root])).zip(own.anchor.places) {
-        place.set(own.lane, at - root.get(own.lane));
-    }
-    let [before, now] = places;
-    let spring = &mut loads.springs[own.particle];
-    spring.pull(stiffness, before, now, Vec3::ZERO, GAMMA, dt);
 }
 
 fn pull_to_goals(batch: &Batch, state: &mut BatchState, loads: &mut Loads, drive: &Drive) {

@@ -4,7 +4,7 @@ use crate::lanes::{Lane, Mask, Number, Quat, Vec3};
 
 use super::{
     batch::{Batch, BatchState, CREEP},
-    chain::{Chain, at_share, chord},
+    chain::{Chain, chord},
     contact::Contact,
     drive::RootMotion,
     rods::Rods,
@@ -94,9 +94,8 @@ pub(crate) fn finish<T: Number>(
             rods.keep_frames(state, end, which);
             let mut struck = Mask::new(state.restart).and(which.not());
             for &plane in &work.loads.touched {
-                let (contact, k) = (&work.loads.contacts[plane], batch.held_by(plane).0);
-                let y = at_share(&end.y, k, contact.share);
-                struck = struck.or(settle_contact(state, contact, y, (plane, k), which));
+                let (contact, k) = (&work.loads.contacts[plane], batch.held_by(plane));
+                struck = struck.or(settle_contact(state, contact, end.y[k], (plane, k), which));
             }
             state.restart = struck.bools();
         },
@@ -112,21 +111,7 @@ pub(super) fn forget_planes(state: &mut BatchState, which: Mask) {
     }
 }
 
-/// Remembers where a plane holds a link.
-#[inline(always)]
-pub(super) fn keep_share(
-    state: &mut BatchState,
-    contact: &Contact,
-    (plane, k): (usize, usize),
-    which: Mask,
-) {
-    if plane == state.y.len() + k {
-        let presses = state.press[plane].gt(Lane::ZERO).and(which);
-        state.shares[k] = presses.pick(contact.share, state.shares[k]);
-    }
-}
-
-/// Remembers the pressure of a plane on the place `y` of link `k`, and takes the blow of a contact out of its acceleration: that is over, and
+/// Remembers the pressure of a plane on particle `k` at `y`, and takes the blow of a contact out of its acceleration: that is over, and
 /// the next step must not start with it. Returns the strands that were struck: they start anew.
 #[inline(always)]
 fn settle_contact(
@@ -138,20 +123,9 @@ fn settle_contact(
 ) -> Mask {
     let press = contact.pressure(y);
     state.press[plane] = which.pick(press, state.press[plane]);
-    keep_share(state, contact, (plane, k), which);
-    // Of a place on the link as much out of either end as it hangs on that.
-    let (share, other) = (contact.share, Lane::ONE - contact.share);
-    let a = at_share(&state.a, k, share);
+    let a = state.a[k];
     let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
-    let out = out * (share * share + other * other).recip();
-    let mut take = |k: usize, share: Lane| {
-        let a = state.a[k];
-        state.a[k] = Vec3::pick(which, a - contact.normal * (out * share), a);
-    };
-    take(k, share);
-    if other != Lane::ZERO && k > 0 {
-        take(k - 1, other);
-    }
+    state.a[k] = Vec3::pick(which, a - contact.normal * out, a);
     let presses = press.gt(Lane::ZERO).and(which);
     let is_new = (contact.press.gt(Lane::ZERO).not()).and(presses);
     let creep = is_new.pick(Lane::ZERO, contact.creep);

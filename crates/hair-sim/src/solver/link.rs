@@ -1,7 +1,5 @@
 //! Links and particles: their constants, and what a stage makes of them.
 
-use glam::DVec3;
-
 use crate::lanes::{Lane, Number, Sym3, Vec3, stored};
 
 /// A link and the joint at its root end: see [`crate::rest::RestLink`].
@@ -54,54 +52,6 @@ impl<T: Number> Node<T> {
             n: Sym3::diagonal(T::splat(0.0)),
             b: Vec3::zero(),
         }
-    }
-}
-
-/// What acts on a link between its ends: the same model of a place that lies `back` before its end, as a share of the link.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Lever {
-    /// Whether anything does.
-    pub on: bool,
-    pub node: Node,
-    pub back: Lane,
-}
-
-impl Lever {
-    pub(crate) const NONE: Self = Self {
-        on: false,
-        node: Node {
-            n: Sym3 {
-                xx: Lane::ZERO,
-                yy: Lane::ZERO,
-                zz: Lane::ZERO,
-                xy: Lane::ZERO,
-                xz: Lane::ZERO,
-                yz: Lane::ZERO,
-            },
-            b: Vec3::ZERO,
-        },
-        back: Lane::ZERO,
-    };
-
-    /// What acts at a share of the link from its start: nothing yet, unless it was taken up before.
-    pub(crate) fn take_up(&mut self, share: Lane) -> &mut Node {
-        if !self.on {
-            *self = Self::NONE;
-            self.on = true;
-        }
-        self.back = Lane::ONE - share;
-        &mut self.node
-    }
-
-    /// Nothing acts on a strand's link any more.
-    pub(crate) fn let_go(&mut self, lane: usize) {
-        let n = &mut self.node.n;
-        for of_matrix in [
-            &mut n.xx, &mut n.yy, &mut n.zz, &mut n.xy, &mut n.xz, &mut n.yz,
-        ] {
-            of_matrix[lane] = 0.0;
-        }
-        self.node.b.set(lane, DVec3::ZERO);
     }
 }
 

@@ -6,13 +6,10 @@ use crate::{
 };
 
 use super::{
-    batch::{Batch, BatchState},
-    chain::{Chain, at_share},
-    contact::{
-        Contact, Due,
-        find::{self, Bodies, Finder, Loaded},
-    },
-    link::{Lever, Node},
+    batch::Batch,
+    chain::Chain,
+    contact::{Contact, Due},
+    link::Node,
     stage::{FreeMotion, Stage, Sum},
 };
 
@@ -20,8 +17,6 @@ use super::{
 #[derive(Clone, Debug)]
 pub(crate) struct Loads {
     pub nodes: Vec<Node>,
-    /// On links, between their ends.
-    pub levers: Vec<Lever>,
     /// Of a stage: positions without force, velocities without force.
     pub free_y: Vec<Vec3>,
     pub free_v: Vec<Vec3>,
@@ -29,9 +24,9 @@ pub(crate) struct Loads {
     pub has_springs: bool,
     pub springs: Vec<Spring>,
     pub contacts: Vec<Contact>,
-    /// The planes that particles and links have in this step, by their places in `contacts`: see [`Batch::planes`].
+    /// The planes that particles have in this step, by their places in `contacts`: the first are those of bodies, one for each particle, then come
+    /// those of other strands.
     pub touched: Vec<usize>,
-    pub finder: Finder,
 }
 
 impl Loads {
@@ -39,23 +34,12 @@ impl Loads {
     pub(crate) fn new(count: usize, planes: usize) -> Self {
         Self {
             nodes: vec![Node::<Lane>::zero(); count],
-            levers: vec![Lever::NONE; count],
             free_y: vec![Vec3::ZERO; count],
             free_v: vec![Vec3::ZERO; count],
             has_springs: false,
             springs: vec![Spring::NONE; count],
             contacts: vec![Contact::NONE; planes],
             touched: Vec::with_capacity(planes),
-            finder: Finder::new(count),
-        }
-    }
-
-    /// Forgets the planes of the last step, which was perhaps another batch's.
-    pub(crate) fn clear_planes(&mut self) {
-        self.touched.clear();
-        self.finder.clear();
-        for lever in &mut self.levers {
-            lever.on = false;
         }
     }
 
@@ -80,12 +64,9 @@ impl Loads {
         if self.has_springs {
             self.add_springs::<T>(batch, stage);
         }
-        self.finder.begin();
         if !self.touched.is_empty() {
             for &plane in &self.touched {
                 self.contacts[plane].forget();
-                let (k, is_on_link) = batch.held_by(plane);
-                self.levers[k].on &= !is_on_link;
             }
             let due = Due::Expected(stage.length);
             self.hold::<T>(batch, stage, chain, due, Mask::NONE.not());
@@ -165,45 +146,22 @@ impl Loads {
             move || {
                 let mut new = Mask::NONE;
                 for &plane in &self.touched {
-                    let contact = &mut self.contacts[plane];
-                    let (k, is_on_link) = batch.held_by(plane);
-                    let (level, share) = (contact.level(stage.is_mid), contact.share);
-                    let y = at_share(&chain.y, k, share);
-                    let here = contact.is_due(due, y, level).and(among);
+                    let (contact, k) = (&mut self.contacts[plane], batch.held_by(plane));
+                    let level = if stage.is_mid {
+                        contact.mid
+                    } else {
+                        contact.end
+                    };
+                    let here = contact.is_due(due, chain.y[k], level).and(among);
                     if here.any() {
-                        let mass = batch.particles[k].mass;
-                        let free_y = at_share(&self.free_y, k, share);
-                        let node = match is_on_link {
-                            true => self.levers[k].take_up(share),
-                            false => &mut self.nodes[k],
-                        };
-                        contact.hold(node, here, mass, level, stage.length, free_y);
+                        let (mass, node) = (batch.particles[k].mass, &mut self.nodes[k]);
+                        contact.hold(node, here, mass, level, stage.length, self.free_y[k]);
                         new = new.or(here);
                     }
                 }
                 new
             },
         )
-    }
-
-    /// Moves planes to where a step's answer is: see [`find::move_planes`].
-    pub(crate) fn move_planes(
-        &mut self,
-        strands: (&Batch, &BatchState),
-        bodies: &Bodies,
-        (stage, chain): (&Stage, &Chain),
-        among: Mask,
-    ) -> Mask {
-        let mut loaded = Loaded {
-            contacts: &mut self.contacts,
-            touched: &mut self.touched,
-            nodes: &mut self.nodes,
-            levers: &mut self.levers,
-            finder: &mut self.finder,
-            free_y: &self.free_y,
-            length: stage.length,
-        };
-        find::move_planes(strands, bodies, &chain.y, among, &mut loaded)
     }
 
     /// Gives friction to particles that came to touch in this step, in the strands of `among`. Returns the strands where any is new.
@@ -219,16 +177,15 @@ impl Loads {
             move || {
                 let mut new = Mask::NONE;
                 for &plane in &self.touched {
-                    let contact = &mut self.contacts[plane];
-                    let (k, is_on_link) = batch.held_by(plane);
-                    let (level, share) = (contact.level(stage.is_mid), contact.share);
-                    let node = match is_on_link {
-                        true => &mut self.levers[k].node,
-                        false => &mut self.nodes[k],
+                    let (contact, k) = (&mut self.contacts[plane], batch.held_by(plane));
+                    let level = if stage.is_mid {
+                        contact.mid
+                    } else {
+                        contact.end
                     };
+                    let node = &mut self.nodes[k];
                     let own = (batch.friction, batch.particles[k].mass);
-                    let places = [&chain.y, &self.free_y].map(|list| at_share(list, k, share));
-                    let places = (places[0], places[1]);
+                    let places = (chain.y[k], self.free_y[k]);
                     new = new.or(contact.rub(node, own, (level, stage.length), places, among));
                 }
                 new

@@ -144,10 +144,7 @@ impl Locks {
             dt: 0.0,
             ways: Ways::new(batches, pieces.len()),
             pairs: Pairs::new(strands.len() - 1),
-            // Room ahead of need, so that a warm step allocates nothing.
-            found: (0..TASKS)
-                .map(|_| Vec::with_capacity(particles[batches.len()]))
-                .collect(),
+            found: vec![Vec::new(); TASKS],
             holds: vec![None; particles[batches.len()]],
             pieces,
             strands,
@@ -361,17 +358,16 @@ impl Locks {
         let holds = &self.holds[self.particles[index]..self.particles[index + 1]];
         let mut found = 0;
         for (k, holds) in holds.chunks_exact(LANES).enumerate() {
-            let plane_of = 2 * count + k;
-            let contact = &mut contacts[plane_of];
-            contact.clear();
+            let contact = &mut contacts[count + k];
+            (contact.on, contact.holds) = (Lane::ZERO, Lane::ZERO);
             for lane in (0..LANES).filter(|&lane| active.get(lane)) {
                 let Some((task, plane)) = holds[lane] else {
                     continue;
                 };
                 let plane = &self.found[task as usize][plane as usize];
                 found += 1;
-                if touched.last() != Some(&plane_of) {
-                    touched.push(plane_of);
+                if touched.last() != Some(&(count + k)) {
+                    touched.push(count + k);
                 }
                 let (y, v) = (state.y[k].get(lane), state.v[k].get(lane));
                 let before = plane.normal.dot(y) + plane.past;
@@ -383,7 +379,7 @@ impl Locks {
                     end,
                     flow: (plane.flow - shift) / self.dt,
                 };
-                contact.set(lane, &surface, (batch, state), (plane_of, k), 1.0);
+                contact.set(lane, &surface, (batch, state), (count + k, k));
             }
         }
         found

@@ -12,10 +12,10 @@ use crate::{
 
 use super::{
     batch::{Batch, BatchState},
-    chain::{Chain, at_share},
+    chain::Chain,
     contact::Due,
     drive::{Drive, RootMotion},
-    finish::{forget_planes, keep_share},
+    finish::forget_planes,
     rods::{
         Rods,
         curled::{find_turns, sweep::potential, turn_links},
@@ -26,8 +26,6 @@ use super::{
 
 const MOST_ITERATIONS: usize = 40;
 const MOST_HALVINGS: usize = 10;
-/// How often planes that a shape has met are taken up.
-const MOST_PLANES: usize = 8;
 const SMALL_TURN: f64 = 1e-3;
 const LARGEST_TURN: f64 = 0.7;
 
@@ -80,18 +78,11 @@ pub(crate) fn step<T: Number>(
     }
     work.loads.add::<T>(batch, &stage, trial);
     minimise::<T>(batch, &stage, trial, end, work, which);
-    let bodies = drive.bodies(state.root, root.root);
-    for _ in 0..MOST_PLANES {
+    if !work.loads.touched.is_empty() {
         // Planes that the strand met on the way.
-        let (loads, mut moved) = (&mut work.loads, Mask::NONE);
-        if !loads.finder.is_clear() {
-            moved = loads.move_planes((batch, &*state), &bodies, (&stage, &*trial), which);
-        }
-        let met = loads.hold::<T>(batch, &stage, trial, Due::Passed, which);
-        let met = met.or(moved);
-        if !met.any() {
-            break;
-        }
+        let met = work
+            .loads
+            .hold::<T>(batch, &stage, trial, Due::Passed, which);
         minimise::<T>(batch, &stage, trial, end, work, met);
     }
     take(rods, batch, state, scratch, which, drive.dt);
@@ -110,7 +101,6 @@ fn minimise<T: Number>(
     let model = Model {
         base: &stage.base,
         nodes: &work.loads.nodes,
-        levers: &work.loads.levers,
         past: &work.past,
         elastic: stage.elastic(),
     };
@@ -175,10 +165,8 @@ fn take(
     }
     forget_planes(state, good);
     for &plane in &loads.touched {
-        let (contact, k) = (&loads.contacts[plane], batch.held_by(plane).0);
-        let press = contact.pressure(at_share(&trial.y, k, contact.share));
+        let press = loads.contacts[plane].pressure(trial.y[batch.held_by(plane)]);
         state.press[plane] = good.pick(press, state.press[plane]);
-        keep_share(state, contact, (plane, k), good);
     }
     rods.keep_frames(state, trial, good);
     let bad = which.and(good.not());

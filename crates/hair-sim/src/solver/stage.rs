@@ -7,7 +7,7 @@ use crate::{
 
 use super::{
     batch::Batch,
-    link::{Elastic, Lever, Node, Particle},
+    link::{Elastic, Node, Particle},
 };
 
 /// Where in a step its middle stage is: 2 - sqrt 2.
@@ -47,8 +47,6 @@ pub(crate) struct Model<'a> {
     pub base: &'a Quat,
     /// Of the particles.
     pub nodes: &'a [Node],
-    /// Of the links, where anything acts between their ends.
-    pub levers: &'a [Lever],
     /// The turns of joints that damping holds to.
     pub past: &'a [Vec3],
     pub elastic: Elastic,

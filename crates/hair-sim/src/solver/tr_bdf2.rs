@@ -17,7 +17,7 @@ use crate::lanes::{Lane, Mask, Number, Vec3};
 use super::{
     batch::{Batch, BatchState},
     chain::Chain,
-    contact::{Due, find::Bodies},
+    contact::Due,
     drive::{Drive, RootMotion},
     rods::Rods,
     scratch::{Scratch, Work},
@@ -34,7 +34,7 @@ const FRAME: f64 = 1.0 / 60.0;
 const LARGEST_TURN: f64 = 1.0;
 
 /// Newton steps in a stage before it counts as failed.
-const MOST_ITERATIONS: usize = 12;
+const MOST_ITERATIONS: usize = 6;
 
 /// What came of both stages.
 #[derive(Clone, Copy)]
@@ -64,13 +64,10 @@ pub(crate) fn step<T: Number>(
     let small_turn = SMALL_TURN * (drive.dt / FRAME).min(1.0).powi(2);
     let stage = begin::<T>(rods, batch, state, scratch, drive, root);
     let (chain, work) = (&mut scratch.mid, &mut scratch.work);
-    let among = (small_turn, active);
-    let mid = solve::<T>(rods, batch, &stage, chain, work, among, None);
+    let mid = solve::<T>(rods, batch, &stage, chain, work, small_turn, active);
     let stage = go_on::<T>(rods, batch, state, scratch, drive, root);
     let (chain, work) = (&mut scratch.end, &mut scratch.work);
-    let bodies = drive.bodies(state.root, root.root);
-    let moves = (!work.loads.finder.is_clear()).then_some((state, &bodies));
-    let end = solve::<T>(rods, batch, &stage, chain, work, among, moves);
+    let end = solve::<T>(rods, batch, &stage, chain, work, small_turn, active);
     Outcome {
         iterations: mid.iterations + end.iterations,
         failed: mid.failed.or(end.failed),
@@ -163,16 +160,15 @@ fn go_on<'a, T: Number>(
     stage
 }
 
-/// Newton's method for a stage of the strands in `active`, starting from its chain, to a last step of `small_turn` (radians). Where links pass
-/// `bodies` by, their planes may move.
+/// Newton's method for a stage of the strands in `active`, starting from its chain, to a last step of `small_turn` (radians).
 fn solve<T: Number>(
     rods: Rods,
     batch: &Batch,
     stage: &Stage,
     chain: &mut Chain,
     work: &mut Work,
-    (small_turn, active): (f64, Mask),
-    bodies: Option<(&BatchState, &Bodies)>,
+    small_turn: f64,
+    active: Mask,
 ) -> Outcome {
     T::run(
         #[inline(always)]
@@ -193,7 +189,6 @@ fn solve<T: Number>(
                 let model = Model {
                     base: &stage.base,
                     nodes: &loads.nodes,
-                    levers: &loads.levers,
                     past,
                     elastic: stage.elastic(),
                 };
@@ -206,13 +201,8 @@ fn solve<T: Number>(
                 let done = small.or(broken);
                 let among = open.and(broken.not());
                 open = open.and(done.not());
-                if let Some((state, bodies)) = bodies {
-                    let answer = (stage, &*chain);
-                    open = open.or(loads.move_planes((batch, state), bodies, answer, among));
-                }
                 if !loads.touched.is_empty() {
-                    // With an answer's pressure, not with that of one that is on its way.
-                    open = open.or(loads.rub::<T>(batch, stage, chain, among.and(small)));
+                    open = open.or(loads.rub::<T>(batch, stage, chain, among));
                     open = open.or(loads.hold::<T>(batch, stage, chain, Due::Passed, among));
                 }
             }

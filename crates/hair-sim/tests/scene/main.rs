@@ -7,10 +7,8 @@ mod goals;
 mod locks;
 mod mutual;
 mod rate;
-mod ridges;
 mod roots;
 mod sleep;
-mod tail;
 mod wind;
 
 use glam::{DVec3, Vec3};

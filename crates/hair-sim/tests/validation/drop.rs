@@ -1,9 +1,9 @@
 //! A level strand that is let go: accuracy in time and space.
 
-use glam::{DVec3, Vec3};
-use hair_sim::{Acceleration, Natural, Params, Pose, Roots, Solver, Surroundings};
+use glam::DVec3;
+use hair_sim::{Natural, Params, Solver, Surroundings};
 
-use crate::{NEARLY_STRAIGHT, along, bare, level, tip};
+use crate::{NEARLY_STRAIGHT, bare, level, tip};
 
 /// Tip positions at 1/24 s, from a spectral solution (Gamma 10) and from 160 links in 64 steps a frame of a planar code in
 /// angles (Gamma 100).
@@ -104,68 +104,6 @@ fn a_strand_of_gamma_100_falls_as_the_reference() {
         println!("gamma 100, {natural:?}, steps of 1/24, 1/48, 1/96: {errors:.4?}");
         for (error, most) in errors.into_iter().zip([0.15, 0.08, 0.08]) {
             assert!(error <= most, "{errors:?}");
-        }
-    }
-}
-
-/// A strand that hangs down from a root that is moved to and fro, from rest on: the tip at every 1/24 s of a second, in lengths.
-fn swing(natural: Natural, n: usize, steps: usize) -> Vec<DVec3> {
-    let params = Params {
-        natural,
-        ..bare(10.0)
-    };
-    let (mut solver, mut state) = Solver::new(&along(n, Vec3::NEG_Y), &params).unwrap();
-    // With this place all derivatives but the fifth and later ones begin at 0.
-    let place = |t: f64| 0.1 * t.powi(5) / (0.02 + t.powi(4)) * (4.0 * t).cos();
-    let dt = 1.0 / (24 * steps) as f64;
-    let pose = |t: f64| Pose {
-        translation: DVec3::X * place(t.max(0.0)),
-        ..Pose::IDENTITY
-    };
-    let acceleration = |t: f64| {
-        let h = 1e-4;
-        Acceleration::between([t - h, t, t + h].map(pose), h)
-    };
-    let mut path = Vec::new();
-    for frame in 0..24 {
-        for step in 0..steps {
-            let t = (frame * steps + step) as f64 * dt;
-            let surroundings = Surroundings {
-                roots: Roots::Head(pose(t + dt)),
-                acceleration: Some([t, t + dt].map(acceleration)),
-                ..Surroundings::default()
-            };
-            let stats = solver.step(&mut state, &surroundings, dt).unwrap();
-            assert_eq!(stats.fallbacks, 0);
-        }
-        path.push(tip(&solver, &state));
-    }
-    path
-}
-
-/// The slope of the error in the step, from each step to half of it, printed. A strand that is let go from a bent shape at once moves in all
-/// its modes, also in those that no step resolves; one that is moved smoothly in those alone that have time to.
-#[test]
-fn the_order_in_time_hangs_on_the_motion() {
-    let steps = [1, 2, 4, 8, 16];
-    for natural in NEARLY_STRAIGHT {
-        for (name, path) in [
-            (
-                "let go",
-                &drop as &dyn Fn(f64, Natural, usize, usize) -> Vec<DVec3>,
-            ),
-            ("swung", &|_, natural, n, steps| swing(natural, n, steps)),
-        ] {
-            let fine = path(10.0, natural, 20, 256);
-            let errors = steps.map(|steps| error(&path(10.0, natural, 20, steps), &fine));
-            let slopes: Vec<f64> = errors.windows(2).map(|e| (e[0] / e[1]).log2()).collect();
-            println!(
-                "{name}, {natural:?}: errors in steps of 1/24 to 1/384 s {errors:.6?}, slopes {slopes:.2?}"
-            );
-            if name == "swung" {
-                let slope = (errors[1] / errors[3]).log2() / 2.0;
-                assert!(slope >= 1.8, "{slope}");
-            }
         }
     }
 }

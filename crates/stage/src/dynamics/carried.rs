@@ -86,19 +86,13 @@ fn nearest(shapes: &[[Vec3; 4]], strand: usize, guides: &[usize]) -> [(usize, f3
 }
 
 impl Carried {
-    /// The points of each carried strand.
-    pub fn ranges(&self) -> &[Range<usize>] {
-        &self.ranges
-    }
-
     /// Moves the carried strands: each keeps its place in the frames of its guides, whose links have turned
-    /// as `turns` says (one rotation a link). `keep_out` may then move the points of each, of which it is told the
-    /// first one's place in the scene; that is the root.
+    /// as `turns` says (one rotation a link). `keep_out` may then move the points of each but its root.
     pub fn carry(
         &self,
         points: &mut [Vec3],
         turns: impl Fn(usize) -> Vec<DQuat> + Sync,
-        keep_out: impl Fn(usize, &mut [Vec3]) + Sync,
+        keep_out: impl Fn(&mut [Vec3]) + Sync,
     ) {
         let turned = self.turned(turns);
         let guides: Vec<&[Vec3]> = (self.guides.iter())
@@ -124,7 +118,7 @@ impl Carried {
                         })
                         .sum();
                 }
-                keep_out(range.start, moved);
+                keep_out(&mut moved[1..]);
             });
     }
 
@@ -210,8 +204,8 @@ mod tests {
             }
         }
         let turns = |guide: usize| vec![DQuat::from_rotation_z(0.1 * guide as f64); 4];
-        let floor = |_, points: &mut [Vec3]| {
-            for point in &mut points[1..] {
+        let floor = |points: &mut [Vec3]| {
+            for point in points {
                 point.y = point.y.max(-0.035);
             }
         };

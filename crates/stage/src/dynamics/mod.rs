@@ -7,26 +7,23 @@ mod air;
 mod bodies;
 mod carried;
 mod feel;
-#[cfg(test)]
-mod kept_out;
 mod running;
 mod section;
-mod ties;
 
 pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 
-use crate::bodies::clear;
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::hand::Driver;
-use crate::neck::rigid;
+use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
-use crate::posture::Posture;
+use crate::script::HeadPose;
+use crate::skeleton::{Bones, after};
 use bodies::Bodies;
 use carried::Carried;
 pub(crate) use feel::ZoneDynamics;
 use feel::{Feel, Strand};
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 #[cfg(feature = "compare")]
 use hair_sim::compare::{MassSpring, Xpbd};
@@ -37,8 +34,6 @@ use hair_sim::{
 use render::Head;
 use running::{Run, Running};
 use std::ops::Range;
-use ties::Ties;
-pub(crate) use ties::turn_of;
 
 /// Steps within a step of the solvers that take some, where the preset says nothing.
 #[cfg(feature = "compare")]
@@ -50,9 +45,8 @@ const MASS_SPRING_SUBSTEPS: u32 = 4;
 const SHORTEST_STEP: f64 = 2e-6;
 /// Parts of a second that times are told in: as fine as needed for the shortest step's accelerations.
 const MOMENTS: f64 = (1_u64 << 44) as f64;
-/// So many steps of hair that is not seen are taken as one, and of hair that is seen small,
+/// So many steps of hair that is not seen are taken as one,
 const UNSEEN_STEPS: i64 = 4;
-const SMALL_STEPS: i64 = 2;
 /// while the head's acceleration is below this, in m/s^2: a long step through a turn of the head would throw hair about.
 const CALM: f64 = 2.0;
 
@@ -64,42 +58,25 @@ struct Part {
     strand: usize,
 }
 
-/// How hair is seen by a live program.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Seen {
-    /// Wholly off the picture.
-    Not,
-    /// So small that nobody sees where it is to a step.
-    Small,
-    /// As it is.
-    Well,
-}
-
-/// Whether strands are moved, or it is looked where they would come to.
-#[derive(Clone, Copy)]
-enum Drives {
-    Step,
-    Look,
+/// Where a head, its shoulders and the whole figure are at a time. The shoulders follow the head's shift and the whole figure's turn, not the
+/// head's.
+struct Posture<'s> {
+    head: Pose,
+    shoulders: Pose,
+    figure: Pose,
+    /// Of the skeleton that moves it, where one does.
+    bones: Option<Bones<'s>>,
 }
 
 /// The solver with its strands, and the time it has come to.
 pub(crate) struct Dynamics {
     strands: Box<dyn Running>,
     guides: Vec<Part>,
-    /// The points of the scene that nothing here moves: the head holds them.
-    still: Vec<Range<usize>>,
-    /// All of them.
-    all: Vec<Range<usize>>,
     /// The shapes that pull at all points of the scene; where they have these at a time, and the guides' points.
     shapes: Option<PointCache>,
     shape: Vec<Vec3>,
     goal: Vec<Vec3>,
     carried: Carried,
-    /// How far each point of the scene is kept from bodies, m.
-    gaps: Vec<f32>,
-    ties: Ties,
-    /// Whether all strands slept in the last step. What is looked at between two steps doesn't count.
-    is_asleep: bool,
     bodies: Bodies,
     head: Head,
     placement: Placement,
@@ -148,27 +125,6 @@ fn simulated(
         solver.interact(&mut state, &mutual)?;
     }
     Ok(Box::new(Run::new((solver, state))))
-}
-
-/// Of so many points those that neither guides nor what they carry moves, of which the first points stay with the head. `parts` are the
-/// points of the free strands, of which `guides` are some.
-fn still(points: usize, parts: &[Range<usize>], guides: &[usize]) -> Vec<Range<usize>> {
-    let mut moves = vec![false; points];
-    for part in parts {
-        moves[part.start + 1..part.end].fill(true);
-    }
-    for &guide in guides {
-        moves[parts[guide].start] = true;
-    }
-    let (mut still, mut from) = (Vec::new(), 0);
-    for run in moves.chunk_by(|one, next| one == next) {
-        let to = from + run.len();
-        if !run[0] {
-            still.push(from..to);
-        }
-        from = to;
-    }
-    still
 }
 
 /// The time of a frame, or a part of it that is at most `longest` s.
@@ -235,41 +191,18 @@ impl Dynamics {
             }
             step => step,
         };
-        let still = still(all.points().len(), &parts, &guides);
         let guides = (0..).zip(&guides).map(|(strand, &part)| Part {
             points: parts[part].clone(),
             strand,
         });
         let guides: Vec<Part> = guides.collect();
-        let first_of = |part: &Part| {
-            let strand = chosen.id(part.strand) as usize;
-            (strand, part.points.start - all.point_range(strand).start)
-        };
-        let ties = Ties::new(hair, &guides.iter().map(first_of).collect::<Vec<_>>());
-        if !ties.are_none() && section.solver != SolverChoice::Rods {
-            let solver = section.solver.name();
-            let message = format!(
-                "solver: {solver} has no ties that move with the hair, as zones have with `low_tie`; take rods"
-            );
-            let section = "dynamics";
-            return Err(StageError::Unsupported { section, message });
-        }
-        let bodies = Bodies::new(mesh, hair.head);
         Ok(Self {
-            gaps: bodies.gaps(all.points()),
-            bodies,
-            ties,
-            is_asleep: false,
             shapes: hair.shapes.clone(),
             shape: all.points().to_vec(),
             goal: Vec::new(),
             carried,
             guides,
-            still,
-            all: vec![Range {
-                start: 0,
-                end: all.points().len(),
-            }],
+            bodies: Bodies::new(mesh, hair.head),
             strands,
             head: hair.head,
             placement: Placement::default(),
@@ -308,8 +241,8 @@ impl Dynamics {
 
     /// Steps towards `time` (seconds) of a driver for as long as `goes_on` says so, and answers to which time it came: where that is
     /// before `time`, the next call goes on from there. A time between two steps is come to by a shorter step of its own, from which
-    /// nothing goes on: the motion is the same whatever times are looked at. Hair that is not seen, or seen small, comes after in long steps; as soon as
-    /// it is seen well, one step takes it to where it should be.
+    /// nothing goes on: the motion is the same whatever times are looked at. Hair that is not seen comes after in long steps; as soon as
+    /// it is seen, one step takes it to where it should be.
     ///
     /// # Errors
     ///
@@ -318,7 +251,7 @@ impl Dynamics {
         &mut self,
         time: f64,
         driver: Driver,
-        seen: Seen,
+        is_seen: bool,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<f64, StageError> {
         // What the time's own precision, single, can tell from a whole step.
@@ -330,11 +263,8 @@ impl Dynamics {
             self.owed = 0;
             let first = Roots::Head(self.pose_at(self.time_of(0), driver));
             self.strands.restart(first)?;
-            self.ties.restart();
-            self.is_asleep = false;
         }
         let mut goes_on_to = |done: i64| done < wanted && goes_on();
-        let is_seen = seen == Seen::Well;
         if is_seen {
             let owed = self.owed.min(wanted - self.done);
             if owed > 0 {
@@ -345,16 +275,12 @@ impl Dynamics {
                 self.step(1, driver)?;
             }
         } else {
-            let steps = match seen {
-                Seen::Not => UNSEEN_STEPS,
-                Seen::Small | Seen::Well => SMALL_STEPS,
-            };
             while goes_on_to(self.done) {
                 let is_calm = self.is_calm(driver);
-                if is_calm && wanted - self.done < steps {
+                if is_calm && wanted - self.done < UNSEEN_STEPS {
                     break;
                 }
-                self.step(if is_calm { steps } else { 1 }, driver)?;
+                self.step(if is_calm { UNSEEN_STEPS } else { 1 }, driver)?;
             }
             self.owed = wanted - self.done;
         }
@@ -364,72 +290,32 @@ impl Dynamics {
         if is_seen && is_there && time > shown + slack {
             shown = time;
             let ahead = time - self.time_of(self.done);
-            let ties = self.ties.anchors().to_vec();
-            self.stats = self.drive((time, ahead), driver, Drives::Look)?;
-            self.ties.put_back(ties);
+            self.stats = self.drive(time, driver, |strands, scene| {
+                strands.look_ahead(scene, ahead)
+            })?;
         }
         self.shown = shown;
         Ok(if is_there { time } else { shown })
     }
 
-    /// The points that [`Self::write`] leaves as they are.
-    pub fn still(&self) -> &[Range<usize>] {
-        match self.is_at_start() {
-            true => &self.all,
-            false => &self.still,
-        }
-    }
-
-    /// Writes where it came to into the points of what moves; those of the others are where the head has them. Hair that comes after is on the head
-    /// where that is at `time` (seconds).
-    pub fn write(&self, driver: Driver, time: f64, points: &mut [Vec3]) {
+    /// Writes where it came to into the points of what moves; those of the others are where the head has them.
+    pub fn write(&self, driver: Driver, points: &mut [Vec3]) {
         if self.is_at_start() {
             // All hair is where the head's pose has put it.
             return;
         }
+        let pose = self.pose_at(self.shown, driver);
         for part in &self.guides {
             let moved = self.strands.points(part.strand);
             for (point, moved) in points[part.points.clone()].iter_mut().zip(moved) {
                 *point = moved.as_vec3();
             }
         }
-        let posture = || self.posture_at(self.shown, driver);
-        let colliders =
-            self.bodies
-                .colliders(driver.script, [self.shown; 2], &[posture(), posture()]);
-        let gap = |point: usize| f64::from(self.gaps[point]);
-        for part in &self.guides {
-            let first = part.points.start;
-            let points = &mut points[part.points.clone()];
-            clear(points, 1, &colliders, |i| gap(first + i));
-        }
-        let of_carried = self.bodies.gap_of_carried();
         self.carried.carry(
             points,
             |strand| self.strands.turns(strand),
-            |first, points| {
-                clear(points, 1, &colliders, |i| match gap(first + i) {
-                    deep if deep < 0.0 => deep,
-                    _ => of_carried,
-                });
-            },
+            |points| self.bodies.keep_out(pose, points),
         );
-        if self.owed > 0 {
-            self.carry_on(driver, time, points);
-        }
-    }
-
-    /// Moves what is shown on with the head, to `time` (seconds).
-    fn carry_on(&self, driver: Driver, time: f64, points: &mut [Vec3]) {
-        let [then, now] = [self.shown, time].map(|time| self.pose_at(time, driver));
-        let turn = now.rotation * then.rotation.inverse();
-        let shift = now.translation - turn * then.translation;
-        let parts = self.guides.iter().map(|part| &part.points);
-        for range in parts.chain(self.carried.ranges()) {
-            for point in &mut points[range.clone()] {
-                *point = (turn * point.as_dvec3() + shift).as_vec3();
-            }
-        }
     }
 
     /// Whether what is shown is the start.
@@ -463,7 +349,7 @@ impl Dynamics {
         let end = self.time_of(self.done + steps);
         // Not the difference of two times, whose last bits hang on when it is.
         let dt = steps as f64 * self.step;
-        self.stats = self.drive((end, dt), driver, Drives::Step)?;
+        self.stats = self.drive(end, driver, |strands, scene| strands.step(scene, dt))?;
         self.done += steps;
         self.taken += 1;
         Ok(())
@@ -486,12 +372,12 @@ impl Dynamics {
         self.carried.turn(rest, normals, turns);
     }
 
-    /// Takes a step of `dt` seconds from the last one to `end`, or looks there.
+    /// Takes a step from the last one to `end` (seconds), by `step` of the solver.
     fn drive(
         &mut self,
-        (end, dt): (f64, f64),
+        end: f64,
         driver: Driver,
-        drives: Drives,
+        step: impl Fn(&mut (dyn Running + 'static), &Surroundings) -> Result<Stats, DynamicsError>,
     ) -> Result<Stats, StageError> {
         let begin = self.time_of(self.done);
         let postures = [begin, end].map(|time| self.posture_at(time, driver));
@@ -514,9 +400,15 @@ impl Dynamics {
                 [-self.step, self.step].map(|by| self.pose_at(time + by, driver));
             Acceleration::between([earlier, pose, later], self.step)
         });
-        let colliders = self
-            .bodies
-            .colliders(driver.script, [begin, end], &postures);
+        let shoulders = [0, 1].map(|i| postures[i].shoulders);
+        let mut colliders = self.bodies.colliders([before, now], shoulders);
+        if let (Some(skeleton), [Some(before), Some(now)]) = (
+            driver.script.skeleton(),
+            [0, 1].map(|i| postures[i].bones.as_ref()),
+        ) {
+            let on_top = [0, 1].map(|i| postures[i].figure);
+            colliders.extend(skeleton.colliders([before, now], on_top));
+        }
         let scene = Surroundings {
             roots: Roots::Head(now),
             acceleration: Some(accelerations),
@@ -526,29 +418,8 @@ impl Dynamics {
             streams: &streams,
             colliders: &colliders,
             goal: self.shapes.as_ref().map(|_| &self.goal[..]),
-            anchors: &[],
         };
-        if !self.ties.are_none() {
-            // What sleeps stays in its ties, until its head moves.
-            if self.is_asleep && before == now {
-                self.ties.stay();
-            } else {
-                self.strands.look_ahead(&scene, dt)?;
-                self.ties.aim(&*self.strands, now, &colliders);
-            }
-        }
-        let scene = Surroundings {
-            anchors: self.ties.anchors(),
-            ..scene
-        };
-        Ok(match drives {
-            Drives::Step => {
-                let stats = self.strands.step(&scene, dt)?;
-                self.is_asleep = stats.strands == 0 && stats.asleep > 0;
-                stats
-            }
-            Drives::Look => self.strands.look_ahead(&scene, dt)?,
-        })
+        Ok(step(&mut *self.strands, &scene)?)
     }
 
     /// Takes the goals of the script's own `time` from the key shapes.
@@ -577,7 +448,41 @@ impl Dynamics {
 
     /// Where all that hair is kept out of is.
     fn posture_at<'s>(&self, time: f64, driver: Driver<'s>) -> Posture<'s> {
-        let script = driver.script;
-        Posture::of(driver.head_at(time), self.head, script, script.within(time))
+        let pose = driver.head_at(time);
+        let skeleton = driver.script.skeleton();
+        let bones = skeleton.map(|skeleton| skeleton.at(driver.script.within(time)));
+        let figure = self.figure_in(pose, bones.as_ref());
+        let (rotation, translation) = rigid(pose, self.head);
+        Posture {
+            head: Pose {
+                rotation,
+                translation,
+            },
+            shoulders: match &bones {
+                Some(bones) => after(bones.shoulders(), figure),
+                None => figure,
+            },
+            figure,
+            bones,
+        }
+    }
+
+    /// How the whole figure is moved by what its skeleton knows nothing of, where it has one.
+    fn figure_in(&self, pose: HeadPose, bones: Option<&Bones>) -> Pose {
+        let mut shift = pose.shift * f64::from(self.head.height_m);
+        if let Some(bones) = bones {
+            shift -= bones.head(self.head).1;
+        }
+        if pose.spin == 0.0 {
+            return Pose {
+                rotation: DQuat::IDENTITY,
+                translation: shift,
+            };
+        }
+        let (rotation, pivot) = (pose.spun(), pivot(self.head).as_dvec3());
+        Pose {
+            rotation,
+            translation: pivot + shift - rotation * pivot,
+        }
     }
 }

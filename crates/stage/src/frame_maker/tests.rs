@@ -192,44 +192,6 @@ fn hair_of_any_size_is_drawn_or_refused() {
     }
 }
 
-/// What shows of a strand that other hair hides in part is what all of it makes, also where it goes under and comes up again.
-#[test]
-fn hair_that_winds_through_hair_looks_the_same() {
-    let motion = Motion::new();
-    for (look, size, dive, yaw) in [
-        ("twin-tails", 30.0, 0.03, 0.0),
-        ("twin-tails", 24.0, 0.06, 40.0),
-        ("short-ash", 40.0, 0.02, -15.0),
-        ("long-pink", 30.0, 0.09, 70.0),
-    ] {
-        let mut scene = with_yardstick(look, [320, 240], |preset, files| {
-            dense(preset, files, size, dive)
-        });
-        (scene.camera.target, scene.camera.distance) = ([0.0; 3], 2.5);
-        (scene.camera.yaw, scene.camera.pitch) = (yaw, 5.0);
-        let mut frames = FrameMaker::new();
-        let frame = frames.frame(&scene, &motion).unwrap();
-        let [some, all] = [Evaluator::default(), Evaluator::everywhere()]
-            .map(|evaluator| with_discs(&frame, evaluator));
-        assert!(some.0 == all.0, "{look}, {size}, {dive}");
-        assert!(some.1 < all.1, "{look}: {} of {}", some.1, all.1);
-    }
-}
-
-#[test]
-fn hair_of_any_size_is_drawn_or_refused() {
-    for size in [1e9, 1e30, 3e38] {
-        let scene = with_yardstick("twin-tails", [64, 48], |preset, files| {
-            dense(preset, files, size, 0.0)
-        });
-        let mut frames = FrameMaker::new();
-        if let Ok(frame) = frames.frame(&scene, &Motion::new()) {
-            let mut drawing = Drawing::default();
-            let _ = Evaluator::default().evaluate(&frame, &mut drawing);
-        }
-    }
-}
-
 #[test]
 fn hair_far_off_the_picture_is_not_looked_at() {
     let mut scene = yardstick("twin-tails");

@@ -18,8 +18,7 @@ impl Pairs {
         Self {
             sorted: Vec::with_capacity(strands),
             boxes: Vec::with_capacity(strands),
-            // Room ahead of need, so that a warm step allocates nothing: all of some, and many of many.
-            pairs: Vec::with_capacity((strands * strands / 2).min(256 * strands)),
+            pairs: Vec::new(),
         }
     }
 

@@ -126,8 +126,7 @@ impl Sweep {
     }
 
     /// Which of the other's links may meet a link, as bits, where both pieces keep `more` metres besides their radii, and may meet so much `farther`
-    /// than half way through the step. It looks at balls around them first, then at each link and the balls of the other's, then for planes between
-    /// links.
+    /// than half way through the step. It looks at balls around them first, then at each link and the balls of the other's.
     #[inline]
     pub(super) fn near(&self, link: usize, other: &Self, (more, farther): (f32, f32)) -> u32 {
         let at = |of: &[[f32; PIECE]; 3], i: usize| (of[0][i], of[1][i], of[2][i]);
@@ -145,7 +144,7 @@ impl Sweep {
         let ((hx, hy, hz), per_square) = (at(&self.half, link), self.per_square[link]);
         let ((wx, wy, wz), spread) = (at(&self.ways, link), self.spreads[link]);
         let own = self.own + other.own;
-        let (mut bits, mut keeps) = ([0_u32; PIECE], [0.0_f32; PIECE]);
+        let mut bits = [0_u32; PIECE];
         for j in 0..PIECE {
             let (vx, vy, vz) = at(&other.ways, j);
             let against = length_squared(vx - wx, vy - wy, vz - wz).sqrt() * ROUNDED;
@@ -162,45 +161,6 @@ impl Sweep {
             let (reach, its) = (other.reach[j] + keep, long + keep);
             let meets = is_near[j] & (one <= reach * reach) & (two <= its * its);
             bits[j] = u32::from(meets) << j;
-            keeps[j] = keep;
-        }
-        let near = bits[0] | bits[1] | bits[2] | bits[3];
-        if near == 0 {
-            return 0;
-        }
-        near & !self.parted(link, other, &keeps)
-    }
-
-    /// Which of the other's links a plane parts from a link half way through the step by more than `keeps`, as bits: a plane across the way
-    /// between the places of both that are nearest to each other, or about so. Whatever plane it is, what it parts is apart.
-    #[inline]
-    fn parted(&self, link: usize, other: &Self, keeps: &[f32; PIECE]) -> u32 {
-        let at = |of: &[[f32; PIECE]; 3], i: usize| (of[0][i], of[1][i], of[2][i]);
-        let ((x, y, z), (hx, hy, hz)) = (at(&self.center, link), at(&self.half, link));
-        let aa = length_squared(hx, hy, hz);
-        let mut bits = [0_u32; PIECE];
-        for j in 0..PIECE {
-            let ((cx, cy, cz), (ix, iy, iz)) = (at(&other.center, j), at(&other.half, j));
-            let (dx, dy, dz) = (cx - x, cy - y, cz - z);
-            let ee = length_squared(ix, iy, iz);
-            let bb = hx * ix + hy * iy + hz * iz;
-            let (own, its) = (dx * hx + dy * hy + dz * hz, -(dx * ix + dy * iy + dz * iz));
-            let area = (aa * ee - bb * bb).max(1e-30);
-            let s = ((own * ee + its * bb) / area).clamp(-1.0, 1.0);
-            let t = ((bb * s + its) * other.per_square[j]).clamp(-1.0, 1.0);
-            let s = ((bb * t + own) * self.per_square[link]).clamp(-1.0, 1.0);
-            let (nx, ny, nz) = (
-                dx + ix * t - hx * s,
-                dy + iy * t - hy * s,
-                dz + iz * t - hz * s,
-            );
-            let size = length_squared(nx, ny, nz).sqrt() * ROUNDED;
-            let apart = (dx * nx + dy * ny + dz * nz).abs()
-                - (hx * nx + hy * ny + hz * nz).abs()
-                - (ix * nx + iy * ny + iz * nz).abs();
-            // What single precision leaves out of three products, and of the centres.
-            let rounding = 4e-7 * size * (dx.abs() + dy.abs() + dz.abs() + self.reach[link]);
-            bits[j] = u32::from(apart - rounding > keeps[j] * size) << j;
         }
         bits[0] | bits[1] | bits[2] | bits[3]
     }

@@ -117,7 +117,7 @@ pub(crate) fn find_turns<T: Number>(
                 turns,
             } = scratch;
             let sharpest = joints::<T>(links, model, chain, ready);
-            ascend::<T>(links, model, chain, ready, eliminations);
+            ascend::<T>(links, model.nodes, chain, ready, eliminations);
             let largest = descend::<T>(links, &chain.tangents, eliminations, turns);
             (largest, sharpest)
         },

@@ -18,7 +18,7 @@ use crate::{
     solver::{
         batch::{Batch, BatchState},
         chain::{Chain, ShapeEnergy, chord},
-        link::{Elastic, Lever, Link, Node},
+        link::{Elastic, Link, Node},
         stage::{FreeMotion, Model},
     },
 };
@@ -328,36 +328,6 @@ struct Beyond<T> {
     force: Vec3<T>,
 }
 
-impl<T: Number> Beyond<T> {
-    /// With what acts on the link that leads there, whose end is at `y`.
-    #[inline(always)]
-    fn with_lever(self, y: Vec3<T>, link: &Directed<T>, lever: &Lever) -> Self {
-        let node: Node<T> = lever.node.load();
-        let back = -(lever.back.load::<T>() * link.length);
-        let gradient = node.n.apply(y + link.t.scale(back)) - node.b;
-        let (u, v) = (
-            link.across.first.scale(back),
-            link.across.second.scale(back),
-        );
-        let (nu, nv) = (node.n.apply(u), node.n.apply(v));
-        Self {
-            a: self.a + node.n,
-            c: Across {
-                first: self.c.first + nu,
-                second: self.c.second + nv,
-            },
-            d: Sym2 {
-                xx: self.d.xx + u.dot(nu),
-                yy: self.d.yy + v.dot(nv),
-                xy: self.d.xy + u.dot(nv),
-            },
-            a_linear: self.a_linear + gradient,
-            d_linear: self.d_linear + Vec2::new(u.dot(gradient), v.dot(gradient)),
-            force: self.force + gradient,
-        }
-    }
-}
-
 /// From tip to root, as [`super::curled::sweep::ascend`]. Returns how sharp the sharpest joint is.
 #[inline(always)]
 fn ascend<T: Number>(links: &[Link], chain: &Chain, model: &Model, scratch: &mut Scratch) -> Lane {
@@ -365,7 +335,6 @@ fn ascend<T: Number>(links: &[Link], chain: &Chain, model: &Model, scratch: &mut
     let (y, tangents) = (&chain.y[..count], &chain.tangents[..count]);
     let (acrosses, bends) = (&scratch.acrosses[..count], &scratch.bends[..count]);
     let (nodes, past) = (&model.nodes[..count], &model.past[..count]);
-    let levers = &model.levers[..count];
     let out = &mut scratch.eliminations[..count];
     let damps = model.elastic.damping != Lane::ZERO;
     let elastic = model.elastic.load::<T>();
@@ -407,9 +376,6 @@ fn ascend<T: Number>(links: &[Link], chain: &Chain, model: &Model, scratch: &mut
             across: acrosses[k].load(),
             length: links[k].length.load(),
         };
-        if levers[k].on {
-            beyond = beyond.with_lever(y[k].load(), &link, &levers[k]);
-        }
         let elimination;
         (beyond, elimination) = eliminate(beyond, y[k].load(), link, nodes[k].load(), joint);
         out[k] = elimination.store();

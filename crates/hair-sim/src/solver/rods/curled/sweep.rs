@@ -25,7 +25,7 @@ use crate::{
     lanes::{Lane, Mat3, Number, Quat, Sym3, Vec3, stored},
     solver::{
         chain::Chain,
-        link::{Elastic, Lever, Link, Node},
+        link::{Elastic, Link, Node},
         stage::Model,
     },
 };
@@ -147,50 +147,19 @@ struct Beyond<T = Lane> {
     force: Vec3<T>,
 }
 
-impl<T: Number> Beyond<T> {
-    /// With what acts on the link that leads there along `r`, whose end is at `y`: its place is that of the link's end and the turn of the link
-    /// before.
-    #[inline(always)]
-    fn with_lever(self, y: Vec3<T>, r: Vec3<T>, lever: &Lever) -> Self {
-        let node: Node<T> = lever.node.load();
-        let q = -r.scale(lever.back.load());
-        let gradient = node.n.apply(y + q) - node.b;
-        let w = Mat3::zero() - node.n.rows().times_cross(q).transpose();
-        let qw = Mat3(q.cross(w.0), q.cross(w.1), q.cross(w.2));
-        let c = self.c_columns;
-        Self {
-            a: self.a + node.n,
-            c_columns: Mat3(c.0 + w.0, c.1 + w.1, c.2 + w.2),
-            d: self.d
-                + Sym3 {
-                    xx: qw.0.x,
-                    yy: qw.1.y,
-                    zz: qw.2.z,
-                    xy: qw.1.x,
-                    xz: qw.2.x,
-                    yz: qw.2.y,
-                },
-            a_linear: self.a_linear + gradient,
-            d_linear: self.d_linear + q.cross(gradient),
-            force: self.force + gradient,
-        }
-    }
-}
-
-/// From tip to root: fills `out` with what [`descend`] needs. `chain.y[k]`, `chain.tangents[k]` and the model's nodes are of link k
+/// From tip to root: fills `out` with what [`descend`] needs. `chain.y[k]`, `chain.tangents[k]` and `nodes[k]` are of link k
 /// and the particle at its end, `joints[k]` is at its start.
 #[inline(always)]
 pub(crate) fn ascend<T: Number>(
     links: &[Link],
-    model: &Model,
+    nodes: &[Node],
     chain: &Chain,
     joints: &[JointMoment],
     out: &mut [Elimination],
 ) {
     let count = links.len();
     let (y, tangents) = (&chain.y[..count], &chain.tangents[..count]);
-    let (nodes, joints) = (&model.nodes[..count], &joints[..count]);
-    let levers = &model.levers[..count];
+    let (nodes, joints) = (&nodes[..count], &joints[..count]);
     let out = &mut out[..count];
     let mut beyond = Beyond {
         a: Sym3::<T>::diagonal(T::splat(0.0)),
@@ -203,9 +172,6 @@ pub(crate) fn ascend<T: Number>(
     for k in (0..count).rev() {
         let t: Vec3<T> = tangents[k].load();
         let r = t.scale(links[k].length.load());
-        if levers[k].on {
-            beyond = beyond.with_lever(y[k].load(), r, &levers[k]);
-        }
         let elimination;
         let (node, joint) = (nodes[k].load(), joints[k].load());
         (beyond, elimination) = eliminate(beyond, y[k].load(), t, r, node, joint);
@@ -307,11 +273,6 @@ pub(crate) fn potential(links: &[Link], model: &Model, chain: &Chain) -> Lane {
     for (k, link) in links.iter().enumerate() {
         let (y, node) = (chain.y[k], &model.nodes[k]);
         sum += (node.n.apply(y) * 0.5 - node.b).dot(y);
-        let lever = &model.levers[k];
-        if lever.on {
-            let at = y - chain.tangents[k] * (link.length * lever.back);
-            sum += (lever.node.n.apply(at) * 0.5 - lever.node.b).dot(at);
-        }
         let c = half_turn(before, chain.frames[k]);
         let u = c + c;
         let (e, rate) = (u - link.natural, u - model.past[k]);

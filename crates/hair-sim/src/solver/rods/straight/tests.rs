@@ -31,8 +31,6 @@ struct Whole {
     lengths: Vec<f64>,
     bend: Vec<f64>,
     nodes: Vec<(DMat3, DVec3)>,
-    /// Of a place half way along every link.
-    levers: Vec<(DMat3, DVec3)>,
     past: Vec<DVec2>,
     damping: f64,
 }
@@ -55,9 +53,6 @@ impl Whole {
             y += next * self.lengths[k];
             let (n, b) = self.nodes[k];
             sum += 0.5 * y.dot(n * y) - b.dot(y);
-            let (n, b) = self.levers[k];
-            let half = y - next * (0.5 * self.lengths[k]);
-            sum += 0.5 * half.dot(n * half) - b.dot(half);
         }
         sum
     }
@@ -91,12 +86,10 @@ proptest! {
             lengths: rest.links.iter().map(|link| link.length).collect(),
             bend: rest.links.iter().map(|link| link.bend).collect(),
             nodes: Vec::new(),
-            levers: Vec::new(),
             past: Vec::new(),
             damping,
         };
         let mut nodes = vec![Node::<Lane>::zero(); count];
-        let mut levers = vec![Lever::NONE; count];
         let mut past = vec![Vec3::ZERO; count];
         let mut chain = Chain::new(count);
         // As stiff as heavy.
@@ -113,17 +106,6 @@ proptest! {
             pulls.set(0, pull);
             nodes[k].n = Sym3::outer(Lane::splat(link.mass), pulls, Lane::splat(link.mass));
             nodes[k].b.set(0, b);
-            let (n, b) = if k % 2 == 0 {
-                (n * 0.5, 0.2 * link.mass * vector())
-            } else {
-                (DMat3::ZERO, DVec3::ZERO)
-            };
-            stage.levers.push((n, b));
-            if k % 2 == 0 {
-                levers[k].take_up(Lane::splat(0.5));
-                levers[k].node.n = Sym3::outer(Lane::splat(0.5 * link.mass), pulls, Lane::splat(0.5 * link.mass));
-                levers[k].node.b.set(0, b);
-            }
             past[k].set(0, DVec3::new(-turn.y, turn.x, 0.0));
             chain.tangents[k] = Vec3::splat((rest.base * DVec3::Z + 0.3 * vector()).normalize());
         }
@@ -132,7 +114,6 @@ proptest! {
         let model = Model {
             base: &batch.base,
             nodes: &nodes,
-            levers: &levers,
             past: &past,
             elastic: Elastic {
                 h2: Lane::splat(h2),

@@ -17,9 +17,7 @@ struct Dense {
     stiffness: Vec<DVec3>,
     natural: Vec<DVec3>,
     past: Vec<DVec3>,
-    /// Of the particles, then of a place on every link, so far before its end as `backs` says, as a share of it.
     nodes: Vec<(DMat3, DVec3)>,
-    backs: Vec<f64>,
     h2: f64,
     damping: f64,
 }
@@ -44,19 +42,9 @@ impl Dense {
         frames.iter().zip(&self.lengths).map(step).collect()
     }
 
-    /// The particles, and the places on the links.
-    fn places(&self, frames: &[DQuat]) -> Vec<DVec3> {
-        let mut places = self.particles(frames);
-        for k in 0..frames.len() {
-            let back = frames[k] * DVec3::Z * (self.lengths[k] * self.backs[k]);
-            places.push(places[k] - back);
-        }
-        places
-    }
-
     fn energy(&self, frames: &[DQuat]) -> f64 {
         let mut sum = 0.0;
-        for (y, (n, b)) in self.places(frames).into_iter().zip(&self.nodes) {
+        for (y, (n, b)) in self.particles(frames).into_iter().zip(&self.nodes) {
             sum += 0.5 * y.dot(*n * y) - b.dot(y);
         }
         for k in 0..frames.len() {
@@ -83,12 +71,12 @@ impl Dense {
     fn matrix(&self) -> Vec<Vec<f64>> {
         let n = self.frames.len();
         let mut matrix = vec![vec![0.0; 3 * n]; 3 * n];
-        let y = self.places(&self.frames);
+        let y = self.particles(&self.frames);
         let h = 1e-5;
         // Columns: the turn of a link about an axis.
         let particles: Vec<Vec<DVec3>> = (0..3 * n)
             .map(|i| {
-                let at = |h: f64| self.places(&self.turned(i / 3, DVec3::AXES[i % 3] * h));
+                let at = |h: f64| self.particles(&self.turned(i / 3, DVec3::AXES[i % 3] * h));
                 at(h)
                     .iter()
                     .zip(at(-h))
@@ -104,10 +92,8 @@ impl Dense {
             .collect();
         for i in 0..3 * n {
             for j in 0..3 * n {
-                for k in 0..2 * n {
-                    matrix[i][j] += particles[i][k].dot(self.nodes[k].0 * particles[j][k]);
-                }
                 for k in 0..n {
+                    matrix[i][j] += particles[i][k].dot(self.nodes[k].0 * particles[j][k]);
                     let stiffness = self.stiffness[k] * (self.h2 * (1.0 + self.damping));
                     matrix[i][j] += joints[i][k].dot(stiffness * joints[j][k]);
                 }
@@ -115,9 +101,7 @@ impl Dense {
         }
         for k in 0..n {
             let tangent = self.frames[k] * DVec3::Z;
-            // What acts on a link counts as if it did at its end.
             let force: DVec3 = (k..n)
-                .chain(n + k..2 * n)
                 .map(|i| self.nodes[i].0 * y[i] - self.nodes[i].1)
                 .sum();
             let tension = (-force.dot(tangent) * self.lengths[k]).max(0.0);
@@ -161,7 +145,6 @@ struct Stage {
     base: Quat,
     chain: Chain,
     nodes: Vec<Node>,
-    levers: Vec<Lever>,
     past: Vec<Vec3>,
     elastic: Elastic,
     dense: Vec<Dense>,
@@ -198,7 +181,6 @@ fn stage(counts: [usize; 2], mut number: impl FnMut() -> f64) -> Stage {
         base: batch.base,
         chain: Chain::new(count),
         nodes: vec![Node::<Lane>::zero(); count],
-        levers: vec![Lever::NONE; count],
         past: vec![Vec3::ZERO; count],
         elastic: Elastic {
             h2: Lane::splat(h2),
@@ -220,11 +202,9 @@ fn stage(counts: [usize; 2], mut number: impl FnMut() -> f64) -> Stage {
             natural: rest.links.iter().map(|l| l.natural).collect(),
             past: Vec::new(),
             nodes: Vec::new(),
-            backs: Vec::new(),
             h2,
             damping,
         };
-        let mut levers = Vec::new();
         for (k, link) in rest.links.iter().enumerate() {
             let frame = DQuat::from_scaled_axis(0.3 * vector()) * link.frame;
             dense.frames.push(frame);
@@ -244,25 +224,7 @@ fn stage(counts: [usize; 2], mut number: impl FnMut() -> f64) -> Stage {
             mass[lane] = link.mass;
             node.n += Sym3::outer(mass, pulls, mass);
             node.b.set(lane, b);
-            // On two links of three.
-            let (back, b) = (0.5 + 0.4 * vector().x, link.mass * vector());
-            let (n, b) = if k % 3 < 2 {
-                (outer * link.mass, b)
-            } else {
-                (DMat3::ZERO, DVec3::ZERO)
-            };
-            levers.push((n, b));
-            dense.backs.push(back);
-            if k % 3 < 2 {
-                let lever = &mut stage.levers[k];
-                let share = lever.back;
-                lever.take_up(Lane::ONE - share);
-                lever.back[lane] = back;
-                lever.node.n += Sym3::outer(Lane::ZERO, pulls, mass);
-                lever.node.b.set(lane, b);
-            }
         }
-        dense.nodes.extend(levers);
         for (k, y) in dense.particles(&dense.frames).into_iter().enumerate() {
             stage.chain.y[k].set(lane, y);
         }
@@ -286,7 +248,6 @@ impl Stage {
         Model {
             base: &self.base,
             nodes: &self.nodes,
-            levers: &self.levers,
             past: &self.past,
             elastic: self.elastic,
         }
@@ -299,7 +260,7 @@ impl Stage {
         let mut eliminations = vec![Elimination::<Lane>::zero(); links.len()];
         let mut turns = vec![Vec3::ZERO; links.len()];
         joints::<Lane>(links, &model, &self.chain, &mut ready);
-        ascend::<Lane>(links, &model, &self.chain, &ready, &mut eliminations);
+        ascend::<Lane>(links, &self.nodes, &self.chain, &ready, &mut eliminations);
         let largest = descend::<Lane>(links, &self.chain.tangents, &eliminations, &mut turns);
         (turns, largest)
     }
