@@ -137,7 +137,7 @@ fn gpu_disc(joint: u32, offset: vec2<f32>, radius: f32, scale: f32, clump_radius
     // No depth is nearer than the near plane, whatever is taken from it.
     let lift = bitcast<f32>(gpu_of_strand(joint, 7u));
     let shifted = max(depth + (depth_offset - lift) * gpu_word(GPU_HEAD_HEIGHT), gpu_frame.near_m);
-    let biased = max(depth - clump_radius * gpu_word(GPU_UNIT), gpu_frame.near_m);
+    let biased = max(depth - clump_radius * gpu_word(GPU_UNIT) - gpu_word(GPU_SURFACE_BIAS), gpu_frame.near_m);
     return GpuDisc(
         gpu_vec2(joint, GPU_AT_CENTER) + offset * gpu_unit_px(joint),
         min(max(radius, 0.0) * scale, GPU_LARGEST_PX),

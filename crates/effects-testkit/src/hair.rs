@@ -82,6 +82,7 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         depth: EYE.distance(position) / HEAD_M,
         time: 0.7,
         across: vec2([-ahead.y, ahead.x]),
+        from_ends: vec2([i, last - i].map(|links| 0.02 * links as f32)),
         rest_position: vec3((position / HEAD_M).to_array()),
         unit: 0.8,
         normal: vec3(normal.to_array()),
@@ -135,6 +136,7 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
             Joint {
                 u: 0.0,
                 arc_length: 0.0,
+                from_ends: vec2([0.0; 2]),
                 forward: up,
                 backward: up,
                 ..good
@@ -144,6 +146,7 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
             "a strand 1000 km long",
             Joint {
                 arc_length: 1e6,
+                from_ends: vec2([1e6; 2]),
                 ..good
             },
         ),

@@ -43,6 +43,9 @@ pub trait StrokeEffect: Send + Sync + 'static {
     const OWN_PATHS: bool = false;
     /// Whether it paints meshes and draws no strokes: [`MeshEffect`](crate::MeshEffect).
     const IS_FOR_MESHES: bool = false;
+    /// Whether it draws lines of surfaces: strands whose joints lie on a mesh, have no clump, and whose material normals are the surface's.
+    /// Else it draws hair.
+    const IS_FOR_LINES: bool = false;
     /// Whether there are strokes on the coat of clumps below a hair style's own, too. It shows in gaps alone,
     /// where highlights would be specks.
     const ON_UNDERCOAT: bool = true;
@@ -171,6 +174,8 @@ pub trait AnyEffect: Send + Sync {
     fn inputs(&self) -> &'static [Input];
     /// Whether it paints meshes ([`MeshEffect`](crate::MeshEffect)) and draws no strokes.
     fn is_for_meshes(&self) -> bool;
+    /// [`StrokeEffect::IS_FOR_LINES`].
+    fn is_for_lines(&self) -> bool;
     /// [`Program::PAINTS`].
     fn paints(&self) -> Option<&'static [SampleInput]>;
     /// [`Parameters::WGSL`].
@@ -298,6 +303,9 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
     }
     fn is_for_meshes(&self) -> bool {
         E::IS_FOR_MESHES
+    }
+    fn is_for_lines(&self) -> bool {
+        E::IS_FOR_LINES
     }
     fn paints(&self) -> Option<&'static [SampleInput]> {
         E::Program::PAINTS

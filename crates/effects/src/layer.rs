@@ -16,7 +16,8 @@ choices! {
     }
 }
 
-/// One effect of a preset.
+/// One effect of a preset. A clone is cheap.
+#[derive(Clone)]
 pub struct Layer {
     /// Unique in the preset; the effect's id where the preset says nothing.
     pub name: String,
@@ -31,7 +32,8 @@ pub struct Layer {
     /// The zones of a hair style whose hair it draws: names with commas between them, `*` at the end of one for any end. All hair
     /// where it says nothing.
     pub zones: Option<String>,
-    /// The meshes that it paints, of an effect for meshes: names with commas between them, `*` for any end.
+    /// The meshes that it paints, of an effect for meshes, or the lines that it draws, of one for lines: names with commas between them, `*` for
+    /// any end.
     pub on: Option<String>,
     /// How much of what it paints is seen through hair before it, 0 to 1.
     pub through_hair: f32,

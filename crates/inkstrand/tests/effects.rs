@@ -6,7 +6,10 @@ use effects::{Param, ParamKind, Registry, Section};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
-use stage::{MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset, STYLE_PARTS, Sections};
+use stage::{
+    LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset, STYLE_PARTS,
+    Sections,
+};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -190,10 +193,13 @@ fn the_schema_is_the_tables() {
     let meshes = &sections[Sections::ALL.len() + 2];
     assert_eq!(meshes["id"], "meshes");
     assert_is_table(meshes, MeshSection::TABLE);
-    let passes = &sections[Sections::ALL.len() + 3];
+    let lines = &sections[Sections::ALL.len() + 3];
+    assert_eq!(lines["id"], "lines");
+    assert_is_table(lines, LineSection::TABLE);
+    let passes = &sections[Sections::ALL.len() + 4];
     assert_eq!(passes["id"], "passes");
     assert_is_table(passes, PassSection::TABLE);
-    let objects = &sections[Sections::ALL.len() + 4];
+    let objects = &sections[Sections::ALL.len() + 5];
     assert_eq!(objects["id"], "objects");
     assert_is_table(objects, ObjectSection::TABLE);
     for value in layers["parameters"].as_array().unwrap() {
@@ -273,7 +279,7 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
             may_say(own, name)
         });
         let mut fields: Vec<&str> = fields.collect();
-        if own.is_for_meshes() {
+        if own.is_for_meshes() || own.is_for_lines() {
             fields.push("on: \"*\"");
         }
         let fields = fields.join(", ");
@@ -285,10 +291,13 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
         Ok(preset) => preset,
         Err(errors) => panic!("{errors}"),
     };
-    let layers = registry.iter().map(|effect| match effect.is_for_meshes() {
-        true => format!("(effect: \"{}\", on: \"*\")", effect.id()),
-        false => format!("(effect: \"{}\")", effect.id()),
-    });
+    let layers =
+        registry.iter().map(
+            |effect| match effect.is_for_meshes() || effect.is_for_lines() {
+                true => format!("(effect: \"{}\", on: \"*\")", effect.id()),
+                false => format!("(effect: \"{}\")", effect.id()),
+            },
+        );
     let layers = layers.collect::<Vec<_>>().join(", ");
     let small = format!("(version: 1, layers: [{layers}])");
     let small = Preset::parse("small.ron", &small, &registry).unwrap_or_else(|e| panic!("{e}"));

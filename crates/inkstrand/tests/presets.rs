@@ -5,7 +5,7 @@ use effects::preset::{LAYER, Reader, may_say};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
-use stage::{MeshSection, ObjectSection, PassSection, Preset, Sections};
+use stage::{LineSection, MeshSection, ObjectSection, PassSection, Preset, Sections};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -56,6 +56,8 @@ fn everything(registry: &Registry) -> String {
     }
     let mesh = list(MeshSection::TABLE, "            ");
     let _ = writeln!(text, "    meshes: [\n        (\n{mesh}        ),\n    ],");
+    let lines = list(LineSection::TABLE, "            ").replace("kind: \"x\"", "kind: \"crease\"");
+    let _ = writeln!(text, "    lines: [\n        (\n{lines}        ),\n    ],");
     let pass = list(PassSection::TABLE, "            ");
     let _ = writeln!(text, "    passes: [\n        (\n{pass}        ),\n    ],");
     text += "    layers: [\n";
@@ -139,6 +141,13 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
             for mesh in reader.list(field.value, "meshes") {
                 for inner in reader.fields(mesh, "a mesh") {
                     add(inner.name, inner.value, MeshSection::TABLE);
+                }
+            }
+        }
+        if field.name == "lines" {
+            for lines in reader.list(field.value, "lines") {
+                for inner in reader.fields(lines, "lines") {
+                    add(inner.name, inner.value, LineSection::TABLE);
                 }
             }
         }

@@ -122,6 +122,9 @@ pub struct Frame<'a> {
     /// Where the hair of each joint of `paths` is at rest, head heights from its head's centre, in the head's axes: x to its left, y up, z to
     /// the face; empty where neither a clump nor a layer reads it.
     pub rest_positions: &'a [Vec3],
+    /// How far each joint of `paths` is from the first and the last one of its strand, as [`from_ends`] says it; empty where neither a clump nor
+    /// a layer reads it.
+    pub from_ends: &'a [Vec2],
     /// The heads' surfaces on the screen.
     pub surfaces: Vec<Surface>,
     /// Layers that paint surfaces, which name them by their places here ([`Surface::paint`]).
@@ -180,7 +183,10 @@ pub fn reach_of(layer: &Layer, brush: Brush) -> Reach {
     }
 }
 
-/// Hair on a head, and how it is drawn.
+/// The bias of lines on surfaces, what hides them being left out beforehand: no surface is before them, metres.
+pub const ON_SURFACES: f32 = 1e9;
+
+/// Hair on a head, or lines on a surface, and how they are drawn.
 #[derive(Clone)]
 pub struct Object<'a> {
     /// Its joints of the frame's paths: those of its strands, then those of paths that its effects made. They are whole runs, and
@@ -191,6 +197,9 @@ pub struct Object<'a> {
     /// A ball within the head, so that a surface of the frame covers each sight through it: strokes behind it aren't worked out.
     /// None where no such ball is known.
     pub solid: Option<Ball>,
+    /// How much nearer its strands count against surfaces than they are, metres, beside their clumps' radii: 0 of hair, [`ON_SURFACES`] of lines
+    /// that lie on surfaces.
+    pub surface_bias_m: f32,
     /// Its preset's clump section.
     pub clump: &'a Varied<clump::Program>,
     /// Seed of its style's variations.
@@ -207,6 +216,22 @@ impl Object<'_> {
     pub(crate) fn inputs(&self) -> InputSet {
         let layers = self.layers.iter().map(|layer| layer.program.inputs());
         layers.fold(self.clump.inputs(), InputSet::union)
+    }
+}
+
+/// For each joint how far it is from the first and to the last joint of its strand as they are seen, metres at its depth, in place of what
+/// was there. Where the near plane cuts a strand in two, each part has its own ends.
+pub fn from_ends(paths: &Paths, ends: &mut Vec<Vec2>) {
+    let mut lengths = Vec::new();
+    seen_lengths(paths, &mut lengths);
+    ends.clear();
+    ends.extend(lengths.iter().map(|&length| Vec2::new(length, 0.0)));
+    for whole in paths.runs.chunk_by(|_, next| next.overlap > 0) {
+        let joints = whole[0].joints.start..whole[whole.len() - 1].joints.end;
+        let length = lengths[joints.end - 1];
+        for end in &mut ends[joints] {
+            end.y = (length - end.x).max(0.0);
+        }
     }
 }
 

@@ -80,6 +80,9 @@ pub enum StageError {
         /// What is wrong.
         message: String,
     },
+    /// Lines of meshes can't be found.
+    #[error("lines: {0}")]
+    Lines(String),
     /// A file has no mesh and no bone of a name that the preset says of its hair.
     #[error("{}: no mesh, material or spring bone is called `{name}`{hint}", .path.display())]
     NoMeshOrBone {

@@ -4,20 +4,22 @@ use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::head::{self, layers::MeshLayers};
 use crate::levels::levels;
-use crate::look::Look;
+use crate::lines::{HeadLines, LineStrand};
+use crate::look::{LineSet, Look};
 use crate::material::Material;
 use crate::motion::{Motion, ObjectMotion};
 use crate::neck::{PosedHead, rigid};
 use crate::object::{Object, PathShape};
+use crate::placement::Placement;
 use crate::reach::Sight;
 use crate::scene::Scene;
 use crate::script::HeadPose;
 use crate::zones;
 use effects::wgsl::hash;
-use effects::{HairStrand, Layer, MadePaths, layer_seed};
+use effects::{HairStrand, Input, Layer, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
-use render::{Ball, Frame, Light, MeshLayer, StrandInfo, Surface};
+use render::{Ball, Frame, Light, MeshLayer, NO_COLOR, NO_TAPER, StrandInfo, Surface};
 use std::ops::Range;
 use std::sync::Arc;
 use stroke_path::{Camera, Detail, PathError, PathKind, Paths};
@@ -37,6 +39,8 @@ pub struct FrameMaker {
     normals: Vec<Vec3>,
     /// Where the joints' hair is at rest; empty where nothing reads it.
     rest_positions: Vec<Vec3>,
+    /// How far joints are from the ends of their strands; empty where nothing reads it.
+    from_ends: Vec<Vec2>,
     objects: Vec<ObjectFrame>,
     camera: Option<Camera>,
     /// Look and time (seconds) of the last frame.
@@ -76,6 +80,10 @@ struct ObjectFrame {
     head: Option<PosedHead>,
     /// What hides hair, in the world.
     solid: Option<Ball>,
+    /// The lines of its head; made where they are first drawn.
+    lines: Option<HeadLines>,
+    /// For each list of its look's lines their joints, and for each of their layers once more.
+    line_joints: Vec<(Range<usize>, Vec<Range<usize>>)>,
 }
 
 /// A path that a layer makes of the hair at rest.
@@ -125,6 +133,7 @@ impl FrameMaker {
             paths,
             normals,
             rest_positions,
+            from_ends,
             objects,
             ..
         } = self;
@@ -133,10 +142,14 @@ impl FrameMaker {
         normals.clear();
         rest_positions.clear();
         objects.truncate(scene.objects().len());
-        let reads_material = |object: &Object| object.look().reads_material();
-        let reads_material = scene.objects().iter().any(reads_material);
-        let reads_rest = |object: &Object| object.look().reads_rest();
-        let reads_rest = scene.objects().iter().any(reads_rest);
+        let mut looks = scene.objects().iter().map(Object::look);
+        let reads_material = looks
+            .clone()
+            .any(|look| look.reads_material() || look.lines_read(Input::MaterialNormal));
+        let reads_rest = looks
+            .clone()
+            .any(|look| look.reads_rest() || look.lines_read(Input::RestPosition));
+        let reads_ends = looks.any(Look::reads_ends);
         let light = scene.look().light(&camera, motion.head(scene));
         let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
@@ -173,6 +186,21 @@ impl FrameMaker {
                 seed: look.seed,
             }));
         }
+        for (index, object) in scene.objects().iter().enumerate() {
+            let motion = motion.of(index, object);
+            let own_camera = object.placement().own_camera(&camera);
+            let sight = Sight::new(&own_camera, object, section.detail, shows_all);
+            let mut joints = LineJoints {
+                normals: reads_material.then_some(&mut *normals),
+                rest_positions: reads_rest.then_some(&mut *rest_positions),
+            };
+            objects[index].push_lines(motion, &sight, strands, paths, &mut joints)?;
+        }
+        if reads_ends {
+            render::from_ends(paths, from_ends);
+        } else {
+            from_ends.clear();
+        }
         let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
             let look = object.look();
             render::Object {
@@ -181,23 +209,49 @@ impl FrameMaker {
                     .placement()
                     .head(motion.of(index, object).head(object)),
                 solid: frame.solid,
+                surface_bias_m: 0.0,
                 clump: &look.clump,
                 seed: look.seed,
                 layers: &look.layers,
                 layer_joints: &frame.layer_joints,
             }
         };
+        // Behind all hair, as their joints are.
+        let lines_of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
+            let look = object.look();
+            let head = object
+                .placement()
+                .head(motion.of(index, object).head(object));
+            let of_list = move |(set, (joints, layer_joints)): (
+                &'a LineSet,
+                &'a (Range<usize>, Vec<Range<usize>>),
+            )| {
+                render::Object {
+                    joints: joints.clone(),
+                    head,
+                    solid: None,
+                    surface_bias_m: render::ON_SURFACES,
+                    clump: &look.line_clump,
+                    seed: look.seed,
+                    layers: &set.layers,
+                    layer_joints,
+                }
+            };
+            look.lines.iter().zip(&frame.line_joints).map(of_list)
+        };
         self.of = Some((scene.shared_look().clone(), motion.time_s()));
-        let objects = self.objects.iter().zip(scene.objects()).enumerate();
+        let all = || self.objects.iter().zip(scene.objects()).enumerate();
+        let objects = all().map(of_frame).chain(all().flat_map(lines_of_frame));
         Ok(Frame {
             camera: self.camera.insert(camera),
             paths: &self.paths,
             strands: &self.strands,
-            objects: objects.map(of_frame).collect(),
+            objects: objects.collect(),
             light,
             time_s: motion.time_s(),
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
+            from_ends: &self.from_ends,
             surfaces,
             mesh_layers,
             background: section.background,
@@ -308,6 +362,8 @@ impl ObjectFrame {
             material: reads_material.then(Material::default),
             head: None,
             solid: None,
+            lines: None,
+            line_joints: Vec::new(),
         }
     }
 
@@ -319,6 +375,11 @@ impl ObjectFrame {
         if !self.of.has_hair_and_head_of(object) {
             self.material = None;
             self.head = None;
+        }
+        if !self.of.has_hair_and_head_of(object)
+            || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
+        {
+            self.lines = None;
         }
         if !self.of.has_hair_and_head_of(object)
             || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
@@ -590,6 +651,73 @@ impl ObjectFrame {
         }
     }
 
+    /// Appends what is seen of the lines of the head, list after list, and notes which joints each has.
+    fn push_lines(
+        &mut self,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        strands: &mut Vec<StrandInfo>,
+        paths: &mut Paths,
+        joints: &mut LineJoints,
+    ) -> Result<(), StageError> {
+        self.line_joints.clear();
+        let sets = &self.of.look().lines;
+        if sets.is_empty() {
+            return Ok(());
+        }
+        let start = paths.len();
+        let none = |set: &LineSet| (start..start, vec![start..start; set.layers.len()]);
+        let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
+            self.line_joints.extend(sets.iter().map(none));
+            return Ok(());
+        };
+        let rest_head = self.of.hair().head;
+        let lines = match &mut self.lines {
+            Some(lines) => lines,
+            lines => lines.insert(HeadLines::new(neck, sets, rest_head)?),
+        };
+        let model = posed.in_pose(neck, motion.pose());
+        let (look, placement) = (self.of.look(), self.of.placement());
+        let found = lines.find(model, sets, sight.camera(), rest_head.unit_m())?;
+        for (set, found) in sets.iter().zip(found) {
+            let start = paths.len();
+            let name = set.section.name.as_deref().unwrap_or_default();
+            let id = layer_seed(look.seed, name);
+            for strand in found
+                .iter()
+                .filter(|strand| sight.may_see(&strand.points, 0.0))
+            {
+                let mean = strand.points.iter().sum::<Vec3>() / strand.points.len() as f32;
+                let first = paths.len();
+                let kind = PathKind::Linear { subdivision: 1 };
+                paths.push_pieces(
+                    strands.len(),
+                    &strand.points,
+                    &[],
+                    None,
+                    kind,
+                    sight.camera(),
+                )?;
+                joints.push(strand, &paths.u[first..], placement);
+                strands.push(StrandInfo {
+                    id,
+                    mean: placement.point(mean),
+                    size: 0.0,
+                    taper: NO_TAPER,
+                    colors: [NO_COLOR; 2],
+                    level: 0,
+                    lift: 0.0,
+                    left_out_by: 0,
+                });
+            }
+            let own = start..paths.len();
+            placement.joints(paths, own.clone(), &mut []);
+            let of_layers = vec![own.clone(); set.layers.len()];
+            self.line_joints.push((own, of_layers));
+        }
+        Ok(())
+    }
+
     /// The head's surfaces on the screen; none where nothing of the head can be seen.
     fn surfaces(
         &mut self,
@@ -634,6 +762,33 @@ impl ObjectFrame {
             }
         }
         surfaces
+    }
+}
+
+/// Where what joints of lines are told goes to.
+struct LineJoints<'a> {
+    normals: Option<&'a mut Vec<Vec3>>,
+    rest_positions: Option<&'a mut Vec<Vec3>>,
+}
+
+impl LineJoints<'_> {
+    /// Appends that of a strand's joints, which lie at these places along it.
+    fn push(&mut self, strand: &LineStrand, u: &[f32], placement: Placement) {
+        let between = |list: &[Vec3], u: f32| {
+            let place = u * (list.len() - 1) as f32;
+            let before = (place as usize).min(list.len() - 1);
+            let after = (before + 1).min(list.len() - 1);
+            list[before].lerp(list[after], place - before as f32)
+        };
+        if let Some(normals) = &mut self.normals {
+            let first = normals.len();
+            let normal = |u: &f32| between(&strand.normals, *u).normalize_or(Vec3::Y);
+            normals.extend(u.iter().map(normal));
+            placement.turn(&mut normals[first..]);
+        }
+        if let Some(positions) = &mut self.rest_positions {
+            positions.extend(u.iter().map(|u| between(&strand.rest, *u)));
+        }
     }
 }
 

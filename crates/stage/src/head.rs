@@ -93,7 +93,7 @@ impl HeadModel {
     }
 
     /// Whether its own file's colours are in place of the preset's.
-    fn is_painted(&self) -> bool {
+    pub(crate) fn is_painted(&self) -> bool {
         self.painted.iter().any(|mesh| mesh.section.is_none())
     }
 

@@ -11,6 +11,7 @@ mod hair;
 mod hand;
 mod head;
 mod levels;
+mod lines;
 mod load;
 mod look;
 mod material;
@@ -54,9 +55,10 @@ pub use part::FilePart;
 pub use preset::{
     AlphaChoice, BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
     ExpressionChoice, EyesChoice, FixedTo, HairFrom, HairSection, HeadColors, HeadSection,
-    HeadShape, HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
-    NamedObject, ObjectSection, OrderChoice, PASSES, PassSection, PathChoice, PathSection, Preset,
-    SceneSection, Sections, TopSection, UpAxis, VERSION,
+    HeadShape, HeldChoice, LINES, LightKind, LightSection, LineSection, MESHES, MeshSection,
+    MotionSection, NamedLines, NamedMesh, NamedObject, ObjectSection, OrderChoice, PASSES,
+    PassSection, PathChoice, PathSection, Preset, SceneSection, Sections, TopSection, UpAxis,
+    VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;

@@ -79,6 +79,11 @@ impl Neck {
 }
 
 impl Neck {
+    /// The head at rest.
+    pub fn rest(&self) -> &HeadModel {
+        &self.rest
+    }
+
     /// The ball that all of the head stays in, in this pose: its middle and its radius, metres.
     pub fn ball(&self, pose: HeadPose) -> (Vec3, f32) {
         let shift_m = pose.shift.length() as f32 * self.height_m;

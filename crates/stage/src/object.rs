@@ -4,6 +4,7 @@ use crate::bake;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::{self, HeadModel};
+use crate::lines;
 use crate::load;
 use crate::look::Look;
 use crate::neck::Neck;
@@ -73,6 +74,8 @@ impl Object {
         zones::check(&preset.layers, &hair, files.hair.is_some(), notes)?;
         let (wears_ties, is_given) = (!hair.ornaments.is_empty(), files.head.is_some());
         head::layers::check(&preset.layers, head.as_ref(), wears_ties, is_given, notes)?;
+        let (listed, layers) = (&preset.lines, &preset.layers);
+        lines::check(listed, layers, head.as_ref(), wears_ties, is_given, notes)?;
         Self::of(hair, head, look, script)
     }
 

@@ -44,7 +44,8 @@ impl Sight {
     pub fn new(camera: &Camera, object: &Object, detail: f32, shows_all: bool) -> Self {
         let (look, unit_m) = (object.look(), object.hair().head.unit_m());
         let (mut clumps, mut units, mut pixels) = (CLUMP_REACH.clumps, 0.0_f32, 0.0_f32);
-        for layer in &look.layers {
+        let of_lines = look.lines.iter().flat_map(|set| &set.layers);
+        for layer in look.layers.iter().chain(of_lines) {
             let reach = reach_of(layer, look.brush());
             clumps = clumps.max(reach.clumps);
             match layer.units {

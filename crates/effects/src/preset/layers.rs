@@ -28,7 +28,7 @@ section! {
         /// The zones of the hair's style that it draws on: their names with commas between them, `*` for any end, such as "fringe, tail*".
         /// Without it all hair.
         zones: Option<String> = text(),
-        /// Of effects for meshes: what is painted, names of meshes or of their materials with commas between them, `*` for any end, such as "Face*,
+        /// Of effects for lines: which of the preset's `lines`, by their names. Of effects for meshes: what is painted, names of meshes or of their materials with commas between them, `*` for any end, such as "Face*,
         /// Body". Of the head that comes with inkstrand: skin, dress, eyes, brows, mouth, blush; of the hair: ties.
         on: Option<String> = text(),
         /// Of effects for meshes: how much of it is seen through hair that hangs before it: 0 nothing, 1 as if there were no hair.
@@ -74,7 +74,7 @@ pub struct LayerSpec<'r> {
     pub zones: Option<String>,
     /// Where the file says them.
     pub zones_place: Option<Place>,
-    /// The meshes that it paints, of an effect for meshes.
+    /// The meshes that it paints, of an effect for meshes; the lines that it draws, of one for lines.
     pub on: Option<String>,
     /// Where the file says them.
     pub on_place: Option<Place>,
@@ -257,11 +257,7 @@ impl<'a> Reader<'a> {
             }
         }
         let says_on = layer.on.is_some() || own.iter().any(|field| field.name == "on");
-        if effect.is_for_meshes() && !says_on {
-            let id = effect.id();
-            let message = format!(
-                "`{id}` paints meshes, and the layer doesn't say which: on: \"skin, dress\", the names of a file's meshes, or \"*\" for all"
-            );
+        if !says_on && let Some(message) = needs_on(effect) {
             self.error(item, message);
         }
         let on = own.iter().find(|field| field.name == "on");
@@ -368,20 +364,40 @@ pub fn may_say(effect: &dyn AnyEffect, field: &str) -> bool {
     misfit(effect, field).is_none()
 }
 
+/// What is missing in a layer of this effect that doesn't say what it is on, if it must.
+fn needs_on(effect: &dyn AnyEffect) -> Option<String> {
+    let id = effect.id();
+    if effect.is_for_meshes() {
+        return Some(format!(
+            "`{id}` paints meshes, and the layer doesn't say which: on: \"skin, dress\", the names of a file's meshes, or \"*\" for all"
+        ));
+    }
+    effect.is_for_lines().then(|| {
+        format!(
+            "`{id}` draws lines, and the layer doesn't say which: on: \"rim\", a name of the preset's lines: [(name: \"rim\", of: \"skin, dress\")]"
+        )
+    })
+}
+
 /// Why a layer of this effect can't say that.
 fn misfit(effect: &dyn AnyEffect, param: &str) -> Option<String> {
     let id = effect.id();
     let of_strokes = ["rank", "depth_offset", "units", "zones"];
-    let of_meshes = ["on", "through_hair"];
+    let of_surfaces = ["on", "through_hair"];
+    let not_of_lines = ["zones", "through_hair"];
     if effect.params().iter().any(|own| own.name == param) {
         return None;
+    }
+    if effect.is_for_lines() {
+        let message = || format!("`{param}` is not of lines, which `{id}` draws");
+        return not_of_lines.contains(&param).then(message);
     }
     match effect.is_for_meshes() {
         true if of_strokes.contains(&param) => {
             Some(format!("`{param}` is of strokes, and `{id}` paints meshes"))
         }
-        false if of_meshes.contains(&param) => Some(format!(
-            "`{param}` is of effects for meshes, such as `mesh.toon`; `{id}` draws strokes"
+        false if of_surfaces.contains(&param) => Some(format!(
+            "`{param}` is of effects for meshes, such as `mesh.toon`; `{id}` draws strokes of hair"
         )),
         _ => None,
     }

@@ -156,6 +156,24 @@ pub enum FrameError {
         /// How many joints the paths have.
         joints: usize,
     },
+    /// The list is shorter or longer than the paths.
+    #[error(
+        "there are {ends} distances from ends for {joints} joints: one pair is needed for each, or none where nothing reads them"
+    )]
+    FromEnds {
+        /// How many there are.
+        ends: usize,
+        /// How many joints the paths have.
+        joints: usize,
+    },
+    /// What its strands count nearer by is no length.
+    #[error("object {object}: surface_bias_m is {bias_m}, no number of metres from 0 on")]
+    SurfaceBias {
+        /// Index of the object.
+        object: usize,
+        /// What it is.
+        bias_m: f32,
+    },
     /// A layer for meshes doesn't paint, its head is nowhere or without height, or it is seen through hair by no share from 0 to 1.
     #[error(
         "mesh layer {index}, \"{layer}\": its effect must paint, its head be somewhere and have a height, and through_hair lie in 0 to 1"
@@ -217,6 +235,11 @@ impl Frame<'_> {
         let reads_rest = |object: &Object| object.inputs().has(Input::RestPosition);
         if positions != joints && (positions > 0 || self.objects.iter().any(reads_rest)) {
             return Err(FrameError::RestPositions { positions, joints });
+        }
+        let ends = self.from_ends.len();
+        let reads_ends = |object: &Object| object.inputs().has(Input::FromEnds);
+        if ends != joints && (ends > 0 || self.objects.iter().any(reads_ends)) {
+            return Err(FrameError::FromEnds { ends, joints });
         }
         Ok(())
     }
@@ -335,6 +358,11 @@ impl Frame<'_> {
                 object: index,
                 height_m: head.height_m,
             });
+        }
+        let bias_m = object.surface_bias_m;
+        if !(bias_m.is_finite() && bias_m >= 0.0) {
+            let object = index;
+            return Err(FrameError::SurfaceBias { object, bias_m });
         }
         if object.layers.len() != object.layer_joints.len() {
             return Err(FrameError::Layers {

@@ -40,7 +40,7 @@ const EDGES: &str = include_str!("../../../../shaders/gpu/edges.wgsl");
 const MEAN: &str = include_str!("../../../../shaders/gpu/mean.wgsl");
 
 /// Words before the parameters of a layer or a clump: `shaders/gpu/joint.wgsl` names them.
-pub(super) const LAYER_WORDS: u32 = 15;
+pub(super) const LAYER_WORDS: u32 = 16;
 /// Of them the one that says where what paints a layer begins.
 pub(super) const PAINT_WORD: usize = 13;
 

@@ -225,7 +225,7 @@ impl SceneWords {
             let (seed, joints) = (layer_seed(object.seed, "clump"), &object.joints);
             let [first, count] = [joints.start, joints.len()].map(|number| number as u32);
             scene.words.extend([seed, 0, first, count, 0, 0, 0, 0]);
-            push_head(&mut scene.words, object.head, 0);
+            push_head(&mut scene.words, object.head, 0, object.surface_bias_m);
             scene.words.extend(object.clump.source().words);
         }
     }
@@ -266,7 +266,8 @@ impl SceneWords {
                 u32::from(layer.units == Units::Pixels),
                 u32::from(layer.program.has_own_paths()),
             ]);
-            push_head(&mut scene.words, object.head, layer_bit(of_object));
+            let bit = layer_bit(of_object);
+            push_head(&mut scene.words, object.head, bit, object.surface_bias_m);
             let source = layer.program.source();
             scene.words.extend(source.words);
             if let Some(paint) = source.paint {
@@ -434,7 +435,7 @@ impl SceneWords {
             let (number, through) = (number as u32 + 1, painted.through_hair.to_bits());
             let focal = frame.camera.focal_px().to_bits();
             let mut words = vec![painted.seed, number, through, focal, 0, 0, 0, 0];
-            push_head(&mut words, mesh.head, 0);
+            push_head(&mut words, mesh.head, 0, 0.0);
             let source = mesh.layer.program.source();
             words.extend(source.words);
             if let Some(paint) = source.paint {
@@ -482,10 +483,10 @@ impl SceneWords {
 }
 
 /// What `shaders/gpu/joint.wgsl` knows of an object's head, behind the words of a layer.
-fn push_head(words: &mut Vec<u32>, head: Head, layer_bit: u32) {
+fn push_head(words: &mut Vec<u32>, head: Head, layer_bit: u32, surface_bias_m: f32) {
     let [x, y, z] = head.center.to_array();
     words.extend([x, y, z, head.height_m, head.unit_m()].map(f32::to_bits));
-    words.extend([0, layer_bit]);
+    words.extend([0, layer_bit, surface_bias_m.to_bits()]);
     debug_assert_eq!(words.len(), LAYER_WORDS as usize);
 }
 

@@ -24,6 +24,7 @@ pub struct Scene {
     pub second: Option<Second>,
     pub material_normals: Vec<Vec3>,
     pub rest_positions: Vec<Vec3>,
+    pub from_ends: Vec<Vec2>,
     pub surfaces: Vec<Surface>,
     pub mesh_layers: Vec<Layer>,
     pub light: Light,
@@ -209,6 +210,7 @@ impl Scene {
                 .map(|f| f.any_orthonormal_vector())
                 .collect(),
             rest_positions: paths.position.iter().map(|p| *p / 0.24).collect(),
+            from_ends: ends_of(&paths),
             camera,
             strands,
             clump: Varied::new(&values),
@@ -278,6 +280,7 @@ impl Scene {
         self.layer_joints.fill(whole);
         self.material_normals.resize(paths.len(), Vec3::Y);
         self.rest_positions.resize(paths.len(), Vec3::ZERO);
+        self.from_ends = ends_of(&paths);
         self.paths = paths;
     }
 
@@ -293,6 +296,7 @@ impl Scene {
                 .map_or(self.paths.len(), |second| second.joints.start),
             head,
             solid: None,
+            surface_bias_m: 0.0,
             clump: &self.clump,
             seed: self.seed,
             layers: &self.layers,
@@ -302,6 +306,8 @@ impl Scene {
             joints: second.joints.clone(),
             head: second.head,
             seed: self.seed + 1,
+            // Every other pair's second object are lines on surfaces.
+            surface_bias_m: render::ON_SURFACES * (self.seed % 2) as f32,
             layer_joints: &second.layer_joints,
             ..first.clone()
         });
@@ -314,6 +320,7 @@ impl Scene {
             time_s: 0.3,
             material_normals: &self.material_normals,
             rest_positions: &self.rest_positions,
+            from_ends: &self.from_ends,
             surfaces: self.surfaces.clone(),
             mesh_layers: self
                 .mesh_layers
@@ -360,4 +367,10 @@ pub fn driver() -> Option<Offscreen> {
 pub fn driver_gpu() -> Option<Gpu> {
     driver()?;
     Gpu::open(AdapterKind::Any).ok()
+}
+
+fn ends_of(paths: &Paths) -> Vec<Vec2> {
+    let mut ends = Vec::new();
+    render::from_ends(paths, &mut ends);
+    ends
 }

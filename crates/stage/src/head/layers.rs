@@ -8,9 +8,9 @@ use effects::preset::{LayerSpec, PresetError, PresetErrors, suggestion};
 use groom::FacePart;
 
 /// What of heads has a name without a file: the skin in the preset's colours, the clothes of figures, what hair wears.
-pub(super) const SKIN: &str = "skin";
-pub(super) const DRESS: &str = "dress";
-pub(super) const TIES: &str = "ties";
+pub(crate) const SKIN: &str = "skin";
+pub(crate) const DRESS: &str = "dress";
+pub(crate) const TIES: &str = "ties";
 
 /// The name of a drawn face's part.
 pub(super) fn name_of(part: FacePart) -> &'static str {

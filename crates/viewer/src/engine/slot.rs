@@ -43,6 +43,8 @@ struct From {
     meshes: Vec<([Option<String>; 4], AlphaChoice)>,
     /// Those that layers name, which must be the hair's.
     zones: Vec<String>,
+    /// The names of lines and of what they are of, and those that layers draw.
+    lines: Vec<[Option<String>; 2]>,
     texts: Vec<(PathBuf, Arc<str>)>,
     files: Vec<(PathBuf, Option<(u64, SystemTime)>)>,
 }
@@ -232,6 +234,14 @@ impl From {
                 .collect(),
             zones: (preset.layers.iter())
                 .filter_map(|layer| layer.zones.clone())
+                .collect(),
+            lines: (preset.lines.iter())
+                .map(|lines| [&lines.section.name, &lines.section.of].map(Option::clone))
+                .chain(
+                    (preset.layers.iter())
+                        .filter(|layer| layer.effect.is_for_lines())
+                        .map(|layer| [None, layer.on.clone()]),
+                )
                 .collect(),
             texts: (look.texts.iter())
                 .filter(|(path, _)| named.contains(path))

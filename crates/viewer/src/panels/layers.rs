@@ -421,6 +421,8 @@ fn new_layer(effect: &dyn AnyEffect, names: &BTreeSet<String>) -> String {
     }
     if effect.is_for_meshes() {
         text += ", on: \"*\"";
+    } else if effect.is_for_lines() {
+        text += ", on: \"rim\"";
     }
     text + ")"
 }

@@ -4,7 +4,7 @@ use crate::pane::{Kind, Pane, names, open_all};
 use effects::Param;
 use effects::preset::{LAYER, may_say};
 use egui_kittest::Harness;
-use stage::{MESHES, MOTION_PARTS, ObjectSection, PASSES, Preset, STYLE_PARTS, Sections};
+use stage::{LINES, MESHES, MOTION_PARTS, ObjectSection, PASSES, Preset, STYLE_PARTS, Sections};
 use std::path::{Path, PathBuf};
 
 fn presets() -> PathBuf {
@@ -47,6 +47,9 @@ fn every_section_is_there() {
     let meshes = "(version: 1, layers: [], meshes: [(file: \"eyes.obj\")])";
     let names_of_meshes = names(&opened(Kind::Look, meshes, 300.0));
     has_all(&names_of_meshes, "mesh 1: eyes.obj", MESHES.table, &[]);
+    let lines = "(version: 1, layers: [], lines: [(name: \"rim\")])";
+    let names_of_lines = names(&opened(Kind::Look, lines, 300.0));
+    has_all(&names_of_lines, "lines 1: rim", LINES.table, &[]);
     let objects = "(version: 1, objects: [(preset: \"a.ron\"), (preset: \"b.ron\")])";
     let harness = opened(Kind::Look, objects, 300.0);
     let names = names(&harness);
