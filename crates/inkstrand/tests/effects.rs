@@ -15,6 +15,7 @@ fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_cartoon::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
     registry
 }
 
@@ -177,7 +178,7 @@ fn the_schema_is_the_tables() {
     let schema = schema(&[]);
     assert_eq!(schema["version"], stage::VERSION);
     let sections = schema["sections"].as_array().unwrap();
-    assert_eq!(sections.len(), Sections::ALL.len() + 5);
+    assert_eq!(sections.len(), Sections::ALL.len() + 6);
     assert_eq!(sections[0]["id"], "preset");
     assert_is_table(&sections[0], Preset::TOP);
     for (section, (name, doc, table)) in sections[1..].iter().zip(Sections::ALL) {
@@ -264,6 +265,7 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
             "preset" => text += &format!("{fields}, "),
             "layers" => layer_fields = fields,
             "meshes" => text += &format!("meshes: [(file: \"eyes.obj\", {fields})], "),
+            "lines" => text += &format!("lines: [(name: \"rim\", {fields})], "),
             "passes" => text += &format!("passes: [({fields})], "),
             // In place of most sections.
             "objects" => {}
@@ -308,6 +310,11 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
         ..MeshSection::default()
     };
     assert_eq!(preset.meshes[0].section, mesh);
+    let lines = LineSection {
+        name: Some("rim".to_owned()),
+        ..LineSection::default()
+    };
+    assert_eq!(preset.lines[0].section, lines);
     let (mut all, mut none) = (preset.sections.clone(), small.sections.clone());
     for (name, ..) in Sections::ALL {
         let [all, none] = [&mut all, &mut none].map(|sections| sections.by_name(name).unwrap());

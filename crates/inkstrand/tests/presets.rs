@@ -14,6 +14,7 @@ fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_cartoon::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
     registry
 }
 
@@ -356,9 +357,9 @@ fn every_wrong_value_is_an_error_at_its_line() {
                     && name != "effect"
                     || place.kind.is_none()
                         && value == "()"
-                        && !["layers", "meshes", "passes", "objects"].contains(&name)
+                        && !["layers", "meshes", "lines", "passes", "objects"].contains(&name)
                     || place.kind.is_none()
-                        && ["layers", "meshes", "passes"].contains(&name)
+                        && ["layers", "meshes", "lines", "passes"].contains(&name)
                         && value == "[]";
                 match Preset::parse("look.ron", &spoilt, &registry) {
                     Ok(_) => assert!(legal, "{} is accepted", what()),
@@ -366,6 +367,7 @@ fn every_wrong_value_is_an_error_at_its_line() {
                     // one of two things moves a head.
                     Err(errors) if legal => assert!(
                         name == "name" && errors.to_string().contains("already a layer")
+                            || name == "kind" && errors.to_string().contains("lines of the kind")
                             || name == "character"
                                 && errors.to_string().contains("both move the head")
                             || name == "substeps" && errors.to_string().contains("solver: rods"),

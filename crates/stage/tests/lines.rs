@@ -38,12 +38,10 @@ fn ball(rows: usize, columns: usize) -> String {
     for row in 0..=rows {
         for column in 0..columns {
             let down = std::f32::consts::PI * row as f32 / rows as f32;
+            // At both poles all is one point.
+            let width = if row % rows == 0 { 0.0 } else { down.sin() };
             let around = std::f32::consts::TAU * column as f32 / columns as f32;
-            let way = Vec3::new(
-                down.sin() * around.sin(),
-                down.cos(),
-                down.sin() * around.cos(),
-            );
+            let way = Vec3::new(width * around.sin(), down.cos(), width * around.cos());
             let Vec3 { x, y, z } = BALL + RADIUS_M * way;
             let _ = writeln!(text, "v {x} {y} {z}");
         }
@@ -71,10 +69,10 @@ fn cube() -> String {
 
 fn text(hair: &str, lines: &str, layers: &str) -> String {
     format!(
-        "(version: 1, hair: (file: \"{hair}.strands.ron\"), head: (width: 0, light: \"FFFFFF\", shadow: \"FFFFFF\"),\n \
+        "(version: 1, hair: (file: \"{hair}.strands.ron\"), head: (shape: bust, width: 0, light: \"FFFFFF\", shadow: \"FFFFFF\"),\n \
          meshes: [(file: \"ball.obj\"), (file: \"box.obj\")],\n \
          scene: (size: (240, 240), samples: 4, background: \"FFFFFF\"), clump: (size: 0.5, color: \"C04020\"),\n \
-         camera: (distance: 3), light: (yaw: 0, pitch: 10),\n lines: [{lines}],\n layers: [(effect: \"hair.base\"), {layers}])"
+         camera: (distance: 6), light: (yaw: 0, pitch: 10),\n lines: [{lines}],\n layers: [(effect: \"hair.base\"), {layers}])"
     )
 }
 
@@ -248,15 +246,15 @@ fn mistakes_are_told_at_their_places() {
         (
             "(name: \"rim\", of: \"bal\")",
             INK,
-            "look.ron:5:26: of: there is no mesh `bal` that has lines",
+            "look.ron:5:28: of: there is no mesh `bal` that has lines",
         ),
         ("(name: \"rim\", of: \"bal\")", INK, "did you mean `ball`"),
         (
             "(name: \"rim\", kind: \"contur\")",
             INK,
-            "look.ron:5:28: kind: there are no lines of the kind `contur`, did you mean `contour`",
+            "look.ron:5:30: kind: there are no lines of the kind `contur`, did you mean `contour`",
         ),
-        ("(of: \"ball\")", "", "look.ron:5:9: lines need `name:"),
+        ("(of: \"ball\")", "", "look.ron:5:10: lines need `name:"),
         (
             "(name: \"rim\"), (name: \"rim\")",
             INK,
@@ -266,7 +264,7 @@ fn mistakes_are_told_at_their_places() {
         (
             rim,
             "(effect: \"line.ink\", on: \"rin\")",
-            "look.ron:6:58: on: the preset has no lines called `rin`, did you mean `rim`",
+            "look.ron:6:59: on: the preset has no lines called `rin`, did you mean `rim`",
         ),
         (
             rim,

@@ -63,6 +63,7 @@ pub const ALL_EFFECTS: &str = "[
     (effect: \"hair.highlight\", params: (kind: ring, exponent: 2, threshold: 0.2, full: 0.5)),
     (effect: \"hair.band\", params: (place: 0.1, thickness: 0.8, slide: 0.4, shade: -0.5, rim: 2)),
     (effect: \"hair.ink\", params: (gaps: 0.3, shadow_color: \"8090A0\")),
+    (effect: \"line.ink\", on: \"rim\", params: (width: 4, light_color: \"8090A0\")),
     (effect: \"hair.fine\", params: (per_strand: 1)),
 ]";
 
@@ -70,6 +71,7 @@ pub fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_cartoon::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
     registry
 }
 

@@ -153,7 +153,7 @@ impl LineSection {
         if let Some(unknown) = names.iter().find(|name| !all.contains(name)) {
             let hint = suggestion(unknown, all.into_iter());
             return Err(format!(
-                "kind: there are no lines of the kind `{unknown:.40}`{hint}; there are contour, crease and border"
+                "kind: there are no lines of the kind `{unknown:.40}`{hint}"
             ));
         }
         if names.is_empty() {

@@ -157,7 +157,7 @@ pub fn section(
     if name == PRESET {
         let sections = Sections::ALL.iter().map(|(name, ..)| *name);
         let others: Vec<&str> = sections
-            .chain(["layers", "meshes", "passes", "objects"])
+            .chain(["layers", "meshes", "lines", "passes", "objects"])
             .collect();
         form = form.without(&others).needed(&["version"]);
     }
