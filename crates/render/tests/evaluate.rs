@@ -110,6 +110,7 @@ fn drawing_of(
         rest_positions: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
+        decals: Vec::new(),
         background: None,
         order: Order::Rounded,
         edge_depth_m: 0.005,

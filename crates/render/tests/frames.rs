@@ -100,6 +100,7 @@ impl Scene {
             rest_positions: &self.rest_positions,
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
+            decals: Vec::new(),
             background: None,
             order: Order::Rounded,
             edge_depth_m: 0.005,

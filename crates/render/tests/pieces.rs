@@ -106,6 +106,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         rest_positions: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
+        decals: Vec::new(),
         background: Some([1.0; 3]),
         order,
         edge_depth_m: 0.006,

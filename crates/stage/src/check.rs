@@ -240,7 +240,8 @@ impl<'r> Preset<'r> {
             StageError::Shapes(_) | StageError::Loop { .. } | StageError::NoCharacter => "motion",
             StageError::Texture { .. }
             | StageError::Zones { .. }
-            | StageError::MeshLayer { .. } => "layers",
+            | StageError::MeshLayer { .. }
+            | StageError::Clips(..) => "layers",
             StageError::Path(_) => "path",
             StageError::NoHeadsHair => "hair",
             StageError::Unsupported { section, .. } => section,

@@ -2,7 +2,8 @@
 
 use crate::files::StageError;
 use crate::hair::HairModel;
-use crate::head::{self, layers::MeshLayers};
+use crate::head;
+use crate::head::layers::{Clips, MeshLayers};
 use crate::levels::levels;
 use crate::look::Look;
 use crate::material::Material;
@@ -141,6 +142,9 @@ impl FrameMaker {
         let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
         let mut mesh_layers = Vec::new();
+        let looks = scene.objects().iter().map(Object::look);
+        let clips = Clips::of(looks.flat_map(|look| &look.layers))?;
+        let (mut decals, mut layers_before) = (Vec::new(), 0);
         for (index, object) in scene.objects().iter().enumerate() {
             match objects.get_mut(index) {
                 Some(frame) => frame.follow(object),
@@ -164,7 +168,8 @@ impl FrameMaker {
                 .placement()
                 .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
             let first_layer = mesh_layers.len();
-            surfaces.extend(frame.surfaces(index, motion, &sight, light, first_layer));
+            let names = MeshLayers::new(&object.look().mesh_layers, first_layer, &clips);
+            surfaces.extend(frame.surfaces(index, motion, &sight, light, &names));
             let look = object.look();
             let head = object.placement().head(motion.head(object));
             mesh_layers.extend(look.mesh_layers.iter().map(|layer| MeshLayer {
@@ -172,6 +177,10 @@ impl FrameMaker {
                 head,
                 seed: look.seed,
             }));
+            let layers = look.layers.iter().zip(layers_before..);
+            let of_layer = |(layer, index)| clips.decal(layer, index, head.height_m);
+            decals.extend(layers.filter_map(of_layer));
+            layers_before += look.layers.len();
         }
         let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
             let look = object.look();
@@ -200,6 +209,7 @@ impl FrameMaker {
             rest_positions: &self.rest_positions,
             surfaces,
             mesh_layers,
+            decals,
             background: section.background,
             order: scene.look().order(),
             edge_depth_m: section.edge_depth * scene.head().height_m,
@@ -597,7 +607,7 @@ impl ObjectFrame {
         motion: &ObjectMotion,
         sight: &Sight,
         light: Light,
-        first_layer: usize,
+        layers: &MeshLayers,
     ) -> Vec<Surface> {
         self.solid = None;
         let Some(neck) = self.of.neck() else {
@@ -623,7 +633,7 @@ impl ObjectFrame {
             model,
             &paint,
             self.of.look().meshes(),
-            &MeshLayers::new(&self.of.look().mesh_layers, first_layer),
+            layers,
             sight.camera(),
             &light,
         );

@@ -178,6 +178,7 @@ impl Animation for Strands {
             rest_positions: &[],
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
+            decals: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),
             edge_depth_m: EDGE_DEPTH * HEAD.height_m,

@@ -1,5 +1,6 @@
 //! Samples of a tile that layers for meshes paint: those that show a surface, and those whose hair such a surface is seen through.
 
+use super::decals;
 use super::shown::{NOTHING, TRIANGLE};
 use super::surface::Interpolated;
 use super::tile::{
@@ -89,6 +90,7 @@ impl Worker {
         let (Some(shown), Some(seen)) = (self.shown.planes(), &painting.seen) else {
             return;
         };
+        let decals = (!frame.parts.decals.is_empty()).then_some(&self.decals);
         let MeshPainter { under, blocks } = &mut self.meshes;
         let under = under.as_ref().filter(|_| painting.sees_through());
         let target = &mut self.target;
@@ -104,7 +106,15 @@ impl Worker {
         };
         let mut corners = None;
         for (cell, shows) in shown.what.iter().enumerate() {
-            let is_mesh = lanes_where(shows, |what| (what >= TRIANGLE) & (what != NOTHING));
+            let mut is_mesh = lanes_where(shows, |what| (what >= TRIANGLE) & (what != NOTHING));
+            let mut shaded = [0; LANES];
+            if let Some(decals) = decals {
+                let replaced;
+                [replaced, shaded] = decals.lanes(Cell::of_index(cell));
+                for k in 0..LANES {
+                    is_mesh[k] &= !replaced[k];
+                }
+            }
             let on_top = (shows, is_mesh, 0);
             let below = under.map(|under| {
                 let mut is_under = lanes_where(shows, |what| what < TRIANGLE);
@@ -147,6 +157,12 @@ impl Worker {
                         _ => &target.color,
                     };
                     block.add(cell, corners, colors, &own);
+                    if decals.is_some() && kind == 0 {
+                        for k in 0..LANES {
+                            own[k] &= shaded[k];
+                        }
+                        block.shade(&own);
+                    }
                 }
             }
         }
@@ -161,7 +177,7 @@ impl Worker {
 impl Frame<'_> {
     /// The surface that a sample shows.
     #[inline(always)]
-    fn surface_of(&self, what: u32) -> Option<&crate::Surface> {
+    pub(super) fn surface_of(&self, what: u32) -> Option<&crate::Surface> {
         if what < TRIANGLE || what == NOTHING {
             return None;
         }
@@ -289,6 +305,13 @@ impl Block {
             put(own, slot, &light, lanes);
             put(shade, slot, &shadow, lanes);
         }
+    }
+
+    /// Puts samples of the last cell into the shadow of hair.
+    #[inline(always)]
+    fn shade(&mut self, lanes: &LaneMask) {
+        let first = (self.cells.len() - 1) * LANES;
+        decals::shade_occlusion(&mut self.samples.occlusion[first..][..LANES], lanes);
     }
 
     /// Paints the samples that were gathered, and begins anew. What isn't finite has the mesh's own colour.
@@ -449,8 +472,9 @@ fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneM
     lanes
 }
 
-/// Whether tiles must know what their samples show, to be painted.
+/// Whether tiles must know what their samples show, to be painted or drawn on.
 pub(super) fn tells(frame: &Frame) -> bool {
     let drawing = frame.drawing;
-    !(drawing.painting.is_empty() && drawing.mesh_painting.is_empty())
+    let is_painted = !(drawing.painting.is_empty() && drawing.mesh_painting.is_empty());
+    is_painted || frame.parts.decals.asks_for_strands
 }

@@ -37,6 +37,7 @@ pub(super) struct Side {
     pub(super) margin_m: f32,
     /// The layer that paints it, by its place among the frame's.
     pub(super) layer: Option<u32>,
+    pub(super) marks: u32,
 }
 
 impl Side {
@@ -47,6 +48,7 @@ impl Side {
             shadow: color,
             margin_m,
             layer: None,
+            marks: 0,
         }
     }
 }
@@ -133,6 +135,7 @@ impl OnScreen {
                 triangles: Vec::new(),
                 margin_m: side.margin_m,
                 mesh: part.mesh,
+                marks: side.marks,
                 light: side.light,
                 shadow: side.shadow,
                 paint: side.layer.map(|layer| SurfacePaint {

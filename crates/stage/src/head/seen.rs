@@ -78,7 +78,7 @@ pub(crate) fn surfaces(
         false => Vec::new(),
     };
     let inside = Side::flat(paint.shadow, paint.inside_margin_m);
-    let part = |triangles, light, shadow, mesh, layer| Part {
+    let part = |triangles, light, shadow, mesh, layer, marks| Part {
         triangles,
         corners: &corners,
         front: Some(Side {
@@ -86,6 +86,7 @@ pub(crate) fn surfaces(
             shadow,
             margin_m: 0.0,
             layer,
+            marks,
         }),
         back: Some(inside),
         mesh,
@@ -93,21 +94,28 @@ pub(crate) fn surfaces(
         normals: facing,
         occlusion,
     };
-    let skin_layer = layers.of(&[SKIN]);
+    let (skin_layer, skin_marks) = (layers.of(&[SKIN]), layers.marks(&[SKIN]));
     let is_flat = !model.is_painted();
     let mut parts = Vec::new();
     if is_flat {
-        parts.push(part(bare, paint.light, paint.shadow, 0, skin_layer));
+        parts.push(part(
+            bare,
+            paint.light,
+            paint.shadow,
+            0,
+            skin_layer,
+            skin_marks,
+        ));
     }
     if is_flat && !scalp.is_empty() {
-        parts.push(part(scalp, paint.scalp, paint.scalp, 0, None));
+        parts.push(part(scalp, paint.scalp, paint.scalp, 0, None, skin_marks));
     }
-    let dress_layer = layers.of(&[DRESS]);
+    let (dress_layer, dress_marks) = (layers.of(&[DRESS]), layers.marks(&[DRESS]));
     for (cloth, triangles) in clothes {
         let [light, shadow, _] = paint.of_cloth(*cloth);
         parts.push(Part {
             back: Some(Side::flat(shadow, inside.margin_m)),
-            ..part(triangles, light, shadow, CLOTHES, dress_layer)
+            ..part(triangles, light, shadow, CLOTHES, dress_layer, dress_marks)
         });
     }
     if is_flat && paint.width_m > 0.0 {
@@ -161,6 +169,7 @@ pub(crate) fn surfaces(
             corners: &corners,
             front: Some(Side {
                 layer,
+                marks: layers.marks(&[name_of(patch.part)]),
                 ..Side::flat(paint.of(patch.ink), 0.0)
             }),
             back: None,
@@ -249,6 +258,7 @@ fn painted_mesh(
             false => 0.0,
         },
         layer: layers.of(&mesh.names),
+        marks: layers.marks(&mesh.names),
     };
     let back = match (own.both_sides, section) {
         (true, _) => Some(front),
@@ -310,6 +320,7 @@ fn worn(
             shadow: paint.tie_shadow,
             margin_m: BAND_MARGIN_M,
             layer: layers.of(&[TIES]),
+            marks: layers.marks(&[TIES]),
         }),
         back: None,
         mesh: ORNAMENTS,
