@@ -139,8 +139,8 @@ impl Candidates {
     /// The colour at `point`, or nothing where the picture is transparent.
     pub fn color(&self, point: DVec2) -> Option<[f64; 3]> {
         let shown = self.shown(point);
-        let decals = self.decals.iter();
-        if let Some(color) = decals.filter_map(|decal| decal.on(&shown, point)).next() {
+        let mut decals = self.decals.iter();
+        if let Some(color) = decals.find_map(|decal| decal.on(&shown, point)) {
             return Some(color);
         }
         match shown {

@@ -160,10 +160,12 @@ impl Worker {
                 drawing: frame.drawing,
                 strand: frame.drawing.whole_strand(first.strand),
                 list: frame.parts.segments.list(),
+                target,
+                shown,
             };
             let mut taken = NO_SAMPLES;
             for &index in stroke {
-                offer.make(&scene, index, &open, planes, target, shown, &mut taken);
+                offer.make(&scene, index, &open, planes, &mut taken);
             }
             open = without(&open, &taken);
             add(&mut closed, &taken);
@@ -334,6 +336,8 @@ struct Offer<'a> {
     strand: u32,
     /// The segments of hair.
     list: &'a [Segment],
+    target: &'a Target,
+    shown: &'a Shown,
 }
 
 impl Offer<'_> {
@@ -345,8 +349,6 @@ impl Offer<'_> {
         index: u32,
         open: &Mask,
         planes: &mut Planes,
-        target: &Target,
-        shown: &Shown,
         taken: &mut Mask,
     ) {
         let mut rows = [0; ROWS];
@@ -360,13 +362,7 @@ impl Offer<'_> {
         for row in 0..ROWS {
             for cell in cells(row, columns(&covered, row)) {
                 let beside = placed.beside(cell);
-                let fits = self.fits(
-                    cell,
-                    &cell.lanes(&covered),
-                    &beside.inv_depth,
-                    target,
-                    shown,
-                );
+                let fits = self.fits(cell, &cell.lanes(&covered), &beside.inv_depth);
                 if !any(&fits) {
                     continue;
                 }
@@ -387,14 +383,8 @@ impl Offer<'_> {
 
     /// Those of some samples of a cell, which show what it is drawn on, that are as near as it must be.
     #[inline(always)]
-    fn fits(
-        &self,
-        cell: Cell,
-        samples: &LaneMask,
-        inv_depth: &Lanes,
-        target: &Target,
-        shown: &Shown,
-    ) -> LaneMask {
+    fn fits(&self, cell: Cell, samples: &LaneMask, inv_depth: &Lanes) -> LaneMask {
+        let Self { target, shown, .. } = *self;
         let (hair, surface) = (&target.strand[cell.index], &target.surface[cell.index]);
         let (reach_m, is_shadow) = (self.decal.reach_m, self.decal.is_shadow);
         let mut fits = *samples;
