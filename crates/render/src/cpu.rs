@@ -21,6 +21,7 @@ mod rows;
 mod samples;
 mod seen;
 mod segment;
+mod set_up;
 mod shown;
 mod stamp;
 mod strand;
@@ -422,8 +423,10 @@ impl Worker {
                 &frame.parts.triangles,
                 triangles,
                 frame.drawing,
-                scene.origin,
-                scene.stack,
+                &surface::Tile {
+                    origin: scene.origin,
+                    stack: scene.stack,
+                },
                 &mut self.target,
                 shows,
             );

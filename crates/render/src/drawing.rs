@@ -124,7 +124,7 @@ pub enum Coverage {
 }
 
 /// Triangles in two flat tones, drawn from both sides.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Surface {
     /// Corners.
     pub vertices: Vec<SurfaceVertex>,
@@ -146,6 +146,48 @@ pub struct Surface {
     pub texture: Option<SurfaceTexture>,
     /// What paints its samples; without it they are of those colours by the tone.
     pub paint: Option<SurfacePaint>,
+}
+
+impl Clone for Surface {
+    fn clone(&self) -> Self {
+        let mut surface = Self::default();
+        surface.clone_from(self);
+        surface
+    }
+
+    /// In the memory that there is: frames come one after the other.
+    fn clone_from(&mut self, source: &Self) {
+        let Self {
+            vertices,
+            triangles,
+            margin_m,
+            mesh,
+            light,
+            shadow,
+            texture,
+            paint,
+        } = source;
+        self.vertices.clone_from(vertices);
+        self.triangles.clone_from(triangles);
+        (self.margin_m, self.mesh) = (*margin_m, *mesh);
+        (self.light, self.shadow) = (*light, *shadow);
+        match (&mut self.texture, texture) {
+            (Some(own), Some(texture)) => {
+                own.image.clone_from(&texture.image);
+                (own.repeats, own.coverage) = (texture.repeats, texture.coverage);
+                own.places.clone_from(&texture.places);
+            }
+            (own, texture) => own.clone_from(texture),
+        }
+        match (&mut self.paint, paint) {
+            (Some(own), Some(paint)) => {
+                own.layer = paint.layer;
+                own.normals.clone_from(&paint.normals);
+                own.occlusion.clone_from(&paint.occlusion);
+            }
+            (own, paint) => own.clone_from(paint),
+        }
+    }
 }
 
 /// Which stroke a sample shows where several cover it.

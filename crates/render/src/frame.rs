@@ -85,6 +85,7 @@ pub(crate) const FAR_LIGHT: f32 = 1e6;
 
 impl Light {
     /// The unit vector from `point` to the light, and the distance in metres.
+    #[inline]
     #[must_use]
     pub fn seen_from(&self, point: Vec3) -> (Vec3, Option<f32>) {
         match *self {

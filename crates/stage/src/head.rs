@@ -97,6 +97,11 @@ impl HeadModel {
         self.painted.iter().any(|mesh| mesh.section.is_none())
     }
 
+    /// Whether anything of [`Self::mesh`] is drawn: a head in its own file's colours has other meshes.
+    pub(crate) fn shows_mesh(&self) -> bool {
+        !self.is_painted() || !self.clothes.is_empty()
+    }
+
     /// Puts ornaments into the hair on it.
     pub(crate) fn add_ornaments(&mut self, ornaments: &[OrnamentMesh]) {
         for ornament in ornaments {

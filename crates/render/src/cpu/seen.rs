@@ -244,10 +244,19 @@ const LEAST_LAYERS: f32 = 32.0;
 const LEAST_OF_MANY: f32 = 8.0;
 const MANY: usize = 1 << 16;
 
+/// Whether a layer's strokes are their clumps, so that nothing is seen through them.
+fn is_cover(layer: &Layer) -> bool {
+    layer.program.is_clump() && layer.rank >= 0
+}
+
 /// Fills the cover by hair, where a frame's hair may hide much of itself.
 fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
-    if frame.order == Order::Shifted {
-        return false; // each stroke by its own depth, whatever its clump
+    let covers = |object: &Object| {
+        let mut layers = object.layers.iter().zip(object.layer_joints);
+        layers.any(|(layer, drawn)| is_cover(layer) && !drawn.is_empty())
+    };
+    if frame.order == Order::Shifted || !frame.objects.iter().any(covers) {
+        return false; // each stroke by its own depth, whatever its clump; or there are lines alone
     }
     let size = Vec2::from(frame.camera.size_px().map(|side| side as f32));
     let (mut low, mut high) = (size, Vec2::ZERO);
@@ -281,8 +290,7 @@ fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
     let is_covered = |object: &Object, run: &PathRun| {
         let strand = &frame.strands[run.strand];
         let layers = object.layers.iter().zip(object.layer_joints).enumerate();
-        let mut layers =
-            layers.filter(|(_, (layer, _))| layer.program.is_clump() && layer.rank >= 0);
+        let mut layers = layers.filter(|(_, (layer, _))| is_cover(layer));
         layers.any(|(number, (_, drawn))| {
             let draws = drawn.start <= run.joints.start && run.joints.end <= drawn.end;
             draws && !strand.is_left_out_by(number)

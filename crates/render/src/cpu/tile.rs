@@ -609,7 +609,7 @@ impl Sums {
 }
 
 /// A value that runs linearly over the screen, seen from a tile.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slope {
     /// At the tile's upper left corner.
     pub(super) corner: f32,

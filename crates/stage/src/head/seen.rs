@@ -11,7 +11,7 @@ use groom::{Cloth, Patch};
 use hair_io::Mesh;
 use rayon::prelude::*;
 use render::{Coverage, Light, Surface};
-use std::iter::{once, repeat};
+use std::iter::once;
 use stroke_path::Camera;
 
 /// What of a head is told apart as a mesh of its own ([`Surface::mesh`]): itself, its clothes, ornaments, then painted meshes.
@@ -52,22 +52,21 @@ pub(crate) fn surfaces(
         false => facing,
     };
     let occlusion = &shade[..];
-    let shade = shade.iter().copied().chain(repeat(0.0));
-    let corners: Vec<Corner> = mesh
-        .positions
-        .iter()
-        .zip(facing)
-        .zip(shade)
-        .map(|((position, facing), shade)| Corner {
-            view: camera.view_from_world(*position),
-            tone: facing.dot(light.seen_from(*position).0) - paint.threshold - shade,
-        })
-        .collect();
-    let bare = match scalp.is_empty() {
-        true => skin,
-        false => bare,
+    let is_flat = !model.is_painted();
+    let corner = |(i, (position, facing)): (usize, (&Vec3, &Vec3))| Corner {
+        view: camera.view_from_world(*position),
+        tone: facing.dot(light.seen_from(*position).0)
+            - paint.threshold
+            - shade.get(i).copied().unwrap_or(0.0),
     };
-    let hull = match !model.is_painted() && paint.width_m > 0.0 {
+    let corners = || -> Vec<Corner> {
+        let all = mesh.positions.iter().zip(facing).enumerate().map(corner);
+        match model.shows_mesh() {
+            true => all.collect(),
+            false => Vec::new(),
+        }
+    };
+    let hull = || match is_flat && paint.width_m > 0.0 {
         true => hull(
             &mesh.positions,
             &mesh.normals,
@@ -76,6 +75,11 @@ pub(crate) fn surfaces(
             camera,
         ),
         false => Vec::new(),
+    };
+    let (corners, hull) = rayon::join(corners, hull);
+    let bare = match scalp.is_empty() {
+        true => skin,
+        false => bare,
     };
     let inside = Side::flat(paint.shadow, paint.inside_margin_m);
     let part = |triangles, light, shadow, mesh, layer| Part {
@@ -94,7 +98,6 @@ pub(crate) fn surfaces(
         occlusion,
     };
     let skin_layer = layers.of(&[SKIN]);
-    let is_flat = !model.is_painted();
     let mut parts = Vec::new();
     if is_flat {
         parts.push(part(bare, paint.light, paint.shadow, 0, skin_layer));
@@ -192,13 +195,13 @@ fn hull(
     width_m: f32,
     camera: &Camera,
 ) -> Vec<Corner> {
-    let widths = widths.iter().copied().chain(repeat(1.0));
+    let width = |i: usize| widths.get(i).copied().unwrap_or(1.0);
     positions
         .iter()
         .zip(normals)
-        .zip(widths)
-        .map(|((position, normal), width)| Corner {
-            view: camera.view_from_world(*position + *normal * (width_m * width)),
+        .enumerate()
+        .map(|(i, (position, normal))| Corner {
+            view: camera.view_from_world(*position + *normal * (width_m * width(i))),
             tone: 0.0,
         })
         .collect()
@@ -269,8 +272,11 @@ fn painted_mesh(
         normals: &mesh.normals,
         occlusion: &[],
     };
-    let mut surfaces: Vec<Surface> = part.seen_by(camera).collect();
-    if width_m > 0.0 && own.has_outline() {
+    let fill = || part.seen_by(camera).collect();
+    let outline = || {
+        if width_m <= 0.0 || !own.has_outline() {
+            return None;
+        }
         let outline = Part {
             corners: &hull(&mesh.positions, &mesh.normals, &[], width_m, camera),
             front: None,
@@ -280,8 +286,10 @@ fn painted_mesh(
                 .filter(|(picture, _)| picture.coverage != Coverage::Ignored),
             ..part
         };
-        surfaces.extend(outline.seen_by(camera));
-    }
+        outline.seen_by(camera).next()
+    };
+    let (mut surfaces, outline): (Vec<Surface>, _) = rayon::join(fill, outline);
+    surfaces.extend(outline);
     surfaces
 }
 
