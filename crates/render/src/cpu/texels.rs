@@ -5,6 +5,7 @@ use super::surface::Interpolated;
 use super::tile::{Cell, LANES, LaneMask, Lanes, Slope, Stack, bits, greater, lesser, select};
 use crate::drawing::{Coverage, SurfaceTexture, scatter};
 use effects::Blurred;
+use std::hint::black_box;
 
 /// A texture as a triangle shows it.
 pub(super) struct Texels<'a> {
@@ -56,6 +57,8 @@ impl<'a> Texels<'a> {
             across[k] = lesser(greater(across[k] * depth_m, left), right);
             down[k] = lesser(greater(down[k] * depth_m, top), bottom);
         }
+        // By way of memory: compilers would work them out once more for each way in which lanes are taken from them.
+        let [across, down] = black_box([across, down]);
         let together = stack.lanes_of_pixel();
         let [red, green, blue, coverage] = match together {
             1 => self.texels::<1>(&across, &down, samples),
