@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
-    Collider, Mutual, Params, Pose, Profile, Roots, Shape, Solver, State, Strands, Surroundings,
-    Wind,
+    Anchor, Collider, Mutual, Params, Pose, Profile, Roots, Shape, Solver, State, Strands,
+    Surroundings, Wind,
 };
 
 /// The system's allocator, counting.
@@ -101,7 +101,15 @@ fn run(
             },
             before: head(step),
             now: head(step + 1),
+            was: None,
         }];
+        // Many, as a sort of a few needs no memory.
+        let anchors: [Anchor; 32] = std::array::from_fn(|i| Anchor {
+            strand: 31 - i,
+            point: 9,
+            stiffness: 2000.0,
+            places: [DVec3::new(0.0, -0.1, 0.2); 2],
+        });
         let surroundings = Surroundings {
             roots: Roots::Head(head(step + 1)),
             wind: Wind {
@@ -111,6 +119,7 @@ fn run(
             },
             colliders: &colliders,
             goal: Some(goal),
+            anchors: &anchors,
             ..Surroundings::default()
         };
         let stats = solver.step(state, &surroundings, 1.0 / 24.0).unwrap();

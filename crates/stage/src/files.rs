@@ -145,6 +145,14 @@ pub enum StageError {
         /// What is wrong.
         message: String,
     },
+    /// The mesh of a body is none that hair can be kept out of.
+    #[error("{}: {message}", .path.display())]
+    Body {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
     /// A style or motion script cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),

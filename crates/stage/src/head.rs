@@ -6,7 +6,7 @@ mod paint;
 mod seen;
 
 pub(crate) use paint::HeadPaint;
-pub(crate) use seen::{MESHES, surfaces};
+pub(crate) use seen::{MESHES, painted, surfaces, worn};
 
 use crate::hair::head_of;
 use crate::painted::PaintedMesh;

@@ -174,6 +174,17 @@ pub(crate) fn surfaces(
     surfaces
 }
 
+/// What the camera sees of a mesh in its own colours that is no part of a head.
+pub(crate) fn painted(
+    mesh: &PaintedMesh,
+    paint: &HeadPaint,
+    layers: &MeshLayers,
+    camera: &Camera,
+    light: &Light,
+) -> Vec<Surface> {
+    painted_mesh(mesh, MESHES - 1, paint, &[], layers, camera, light)
+}
+
 /// The unit normal of a patch, which is nearly flat.
 fn normal_of(patch: &Patch) -> Vec3 {
     let normals = patch.triangles.iter().map(|triangle| {
@@ -286,7 +297,7 @@ fn painted_mesh(
 }
 
 /// What the hair wears. Hair goes by its depth alone here: what is in a band does not hide it.
-fn worn(
+pub(crate) fn worn(
     ornaments: &Mesh,
     paint: &HeadPaint,
     layers: &MeshLayers,
