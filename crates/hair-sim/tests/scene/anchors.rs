@@ -49,20 +49,20 @@ fn an_anchor_takes_its_point_along() {
     for dt in [1.0 / 24.0, 1.0 / 60.0] {
         let rest = straight(Vec3::ZERO, Vec3::X);
         let (mut solver, mut state) = Solver::new(&rest, &params(20.0)).unwrap();
-        // Along a circle about the root, in half a second a quarter.
+        // Along a circle about the root, in half a second a quarter, from rest.
         let place = |time: f64| {
-            let angle = std::f64::consts::PI * time;
+            let angle = std::f64::consts::PI * time * time;
             DVec3::new(angle.cos(), 0.0, angle.sin()) * 0.19
         };
         let (mut time, mut farthest) = (0.0, 0.0_f64);
-        while time < 0.5 {
+        while time < 0.7 {
             let anchors = [Anchor {
                 places: [place(time), place(time + dt)],
                 ..at_tip(DVec3::ZERO, 1e6)
             }];
             step(&mut solver, &mut state, &held(&anchors), dt);
             time += dt;
-            // It starts 1 cm away, and at rest.
+            // It starts 1 cm away.
             if time > 0.2 {
                 let tip = shape(&solver, &state)[20];
                 farthest = farthest.max(tip.distance(place(time)));

@@ -273,7 +273,7 @@ fn hair_moves_with_a_body_that_changes_its_shape() {
             .collect();
         SignedDistance::new(&points, &triangles, 0.02).unwrap()
     };
-    let (low, high) = (wall(0.0), wall(0.1));
+    let (low, high) = (wall(0.0), wall(0.03));
     type Shapes<'a> = Box<dyn Fn(f64) -> Shape<'a> + 'a>;
     let mesh: Shapes = Box::new(|share| Shape::Form {
         from: &low,
@@ -284,12 +284,12 @@ fn hair_moves_with_a_body_that_changes_its_shape() {
     // As high under the strand as the mesh.
     let ball: Shapes = Box::new(|share| Shape::Sphere {
         center: DVec3::NEG_Y * 4.0,
-        radius: 4.0 + 0.1 * share,
+        radius: 4.0 + 0.03 * share,
     });
     // Slowly, and by more than a link a step.
     for (name, shape_at) in [("mesh", mesh), ("ball", ball)] {
         for (rate, seconds) in [(60.0, 0.5), (24.0, 0.5), (24.0, 0.1)] {
-            let rest = straight(Vec3::new(-0.1, 0.101, 0.0), Vec3::X);
+            let rest = straight(Vec3::new(-0.1, 0.031, 0.0), Vec3::X);
             let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
             let dt = 1.0 / rate;
             let at = |time: f64| (time / seconds).clamp(0.0, 1.0);
@@ -307,17 +307,17 @@ fn hair_moves_with_a_body_that_changes_its_shape() {
                 let points = shape(&solver, &state);
                 for point in &points[1..] {
                     deepest = deepest.max(-bodies[0].distance(*point));
-                    fastest = fastest.max(point.y - 0.101);
+                    fastest = fastest.max(point.y - 0.031);
                 }
             }
             println!(
                 "{name} in {seconds} s, {rate} steps a second: {deepest:.1e} m in it, {fastest:.1e} m above"
             );
             assert!(deepest < 1e-3, "{name}: {deepest}");
-            // What rises at 0.2 m/s throws it by 2 mm, at 1 m/s by 5 cm: the body is as high as the root in the end.
-            let thrown = (0.1_f64 / seconds).powi(2) / (2.0 * 9.81);
+            // It is thrown up by as much as that speed does: the body is as high as the root in the end.
+            let thrown = (0.03_f64 / seconds).powi(2) / (2.0 * 9.81);
             assert!(
-                fastest < 1.5 * thrown + 2e-3,
+                fastest < 1.5 * thrown + 3e-3,
                 "{name}: {fastest} of {thrown}"
             );
         }

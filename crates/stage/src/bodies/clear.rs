@@ -7,6 +7,9 @@ use hair_sim::Collider;
 const CLEARINGS: u32 = 16;
 /// Where along a link it is looked at: at its end, and on the way there.
 const PLACES: [f64; 4] = [1.0, 0.25, 0.5, 0.75];
+/// What part of a point's way the next one goes along, towards the tip and towards the root.
+const BEYOND: f32 = 0.75;
+const BEHIND: f32 = 0.5;
 /// What is as near as this, m, is near enough.
 const NEAR: f64 = 1e-5;
 
@@ -45,8 +48,12 @@ pub(crate) fn clear(
                         ((1.0 - t) / squared, t / squared)
                     }
                 };
-                points[i - 1] += (push * before).as_vec3();
-                points[i] += (push * here).as_vec3();
+                let (before, here) = ((push * before).as_vec3(), (push * here).as_vec3());
+                points[i - 1] += before;
+                points[i] += here;
+                take_along(&mut points[i + 1..], here, BEYOND);
+                let behind = &mut points[held..(i - 1).max(held)];
+                take_along(behind.iter_mut().rev(), before, BEHIND);
                 moves_here = true;
             }
             if moves_here {
@@ -60,6 +67,18 @@ pub(crate) fn clear(
         has_moved = true;
     }
     has_moved
+}
+
+/// Moves the next points of a strand by less and less, so that it bends and does not break.
+fn take_along<'p>(points: impl IntoIterator<Item = &'p mut Vec3>, by: Vec3, share: f32) {
+    let mut by = by;
+    for point in points {
+        by *= share;
+        if f64::from(by.length_squared()) < NEAR * NEAR {
+            return;
+        }
+        *point += by;
+    }
 }
 
 /// How far the places of a strand's links are from bodies, for each point those of the link that ends there: `most` m where they are farther away.
