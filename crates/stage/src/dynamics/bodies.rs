@@ -2,9 +2,9 @@
 
 use crate::posture::Posture;
 use crate::script::MotionScript;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use hair_io::Mesh;
-use hair_sim::{Collider, Shape, SignedDistance};
+use hair_sim::{Collider, Pose, Shape, SignedDistance};
 use render::Head;
 
 /// Heights from the head's middle, in head heights: the head's body ends at the one below, the
@@ -16,11 +16,14 @@ const HEAD_CELL: f64 = 1.0 / 40.0;
 const BODY_CELL: f64 = 1.0 / 32.0;
 /// How far from bodies hair is drawn, m, but where it starts nearer: paths bulge between their points.
 pub(super) const GAP_M: f32 = 1.3e-3;
+/// How far from the skin carried hair is kept where there are no bodies, in head heights.
+const GAP: f64 = 0.005;
 
 /// Distances from head and shoulders.
 pub(crate) struct Bodies {
     head: Option<SignedDistance>,
     shoulders: Option<SignedDistance>,
+    height_m: f64,
 }
 
 impl Bodies {
@@ -38,6 +41,7 @@ impl Bodies {
         Self {
             head: half(HEAD_ENDS, true, HEAD_CELL),
             shoulders: half(SHOULDERS_END, false, BODY_CELL),
+            height_m,
         }
     }
 
@@ -72,6 +76,27 @@ impl Bodies {
         colliders.extend(own.map(|body| body.collider(times, [before, now])));
         colliders
     }
+
+    /// Puts points that are in the head on its skin.
+    pub fn keep_out(&self, pose: Pose, points: &mut [Vec3]) {
+        let Some(grid) = &self.head else { return };
+        let gap = GAP * self.height_m;
+        for point in points {
+            let place = pose.rotation.inverse() * (point.as_dvec3() - pose.translation);
+            let distance = grid.distance(place);
+            if distance < gap {
+                let out = outwards(grid, place, HEAD_CELL * self.height_m);
+                let place = place + out * (gap - distance);
+                *point = (pose.rotation * place + pose.translation).as_vec3();
+            }
+        }
+    }
+}
+
+/// The way in which the distance grows, a unit vector.
+fn outwards(grid: &SignedDistance, at: DVec3, step: f64) -> DVec3 {
+    let slope = |axis: DVec3| grid.distance(at + axis * step) - grid.distance(at - axis * step);
+    DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z)).normalize_or(DVec3::Y)
 }
 
 /// The part of a mesh that is kept, closed by a cone to `end`.

@@ -1,4 +1,4 @@
-//! How deep drawn hair is in head, shoulders and bodies: of every look of `presets` in every motion there.
+//! How deep drawn hair is in head, shoulders and bodies where a scene has some: of every look of `presets` in every motion there.
 
 #![allow(
     clippy::print_stdout,
@@ -9,7 +9,7 @@ use super::bodies::cut;
 use crate::motion::Motion;
 use crate::posture::Posture;
 use crate::scene::Scene;
-use crate::{Files, Preset};
+use crate::{BodySection, Files, Preset};
 use effects::Registry;
 use glam::{DVec3, Vec3};
 use hair_io::Mesh;
@@ -144,7 +144,13 @@ fn hair_is_kept_out_of_head_and_shoulders_in_looks_and_motions() {
             continue;
         }
         let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
-        let preset = Preset::parse(look, &text, &registry).unwrap();
+        let mut preset = Preset::parse(look, &text, &registry).unwrap();
+        // A body far away, so that hair is kept out of all.
+        let far = BodySection {
+            at: [900.0, 0.0, 0.0],
+            ..BodySection::default()
+        };
+        preset.bodies = vec![far.into()];
         if !preset.objects.is_empty() {
             continue;
         }

@@ -92,7 +92,8 @@ pub(crate) struct Dynamics {
     shape: Vec<Vec3>,
     goal: Vec<Vec3>,
     carried: Carried,
-    /// How far the links of the scene's points are kept from bodies: no farther than they were at the start.
+    /// How far the links of the scene's points are kept from bodies: no farther than they were at the start. Empty where a scene has none but
+    /// head and shoulders: there the solver's word is taken.
     gaps: Vec<Gap>,
     ties: Ties,
     /// Whether all strands slept in the last step. What is looked at between two steps doesn't count.
@@ -350,7 +351,26 @@ impl Dynamics {
             return;
         }
         let posture = self.posture_at(self.shown, driver);
-        let colliders = self.colliders_at(self.shown, &posture, driver);
+        let turns = |strand| self.strands.turns(strand);
+        if self.gaps.is_empty() {
+            for part in &self.guides {
+                self.write_guide(part, &mut points[part.points.clone()]);
+            }
+            let keep_out = |_: usize, points: &mut [Vec3]| {
+                self.bodies.keep_out(posture.head, &mut points[1..])
+            };
+            self.carried.carry(points, turns, keep_out);
+        } else {
+            self.write_clear(&posture, driver, points);
+        }
+        if self.owed > 0 {
+            self.carry_on(driver, time, points);
+        }
+    }
+
+    /// Writes hair that is kept out of all bodies, with the way that is drawn between its points.
+    fn write_clear(&self, posture: &Posture, driver: Driver, points: &mut [Vec3]) {
+        let colliders = self.colliders_at(self.shown, posture, driver);
         let keep_out = |first: usize, points: &mut [Vec3]| {
             let gap = |i| self.gaps[first + i];
             clear(points, 1, &colliders, f64::from(GAP_M), gap);
@@ -363,9 +383,6 @@ impl Dynamics {
         });
         let turns = |strand| self.strands.turns(strand);
         self.carried.carry(points, turns, keep_out);
-        if self.owed > 0 {
-            self.carry_on(driver, time, points);
-        }
     }
 
     /// Writes the points of a guide as its solver has them.
@@ -375,8 +392,11 @@ impl Dynamics {
         }
     }
 
-    /// How near to bodies hair is at the start.
+    /// How near to bodies hair is at the start; nothing where there are none but head and shoulders.
     fn gaps_at_start(&self, driver: Driver) -> Vec<Gap> {
+        if driver.script.bodies.is_empty() {
+            return Vec::new();
+        }
         let start = self.time_of(0);
         let posture = self.posture_at(start, driver);
         let colliders = self.colliders_at(start, &posture, driver);
