@@ -78,6 +78,13 @@ fn gpu_light_distance(joint: u32) -> f32 {
     return select(1e6, distance, gpu_frame.light_is_point != 0u);
 }
 
+/// To the right, down and to the eye.
+fn gpu_light_on_screen(joint: u32) -> vec3<f32> {
+    let light = gpu_light_direction(joint);
+    let to_eye = cross(gpu_frame.right, gpu_frame.up);
+    return vec3<f32>(dot(light, gpu_frame.right), -dot(light, gpu_frame.up), dot(light, to_eye));
+}
+
 /// Head heights; of the joint's place, as `GPU_AT_DEPTH` is deeper where a piece goes on beyond its cut.
 fn gpu_depth(joint: u32) -> f32 {
     let ahead = cross(gpu_frame.up, gpu_frame.right);

@@ -227,6 +227,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             from_ends: &[],
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
+            decals: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),
             edge_depth_m: 0.02 * HEAD_M,

@@ -78,6 +78,8 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         strand_tip_color: vec3([-1.0; 3]),
         light_direction: vec3(light.to_array()),
         light_distance: to_light.length() / HEAD_M,
+        // As the eye sees it, near enough.
+        light_on_screen: vec3([light.x, -light.y, light.z]),
         view_direction: vec3(view.to_array()),
         depth: EYE.distance(position) / HEAD_M,
         time: 0.7,
@@ -227,6 +229,7 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
             "light against the normal",
             Joint {
                 light_direction: -good.normal,
+                light_on_screen: vec3([-good.normal.x, good.normal.y, -good.normal.z]),
                 gray: 0.0,
                 ..good
             },

@@ -55,6 +55,14 @@ pub trait StrokeEffect: Send + Sync + 'static {
     /// worked out. Only of effects with a rank of 0 or more.
     const IS_CLUMP: bool = false;
 
+    /// What its strokes are drawn on where the layer doesn't say it (`clip`); nothing where they are no decals.
+    const CLIP: Option<&'static str> = None;
+    /// How far before or behind them, head heights, decals are drawn on that where the layer doesn't say it.
+    const REACH: f32 = 0.05;
+    /// Whether its strokes are shadows that hair casts: decals that meshes show as their own colours in shadow, and that no hair shows but
+    /// what lies behind them by more than the layer's reach, never their own strand. Of effects with a [`Self::CLIP`].
+    const CASTS: bool = false;
+
     /// How many strokes there are for each strand (feathers). At least 1.
     fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
         let _ = params;
@@ -168,6 +176,10 @@ pub trait AnyEffect: Send + Sync {
     fn rank(&self) -> i32;
     /// [`StrokeEffect::DEPTH_OFFSET`].
     fn depth_offset(&self) -> f32;
+    /// [`StrokeEffect::CLIP`].
+    fn clip(&self) -> Option<&'static str>;
+    /// [`StrokeEffect::REACH`].
+    fn clip_reach(&self) -> f32;
     /// [`Parameters::PARAMS`].
     fn params(&self) -> &'static [Param];
     /// [`Parameters::INPUTS`].
@@ -219,6 +231,8 @@ pub trait LayerProgram: Send + Sync {
     fn is_on_undercoat(&self) -> bool;
     /// [`StrokeEffect::IS_CLUMP`].
     fn is_clump(&self) -> bool;
+    /// [`StrokeEffect::CASTS`].
+    fn casts(&self) -> bool;
     /// [`Program::MAY_BE_NEARER`].
     fn may_be_nearer(&self) -> bool;
     /// [`StrokeEffect::reach`].
@@ -295,6 +309,12 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
     fn depth_offset(&self) -> f32 {
         E::DEPTH_OFFSET
     }
+    fn clip(&self) -> Option<&'static str> {
+        E::CLIP
+    }
+    fn clip_reach(&self) -> f32 {
+        E::REACH
+    }
     fn params(&self) -> &'static [Param] {
         E::Program::PARAMS
     }
@@ -356,6 +376,10 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn is_clump(&self) -> bool {
         E::IS_CLUMP
+    }
+
+    fn casts(&self) -> bool {
+        E::CASTS
     }
 
     fn may_be_nearer(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use crate::choices;
 use crate::effect::LayerProgram;
+use crate::joints::Input;
 use std::sync::Arc;
 
 choices! {
@@ -37,6 +38,24 @@ pub struct Layer {
     pub on: Option<String>,
     /// How much of what it paints is seen through hair before it, 0 to 1.
     pub through_hair: f32,
+    /// What its strokes are drawn on, if they are decals: `hair`, `head` for all meshes, or names of these, with commas between them.
+    pub clip: Option<String>,
+    /// How far before or behind its strokes, head heights, decals are drawn on that.
+    pub reach: f32,
     /// The effect with its parameters.
     pub program: Arc<dyn LayerProgram>,
+}
+
+impl Layer {
+    /// Whether its strokes are decals: drawn on what is seen without them, and nowhere else.
+    #[must_use]
+    pub fn is_decal(&self) -> bool {
+        self.clip.is_some()
+    }
+
+    /// Whether its widths are in pixels.
+    #[must_use]
+    pub fn is_in_pixels(&self) -> bool {
+        self.units == Units::Pixels && self.program.inputs().has(Input::Unit)
+    }
 }

@@ -7,8 +7,8 @@ use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
 use stage::{
-    LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset, STYLE_PARTS,
-    Sections,
+    BODIES, BodySection, LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection,
+    Preset, STYLE_PARTS, Sections,
 };
 
 fn registry() -> Registry {
@@ -178,7 +178,7 @@ fn the_schema_is_the_tables() {
     let schema = schema(&[]);
     assert_eq!(schema["version"], stage::VERSION);
     let sections = schema["sections"].as_array().unwrap();
-    assert_eq!(sections.len(), Sections::ALL.len() + 6);
+    assert_eq!(sections.len(), Sections::ALL.len() + 7);
     assert_eq!(sections[0]["id"], "preset");
     assert_is_table(&sections[0], Preset::TOP);
     for (section, (name, doc, table)) in sections[1..].iter().zip(Sections::ALL) {
@@ -197,10 +197,13 @@ fn the_schema_is_the_tables() {
     let lines = &sections[Sections::ALL.len() + 3];
     assert_eq!(lines["id"], "lines");
     assert_is_table(lines, LineSection::TABLE);
-    let passes = &sections[Sections::ALL.len() + 4];
+    let bodies = &sections[Sections::ALL.len() + 4];
+    assert_eq!(bodies["id"], "bodies");
+    assert_is_table(bodies, BODIES.table);
+    let passes = &sections[Sections::ALL.len() + 5];
     assert_eq!(passes["id"], "passes");
     assert_is_table(passes, PassSection::TABLE);
-    let objects = &sections[Sections::ALL.len() + 5];
+    let objects = &sections[Sections::ALL.len() + 6];
     assert_eq!(objects["id"], "objects");
     assert_is_table(objects, ObjectSection::TABLE);
     for value in layers["parameters"].as_array().unwrap() {
@@ -266,6 +269,7 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
             "layers" => layer_fields = fields,
             "meshes" => text += &format!("meshes: [(file: \"eyes.obj\", {fields})], "),
             "lines" => text += &format!("lines: [(name: \"rim\", {fields})], "),
+            "bodies" => text += &format!("bodies: [({fields})], "),
             "passes" => text += &format!("passes: [({fields})], "),
             // In place of most sections.
             "objects" => {}
@@ -305,6 +309,7 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
     let small = Preset::parse("small.ron", &small, &registry).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(preset.seed, small.seed);
     assert_eq!(preset.passes, [PassSection::default()]);
+    assert_eq!(preset.bodies[0].section, BodySection::default());
     let mesh = MeshSection {
         file: Some("eyes.obj".to_owned()),
         ..MeshSection::default()

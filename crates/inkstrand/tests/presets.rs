@@ -5,7 +5,7 @@ use effects::preset::{LAYER, Reader, may_say};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
-use stage::{LineSection, MeshSection, ObjectSection, PassSection, Preset, Sections};
+use stage::{BODIES, LineSection, MeshSection, ObjectSection, PassSection, Preset, Sections};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -59,6 +59,8 @@ fn everything(registry: &Registry) -> String {
     let _ = writeln!(text, "    meshes: [\n        (\n{mesh}        ),\n    ],");
     let lines = list(LineSection::TABLE, "            ").replace("kind: \"x\"", "kind: \"crease\"");
     let _ = writeln!(text, "    lines: [\n        (\n{lines}        ),\n    ],");
+    let body = list(BODIES.table, "            ").replace("shape: sphere", "shape: mesh");
+    let _ = writeln!(text, "    bodies: [\n        (\n{body}        ),\n    ],");
     let pass = list(PassSection::TABLE, "            ");
     let _ = writeln!(text, "    passes: [\n        (\n{pass}        ),\n    ],");
     text += "    layers: [\n";
@@ -135,6 +137,13 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
             for pass in reader.list(field.value, "passes") {
                 for inner in reader.fields(pass, "a pass") {
                     add(inner.name, inner.value, PassSection::TABLE);
+                }
+            }
+        }
+        if field.name == "bodies" {
+            for body in reader.list(field.value, "bodies") {
+                for inner in reader.fields(body, "a body") {
+                    add(inner.name, inner.value, BODIES.table);
                 }
             }
         }
@@ -357,20 +366,24 @@ fn every_wrong_value_is_an_error_at_its_line() {
                     && name != "effect"
                     || place.kind.is_none()
                         && value == "()"
-                        && !["layers", "meshes", "lines", "passes", "objects"].contains(&name)
+                        && !["layers", "meshes", "lines", "bodies", "passes", "objects"]
+                            .contains(&name)
                     || place.kind.is_none()
-                        && ["layers", "meshes", "lines", "passes"].contains(&name)
+                        && ["layers", "meshes", "lines", "bodies", "passes"].contains(&name)
                         && value == "[]";
                 match Preset::parse("look.ron", &spoilt, &registry) {
                     Ok(_) => assert!(legal, "{} is accepted", what()),
-                    // Two layers of one name are the layer's mistake, not its name's; substeps are another solver's; and
-                    // one of two things moves a head.
+                    // Two layers of one name are the layer's mistake, not its name's; substeps are another solver's;
+                    // one of two things moves a head; and bodies have what their shape has.
                     Err(errors) if legal => assert!(
                         name == "name" && errors.to_string().contains("already a layer")
                             || name == "kind" && errors.to_string().contains("lines of the kind")
                             || name == "character"
                                 && errors.to_string().contains("both move the head")
-                            || name == "substeps" && errors.to_string().contains("solver: rods"),
+                            || name == "substeps" && errors.to_string().contains("solver: rods")
+                            || errors.to_string().contains("has none, only")
+                            || name == "animation"
+                                && errors.to_string().contains("are forms already"),
                         "{} is legal, but:\n{errors}",
                         what()
                     ),

@@ -4,7 +4,7 @@ mod check;
 
 pub use check::FrameError;
 
-use crate::drawing::{Order, Surface};
+use crate::drawing::{Decal, Order, Surface};
 use crate::edges::Edges;
 use crate::features::Features;
 use crate::mesh_paint::MeshLayer;
@@ -85,6 +85,7 @@ pub(crate) const FAR_LIGHT: f32 = 1e6;
 
 impl Light {
     /// The unit vector from `point` to the light, and the distance in metres.
+    #[inline]
     #[must_use]
     pub fn seen_from(&self, point: Vec3) -> (Vec3, Option<f32>) {
         match *self {
@@ -129,6 +130,8 @@ pub struct Frame<'a> {
     pub surfaces: Vec<Surface>,
     /// Layers that paint surfaces, which name them by their places here ([`Surface::paint`]).
     pub mesh_layers: Vec<MeshLayer<'a>>,
+    /// What layers with `clip` ([`Layer::is_decal`]) are drawn on, in the order of the objects and of their layers.
+    pub decals: Vec<Decal>,
     /// Linear colour behind everything, or a transparent picture.
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.
@@ -251,6 +254,17 @@ pub(crate) fn seen_lengths(paths: &Paths, lengths: &mut Vec<f32>) {
                 length += paths.center[i].distance(paths.center[i - 1]) / scale;
             }
             lengths.push(length);
+        }
+    }
+}
+
+/// Which pieces are the same strand, where shadows ask for it.
+pub(crate) fn fill_same_strands(frame: &Frame, same_strands: &mut Vec<u32>) {
+    same_strands.clear();
+    if frame.decals.iter().any(|decal| decal.is_shadow) {
+        for run in &frame.paths.runs {
+            same_strands.resize(run.piece + 1, 0);
+            same_strands[run.piece] = run.strand as u32;
         }
     }
 }

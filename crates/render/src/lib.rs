@@ -57,7 +57,7 @@ mod samples;
 
 pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use drawing::{
-    Brush, Coverage, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface,
+    Brush, Coverage, Decal, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface,
     SurfaceTexture, SurfaceVertex, scatter,
 };
 pub use edges::{EdgeChannel, Edges};

@@ -112,6 +112,7 @@ fn drawing_of(
         from_ends: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
+        decals: Vec::new(),
         background: None,
         order: Order::Rounded,
         edge_depth_m: 0.005,

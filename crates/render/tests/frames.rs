@@ -106,6 +106,7 @@ impl Scene {
             from_ends: &self.from_ends,
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
+            decals: Vec::new(),
             background: None,
             order: Order::Rounded,
             edge_depth_m: 0.005,

@@ -89,6 +89,7 @@ fn drawing_of(count: usize, list: &str, features: Features) -> Drawing {
         from_ends: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
+        decals: Vec::new(),
         background: Some([0.5; 3]),
         order: Order::Rounded,
         edge_depth_m: 0.005,

@@ -108,6 +108,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         from_ends: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
+        decals: Vec::new(),
         background: Some([1.0; 3]),
         order,
         edge_depth_m: 0.006,

@@ -1,8 +1,10 @@
 //! Frames of a scene in motion. What a frame needs is kept and reused.
 
+use crate::bodies::Body;
 use crate::files::StageError;
 use crate::hair::HairModel;
-use crate::head::{self, layers::MeshLayers};
+use crate::head;
+use crate::head::layers::{Clips, MeshLayers};
 use crate::levels::levels;
 use crate::lines::{HeadLines, LineStrand};
 use crate::look::{LineSet, Look};
@@ -11,6 +13,7 @@ use crate::motion::{Motion, ObjectMotion};
 use crate::neck::{PosedHead, rigid};
 use crate::object::{Object, PathShape};
 use crate::placement::Placement;
+use crate::posture::Posture;
 use crate::reach::Sight;
 use crate::scene::Scene;
 use crate::script::HeadPose;
@@ -54,6 +57,8 @@ pub struct FrameMaker {
 struct ObjectFrame {
     of: Object,
     pose: HeadPose,
+    /// The script's own time of the pose in seconds, where bodies are drawn that move by themselves; else 0.
+    bodies_s: f64,
     points: Vec<Vec3>,
     /// The level of each strand of its hair; empty where there is one level.
     levels: Vec<u32>,
@@ -154,6 +159,9 @@ impl FrameMaker {
         let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
         let mut mesh_layers = Vec::new();
+        let looks = scene.objects().iter().map(Object::look);
+        let clips = Clips::of(looks.flat_map(|look| &look.layers))?;
+        let (mut decals, mut layers_before) = (Vec::new(), 0);
         for (index, object) in scene.objects().iter().enumerate() {
             match objects.get_mut(index) {
                 Some(frame) => frame.follow(object),
@@ -177,7 +185,8 @@ impl FrameMaker {
                 .placement()
                 .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
             let first_layer = mesh_layers.len();
-            surfaces.extend(frame.surfaces(index, motion, &sight, light, first_layer));
+            let names = MeshLayers::new(&object.look().mesh_layers, first_layer, &clips);
+            surfaces.extend(frame.surfaces(index, motion, &sight, light, &names));
             let look = object.look();
             let head = object.placement().head(motion.head(object));
             mesh_layers.extend(look.mesh_layers.iter().map(|layer| MeshLayer {
@@ -185,6 +194,10 @@ impl FrameMaker {
                 head,
                 seed: look.seed,
             }));
+            let layers = look.layers.iter().zip(layers_before..);
+            let of_layer = |(layer, index)| clips.decal(layer, index, head.height_m);
+            decals.extend(layers.filter_map(of_layer));
+            layers_before += look.layers.len();
         }
         for (index, object) in scene.objects().iter().enumerate() {
             let motion = motion.of(index, object);
@@ -254,6 +267,7 @@ impl FrameMaker {
             from_ends: &self.from_ends,
             surfaces,
             mesh_layers,
+            decals,
             background: section.background,
             order: scene.look().order(),
             edge_depth_m: section.edge_depth * scene.head().height_m,
@@ -347,6 +361,7 @@ impl ObjectFrame {
         Self {
             of: object.clone(),
             pose: HeadPose::REST,
+            bodies_s: 0.0,
             points: Vec::new(),
             levels: levels_of(object),
             left_out_by: zones::left_out_by(object.hair(), object.look()),
@@ -401,14 +416,16 @@ impl ObjectFrame {
         // Strands may twist in their places.
         let turns = look.reads_material() && motion.dynamics().is_some();
         self.of.is_drawn_as(object)
-            && self.pose == motion.pose()
+            && self.pose == motion.head_pose()
+            && self.bodies_s == bodies_s(object, motion)
             && (is_same_time || !(turns || look.reads_time()))
             && self.points == motion.points(object)
     }
 
     /// Keeps what the object's hair and head are like.
     fn keep(&mut self, motion: &ObjectMotion) {
-        self.pose = motion.pose();
+        self.pose = motion.head_pose();
+        self.bodies_s = bodies_s(&self.of, motion);
         self.points.clear();
         self.points.extend_from_slice(motion.points(&self.of));
     }
@@ -610,7 +627,7 @@ impl ObjectFrame {
         let rest = &hair.file.strands;
         let points = motion.points(&self.of);
         let strands = || (0..rest.len()).map(|strand| rest.point_range(strand));
-        let (rotation, _) = rigid(motion.pose(), hair.head);
+        let (rotation, _) = rigid(motion.head_pose(), hair.head);
         material.turn(rest.points(), strands(), hair.head.center, rotation);
         match motion.dynamics() {
             _ if hair.file.motion.is_some() || motion.has_points_alone(&self.of) => {
@@ -676,7 +693,7 @@ impl ObjectFrame {
             Some(lines) => lines,
             lines => lines.insert(HeadLines::new(neck, sets, rest_head)?),
         };
-        let model = posed.in_pose(neck, motion.pose());
+        let model = posed.in_pose(neck, motion.head_pose());
         let (look, placement) = (self.of.look(), self.of.placement());
         let found = lines.find(model, sets, sight.camera(), rest_head.unit_m())?;
         for (set, found) in sets.iter().zip(found) {
@@ -718,22 +735,79 @@ impl ObjectFrame {
         Ok(())
     }
 
-    /// The head's surfaces on the screen; none where nothing of the head can be seen.
+    /// The surfaces of the head on the screen, and of bodies.
     fn surfaces(
         &mut self,
         index: usize,
         motion: &ObjectMotion,
         sight: &Sight,
         light: Light,
-        first_layer: usize,
+        layers: &MeshLayers,
+    ) -> Vec<Surface> {
+        let placement = self.of.placement();
+        let light = placement.own_light(light);
+        let mut surfaces = self.head_surfaces(motion, sight, light, layers);
+        surfaces.extend(self.body_surfaces(motion, sight, light, layers));
+        let ties = self
+            .of
+            .hair()
+            .low_ties_at(motion.points(&self.of), motion.head_pose());
+        if !ties.triangles.is_empty() {
+            let paint = self.of.look().paint(self.of.hair().head);
+            surfaces.extend(head::worn(&ties, &paint, layers, sight.camera(), &light));
+        }
+        let first_mesh = head::MESHES * index as u32;
+        for surface in &mut surfaces {
+            surface.mesh += first_mesh;
+            if let Some(paint) = &mut surface.paint {
+                placement.turn(&mut paint.normals);
+            }
+        }
+        surfaces
+    }
+
+    /// The surfaces of bodies that are drawn.
+    fn body_surfaces(
+        &self,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        light: Light,
+        layers: &MeshLayers,
+    ) -> Vec<Surface> {
+        let script = self.of.script();
+        if script
+            .bodies
+            .iter()
+            .all(|body| body.section.color.is_none())
+        {
+            return Vec::new();
+        }
+        let head = self.of.hair().head;
+        let paint = self.of.look().paint(head);
+        let posture = Posture::of(motion.head_pose(), head, script, motion.posed_s());
+        let drawn = script.bodies.iter().filter_map(|body| {
+            let mesh = body.drawn(motion.posed_s(), &posture)?;
+            let (center, radius_m) = ball_around(&mesh.positions);
+            let is_seen = sight.may_see_ball(center, radius_m + paint.width_m);
+            is_seen.then(|| head::painted(&mesh, &paint, layers, sight.camera(), &light))
+        });
+        drawn.flatten().collect()
+    }
+
+    /// The head's surfaces on the screen; none where nothing of the head can be seen.
+    fn head_surfaces(
+        &mut self,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        light: Light,
+        layers: &MeshLayers,
     ) -> Vec<Surface> {
         self.solid = None;
         let Some(neck) = self.of.neck() else {
             return Vec::new();
         };
         let paint = self.of.look().paint(self.of.hair().head);
-        let first_mesh = head::MESHES * index as u32;
-        let (pose, placement) = (motion.pose(), self.of.placement());
+        let (pose, placement) = (motion.head_pose(), self.of.placement());
         let camera = sight.camera();
         let (center, radius) = neck.ball(pose);
         if !sight.may_see_ball(center, radius + paint.width_m) {
@@ -746,22 +820,23 @@ impl ObjectFrame {
         self.solid = solid.map(|ball| placement.ball(ball));
         let posed = self.head.get_or_insert_with(|| PosedHead::new(neck));
         let model = posed.in_pose(neck, pose);
-        let light = self.of.placement().own_light(light);
-        let mut surfaces = head::surfaces(
+        head::surfaces(
             model,
             &paint,
             self.of.look().meshes(),
-            &MeshLayers::new(&self.of.look().mesh_layers, first_layer),
+            layers,
             sight.camera(),
             &light,
-        );
-        for surface in &mut surfaces {
-            surface.mesh += first_mesh;
-            if let Some(paint) = &mut surface.paint {
-                placement.turn(&mut paint.normals);
-            }
-        }
-        surfaces
+        )
+    }
+}
+
+/// The script's own time in seconds where bodies are drawn that move by themselves; else 0.
+fn bodies_s(object: &Object, motion: &ObjectMotion) -> f64 {
+    let moves = |body: &Arc<Body>| body.section.color.is_some() && body.moves();
+    match object.script().bodies.iter().any(moves) {
+        true => motion.posed_s(),
+        false => 0.0,
     }
 }
 

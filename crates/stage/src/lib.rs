@@ -2,6 +2,7 @@
 //! strokes.
 
 mod bake;
+mod bodies;
 mod check;
 mod closed;
 mod dynamics;
@@ -25,6 +26,7 @@ mod painted;
 mod part;
 mod pictures;
 mod placement;
+mod posture;
 mod preset;
 mod reach;
 mod scalp;
@@ -39,6 +41,7 @@ mod textures;
 mod zones;
 
 pub use bake::{Bake, is_bake};
+pub use bodies::{BODIES, BodyKeySection, BodyOn, BodySection, BodyShape, NamedBody};
 pub use check::{check_hair, check_motion, check_style};
 pub use closed::Return;
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};

@@ -180,6 +180,7 @@ impl Animation for Strands {
             from_ends: &[],
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
+            decals: Vec::new(),
             background: Some([1.0; 3]),
             order: Order::default(),
             edge_depth_m: EDGE_DEPTH * HEAD.height_m,

@@ -4,7 +4,7 @@ use super::schema::{self, Section, sections};
 use crate::{Failure, say};
 use effects::preset::{OF_THE_EFFECT, suggestion};
 use effects::{AnyEffect, Param, ParamKind, Registry};
-use stage::{FilePart, MOTION_PARTS, STYLE_PARTS};
+use stage::{BODIES, FilePart, MOTION_PARTS, STYLE_PARTS};
 
 /// Lists effects and sections, or what one of them takes.
 pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Result<(), Failure> {
@@ -133,6 +133,7 @@ fn section_text(section: &Section) -> String {
         "lines" => {
             "lines: [(name: \"rim\", of: \"skin, dress\", kind: \"contour\", ...), ...]".to_owned()
         }
+        "bodies" => format!("{}; also in a motion script", BODIES.example),
         "passes" => "passes: [(edges: strand, name: value, ...), ...]".to_owned(),
         "objects" => "objects: [(preset: \"twin-tails.ron\", name: value, ...), ...]".to_owned(),
         name => format!("{name}: (name: value, ...)"),

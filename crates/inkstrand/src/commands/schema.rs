@@ -4,7 +4,7 @@ use effects::preset::{LAYER, OF_THE_EFFECT};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use serde_json::{Value, json};
 use stage::{
-    FilePart, LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset,
+    BODIES, FilePart, LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset,
     STYLE_PARTS, Sections,
 };
 
@@ -15,12 +15,13 @@ pub(super) struct Section {
     pub table: &'static [Param],
 }
 
-/// The sections in their order: what stands beside them, their own, and the fields of layers, meshes, lines, passes and objects.
+/// The sections in their order: what stands beside them, their own, and the fields of layers, meshes, lines, bodies, passes and objects.
 pub(super) fn sections() -> Vec<Section> {
     let top = ("preset", "What stands beside the sections.", Preset::TOP);
     let layers = ("layers", "What is drawn: effects, in a list.", LAYER);
     let meshes = ("meshes", MeshSection::DOC, MeshSection::TABLE);
     let lines = ("lines", LineSection::DOC, LineSection::TABLE);
+    let bodies = ("bodies", BODIES.doc, BODIES.table);
     let passes = ("passes", PassSection::DOC, PassSection::TABLE);
     let objects = (
         "objects",
@@ -30,7 +31,7 @@ pub(super) fn sections() -> Vec<Section> {
     [top]
         .iter()
         .chain(Sections::ALL)
-        .chain(&[layers, meshes, lines, passes, objects])
+        .chain(&[layers, meshes, lines, bodies, passes, objects])
         .map(|&(name, doc, table)| Section { name, doc, table })
         .collect()
 }

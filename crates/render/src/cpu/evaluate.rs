@@ -79,6 +79,8 @@ impl Evaluator {
         self.fill_features(frame, &mut drawing.features);
         drawing.painting.fill(frame, &self.joints);
         drawing.mesh_painting.fill(frame);
+        drawing.decals.clone_from(&frame.decals);
+        crate::frame::fill_same_strands(frame, &mut drawing.same_strands);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
@@ -92,7 +94,8 @@ impl Evaluator {
                 if layer.program.has_own_paths() {
                     // No strand's clump holds them: they are their own.
                     drawing.clump[joints.clone()].fill(NO_DISC);
-                    for stretch in strokes.on(0, joints) {
+                    let own = (!layer.is_decal()).then(|| strokes.on(0, joints));
+                    for stretch in own.into_iter().flatten() {
                         let own = &strokes.discs[stretch.places()];
                         drawing.clump[stretch.joints].copy_from_slice(own);
                     }
@@ -333,6 +336,16 @@ impl Evaluator {
                     let own = &paths.position[own.clone()];
                     of_each(&mut joints.light_distance, own, distance);
                 }
+            }
+            Input::LightOnScreen => {
+                let camera = frame.camera;
+                let [right, up, ahead] =
+                    [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| camera.world_from_view_direction(axis));
+                let seen = |p: &Vec3| {
+                    let light = to_light(p).0;
+                    vec3([light.dot(right), -light.dot(up), -light.dot(ahead)])
+                };
+                of_each(&mut joints.light_on_screen, &paths.position, seen);
             }
             // Of the place: `paths.depth` is deeper where a piece goes on beyond its cut.
             Input::Depth => {

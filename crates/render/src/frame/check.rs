@@ -2,6 +2,7 @@
 
 use super::{Frame, Light, Object};
 use crate::check::{DrawError, check_picture, check_surfaces};
+use crate::drawing::Decal;
 use crate::mesh_paint::MeshLayer;
 use effects::{Input, Layer, clump};
 use std::ops::Range;
@@ -184,6 +185,14 @@ pub enum FrameError {
         /// Its name.
         layer: String,
     },
+    /// What a frame says of decals is not of the layers that are some, one after the other, or a reach is no length, or a decal paints.
+    #[error(
+        "layer \"{layer}\": a layer with `clip`, and no other, has one decal in the frame, in the layers' order, its reach is finite and 0 or more, and its effect doesn't paint"
+    )]
+    Decal {
+        /// The name of the first layer that is wrong; empty where there are decals of no layer.
+        layer: String,
+    },
     /// The light is nowhere.
     #[error("the light's numbers are not finite")]
     Light,
@@ -203,6 +212,7 @@ impl Frame<'_> {
         check_picture(self.camera.size_px(), self.background, self.edge_depth_m)?;
         check_surfaces(&self.surfaces, self.mesh_layers.len())?;
         self.check_mesh_layers()?;
+        self.check_decals()?;
         let (Light::Direction(light) | Light::Point(light)) = self.light;
         if !light.is_finite() {
             return Err(FrameError::Light);
@@ -257,6 +267,28 @@ impl Frame<'_> {
             }
         }
         Ok(())
+    }
+
+    fn check_decals(&self) -> Result<(), FrameError> {
+        let layers = self.objects.iter().flat_map(|object| object.layers);
+        let mut decals = self.decals.iter();
+        for (index, layer) in layers.enumerate().filter(|(_, layer)| layer.is_decal()) {
+            let is_right = |decal: &&Decal| {
+                let is_shadow = decal.is_shadow == layer.program.casts();
+                let is_length = (0.0..=f32::MAX).contains(&decal.reach_m);
+                decal.layer == index && is_shadow && is_length && layer.program.paints().is_none()
+            };
+            if decals.next().filter(is_right).is_none() {
+                let layer = layer.name.clone();
+                return Err(FrameError::Decal { layer });
+            }
+        }
+        match decals.next() {
+            None => Ok(()),
+            Some(_) => Err(FrameError::Decal {
+                layer: String::new(),
+            }),
+        }
     }
 
     fn check_paths(&self) -> Result<(), FrameError> {

@@ -41,6 +41,7 @@ impl InputSource {
             Input::HeadHeight => Wgsl("gpu_word(GPU_HEAD_HEIGHT)"),
             Input::LightDirection => Wgsl("gpu_light_direction(joint)"),
             Input::LightDistance => Wgsl("gpu_light_distance(joint)"),
+            Input::LightOnScreen => Wgsl("gpu_light_on_screen(joint)"),
             Input::Depth => Wgsl("gpu_depth(joint)"),
             Input::Time => Wgsl("gpu_frame.time_s"),
             Input::ViewDirection => Wgsl("gpu_view_direction(joint)"),

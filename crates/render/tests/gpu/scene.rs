@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3, vec2};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
 use render::{
-    Brush, Edges, Features, Frame, Head, Light, MeshLayer, NO_COLOR, NO_TAPER, Object, Order,
-    StrandInfo, Surface, SurfaceVertex,
+    Brush, Decal, Edges, Features, Frame, Head, Light, MeshLayer, NO_COLOR, NO_TAPER, Object,
+    Order, StrandInfo, Surface, SurfaceVertex,
 };
 use std::iter;
 use std::ops::Range;
@@ -194,6 +194,7 @@ impl Scene {
             texture: None,
             mesh: 0,
             paint: None,
+            marks: if margin_m > 0.0 { 3 } else { 2 },
             vertices: vec![
                 corner(-20.0, 10.0, 0.8, 1.0),
                 corner(80.0, 5.0, 1.1, -1.0),
@@ -240,6 +241,15 @@ impl Scene {
             features: Features::NONE,
             passes: Vec::new(),
             seed,
+        }
+    }
+
+    /// Adds layers that draw on all strands.
+    pub fn add_layers(&mut self, text: &str) {
+        let drawn = self.layer_joints[0].clone();
+        for layer in layers(text, &registry()) {
+            self.layers.push(layer);
+            self.layer_joints.push(drawn.clone());
         }
     }
 
@@ -313,11 +323,27 @@ impl Scene {
             layer_joints: &second.layer_joints,
             ..first.clone()
         });
+        let objects: Vec<Object> = iter::once(first).chain(second).collect();
+        let layers = objects
+            .iter()
+            .flat_map(|object| object.layers.iter().map(|layer| (layer, object.head)));
+        let decals = layers.enumerate().filter_map(|(index, (layer, head))| {
+            let clip = layer.clip.as_deref()?;
+            Some(Decal {
+                layer: index,
+                on_hair: clip.contains("hair"),
+                // One of the surfaces, or all.
+                marks: u32::from(clip.contains("wall")) | (2 * u32::from(clip.contains("head"))),
+                reach_m: layer.reach * head.height_m,
+                is_shadow: layer.program.casts(),
+            })
+        });
         Frame {
             camera: &self.camera,
             paths: &self.paths,
             strands: &self.strands,
-            objects: iter::once(first).chain(second).collect(),
+            decals: decals.collect(),
+            objects,
             light: self.light,
             time_s: 0.3,
             material_normals: &self.material_normals,

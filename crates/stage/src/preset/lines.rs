@@ -151,7 +151,7 @@ impl LineSection {
         let names = Names(text);
         let all = [CONTOUR, CREASE, BORDER];
         if let Some(unknown) = names.iter().find(|name| !all.contains(name)) {
-            let hint = suggestion(unknown, all.into_iter());
+            let hint = suggestion(unknown, all);
             return Err(format!(
                 "kind: there are no lines of the kind `{unknown:.40}`{hint}"
             ));

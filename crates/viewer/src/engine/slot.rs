@@ -5,8 +5,8 @@ use super::{Drawn, Facts, Look, Problem, Times, Wish};
 use effects::Registry;
 use effects::preset::PresetErrors;
 use stage::{
-    AlphaChoice, CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections, StageError,
-    Textures,
+    AlphaChoice, BodySection, CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections,
+    StageError, Textures,
 };
 use std::fs;
 use std::path::PathBuf;
@@ -41,6 +41,7 @@ struct From {
     has_objects: bool,
     /// Of each mesh which it is: how it is painted is the look's.
     meshes: Vec<([Option<String>; 4], AlphaChoice)>,
+    bodies: Vec<BodySection>,
     /// Those that layers name, which must be the hair's.
     zones: Vec<String>,
     /// The names of lines and of what they are of, and those that layers draw.
@@ -231,6 +232,9 @@ impl From {
                     let names = [&mesh.file, &mesh.only, &mesh.hide, &mesh.texture];
                     (names.map(Option::clone), mesh.alpha)
                 })
+                .collect(),
+            bodies: (preset.bodies.iter())
+                .map(|body| body.section.clone())
                 .collect(),
             zones: (preset.layers.iter())
                 .filter_map(|layer| layer.zones.clone())
