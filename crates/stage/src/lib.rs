@@ -2,7 +2,6 @@
 //! strokes.
 
 mod bake;
-mod bodies;
 mod check;
 mod closed;
 mod dynamics;
@@ -12,7 +11,6 @@ mod hair;
 mod hand;
 mod head;
 mod levels;
-mod lines;
 mod load;
 mod look;
 mod material;
@@ -26,7 +24,6 @@ mod painted;
 mod part;
 mod pictures;
 mod placement;
-mod posture;
 mod preset;
 mod reach;
 mod scalp;
@@ -41,7 +38,6 @@ mod textures;
 mod zones;
 
 pub use bake::{Bake, is_bake};
-pub use bodies::{BODIES, BodyKeySection, BodyOn, BodySection, BodyShape, NamedBody};
 pub use check::{check_hair, check_motion, check_style};
 pub use closed::Return;
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
@@ -58,10 +54,9 @@ pub use part::FilePart;
 pub use preset::{
     AlphaChoice, BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
     ExpressionChoice, EyesChoice, FixedTo, HairFrom, HairSection, HeadColors, HeadSection,
-    HeadShape, HeldChoice, LINES, LightKind, LightSection, LineSection, MESHES, MeshSection,
-    MotionSection, NamedLines, NamedMesh, NamedObject, ObjectSection, OrderChoice, PASSES,
-    PassSection, PathChoice, PathSection, Preset, SceneSection, Sections, TopSection, UpAxis,
-    VERSION,
+    HeadShape, HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
+    NamedObject, ObjectSection, OrderChoice, PASSES, PassSection, PathChoice, PathSection, Preset,
+    SceneSection, Sections, TopSection, UpAxis, VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;

@@ -248,12 +248,7 @@ impl Skeleton {
                 },
                 false => Shape::Capsule { from, to, radius },
             };
-            Collider {
-                shape,
-                before,
-                now,
-                was: None,
-            }
+            Collider { shape, before, now }
         };
         self.bodies.iter().map(collider).collect()
     }

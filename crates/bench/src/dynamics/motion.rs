@@ -149,7 +149,6 @@ impl Full {
             shape: ball,
             before,
             now,
-            was: None,
         }];
         let scene = Surroundings {
             roots: Roots::Head(now),

@@ -155,7 +155,6 @@ impl<'a> Run<'a> {
                 },
                 before,
                 now,
-                was: None,
             })
             .collect();
         let scene = Surroundings {
@@ -167,7 +166,6 @@ impl<'a> Run<'a> {
             streams: &[],
             colliders: &colliders,
             goal: goal.as_deref(),
-            anchors: &[],
         };
         if index.is_multiple_of(8) {
             self.refuse(index, &scene, frame.dt)?;

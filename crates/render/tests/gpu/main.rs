@@ -4,7 +4,6 @@
 #![allow(clippy::print_stderr, reason = "what is skipped is said")]
 
 mod agree;
-mod decals;
 mod faults;
 mod inputs;
 mod meshes;

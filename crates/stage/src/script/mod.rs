@@ -11,16 +11,14 @@ pub(crate) use bone::{Below, Bone};
 pub(crate) use load::load;
 pub use parse::MOTION_PARTS;
 pub(crate) use parse::parse;
-pub(crate) use pose::{HeadPose, turned};
+pub(crate) use pose::HeadPose;
 
-use crate::bodies::{Body, NamedBody, NamedKey};
 use crate::hair::HairModel;
 use crate::skeleton::Skeleton;
 use effects::choices;
 use effects::preset::Place;
 use glam::{DQuat, DVec3};
 use hair_sim::key_weights;
-use std::sync::Arc;
 use stroke_path::sin_cos_degrees;
 
 /// A script of motion.
@@ -44,11 +42,6 @@ pub(crate) struct MotionScript {
     pub has_wake: bool,
     /// Whether hair comes back to where it was when the script starts again; it has a period then.
     pub closes: bool,
-    /// Bodies that the script itself lists, and the keys of those and of the preset's, as they are written.
-    pub named_bodies: Vec<NamedBody>,
-    pub body_keys: Vec<NamedKey>,
-    /// All bodies that hair is kept out of beside head and shoulders: the preset's and the script's.
-    pub bodies: Vec<Arc<Body>>,
 }
 
 /// Where the head is at a time.
@@ -159,8 +152,7 @@ impl MotionScript {
     /// Whether nothing moves.
     pub fn is_still(&self) -> bool {
         let head_is = self.keys.is_empty() && self.moves.is_empty() && self.below.is_none();
-        let bodies_are = self.bodies.iter().all(|body| !body.moves());
-        head_is && self.winds.is_empty() && self.shapes.is_empty() && bodies_are
+        head_is && self.winds.is_empty() && self.shapes.is_empty()
     }
 
     /// The head's pose at `time` (seconds).

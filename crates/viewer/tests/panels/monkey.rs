@@ -102,9 +102,8 @@ const LOOK: &str = r#"(
 )"#;
 
 /// Mistakes that need two parameters to be made: each by itself is right.
-const BETWEEN: [&str; 8] = [
+const BETWEEN: [&str; 7] = [
     "it is a frame's",
-    "`reach` is of strokes that are drawn on something",
     "solver:",
     "leave it out",
     "step: expected 0",

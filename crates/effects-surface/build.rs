@@ -1,5 +1,0 @@
-//! Translates the effects.
-
-fn main() {
-    effects_build::effect("src/line_ink.wgsl");
-}
