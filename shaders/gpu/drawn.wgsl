@@ -29,6 +29,8 @@ struct Triangle {
 const STROKE_FIRST_DISC: u32 = 0u;
 const STROKE_NUMBER: u32 = 1u;
 const STROKE_IS_CLIPPED: u32 = 2u;
+/// Of a decal where its record begins, 0 of others.
+const STROKE_DECAL: u32 = 3u;
 
 /// In place of a stroke's record: a stroke that draws on other runs of the strand, and not on this chunk's.
 const NO_STROKE: u32 = 0u;
@@ -37,8 +39,11 @@ const NO_STROKE: u32 = 0u;
 const SHOWS_TRIANGLE: u32 = 0x80000000u;
 const SHOWS_NOTHING: u32 = 0xffffffffu;
 
-/// A surface's record in the tables: colour where the tone is 0 or more, colour below, margin; then what textured.wgsl knows of its picture.
-const SURFACE_WORDS: u32 = 12u;
+/// A surface's record in the tables: colour where the tone is 0 or more, colour below, margin; then what textured.wgsl knows of its picture, from
+/// where its image's record begins on (0 is none); and its marks.
+const SURFACE_WORDS: u32 = 13u;
+const SURFACE_PICTURE: u32 = 7u;
+const SURFACE_MARKS: u32 = 12u;
 
 @group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
 @group(0) @binding(1) var<storage, read> chunks: array<Chunk>;

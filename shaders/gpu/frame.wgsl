@@ -35,6 +35,8 @@ struct GpuFrame {
     /// 0 to write the mean of each pixel, 1 every sample.
     writes_samples: u32,
     time_s: f32,
+    /// Where the tables say which pieces are one strand: how many pieces, then a number for each; 0 where each is its own.
+    same_strands_at: u32,
 }
 
 /// One disc of a stroke on the screen.

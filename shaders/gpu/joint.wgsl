@@ -78,6 +78,13 @@ fn gpu_light_distance(joint: u32) -> f32 {
     return select(1e6, distance, gpu_frame.light_is_point != 0u);
 }
 
+/// To the right, down and to the eye.
+fn gpu_light_on_screen(joint: u32) -> vec3<f32> {
+    let light = gpu_light_direction(joint);
+    let to_eye = cross(gpu_frame.right, gpu_frame.up);
+    return vec3<f32>(dot(light, gpu_frame.right), -dot(light, gpu_frame.up), dot(light, to_eye));
+}
+
 /// Head heights; of the joint's place, as `GPU_AT_DEPTH` is deeper where a piece goes on beyond its cut.
 fn gpu_depth(joint: u32) -> f32 {
     let ahead = cross(gpu_frame.up, gpu_frame.right);
@@ -137,7 +144,7 @@ fn gpu_disc(joint: u32, offset: vec2<f32>, radius: f32, scale: f32, clump_radius
     // No depth is nearer than the near plane, whatever is taken from it.
     let lift = bitcast<f32>(gpu_of_strand(joint, 7u));
     let shifted = max(depth + (depth_offset - lift) * gpu_word(GPU_HEAD_HEIGHT), gpu_frame.near_m);
-    let biased = max(depth - clump_radius * gpu_word(GPU_UNIT), gpu_frame.near_m);
+    let biased = max(depth - clump_radius * gpu_word(GPU_UNIT) - gpu_word(GPU_SURFACE_BIAS), gpu_frame.near_m);
     return GpuDisc(
         gpu_vec2(joint, GPU_AT_CENTER) + offset * gpu_unit_px(joint),
         min(max(radius, 0.0) * scale, GPU_LARGEST_PX),

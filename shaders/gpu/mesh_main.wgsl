@@ -37,6 +37,12 @@ const GPU_MESH_CORNERS: u32 = 7u;
 const GPU_SHOWS_TRIANGLE: u32 = 0x80000000u;
 const GPU_SHOWS_NOTHING: u32 = 0xffffffffu;
 
+/// What a decal does to a sample of a mesh: as tiles.wgsl has it.
+const GPU_DECAL_COLORS: u32 = 1u;
+const GPU_DECAL_SHADES: u32 = 2u;
+/// How much a mesh lies in shadow where hair casts one: whatever the light, and wherever it turns to shade.
+const GPU_IN_SHADOW: f32 = 3.0;
+
 /// What is seen of a mesh.
 struct GpuSeen {
     color: vec3<f32>,
@@ -132,7 +138,11 @@ fn gpu_main(@builtin(global_invocation_id) id: vec3<u32>) {
     let place = vec2<f32>(id.xy) + select(pair.xy, pair.zw, vec2<bool>((id.z & 1u) != 0u));
     let shown = textureLoad(gpu_shown, id.xy, id.z, 0);
     if (gpu_is_painted(shown.x)) {
-        let seen = gpu_seen(shown.x, place, bitcast<f32>(shown.w), gpu_samples[at].xyz);
+        if (shown.y == GPU_DECAL_COLORS) {
+            return;
+        }
+        var seen = gpu_seen(shown.x, place, bitcast<f32>(shown.w), gpu_samples[at].xyz);
+        seen.occlusion = select(seen.occlusion, GPU_IN_SHADOW, shown.y == GPU_DECAL_SHADES);
         gpu_samples[at] = vec4<f32>(gpu_mesh_painted(seen), gpu_samples[at].w);
         return;
     }

@@ -19,7 +19,7 @@ fn gpu_main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let shown = gpu_shown_at(id.xy, id.z);
     let in_layer = shown.what - (gpu_words[GPU_FIRST_DISC] + gpu_words[GPU_FIRST_JOINT]);
-    if ((shown.what & GPU_SHOWS_TRIANGLE) != 0u || in_layer >= gpu_paint_word(GPU_DISC_COUNT)) {
+    if ((shown.what & GPU_SHOWS_TRIANGLE) != 0u || in_layer >= gpu_paint_word(GPU_DISC_COUNT) || shown.is_decal) {
         return;
     }
     let p = gpu_point(gpu_words[GPU_FIRST_JOINT] + in_layer % gpu_words[GPU_JOINT_COUNT], shown);

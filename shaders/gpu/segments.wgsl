@@ -14,6 +14,8 @@ struct Segment {
     number: u32,
     is_clipped: bool,
     strand: u32,
+    /// The record of a decal, 0 of others.
+    decal: u32,
 }
 
 fn store(slot: u32, s: Segment) {
@@ -29,7 +31,7 @@ fn store(slot: u32, s: Segment) {
     batch[at + 3u] = vec4<f32>(s.sweep.body_end, s.sweep.flat_end, s.way);
     batch[at + 4u] = vec4<f32>(s.inv_depth, s.biased);
     let number = 2u * s.number + select(0u, 1u, s.is_clipped);
-    batch[at + 5u] = bitcast<vec4<f32>>(vec4<u32>(s.disc, number, s.strand, 0u) + KEEPS_BITS);
+    batch[at + 5u] = bitcast<vec4<f32>>(vec4<u32>(s.disc, number, s.strand, s.decal) + KEEPS_BITS);
 }
 
 /// Added to whole numbers that pass as floating point ones: as such they are normal numbers, whose bits no processor
@@ -45,7 +47,7 @@ fn segment_in(slot: u32) -> Segment {
     let v4 = batch[at + 4u];
     let v5 = bitcast<vec4<u32>>(batch[at + 5u]) - KEEPS_BITS;
     let swept = Sweep(v0.xy, v0.zw, v1.x, v1.y, v1.z, v1.w, v2.x, v2.y, v2.z, v2.w, v3.x, v3.y);
-    return Segment(swept, v4.xy, v4.zw, v3.zw, v5.x, v5.y >> 1u, (v5.y & 1u) != 0u, v5.z);
+    return Segment(swept, v4.xy, v4.zw, v3.zw, v5.x, v5.y >> 1u, (v5.y & 1u) != 0u, v5.z, v5.w);
 }
 
 /// The part of a segment between two discs whose discs can touch the picture, seen from the tile; nothing where `z` is
@@ -80,11 +82,15 @@ struct Found {
     segment: Segment,
 }
 
-/// Looks at one of a chunk's segments, of the stroke at that place in its list.
-fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>) -> Found {
+/// Looks at one of a chunk's segments, of the stroke at that place in its list: of decals, or of others.
+fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>, decals: bool) -> Found {
     var found: Found;
     let stroke = tables[tables[2u * chunk.strokes] + in_list];
     if (stroke == NO_STROKE) {
+        return found;
+    }
+    let decal = tables[stroke + STROKE_DECAL];
+    if ((decal != 0u) != decals) {
         return found;
     }
     let number = tables[stroke + STROKE_NUMBER];
@@ -136,6 +142,7 @@ fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>) -> Found {
         number,
         ORDER != SHIFTED && tables[stroke + STROKE_IS_CLIPPED] != 0u,
         chunk.strand,
+        decal,
     );
     return found;
 }

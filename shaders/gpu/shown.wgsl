@@ -14,6 +14,8 @@ struct GpuShown {
     what: u32,
     /// The way to the next disc.
     way: f32,
+    /// Whether a decal gives it its colour.
+    is_decal: bool,
     /// Places across stroke and clump, -1 to 1.
     across: vec2<f32>,
     /// 1/m, as the sample was ordered; 0 where nothing is.
@@ -22,7 +24,8 @@ struct GpuShown {
 
 fn gpu_shown_at(pixel: vec2<u32>, sample: u32) -> GpuShown {
     let words = textureLoad(gpu_shown, pixel, sample, 0);
-    return GpuShown(words.x, bitcast<f32>(words.y), unpack2x16snorm(words.z), bitcast<f32>(words.w));
+    let way = bitcast<f32>(words.y & 0x7fffffffu);
+    return GpuShown(words.x, way, (words.y >> 31u) != 0u, unpack2x16snorm(words.z), bitcast<f32>(words.w));
 }
 
 /// A point between two joints, and where a sample lies beside it.

@@ -1,6 +1,6 @@
 // Draws the tiles: a workgroup a tile, an invocation a pixel, four samples of it at a time. What each sample shows is
 // told at render::Order; ORDER is written before this text, and so is told.wgsl or untold.wgsl, which say whether samples
-// are kept with what they show, and textured.wgsl or untextured.wgsl.
+// are kept with what they show, textured.wgsl or untextured.wgsl, and decals.wgsl or no_decals.wgsl.
 //
 // All invocations together look at a batch of a tile's triangles or segments, each at one, and keep what
 // reaches the tile, ready to be drawn, in the memory that they share. Then each draws them all into its own samples.
@@ -21,6 +21,10 @@ const BATCH: u32 = 64u;
 /// Stands for the inverse depth of nothing.
 const NOTHING: f32 = -3e38;
 const FAR_RATIO: f32 = 3e38;
+
+/// What a decal does to a sample.
+const DECAL_COLORS: u32 = 1u;
+const DECAL_SHADES: u32 = 2u;
 
 /// A batch's things that reach the tile: for each its box, then six vectors.
 var<workgroup> boxes: array<vec4<f32>, BATCH>;
@@ -51,6 +55,8 @@ struct Samples {
     red: vec4<f32>,
     green: vec4<f32>,
     blue: vec4<f32>,
+    /// Whether a decal gives its colour, or puts the surface in shadow.
+    decal: vec4<u32>,
     /// Where `TELLS`: the disc that its stroke's segment begins at, the way to the next, and the places across stroke and clump.
     disc: vec4<u32>,
     way: vec4<f32>,
@@ -113,6 +119,7 @@ fn draw_tile(
             surface_blue = samples.blue;
         }
         draw_strands(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
+        draw_decals(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
         if (KEEPS_UNDER) {
             write_under(corner + pixel.xy, first_sample, samples, surface_red, surface_green, surface_blue);
         }
@@ -163,10 +170,13 @@ fn write_under(at: vec2<u32>, first_sample: u32, samples: Samples, red: vec4<f32
 fn what_shows(samples: Samples, k: u32) -> vec4<u32> {
     if (samples.strand[k] > NOTHING) {
         let places = pack2x16snorm(vec2<f32>(samples.v[k], samples.w[k]));
-        return vec4<u32>(samples.disc[k], bitcast<u32>(samples.way[k]), places, bitcast<u32>(samples.strand[k]));
+        // The way's sign is free to say that the sample isn't to be painted.
+        let decal = select(0u, 0x80000000u, samples.decal[k] == DECAL_COLORS);
+        let way = bitcast<u32>(max(samples.way[k], 0.0)) | decal;
+        return vec4<u32>(samples.disc[k], way, places, bitcast<u32>(samples.strand[k]));
     }
     if (samples.surface[k] > NOTHING) {
-        return vec4<u32>(SHOWS_TRIANGLE | samples.triangle[k], 0u, 0u, bitcast<u32>(samples.surface[k]));
+        return vec4<u32>(SHOWS_TRIANGLE | samples.triangle[k], samples.decal[k], 0u, bitcast<u32>(samples.surface[k]));
     }
     return vec4<u32>(SHOWS_NOTHING, 0u, 0u, 0u);
 }
@@ -315,7 +325,7 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<
             let taken = min(items - item, BATCH - offset);
             if (local >= offset && local < offset + taken) {
                 let own = item + local - offset;
-                seen = look_at(chunk, in_list + own / places, own % places, tile);
+                seen = look_at(chunk, in_list + own / places, own % places, tile, false);
                 nearest_seen = nearest_in(found, next);
             }
             offset += taken;

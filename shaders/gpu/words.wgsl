@@ -21,6 +21,8 @@ const GPU_UNIT: u32 = 12u;
 const GPU_PAINT: u32 = 13u;
 /// The layer's bit in `GPU_STRAND_LEFT_OUT_BY`, 0 of a clump.
 const GPU_LAYER_BIT: u32 = 14u;
+/// How much nearer the object's strands count against surfaces, metres.
+const GPU_SURFACE_BIAS: u32 = 15u;
 
 fn gpu_word(at: u32) -> f32 {
     return bitcast<f32>(gpu_words[at]);

@@ -29,6 +29,7 @@ const TABLE: &[Row] = &[
     Row(2, "document", Only(&["hair-io"]), &[]),
     Row(2, "effects-builtin", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "effects-cartoon", Only(&["effects"]), &[BUILD_TOOL]),
+    Row(2, "effects-surface", Only(&["effects"]), &[BUILD_TOOL]),
     Row(2, "effects-testkit", Only(&["effects"]), &[BUILD_TOOL]),
     Row(
         2,

@@ -156,6 +156,7 @@ pub(crate) fn registry() -> Result<Registry, BenchError> {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).map_err(|error| error.to_string())?;
     effects_cartoon::register(&mut registry).map_err(|error| error.to_string())?;
+    effects_surface::register(&mut registry).map_err(|error| error.to_string())?;
     Ok(registry)
 }
 

@@ -105,6 +105,7 @@ pub(crate) const INPUTS: &[Input] = &[
         .where_empty(|| quote!(::effects::wgsl::vec3([-1.0; 3]))),
     input("light_direction", Vec3, Both, "unit vector to the light"),
     input("light_distance", F32, Both, "distance to the light, head heights; 1e6 for a direction"),
+    input("light_on_screen", Vec3, Both, "unit vector to the light as it is seen: x right, y down, z to the eye"),
     input("view_direction", Vec3, Both, "unit vector to the eye"),
     input("depth", F32, Both, "distance from the eye along the view's axis, head heights"),
     input("time", F32, Both, "time of the scene, seconds: what reads it changes while nothing moves"),
@@ -113,6 +114,7 @@ pub(crate) const INPUTS: &[Input] = &[
         // The clump declares it, and reads it where its parameters say so.
         .where_empty(|| quote!(::effects::wgsl::vec3([0.0; 3]))),
     input("rest_position", Vec3, Both, "where the strand is here at rest, head heights from the head's centre: x to its left, y up, z to the face"),
+    input("from_ends", Vec2, Both, "how far it is, as it is seen, to where the strand begins (x) and where it ends (y), metres at its depth"),
     input("unit", F32, ToEffects, "one unit of the layer's widths in 1/300 of the head's height: 1, or a pixel's size at 720 lines")
         .where_empty(|| quote!(1.0)),
     input("normal", Vec3, ToEffects, "the clump's unit normal (5.4)"),
@@ -130,7 +132,7 @@ pub(crate) const SAMPLE_INPUTS: &[Input] = &[
     input("position", Vec3, Both, "place in the world, metres: of hair that of the stroke's axis beside the sample"),
     input("forward", Vec3, ToHair, "unit vector along the strand, to its tip"),
     input("normal", Vec3, Both, "unit normal: of hair the clump's (5.4), of a mesh as smooth as its corners' are"),
-    input("occlusion", F32, ToMeshes, "how much the mesh lies in shadow whatever the light, 0 to 1: what is to be taken off the cosine to the light"),
+    input("occlusion", F32, ToMeshes, "how much the mesh lies in shadow whatever the light, 0 to 1, or 3 in the shadow of hair: what is to be taken off the cosine to the light"),
     input("tube", Vec3, ToHair, "unit normal of the stroke as a round tube: `rounded(normal, tube, roundness)` is between both"),
     input("u", F32, ToHair, "place along the strand, 0 at the root, 1 at the tip"),
     input("s", F32, ToHair, "length of the strand up to here, head heights"),

@@ -5,12 +5,13 @@
 //! let mut registry = effects::Registry::new();
 //! effects_builtin::register(&mut registry)?;
 //! let ids: Vec<_> = registry.iter().map(|effect| effect.id()).collect();
-//! assert_eq!(ids, ["hair.band", "hair.base", "hair.cel", "hair.fine", "hair.highlight", "hair.ink", "hair.silhouette"]);
+//! assert_eq!(ids, ["hair.band", "hair.base", "hair.cast", "hair.cel", "hair.fine", "hair.highlight", "hair.ink", "hair.silhouette"]);
 //! # Ok::<(), effects::RegistryError>(())
 //! ```
 
 mod band;
 mod base;
+mod cast;
 mod cel;
 mod fine;
 mod highlight;
@@ -19,6 +20,7 @@ mod silhouette;
 
 pub use band::Band;
 pub use base::Base;
+pub use cast::Cast;
 pub use cel::Cel;
 pub use fine::Fine;
 pub use highlight::Highlight;
@@ -37,6 +39,7 @@ pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
     registry.register::<Ink>()?;
     registry.register::<Base>()?;
     registry.register::<Cel>()?;
+    registry.register::<Cast>()?;
     registry.register::<Highlight>()?;
     registry.register::<Band>()?;
     registry.register::<Fine>()

@@ -1,6 +1,6 @@
 //! Each effect holds to what every effect must hold to.
 
-use effects_builtin::{Band, Base, Cel, Fine, Highlight, Ink, Silhouette};
+use effects_builtin::{Band, Base, Cast, Cel, Fine, Highlight, Ink, Silhouette};
 use effects_testkit::{assert_conforms, assert_steady};
 
 #[test]
@@ -15,6 +15,13 @@ fn band() {
 fn base() {
     assert_conforms::<Base>();
     assert_steady::<Base>(&[]);
+}
+
+#[test]
+fn cast() {
+    assert_conforms::<Cast>();
+    assert_steady::<Cast>(&[]);
+    assert_steady::<Cast>(&[("feathers", "5"), ("raggedness", "0.6")]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What an effect says of itself, in lists, messages and the parser.
 
-use crate::values::{extreme_values, text};
+use crate::values::{defaults, extreme_values, text};
 use effects::preset::{LAYER, read_value};
 use effects::{AnyEffect, Param, ParamKind, Values, parse_hex};
 use std::collections::BTreeSet;
@@ -17,10 +17,15 @@ pub(crate) fn words(effect: &dyn AnyEffect) -> Result<(), String> {
     Ok(())
 }
 
-/// A preset's layer may say the same of rank and depth offset.
+/// A preset's layer may say the same of rank, depth offset and reach; and decals can be drawn.
 pub(crate) fn order(effect: &dyn AnyEffect) -> Result<(), String> {
     let (rank, depth_offset) = (effect.rank() as f32, effect.depth_offset());
-    for (name, value) in [("rank", rank), ("depth_offset", depth_offset)] {
+    let own = [
+        ("rank", rank),
+        ("depth_offset", depth_offset),
+        ("reach", effect.clip_reach()),
+    ];
+    for (name, value) in own {
         let kind = LAYER.iter().find(|p| p.name == name).map(|p| p.kind);
         let (min, max) = match kind {
             Some(ParamKind::Integer { min, max, .. }) => (min as f32, max as f32),
@@ -30,6 +35,15 @@ pub(crate) fn order(effect: &dyn AnyEffect) -> Result<(), String> {
         if !(min..=max).contains(&value) {
             return Err(format!("its {name} is {value}, not from {min} to {max}"));
         }
+    }
+    let casts = effect.program(&defaults(effect).values).casts();
+    if casts && effect.clip().is_none() {
+        return Err("it CASTS, and it has no CLIP: say what its shadows fall on".to_owned());
+    }
+    if effect.clip().is_some() && effect.paints().is_some() {
+        return Err(
+            "it has a CLIP and paints samples: decals have their strokes' colours".to_owned(),
+        );
     }
     Ok(())
 }

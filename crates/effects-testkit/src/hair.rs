@@ -78,10 +78,13 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         strand_tip_color: vec3([-1.0; 3]),
         light_direction: vec3(light.to_array()),
         light_distance: to_light.length() / HEAD_M,
+        // As the eye sees it, near enough.
+        light_on_screen: vec3([light.x, -light.y, light.z]),
         view_direction: vec3(view.to_array()),
         depth: EYE.distance(position) / HEAD_M,
         time: 0.7,
         across: vec2([-ahead.y, ahead.x]),
+        from_ends: vec2([i, last - i].map(|links| 0.02 * links as f32)),
         rest_position: vec3((position / HEAD_M).to_array()),
         unit: 0.8,
         normal: vec3(normal.to_array()),
@@ -135,6 +138,7 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
             Joint {
                 u: 0.0,
                 arc_length: 0.0,
+                from_ends: vec2([0.0; 2]),
                 forward: up,
                 backward: up,
                 ..good
@@ -144,6 +148,7 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
             "a strand 1000 km long",
             Joint {
                 arc_length: 1e6,
+                from_ends: vec2([1e6; 2]),
                 ..good
             },
         ),
@@ -224,6 +229,7 @@ pub(crate) fn hostile_joints() -> Vec<(&'static str, Joint)> {
             "light against the normal",
             Joint {
                 light_direction: -good.normal,
+                light_on_screen: vec3([-good.normal.x, good.normal.y, -good.normal.z]),
                 gray: 0.0,
                 ..good
             },

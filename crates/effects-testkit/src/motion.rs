@@ -64,6 +64,8 @@ impl Motion {
                 let place = Vec3::from(place.to_array()) + time * Vec3::new(0.2, -0.1, 0.1);
                 InputValue::Triple(vec3(place.to_array()))
             }
+            // From end to end of a strand of 0.1 m.
+            (Input::FromEnds, _) => InputValue::Pair(vec2([0.1 * time, 0.1 * (1.0 - time)])),
             // u and gray.
             (_, InputValue::Number(_)) => along(0.0, 1.0),
             // Directions go once around.

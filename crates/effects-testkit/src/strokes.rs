@@ -48,6 +48,7 @@ pub(crate) fn near(effect: &dyn AnyEffect) -> Result<(), String> {
     for case in extremes(effect) {
         let program = effect.program(&case.values);
         let (own, farthest) = (program.reach(), Reach::FARTHEST);
+        let has_unit = program.inputs().has(Input::Unit);
         if !(own.clumps <= farthest.clumps && own.units <= farthest.units) {
             return Err(format!(
                 "{}: its reach is {own:?}, and no stroke may exceed {farthest:?}",
@@ -58,7 +59,8 @@ pub(crate) fn near(effect: &dyn AnyEffect) -> Result<(), String> {
             let strokes = evaluate(&*program, &joints, instance);
             for (stroke, joint) in strokes.iter().zip(&joints) {
                 let reach = stroke.offset.length().0 + stroke.radius;
-                let most = own.clumps * joint.clump_radius + own.units * joint.unit;
+                let most = own.clumps * joint.clump_radius
+                    + own.units * if has_unit { joint.unit } else { 1.0 };
                 if stroke.radius > 0.0 && reach > 1.0001 * most {
                     return Err(format!(
                         "{}: stroke {instance} reaches {reach} from its clump's middle, and by its `reach` {most} is the most",

@@ -21,6 +21,7 @@ trait Spoil: Send + Sync + 'static {
     const PARAMS: &'static [Param] = Program::PARAMS;
     const OWN_PATHS: bool = false;
     const IS_CLUMP: bool = false;
+    const CASTS: bool = false;
     const WGSL: &'static str = Program::WGSL;
     fn stroke(good: Stroke, _joints: &Joints, _index: usize, _params: &Params) -> Stroke {
         good
@@ -67,6 +68,7 @@ impl<S: Spoil> StrokeEffect for Spoilt<S> {
     const DEPTH_OFFSET: f32 = S::DEPTH_OFFSET;
     const OWN_PATHS: bool = S::OWN_PATHS;
     const IS_CLUMP: bool = S::IS_CLUMP;
+    const CASTS: bool = S::CASTS;
     fn instances(params: &Params) -> u32 {
         S::instances(params)
     }
@@ -297,6 +299,12 @@ fn it_is_the_clump_where_it_says_so() {
         const RANK: i32 = -1;
     });
     assert_fails::<Below>("it is the clump", "has the rank -1");
+}
+
+#[test]
+fn a_shadow_falls_on_something() {
+    spoil!(Nowhere { const CASTS: bool = true; });
+    assert_fails::<Nowhere>("its rank and depth offset are a layer's", "it has no CLIP");
 }
 
 #[test]

@@ -43,6 +43,9 @@ pub trait StrokeEffect: Send + Sync + 'static {
     const OWN_PATHS: bool = false;
     /// Whether it paints meshes and draws no strokes: [`MeshEffect`](crate::MeshEffect).
     const IS_FOR_MESHES: bool = false;
+    /// Whether it draws lines of surfaces: strands whose joints lie on a mesh, have no clump, and whose material normals are the surface's.
+    /// Else it draws hair.
+    const IS_FOR_LINES: bool = false;
     /// Whether there are strokes on the coat of clumps below a hair style's own, too. It shows in gaps alone,
     /// where highlights would be specks.
     const ON_UNDERCOAT: bool = true;
@@ -51,6 +54,14 @@ pub trait StrokeEffect: Send + Sync + 'static {
     /// [`clump_disc`](crate::wgsl::clump_disc), in any colour. What other hair has behind it is then never seen, and need not be
     /// worked out. Only of effects with a rank of 0 or more.
     const IS_CLUMP: bool = false;
+
+    /// What its strokes are drawn on where the layer doesn't say it (`clip`); nothing where they are no decals.
+    const CLIP: Option<&'static str> = None;
+    /// How far before or behind them, head heights, decals are drawn on that where the layer doesn't say it.
+    const REACH: f32 = 0.05;
+    /// Whether its strokes are shadows that hair casts: decals that meshes show as their own colours in shadow, and that no hair shows but
+    /// what lies behind them by more than the layer's reach, never their own strand. Of effects with a [`Self::CLIP`].
+    const CASTS: bool = false;
 
     /// How many strokes there are for each strand (feathers). At least 1.
     fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
@@ -165,12 +176,18 @@ pub trait AnyEffect: Send + Sync {
     fn rank(&self) -> i32;
     /// [`StrokeEffect::DEPTH_OFFSET`].
     fn depth_offset(&self) -> f32;
+    /// [`StrokeEffect::CLIP`].
+    fn clip(&self) -> Option<&'static str>;
+    /// [`StrokeEffect::REACH`].
+    fn clip_reach(&self) -> f32;
     /// [`Parameters::PARAMS`].
     fn params(&self) -> &'static [Param];
     /// [`Parameters::INPUTS`].
     fn inputs(&self) -> &'static [Input];
     /// Whether it paints meshes ([`MeshEffect`](crate::MeshEffect)) and draws no strokes.
     fn is_for_meshes(&self) -> bool;
+    /// [`StrokeEffect::IS_FOR_LINES`].
+    fn is_for_lines(&self) -> bool;
     /// [`Program::PAINTS`].
     fn paints(&self) -> Option<&'static [SampleInput]>;
     /// [`Parameters::WGSL`].
@@ -214,6 +231,8 @@ pub trait LayerProgram: Send + Sync {
     fn is_on_undercoat(&self) -> bool;
     /// [`StrokeEffect::IS_CLUMP`].
     fn is_clump(&self) -> bool;
+    /// [`StrokeEffect::CASTS`].
+    fn casts(&self) -> bool;
     /// [`Program::MAY_BE_NEARER`].
     fn may_be_nearer(&self) -> bool;
     /// [`StrokeEffect::reach`].
@@ -290,6 +309,12 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
     fn depth_offset(&self) -> f32 {
         E::DEPTH_OFFSET
     }
+    fn clip(&self) -> Option<&'static str> {
+        E::CLIP
+    }
+    fn clip_reach(&self) -> f32 {
+        E::REACH
+    }
     fn params(&self) -> &'static [Param] {
         E::Program::PARAMS
     }
@@ -298,6 +323,9 @@ impl<E: StrokeEffect> AnyEffect for Erased<E> {
     }
     fn is_for_meshes(&self) -> bool {
         E::IS_FOR_MESHES
+    }
+    fn is_for_lines(&self) -> bool {
+        E::IS_FOR_LINES
     }
     fn paints(&self) -> Option<&'static [SampleInput]> {
         E::Program::PAINTS
@@ -348,6 +376,10 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn is_clump(&self) -> bool {
         E::IS_CLUMP
+    }
+
+    fn casts(&self) -> bool {
+        E::CASTS
     }
 
     fn may_be_nearer(&self) -> bool {

@@ -52,6 +52,6 @@ pub use figure::{Blush, Cloth, Dress, Expression, Eyes, Face, Figure};
 pub use guides::Guides;
 pub use shell::{Place, Shell, direction};
 pub use style::{
-    Accessory, AccessoryKind, Drawn, Edit, Form, Grown, Line, MOST_CLUMPS, OrnamentMesh, Scalp,
-    Style, Taper, Tie, TieKind, Zone, grow, zone_of,
+    Accessory, AccessoryKind, Drawn, Edit, Form, Grown, Line, LowTie, MOST_CLUMPS, OrnamentMesh,
+    Scalp, Style, Taper, Tie, TieKind, Zone, grow, zone_of,
 };

@@ -24,6 +24,14 @@ pub enum DynamicsError {
     /// Numbers of the scene are finite.
     #[error("the scene's {0} is not finite")]
     Surroundings(&'static str),
+    /// An anchor's stiffness has a range.
+    #[error("anchor {anchor}: its stiffness is {stiffness}, and must be from 0 to 1e9 1/s^2")]
+    Anchor {
+        /// Its place in the list.
+        anchor: usize,
+        /// As it was given.
+        stiffness: f64,
+    },
     /// A number of [`Mutual`](crate::Mutual) has a range.
     #[error("{name} is {value}, and must be from {least} to {most}")]
     Mutual {

@@ -108,4 +108,4 @@ pub use solver::{Solver, State};
 pub use stats::Stats;
 pub use strand_solver::StrandSolver;
 pub use strands::{StrandError, Strands};
-pub use surroundings::{Acceleration, Roots, Surroundings};
+pub use surroundings::{Acceleration, Anchor, Roots, Surroundings};

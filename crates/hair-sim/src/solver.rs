@@ -47,7 +47,7 @@ use crate::{
     rest::RestStrand,
     stats::Stats,
     strands::Strands,
-    surroundings::{Acceleration, Roots, Surroundings},
+    surroundings::{Acceleration, Anchor, Roots, Surroundings},
     threads::join,
 };
 
@@ -55,7 +55,7 @@ use crate::{
 use crate::lanes::avx2::Avx2;
 use batch::{Batch, BatchState};
 use contact::Guard;
-use drive::{Drive, Others, roots, whole_poses};
+use drive::{Anchored, Drive, Others, roots, whole_poses};
 use energy::whole_energy;
 use locks::Locks;
 use rods::Rods;
@@ -89,6 +89,8 @@ pub struct Solver {
     /// Of the bodies in the step at hand, and who sleeps in it.
     guards: Vec<Guard>,
     sleepers: Sleepers,
+    /// Of the step at hand, batch by batch.
+    anchored: Vec<Anchored>,
     instructions: Instructions,
 }
 
@@ -221,6 +223,7 @@ impl Solver {
             locks: None,
             guards: Vec::new(),
             sleepers: Sleepers::default(),
+            anchored: Vec::new(),
             instructions: Instructions::best(),
         };
         let mut states = Vec::new();
@@ -354,6 +357,7 @@ impl Solver {
         self.guards.clear();
         self.guards
             .extend(surroundings.colliders.iter().map(Guard::new));
+        self.take_on(surroundings.anchors);
         if let Some(interaction) = &mut self.interaction {
             follow(
                 &self.batches,
@@ -374,6 +378,11 @@ impl Solver {
         let interaction = self.interaction.as_ref();
         let locks = self.locks.as_ref().map(|(locks, _)| locks);
         let (first_points, guards) = (&self.first_points, &self.guards);
+        let anchored = &self.anchored[..];
+        let of_batch = |index: usize| {
+            let range = [index, index + 1].map(|i| anchored.partition_point(|own| own.batch < i));
+            &anchored[range[0]..range[1]]
+        };
         let sleepers = &self.sleepers;
         let last_dt = if state.last_dt > 0.0 {
             state.last_dt
@@ -400,6 +409,7 @@ impl Solver {
                     courses: &all.courses,
                 }),
                 locks: locks.map(|locks| (index, locks)),
+                anchors: of_batch(index),
             };
             match instructions {
                 Instructions::Compiled => advance::<Lane>(batch, state, scratch, &drive),
@@ -417,6 +427,27 @@ impl Solver {
         state.time += dt;
         state.last_dt = dt;
         Ok(sum)
+    }
+
+    /// Takes on which particles anchors pull at.
+    fn take_on(&mut self, anchors: &[Anchor]) {
+        let (places, points) = (&self.places, &self.points);
+        let known = |(order, anchor): (usize, &Anchor)| {
+            let &(batch, lane) = places.get(anchor.strand)?;
+            let is_there = (1..points[anchor.strand]).contains(&anchor.point);
+            is_there.then(|| Anchored {
+                batch,
+                lane,
+                particle: anchor.point - 1,
+                order,
+                anchor: *anchor,
+            })
+        };
+        self.anchored.clear();
+        self.anchored
+            .extend(anchors.iter().enumerate().filter_map(known));
+        self.anchored
+            .sort_unstable_by_key(|own| (own.batch, own.lane, own.particle, own.order));
     }
 
     /// Puts the roots elsewhere at once: shape and motion are carried along, as if nothing had happened.
@@ -641,6 +672,7 @@ mod tests {
                 },
                 before: head(i),
                 now: head(i + 1),
+                was: None,
             }];
             let surroundings = Surroundings {
                 roots: Roots::Head(head(i + 1)),

@@ -62,6 +62,22 @@ impl Acceleration {
     }
 }
 
+/// Of an anchor, 1/s^2.
+const MOST_STIFFNESS: f64 = 1e9;
+
+/// A place in the world that one point of a strand is pulled to, damped critically. Solvers of `compare` know none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// The strand, by its index.
+    pub strand: usize,
+    /// The point, root first; the root itself is where its pose has it.
+    pub point: usize,
+    /// In 1/s^2, 0 to 1e9: acceleration per metre.
+    pub stiffness: f64,
+    /// Where the place is when the step starts and when it ends, in m.
+    pub places: [DVec3; 2],
+}
+
 /// What acts on the strands in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
@@ -83,6 +99,8 @@ pub struct Surroundings<'a> {
     /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; `None`
     /// is the style itself.
     pub goal: Option<&'a [Vec3]>,
+    /// What single points are pulled to. Those of a strand or point that is not there pull at nothing.
+    pub anchors: &'a [Anchor],
 }
 
 impl Default for Surroundings<'_> {
@@ -96,6 +114,7 @@ impl Default for Surroundings<'_> {
             streams: &[],
             colliders: &[],
             goal: None,
+            anchors: &[],
         }
     }
 }
@@ -127,6 +146,17 @@ impl Surroundings<'_> {
         if !self.colliders.iter().all(Collider::is_finite) {
             return Err(DynamicsError::Surroundings("collider"));
         }
+        for (index, anchor) in self.anchors.iter().enumerate() {
+            if !anchor.places.iter().all(|place| place.is_finite()) {
+                return Err(DynamicsError::Surroundings("anchor"));
+            }
+            if !(0.0..=MOST_STIFFNESS).contains(&anchor.stiffness) {
+                return Err(DynamicsError::Anchor {
+                    anchor: index,
+                    stiffness: anchor.stiffness,
+                });
+            }
+        }
         if let Some(found) = self.goal.map(<[Vec3]>::len).filter(|&n| n != points) {
             return Err(DynamicsError::Goal {
                 found,
@@ -150,10 +180,12 @@ impl Surroundings<'_> {
     /// Whether nothing in it moves but, perhaps, roots that have poses of their own: a head that moves tells by its
     /// [`Self::fingerprint`].
     pub(crate) fn is_calm(&self) -> bool {
-        let still = |c: &Collider| c.before == c.now;
+        let still = |c: &Collider| !c.moves();
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
         let steady = self.streams.iter().all(Stream::is_steady);
-        self.wind.gust == 0.0 && is_even && steady && self.colliders.iter().all(still)
+        let holds_still = |anchor: &Anchor| anchor.places[0] == anchor.places[1];
+        let anchored = self.anchors.iter().all(holds_still);
+        self.wind.gust == 0.0 && is_even && steady && anchored && self.colliders.iter().all(still)
     }
 
     /// The motion of the air at `share` of the step, 0 to 1, which is at `time` seconds.
@@ -201,6 +233,12 @@ impl Surroundings<'_> {
         }
         if let Some(goal) = self.goal {
             hash.add_all(goal);
+        }
+        for anchor in self.anchors {
+            hash.add(anchor.places[1]);
+            for number in [anchor.strand as f64, anchor.point as f64, anchor.stiffness] {
+                hash.add_number(number);
+            }
         }
         hash.sum()
     }

@@ -68,6 +68,7 @@ pub fn builtin_effects() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).expect("no two of them have one id");
     effects_cartoon::register(&mut registry).expect("nor have these");
+    effects_surface::register(&mut registry).expect("nor these");
     registry
 }
 

@@ -6,12 +6,16 @@ use effects::{Param, ParamKind, Registry, Section};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
-use stage::{MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset, STYLE_PARTS, Sections};
+use stage::{
+    BODIES, BodySection, LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection,
+    Preset, STYLE_PARTS, Sections,
+};
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_cartoon::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
     registry
 }
 
@@ -174,7 +178,7 @@ fn the_schema_is_the_tables() {
     let schema = schema(&[]);
     assert_eq!(schema["version"], stage::VERSION);
     let sections = schema["sections"].as_array().unwrap();
-    assert_eq!(sections.len(), Sections::ALL.len() + 5);
+    assert_eq!(sections.len(), Sections::ALL.len() + 7);
     assert_eq!(sections[0]["id"], "preset");
     assert_is_table(&sections[0], Preset::TOP);
     for (section, (name, doc, table)) in sections[1..].iter().zip(Sections::ALL) {
@@ -190,10 +194,16 @@ fn the_schema_is_the_tables() {
     let meshes = &sections[Sections::ALL.len() + 2];
     assert_eq!(meshes["id"], "meshes");
     assert_is_table(meshes, MeshSection::TABLE);
-    let passes = &sections[Sections::ALL.len() + 3];
+    let lines = &sections[Sections::ALL.len() + 3];
+    assert_eq!(lines["id"], "lines");
+    assert_is_table(lines, LineSection::TABLE);
+    let bodies = &sections[Sections::ALL.len() + 4];
+    assert_eq!(bodies["id"], "bodies");
+    assert_is_table(bodies, BODIES.table);
+    let passes = &sections[Sections::ALL.len() + 5];
     assert_eq!(passes["id"], "passes");
     assert_is_table(passes, PassSection::TABLE);
-    let objects = &sections[Sections::ALL.len() + 4];
+    let objects = &sections[Sections::ALL.len() + 6];
     assert_eq!(objects["id"], "objects");
     assert_is_table(objects, ObjectSection::TABLE);
     for value in layers["parameters"].as_array().unwrap() {
@@ -258,6 +268,8 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
             "preset" => text += &format!("{fields}, "),
             "layers" => layer_fields = fields,
             "meshes" => text += &format!("meshes: [(file: \"eyes.obj\", {fields})], "),
+            "lines" => text += &format!("lines: [(name: \"rim\", {fields})], "),
+            "bodies" => text += &format!("bodies: [({fields})], "),
             "passes" => text += &format!("passes: [({fields})], "),
             // In place of most sections.
             "objects" => {}
@@ -273,7 +285,7 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
             may_say(own, name)
         });
         let mut fields: Vec<&str> = fields.collect();
-        if own.is_for_meshes() {
+        if own.is_for_meshes() || own.is_for_lines() {
             fields.push("on: \"*\"");
         }
         let fields = fields.join(", ");
@@ -285,20 +297,29 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
         Ok(preset) => preset,
         Err(errors) => panic!("{errors}"),
     };
-    let layers = registry.iter().map(|effect| match effect.is_for_meshes() {
-        true => format!("(effect: \"{}\", on: \"*\")", effect.id()),
-        false => format!("(effect: \"{}\")", effect.id()),
-    });
+    let layers =
+        registry.iter().map(
+            |effect| match effect.is_for_meshes() || effect.is_for_lines() {
+                true => format!("(effect: \"{}\", on: \"*\")", effect.id()),
+                false => format!("(effect: \"{}\")", effect.id()),
+            },
+        );
     let layers = layers.collect::<Vec<_>>().join(", ");
     let small = format!("(version: 1, layers: [{layers}])");
     let small = Preset::parse("small.ron", &small, &registry).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(preset.seed, small.seed);
     assert_eq!(preset.passes, [PassSection::default()]);
+    assert_eq!(preset.bodies[0].section, BodySection::default());
     let mesh = MeshSection {
         file: Some("eyes.obj".to_owned()),
         ..MeshSection::default()
     };
     assert_eq!(preset.meshes[0].section, mesh);
+    let lines = LineSection {
+        name: Some("rim".to_owned()),
+        ..LineSection::default()
+    };
+    assert_eq!(preset.lines[0].section, lines);
     let (mut all, mut none) = (preset.sections.clone(), small.sections.clone());
     for (name, ..) in Sections::ALL {
         let [all, none] = [&mut all, &mut none].map(|sections| sections.by_name(name).unwrap());

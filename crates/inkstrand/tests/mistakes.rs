@@ -10,6 +10,7 @@ fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_cartoon::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
     registry
 }
 

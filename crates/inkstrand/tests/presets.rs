@@ -5,7 +5,7 @@ use effects::preset::{LAYER, Reader, may_say};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
-use stage::{MeshSection, ObjectSection, PassSection, Preset, Sections};
+use stage::{BODIES, LineSection, MeshSection, ObjectSection, PassSection, Preset, Sections};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::Path;
@@ -14,6 +14,7 @@ fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_cartoon::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
     registry
 }
 
@@ -56,6 +57,10 @@ fn everything(registry: &Registry) -> String {
     }
     let mesh = list(MeshSection::TABLE, "            ");
     let _ = writeln!(text, "    meshes: [\n        (\n{mesh}        ),\n    ],");
+    let lines = list(LineSection::TABLE, "            ").replace("kind: \"x\"", "kind: \"crease\"");
+    let _ = writeln!(text, "    lines: [\n        (\n{lines}        ),\n    ],");
+    let body = list(BODIES.table, "            ").replace("shape: sphere", "shape: mesh");
+    let _ = writeln!(text, "    bodies: [\n        (\n{body}        ),\n    ],");
     let pass = list(PassSection::TABLE, "            ");
     let _ = writeln!(text, "    passes: [\n        (\n{pass}        ),\n    ],");
     text += "    layers: [\n";
@@ -135,10 +140,24 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
                 }
             }
         }
+        if field.name == "bodies" {
+            for body in reader.list(field.value, "bodies") {
+                for inner in reader.fields(body, "a body") {
+                    add(inner.name, inner.value, BODIES.table);
+                }
+            }
+        }
         if field.name == "meshes" {
             for mesh in reader.list(field.value, "meshes") {
                 for inner in reader.fields(mesh, "a mesh") {
                     add(inner.name, inner.value, MeshSection::TABLE);
+                }
+            }
+        }
+        if field.name == "lines" {
+            for lines in reader.list(field.value, "lines") {
+                for inner in reader.fields(lines, "lines") {
+                    add(inner.name, inner.value, LineSection::TABLE);
                 }
             }
         }
@@ -347,19 +366,24 @@ fn every_wrong_value_is_an_error_at_its_line() {
                     && name != "effect"
                     || place.kind.is_none()
                         && value == "()"
-                        && !["layers", "meshes", "passes", "objects"].contains(&name)
+                        && !["layers", "meshes", "lines", "bodies", "passes", "objects"]
+                            .contains(&name)
                     || place.kind.is_none()
-                        && ["layers", "meshes", "passes"].contains(&name)
+                        && ["layers", "meshes", "lines", "bodies", "passes"].contains(&name)
                         && value == "[]";
                 match Preset::parse("look.ron", &spoilt, &registry) {
                     Ok(_) => assert!(legal, "{} is accepted", what()),
-                    // Two layers of one name are the layer's mistake, not its name's; substeps are another solver's; and
-                    // one of two things moves a head.
+                    // Two layers of one name are the layer's mistake, not its name's; substeps are another solver's;
+                    // one of two things moves a head; and bodies have what their shape has.
                     Err(errors) if legal => assert!(
                         name == "name" && errors.to_string().contains("already a layer")
+                            || name == "kind" && errors.to_string().contains("lines of the kind")
                             || name == "character"
                                 && errors.to_string().contains("both move the head")
-                            || name == "substeps" && errors.to_string().contains("solver: rods"),
+                            || name == "substeps" && errors.to_string().contains("solver: rods")
+                            || errors.to_string().contains("has none, only")
+                            || name == "animation"
+                                && errors.to_string().contains("are forms already"),
                         "{} is legal, but:\n{errors}",
                         what()
                     ),

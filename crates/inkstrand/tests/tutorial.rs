@@ -11,11 +11,12 @@ const PAINTING: &str = "docs/a-tone-for-each-sample.md";
 const FIRST_CRATE: &str = "crates/inkstrand/tests/tutorial/first-crate.md";
 
 /// Our crates, with the optimisation that they get here: what draws has the tutorial's, the others run little.
-const OURS: [(&str, u8); 13] = [
+const OURS: [(&str, u8); 14] = [
     ("effects", 1),
     ("effects-build", 0),
     ("effects-builtin", 1),
     ("effects-cartoon", 1),
+    ("effects-surface", 1),
     ("effects-testkit", 1),
     ("groom", 1),
     ("hair-io", 0),

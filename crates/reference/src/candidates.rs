@@ -3,7 +3,7 @@
 use crate::segment::{Depth, Segment};
 use crate::triangle::{Hit, Triangle};
 use glam::DVec2;
-use render::{Brush, Disc, Drawing, Order, Stretch};
+use render::{Brush, Decal, Disc, Drawing, Order, Stretch};
 use std::cmp::Reverse;
 
 /// What may cover the samples of one part of the screen.
@@ -11,6 +11,8 @@ use std::cmp::Reverse;
 pub struct Candidates {
     /// By rising id.
     strands: Vec<Strand>,
+    /// Those that hide others first.
+    decals: Vec<DecalStroke>,
     triangles: Vec<Triangle>,
     background: Option<[f64; 3]>,
     order: Order,
@@ -30,6 +32,8 @@ pub struct Hair<'a> {
     /// Where it is ordered.
     pub depth: Depth,
     stroke: &'a Stroke,
+    /// Its strand, whatever piece of it.
+    strand: u32,
     /// The segments of its strand's clump; where there are no clumps its own.
     clump: &'a [Segment],
 }
@@ -65,8 +69,20 @@ fn nearest(segments: &[Segment], point: DVec2) -> Option<(f64, f64, &Segment)> {
     first.map(|(ratio, t, segment)| (ratio.min(1.0) * segment.side(point), t, segment))
 }
 
+/// A strand's stroke that is drawn on what is seen without it.
+#[derive(Clone, Debug)]
+struct DecalStroke {
+    decal: Decal,
+    precedence: Precedence,
+    /// Its strand, whatever piece of it.
+    strand: u32,
+    segments: Vec<Segment>,
+}
+
 #[derive(Debug)]
 struct Strand {
+    /// Its number, that of all its pieces.
+    number: u32,
     clump: Vec<Segment>,
     /// The one that hides the others first.
     strokes: Vec<Stroke>,
@@ -92,7 +108,11 @@ impl Candidates {
     pub fn new(drawing: &Drawing) -> Self {
         let strands = drawing.runs.chunk_by(|a, b| a.strand == b.strand);
         Self {
-            strands: strands.map(|runs| Strand::new(drawing, runs)).collect(),
+            strands: strands
+                .clone()
+                .map(|runs| Strand::new(drawing, runs))
+                .collect(),
+            decals: DecalStroke::all(drawing, strands),
             triangles: drawing.surfaces.iter().flat_map(Triangle::of).collect(),
             background: drawing.background.map(|color| color.map(f64::from)),
             order: drawing.order,
@@ -104,7 +124,12 @@ impl Candidates {
     pub fn within(&self, min: DVec2, max: DVec2) -> Self {
         let strands = self.strands.iter().map(|strand| strand.within(min, max));
         let triangles = self.triangles.iter();
+        let decals = self.decals.iter().map(|decal| DecalStroke {
+            segments: touching(&decal.segments, min, max),
+            ..decal.clone()
+        });
         Self {
+            decals: decals.filter(|d| !d.segments.is_empty()).collect(),
             strands: strands.filter(|s| !s.strokes.is_empty()).collect(),
             triangles: triangles.filter(|t| t.touches(min, max)).cloned().collect(),
             ..*self
@@ -113,7 +138,12 @@ impl Candidates {
 
     /// The colour at `point`, or nothing where the picture is transparent.
     pub fn color(&self, point: DVec2) -> Option<[f64; 3]> {
-        match self.shown(point) {
+        let shown = self.shown(point);
+        let mut decals = self.decals.iter();
+        if let Some(color) = decals.find_map(|decal| decal.on(&shown, point)) {
+            return Some(color);
+        }
+        match shown {
             Shown::Hair(hair) => hair.stroke.color(point).or(self.background),
             Shown::Mesh(hit, _) => Some(hit.color),
             Shown::Nothing => self.background,
@@ -160,6 +190,7 @@ impl Candidates {
             Some(Hair {
                 depth: depth.deeper(self.edge_depth_m * part),
                 stroke,
+                strand: strand.number,
                 clump: &strand.clump,
             })
         });
@@ -177,12 +208,14 @@ impl Candidates {
     /// [`Order::Shifted`]: the nearest stroke; among equals the one with precedence, then of the
     /// lower id. Strokes that `surface` hides are not seen.
     fn nearest_stroke(&self, point: DVec2, surface: Option<&Hit>) -> Option<Hair<'_>> {
-        let strokes = self.strands.iter().flat_map(|strand| &strand.strokes);
+        let strokes = (self.strands.iter())
+            .flat_map(|strand| strand.strokes.iter().map(|stroke| (strand.number, stroke)));
         strokes
-            .filter_map(|stroke| {
+            .filter_map(|(strand, stroke)| {
                 Some(Hair {
                     depth: depth(&stroke.segments, point)?,
                     stroke,
+                    strand,
                     clump: &stroke.segments,
                 })
             })
@@ -199,6 +232,9 @@ impl Strand {
     fn new(drawing: &Drawing, runs: &[render::Run]) -> Self {
         let mut strokes: Vec<Stroke> = Vec::new();
         for (layer, strokes_of_layer) in drawing.layers.iter().enumerate() {
+            if drawing.decal(layer).is_some() {
+                continue;
+            }
             for instance in 0..strokes_of_layer.instances {
                 let on = |run: &render::Run| strokes_of_layer.on(instance, &run.joints);
                 let drawn: Vec<Stretch> = runs.iter().flat_map(on).collect();
@@ -230,21 +266,22 @@ impl Strand {
             let drawn: Vec<Stretch> = runs.iter().flat_map(on).collect();
             clump.extend(segments(&drawn, &drawing.sides, &no_colors, drawing.brush));
         }
-        Self { clump, strokes }
+        Self {
+            number: drawing.whole_strand(runs[0].strand),
+            clump,
+            strokes,
+        }
     }
 
     /// What of it may touch the box from `min` to `max`.
     fn within(&self, min: DVec2, max: DVec2) -> Self {
-        let touching = |segments: &[Segment]| -> Vec<Segment> {
-            let segments = segments.iter().copied();
-            segments.filter(|s| s.touches(min, max)).collect()
-        };
         let strokes = self.strokes.iter().map(|stroke| Stroke {
             precedence: stroke.precedence,
-            segments: touching(&stroke.segments),
+            segments: touching(&stroke.segments, min, max),
         });
         Self {
-            clump: touching(&self.clump),
+            number: self.number,
+            clump: touching(&self.clump, min, max),
             strokes: strokes.filter(|s| !s.segments.is_empty()).collect(),
         }
     }
@@ -272,6 +309,81 @@ impl Stroke {
     /// cover it (with whole discs the least of all does).
     fn color(&self, point: DVec2) -> Option<[f64; 3]> {
         nearest(&self.segments, point).map(|(_, t, segment)| segment.color(t))
+    }
+}
+
+/// Those of some segments that may touch the box from `min` to `max`.
+fn touching(segments: &[Segment], min: DVec2, max: DVec2) -> Vec<Segment> {
+    let segments = segments.iter().copied();
+    segments.filter(|s| s.touches(min, max)).collect()
+}
+
+impl DecalStroke {
+    /// Those of a drawing whose strands have these runs: the highest first, and of one stroke the lowest strand's.
+    fn all<'a>(drawing: &Drawing, strands: impl Iterator<Item = &'a [render::Run]>) -> Vec<Self> {
+        let mut all = Vec::new();
+        for runs in strands {
+            for decal in &drawing.decals {
+                let strokes = &drawing.layers[decal.layer];
+                for instance in 0..strokes.instances {
+                    let on = |run: &render::Run| strokes.on(instance, &run.joints);
+                    let drawn: Vec<Stretch> = runs.iter().flat_map(on).collect();
+                    all.push(Self {
+                        decal: decal.clone(),
+                        precedence: Precedence {
+                            rank: strokes.rank,
+                            layer: decal.layer,
+                            instance,
+                        },
+                        strand: drawing.whole_strand(runs[0].strand),
+                        segments: segments(&drawn, &strokes.discs, &strokes.colors, drawing.brush),
+                    });
+                }
+            }
+        }
+        // Strands are in their order, and stay so.
+        all.sort_by_key(|stroke| Reverse(stroke.precedence));
+        all
+    }
+
+    /// The colour that it gives a point, if it fits what that shows.
+    fn on(&self, shown: &Shown, point: DVec2) -> Option<[f64; 3]> {
+        let (depth, shadow) = match shown {
+            Shown::Nothing => return None,
+            Shown::Hair(hair) => {
+                let is_own = self.decal.is_shadow && hair.strand == self.strand;
+                if is_own || !self.decal.on_hair {
+                    return None;
+                }
+                (hair.depth.inv_depth, None)
+            }
+            Shown::Mesh(hit, triangle) => {
+                if triangle.marks & self.decal.marks == 0 {
+                    return None;
+                }
+                (hit.inv_depth, Some(hit.shadow))
+            }
+        };
+        let reach_m = f64::from(self.decal.reach_m);
+        let fits = |inv_depth: f64| {
+            let behind_m = 1.0 / depth - 1.0 / inv_depth;
+            inv_depth > 0.0
+                && match (self.decal.is_shadow, shadow.is_some()) {
+                    (false, _) => behind_m.abs() <= reach_m,
+                    (true, true) => behind_m >= -reach_m,
+                    (true, false) => behind_m > reach_m,
+                }
+        };
+        let covering = self.segments.iter().filter(|s| s.depth(point).is_some());
+        let beside = covering.map(|segment| {
+            let (ratio, t) = segment.nearest_axis_point(point);
+            (ratio, segment.inv_depth(t), segment.color(t))
+        });
+        let fitting = beside.filter(|(_, inv_depth, _)| fits(*inv_depth));
+        let (_, _, color) =
+            fitting.reduce(|best, next| if next.0 < best.0 { next } else { best })?;
+        let is_shade = self.decal.is_shadow;
+        Some(shadow.filter(|_| is_shade).unwrap_or(color))
     }
 }
 

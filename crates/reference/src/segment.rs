@@ -178,6 +178,11 @@ impl Segment {
             .unwrap_or((f64::INFINITY, 0.0))
     }
 
+    /// 1 / view depth (1/m) of the axis at `t`.
+    pub fn inv_depth(&self, t: f64) -> f64 {
+        mix(self.from.depth.inv_depth, self.to.depth.inv_depth, t)
+    }
+
     /// Which side of the axis `point` lies on: 1 to the right of who walks along the segment, on a screen whose y points down, or on
     /// the axis; else -1.
     pub fn side(&self, point: DVec2) -> f64 {

@@ -16,6 +16,8 @@ pub struct Triangle {
     shadow: [f64; 3],
     /// [`Surface::mesh`].
     pub mesh: u32,
+    /// [`Surface::marks`].
+    pub marks: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +46,8 @@ pub struct Hit {
     pub margin_m: f64,
     /// Linear.
     pub color: [f64; 3],
+    /// The same in shadow.
+    pub shadow: [f64; 3],
 }
 
 impl Triangle {
@@ -61,6 +65,7 @@ impl Triangle {
             light: surface.light.map(f64::from),
             shadow: surface.shadow.map(f64::from),
             mesh: surface.mesh,
+            marks: surface.marks,
         })
     }
 
@@ -96,7 +101,8 @@ impl Triangle {
             terms.map(|(corner, weight)| weight * value(corner)).sum()
         };
         let lit = interpolate(|corner| corner.tone) >= 0.0;
-        let mut color = if lit { self.light } else { self.shadow };
+        let mut shadow = self.shadow;
+        let mut color = if lit { self.light } else { shadow };
         let inv_depth = interpolate(|corner| corner.inv_depth);
         if let Some((texture, places)) = &self.texture {
             // Places run linearly in the world.
@@ -106,14 +112,17 @@ impl Triangle {
             if alpha < texture.cut {
                 return None;
             }
-            for (color, texel) in color.iter_mut().zip([red, green, blue]) {
-                *color *= texel;
+            for tone in [&mut color, &mut shadow] {
+                for (channel, texel) in tone.iter_mut().zip([red, green, blue]) {
+                    *channel *= texel;
+                }
             }
         }
         Some(Hit {
             inv_depth,
             margin_m: self.margin_m,
             color,
+            shadow,
         })
     }
 }
@@ -138,6 +147,7 @@ mod tests {
             margin_m: 0.0,
             mesh: 0,
             paint: None,
+            marks: 0,
             vertices: vec![
                 vertex(0.0, 0.0, 1.0, -1.0),
                 vertex(8.0, 0.0, 2.0, 1.0),

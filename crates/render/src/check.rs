@@ -252,6 +252,11 @@ pub enum DrawError {
         /// How many joints or runs there are.
         needed: usize,
     },
+    /// A decal is of a layer that isn't there, not behind the one before or painted, or its reach is no length.
+    #[error(
+        "decals: layer {0} is not there, not behind the one before or painted, or its reach is not a finite number of 0 or more"
+    )]
+    Decal(usize),
     /// A layer is to be painted that isn't there, or not behind the one before.
     #[error("painting: layer {0} is not there, or not behind the one before")]
     PaintedLayer(usize),
@@ -310,6 +315,7 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     }
     check_features(drawing)?;
     check_painting(drawing)?;
+    check_decals(drawing)?;
     check_mesh_painting(drawing)?;
     check_surfaces(&drawing.surfaces, drawing.mesh_painting.layers.len())
 }
@@ -375,6 +381,23 @@ fn check_mesh_painting(drawing: &Drawing) -> Result<(), DrawError> {
     match painting.layers.iter().position(|layer| !is_whole(layer)) {
         None if seen => Ok(()),
         index => Err(DrawError::MeshLayer(index.unwrap_or(0))),
+    }
+}
+
+fn check_decals(drawing: &Drawing) -> Result<(), DrawError> {
+    let mut after = 0;
+    for decal in &drawing.decals {
+        let is_layer = (after..drawing.layers.len()).contains(&decal.layer);
+        if !is_layer || !(0.0..=f32::MAX).contains(&decal.reach_m) {
+            return Err(DrawError::Decal(decal.layer));
+        }
+        after = decal.layer + 1;
+    }
+    let is_decal = |layer: usize| drawing.decal(layer).is_some();
+    let mut painted = drawing.painting.layers.iter();
+    match painted.find(|painted| is_decal(painted.layer)) {
+        Some(painted) => Err(DrawError::Decal(painted.layer)),
+        None => Ok(()),
     }
 }
 

@@ -11,6 +11,7 @@
 
 mod bin;
 mod cover;
+mod decals;
 mod evaluate;
 pub(crate) mod instructions;
 mod mixed;
@@ -21,6 +22,7 @@ mod rows;
 mod samples;
 mod seen;
 mod segment;
+mod set_up;
 mod shown;
 mod stamp;
 mod strand;
@@ -43,12 +45,13 @@ use crate::picture::Picture;
 use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, cells};
+use decals::{DecalParts, Decals};
 use instructions::Instructions;
 use mixed::JointRows;
 use paint::Painter;
 use paint_mesh::MeshPainter;
 use rayon::prelude::*;
-use segment::{Segment, Segments, Stroke};
+use segment::{Kind, Segment, Segments, Stroke};
 use shown::Shown;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -101,6 +104,7 @@ struct Parts {
     joint_rows: JointRows,
     /// For each stroke of a strand, in their order, the place of its layer among the painted ones, if it is one.
     painted: Vec<Option<usize>>,
+    decals: DecalParts,
 }
 
 impl Rasterizer {
@@ -157,7 +161,7 @@ impl Rasterizer {
         let mut draw = || {
             check::check(drawing)?;
             let mut picture = empty_picture(drawing, *samples)?;
-            let strokes = segment::strokes_in_order(drawing);
+            let strokes = segment::strokes_in_order(drawing, Kind::Ordered);
             let tile_height = tile::height(stacks);
             parts.collect(drawing, &strokes, stacks);
             let frame = Frame {
@@ -235,6 +239,7 @@ impl Parts {
             triangles_of_tiles,
             joint_rows,
             painted,
+            decals,
         } = self;
         let place_of = |stroke: &Stroke| {
             let layers = &drawing.painting.layers;
@@ -245,7 +250,8 @@ impl Parts {
         // Some of both goes on in one thread.
         rayon::join(
             || {
-                segments.collect(drawing, strokes, tile_height);
+                segments.collect(drawing, strokes, Kind::Ordered, tile_height);
+                decals.collect(drawing, tile_height);
                 joint_rows.fill(&drawing.painting, drawing.clump.len());
             },
             || {
@@ -314,6 +320,7 @@ struct Worker {
     shown: Shown,
     painter: Painter,
     meshes: MeshPainter,
+    decals: Decals,
 }
 
 impl Worker {
@@ -328,6 +335,7 @@ impl Worker {
             shown: Shown::default(),
             painter: Painter::default(),
             meshes: MeshPainter::default(),
+            decals: Decals::default(),
         }
     }
 
@@ -353,6 +361,9 @@ impl Worker {
         let tiles = (frame.drawing.size[0] as usize).div_ceil(tile::WIDTH);
         self.segments_of_tiles
             .fill(tiles, self.columns.iter().cloned());
+        if !frame.parts.decals.is_empty() {
+            self.sort_decals_into_tiles(frame, band);
+        }
     }
 
     #[inline(always)]
@@ -389,12 +400,29 @@ impl Worker {
             scene.stack = stack;
             if paint_mesh::tells(frame) {
                 self.draw_stack::<true>(frame, &scene, tile, triangles);
-                self.paint(frame);
-                self.paint_meshes(frame, origin, stack);
             } else {
                 self.draw_stack::<false>(frame, &scene, tile, triangles);
             }
+            self.color_stack(frame, &scene, tile);
             self.sums.add(&mut self.target, stack, background.is_some());
+        }
+    }
+
+    /// Gives samples that are drawn the colours that are painted, or are those of decals.
+    #[inline(always)]
+    fn color_stack(&mut self, frame: &Frame, scene: &TileContext, tile: usize) {
+        let has_decals = !frame.parts.decals.is_empty();
+        if has_decals {
+            self.decide_decals(frame, scene, tile);
+        }
+        if paint_mesh::tells(frame) {
+            self.paint(frame);
+        }
+        if has_decals {
+            self.apply_decals(frame, scene.origin, scene.stack);
+        }
+        if paint_mesh::tells(frame) {
+            self.paint_meshes(frame, scene.origin, scene.stack);
         }
     }
 
@@ -408,13 +436,14 @@ impl Worker {
         triangles: &[u32],
     ) {
         self.target.clear(frame.drawing.background);
-        if TELLS {
+        let keeps_triangles = TELLS || frame.parts.decals.on_surfaces;
+        if keeps_triangles {
             self.shown.clear();
         }
         if !triangles.is_empty() {
             let shown = &mut self.shown;
             let shows = |cell, index, lanes: &LaneMask| {
-                if TELLS {
+                if keeps_triangles {
                     shown.put_triangle(cell, index, lanes);
                 }
             };
@@ -422,8 +451,10 @@ impl Worker {
                 &frame.parts.triangles,
                 triangles,
                 frame.drawing,
-                scene.origin,
-                scene.stack,
+                &surface::Tile {
+                    origin: scene.origin,
+                    stack: scene.stack,
+                },
                 &mut self.target,
                 shows,
             );

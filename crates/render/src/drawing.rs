@@ -124,7 +124,7 @@ pub enum Coverage {
 }
 
 /// Triangles in two flat tones, drawn from both sides.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Surface {
     /// Corners.
     pub vertices: Vec<SurfaceVertex>,
@@ -146,6 +146,81 @@ pub struct Surface {
     pub texture: Option<SurfaceTexture>,
     /// What paints its samples; without it they are of those colours by the tone.
     pub paint: Option<SurfacePaint>,
+    /// What it is to decals, a bit for each mark: it is drawn on by those that have one of them ([`Decal::marks`]).
+    pub marks: u32,
+}
+
+/// A layer whose strokes are drawn on what is seen without them, and nowhere else.
+///
+/// They are no part of the order of strokes. A segment of such a stroke fits a sample that it covers where what is seen there, had the drawing
+/// no decals, is one of those that it is drawn on, and lies at most `reach_m` before or behind the segment's axis point of least distance over
+/// radius. Of those that fit the highest stroke (by rank, layer, instance) gives its colour, of these the lowest strand, then the
+/// segment whose axis point is the nearest. What samples tell beside their colour stays that of what is drawn on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decal {
+    /// Its index in [`Drawing::layers`].
+    pub layer: usize,
+    /// Whether it is drawn on hair.
+    pub on_hair: bool,
+    /// The surfaces that it is drawn on: those that have one of these marks.
+    pub marks: u32,
+    /// Metres, 0 or more.
+    pub reach_m: f32,
+    /// Whether its strokes are shadows. These fit surfaces that are at most `reach_m` before them, or any way behind, and hair of other strands
+    /// that is more than `reach_m` behind them. A surface shows its own colour in shadow there; a painted one lies in shadow whatever the
+    /// light.
+    pub is_shadow: bool,
+}
+
+impl Decal {
+    /// Whether it is drawn on a surface.
+    #[must_use]
+    pub fn is_on(&self, surface: &Surface) -> bool {
+        self.marks & surface.marks != 0
+    }
+}
+
+impl Clone for Surface {
+    fn clone(&self) -> Self {
+        let mut surface = Self::default();
+        surface.clone_from(self);
+        surface
+    }
+
+    /// In the memory that there is: frames come one after the other.
+    fn clone_from(&mut self, source: &Self) {
+        let Self {
+            vertices,
+            triangles,
+            margin_m,
+            mesh,
+            marks,
+            light,
+            shadow,
+            texture,
+            paint,
+        } = source;
+        self.vertices.clone_from(vertices);
+        self.triangles.clone_from(triangles);
+        (self.margin_m, self.mesh, self.marks) = (*margin_m, *mesh, *marks);
+        (self.light, self.shadow) = (*light, *shadow);
+        match (&mut self.texture, texture) {
+            (Some(own), Some(texture)) => {
+                own.image.clone_from(&texture.image);
+                (own.repeats, own.coverage) = (texture.repeats, texture.coverage);
+                own.places.clone_from(&texture.places);
+            }
+            (own, texture) => own.clone_from(texture),
+        }
+        match (&mut self.paint, paint) {
+            (Some(own), Some(paint)) => {
+                own.layer = paint.layer;
+                own.normals.clone_from(&paint.normals);
+                own.occlusion.clone_from(&paint.occlusion);
+            }
+            (own, paint) => own.clone_from(paint),
+        }
+    }
 }
 
 /// Which stroke a sample shows where several cover it.
@@ -242,6 +317,20 @@ impl LayerStrokes {
 }
 
 impl Drawing {
+    /// What a layer is as a decal, if it is one.
+    #[must_use]
+    pub fn decal(&self, layer: usize) -> Option<&Decal> {
+        self.decals.iter().find(|decal| decal.layer == layer)
+    }
+
+    /// A number that pieces of one strand have in common, by the number of one of them ([`Run::strand`]).
+    #[inline]
+    #[must_use]
+    pub fn whole_strand(&self, strand: u32) -> u32 {
+        let whole = self.same_strands.get(strand as usize);
+        whole.copied().unwrap_or(strand)
+    }
+
     /// The parts of one of the clump's sides, 0 or 1, that lie on the joints of `run`, by rising joints.
     pub fn side_on(
         &self,
@@ -285,6 +374,11 @@ pub struct Drawing {
     pub brush: Brush,
     /// What samples tell beside their colour.
     pub features: DrawnFeatures,
+    /// Layers that are decals, by rising index.
+    pub decals: Vec<Decal>,
+    /// For each strand's number, of runs, which others are the same strand: those of an equal number here. Empty where each is its own. A strand
+    /// casts no shadow on itself.
+    pub same_strands: Vec<u32>,
     /// Layers whose samples are painted.
     pub painting: Painting,
     /// Layers that paint surfaces.

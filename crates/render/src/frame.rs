@@ -4,7 +4,7 @@ mod check;
 
 pub use check::FrameError;
 
-use crate::drawing::{Order, Surface};
+use crate::drawing::{Decal, Order, Surface};
 use crate::edges::Edges;
 use crate::features::Features;
 use crate::mesh_paint::MeshLayer;
@@ -85,6 +85,7 @@ pub(crate) const FAR_LIGHT: f32 = 1e6;
 
 impl Light {
     /// The unit vector from `point` to the light, and the distance in metres.
+    #[inline]
     #[must_use]
     pub fn seen_from(&self, point: Vec3) -> (Vec3, Option<f32>) {
         match *self {
@@ -122,10 +123,15 @@ pub struct Frame<'a> {
     /// Where the hair of each joint of `paths` is at rest, head heights from its head's centre, in the head's axes: x to its left, y up, z to
     /// the face; empty where neither a clump nor a layer reads it.
     pub rest_positions: &'a [Vec3],
+    /// How far each joint of `paths` is from the first and the last one of its strand, as [`from_ends`] says it; empty where neither a clump nor
+    /// a layer reads it.
+    pub from_ends: &'a [Vec2],
     /// The heads' surfaces on the screen.
     pub surfaces: Vec<Surface>,
     /// Layers that paint surfaces, which name them by their places here ([`Surface::paint`]).
     pub mesh_layers: Vec<MeshLayer<'a>>,
+    /// What layers with `clip` ([`Layer::is_decal`]) are drawn on, in the order of the objects and of their layers.
+    pub decals: Vec<Decal>,
     /// Linear colour behind everything, or a transparent picture.
     pub background: Option<[f32; 3]>,
     /// Which stroke a sample shows.
@@ -180,7 +186,10 @@ pub fn reach_of(layer: &Layer, brush: Brush) -> Reach {
     }
 }
 
-/// Hair on a head, and how it is drawn.
+/// The bias of lines on surfaces, what hides them being left out beforehand: no surface is before them, metres.
+pub const ON_SURFACES: f32 = 1e9;
+
+/// Hair on a head, or lines on a surface, and how they are drawn.
 #[derive(Clone)]
 pub struct Object<'a> {
     /// Its joints of the frame's paths: those of its strands, then those of paths that its effects made. They are whole runs, and
@@ -191,6 +200,9 @@ pub struct Object<'a> {
     /// A ball within the head, so that a surface of the frame covers each sight through it: strokes behind it aren't worked out.
     /// None where no such ball is known.
     pub solid: Option<Ball>,
+    /// How much nearer its strands count against surfaces than they are, metres, beside their clumps' radii: 0 of hair, [`ON_SURFACES`] of lines
+    /// that lie on surfaces.
+    pub surface_bias_m: f32,
     /// Its preset's clump section.
     pub clump: &'a Varied<clump::Program>,
     /// Seed of its style's variations.
@@ -210,6 +222,22 @@ impl Object<'_> {
     }
 }
 
+/// For each joint how far it is from the first and to the last joint of its strand as they are seen, metres at its depth, in place of what
+/// was there. Where the near plane cuts a strand in two, each part has its own ends.
+pub fn from_ends(paths: &Paths, ends: &mut Vec<Vec2>) {
+    let mut lengths = Vec::new();
+    seen_lengths(paths, &mut lengths);
+    ends.clear();
+    ends.extend(lengths.iter().map(|&length| Vec2::new(length, 0.0)));
+    for whole in paths.runs.chunk_by(|_, next| next.overlap > 0) {
+        let joints = whole[0].joints.start..whole[whole.len() - 1].joints.end;
+        let length = lengths[joints.end - 1];
+        for end in &mut ends[joints] {
+            end.y = (length - end.x).max(0.0);
+        }
+    }
+}
+
 /// For each joint the length of its run up to there as it is seen, metres at its depth, in place of what was there. Pieces of a
 /// strand count on.
 pub(crate) fn seen_lengths(paths: &Paths, lengths: &mut Vec<f32>) {
@@ -226,6 +254,17 @@ pub(crate) fn seen_lengths(paths: &Paths, lengths: &mut Vec<f32>) {
                 length += paths.center[i].distance(paths.center[i - 1]) / scale;
             }
             lengths.push(length);
+        }
+    }
+}
+
+/// Which pieces are the same strand, where shadows ask for it.
+pub(crate) fn fill_same_strands(frame: &Frame, same_strands: &mut Vec<u32>) {
+    same_strands.clear();
+    if frame.decals.iter().any(|decal| decal.is_shadow) {
+        for run in &frame.paths.runs {
+            same_strands.resize(run.piece + 1, 0);
+            same_strands[run.piece] = run.strand as u32;
         }
     }
 }

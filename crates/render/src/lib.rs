@@ -57,7 +57,7 @@ mod samples;
 
 pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use drawing::{
-    Brush, Coverage, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface,
+    Brush, Coverage, Decal, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface,
     SurfaceTexture, SurfaceVertex, scatter,
 };
 pub use edges::{EdgeChannel, Edges};
@@ -65,8 +65,8 @@ pub use features::{
     DrawnFeatures, Feature, Features, NO_ID, RunInfo, object_of_hair, object_of_mesh,
 };
 pub use frame::{
-    Ball, CLUMP_REACH, Frame, FrameError, Head, Light, NO_COLOR, NO_TAPER, Object, StrandInfo,
-    reach_of,
+    Ball, CLUMP_REACH, Frame, FrameError, Head, Light, NO_COLOR, NO_TAPER, ON_SURFACES, Object,
+    StrandInfo, from_ends, reach_of,
 };
 pub use mesh_paint::{MeshLayer, MeshPainting, PaintedMeshes, Seen, SurfacePaint};
 pub use painting::{PaintedLayer, Painting};

@@ -2,7 +2,7 @@
 
 use effects::preset::Reader;
 use effects::{Layer, Parameters, Registry, Values, Varied, clump};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use render::cpu::Evaluator;
 use render::{
     Brush, Drawing, Frame, FrameError, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo,
@@ -24,6 +24,8 @@ struct Scene {
     time_s: f32,
     normals: Vec<Vec3>,
     rest_positions: Vec<Vec3>,
+    from_ends: Vec<Vec2>,
+    surface_bias_m: f32,
 }
 
 impl Scene {
@@ -76,6 +78,8 @@ impl Scene {
             time_s: 0.0,
             normals: Vec::new(),
             rest_positions: Vec::new(),
+            from_ends: Vec::new(),
+            surface_bias_m: 0.0,
         }
     }
 
@@ -84,6 +88,7 @@ impl Scene {
             joints: self.joints[index].0.clone(),
             head: self.heads[index],
             solid: None,
+            surface_bias_m: self.surface_bias_m,
             clump: &self.clump,
             seed: 1,
             layers: &self.layers,
@@ -98,8 +103,10 @@ impl Scene {
             time_s: self.time_s,
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
+            from_ends: &self.from_ends,
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
+            decals: Vec::new(),
             background: None,
             order: Order::Rounded,
             edge_depth_m: 0.005,
@@ -254,6 +261,12 @@ fn strands_and_paths_are_whole() {
         error,
         FrameError::MaterialNormals { normals: 7, .. }
     ));
+    let error = refused(|scene| scene.from_ends = vec![Vec2::ZERO; 9]);
+    assert!(matches!(error, FrameError::FromEnds { ends: 9, .. }));
+    for bias_m in [-1.0, f32::NAN, f32::INFINITY] {
+        let error = refused(|scene| scene.surface_bias_m = bias_m);
+        assert!(matches!(error, FrameError::SurfaceBias { object: 0, .. }));
+    }
     let error = refused(|scene| scene.rest_positions = vec![Vec3::Y; 7]);
     assert!(matches!(
         error,

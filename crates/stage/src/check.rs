@@ -1,5 +1,6 @@
 //! All that is wrong with a preset and with the files that it names, without a picture.
 
+use crate::bodies::{self, NamedBody};
 use crate::files::{Files, StageError};
 use crate::load;
 use crate::painted;
@@ -76,6 +77,9 @@ impl<'r> Preset<'r> {
         {
             let shapes = parsed.shapes.into_iter().filter_map(|key| key.file);
             paths.extend(shapes.map(|name| script.with_file_name(name)));
+            let folder = script.parent().unwrap_or(Path::new(""));
+            let bodies = parsed.named_bodies.iter();
+            paths.extend(bodies.flat_map(|body| body.section.files(folder)));
         }
         if let Some(character) = self.character_path(files) {
             paths.extend(BoneMotion::files(&character).into_iter().flatten());
@@ -90,6 +94,8 @@ impl<'r> Preset<'r> {
                 .into_iter()
                 .chain(texture)
         }));
+        let bodies = self.bodies.iter();
+        paths.extend(bodies.flat_map(|body| body.section.files(&files.preset_folder)));
         paths.extend(self.files_of_objects(files));
         paths.extend(self.bases().iter().cloned());
         paths
@@ -150,6 +156,9 @@ impl<'r> Preset<'r> {
                 found.add(Err(PresetErrors(vec![mistake])));
             }
         }
+        found
+            .0
+            .extend(mistakes_of_bodies(&self.bodies, &files.preset_folder));
         for layer in &self.layers {
             for (param, path) in textures::named(layer, files) {
                 let place = layer.textures.iter().find(|(name, _)| *name == param);
@@ -240,9 +249,11 @@ impl<'r> Preset<'r> {
             StageError::Shapes(_) | StageError::Loop { .. } | StageError::NoCharacter => "motion",
             StageError::Texture { .. }
             | StageError::Zones { .. }
-            | StageError::MeshLayer { .. } => "layers",
+            | StageError::MeshLayer { .. }
+            | StageError::Clips(..) => "layers",
             StageError::Path(_) => "path",
             StageError::NoHeadsHair => "hair",
+            StageError::Body { .. } => "bodies",
             StageError::Unsupported { section, .. } => section,
             _ => "dynamics",
         };
@@ -282,7 +293,23 @@ pub fn check_motion(path: &Path, text: &str) -> Result<(), PresetErrors> {
         let place = key.place.clone();
         Some(PresetError { place, message })
     });
-    PresetErrors::report(mistakes.collect())
+    let mut mistakes: Vec<PresetError> = mistakes.collect();
+    let bodies = &script.named_bodies;
+    mistakes.extend(bodies.iter().filter_map(|body| body.missing(folder)));
+    mistakes.extend(mistakes_of_bodies(bodies, folder));
+    PresetErrors::report(mistakes)
+}
+
+/// What is wrong with the meshes of bodies, where they are there.
+fn mistakes_of_bodies(bodies: &[NamedBody], folder: &Path) -> Vec<PresetError> {
+    let mistake = |body: &NamedBody| {
+        if body.missing(folder).is_some() {
+            return None;
+        }
+        let error = bodies::check(&body.section, folder).err()?;
+        body.mistake(format!("file: {error}"))
+    };
+    bodies.iter().filter_map(mistake).collect()
 }
 
 /// Looks for all that is wrong with a style.

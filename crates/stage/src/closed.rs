@@ -5,7 +5,7 @@
 //! last round began, at its end where that ended, which is where the loop starts; in between it goes over from the one
 //! round to the other without a jump of speed or acceleration.
 
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Seen};
 use crate::files::StageError;
 use crate::hand::Driver;
 use crate::neck::rigid;
@@ -106,11 +106,11 @@ impl Closed {
         while let Some(dynamics) = &mut self.dynamics {
             let frame = self.rounds * self.frames + self.shapes.len() % self.frames;
             let time = self.period * frame as f64 / self.frames as f64;
-            if dynamics.advance_to(time, driver, true, goes_on)? != time {
+            if dynamics.advance_to(time, driver, Seen::Well, goes_on)? != time {
                 return Ok(false);
             }
             let mut points = on_head(object, driver.head_at(time));
-            dynamics.write(driver, &mut points);
+            dynamics.write(driver, time, &mut points);
             off_head(object, driver.head_at(time), &mut points);
             self.shapes.push(points);
             if !self.shapes.len().is_multiple_of(self.frames) {

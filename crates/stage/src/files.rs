@@ -72,7 +72,10 @@ pub enum StageError {
         /// What is wrong.
         message: String,
     },
-    /// A layer paints meshes that aren't there.
+    /// Layers are drawn on too many kinds of things.
+    #[error("the scene's layers have {0} different texts as their `clip`: {1} are possible")]
+    Clips(usize, usize),
+    /// A layer paints meshes that aren't there, or is drawn on them.
     #[error("{layer}.{message}")]
     MeshLayer {
         /// The layer's name.
@@ -80,6 +83,9 @@ pub enum StageError {
         /// What is wrong.
         message: String,
     },
+    /// Lines of meshes can't be found.
+    #[error("lines: {0}")]
+    Lines(String),
     /// A file has no mesh and no bone of a name that the preset says of its hair.
     #[error("{}: no mesh, material or spring bone is called `{name}`{hint}", .path.display())]
     NoMeshOrBone {
@@ -142,6 +148,14 @@ pub enum StageError {
         path: PathBuf,
         /// The picture's name.
         name: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// The mesh of a body is none that hair can be kept out of.
+    #[error("{}: {message}", .path.display())]
+    Body {
+        /// The file.
+        path: PathBuf,
         /// What is wrong.
         message: String,
     },

@@ -1,23 +1,28 @@
 //! Frames of a scene in motion. What a frame needs is kept and reused.
 
+use crate::bodies::Body;
 use crate::files::StageError;
 use crate::hair::HairModel;
-use crate::head::{self, layers::MeshLayers};
+use crate::head;
+use crate::head::layers::{Clips, MeshLayers};
 use crate::levels::levels;
-use crate::look::Look;
+use crate::lines::{HeadLines, LineStrand};
+use crate::look::{LineSet, Look};
 use crate::material::Material;
 use crate::motion::{Motion, ObjectMotion};
 use crate::neck::{PosedHead, rigid};
 use crate::object::{Object, PathShape};
+use crate::placement::Placement;
+use crate::posture::Posture;
 use crate::reach::Sight;
 use crate::scene::Scene;
 use crate::script::HeadPose;
 use crate::zones;
 use effects::wgsl::hash;
-use effects::{HairStrand, Layer, MadePaths, layer_seed};
+use effects::{HairStrand, Input, Layer, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
-use render::{Ball, Frame, Light, MeshLayer, StrandInfo, Surface};
+use render::{Ball, Frame, Light, MeshLayer, NO_COLOR, NO_TAPER, StrandInfo, Surface};
 use std::ops::Range;
 use std::sync::Arc;
 use stroke_path::{Camera, Detail, PathError, PathKind, Paths};
@@ -37,6 +42,8 @@ pub struct FrameMaker {
     normals: Vec<Vec3>,
     /// Where the joints' hair is at rest; empty where nothing reads it.
     rest_positions: Vec<Vec3>,
+    /// How far joints are from the ends of their strands; empty where nothing reads it.
+    from_ends: Vec<Vec2>,
     objects: Vec<ObjectFrame>,
     camera: Option<Camera>,
     /// Look and time (seconds) of the last frame.
@@ -50,6 +57,8 @@ pub struct FrameMaker {
 struct ObjectFrame {
     of: Object,
     pose: HeadPose,
+    /// The script's own time of the pose in seconds, where bodies are drawn that move by themselves; else 0.
+    bodies_s: f64,
     points: Vec<Vec3>,
     /// The level of each strand of its hair; empty where there is one level.
     levels: Vec<u32>,
@@ -76,6 +85,10 @@ struct ObjectFrame {
     head: Option<PosedHead>,
     /// What hides hair, in the world.
     solid: Option<Ball>,
+    /// The lines of its head; made where they are first drawn.
+    lines: Option<HeadLines>,
+    /// For each list of its look's lines their joints, and for each of their layers once more.
+    line_joints: Vec<(Range<usize>, Vec<Range<usize>>)>,
 }
 
 /// A path that a layer makes of the hair at rest.
@@ -125,6 +138,7 @@ impl FrameMaker {
             paths,
             normals,
             rest_positions,
+            from_ends,
             objects,
             ..
         } = self;
@@ -133,14 +147,21 @@ impl FrameMaker {
         normals.clear();
         rest_positions.clear();
         objects.truncate(scene.objects().len());
-        let reads_material = |object: &Object| object.look().reads_material();
-        let reads_material = scene.objects().iter().any(reads_material);
-        let reads_rest = |object: &Object| object.look().reads_rest();
-        let reads_rest = scene.objects().iter().any(reads_rest);
+        let mut looks = scene.objects().iter().map(Object::look);
+        let reads_material = looks
+            .clone()
+            .any(|look| look.reads_material() || look.lines_read(Input::MaterialNormal));
+        let reads_rest = looks
+            .clone()
+            .any(|look| look.reads_rest() || look.lines_read(Input::RestPosition));
+        let reads_ends = looks.any(Look::reads_ends);
         let light = scene.look().light(&camera, motion.head(scene));
         let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
         let mut mesh_layers = Vec::new();
+        let looks = scene.objects().iter().map(Object::look);
+        let clips = Clips::of(looks.flat_map(|look| &look.layers))?;
+        let (mut decals, mut layers_before) = (Vec::new(), 0);
         for (index, object) in scene.objects().iter().enumerate() {
             match objects.get_mut(index) {
                 Some(frame) => frame.follow(object),
@@ -164,7 +185,8 @@ impl FrameMaker {
                 .placement()
                 .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
             let first_layer = mesh_layers.len();
-            surfaces.extend(frame.surfaces(index, motion, &sight, light, first_layer));
+            let names = MeshLayers::new(&object.look().mesh_layers, first_layer, &clips);
+            surfaces.extend(frame.surfaces(index, motion, &sight, light, &names));
             let look = object.look();
             let head = object.placement().head(motion.head(object));
             mesh_layers.extend(look.mesh_layers.iter().map(|layer| MeshLayer {
@@ -172,6 +194,25 @@ impl FrameMaker {
                 head,
                 seed: look.seed,
             }));
+            let layers = look.layers.iter().zip(layers_before..);
+            let of_layer = |(layer, index)| clips.decal(layer, index, head.height_m);
+            decals.extend(layers.filter_map(of_layer));
+            layers_before += look.layers.len();
+        }
+        for (index, object) in scene.objects().iter().enumerate() {
+            let motion = motion.of(index, object);
+            let own_camera = object.placement().own_camera(&camera);
+            let sight = Sight::new(&own_camera, object, section.detail, shows_all);
+            let mut joints = LineJoints {
+                normals: reads_material.then_some(&mut *normals),
+                rest_positions: reads_rest.then_some(&mut *rest_positions),
+            };
+            objects[index].push_lines(motion, &sight, strands, paths, &mut joints)?;
+        }
+        if reads_ends {
+            render::from_ends(paths, from_ends);
+        } else {
+            from_ends.clear();
         }
         let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
             let look = object.look();
@@ -181,25 +222,52 @@ impl FrameMaker {
                     .placement()
                     .head(motion.of(index, object).head(object)),
                 solid: frame.solid,
+                surface_bias_m: 0.0,
                 clump: &look.clump,
                 seed: look.seed,
                 layers: &look.layers,
                 layer_joints: &frame.layer_joints,
             }
         };
+        // Behind all hair, as their joints are.
+        let lines_of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
+            let look = object.look();
+            let head = object
+                .placement()
+                .head(motion.of(index, object).head(object));
+            let of_list = move |(set, (joints, layer_joints)): (
+                &'a LineSet,
+                &'a (Range<usize>, Vec<Range<usize>>),
+            )| {
+                render::Object {
+                    joints: joints.clone(),
+                    head,
+                    solid: None,
+                    surface_bias_m: render::ON_SURFACES,
+                    clump: &look.line_clump,
+                    seed: look.seed,
+                    layers: &set.layers,
+                    layer_joints,
+                }
+            };
+            look.lines.iter().zip(&frame.line_joints).map(of_list)
+        };
         self.of = Some((scene.shared_look().clone(), motion.time_s()));
-        let objects = self.objects.iter().zip(scene.objects()).enumerate();
+        let all = || self.objects.iter().zip(scene.objects()).enumerate();
+        let objects = all().map(of_frame).chain(all().flat_map(lines_of_frame));
         Ok(Frame {
             camera: self.camera.insert(camera),
             paths: &self.paths,
             strands: &self.strands,
-            objects: objects.map(of_frame).collect(),
+            objects: objects.collect(),
             light,
             time_s: motion.time_s(),
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
+            from_ends: &self.from_ends,
             surfaces,
             mesh_layers,
+            decals,
             background: section.background,
             order: scene.look().order(),
             edge_depth_m: section.edge_depth * scene.head().height_m,
@@ -293,6 +361,7 @@ impl ObjectFrame {
         Self {
             of: object.clone(),
             pose: HeadPose::REST,
+            bodies_s: 0.0,
             points: Vec::new(),
             levels: levels_of(object),
             left_out_by: zones::left_out_by(object.hair(), object.look()),
@@ -308,6 +377,8 @@ impl ObjectFrame {
             material: reads_material.then(Material::default),
             head: None,
             solid: None,
+            lines: None,
+            line_joints: Vec::new(),
         }
     }
 
@@ -319,6 +390,11 @@ impl ObjectFrame {
         if !self.of.has_hair_and_head_of(object) {
             self.material = None;
             self.head = None;
+        }
+        if !self.of.has_hair_and_head_of(object)
+            || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
+        {
+            self.lines = None;
         }
         if !self.of.has_hair_and_head_of(object)
             || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
@@ -340,14 +416,16 @@ impl ObjectFrame {
         // Strands may twist in their places.
         let turns = look.reads_material() && motion.dynamics().is_some();
         self.of.is_drawn_as(object)
-            && self.pose == motion.pose()
+            && self.pose == motion.head_pose()
+            && self.bodies_s == bodies_s(object, motion)
             && (is_same_time || !(turns || look.reads_time()))
             && self.points == motion.points(object)
     }
 
     /// Keeps what the object's hair and head are like.
     fn keep(&mut self, motion: &ObjectMotion) {
-        self.pose = motion.pose();
+        self.pose = motion.head_pose();
+        self.bodies_s = bodies_s(&self.of, motion);
         self.points.clear();
         self.points.extend_from_slice(motion.points(&self.of));
     }
@@ -549,7 +627,7 @@ impl ObjectFrame {
         let rest = &hair.file.strands;
         let points = motion.points(&self.of);
         let strands = || (0..rest.len()).map(|strand| rest.point_range(strand));
-        let (rotation, _) = rigid(motion.pose(), hair.head);
+        let (rotation, _) = rigid(motion.head_pose(), hair.head);
         material.turn(rest.points(), strands(), hair.head.center, rotation);
         match motion.dynamics() {
             _ if hair.file.motion.is_some() || motion.has_points_alone(&self.of) => {
@@ -590,22 +668,146 @@ impl ObjectFrame {
         }
     }
 
-    /// The head's surfaces on the screen; none where nothing of the head can be seen.
+    /// Appends what is seen of the lines of the head, list after list, and notes which joints each has.
+    fn push_lines(
+        &mut self,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        strands: &mut Vec<StrandInfo>,
+        paths: &mut Paths,
+        joints: &mut LineJoints,
+    ) -> Result<(), StageError> {
+        self.line_joints.clear();
+        let sets = &self.of.look().lines;
+        if sets.is_empty() {
+            return Ok(());
+        }
+        let start = paths.len();
+        let none = |set: &LineSet| (start..start, vec![start..start; set.layers.len()]);
+        let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
+            self.line_joints.extend(sets.iter().map(none));
+            return Ok(());
+        };
+        let rest_head = self.of.hair().head;
+        let lines = match &mut self.lines {
+            Some(lines) => lines,
+            lines => lines.insert(HeadLines::new(neck, sets, rest_head)?),
+        };
+        let model = posed.in_pose(neck, motion.head_pose());
+        let (look, placement) = (self.of.look(), self.of.placement());
+        let found = lines.find(model, sets, sight.camera(), rest_head.unit_m())?;
+        for (set, found) in sets.iter().zip(found) {
+            let start = paths.len();
+            let name = set.section.name.as_deref().unwrap_or_default();
+            let id = layer_seed(look.seed, name);
+            for strand in found
+                .iter()
+                .filter(|strand| sight.may_see(&strand.points, 0.0))
+            {
+                let mean = strand.points.iter().sum::<Vec3>() / strand.points.len() as f32;
+                let first = paths.len();
+                let kind = PathKind::Linear { subdivision: 1 };
+                paths.push_pieces(
+                    strands.len(),
+                    &strand.points,
+                    &[],
+                    None,
+                    kind,
+                    sight.camera(),
+                )?;
+                joints.push(strand, &paths.u[first..], placement);
+                strands.push(StrandInfo {
+                    id,
+                    mean: placement.point(mean),
+                    size: 0.0,
+                    taper: NO_TAPER,
+                    colors: [NO_COLOR; 2],
+                    level: 0,
+                    lift: 0.0,
+                    left_out_by: 0,
+                });
+            }
+            let own = start..paths.len();
+            placement.joints(paths, own.clone(), &mut []);
+            let of_layers = vec![own.clone(); set.layers.len()];
+            self.line_joints.push((own, of_layers));
+        }
+        Ok(())
+    }
+
+    /// The surfaces of the head on the screen, and of bodies.
     fn surfaces(
         &mut self,
         index: usize,
         motion: &ObjectMotion,
         sight: &Sight,
         light: Light,
-        first_layer: usize,
+        layers: &MeshLayers,
+    ) -> Vec<Surface> {
+        let placement = self.of.placement();
+        let light = placement.own_light(light);
+        let mut surfaces = self.head_surfaces(motion, sight, light, layers);
+        surfaces.extend(self.body_surfaces(motion, sight, light, layers));
+        let ties = self
+            .of
+            .hair()
+            .low_ties_at(motion.points(&self.of), motion.head_pose());
+        if !ties.triangles.is_empty() {
+            let paint = self.of.look().paint(self.of.hair().head);
+            surfaces.extend(head::worn(&ties, &paint, layers, sight.camera(), &light));
+        }
+        let first_mesh = head::MESHES * index as u32;
+        for surface in &mut surfaces {
+            surface.mesh += first_mesh;
+            if let Some(paint) = &mut surface.paint {
+                placement.turn(&mut paint.normals);
+            }
+        }
+        surfaces
+    }
+
+    /// The surfaces of bodies that are drawn.
+    fn body_surfaces(
+        &self,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        light: Light,
+        layers: &MeshLayers,
+    ) -> Vec<Surface> {
+        let script = self.of.script();
+        if script
+            .bodies
+            .iter()
+            .all(|body| body.section.color.is_none())
+        {
+            return Vec::new();
+        }
+        let head = self.of.hair().head;
+        let paint = self.of.look().paint(head);
+        let posture = Posture::of(motion.head_pose(), head, script, motion.posed_s());
+        let drawn = script.bodies.iter().filter_map(|body| {
+            let mesh = body.drawn(motion.posed_s(), &posture)?;
+            let (center, radius_m) = ball_around(&mesh.positions);
+            let is_seen = sight.may_see_ball(center, radius_m + paint.width_m);
+            is_seen.then(|| head::painted(&mesh, &paint, layers, sight.camera(), &light))
+        });
+        drawn.flatten().collect()
+    }
+
+    /// The head's surfaces on the screen; none where nothing of the head can be seen.
+    fn head_surfaces(
+        &mut self,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        light: Light,
+        layers: &MeshLayers,
     ) -> Vec<Surface> {
         self.solid = None;
         let Some(neck) = self.of.neck() else {
             return Vec::new();
         };
         let paint = self.of.look().paint(self.of.hair().head);
-        let first_mesh = head::MESHES * index as u32;
-        let (pose, placement) = (motion.pose(), self.of.placement());
+        let (pose, placement) = (motion.head_pose(), self.of.placement());
         let camera = sight.camera();
         let (center, radius) = neck.ball(pose);
         if !sight.may_see_ball(center, radius + paint.width_m) {
@@ -618,22 +820,50 @@ impl ObjectFrame {
         self.solid = solid.map(|ball| placement.ball(ball));
         let posed = self.head.get_or_insert_with(|| PosedHead::new(neck));
         let model = posed.in_pose(neck, pose);
-        let light = self.of.placement().own_light(light);
-        let mut surfaces = head::surfaces(
+        head::surfaces(
             model,
             &paint,
             self.of.look().meshes(),
-            &MeshLayers::new(&self.of.look().mesh_layers, first_layer),
+            layers,
             sight.camera(),
             &light,
-        );
-        for surface in &mut surfaces {
-            surface.mesh += first_mesh;
-            if let Some(paint) = &mut surface.paint {
-                placement.turn(&mut paint.normals);
-            }
+        )
+    }
+}
+
+/// The script's own time in seconds where bodies are drawn that move by themselves; else 0.
+fn bodies_s(object: &Object, motion: &ObjectMotion) -> f64 {
+    let moves = |body: &Arc<Body>| body.section.color.is_some() && body.moves();
+    match object.script().bodies.iter().any(moves) {
+        true => motion.posed_s(),
+        false => 0.0,
+    }
+}
+
+/// Where what joints of lines are told goes to.
+struct LineJoints<'a> {
+    normals: Option<&'a mut Vec<Vec3>>,
+    rest_positions: Option<&'a mut Vec<Vec3>>,
+}
+
+impl LineJoints<'_> {
+    /// Appends that of a strand's joints, which lie at these places along it.
+    fn push(&mut self, strand: &LineStrand, u: &[f32], placement: Placement) {
+        let between = |list: &[Vec3], u: f32| {
+            let place = u * (list.len() - 1) as f32;
+            let before = (place as usize).min(list.len() - 1);
+            let after = (before + 1).min(list.len() - 1);
+            list[before].lerp(list[after], place - before as f32)
+        };
+        if let Some(normals) = &mut self.normals {
+            let first = normals.len();
+            let normal = |u: &f32| between(&strand.normals, *u).normalize_or(Vec3::Y);
+            normals.extend(u.iter().map(normal));
+            placement.turn(&mut normals[first..]);
         }
-        surfaces
+        if let Some(positions) = &mut self.rest_positions {
+            positions.extend(u.iter().map(|u| between(&strand.rest, *u)));
+        }
     }
 }
 

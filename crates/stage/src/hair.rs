@@ -1,15 +1,19 @@
 //! Hair as a scene has it: strands with their sizes, what the head holds of them, and the shapes that are wanted of them.
 
-use crate::dynamics::ZoneDynamics;
+use crate::bodies::clear;
+use crate::dynamics::{DynamicsSection, ZoneDynamics, turn_of};
 use crate::files::StageError;
 use crate::head::HeadModel;
 use crate::merged::Ranks;
+use crate::neck::rigid;
+use crate::posture::Posture;
 use crate::preset::HairSection;
 use crate::reach::reach_m;
+use crate::script::{HeadPose, MotionScript};
 use glam::{Vec2, Vec3};
-use groom::{Guides, OrnamentMesh};
-use hair_io::{HairFile, HeadFrame};
-use hair_sim::{PointCache, Strands};
+use groom::{Guides, LowTie, OrnamentMesh};
+use hair_io::{HairFile, HeadFrame, Mesh};
+use hair_sim::{Collider, PointCache, Pose, Strands};
 use render::{Head, NO_COLOR, NO_TAPER, StrandInfo};
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -38,8 +42,10 @@ pub struct HairModel {
     pub(crate) zone_colors: Vec<[Vec3; 2]>,
     /// The colours of each strand at root and tip, where its file says them; empty where not.
     pub(crate) own_colors: Vec<[Vec3; 2]>,
-    /// The ties that gather it, and what lies on it.
+    /// The ties that gather it on the head, and what lies on it.
     pub(crate) ornaments: Vec<OrnamentMesh>,
+    /// The ties that move with it.
+    pub(crate) low_ties: Vec<LowTie>,
     /// The head that it stands on.
     pub(crate) head: Head,
     /// The roots of all strands, also of those that guides stand for.
@@ -94,6 +100,7 @@ impl HairModel {
             zone_colors: Vec::new(),
             own_colors: Vec::new(),
             ornaments: Vec::new(),
+            low_ties: Vec::new(),
             head: match head {
                 Some(head) => head.frame(&all_roots),
                 None => head_of(HeadFrame::find(None, &all_roots)),
@@ -157,6 +164,78 @@ impl HairModel {
         if !self.own_colors.is_empty() {
             self.own_colors = indices.iter().map(|&i| self.own_colors[i]).collect();
         }
+    }
+
+    /// Moves what is styled within bodies of a script out of them, as they are when the motion begins: what is so is its shape at rest.
+    pub(crate) fn move_out_of_bodies(&mut self, script: &MotionScript, dynamics: &DynamicsSection) {
+        if script.bodies.is_empty() || self.file.motion.is_some() {
+            return;
+        }
+        let time = script.within(-f64::from(dynamics.warm_up));
+        let posture = Posture::of(script.head_before(time), self.head, script, time);
+        // Hair is styled on a head that does not move.
+        let on_head = |pose: Pose| {
+            let back = posture.head.rotation.inverse();
+            Pose {
+                rotation: back * pose.rotation,
+                translation: back * (pose.translation - posture.head.translation),
+            }
+        };
+        let bodies = script.bodies.iter();
+        let colliders: Vec<Collider> = bodies
+            .map(|body| body.collider([time; 2], [&posture; 2]))
+            .map(|collider| Collider::fixed(collider.shape, on_head(collider.now)))
+            .collect();
+        let unit_m = f64::from(self.head.unit_m());
+        for strand in 0..self.infos.len() {
+            let (range, held) = (self.file.strands.point_range(strand), self.held(strand));
+            let gap = f64::from(dynamics.distance * self.infos[strand].size) * unit_m;
+            let gap = gap.clamp(1e-4, 0.1);
+            let points = &mut self.file.strands.points_mut()[range];
+            clear(points, held, &colliders, gap, |_| [gap as f32; 4]);
+        }
+        self.reach_m = reach_m(&self.file.strands, &self.infos, self.head);
+    }
+
+    /// The ties that move with the hair, where it has these points on a head in this pose.
+    pub(crate) fn low_ties_at(&self, points: &[Vec3], pose: HeadPose) -> Mesh {
+        let mut all = Mesh {
+            positions: Vec::new(),
+            normals: Vec::new(),
+            triangles: Vec::new(),
+        };
+        let (head, _) = rigid(pose, self.head);
+        for tie in &self.low_ties {
+            let place = |&(id, point): &(u32, usize)| {
+                let strand = self.infos.binary_search_by_key(&id, |info| info.id).ok()?;
+                let range = self.file.strands.point_range(strand);
+                let at = range.start + point;
+                Some([at - 1, at, (at + 1).min(range.end - 1)])
+            };
+            let places: Vec<[usize; 3]> = tie.members.iter().filter_map(place).collect();
+            if places.is_empty() {
+                continue;
+            }
+            let mean = |points: &[Vec3]| {
+                let tied = places.iter().map(|[_, at, _]| points[*at]);
+                tied.sum::<Vec3>() / places.len() as f32
+            };
+            let ways = places
+                .iter()
+                .map(|&[before, _, after]| points[after] - points[before]);
+            let way: Vec3 = ways.map(Vec3::normalize_or_zero).sum();
+            let turn = turn_of(tie.axis.as_dvec3(), way.as_dvec3(), head).as_quat();
+            let (rest, now) = (mean(self.file.strands.points()), mean(points));
+            let first = all.positions.len() as u32;
+            let moved = tie.mesh.positions.iter().map(|p| turn * (*p - rest) + now);
+            all.positions.extend(moved);
+            all.normals
+                .extend(tie.mesh.normals.iter().map(|n| turn * *n));
+            let triangles = tie.mesh.triangles.iter();
+            all.triangles
+                .extend(triangles.map(|t| t.map(|i| first + i)));
+        }
+        all
     }
 
     /// Which strands are left where it is thin.

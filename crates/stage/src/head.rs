@@ -6,7 +6,7 @@ mod paint;
 mod seen;
 
 pub(crate) use paint::HeadPaint;
-pub(crate) use seen::{MESHES, surfaces};
+pub(crate) use seen::{MESHES, painted, surfaces, worn};
 
 use crate::hair::head_of;
 use crate::painted::PaintedMesh;
@@ -93,8 +93,13 @@ impl HeadModel {
     }
 
     /// Whether its own file's colours are in place of the preset's.
-    fn is_painted(&self) -> bool {
+    pub(crate) fn is_painted(&self) -> bool {
         self.painted.iter().any(|mesh| mesh.section.is_none())
+    }
+
+    /// Whether anything of [`Self::mesh`] is drawn: a head in its own file's colours has other meshes.
+    pub(crate) fn shows_mesh(&self) -> bool {
+        !self.is_painted() || !self.clothes.is_empty()
     }
 
     /// Puts ornaments into the hair on it.

@@ -2,6 +2,7 @@
 //! strokes.
 
 mod bake;
+mod bodies;
 mod check;
 mod closed;
 mod dynamics;
@@ -11,6 +12,7 @@ mod hair;
 mod hand;
 mod head;
 mod levels;
+mod lines;
 mod load;
 mod look;
 mod material;
@@ -24,6 +26,7 @@ mod painted;
 mod part;
 mod pictures;
 mod placement;
+mod posture;
 mod preset;
 mod reach;
 mod scalp;
@@ -38,6 +41,7 @@ mod textures;
 mod zones;
 
 pub use bake::{Bake, is_bake};
+pub use bodies::{BODIES, BodyKeySection, BodyOn, BodySection, BodyShape, NamedBody};
 pub use check::{check_hair, check_motion, check_style};
 pub use closed::Return;
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
@@ -54,9 +58,10 @@ pub use part::FilePart;
 pub use preset::{
     AlphaChoice, BlushChoice, BrushChoice, CameraSection, ClumpSection, DressChoice, EdgesChoice,
     ExpressionChoice, EyesChoice, FixedTo, HairFrom, HairSection, HeadColors, HeadSection,
-    HeadShape, HeldChoice, LightKind, LightSection, MESHES, MeshSection, MotionSection, NamedMesh,
-    NamedObject, ObjectSection, OrderChoice, PASSES, PassSection, PathChoice, PathSection, Preset,
-    SceneSection, Sections, TopSection, UpAxis, VERSION,
+    HeadShape, HeldChoice, LINES, LightKind, LightSection, LineSection, MESHES, MeshSection,
+    MotionSection, NamedLines, NamedMesh, NamedObject, ObjectSection, OrderChoice, PASSES,
+    PassSection, PathChoice, PathSection, Preset, SceneSection, Sections, TopSection, UpAxis,
+    VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;

@@ -52,12 +52,22 @@ pub(crate) fn chosen(
     given.cloned().or_else(|| own.map(|name| folder.join(name)))
 }
 
+/// A head as it was read.
+pub(crate) struct ReadHead {
+    /// What is drawn, if anything.
+    pub model: Option<HeadModel>,
+    /// Its own hair, where the preset's hair is from there.
+    pub hair: Option<HairModel>,
+    /// How its file lies in our space.
+    pub orientation: Orientation,
+}
+
 /// The head that is drawn, if any, and its own hair where the preset's hair is from there.
 pub(crate) fn head(
     preset: &Preset,
     files: &Files,
     notes: &mut Vec<String>,
-) -> Result<(Option<HeadModel>, Option<HairModel>), StageError> {
+) -> Result<ReadHead, StageError> {
     let section = &preset.sections.head;
     let own = section.file.as_ref();
     let Some(path) = chosen(files.head.as_ref(), own, &files.preset_folder) else {
@@ -74,14 +84,24 @@ pub(crate) fn head(
             );
         }
         let head = match section.shape {
-            HeadShape::None => return Ok((no_head(preset)?, None)),
+            HeadShape::None => {
+                return Ok(ReadHead {
+                    model: no_head(preset)?,
+                    hair: None,
+                    orientation: Orientation::OURS,
+                });
+            }
             HeadShape::Bust => HeadModel::bust(),
             HeadShape::Figure => HeadModel::figure(&figure(section)),
         };
         let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
         let folder = &files.preset_folder;
         let beside = painted::of_sections(&sections, folder, &Orientation::OURS, notes)?;
-        return Ok((Some(head.painted(Vec::new(), beside)), None));
+        return Ok(ReadHead {
+            model: Some(head.painted(Vec::new(), beside)),
+            hair: None,
+            orientation: Orientation::OURS,
+        });
     };
     let HeadFile {
         mesh,
@@ -156,7 +176,11 @@ pub(crate) fn head(
         notes
             .push("hair: the character has none of its own, the preset's file is drawn".to_owned());
     }
-    Ok((Some(head), hair))
+    Ok(ReadHead {
+        model: Some(head),
+        hair,
+        orientation: *orientation,
+    })
 }
 
 /// Whether hair is the character's own where it has some.
@@ -399,6 +423,7 @@ fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairMode
         bake: None,
         own_colors: Vec::new(),
         ornaments: grown.ornaments,
+        low_ties: grown.low_ties,
         zone_names: style.zones.iter().map(|zone| zone.name.clone()).collect(),
         zone_dynamics: dynamics,
         zone_colors: colors,

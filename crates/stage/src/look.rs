@@ -2,13 +2,14 @@
 
 use crate::files::{Files, StageError};
 use crate::head::HeadPaint;
+use crate::names::Names;
 use crate::preset::{
-    BrushChoice, EdgesChoice, FixedTo, LightKind, MeshSection, OrderChoice, PassSection,
-    PathChoice, Preset, Sections,
+    BrushChoice, EdgesChoice, FixedTo, LightKind, LineKinds, LineSection, MeshSection, OrderChoice,
+    PassSection, PathChoice, Preset, Sections,
 };
 use crate::textures::with_textures;
 use effects::section::Section;
-use effects::{Input, Layer, Parameters, SampleInput, Varied, clump, layer_seed};
+use effects::{Input, Layer, Parameters, SampleInput, Values, Varied, clump, layer_seed};
 use glam::Vec3;
 use render::{Brush, EdgeChannel, Edges, Head, Light, Order};
 use stroke_path::{Camera, PathKind, direction_from_angles};
@@ -21,6 +22,20 @@ const INSIDE_MARGIN: f32 = 0.6;
 /// on the skin.
 const OUTLINE_MARGIN: f32 = 0.04;
 
+/// Lines of meshes, and the layers that draw them.
+pub(crate) struct LineSet {
+    pub section: LineSection,
+    pub kinds: LineKinds,
+    pub layers: Vec<Layer>,
+}
+
+impl LineSet {
+    /// The angle of their creases, degrees; nothing where they have none.
+    pub fn crease(&self) -> Option<f32> {
+        self.kinds.crease.then_some(self.section.crease)
+    }
+}
+
 /// What a preset says of strokes, colours, light, picture and dynamics, ready to be used.
 pub struct Look {
     pub(crate) seed: u32,
@@ -29,6 +44,10 @@ pub struct Look {
     pub(crate) layers: Vec<Layer>,
     /// Those that paint meshes.
     pub(crate) mesh_layers: Vec<Layer>,
+    /// The lines that are drawn.
+    pub(crate) lines: Vec<LineSet>,
+    /// What lines are drawn around: nothing.
+    pub(crate) line_clump: Varied<clump::Program>,
     passes: Vec<PassSection>,
     /// How the preset's meshes are painted, in their order.
     meshes: Vec<MeshSection>,
@@ -69,15 +88,14 @@ impl Look {
             Ok(layer.build_with(&values))
         });
         let layers = layers.collect::<Result<Vec<_>, StageError>>()?;
-        let for_meshes = preset
-            .layers
-            .iter()
-            .map(|layer| layer.effect.is_for_meshes());
-        let (mut strokes, mut mesh_layers) = (Vec::new(), Vec::new());
-        for (layer, is_for_meshes) in layers.into_iter().zip(for_meshes) {
-            match is_for_meshes {
-                true => mesh_layers.push(layer),
-                false => strokes.push(layer),
+        let (mut strokes, mut mesh_layers, mut line_layers) = (Vec::new(), Vec::new(), Vec::new());
+        for (layer, spec) in layers.into_iter().zip(&preset.layers) {
+            if spec.effect.is_for_meshes() {
+                mesh_layers.push(layer);
+            } else if spec.effect.is_for_lines() {
+                line_layers.push(layer);
+            } else {
+                strokes.push(layer);
             }
         }
         let look = Self {
@@ -86,6 +104,8 @@ impl Look {
             sections,
             layers: strokes,
             mesh_layers,
+            lines: line_sets(preset, &line_layers)?,
+            line_clump: Varied::new(&Values::defaults(clump::Program::PARAMS)),
             passes: preset.passes.clone(),
             meshes: preset
                 .meshes
@@ -122,13 +142,27 @@ impl Look {
         self.layers.iter().any(reads)
     }
 
+    /// Whether anything that is drawn along lines of meshes reads that.
+    pub(crate) fn lines_read(&self, input: Input) -> bool {
+        let mut layers = self.lines.iter().flat_map(|set| &set.layers);
+        layers.any(|layer| layer.program.inputs().has(input))
+    }
+
+    /// Whether anything reads how far it is to the ends of strands.
+    pub(crate) fn reads_ends(&self) -> bool {
+        let reads = |layer: &Layer| layer.program.inputs().has(Input::FromEnds);
+        self.layers.iter().any(reads) || self.lines_read(Input::FromEnds)
+    }
+
     /// Whether pictures change with time alone.
     pub(crate) fn reads_time(&self) -> bool {
         let reads = |layer: &Layer| {
             let painted = layer.program.paints().unwrap_or_default();
             layer.program.inputs().has(Input::Time) || painted.has(SampleInput::Time)
         };
-        self.layers.iter().chain(&self.mesh_layers).any(reads)
+        let of_lines = self.lines.iter().flat_map(|set| &set.layers);
+        let mut all = self.layers.iter().chain(&self.mesh_layers).chain(of_lines);
+        all.any(reads)
     }
 
     /// Whether a layer paints its samples.
@@ -242,4 +276,29 @@ impl Look {
             threshold: section.threshold,
         }
     }
+}
+
+/// The lines that layers draw, each with its layers.
+fn line_sets(preset: &Preset, layers: &[Layer]) -> Result<Vec<LineSet>, StageError> {
+    let mut sets = Vec::new();
+    for lines in &preset.lines {
+        let section = &lines.section;
+        let own = section.name.as_deref().unwrap_or_default();
+        let draws = |layer: &&Layer| Names(layer.on.as_deref().unwrap_or_default()).have(own);
+        let layers: Vec<Layer> = layers.iter().filter(draws).cloned().collect();
+        if layers.is_empty() {
+            continue;
+        }
+        section.check().map_err(|error| StageError::Section {
+            section: "lines",
+            error,
+        })?;
+        let kinds = section.kinds().map_err(StageError::Lines)?;
+        sets.push(LineSet {
+            section: section.clone(),
+            kinds,
+            layers,
+        });
+    }
+    Ok(sets)
 }

@@ -305,6 +305,7 @@ impl OwnHair {
             zone_dynamics: Vec::new(),
             zone_colors: Vec::new(),
             ornaments: Vec::new(),
+            low_ties: Vec::new(),
             head: frame,
             reach_m: 0.0,
             ranks: OnceLock::new(),

@@ -2,7 +2,7 @@
 
 use crate::bake::Bake;
 use crate::closed::{Closed, Return, move_by, off_head};
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, Seen};
 use crate::files::StageError;
 use crate::hand::{Driver, Hand};
 use crate::neck::rigid;
@@ -16,6 +16,9 @@ use hair_sim::Stats;
 use render::Head;
 use stroke_path::Camera;
 
+/// A head that is no higher than this in the picture, in pixels, is seen small: its hair moves by a pixel or two in a step.
+const SMALL_PX: f32 = 32.0;
+
 /// Where the heads of a scene are, and their hair: simulated, baked, or in its key shapes.
 #[derive(Default)]
 pub struct Motion {
@@ -27,6 +30,8 @@ pub struct Motion {
 #[derive(Default)]
 pub(crate) struct ObjectMotion {
     pose: HeadPose,
+    /// The script's own time of the pose, seconds.
+    posed_s: f64,
     points: Vec<Vec3>,
     dynamics: Option<Dynamics>,
     /// In place of dynamics where the script goes round.
@@ -56,7 +61,7 @@ impl Motion {
 
     /// As [`Self::advance_to`], for live programs: while this camera cannot see the hair, wherever it may be, and the head is calm, hair
     /// is simulated in one step in place of four (of a frame each, or of a part of one where frames are long), and what is missing is made up for before it is seen
-    /// again. Motion is not quite that of [`Self::advance_to`] then, so pictures that must be the same every time are made
+    /// again. Of a head that is less than 32 pixels high it is one step in place of two, and hair is shown where it last came to on the head where that is now. Motion is not quite that of [`Self::advance_to`] then, so pictures that must be the same every time are made
     /// with that.
     ///
     /// # Errors
@@ -207,6 +212,7 @@ impl ObjectMotion {
     const fn new() -> Self {
         Self {
             pose: HeadPose::REST,
+            posed_s: 0.0,
             points: Vec::new(),
             dynamics: None,
             closed: None,
@@ -237,7 +243,7 @@ impl ObjectMotion {
         let reached = self.pose_at(object, fps, (held, driver), camera, goes_on)?;
         if section.held == HeldChoice::Hair && held != time {
             off_head(object, self.pose, &mut self.points);
-            self.pose = driver.head_at(time);
+            self.pose(driver, time);
             move_by(object, self.pose, &mut self.points);
         }
         Ok(match reached == held {
@@ -256,7 +262,7 @@ impl ObjectMotion {
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<f64, StageError> {
         let hair = object.hair();
-        self.pose = driver.head_at(time);
+        self.pose(driver, time);
         self.points
             .resize(hair.file.strands.points().len(), Vec3::ZERO);
         if let Some(motion) = &hair.file.motion {
@@ -291,15 +297,26 @@ impl ObjectMotion {
             return Ok(if is_closed { time } else { time.min(0.0) - 1.0 });
         }
         let center = object.placement().point(self.head(object).center);
-        let is_seen = camera.is_none_or(|camera| may_see(camera, center, hair.reach_m));
+        let seen = match camera {
+            None => Seen::Well,
+            Some(camera) if !may_see(camera, center, hair.reach_m) => Seen::Not,
+            Some(camera) => {
+                let depth_m = camera.depth(center).max(camera.near_m());
+                let height_px = camera.px_per_metre(depth_m) * hair.head.height_m;
+                match height_px < SMALL_PX {
+                    true => Seen::Small,
+                    false => Seen::Well,
+                }
+            }
+        };
         let mut dynamics = match self.dynamics.take() {
             Some(dynamics) => dynamics,
             None => Self::dynamics_of(object, fps)?,
         };
         dynamics.stand(object.placement());
-        let reached = dynamics.advance_to(time, driver, is_seen, goes_on)?;
+        let reached = dynamics.advance_to(time, driver, seen, goes_on)?;
         self.place(object, driver, reached);
-        dynamics.write(driver, &mut self.points);
+        dynamics.write(driver, reached, &mut self.points);
         self.dynamics = Some(dynamics);
         Ok(reached)
     }
@@ -329,8 +346,14 @@ impl ObjectMotion {
             }
             _ => self.points.copy_from_slice(hair.file.strands.points()),
         }
-        self.pose = driver.head_at(time);
+        self.pose(driver, time);
         move_by(object, self.pose, &mut self.points);
+    }
+
+    /// Takes on the pose at `time` (seconds).
+    fn pose(&mut self, driver: Driver, time: f64) {
+        self.pose = driver.head_at(time);
+        self.posed_s = driver.script.within(time);
     }
 
     /// Its head where it is now.
@@ -343,8 +366,13 @@ impl ObjectMotion {
         }
     }
 
-    pub(crate) fn pose(&self) -> HeadPose {
+    pub(crate) fn head_pose(&self) -> HeadPose {
         self.pose
+    }
+
+    /// The script's own time of the head's pose, seconds.
+    pub(crate) fn posed_s(&self) -> f64 {
+        self.posed_s
     }
 
     pub(crate) fn dynamics(&self) -> Option<&Dynamics> {

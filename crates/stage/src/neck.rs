@@ -6,6 +6,7 @@ use crate::script::HeadPose;
 use crate::skeleton::Skeleton;
 use crate::solid::Solid;
 use glam::{DQuat, DVec3, Quat, Vec3};
+use rayon::prelude::*;
 use render::{Ball, Head};
 
 /// Where the head turns about, from its middle, in head heights: the top of the neck.
@@ -17,16 +18,18 @@ const JAW: f32 = -0.42;
 const STEPS: usize = 256;
 /// How much farther from the neck than at rest bones may take hands and feet.
 const STRETCH: f32 = 2.0;
+/// Corners that a thread poses at a time, at least.
+const SOME_CORNERS: usize = 2048;
 
 /// A head as its file has it, and how much of it follows a pose.
 pub(crate) struct Neck {
     rest: HeadModel,
-    /// How much each corner of the mesh follows the head, 0 to 1.
-    shares: Vec<f32>,
+    /// How much each corner of the mesh follows the head, in [`STEPS`].
+    shares: Vec<u16>,
     /// The same for each corner of each patch.
-    patch_shares: Vec<Vec<f32>>,
+    patch_shares: Vec<Vec<u16>>,
     /// The same for each corner of each painted mesh.
-    painted_shares: Vec<Vec<f32>>,
+    painted_shares: Vec<Vec<u16>>,
     pivot: Vec3,
     head: Head,
     height_m: f32,
@@ -47,7 +50,8 @@ impl Neck {
         let share = |p: &Vec3| {
             let y = (p.y - head.center.y) / head.height_m;
             let t = ((y - SHOULDERS) / (JAW - SHOULDERS)).clamp(0.0, 1.0);
-            t * t * (3.0 - 2.0 * t)
+            let share = t * t * (3.0 - 2.0 * t);
+            (share * STEPS as f32).round() as u16
         };
         let shares_of = |positions: &[Vec3]| positions.iter().map(share).collect();
         let patches = model.patches.iter().map(|patch| &patch.positions);
@@ -79,6 +83,11 @@ impl Neck {
 }
 
 impl Neck {
+    /// The head at rest.
+    pub fn rest(&self) -> &HeadModel {
+        &self.rest
+    }
+
     /// The ball that all of the head stays in, in this pose: its middle and its radius, metres.
     pub fn ball(&self, pose: HeadPose) -> (Vec3, f32) {
         let shift_m = pose.shift.length() as f32 * self.height_m;
@@ -127,31 +136,35 @@ impl PosedHead {
             self.model.clone_from(&neck.rest);
             return;
         }
-        let turns: Vec<DQuat> = (0..=STEPS)
-            .map(|step| self.pose.rotation(step as f64 / STEPS as f64))
-            .collect();
-        let turn = |share: f32| turns[(share * STEPS as f32).round() as usize].as_quat();
-        let shift = (self.pose.shift * f64::from(neck.height_m)).as_vec3();
-        let pivot = neck.pivot;
-        let moved = |p: Vec3, share: f32| turn(share) * (p - pivot) + pivot + shift;
+        let motion = Turns {
+            turns: (0..=STEPS)
+                .map(|step| self.pose.rotation(step as f64 / STEPS as f64).as_quat())
+                .collect(),
+            pivot: neck.pivot,
+            shift: (self.pose.shift * f64::from(neck.height_m)).as_vec3(),
+        };
         self.model.frame = neck.rest.frame.map(|head| Head {
-            center: moved(head.center, 1.0),
+            center: motion.moved(head.center, STEPS as u16),
             ..head
         });
-        let (rest, posed) = (&neck.rest.mesh, &mut self.model.mesh);
-        for (i, share) in neck.shares.iter().enumerate() {
-            posed.positions[i] = moved(rest.positions[i], *share);
-            posed.normals[i] = turn(*share) * rest.normals[i];
-        }
-        let (rest, posed) = (&neck.rest.facing, &mut self.model.facing);
-        for (i, facing) in rest.iter().enumerate() {
-            posed[i] = turn(neck.shares[i]) * *facing;
+        if neck.rest.shows_mesh() {
+            let (rest, posed) = (&neck.rest.mesh, &mut self.model.mesh);
+            motion.pose(
+                &neck.shares,
+                [&rest.positions, &rest.normals],
+                [&mut posed.positions, &mut posed.normals],
+            );
+            let (rest, posed) = (&neck.rest.facing, &mut self.model.facing);
+            for ((posed, rest), share) in posed.iter_mut().zip(rest).zip(&neck.shares) {
+                *posed = motion.turn(*share) * *rest;
+            }
         }
         let (rest, posed) = (&neck.rest.ornaments, &mut self.model.ornaments);
-        for i in 0..rest.positions.len() {
-            posed.positions[i] = moved(rest.positions[i], 1.0);
-            posed.normals[i] = turn(1.0) * rest.normals[i];
-        }
+        motion.pose(
+            &vec![STEPS as u16; rest.positions.len()],
+            [&rest.positions, &rest.normals],
+            [&mut posed.positions, &mut posed.normals],
+        );
         if let (Some(skeleton), Some(time)) = (&neck.rest.skeleton, self.pose.animated_s) {
             skeleton.put(time, &mut self.model.painted);
             self.turn_on_top(neck, skeleton, time);
@@ -162,18 +175,47 @@ impl PosedHead {
                 continue;
             }
             let (rest, posed) = (&neck.rest.painted[index], &mut self.model.painted[index]);
-            for (i, share) in shares.iter().enumerate() {
-                posed.positions[i] = moved(rest.positions[i], *share);
-                posed.normals[i] = turn(*share) * rest.normals[i];
-            }
+            motion.pose(
+                shares,
+                [&rest.positions, &rest.normals],
+                [&mut posed.positions, &mut posed.normals],
+            );
         }
         for (index, shares) in neck.patch_shares.iter().enumerate() {
             let (rest, posed) = (&neck.rest.patches[index], &mut self.model.patches[index]);
             for (i, share) in shares.iter().enumerate() {
-                posed.positions[i] = moved(rest.positions[i], *share);
+                posed.positions[i] = motion.moved(rest.positions[i], *share);
             }
-            posed.away_from = rest.away_from.map(|away| turn(1.0) * away);
+            posed.away_from = rest.away_from.map(|away| motion.turn(STEPS as u16) * away);
         }
+    }
+}
+
+/// How corners move that follow the head by so many of [`STEPS`].
+struct Turns {
+    turns: Vec<Quat>,
+    pivot: Vec3,
+    shift: Vec3,
+}
+
+impl Turns {
+    fn turn(&self, share: u16) -> Quat {
+        self.turns[usize::from(share)]
+    }
+
+    fn moved(&self, p: Vec3, share: u16) -> Vec3 {
+        self.turn(share) * (p - self.pivot) + self.pivot + self.shift
+    }
+
+    /// Poses corners' places and normals, from those at rest, some in each thread.
+    fn pose(&self, shares: &[u16], rest: [&[Vec3]; 2], posed: [&mut [Vec3]; 2]) {
+        let ([places, normals], [posed, posed_normals]) = (rest, posed);
+        let corners = (shares, places, normals, posed, posed_normals).into_par_iter();
+        let corners = corners.with_min_len(SOME_CORNERS);
+        corners.for_each(|(share, place, normal, posed, posed_normal)| {
+            *posed = self.moved(*place, *share);
+            *posed_normal = self.turn(*share) * *normal;
+        });
     }
 }
 
@@ -192,21 +234,22 @@ impl PosedHead {
             spin: 0.0,
             ..self.pose
         };
-        let pivot = (neck.pivot.as_dvec3() + moved_m).as_vec3();
-        let shift = shift_m.as_vec3();
         let spun = self.pose.spun();
-        let turns: Vec<Quat> = (0..=STEPS)
-            .map(|step| own.rotation(step as f64 / STEPS as f64))
-            .map(|turn| (spun * base * turn * base.conjugate()).as_quat())
-            .collect();
+        let turns = Turns {
+            turns: (0..=STEPS)
+                .map(|step| own.rotation(step as f64 / STEPS as f64))
+                .map(|turn| (spun * base * turn * base.conjugate()).as_quat())
+                .collect(),
+            pivot: (neck.pivot.as_dvec3() + moved_m).as_vec3(),
+            shift: shift_m.as_vec3(),
+        };
         let own_file = self.model.painted.iter_mut().zip(&neck.painted_shares);
         for (mesh, shares) in own_file.filter(|(mesh, _)| mesh.section.is_none()) {
             for ((place, normal), share) in
                 mesh.positions.iter_mut().zip(&mut mesh.normals).zip(shares)
             {
-                let turn = turns[(share * STEPS as f32).round() as usize];
-                *place = turn * (*place - pivot) + pivot + shift;
-                *normal = turn * *normal;
+                *place = turns.moved(*place, *share);
+                *normal = turns.turn(*share) * *normal;
             }
         }
     }

@@ -4,7 +4,8 @@ use crate::bake;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::{self, HeadModel};
-use crate::load;
+use crate::lines;
+use crate::load::{self, ReadHead};
 use crate::look::Look;
 use crate::neck::Neck;
 use crate::placement::Placement;
@@ -62,17 +63,24 @@ impl Object {
         look: Arc<Look>,
         notes: &mut Vec<String>,
     ) -> Result<Self, StageError> {
-        let (head, own_hair) = load::head(preset, files, notes)?;
+        let ReadHead {
+            model: head,
+            hair: own_hair,
+            orientation,
+        } = load::head(preset, files, notes)?;
         let mut hair = match own_hair {
             Some(own) => own,
             None => load::hair(preset, files, head.as_ref(), notes)?,
         };
-        let script = script::load(preset, files, &mut hair, head.as_ref())?;
+        let script = script::load(preset, files, &mut hair, head.as_ref(), &orientation)?;
         hair.choose_guides(&preset.sections.hair);
+        hair.move_out_of_bodies(&script, &preset.sections.dynamics);
         bake::load(preset, files, &mut hair, notes)?;
         zones::check(&preset.layers, &hair, files.hair.is_some(), notes)?;
         let (wears_ties, is_given) = (!hair.ornaments.is_empty(), files.head.is_some());
         head::layers::check(&preset.layers, head.as_ref(), wears_ties, is_given, notes)?;
+        let (listed, layers) = (&preset.lines, &preset.layers);
+        lines::check(listed, layers, head.as_ref(), wears_ties, is_given, notes)?;
         Self::of(hair, head, look, script)
     }
 

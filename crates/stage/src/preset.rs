@@ -1,17 +1,21 @@
 //! Presets: one RON file that says what is drawn and how.
 
 mod base;
+mod lines;
 mod meshes;
 mod objects;
 mod passes;
 mod sections;
 
 pub(crate) use base::Origin;
+pub(crate) use lines::LineKinds;
+pub use lines::{LINES, LineSection, NamedLines};
 pub use meshes::{AlphaChoice, MESHES, MeshSection, NamedMesh};
 pub use objects::{NamedObject, ObjectSection};
 pub use passes::{EdgesChoice, PASSES, PassSection};
 pub use sections::*;
 
+use crate::bodies::NamedBody;
 use crate::files::Files;
 use effects::preset::{
     Field, LayerSpec, Place, PresetError, PresetErrors, Reader, SetError, nearest, set_text,
@@ -35,6 +39,10 @@ pub struct Preset<'r> {
     pub objects: Vec<NamedObject>,
     /// Meshes beside the head, in the order of the file.
     pub meshes: Vec<NamedMesh>,
+    /// Lines of meshes, in the order of the file.
+    pub lines: Vec<NamedLines>,
+    /// Bodies that hair is kept out of, in the order of the file.
+    pub bodies: Vec<NamedBody>,
     /// What is done with the whole picture's samples, in the order of the file.
     pub passes: Vec<PassSection>,
     /// The effects that it was read with, and that its objects' presets are read with.
@@ -77,6 +85,8 @@ impl<'r> Preset<'r> {
             layers,
             objects: Vec::new(),
             meshes: Vec::new(),
+            lines: Vec::new(),
+            bodies: Vec::new(),
             passes: Vec::new(),
             registry: None,
             named: Vec::new(),
@@ -128,7 +138,7 @@ impl<'r> Preset<'r> {
         let names = Sections::ALL.iter().map(|(name, ..)| *name);
         let known: Vec<&str> = (Self::TOP.iter().map(|param| param.name))
             .chain(names)
-            .chain(["layers", "meshes", "passes", "objects"])
+            .chain(["layers", "meshes", "lines", "bodies", "passes", "objects"])
             .collect();
         let is_plain = |field: &&Field| Self::TOP.iter().any(|param| param.name == field.name);
         let plain: Vec<Field> = fields.iter().filter(is_plain).copied().collect();
@@ -156,12 +166,16 @@ impl<'r> Preset<'r> {
             } else if field.name == "passes" {
                 preset.passes = PassSection::read_list(reader, field.value);
             } else if has_objects
-                && (["layers", "meshes"].contains(&field.name)
+                && (["layers", "meshes", "lines", "bodies"].contains(&field.name)
                     || is_section && objects::is_of_objects(field.name))
             {
                 reader.error(field.name, objects::said_elsewhere(field.name));
             } else if field.name == "meshes" {
                 preset.meshes = NamedMesh::read_list(reader, field.value);
+            } else if field.name == "lines" {
+                preset.lines = NamedLines::read_list(reader, field.value);
+            } else if field.name == "bodies" {
+                preset.bodies = NamedBody::read_list(reader, field.value);
             } else if field.name == "layers" {
                 layers = Some(field);
             } else if preset.sections.by_name(field.name).is_some() {
@@ -262,6 +276,8 @@ impl<'r> Preset<'r> {
         errors.extend(objects.filter_map(|object| object.missing(&files.preset_folder)));
         let meshes = self.meshes.iter();
         errors.extend(meshes.flat_map(|mesh| mesh.missing(&files.preset_folder)));
+        let bodies = self.bodies.iter();
+        errors.extend(bodies.filter_map(|body| body.missing(&files.preset_folder)));
         PresetErrors::report(errors)
     }
 
@@ -283,7 +299,7 @@ impl<'r> Preset<'r> {
         self.named.iter().find(is_it).map(|named| &named.place)
     }
 
-    /// Sets a layer's parameter, one of a section, of a pass or mesh by its number from 1 on, or the seed, from its text:
+    /// Sets a layer's parameter, one of a section, of a pass, mesh, lines or body by its number from 1 on, or the seed, from its text:
     /// `hair.silhouette.width`, `3`; `passes.1.width`, `2`.
     ///
     /// # Errors
@@ -308,6 +324,20 @@ impl<'r> Preset<'r> {
             let words = ["mesh", "meshes"];
             let mesh = numbered(&mut self.meshes, number, words)?;
             return set_text(&mut mesh.section, owner, param, text);
+        }
+        if let Some(number) = owner.strip_prefix("lines.") {
+            let words = ["list of lines", "lines"];
+            let lines = numbered(&mut self.lines, number, words)?;
+            let mut section = lines.section.clone();
+            set_text(&mut section, owner, param, text)?;
+            section.kinds().map_err(SetError::Unknown)?;
+            lines.section = section;
+            return Ok(());
+        }
+        if let Some(number) = owner.strip_prefix("bodies.") {
+            let words = ["body", "bodies"];
+            let body = numbered(&mut self.bodies, number, words)?;
+            return set_text(&mut body.section, owner, param, text);
         }
         let Some(section) = self.sections.by_name(owner) else {
             return Err(SetError::Unknown(self.no_layer(owner)));

@@ -2,7 +2,6 @@
 
 use crate::look::Look;
 use crate::object::Object;
-use effects::Units;
 use glam::Vec3;
 use hair_sim::Strands;
 use render::{CLUMP_REACH, Head, StrandInfo, reach_of};
@@ -44,12 +43,13 @@ impl Sight {
     pub fn new(camera: &Camera, object: &Object, detail: f32, shows_all: bool) -> Self {
         let (look, unit_m) = (object.look(), object.hair().head.unit_m());
         let (mut clumps, mut units, mut pixels) = (CLUMP_REACH.clumps, 0.0_f32, 0.0_f32);
-        for layer in &look.layers {
+        let of_lines = look.lines.iter().flat_map(|set| &set.layers);
+        for layer in look.layers.iter().chain(of_lines) {
             let reach = reach_of(layer, look.brush());
             clumps = clumps.max(reach.clumps);
-            match layer.units {
-                Units::Pixels => pixels = pixels.max(reach.units),
-                Units::World => units = units.max(reach.units),
+            match layer.is_in_pixels() {
+                true => pixels = pixels.max(reach.units),
+                false => units = units.max(reach.units),
             }
         }
         let pixel_px = camera.size_px()[1] as f32 / 720.0;

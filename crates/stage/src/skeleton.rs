@@ -248,7 +248,12 @@ impl Skeleton {
                 },
                 false => Shape::Capsule { from, to, radius },
             };
-            Collider { shape, before, now }
+            Collider {
+                shape,
+                before,
+                now,
+                was: None,
+            }
         };
         self.bodies.iter().map(collider).collect()
     }

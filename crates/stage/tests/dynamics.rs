@@ -378,7 +378,8 @@ fn hair_off_screen_runs_at_a_lower_rate_and_does_not_pop() {
         distance_m: 2.0,
         vertical_fov_degrees: 40.0,
     };
-    let camera = |target| Camera::orbit(view(target), [64, 64], full.near_m()).unwrap();
+    // Near enough for its motion to be seen.
+    let camera = |target| Camera::orbit(view(target), [640, 640], full.near_m()).unwrap();
     let (at_it, elsewhere) = (camera(head.center), camera(head.center + 50.0 * Vec3::X));
     let away = 14..37;
     let mut before: Option<[Vec<Vec3>; 2]> = None;
@@ -429,6 +430,55 @@ fn hair_off_screen_runs_at_a_lower_rate_and_does_not_pop() {
     );
     assert!(most < 0.1 && farthest_off < 0.6, "{most} {farthest_off}");
     assert!(speed < 1.3, "{speed}");
+}
+
+/// Hair that is small in the picture is simulated half as often while its head is calm, no pixel tells, and it comes nearer without a jump. What is made
+/// for sequences knows nothing of it.
+#[test]
+fn hair_that_is_seen_small_runs_at_a_lower_rate_and_does_not_pop() {
+    let script = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.3, angle: 60)], \
+                  winds: [(speed: 3, gusts: 2, yaw: 90)])";
+    let step = [("dynamics.step", "0.041666668")];
+    let [mut full, mut live] = [0; 2].map(|_| scene("twin-tails.style.ron", Some(script), &step));
+    let head = full.head();
+    let camera = |size_px: u32| {
+        let view = OrbitView {
+            target: head.center,
+            yaw_degrees: 0.0,
+            pitch_degrees: 0.0,
+            distance_m: 2.0,
+            vertical_fov_degrees: 40.0,
+        };
+        Camera::orbit(view, [size_px; 2], full.near_m()).unwrap()
+    };
+    // 24 and 106 pixels from chin to crown.
+    let (small, near) = (camera(145), camera(640));
+    let comes_near = 48;
+    let (mut steps, mut farthest_px, mut jump): (u64, f32, f32) = (0, 0.0, 0.0);
+    for frame in 0..72 {
+        let time = frame as f32 / 24.0;
+        let seen_by = if frame < comes_near { &small } else { &near };
+        let taken = live.steps_taken();
+        live.advance_to_seen_by(time, seen_by).unwrap();
+        full.advance_to(time).unwrap();
+        let [whole, now] = [&mut full, &mut live].map(|stage| {
+            let frame = stage.frame().unwrap();
+            let means = frame.strands.iter().map(|strand| strand.mean);
+            means.collect::<Vec<Vec3>>()
+        });
+        let [nine, _] = nine_of_ten(&whole, &now);
+        if frame < comes_near {
+            steps += live.steps_taken() - taken;
+            farthest_px = farthest_px.max(nine * small.px_per_metre(2.0));
+        } else {
+            jump = jump.max(nine / head.height_m);
+        }
+    }
+    println!(
+        "seen small: {steps} steps in {comes_near} frames, nine of ten strands within {farthest_px:.2} pixels; then within {jump:.3} head heights"
+    );
+    assert!(steps <= 32, "{steps}");
+    assert!(farthest_px < 2.0 && jump < 0.1, "{farthest_px} {jump}");
 }
 
 /// The safe integrator is for what breaks strands: in what scenes are made of it takes hardly a step, and none is set aside.

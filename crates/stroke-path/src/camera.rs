@@ -174,36 +174,42 @@ impl Camera {
     }
 
     /// The camera's place in the world, in metres.
+    #[inline]
     #[must_use]
     pub fn eye(&self) -> Vec3 {
         self.eye
     }
 
     /// The picture's width and height, in pixels.
+    #[inline]
     #[must_use]
     pub fn size_px(&self) -> [u32; 2] {
         self.size_px
     }
 
     /// The view depth from which things are seen, in metres.
+    #[inline]
     #[must_use]
     pub fn near_m(&self) -> f32 {
         self.near_m
     }
 
     /// The distance from the eye to the picture plane, in pixels.
+    #[inline]
     #[must_use]
     pub fn focal_px(&self) -> f32 {
         self.focal_px
     }
 
     /// A point of the world in view space, in metres: right, up, depth.
+    #[inline]
     #[must_use]
     pub fn view_from_world(&self, point: Vec3) -> Vec3 {
         self.view_from_world_direction(point - self.eye)
     }
 
     /// A direction of the world in view space: right, up, depth. Lengths stay.
+    #[inline]
     #[must_use]
     pub fn view_from_world_direction(&self, direction: Vec3) -> Vec3 {
         Vec3::new(
@@ -215,18 +221,21 @@ impl Camera {
 
     /// A point of view space (right, up, depth, in metres) in the world: for a light that is fixed
     /// to the camera.
+    #[inline]
     #[must_use]
     pub fn world_from_view(&self, point: Vec3) -> Vec3 {
         self.eye + self.world_from_view_direction(point)
     }
 
     /// A direction of view space (right, up, depth) in the world. Lengths stay.
+    #[inline]
     #[must_use]
     pub fn world_from_view_direction(&self, direction: Vec3) -> Vec3 {
         self.right * direction.x + self.up * direction.y + self.forward * direction.z
     }
 
     /// The view depth of a point of the world: metres along the view axis, negative behind the eye.
+    #[inline]
     #[must_use]
     pub fn depth(&self, point: Vec3) -> f32 {
         self.forward.dot(point - self.eye)
@@ -237,6 +246,7 @@ impl Camera {
     ///
     /// Meant for depths from [`Self::near_m`] on: at depth 0 there is no such point, and behind the
     /// eye it is the mirrored one.
+    #[inline]
     #[must_use]
     pub fn project(&self, view: Vec3) -> Vec2 {
         let [width, height] = self.size_px.map(|side| side as f32);
@@ -247,6 +257,7 @@ impl Camera {
     /// Pixels that a metre across the view axis takes at this view depth (m).
     ///
     /// Nearer than [`Self::near_m`] it no longer grows: a disc around a visible joint stays finite.
+    #[inline]
     #[must_use]
     pub fn px_per_metre(&self, depth: f32) -> f32 {
         self.focal_px / depth.max(self.near_m)

@@ -74,6 +74,9 @@ impl InheritedLayer {
             ("units", layer.units.name().to_owned()),
         ];
         own.extend(layer.zones.as_deref().map(|zones| ("zones", text(zones))));
+        if let Some(clip) = &layer.clip {
+            own.extend([("clip", text(clip)), ("reach", layer.reach.to_string())]);
+        }
         Self {
             name: layer.name.clone(),
             effect: AnyEffect::id(layer.effect),

@@ -149,6 +149,7 @@ impl Full {
             shape: ball,
             before,
             now,
+            was: None,
         }];
         let scene = Surroundings {
             roots: Roots::Head(now),

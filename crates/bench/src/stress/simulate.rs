@@ -155,6 +155,7 @@ impl<'a> Run<'a> {
                 },
                 before,
                 now,
+                was: None,
             })
             .collect();
         let scene = Surroundings {
@@ -166,6 +167,7 @@ impl<'a> Run<'a> {
             streams: &[],
             colliders: &colliders,
             goal: goal.as_deref(),
+            anchors: &[],
         };
         if index.is_multiple_of(8) {
             self.refuse(index, &scene, frame.dt)?;

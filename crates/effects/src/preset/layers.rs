@@ -28,11 +28,17 @@ section! {
         /// The zones of the hair's style that it draws on: their names with commas between them, `*` for any end, such as "fringe, tail*".
         /// Without it all hair.
         zones: Option<String> = text(),
-        /// Of effects for meshes: what is painted, names of meshes or of their materials with commas between them, `*` for any end, such as "Face*,
+        /// Of effects for lines: which of the preset's `lines`, by their names. Of effects for meshes: what is painted, names of meshes or of their materials with commas between them, `*` for any end, such as "Face*,
         /// Body". Of the head that comes with inkstrand: skin, dress, eyes, brows, mouth, blush; of the hair: ties.
         on: Option<String> = text(),
         /// Of effects for meshes: how much of it is seen through hair that hangs before it: 0 nothing, 1 as if there were no hair.
         through_hair: f32 = number(0.0, 0.0..=1.0),
+        /// What its strokes are drawn on, and nowhere else: "hair", "head" (all that isn't hair), or names of meshes as for `on`, with commas
+        /// between them. They lie on what is seen there without them. The effect's own by default, of most nothing.
+        clip: Option<String> = text(),
+        /// Of strokes with `clip`: how far what they are drawn on may be before or behind them. Of shadows (`hair.cast`) how far a mesh may be
+        /// before them, and hair must be behind them. The effect's own by default.
+        reach: Option<f32> = number(0.05, 0.0..=10.0).unit("head heights").optional(),
     }
 }
 
@@ -48,6 +54,8 @@ impl LayerFields {
             zones: layer.zones.clone(),
             on: layer.on.clone(),
             through_hair: layer.through_hair,
+            clip: layer.clip.clone(),
+            reach: Some(layer.reach),
         }
     }
 }
@@ -56,7 +64,7 @@ impl LayerFields {
 pub const LAYER: &[Param] = LayerFields::TABLE;
 
 /// What of [`LAYER`] is the effect's own where the layer says nothing, in place of the table's default.
-pub const OF_THE_EFFECT: &[&str] = &["name", "rank", "depth_offset"];
+pub const OF_THE_EFFECT: &[&str] = &["name", "rank", "depth_offset", "clip", "reach"];
 
 /// A layer as the preset describes it.
 pub struct LayerSpec<'r> {
@@ -74,12 +82,18 @@ pub struct LayerSpec<'r> {
     pub zones: Option<String>,
     /// Where the file says them.
     pub zones_place: Option<Place>,
-    /// The meshes that it paints, of an effect for meshes.
+    /// The meshes that it paints, of an effect for meshes; the lines that it draws, of one for lines.
     pub on: Option<String>,
     /// Where the file says them.
     pub on_place: Option<Place>,
     /// How much of what it paints is seen through hair, 0 to 1.
     pub through_hair: f32,
+    /// What its strokes are drawn on, if they are decals.
+    pub clip: Option<String>,
+    /// Where the file says it.
+    pub clip_place: Option<Place>,
+    /// How far before or behind its strokes decals are drawn on that, head heights.
+    pub reach: f32,
     /// The effect's parameters.
     pub values: Values,
     /// Where the file names its textures' files: their parameters, and the place of each value.
@@ -100,6 +114,8 @@ impl LayerSpec<'_> {
             "zones",
             "on",
             "through_hair",
+            "clip",
+            "reach",
         ];
         // What the file says is no longer what is meant.
         self.textures.retain(|(name, _)| *name != param);
@@ -115,6 +131,7 @@ impl LayerSpec<'_> {
             zones: self.zones.clone(),
             on: self.on.clone(),
             through_hair: self.through_hair,
+            clip: self.clip.clone(),
             ..LayerFields::default()
         };
         set_text(&mut fields, &self.name, param, text)?;
@@ -130,6 +147,11 @@ impl LayerSpec<'_> {
         }
         self.on = fields.on;
         self.through_hair = fields.through_hair;
+        if param == "clip" {
+            self.clip_place = None;
+        }
+        self.clip = clip_of(self.effect, fields.clip);
+        self.reach = fields.reach.unwrap_or(self.reach);
         Ok(())
     }
 
@@ -151,6 +173,8 @@ impl LayerSpec<'_> {
             zones: self.zones.clone(),
             on: self.on.clone(),
             through_hair: self.through_hair,
+            clip: self.clip.clone(),
+            reach: self.reach,
             program: self.effect.program(values).into(),
         }
     }
@@ -257,12 +281,14 @@ impl<'a> Reader<'a> {
             }
         }
         let says_on = layer.on.is_some() || own.iter().any(|field| field.name == "on");
-        if effect.is_for_meshes() && !says_on {
-            let id = effect.id();
-            let message = format!(
-                "`{id}` paints meshes, and the layer doesn't say which: on: \"skin, dress\", the names of a file's meshes, or \"*\" for all"
-            );
+        if !says_on && let Some(message) = needs_on(effect) {
             self.error(item, message);
+        }
+        let clip = clip_of(effect, layer.clip);
+        let reach = own.iter().find(|field| field.name == "reach");
+        if let Some(field) = reach.filter(|_| clip.is_none()) {
+            let message = "`reach` is of strokes that are drawn on something: clip: \"hair\", \"head\", or names of meshes";
+            self.error(field.name, message.to_owned());
         }
         let on = own.iter().find(|field| field.name == "on");
         let zones = own.iter().find(|field| field.name == "zones");
@@ -276,6 +302,8 @@ impl<'a> Reader<'a> {
         }
         let zones_of_base = changed.and_then(|changed| changed.zones_place.clone());
         let on_of_base = changed.and_then(|changed| changed.on_place.clone());
+        let clip_of_base = changed.and_then(|changed| changed.clip_place.clone());
+        let clip_field = own.iter().find(|field| field.name == "clip");
         Some(LayerSpec {
             name: layer.name.unwrap_or_else(|| effect.id().to_owned()),
             effect,
@@ -287,6 +315,9 @@ impl<'a> Reader<'a> {
             on: layer.on,
             on_place: on.map_or(on_of_base, |field| Some(self.place(field.value))),
             through_hair: layer.through_hair,
+            clip,
+            clip_place: clip_field.map_or(clip_of_base, |field| Some(self.place(field.value))),
+            reach: layer.reach.unwrap_or(effect.clip_reach()),
             values,
             textures,
         })
@@ -362,26 +393,56 @@ fn named(fields: &[Field]) -> Option<String> {
     }
 }
 
+/// What strokes of a layer that says this are drawn on.
+fn clip_of(effect: &dyn AnyEffect, said: Option<String>) -> Option<String> {
+    let said = said.filter(|names| !names.trim().is_empty());
+    said.or_else(|| effect.clip().map(str::to_owned))
+}
+
 /// Whether a layer of this effect may say this field of [`LAYER`].
 #[must_use]
 pub fn may_say(effect: &dyn AnyEffect, field: &str) -> bool {
     misfit(effect, field).is_none()
 }
 
+/// What is missing in a layer of this effect that doesn't say what it is on, if it must.
+fn needs_on(effect: &dyn AnyEffect) -> Option<String> {
+    let id = effect.id();
+    if effect.is_for_meshes() {
+        return Some(format!(
+            "`{id}` paints meshes, and the layer doesn't say which: on: \"skin, dress\", the names of a file's meshes, or \"*\" for all"
+        ));
+    }
+    effect.is_for_lines().then(|| {
+        format!(
+            "`{id}` draws lines, and the layer doesn't say which: on: \"rim\", a name of the preset's lines: [(name: \"rim\", of: \"skin, dress\")]"
+        )
+    })
+}
+
 /// Why a layer of this effect can't say that.
 fn misfit(effect: &dyn AnyEffect, param: &str) -> Option<String> {
     let id = effect.id();
-    let of_strokes = ["rank", "depth_offset", "units", "zones"];
-    let of_meshes = ["on", "through_hair"];
+    let of_strokes = ["rank", "depth_offset", "units", "zones", "clip", "reach"];
+    let of_decals = ["clip", "reach"];
+    let of_surfaces = ["on", "through_hair"];
+    let not_of_lines = ["zones", "through_hair", "clip", "reach"];
     if effect.params().iter().any(|own| own.name == param) {
         return None;
+    }
+    if effect.is_for_lines() {
+        let message = || format!("`{param}` is not of lines, which `{id}` draws");
+        return not_of_lines.contains(&param).then(message);
     }
     match effect.is_for_meshes() {
         true if of_strokes.contains(&param) => {
             Some(format!("`{param}` is of strokes, and `{id}` paints meshes"))
         }
-        false if of_meshes.contains(&param) => Some(format!(
-            "`{param}` is of effects for meshes, such as `mesh.toon`; `{id}` draws strokes"
+        false if of_surfaces.contains(&param) => Some(format!(
+            "`{param}` is of effects for meshes, such as `mesh.toon`; `{id}` draws strokes of hair"
+        )),
+        false if of_decals.contains(&param) && effect.paints().is_some() => Some(format!(
+            "`{param}` is of strokes in colours of their own, and `{id}` paints each sample"
         )),
         _ => None,
     }

@@ -65,6 +65,8 @@ pub struct Zone {
     pub held: f32,
     /// Length that hangs.
     pub hang: f32,
+    /// Points of hair that hangs without curls, 10 at least.
+    pub points: u32,
     /// How much hanging lengths differ, 0 to 1.
     pub length_variation: f32,
     /// How soon hanging hair turns down: 0 keeps its way, 1 at once.
@@ -93,6 +95,10 @@ pub struct Zone {
     pub tie: f32,
     /// What the tie is.
     pub tie_kind: TieKind,
+    /// Where along its hanging length hair is tied again, 0 to 1; 0: nowhere.
+    pub low_tie: f32,
+    /// Radius of that tie.
+    pub low_tie_size: f32,
     /// Radius of a clump at its full size; nothing to take it from the row's length and `overlap`.
     pub size: Option<f32>,
     /// How many times the widths of a row's clumps cover its length.

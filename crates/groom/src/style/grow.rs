@@ -5,6 +5,7 @@ use super::edit::{Drawn, Edit};
 use super::gathered::Gathered;
 use super::group::Groups;
 use super::hang::cut_at;
+use super::low_tie::{self, LowTie};
 use super::ornament::{OrnamentMesh, Tie};
 use super::row::{Row, Seat, size_class};
 use super::undercoat::undercoat;
@@ -39,7 +40,9 @@ pub struct Grown {
     pub tapers: Vec<Taper>,
     /// The ties of gathered hair.
     pub ties: Vec<Tie>,
-    /// Ties and accessories as meshes.
+    /// The ties of hair on its way down.
+    pub low_ties: Vec<LowTie>,
+    /// Ties and accessories as meshes, but for those that move with the hair.
     pub ornaments: Vec<OrnamentMesh>,
 }
 
@@ -112,10 +115,14 @@ pub fn grow(style: &Style, shell: &Shell) -> Grown {
                     side,
                     grown: &mut grown,
                 };
+                let before = half.grown.strands.len();
                 match zone.form {
                     Form::Rows => half.rows(),
                     Form::Tail | Form::Bun | Form::Braid => half.gathered(),
                 }
+                let (strands, held) = (&mut grown.strands, &grown.held);
+                let low_tie = low_tie::gather(zone, shell, strands, held, before);
+                grown.low_ties.extend(low_tie);
             }
         }
     }

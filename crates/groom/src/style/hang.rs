@@ -7,7 +7,7 @@ use crate::shell::Shell;
 use crate::trig::sin_cos_turns;
 use glam::Vec3;
 
-/// Points of hair that hangs without curls.
+/// Points by which hair that hangs without curls is shaped; a style may have more on the way through them.
 const POINTS: usize = 10;
 /// Points of one turn of a curl, and most points of one clump.
 const POINTS_A_TURN: f32 = 9.0;
@@ -85,10 +85,34 @@ pub(super) fn hang(
         smooth_corners(&mut points[first..]);
     }
     keep_clear(&mut points[hung..], shell);
+    let wanted = (zone.points as usize).min(MOST_POINTS);
+    if wanted > count {
+        refine(points, hung, wanted);
+        keep_clear(&mut points[hung..], shell);
+    }
+}
+
+/// Puts so many points behind the one at `hung`, on Catmull and Rom's spline through those that are there: the shape stays.
+fn refine(points: &mut Vec<Vec3>, hung: usize, wanted: usize) {
+    let links = points.len() - 1 - hung;
+    let on_path = |place: f32| {
+        let link = (place as usize).min(links - 1);
+        let (t, i) = (place - link as f32, hung + link);
+        let [b, c] = [points[i], points[i + 1]];
+        let a = i.checked_sub(1).map_or(b * 2.0 - c, |i| points[i]);
+        let d = points.get(i + 2).copied().unwrap_or(c * 2.0 - b);
+        let (from, to, way) = ((c - a) * 0.5, (d - b) * 0.5, c - b);
+        b + (from + (way * 3.0 - from * 2.0 - to + (from + to - way * 2.0) * t) * t) * t
+    };
+    let fine: Vec<Vec3> = (1..=wanted)
+        .map(|step| on_path(step as f32 / wanted as f32 * links as f32))
+        .collect();
+    points.truncate(hung + 1);
+    points.extend(fine);
 }
 
 /// Moves hanging points out of the body, and those between which the way runs through it.
-fn keep_clear(points: &mut [Vec3], shell: &Shell) {
+pub(super) fn keep_clear(points: &mut [Vec3], shell: &Shell) {
     for _ in 0..CLEARINGS {
         let mut has_moved = false;
         for i in 1..points.len() {

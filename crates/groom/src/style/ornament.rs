@@ -30,6 +30,8 @@ pub enum TieKind {
     Scrunchie,
     /// A band with a bow on it.
     Bow,
+    /// A bar across the hair, as a pin.
+    Clip,
 }
 
 /// A tie around gathered hair.
@@ -92,11 +94,15 @@ impl Tie {
             TieKind::Ring => self.ring(),
             TieKind::Band => self.band(),
             TieKind::Scrunchie => self.scrunchie(),
+            TieKind::Clip => {
+                let facing = self.facing();
+                let along = self.axis.cross(facing).normalize_or(Vec3::X);
+                let center = self.center + facing * (0.9 * self.radius_m);
+                clip(center, facing, along, 1.3 * self.radius_m)
+            }
             TieKind::Bow => {
                 let mut mesh = self.band();
-                // To the front and up, as far as the hair's way leaves room, and a little along it.
-                let wanted = Vec3::new(0.0, 0.6, 1.0);
-                let facing = (wanted - self.axis * wanted.dot(self.axis)).normalize_or(Vec3::Z);
+                let facing = self.facing();
                 let facing = (facing + 0.35 * self.axis).normalize_or(facing);
                 let across = self.axis.cross(facing).normalize_or(Vec3::X);
                 let center = self.center + facing * (1.3 * self.radius_m);
@@ -104,6 +110,12 @@ impl Tie {
                 mesh
             }
         }
+    }
+
+    /// To the front and up, as far as the hair's way leaves room.
+    fn facing(&self) -> Vec3 {
+        let wanted = Vec3::new(0.0, 0.6, 1.0);
+        (wanted - self.axis * wanted.dot(self.axis)).normalize_or(Vec3::Z)
     }
 
     fn ring(&self) -> OrnamentMesh {
@@ -455,6 +467,7 @@ mod tests {
             TieKind::Band,
             TieKind::Scrunchie,
             TieKind::Bow,
+            TieKind::Clip,
         ];
         let meshes = accessories
             .map(|kind| accessory(kind).mesh(-1.0, &shell))

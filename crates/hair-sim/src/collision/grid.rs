@@ -62,45 +62,17 @@ impl SignedDistance {
     ///
     /// When the mesh is empty or invalid, or the grid too large.
     pub fn new(points: &[Vec3], triangles: &[[u32; 3]], cell: f64) -> Result<Self, GridError> {
-        if triangles.is_empty() {
-            return Err(GridError::Empty);
-        }
-        if let Some(i) = points.iter().position(|p| !p.is_finite()) {
-            return Err(GridError::NotFinite(i));
-        }
-        for (triangle, corners) in triangles.iter().enumerate() {
-            if let Some(&point) = corners.iter().find(|&&c| c as usize >= points.len()) {
-                return Err(GridError::Index { triangle, point });
-            }
-        }
+        let Extent {
+            origin,
+            size,
+            center,
+            radius,
+        } = Extent::of(points, triangles, cell)?;
         let corner = |i: u32| points[i as usize].as_dvec3();
-        let (mut low, mut high) = (DVec3::MAX, DVec3::MIN);
-        for &i in triangles.iter().flatten() {
-            low = low.min(corner(i));
-            high = high.max(corner(i));
-        }
-        let center = (low + high) * 0.5;
-        let radius = (triangles.iter().flatten())
-            .map(|&i| (corner(i) - center).length())
-            .fold(0.0, f64::max);
-        let margin = 3.0 * cell;
-        let extent = (high - low + 2.0 * margin) / cell;
-        let count = (extent.x + 2.0).floor() * (extent.y + 2.0).floor() * (extent.z + 2.0).floor();
-        if !(cell > 0.0 && count <= MOST_POINTS as f64) {
-            return Err(GridError::Size {
-                cell,
-                points: count,
-            });
-        }
-        let size = [
-            extent.x as usize + 2,
-            extent.y as usize + 2,
-            extent.z as usize + 2,
-        ];
         let triangles: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(corner)).collect();
         let mut build = Build {
             grid: Self {
-                origin: low - margin,
+                origin,
                 cell,
                 size,
                 values: vec![f32::MAX; size[0] * size[1] * size[2]],
@@ -117,6 +89,15 @@ impl SignedDistance {
         let mut grid = build.grid;
         grid.print = Hash::of(&grid.values);
         Ok(grid)
+    }
+
+    /// Whether a mesh has distances in cells of `cell` metres, as [`Self::new`] says, which takes much longer.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::new`].
+    pub fn check(points: &[Vec3], triangles: &[[u32; 3]], cell: f64) -> Result<(), GridError> {
+        Extent::of(points, triangles, cell).map(drop)
     }
 
     /// Centre and radius of a ball around the mesh.
@@ -207,6 +188,60 @@ impl SignedDistance {
             slope(DVec3::Y * h),
             slope(DVec3::Z * h),
         )
+    }
+}
+
+/// How far a grid goes.
+struct Extent {
+    origin: DVec3,
+    size: [usize; 3],
+    /// A ball around the mesh.
+    center: DVec3,
+    radius: f64,
+}
+
+impl Extent {
+    fn of(points: &[Vec3], triangles: &[[u32; 3]], cell: f64) -> Result<Self, GridError> {
+        if triangles.is_empty() {
+            return Err(GridError::Empty);
+        }
+        if let Some(i) = points.iter().position(|p| !p.is_finite()) {
+            return Err(GridError::NotFinite(i));
+        }
+        for (triangle, corners) in triangles.iter().enumerate() {
+            if let Some(&point) = corners.iter().find(|&&c| c as usize >= points.len()) {
+                return Err(GridError::Index { triangle, point });
+            }
+        }
+        let corner = |i: u32| points[i as usize].as_dvec3();
+        let (mut low, mut high) = (DVec3::MAX, DVec3::MIN);
+        for &i in triangles.iter().flatten() {
+            low = low.min(corner(i));
+            high = high.max(corner(i));
+        }
+        let center = (low + high) * 0.5;
+        let radius = (triangles.iter().flatten())
+            .map(|&i| (corner(i) - center).length())
+            .fold(0.0, f64::max);
+        let margin = 3.0 * cell;
+        let extent = (high - low + 2.0 * margin) / cell;
+        let count = (extent.x + 2.0).floor() * (extent.y + 2.0).floor() * (extent.z + 2.0).floor();
+        if !(cell > 0.0 && count <= MOST_POINTS as f64) {
+            return Err(GridError::Size {
+                cell,
+                points: count,
+            });
+        }
+        Ok(Self {
+            origin: low - margin,
+            size: [
+                extent.x as usize + 2,
+                extent.y as usize + 2,
+                extent.z as usize + 2,
+            ],
+            center,
+            radius,
+        })
     }
 }
 

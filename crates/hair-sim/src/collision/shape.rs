@@ -27,9 +27,40 @@ pub enum Shape<'a> {
     },
     /// A closed mesh, by its distances on a grid.
     Grid(&'a SignedDistance),
+    /// A closed mesh on its way from one form to another, `size` times as large: its distances are the mean of theirs.
+    Form {
+        /// The form that it leaves.
+        from: &'a SignedDistance,
+        /// The form that it comes to.
+        to: &'a SignedDistance,
+        /// How much of the way it has gone, 0 to 1.
+        share: f64,
+        /// Above 0.
+        size: f64,
+    },
 }
 
 /// A body and how it moves in a step.
+///
+/// ```
+/// use glam::{DVec3, Vec3};
+/// use hair_sim::{Collider, Params, Pose, Shape, Solver, Strands, Surroundings};
+///
+/// // A ball that grows under a strand.
+/// let ball = |step: i32| Shape::Sphere { center: DVec3::ZERO, radius: 0.1 + 0.005 * f64::from(step) };
+/// let mut rest = Strands::new();
+/// let points: Vec<Vec3> = (0..=10).map(|i| Vec3::new(-0.05 + 0.01 * i as f32, 0.12, 0.0)).collect();
+/// rest.push(0, &points, None).expect("finite points");
+/// let (mut solver, mut state) = Solver::new(&rest, &Params::default())?;
+/// for step in 1..=8 {
+///     let bodies = [Collider { was: Some(ball(step - 1)), ..Collider::fixed(ball(step), Pose::IDENTITY) }];
+///     let surroundings = Surroundings { colliders: &bodies, ..Surroundings::default() };
+///     solver.step(&mut state, &surroundings, 1.0 / 60.0)?;
+/// }
+/// // It is lifted by the ball, whose radius is 0.14 m now.
+/// assert!(solver.points(&state, 0).skip(2).all(|point: DVec3| point.length() > 0.139));
+/// # Ok::<(), hair_sim::DynamicsError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Collider<'a> {
     /// In its own space.
@@ -38,6 +69,8 @@ pub struct Collider<'a> {
     pub before: Pose,
     /// And when it ends.
     pub now: Pose,
+    /// Its shape when the step starts, where it is another than at its end. What it presses on then moves as its surface does, along its normals.
+    pub was: Option<Shape<'a>>,
 }
 
 impl<'a> Collider<'a> {
@@ -48,24 +81,70 @@ impl<'a> Collider<'a> {
             shape,
             before: pose,
             now: pose,
+            was: None,
         }
     }
 
+    /// The distance of a place in the world from its surface when the step ends, in m, negative inside; never more than the true one by
+    /// more than a grid's error.
+    #[must_use]
+    pub fn distance(&self, at: DVec3) -> f64 {
+        self.shape.distance(self.now.to_local(at))
+    }
+
+    /// The way out of it at a place in the world when the step ends, a unit vector.
+    #[must_use]
+    pub fn outwards(&self, at: DVec3) -> DVec3 {
+        self.now.rotation * self.shape.normal(self.now.to_local(at))
+    }
+
+    /// Its shape when the step starts.
+    pub(crate) fn at_start(&self) -> &Shape<'a> {
+        self.was.as_ref().unwrap_or(&self.shape)
+    }
+
+    /// By how much its surface comes nearer in the step to a place in its own space, in m, as its shape changes.
+    #[inline]
+    pub(crate) fn grown(&self, at: DVec3) -> f64 {
+        match &self.was {
+            Some(was) => was.distance(at) - self.shape.distance(at),
+            None => 0.0,
+        }
+    }
+
+    /// Whether it moves in the step, as a whole or by its shape.
+    pub(crate) fn moves(&self) -> bool {
+        let deforms = |was: &Shape| was.numbers() != self.shape.numbers();
+        self.before != self.now || self.was.as_ref().is_some_and(deforms)
+    }
+
     pub(crate) fn is_finite(&self) -> bool {
-        let shape = match self.shape {
-            Shape::Sphere { center, radius } => {
-                center.is_finite() && radius.is_finite() && radius >= 0.0
-            }
-            Shape::Capsule { from, to, radius } => {
-                from.is_finite() && to.is_finite() && radius.is_finite() && radius >= 0.0
-            }
-            Shape::Grid(_) => true,
-        };
-        shape && self.before.is_finite() && self.now.is_finite()
+        let shapes = self.shape.is_finite() && self.at_start().is_finite();
+        shapes && self.before.is_finite() && self.now.is_finite()
     }
 }
 
 impl Shape<'_> {
+    fn is_finite(&self) -> bool {
+        match self {
+            Self::Sphere { center, radius } => {
+                center.is_finite() && radius.is_finite() && *radius >= 0.0
+            }
+            Self::Capsule { from, to, radius } => {
+                from.is_finite() && to.is_finite() && radius.is_finite() && *radius >= 0.0
+            }
+            Self::Grid(_) => true,
+            Self::Form { share, size, .. } => {
+                (0.0..=1.0).contains(share) && size.is_finite() && *size > 0.0
+            }
+        }
+    }
+
+    /// Whether it is known by distances on a grid, which aren't exact.
+    pub(crate) fn is_sampled(&self) -> bool {
+        matches!(self, Self::Grid(_) | Self::Form { .. })
+    }
+
     /// Distance from the surface in m, negative inside; never more than the true one by more than a grid's error.
     #[inline]
     pub(crate) fn distance(&self, at: DVec3) -> f64 {
@@ -75,6 +154,15 @@ impl Shape<'_> {
                 (at - nearest_on_line(*from, *to, at)).length() - radius
             }
             Self::Grid(grid) => grid.distance(at),
+            Self::Form {
+                from,
+                to,
+                share,
+                size,
+            } => {
+                let at = at / *size;
+                size * mix(|form| form.distance(at), [from, to], *share)
+            }
         }
     }
 
@@ -86,6 +174,11 @@ impl Shape<'_> {
                 ((*from + *to) * 0.5, radius + 0.5 * (*to - *from).length())
             }
             Self::Grid(grid) => grid.ball(),
+            Self::Form { from, to, size, .. } => {
+                let [(center, radius), (other, other_radius)] = [from, to].map(|grid| grid.ball());
+                let radius = radius.max(center.distance(other) + other_radius);
+                (center * *size, radius * size)
+            }
         }
     }
 
@@ -95,6 +188,19 @@ impl Shape<'_> {
             Self::Sphere { center, radius } => [*center, DVec3::splat(*radius), DVec3::ZERO],
             Self::Capsule { from, to, radius } => [*from, *to, DVec3::splat(*radius)],
             Self::Grid(grid) => grid.numbers(),
+            Self::Form {
+                from,
+                to,
+                share,
+                size,
+            } => {
+                let [from, to] = [from, to].map(|grid| grid.numbers());
+                [
+                    from[0] + to[0] * 3.0,
+                    from[2] + to[2] * 3.0,
+                    DVec3::new(*share, *size, 2.0),
+                ]
+            }
         }
     }
 
@@ -104,8 +210,29 @@ impl Shape<'_> {
             Self::Sphere { center, .. } => at - *center,
             Self::Capsule { from, to, .. } => at - nearest_on_line(*from, *to, at),
             Self::Grid(grid) => grid.gradient(at),
+            Self::Form {
+                from,
+                to,
+                share,
+                size,
+            } => {
+                let at = at / *size;
+                mix(|form| form.gradient(at), [from, to], *share)
+            }
         };
         away.normalize_or(DVec3::Y)
+    }
+}
+
+/// What `of` says of two forms, mixed.
+fn mix<T>(of: impl Fn(&SignedDistance) -> T, forms: [&SignedDistance; 2], share: f64) -> T
+where
+    T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
+{
+    match share {
+        0.0 => of(forms[0]),
+        1.0 => of(forms[1]),
+        _ => of(forms[0]) * (1.0 - share) + of(forms[1]) * share,
     }
 }
 

@@ -125,7 +125,11 @@ impl Acting<'_> {
         for collider in self.colliders {
             let pose = on_the_way(collider.before, collider.now, self.share);
             let place = pose.to_local(*point);
-            let depth = thickness - collider.shape.distance(place);
+            let mut distance = collider.shape.distance(place);
+            if let Some(was) = &collider.was {
+                distance = was.distance(place) * (1.0 - self.share) + distance * self.share;
+            }
+            let depth = thickness - distance;
             if depth <= 0.0 || !depth.is_finite() {
                 continue;
             }

@@ -251,7 +251,7 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
             let at = state.root.get(lane) + state.y[k].get(lane);
             let depth = colliders
                 .iter()
-                .map(|c| c.shape.distance(c.before.to_local(at)) - batch.thickness[lane])
+                .map(|c| c.at_start().distance(c.before.to_local(at)) - batch.thickness[lane])
                 .fold(0.0, f64::min);
             state.skin[k][lane] = depth;
         }
@@ -312,7 +312,8 @@ pub(crate) fn detect<T: Number>(
                     }
                     let (before, now) = (collider.before, collider.now);
                     let normal = now.rotation * plane.normal;
-                    let (s0, s1) = (before.to_world(plane.at), now.to_world(plane.at));
+                    let s0 = before.to_world(plane.at - plane.normal * collider.grown(plane.at));
+                    let s1 = now.to_world(plane.at);
                     let (s0, s1) = (s0 - state.root.get(lane), s1 - root.get(lane));
                     let surface = Surface {
                         normal,
@@ -360,7 +361,7 @@ impl Path {
     }
 
     fn against(&self, collider: &Collider) -> Option<Plane> {
-        let shape = &collider.shape;
+        let (shape, was) = (&collider.shape, collider.at_start());
         let to = collider.now.to_local(self.to);
         let end = shape.distance(to) - self.keep;
         let moves = collider.before != collider.now;
@@ -374,18 +375,21 @@ impl Path {
             return None;
         }
         let from = collider.before.to_local(self.from);
-        let start = shape.distance(from) - self.keep;
+        let start = was.distance(from) - self.keep;
         if start <= TOUCH {
             // It touches already. The surface near the end, where that is the same side.
-            let (first, last) = (shape.normal(from), self.surface(shape, to, end));
+            let (first, last) = (was.normal(from), self.surface(shape, to, end));
             let (at, normal) = if first.dot(last.1) > 0.5 {
                 last
             } else {
-                (from - first * start, first)
+                (from - first * (start - collider.grown(from)), first)
             };
             let level = (start + PUSH_OUT * self.dt).min(0.0);
             return Some(self.plane(at + normal * level, normal, to));
         }
+        // What the surface comes nearer by itself, where the shape changes.
+        let grows = collider.grown(from).abs().max(collider.grown(to).abs());
+        let way = way + grows;
         // Along the path by steps that cannot pass the surface (Hart 1996, sphere tracing).
         let (mut t, mut distance) = (0.0, start);
         for _ in 0..64 {
@@ -398,10 +402,11 @@ impl Path {
                 break;
             }
             let at = from + (to - from) * t;
-            distance = shape.distance(at) - self.keep;
+            let at_end = shape.distance(at) - self.keep;
+            distance = at_end + collider.grown(at) * (1.0 - t);
             if distance <= TOUCH {
                 let normal = shape.normal(at);
-                return Some(self.plane(at - normal * distance, normal, to));
+                return Some(self.plane(at - normal * at_end, normal, to));
             }
         }
         // Not met by the free motion: what the strand does may still bring it there.
@@ -415,14 +420,14 @@ impl Path {
         let at = place - normal * distance;
         // The distances of a grid are not exact, and its normals jump from cell to cell: what rests would be held now by one plane, now by
         // another, would they hang on where its motion points to.
-        let Shape::Grid(grid) = shape else {
+        if !shape.is_sampled() {
             return (at, normal);
-        };
+        }
         let there = shape.normal(at);
         if distance.abs() > NEAR || there.dot(normal) < 0.9 {
             return (at, normal);
         }
-        (at - there * (grid.distance(at) - self.keep), there)
+        (at - there * (shape.distance(at) - self.keep), there)
     }
 
     fn plane(&self, at: DVec3, normal: DVec3, end: DVec3) -> Plane {
@@ -457,6 +462,7 @@ mod tests {
                 rotation: DQuat::from_rotation_y(1.1),
                 translation: DVec3::new(0.02, 0.25, 0.01),
             },
+            was: None,
         };
         let guard = Guard::new(&collider);
         let (mut met, mut hidden) = (0, 0);

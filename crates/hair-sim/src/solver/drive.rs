@@ -11,7 +11,7 @@ use crate::{
     },
     lanes::{LANES, Lane, Mask, Number, Quat, Vec3},
     stats::Stats,
-    surroundings::Surroundings,
+    surroundings::{Anchor, Surroundings},
 };
 
 use super::{
@@ -49,6 +49,19 @@ pub(crate) struct Drive<'a> {
     pub others: Option<Others<'a>>,
     /// The batch's number, and what its strands can't pass through.
     pub locks: Option<(usize, &'a Locks)>,
+    /// What pulls at single particles of the batch, each with its lane.
+    pub anchors: &'a [Anchored],
+}
+
+/// An anchor with the batch, the lane and the particle that it pulls at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Anchored {
+    pub batch: usize,
+    pub lane: usize,
+    pub particle: usize,
+    /// Its place in the list of all.
+    pub order: usize,
+    pub anchor: Anchor,
 }
 
 /// The pairs of a batch with other strands, and where all particles are.
@@ -168,12 +181,15 @@ pub(crate) fn prepare<T: Number>(
     stats: &mut Stats,
 ) -> Mask {
     let loads = &mut scratch.work.loads;
-    loads.has_springs = batch.has_goal.any() || drive.others.is_some();
+    loads.has_springs = batch.has_goal.any() || drive.others.is_some() || !drive.anchors.is_empty();
     if loads.has_springs {
         loads.springs.fill(Spring::NONE);
     }
     if batch.has_goal.any() {
         pull_to_goals(batch, state, loads, drive);
+    }
+    for own in drive.anchors {
+        pull_to_anchor(own, state, root.root, loads, drive.dt);
     }
     if let Some(others) = &drive.others {
         let held = (&state.base, &state.y[..], &state.frames[..]);
@@ -219,6 +235,18 @@ pub(crate) fn prepare<T: Number>(
         stats.meetings = locks.part((index, batch, &*state), root.root, active, planes);
     }
     active
+}
+
+/// Adds the spring of an anchor, in its lane alone.
+fn pull_to_anchor(own: &Anchored, state: &BatchState, root: Vec3, loads: &mut Loads, dt: f64) {
+    let (mut stiffness, mut places) = (Lane::ZERO, [Vec3::ZERO; 2]);
+    stiffness[own.lane] = own.anchor.stiffness;
+    for ((place, root), at) in (places.iter_mut().zip([state.root, root])).zip(own.anchor.places) {
+        place.set(own.lane, at - root.get(own.lane));
+    }
+    let [before, now] = places;
+    let spring = &mut loads.springs[own.particle];
+    spring.pull(stiffness, before, now, Vec3::ZERO, GAMMA, dt);
 }
 
 fn pull_to_goals(batch: &Batch, state: &mut BatchState, loads: &mut Loads, drive: &Drive) {

@@ -88,7 +88,7 @@ pub(crate) fn watch<T: Number>(
     watched
 }
 
-/// Strands whose roots rest, in still air, without goals, contacts and other hair.
+/// Strands whose roots rest, in still air, without goals, anchors, contacts and other hair.
 #[inline(always)]
 fn undriven(
     batch: &Batch,
@@ -113,6 +113,9 @@ fn undriven(
     }
     for &plane in &loads.touched {
         free = free.and(loads.contacts[plane].on.lt(Lane::splat(0.5)));
+    }
+    for own in drive.anchors {
+        free.set(own.lane, false);
     }
     free
 }

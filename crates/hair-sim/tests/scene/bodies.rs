@@ -128,6 +128,7 @@ fn a_fast_ball_does_not_pass_through() {
             shape: BALL,
             before: place(i),
             now: place(i + 1),
+            was: None,
         }];
         let surroundings = among(&colliders);
         solver.step(&mut state, &surroundings, 1.0 / 24.0).unwrap();
@@ -246,5 +247,92 @@ fn friction_acts_from_the_first_touch() {
         );
         let error = (rough - exact).abs();
         assert!(error < 0.3 * (smooth - exact), "1/{rate} s: {error}");
+    }
+}
+
+/// How deep hair that has fallen on a body is in it at most while that goes from share 0 to 1 of its way, and how high above its root it comes, m.
+fn lifted<'a>(rate: f64, seconds: f64, body: &dyn Fn(f64, f64) -> Collider<'a>) -> (f64, f64) {
+    let rest = straight(Vec3::new(-0.1, 0.031, 0.0), Vec3::X);
+    let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
+    let dt = 1.0 / rate;
+    let at = |time: f64| (time / seconds).clamp(0.0, 1.0);
+    let (mut time, mut deepest, mut highest) = (0.0, 0.0_f64, 0.0_f64);
+    let start = [body(0.0, 0.0)];
+    run(&mut solver, &mut state, &among(&start), dt, 200);
+    while time < seconds + 0.5 {
+        let bodies = [body(at(time), at(time + dt))];
+        run(&mut solver, &mut state, &among(&bodies), dt, 1);
+        time += dt;
+        for point in &shape(&solver, &state)[1..] {
+            deepest = deepest.max(-bodies[0].distance(*point));
+            highest = highest.max(point.y - 0.031);
+        }
+    }
+    (deepest, highest)
+}
+
+#[test]
+fn hair_moves_with_a_body_that_changes_its_shape() {
+    let wall = |half: f32| {
+        let side = |i: u32, bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
+        let corner = |i: u32| {
+            let y = if i & 2 == 0 { -0.1 } else { half };
+            Vec3::new(0.3 * side(i, 1), y, 0.3 * side(i, 4))
+        };
+        let faces = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let points: Vec<Vec3> = (0..8).map(corner).collect();
+        let triangles: Vec<[u32; 3]> = faces
+            .iter()
+            .flat_map(|f: &[u32; 4]| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]])
+            .collect();
+        SignedDistance::new(&points, &triangles, 0.02).unwrap()
+    };
+    let (low, high) = (wall(0.0), wall(0.03));
+    type Shapes<'a> = Box<dyn Fn(f64) -> Shape<'a> + 'a>;
+    let mesh: Shapes = Box::new(|share| Shape::Form {
+        from: &low,
+        to: &high,
+        share,
+        size: 1.0,
+    });
+    // As high under the strand as the mesh.
+    let ball: Shapes = Box::new(|share| Shape::Sphere {
+        center: DVec3::NEG_Y * 4.0,
+        radius: 4.0 + 0.03 * share,
+    });
+    // Slowly, and at 0.3 m/s, which throws it.
+    for (name, shape_at) in [("mesh", mesh), ("ball", ball)] {
+        for (rate, seconds) in [(60.0, 0.5), (24.0, 0.5), (60.0, 0.1), (24.0, 0.1)] {
+            let (deepest, highest) = lifted(rate, seconds, &|before, now| Collider {
+                was: Some(shape_at(before)),
+                ..Collider::fixed(shape_at(now), Pose::IDENTITY)
+            });
+            // One that moves as a whole.
+            let pose = |share: f64| Pose {
+                translation: DVec3::Y * (0.03 * share),
+                ..Pose::IDENTITY
+            };
+            let (_, known) = lifted(rate, seconds, &|before, now| Collider {
+                before: pose(before),
+                ..Collider::fixed(shape_at(0.0), pose(now))
+            });
+            println!(
+                "{name} in {seconds} s, {rate} steps a second: {deepest:.1e} m in it, {highest:.1e} m above, {known:.1e} above one that moves as a whole"
+            );
+            assert!(deepest < 1e-3, "{name}: {deepest}");
+            // In two steps it is thrown in one way or the other.
+            let steps = rate * seconds;
+            assert!(
+                steps < 3.0 || highest < 1.2 * known + 1e-3,
+                "{name}: {highest} of {known}"
+            );
+        }
     }
 }

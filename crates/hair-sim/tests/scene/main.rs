@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "tests show the figures that they hold")]
 
+mod anchors;
 mod bodies;
 mod goals;
 mod locks;

@@ -121,6 +121,7 @@ fn ball([before, now]: [f64; 2], radius: f64) -> [Collider<'static>; 1] {
         },
         before,
         now,
+        was: None,
     }]
 }
 

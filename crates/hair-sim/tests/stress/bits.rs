@@ -46,6 +46,7 @@ fn run(solver: &mut Solver, state: &mut State, from: usize, frames: usize) {
             },
             before: pose(i),
             now: pose(i + 1),
+            was: None,
         }];
         let surroundings = Surroundings {
             roots: Roots::Head(pose(i + 1)),
@@ -145,6 +146,7 @@ fn the_order_of_strands_does_not_matter_where_most_fails() {
                 },
                 before: pose(i),
                 now: pose(i + 1),
+                was: None,
             }];
             let surroundings = Surroundings {
                 // Now and then it is gone.

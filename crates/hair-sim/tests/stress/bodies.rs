@@ -126,6 +126,7 @@ fn a_body_at_20_m_a_second() {
                 shape: ball(DVec3::ZERO, 0.1),
                 before: place(i),
                 now: place(i + 1),
+                was: None,
             }];
             let surroundings = Surroundings {
                 colliders: &colliders,

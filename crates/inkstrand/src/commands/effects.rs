@@ -4,7 +4,7 @@ use super::schema::{self, Section, sections};
 use crate::{Failure, say};
 use effects::preset::{OF_THE_EFFECT, suggestion};
 use effects::{AnyEffect, Param, ParamKind, Registry};
-use stage::{FilePart, MOTION_PARTS, STYLE_PARTS};
+use stage::{BODIES, FilePart, MOTION_PARTS, STYLE_PARTS};
 
 /// Lists effects and sections, or what one of them takes.
 pub(crate) fn effects(name: Option<&str>, json: bool, registry: &Registry) -> Result<(), Failure> {
@@ -103,11 +103,15 @@ const HOW_NUMBERS_VARY: &str = "\
 fn effect_text(effect: &dyn AnyEffect) -> String {
     let id = effect.id();
     let mut text = format!("{id}: {}\n", effect.doc());
-    let on = if effect.is_for_meshes() {
-        " on: \"skin, dress\","
-    } else {
+    if !effect.is_for_meshes() {
         let (rank, depth_offset) = (effect.rank(), effect.depth_offset());
         text += &format!("rank {rank}, depth_offset {depth_offset} head heights\n");
+    }
+    let on = if effect.is_for_meshes() {
+        " on: \"skin, dress\","
+    } else if effect.is_for_lines() {
+        " on: \"rim\","
+    } else {
         ""
     };
     text += &format!("In a preset's layers: (effect: \"{id}\",{on} params: (name: value, ...))\n");
@@ -126,6 +130,10 @@ fn section_text(section: &Section) -> String {
         "preset" => "(name: value, ..., layers: [...])".to_owned(),
         "layers" => "layers: [(effect: \"hair.base\", name: value, ...), ...]".to_owned(),
         "meshes" => "meshes: [(file: \"eyes.obj\", name: value, ...), ...]".to_owned(),
+        "lines" => {
+            "lines: [(name: \"rim\", of: \"skin, dress\", kind: \"contour\", ...), ...]".to_owned()
+        }
+        "bodies" => format!("{}; also in a motion script", BODIES.example),
         "passes" => "passes: [(edges: strand, name: value, ...), ...]".to_owned(),
         "objects" => "objects: [(preset: \"twin-tails.ron\", name: value, ...), ...]".to_owned(),
         name => format!("{name}: (name: value, ...)"),

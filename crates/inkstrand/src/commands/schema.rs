@@ -4,7 +4,8 @@ use effects::preset::{LAYER, OF_THE_EFFECT};
 use effects::{AnyEffect, Param, ParamKind, Registry};
 use serde_json::{Value, json};
 use stage::{
-    FilePart, MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset, STYLE_PARTS, Sections,
+    BODIES, FilePart, LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset,
+    STYLE_PARTS, Sections,
 };
 
 /// A section of a preset as `inkstrand effects` shows it.
@@ -14,11 +15,13 @@ pub(super) struct Section {
     pub table: &'static [Param],
 }
 
-/// The sections in their order: what stands beside them, their own, and the fields of layers, meshes, passes and objects.
+/// The sections in their order: what stands beside them, their own, and the fields of layers, meshes, lines, bodies, passes and objects.
 pub(super) fn sections() -> Vec<Section> {
     let top = ("preset", "What stands beside the sections.", Preset::TOP);
     let layers = ("layers", "What is drawn: effects, in a list.", LAYER);
     let meshes = ("meshes", MeshSection::DOC, MeshSection::TABLE);
+    let lines = ("lines", LineSection::DOC, LineSection::TABLE);
+    let bodies = ("bodies", BODIES.doc, BODIES.table);
     let passes = ("passes", PassSection::DOC, PassSection::TABLE);
     let objects = (
         "objects",
@@ -28,7 +31,7 @@ pub(super) fn sections() -> Vec<Section> {
     [top]
         .iter()
         .chain(Sections::ALL)
-        .chain(&[layers, meshes, passes, objects])
+        .chain(&[layers, meshes, lines, bodies, passes, objects])
         .map(|&(name, doc, table)| Section { name, doc, table })
         .collect()
 }
@@ -80,6 +83,7 @@ pub(super) fn effect(effect: &dyn AnyEffect) -> Value {
         "id": effect.id(),
         "meaning": effect.doc(),
         "paints_meshes": effect.is_for_meshes(),
+        "draws_lines": effect.is_for_lines(),
         "rank": effect.rank(),
         "depth_offset": number(effect.depth_offset()),
         "parameters": effect.params().iter().map(parameter).collect::<Vec<_>>(),

@@ -70,6 +70,7 @@ pub fn add_wall(drawing: &mut Drawing, inv_depth: f32, tone: f32, [light, shadow
         margin_m: 0.0,
         mesh: 0,
         paint: None,
+        marks: 0,
         vertices: vec![
             vertex(-10.0, -10.0),
             vertex(300.0, -10.0),

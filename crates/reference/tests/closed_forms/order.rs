@@ -258,6 +258,7 @@ fn a_stroke_sinks_into_a_slanted_surface_along_its_line() {
         margin_m: 0.0,
         mesh: 0,
         paint: None,
+        marks: 0,
         vertices: vec![vertex(0.0, 0.0), vertex(128.0, 0.0), vertex(0.0, 128.0)],
         triangles: vec![[0, 2, 1]],
         light: BLUE,

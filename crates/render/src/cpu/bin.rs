@@ -1,7 +1,7 @@
 //! Sorting what is drawn into the parts of the picture that it reaches.
 
-use super::tile::{self, Stack, greater, lesser};
-use glam::Vec2;
+use super::tile::{self, Stack};
+use glam::{Vec2, Vec4};
 use std::ops::Range;
 
 /// A margin for rounding around everything that is drawn, in pixels.
@@ -21,14 +21,17 @@ impl Bounds {
     #[inline]
     pub(super) fn of_box(min: Vec2, max: Vec2, size: [u32; 2]) -> Option<Self> {
         let [width, height] = size.map(|side| side as f32);
-        // Single precision is finer than the margin wherever a picture is.
-        let range = |min: f32, max: f32, size: f32| {
-            let start = lesser(greater(min - MARGIN - 0.5, 0.0), size);
-            let end = lesser(greater(max + MARGIN + 0.5, 0.0), size);
-            [nearest(start) as u16, nearest(end) as u16]
-        };
-        let (x, y) = (range(min.x, max.x, width), range(min.y, max.y, height));
-        (x[0] < x[1] && y[0] < y[1]).then_some(Self { x, y })
+        // All four ends at once, outwards: from the greater ones with the other sign. Single precision is finer than the margin wherever a
+        // picture is.
+        const SIGNS: Vec4 = Vec4::new(1.0, 1.0, -1.0, -1.0);
+        let ends = (Vec4::new(min.x, min.y, -max.x, -max.y) - MARGIN - 0.5) * SIGNS;
+        let ends = ends.max(Vec4::ZERO);
+        let ends = ends.min(Vec4::new(width, height, width, height));
+        let [left, top, right, bottom] = ends.to_array().map(|end| nearest(end) as u16);
+        (left < right && top < bottom).then_some(Self {
+            x: [left, right],
+            y: [top, bottom],
+        })
     }
 
     /// What holds these and others.

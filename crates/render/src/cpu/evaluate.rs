@@ -79,6 +79,8 @@ impl Evaluator {
         self.fill_features(frame, &mut drawing.features);
         drawing.painting.fill(frame, &self.joints);
         drawing.mesh_painting.fill(frame);
+        drawing.decals.clone_from(&frame.decals);
+        crate::frame::fill_same_strands(frame, &mut drawing.same_strands);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
@@ -92,7 +94,8 @@ impl Evaluator {
                 if layer.program.has_own_paths() {
                     // No strand's clump holds them: they are their own.
                     drawing.clump[joints.clone()].fill(NO_DISC);
-                    for stretch in strokes.on(0, joints) {
+                    let own = (!layer.is_decal()).then(|| strokes.on(0, joints));
+                    for stretch in own.into_iter().flatten() {
                         let own = &strokes.discs[stretch.places()];
                         drawing.clump[stretch.joints].copy_from_slice(own);
                     }
@@ -187,7 +190,7 @@ impl Evaluator {
         let place = shift + vec2([x, y]);
         let place = Vec2::new(place.x, place.y);
         let depth_offset = -self.lift.get(joint).copied().unwrap_or(0.0);
-        disc_at(frame, object.head, joint, place, size, radius, depth_offset)
+        disc_at(frame, object, joint, place, size, radius, depth_offset)
     }
 
     /// The strokes of layer `number` of an object on the joints `drawn`; `lists` are reused.
@@ -204,7 +207,7 @@ impl Evaluator {
         let instances = layer.program.instances();
         let part = |joints| Part {
             frame,
-            head: object.head,
+            object,
             layer,
             layer_number: number,
             inputs: &self.joints,
@@ -272,6 +275,11 @@ impl Evaluator {
             Input::RestPosition => {
                 of_each(&mut joints.rest_position, frame.rest_positions, world);
             }
+            Input::FromEnds => {
+                of_each(&mut joints.from_ends, frame.from_ends, |v: &Vec2| {
+                    vec2(v.to_array())
+                });
+            }
             Input::Strand => of_runs(&mut joints.strand, runs, |run| of(run).id),
             Input::Seed => of_runs(&mut joints.seed, runs, |run| hash(of(run).id)),
             Input::StrandMean => {
@@ -328,6 +336,16 @@ impl Evaluator {
                     let own = &paths.position[own.clone()];
                     of_each(&mut joints.light_distance, own, distance);
                 }
+            }
+            Input::LightOnScreen => {
+                let camera = frame.camera;
+                let [right, up, ahead] =
+                    [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| camera.world_from_view_direction(axis));
+                let seen = |p: &Vec3| {
+                    let light = to_light(p).0;
+                    vec3([light.dot(right), -light.dot(up), -light.dot(ahead)])
+                };
+                of_each(&mut joints.light_on_screen, &paths.position, seen);
             }
             // Of the place: `paths.depth` is deeper where a piece goes on beyond its cut.
             Input::Depth => {
@@ -548,7 +566,7 @@ impl Made {
 /// Some neighbouring joints of a layer.
 struct Part<'a> {
     frame: &'a Frame<'a>,
-    head: Head,
+    object: &'a Object<'a>,
     layer: &'a Layer,
     layer_number: usize,
     inputs: &'a Joints,
@@ -642,7 +660,7 @@ impl Part<'_> {
                 let radius = stroke.radius;
                 disc_at(
                     frame,
-                    self.head,
+                    self.object,
                     i,
                     offset,
                     radius,
@@ -672,7 +690,7 @@ impl Part<'_> {
             };
             let radius = radii[tip - self.joints.start];
             let wider = (radius - self.inputs.clump_radius[tip]).max(0.0);
-            let unit_px = self.head.unit_m() * paths.px_per_metre[tip];
+            let unit_px = self.object.head.unit_m() * paths.px_per_metre[tip];
             // The path on the screen, of which `across` is a right angle to the right.
             let ahead = -paths.across[tip].perp();
             let disc = &mut made.discs[stretch.first + tip - stretch.joints.start];
@@ -716,7 +734,7 @@ impl Part<'_> {
             return all;
         }
         let is_needed = |joint: &usize| self.needed[*joint];
-        let length_m = self.layer.program.shortest() * self.head.height_m;
+        let length_m = self.layer.program.shortest() * self.object.head.height_m;
         if length_m > 0.0 && pieces.len() > 1 {
             // It looks from piece to piece.
             let mut joints = pieces.iter().flat_map(|piece| piece.joints.clone());
@@ -750,7 +768,7 @@ impl Part<'_> {
     /// Takes stretches and gaps of the strokes that are too short away, as they are seen: hair that
     /// points at the eye would show long ones as dots.
     fn smooth(&self, scratch: &mut Scratch) {
-        let length_m = self.layer.program.shortest() * self.head.height_m;
+        let length_m = self.layer.program.shortest() * self.object.head.height_m;
         if length_m <= 0.0 {
             return;
         }
@@ -873,23 +891,24 @@ const NO_DISC: Disc = Disc {
 /// heights.
 ///
 /// Against surfaces a stroke stands where its strand stands, less the radius of the clump there: the
-/// depth offset orders strands, and must not push an outline into the face behind it.
+/// depth offset orders strands, and must not push an outline into the face behind it. Lines on surfaces are before all of them.
 fn disc_at(
     frame: &Frame,
-    head: Head,
+    object: &Object,
     joint: usize,
     offset: Vec2,
     radius: f32,
     clump_radius: f32,
     depth_offset: f32,
 ) -> Disc {
+    let head = object.head;
     let unit_m = head.unit_m();
     let unit_px = unit_m * frame.paths.px_per_metre[joint];
     // No depth is nearer than the near plane, whatever is taken from it.
     let nearest = frame.camera.near_m();
     let depth = frame.paths.depth[joint];
     let shifted = (depth + depth_offset * head.height_m).max(nearest);
-    let biased = (depth - clump_radius * unit_m).max(nearest);
+    let biased = (depth - clump_radius * unit_m - object.surface_bias_m).max(nearest);
     Disc {
         center: frame.paths.center[joint] + offset * unit_px,
         radius: (radius.max(0.0) * unit_px).min(LARGEST_PX),

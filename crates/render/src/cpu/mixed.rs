@@ -30,10 +30,11 @@ const _: () = assert!(WIDTH < u32::BITS as usize);
 /// What samples are mixed of, a row of numbers for each joint: so that all of a joint lies together.
 #[derive(Default)]
 pub(super) struct JointRows {
-    /// What is in a row, in order: first the numbers, then the vectors. What is behind is anything.
+    /// What is in a row, in order: first the numbers, then the vectors.
     numbers: Vec<SampleInput>,
     vectors: Vec<SampleInput>,
-    rows: Vec<[f32; WIDTH]>,
+    /// All rows, one behind the other.
+    rows: Vec<f32>,
 }
 
 impl JointRows {
@@ -47,22 +48,37 @@ impl JointRows {
             list.clear();
             list.extend(all.iter().filter(|input| read.has(**input)));
         }
-        let is_empty = self.numbers.is_empty() && self.vectors.is_empty();
-        self.rows
-            .resize(if is_empty { 0 } else { joints }, [0.0; WIDTH]);
+        let width = self.width();
+        self.rows.resize(width * joints, 0.0);
+        if width == 0 {
+            return;
+        }
         for (place, input) in self.numbers.iter().enumerate() {
             let numbers = numbers(&painting.joints, *input);
-            for (row, number) in self.rows.iter_mut().zip(numbers) {
+            for (row, number) in self.rows.chunks_exact_mut(width).zip(numbers) {
                 row[place] = *number;
             }
         }
         for (i, input) in self.vectors.iter().enumerate() {
             let place = self.numbers.len() + 3 * i;
             let vectors = of_joints(&painting.joints, *input);
-            for (row, vector) in self.rows.iter_mut().zip(vectors) {
+            for (row, vector) in self.rows.chunks_exact_mut(width).zip(vectors) {
                 row[place..place + 3].copy_from_slice(&vector.to_array());
             }
         }
+    }
+
+    /// How many numbers a row has.
+    #[inline(always)]
+    fn width(&self) -> usize {
+        self.numbers.len() + 3 * self.vectors.len()
+    }
+
+    /// That of a joint.
+    #[inline(always)]
+    fn of(&self, joint: usize) -> &[f32] {
+        let width = self.width();
+        &self.rows[joint * width..][..width]
     }
 }
 
@@ -145,9 +161,8 @@ impl Mixed {
         if rows.rows.is_empty() {
             return; // nothing is read of joints that is linear between them
         }
-        let (from, to) = (&rows.rows[joint], &rows.rows[next]);
-        let numbers = rows.numbers.len();
-        let width = numbers + 3 * rows.vectors.len();
+        let (from, to) = (rows.of(joint), rows.of(next));
+        let (numbers, width) = (rows.numbers.len(), rows.width());
         for i in OneByOne::of(&(0..numbers)) {
             let mut mixed = *way;
             for k in 0..LANES {

@@ -1,10 +1,11 @@
 //! Samples of a tile that layers for meshes paint: those that show a surface, and those whose hair such a surface is seen through.
 
+use super::decals;
 use super::shown::{NOTHING, TRIANGLE};
 use super::surface::Interpolated;
 use super::tile::{
-    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Samples, Stack, Target, bits, id_plane,
-    overwrite, plane, select,
+    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Stack, Target, bits, id_plane, overwrite, plane,
+    select,
 };
 use super::{Frame, Worker};
 use crate::frame::{FAR_LIGHT, Light};
@@ -15,11 +16,14 @@ use glam::{Vec2, Vec3};
 
 /// Cells of a block.
 const SLOTS: usize = BLOCK / LANES;
+/// Triangles of a tile that are kept, each in the place that the end of its number says: a tile has many samples of each, row by row.
+const KNOWN: usize = 128;
 
 /// A thread's memory: what lies under hair and is seen through it, and for each layer a block of samples of either kind.
 #[derive(Default)]
 pub(super) struct MeshPainter {
     under: Option<Under>,
+    known: Vec<Corners>,
     blocks: Vec<[Block; 2]>,
 }
 
@@ -44,15 +48,27 @@ struct Block {
 }
 
 /// A triangle as its samples are told of it.
+#[derive(Clone)]
 struct Corners {
     /// As [`Shown`](super::shown::Shown) has it.
     what: u32,
     layer: usize,
     light: [f32; 3],
     shadow: [f32; 3],
-    /// Numbers times inverse depth, which run linearly on the screen: the normal's, and the occlusion.
-    numbers: [(Interpolated, Samples); 4],
-    has_occlusion: bool,
+    /// Numbers times inverse depth, which run linearly on the screen: the normal's, and the occlusion, if there is any.
+    normal: [Interpolated; 3],
+    occlusion: Option<Interpolated>,
+}
+
+impl Corners {
+    const NOTHING: Self = Self {
+        what: NOTHING,
+        layer: 0,
+        light: [0.0; 3],
+        shadow: [0.0; 3],
+        normal: [Interpolated::ZERO; 3],
+        occlusion: None,
+    };
 }
 
 impl Worker {
@@ -89,7 +105,12 @@ impl Worker {
         let (Some(shown), Some(seen)) = (self.shown.planes(), &painting.seen) else {
             return;
         };
-        let MeshPainter { under, blocks } = &mut self.meshes;
+        let decals = (!frame.parts.decals.is_empty()).then_some(&self.decals);
+        let MeshPainter {
+            under,
+            known,
+            blocks,
+        } = &mut self.meshes;
         let under = under.as_ref().filter(|_| painting.sees_through());
         let target = &mut self.target;
         blocks.resize_with(painting.layers.len(), || [Block::new(), Block::new()]);
@@ -102,9 +123,18 @@ impl Worker {
             origin,
             stack,
         };
-        let mut corners = None;
+        known.clear();
+        known.resize(KNOWN, Corners::NOTHING);
         for (cell, shows) in shown.what.iter().enumerate() {
-            let is_mesh = lanes_where(shows, |what| (what >= TRIANGLE) & (what != NOTHING));
+            let mut is_mesh = lanes_where(shows, |what| (what >= TRIANGLE) & (what != NOTHING));
+            let mut shaded = [0; LANES];
+            if let Some(decals) = decals {
+                let replaced;
+                [replaced, shaded] = decals.lanes(Cell::of_index(cell));
+                for k in 0..LANES {
+                    is_mesh[k] &= !replaced[k];
+                }
+            }
             let on_top = (shows, is_mesh, 0);
             let below = under.map(|under| {
                 let mut is_under = lanes_where(shows, |what| what < TRIANGLE);
@@ -122,18 +152,13 @@ impl Worker {
                         own[k] &= lanes[k];
                     }
                     left &= !bits(&own);
-                    if corners
-                        .as_ref()
-                        .is_none_or(|known: &Corners| known.what != what)
-                    {
+                    let corners = &mut known[what as usize % KNOWN];
+                    if corners.what != what {
                         let Some(new) = place.corners(what) else {
                             continue;
                         };
-                        corners = Some(new);
+                        *corners = new;
                     }
-                    let Some(corners) = &corners else {
-                        continue;
-                    };
                     let block = &mut blocks[corners.layer][kind];
                     if block.cells.last().is_none_or(|(last, _)| *last != cell) {
                         if block.cells.len() == SLOTS {
@@ -146,7 +171,13 @@ impl Worker {
                         (1, Some(under)) => &under.color,
                         _ => &target.color,
                     };
-                    block.add(cell, corners, colors, &own);
+                    block.add(cell, corners, colors, stack, &own);
+                    if decals.is_some() && kind == 0 {
+                        for k in 0..LANES {
+                            own[k] &= shaded[k];
+                        }
+                        block.shade(&own);
+                    }
                 }
             }
         }
@@ -161,7 +192,7 @@ impl Worker {
 impl Frame<'_> {
     /// The surface that a sample shows.
     #[inline(always)]
-    fn surface_of(&self, what: u32) -> Option<&crate::Surface> {
+    pub(super) fn surface_of(&self, what: u32) -> Option<&crate::Surface> {
         if what < TRIANGLE || what == NOTHING {
             return None;
         }
@@ -195,28 +226,31 @@ impl Place<'_> {
         let drawing = self.frame.drawing;
         let triangle = &self.frame.parts.triangles[(what & !TRIANGLE) as usize];
         let own = surface.triangles[triangle.number as usize];
-        let mut values = [[0.0; 3]; 4];
+        let read = drawing.mesh_painting.layers[paint.layer as usize].read;
+        let mut normal = [[0.0; 3]; 3];
+        let mut occlusion = [0.0; 3];
         for corner in 0..3 {
             let index = own[corner] as usize;
             let inv_depth = surface.vertices[index].inv_depth;
-            let normal = paint.normals[index];
-            values[0][corner] = normal.x * inv_depth;
-            values[1][corner] = normal.y * inv_depth;
-            values[2][corner] = normal.z * inv_depth;
-            let occlusion = paint.occlusion.get(index).copied().unwrap_or(0.0);
-            values[3][corner] = occlusion * inv_depth;
+            let own = paint.normals[index];
+            normal[0][corner] = own.x * inv_depth;
+            normal[1][corner] = own.y * inv_depth;
+            normal[2][corner] = own.z * inv_depth;
+            let own = paint.occlusion.get(index).copied().unwrap_or(0.0);
+            occlusion[corner] = own * inv_depth;
         }
-        let numbers = triangle.interpolated(drawing, self.origin, values)?;
+        let has_occlusion = read.has(SampleInput::Occlusion) && !paint.occlusion.is_empty();
+        let occlusion = match has_occlusion {
+            true => Some(triangle.interpolated(drawing, self.origin, [occlusion])?),
+            false => None,
+        };
         Some(Corners {
             what,
             layer: paint.layer as usize,
             light: surface.light,
             shadow: surface.shadow,
-            numbers: numbers.map(|number| {
-                let samples = number.slope.at_samples(self.stack);
-                (number, samples)
-            }),
-            has_occlusion: !paint.occlusion.is_empty(),
+            normal: triangle.interpolated(drawing, self.origin, normal)?,
+            occlusion: occlusion.map(|[occlusion]| occlusion),
         })
     }
 }
@@ -251,31 +285,35 @@ impl Block {
 
     /// Adds samples of the last cell, which show one triangle.
     #[inline(always)]
-    fn add(&mut self, index: usize, corners: &Corners, colors: &[Plane; 3], lanes: &LaneMask) {
+    fn add(
+        &mut self,
+        index: usize,
+        corners: &Corners,
+        colors: &[Plane; 3],
+        stack: &Stack,
+        lanes: &LaneMask,
+    ) {
         let slot = self.cells.len() - 1;
         for k in 0..LANES {
             self.cells[slot].1[k] |= lanes[k];
         }
         let cell = Cell::of_index(index);
         let inv_depth = self.inv_depth[slot];
-        for axis in 0..3 {
-            let (number, samples) = &corners.numbers[axis];
-            let mut numbers = samples.of(cell);
+        for (axis, number) in corners.normal.iter().enumerate() {
+            let mut numbers = number.slope.at_samples(stack).of(cell);
             for k in 0..LANES {
                 numbers[k] = number.clamp(numbers[k]);
             }
             overwrite(&mut self.normal[axis][slot], &numbers, lanes);
         }
-        if corners.has_occlusion {
-            let (number, samples) = &corners.numbers[3];
-            let mut numbers = samples.of(cell);
+        let mut occlusion = [0.0; LANES];
+        if let Some(number) = &corners.occlusion {
+            let numbers = number.slope.at_samples(stack).of(cell);
             for k in 0..LANES {
-                numbers[k] = number.clamp(numbers[k]) / inv_depth[k];
+                occlusion[k] = number.clamp(numbers[k]) / inv_depth[k];
             }
-            put(&mut self.samples.occlusion, slot, &numbers, lanes);
-        } else {
-            put(&mut self.samples.occlusion, slot, &[0.0; LANES], lanes);
         }
+        put(&mut self.samples.occlusion, slot, &occlusion, lanes);
         let (own, shade) = (&mut self.samples.color, &mut self.samples.shade_color);
         let own = [&mut own.x, &mut own.y, &mut own.z];
         let shade = [&mut shade.x, &mut shade.y, &mut shade.z];
@@ -289,6 +327,13 @@ impl Block {
             put(own, slot, &light, lanes);
             put(shade, slot, &shadow, lanes);
         }
+    }
+
+    /// Puts samples of the last cell into the shadow of hair.
+    #[inline(always)]
+    fn shade(&mut self, lanes: &LaneMask) {
+        let first = (self.cells.len() - 1) * LANES;
+        decals::shade_occlusion(&mut self.samples.occlusion[first..][..LANES], lanes);
     }
 
     /// Paints the samples that were gathered, and begins anew. What isn't finite has the mesh's own colour.
@@ -332,10 +377,9 @@ impl Block {
     fn finish(&mut self, seen: &Seen, layer: &PaintedMeshes) {
         let reads = |input| layer.read.has(input);
         let samples = &mut *self.samples;
-        let (x, y) = (self.x.as_flattened(), self.y.as_flattened());
-        let inv_depth = self.inv_depth.as_flattened();
+        let (x, y, inv_depth) = (flat(&self.x), flat(&self.y), flat(&self.inv_depth));
         if reads(SampleInput::Normal) {
-            let [nx, ny, nz] = self.normal.each_ref().map(|plane| plane.as_flattened());
+            let [nx, ny, nz] = self.normal.each_ref().map(flat);
             for i in 0..BLOCK {
                 let square = nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i];
                 // Where normals cancel out it is none.
@@ -366,22 +410,17 @@ impl Block {
         let of_light = of_light.map(reads).contains(&true);
         let of_point = of_light && matches!(seen.light, Light::Point(_));
         if reads(SampleInput::Position) || reads(SampleInput::ViewDirection) || of_point {
-            let lens = Lens::of(seen);
-            for i in 0..BLOCK {
-                // From the eye.
-                let away = lens.away([x[i], y[i]], 1.0 / inv_depth[i]);
-                let position = lens.eye + away;
-                samples.position.set(i, vec3(position.to_array()));
-                let to_eye = -away * (1.0 / away.length());
-                samples.view_direction.set(i, vec3(to_eye.to_array()));
-            }
+            let (position, to_eye) = (&mut samples.position, &mut samples.view_direction);
+            Lens::of(seen).look([x, y, inv_depth], position, to_eye);
         }
         match seen.light {
             _ if !of_light => {}
-            Light::Direction(direction) => {
-                for i in 0..BLOCK {
-                    samples.light_direction.set(i, vec3(direction.to_array()));
-                }
+            Light::Direction(Vec3 { x, y, z }) => {
+                samples.light_direction = Vectors {
+                    x: [x; BLOCK],
+                    y: [y; BLOCK],
+                    z: [z; BLOCK],
+                };
                 samples.light_distance = [FAR_LIGHT; BLOCK];
             }
             Light::Point(_) => {
@@ -395,6 +434,13 @@ impl Block {
             }
         }
     }
+}
+
+/// The numbers of a block's samples, which its cells have.
+#[inline(always)]
+fn flat(cells: &[Lanes; SLOTS]) -> &[f32; BLOCK] {
+    let flat = cells.as_flattened().try_into();
+    flat.unwrap_or_else(|_| unreachable!("a block is {SLOTS} cells"))
 }
 
 /// Where the points of a picture lie in the world.
@@ -421,12 +467,33 @@ impl Lens {
         }
     }
 
-    /// From the eye to what is seen at a place of the picture, so deep.
+    /// Where a block's samples lie, by their places in the picture (px) and their inverse depths (1/m), and the unit vectors from there to the
+    /// eye. By numbers, as loops over vectors of three are no vector instructions.
     #[inline(always)]
-    fn away(&self, [x, y]: [f32; 2], depth_m: f32) -> Vec3 {
-        let scale = depth_m / self.focal_px;
-        let (across, above) = ((x - self.middle.x) * scale, (self.middle.y - y) * scale);
-        self.right * across + self.up * above + self.ahead * depth_m
+    fn look(
+        &self,
+        [x, y, inv_depth]: [&[f32; BLOCK]; 3],
+        position: &mut Vectors,
+        to_eye: &mut Vectors,
+    ) {
+        let (right, up, ahead) = (self.right, self.up, self.ahead);
+        for i in 0..BLOCK {
+            let depth_m = 1.0 / inv_depth[i];
+            let scale = depth_m / self.focal_px;
+            let across = (x[i] - self.middle.x) * scale;
+            let above = (self.middle.y - y[i]) * scale;
+            // From the eye.
+            let away_x = right.x * across + up.x * above + ahead.x * depth_m;
+            let away_y = right.y * across + up.y * above + ahead.y * depth_m;
+            let away_z = right.z * across + up.z * above + ahead.z * depth_m;
+            position.x[i] = self.eye.x + away_x;
+            position.y[i] = self.eye.y + away_y;
+            position.z[i] = self.eye.z + away_z;
+            let inverse = 1.0 / (away_x * away_x + away_y * away_y + away_z * away_z).sqrt();
+            to_eye.x[i] = -away_x * inverse;
+            to_eye.y[i] = -away_y * inverse;
+            to_eye.z[i] = -away_z * inverse;
+        }
     }
 }
 
@@ -449,8 +516,9 @@ fn lanes_where(numbers: &[u32; LANES], is_wanted: impl Fn(u32) -> bool) -> LaneM
     lanes
 }
 
-/// Whether tiles must know what their samples show, to be painted.
+/// Whether tiles must know what their samples show, to be painted or drawn on.
 pub(super) fn tells(frame: &Frame) -> bool {
     let drawing = frame.drawing;
-    !(drawing.painting.is_empty() && drawing.mesh_painting.is_empty())
+    let is_painted = !(drawing.painting.is_empty() && drawing.mesh_painting.is_empty());
+    is_painted || frame.parts.decals.asks_for_strands
 }

@@ -1,7 +1,6 @@
 //! Pictures of which each sample tells what it shows: four samples of each pixel at a time.
 
-use super::paint_mesh;
-use super::segment::strokes_in_order;
+use super::segment::{Kind, strokes_in_order};
 use super::tile;
 use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture};
 use crate::check;
@@ -37,7 +36,7 @@ impl Rasterizer {
         } = self;
         let mut draw = || {
             check::check(drawing)?;
-            let strokes = strokes_in_order(drawing);
+            let strokes = strokes_in_order(drawing, Kind::Ordered);
             let tile_height = tile::height(stacks);
             parts.collect(drawing, &strokes, stacks);
             let threads = rayon::current_num_threads();
@@ -147,10 +146,7 @@ impl Worker {
             let scene = frame.tile_at([left, top]);
             scene.strands(segments, &mut self.parts);
             self.draw_stack::<true>(frame, &scene, tile, triangles);
-            if paint_mesh::tells(frame) {
-                self.paint(frame);
-                self.paint_meshes(frame, [left, top], scene.stack);
-            }
+            self.color_stack(frame, &scene, tile);
             self.tell(frame, size, left, &mut planes);
         }
         planes.clear(nothing, height - top, frame.drawing.background);

@@ -4,7 +4,7 @@ use super::cover::{Area, Cover, Link};
 use super::tile::lesser;
 use crate::drawing::{Brush, Disc, Order};
 use crate::frame::{Ball, CLUMP_REACH, Frame, Object, reach_of};
-use effects::{Joints, Layer, Units};
+use effects::{Joints, Layer};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -55,7 +55,8 @@ impl Needed {
 
 /// Whether a layer's strokes show within their clump alone, at its depth; made paths have none but their strokes.
 fn is_within(order: Order, layer: &Layer) -> bool {
-    layer.rank >= 0 && order != Order::Shifted && !layer.program.has_own_paths()
+    let is_clipped = layer.rank >= 0 && order != Order::Shifted;
+    is_clipped && !layer.program.has_own_paths() && !layer.is_decal()
 }
 
 /// Finds where strokes are needed. Keeps its memory.
@@ -244,10 +245,20 @@ const LEAST_LAYERS: f32 = 32.0;
 const LEAST_OF_MANY: f32 = 8.0;
 const MANY: usize = 1 << 16;
 
+/// Whether a layer's strokes are their clumps, so that nothing is seen through them.
+fn is_cover(layer: &Layer) -> bool {
+    layer.program.is_clump() && layer.rank >= 0
+}
+
 /// Fills the cover by hair, where a frame's hair may hide much of itself.
 fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
-    if frame.order == Order::Shifted {
-        return false; // each stroke by its own depth, whatever its clump
+    let covers = |object: &Object| {
+        let mut layers = object.layers.iter().zip(object.layer_joints);
+        layers.any(|(layer, drawn)| is_cover(layer) && !drawn.is_empty())
+    };
+    let is_useless = frame.order == Order::Shifted || !frame.decals.is_empty();
+    if is_useless || !frame.objects.iter().any(covers) {
+        return false; // each stroke by its own depth, whatever its clump; decals of hidden hair show elsewhere; or there are lines alone
     }
     let size = Vec2::from(frame.camera.size_px().map(|side| side as f32));
     let (mut low, mut high) = (size, Vec2::ZERO);
@@ -281,8 +292,7 @@ fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
     let is_covered = |object: &Object, run: &PathRun| {
         let strand = &frame.strands[run.strand];
         let layers = object.layers.iter().zip(object.layer_joints).enumerate();
-        let mut layers =
-            layers.filter(|(_, (layer, _))| layer.program.is_clump() && layer.rank >= 0);
+        let mut layers = layers.filter(|(_, (layer, _))| is_cover(layer));
         layers.any(|(number, (_, drawn))| {
             let draws = drawn.start <= run.joints.start && run.joints.end <= drawn.end;
             draws && !strand.is_left_out_by(number)
@@ -327,6 +337,8 @@ struct Room {
     unit_m: f32,
     /// How much nearer than their clumps strokes may lie among strands, metres.
     nearer_m: f32,
+    /// How much nearer than they are decals may be drawn, metres.
+    decals_m: f32,
     shadow: Option<Shadow>,
 }
 
@@ -343,12 +355,11 @@ impl RoomAround {
     fn add(&mut self, frame: &Frame, layer: &Layer) {
         let reach = reach_of(layer, frame.brush);
         self.clumps = self.clumps.max(reach.clumps);
-        match layer.units {
-            Units::Pixels => {
-                let pixels_px = reach.units * frame.camera.size_px()[1] as f32 / 720.0;
-                self.pixels_px = self.pixels_px.max(pixels_px);
-            }
-            Units::World => self.units = self.units.max(reach.units),
+        if layer.is_in_pixels() {
+            let pixels_px = reach.units * frame.camera.size_px()[1] as f32 / 720.0;
+            self.pixels_px = self.pixels_px.max(pixels_px);
+        } else {
+            self.units = self.units.max(reach.units);
         }
     }
 }
@@ -392,8 +403,13 @@ impl Room {
             pixels_px: 0.0,
         };
         let (mut reach, mut within) = (clump, clump);
-        let mut nearer = 0.0_f32;
+        let (mut nearer, mut decals) = (0.0_f32, 0.0_f32);
         for layer in layers {
+            if layer.is_decal() {
+                // Of their own depth, which may be moved as far as their place is.
+                let moved = layer.program.reach().units / 300.0 + (-layer.depth_offset).max(0.0);
+                decals = decals.max(layer.reach + moved);
+            }
             if is_within(frame.order, layer) {
                 within.add(frame, layer);
                 continue;
@@ -410,6 +426,7 @@ impl Room {
             within,
             unit_m: object.head.unit_m(),
             nearer_m: nearer * object.head.height_m,
+            decals_m: decals * object.head.height_m,
             shadow: object.solid.and_then(|ball| Shadow::new(frame, ball)),
         }
     }
@@ -441,7 +458,7 @@ impl Room {
             frame.camera.size_px().map(|side| side as f32),
         );
         let side = |is_there: bool, side: u8| if is_there { side } else { 0 };
-        let nearest_m = paths.depth[i] - joints.clump_radius[i] * self.unit_m;
+        let nearest_m = paths.depth[i] - joints.clump_radius[i] * self.unit_m - self.decals_m;
         let is_hidden = |shadow: &Shadow| shadow.holds(center, reach_px, nearest_m);
         side(center.x < -reach_px, LEFT)
             | side(center.x > size[0] + reach_px, RIGHT)

@@ -85,15 +85,26 @@ pub(super) struct Shape {
     pub(super) way: Ramp,
 }
 
-/// The strokes that a strand has, lowest first.
-pub(super) fn strokes_in_order(drawing: &Drawing) -> Vec<Stroke> {
+/// What strokes are collected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Those that are ordered by depth, and the clumps.
+    Ordered,
+    /// Those that are drawn on what is seen of the others.
+    Decals,
+}
+
+/// The strokes of that kind that a strand has, lowest first.
+pub(super) fn strokes_in_order(drawing: &Drawing, kind: Kind) -> Vec<Stroke> {
     if drawing.clump.is_empty() {
         return Vec::new(); // with no joints any number of instances is legal
     }
+    let is_meant = |layer: usize| drawing.decal(layer).is_some() == (kind == Kind::Decals);
     let mut strokes: Vec<Stroke> = drawing
         .layers
         .iter()
         .enumerate()
+        .filter(|(layer, _)| is_meant(*layer))
         .flat_map(|(layer, strokes)| {
             (0..strokes.instances).map(move |instance| Stroke {
                 rank: strokes.rank,
@@ -129,14 +140,21 @@ struct Group {
 
 impl Segments {
     /// Takes those of a checked drawing that may be seen in place of what was there, sorted into bands of tiles so many
-    /// pixels high.
-    pub(super) fn collect(&mut self, drawing: &Drawing, strokes: &[Stroke], tile_height: usize) {
+    /// pixels high. The strokes are all of one kind.
+    pub(super) fn collect(
+        &mut self,
+        drawing: &Drawing,
+        strokes: &[Stroke],
+        kind: Kind,
+        tile_height: usize,
+    ) {
         let bands = (drawing.size[1] as usize).div_ceil(tile_height);
         let strands: Vec<&[Run]> = drawing.runs.chunk_by(|a, b| a.strand == b.strand).collect();
         let own = strands.par_chunks(GROUP);
         let own: Vec<Vec<Numbered>> = own.map(|group| on_group(drawing, strokes, group)).collect();
         let strands = strands.into_par_iter().enumerate().with_min_len(GROUP);
-        let strands = strands.map(|(i, runs)| Strand::new(drawing, strokes, &own[i / GROUP], runs));
+        let strands =
+            strands.map(|(i, runs)| Strand::new(drawing, strokes, kind, &own[i / GROUP], runs));
         let strands: Vec<Strand> = strands.collect();
         let groups = &mut self.groups;
         groups.resize_with(strands.len().div_ceil(GROUP), Group::default);
@@ -230,6 +248,8 @@ struct Strand<'a> {
     runs: &'a [Run],
     /// The strokes that are the clump and its sides, disc for disc, and drawn with it.
     base: &'a [Numbered],
+    /// Whether its clump has segments.
+    has_clump: bool,
 }
 
 /// The discs of a stretch.
@@ -250,15 +270,17 @@ impl<'a> Strand<'a> {
     fn new(
         drawing: &'a Drawing,
         strokes: &'a [Stroke],
+        kind: Kind,
         own: &'a [Numbered],
         runs: &'a [Run],
     ) -> Self {
+        let has_clump = drawing.order != Order::Shifted && kind == Kind::Ordered;
         let is_base = |strokes: &&[Numbered]| {
             strokes[0].stroke.rank >= 0 && runs.iter().all(|run| is_clump(drawing, strokes, run))
         };
-        let base = match drawing.order {
-            Order::Shifted => None,
-            _ => own.windows(clumps(drawing)).find(is_base),
+        let base = match has_clump {
+            false => None,
+            true => own.windows(clumps(drawing)).find(is_base),
         };
         Self {
             drawing,
@@ -266,6 +288,7 @@ impl<'a> Strand<'a> {
             own,
             runs,
             base: base.unwrap_or_default(),
+            has_clump,
         }
     }
 
@@ -277,8 +300,8 @@ impl<'a> Strand<'a> {
             own,
             runs,
             base,
+            has_clump,
         } = *self;
-        let has_clump = drawing.order != Order::Shifted;
         let parts = 0..if has_clump { clumps(drawing) } else { 0 };
         let clump = parts.flat_map(move |part| {
             let of_clump = move |stretch: Stretch, drawn_as, first_color| Drawn {

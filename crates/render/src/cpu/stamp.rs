@@ -144,7 +144,7 @@ impl Stamper {
 /// Replaces `stamps` by those of a checked drawing that may be seen: the highest stroke of all strands
 /// first, in a stroke by strand. So the first is in front where depths are equal.
 fn collect(drawing: &Drawing, per_interval: usize, stamps: &mut Vec<Stamp>) {
-    let strokes = segment::strokes_in_order(drawing);
+    let strokes = segment::strokes_in_order(drawing, segment::Kind::Ordered);
     let of_stroke = |stroke: &Stroke| {
         let (layer, instance) = (&drawing.layers[stroke.layer], stroke.instance);
         let runs = drawing.runs.iter();

@@ -83,6 +83,40 @@ impl Placed {
     }
 }
 
+/// The axis point of a segment that is the nearest to each sample of a cell: the square of distance over radius, and what is there.
+pub(super) struct Beside {
+    pub(super) ratio: Lanes,
+    pub(super) inv_depth: Lanes,
+    pub(super) color: [Lanes; 3],
+}
+
+impl Placed {
+    #[inline(always)]
+    pub(super) fn beside(&self, cell: Cell) -> Beside {
+        let (x, y) = (self.x.of(cell), self.y.of(cell));
+        let Shape {
+            sweep,
+            inv_depth,
+            color: [red, green, blue],
+            ..
+        } = &self.shape;
+        let (mut ratio, mut depth, mut color) = ([0.0; LANES], [0.0; LANES], [[0.0; LANES]; 3]);
+        for k in 0..LANES {
+            let (u, square) = sweep.attribute_point(x[k], y[k]);
+            ratio[k] = select(square < f32::MAX, square, f32::MAX);
+            depth[k] = inv_depth.at(u);
+            color[0][k] = red.at(u);
+            color[1][k] = green.at(u);
+            color[2][k] = blue.at(u);
+        }
+        Beside {
+            ratio,
+            inv_depth: depth,
+            color,
+        }
+    }
+}
+
 /// A cell's samples in a segment's frame, and those that it covers.
 pub(super) struct InFrame {
     covered: LaneMask,

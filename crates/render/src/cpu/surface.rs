@@ -1,12 +1,13 @@
-//! One triangle in one tile: both sides, edges included, the nearest first.
+//! Triangles in one tile: both sides, edges included, the nearest first.
 
 use super::bin::{Bounds, MARGIN, clip};
+use super::set_up::SetUp;
 use super::texels::Texels;
 use super::tile::{
-    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, LaneMask, NOTHING, Slope, Stack, Target, WIDTH, any,
-    greater, least, lesser, overwrite, select,
+    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, LaneMask, Slope, Stack, Target, WIDTH, any, greater,
+    least, lesser, overwrite, select,
 };
-use crate::drawing::{Drawing, SurfaceVertex};
+use crate::drawing::{Coverage, Drawing, Surface, SurfaceVertex};
 use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -19,7 +20,14 @@ pub(super) struct Triangle {
     pub(super) number: u32,
     pub(super) bounds: Bounds,
     /// Of its nearest corner, 1/m.
-    nearest: f32,
+    pub(super) nearest: f32,
+}
+
+/// Four samples of each pixel of a tile.
+pub(super) struct Tile<'a> {
+    /// Its first pixel.
+    pub(super) origin: [usize; 2],
+    pub(super) stack: &'a Stack,
 }
 
 /// Draws those of a tile, in the drawing's order, into the target's samples. Gives the cells' samples where each triangle shows.
@@ -28,26 +36,60 @@ pub(super) fn draw_all(
     all: &[Triangle],
     of_tile: &[u32],
     drawing: &Drawing,
-    origin: [usize; 2],
-    stack: &Stack,
+    tile: &Tile,
     target: &mut Target,
     mut shows: impl FnMut(usize, u32, &LaneMask),
 ) {
+    let mut set_up = SetUp::NOTHING;
+    let mut left = of_tile;
+    while let Some(&first) = left.first() {
+        let surface = all[first as usize].surface;
+        // They come surface by surface.
+        let length = left.partition_point(|number| all[*number as usize].surface == surface);
+        let (own, others) = left.split_at(length);
+        left = others;
+        let surface = &drawing.surfaces[surface as usize];
+        match &surface.texture {
+            None => draw_some::<false>(all, own, drawing, tile, &mut set_up, target, &mut shows),
+            Some(_) => draw_some::<true>(all, own, drawing, tile, &mut set_up, target, &mut shows),
+        }
+    }
+}
+
+/// Draws triangles of one surface, eight at a time. Twice, for surfaces with a picture and without, so that these don't pay for the others.
+#[inline(always)]
+fn draw_some<const TEXTURED: bool>(
+    all: &[Triangle],
+    some: &[u32],
+    drawing: &Drawing,
+    tile: &Tile,
+    set_up: &mut SetUp,
+    target: &mut Target,
+    shows: &mut impl FnMut(usize, u32, &LaneMask),
+) {
     // What all of the tile shows is as near as this: most of a head's inside and outline is hidden at once.
-    let (mut surface, mut farthest) = (0, NOTHING);
-    for &number in of_tile {
-        let triangle = &all[number as usize];
-        if triangle.surface != surface {
-            surface = triangle.surface;
-            farthest = target.farthest_surface();
+    let farthest = target.farthest_surface();
+    let mut left = some.iter();
+    loop {
+        set_up.clear();
+        while !set_up.is_full()
+            && let Some(&number) = left.next()
+        {
+            let triangle = &all[number as usize];
+            if triangle.nearest > farthest && !triangle.is_hidden(tile, target) {
+                set_up.push::<TEXTURED>(number, triangle, drawing, tile.origin);
+            }
         }
-        if triangle.nearest <= farthest {
-            continue;
+        if set_up.numbers().is_empty() {
+            return;
         }
-        let shows = |cell, lanes: &LaneMask| shows(cell, number, lanes);
-        match drawing.surfaces[surface as usize].texture {
-            None => triangle.draw::<false>(drawing, origin, stack, target, shows),
-            Some(_) => triangle.draw::<true>(drawing, origin, stack, target, shows),
+        set_up.work_out::<TEXTURED>();
+        for k in 0..set_up.numbers().len() {
+            let number = set_up.numbers()[k];
+            let triangle = &all[number as usize];
+            let surface = &drawing.surfaces[triangle.surface as usize];
+            let shows = |cell, lanes: &LaneMask| shows(cell, number, lanes);
+            triangle.draw::<TEXTURED>(surface, (set_up, k), tile, target, shows);
         }
     }
 }
@@ -132,97 +174,100 @@ impl Triangle {
         (area != 0.0).then(|| values.map(|values| Interpolated::new(values, &edges, area)))
     }
 
-    /// Draws the triangle's part of the tile at `origin` into the target's samples. Gives the cells' samples where it shows.
-    /// Twice, for surfaces with a picture and without, so that these don't pay for the others.
+    /// The rows of stacks and the cells of each row that it may reach in a tile.
+    #[inline(always)]
+    fn cells(&self, tile: &Tile) -> [Range<usize>; 2] {
+        let rows = self.bounds.rows_in(tile.origin[1], tile.stack);
+        let columns = clip(self.bounds.x, tile.origin[0], WIDTH);
+        let across = columns.start / CELL_WIDTH..columns.end.div_ceil(CELL_WIDTH);
+        [rows, across]
+    }
+
+    /// Whether all of the cells that it may reach show a surface that is no farther.
+    #[inline(always)]
+    fn is_hidden(&self, tile: &Tile, target: &Target) -> bool {
+        let [rows, across] = self.cells(tile);
+        for row in rows {
+            let cells = row * CELLS_ACROSS + across.start..row * CELLS_ACROSS + across.end;
+            for farthest in &target.farthest_surface[cells] {
+                if self.nearest > *farthest {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Draws the triangle's part of a tile into the target's samples, as it is set up. Gives the cells' samples where it shows.
     #[inline(always)]
     fn draw<const TEXTURED: bool>(
         &self,
-        drawing: &Drawing,
-        origin: [usize; 2],
-        stack: &Stack,
+        surface: &Surface,
+        (set_up, own): (&SetUp, usize),
+        tile: &Tile,
         target: &mut Target,
         mut shows: impl FnMut(usize, &LaneMask),
     ) {
-        let rows = self.bounds.rows_in(origin[1], stack);
-        let columns = clip(self.bounds.x, origin[0], WIDTH);
-        let across = columns.start / CELL_WIDTH..columns.end.div_ceil(CELL_WIDTH);
-        if is_hidden(self.nearest, &rows, &across, target) {
-            return;
-        }
-        let surface = &drawing.surfaces[self.surface as usize];
-        let [a, b, c] = self.corners(drawing);
-        let corner = DVec2::new(origin[0] as f64, origin[1] as f64);
-        // Without closures, which are not sure to be compiled for their caller's instruction set.
-        let seen = |vertex: &SurfaceVertex| vertex.position.as_dvec2() - corner;
-        let points = [seen(a), seen(b), seen(c)];
-        let area = twice_area(points);
-        if area == 0.0 {
+        if set_up.twice_area[own] == 0.0 {
             return; // it has no inside
         }
-        let edges = [
-            Edge::new(points[1], points[2]),
-            Edge::new(points[2], points[0]),
-            Edge::new(points[0], points[1]),
-        ];
-        let side = area.signum();
+        let stack = tile.stack;
+        let [a, b, c] = set_up.inside(own);
         let inside = [
-            edges[0].slope(side).at_samples(stack),
-            edges[1].slope(side).at_samples(stack),
-            edges[2].slope(side).at_samples(stack),
+            a.at_samples(stack),
+            b.at_samples(stack),
+            c.at_samples(stack),
         ];
-        let depths = Interpolated::new([a.inv_depth, b.inv_depth, c.inv_depth], &edges, area);
+        let depths = set_up.depths(own);
         let depth_at = depths.slope.at_samples(stack);
         // Between corners that are all in light, or all in shadow, nothing else is.
-        let is_lit = (a.tone >= 0.0) & (b.tone >= 0.0) & (c.tone >= 0.0);
-        let is_dark = (a.tone < 0.0) & (b.tone < 0.0) & (c.tone < 0.0);
+        let tones = set_up.tones(own);
+        let is_dark = tones.greatest < 0.0;
         let [light, shadow] = surface.drawn_colors();
-        let is_one_color = is_lit | is_dark | (light == shadow);
-        let one_color = if is_dark { &shadow } else { &light };
-        let tones = match is_one_color {
-            true if is_dark => Interpolated::DARK,
-            true => Interpolated::NONE,
-            false => Interpolated::new([a.tone, b.tone, c.tone], &edges, area),
-        };
+        let is_one_color = (tones.least >= 0.0) | is_dark | (light == shadow);
+        let one_color = if is_dark { shadow } else { light };
         let tone_at = tones.slope.at_samples(stack);
         let texture = surface.texture.as_ref().filter(|_| TEXTURED);
-        let texels = texture.map(|texture| {
-            let corners = &surface.triangles[self.number as usize];
-            Texels::new(texture, corners, &depths, &edges, [a, b, c], area, stack)
-        });
+        let mut texels = None;
+        let [rows, across] = self.cells(tile);
         for row in rows {
             for cell in across.clone() {
                 let cell = Cell::new(row, cell * CELL_WIDTH);
                 if depths.greatest <= target.farthest_surface[cell.index] {
                     continue; // all of the cell shows what is nearer
                 }
-                let inside = [inside[0].of(cell), inside[1].of(cell), inside[2].of(cell)];
-                let depth = depth_at.of(cell);
-                let mut nearest = target.surface[cell.index];
+                let [a, b, c] = [inside[0].of(cell), inside[1].of(cell), inside[2].of(cell)];
                 let mut wins = [0_u32; LANES];
                 for k in 0..LANES {
-                    let is_inside =
-                        (inside[0][k] >= 0.0) & (inside[1][k] >= 0.0) & (inside[2][k] >= 0.0);
-                    let depth = depths.clamp(depth[k]);
-                    let is_first = is_inside & (depth > nearest[k]);
-                    nearest[k] = select(is_first, depth, nearest[k]);
-                    wins[k] = select(is_first, u32::MAX, 0);
+                    let is_inside = (a[k] >= 0.0) & (b[k] >= 0.0) & (c[k] >= 0.0);
+                    wins[k] = select(is_inside, u32::MAX, 0);
+                }
+                if !any(&wins) {
+                    continue;
+                }
+                let mut depth = depth_at.of(cell);
+                let mut nearest = target.surface[cell.index];
+                for k in 0..LANES {
+                    depth[k] = depths.clamp(depth[k]);
+                    wins[k] &= select(depth[k] > nearest[k], u32::MAX, 0);
                 }
                 if !any(&wins) {
                     continue;
                 }
                 let mut texel = [[1.0; LANES]; 3];
-                if let Some(texels) = &texels {
-                    texel = texels.look_up(cell, stack, self.surface, &mut wins);
-                    if !any(&wins) {
-                        continue;
+                if let Some(texture) = texture {
+                    if texels.is_none() {
+                        texels = Some(Texels::new(texture, (set_up, own)));
                     }
-                    nearest = target.surface[cell.index];
-                    for k in 0..LANES {
-                        let depth = depths.clamp(depth[k]);
-                        nearest[k] = select(wins[k] != 0, depth, nearest[k]);
+                    if let Some(texels) = &texels {
+                        texel = texels.look_up(cell, stack, &depths, self.surface, &mut wins);
+                    }
+                    if texture.coverage != Coverage::Ignored && !any(&wins) {
+                        continue;
                     }
                 }
                 shows(cell.index, &wins);
+                overwrite(&mut nearest, &depth, &wins);
                 target.surface[cell.index] = nearest;
                 target.farthest_surface[cell.index] = least(&nearest);
                 overwrite(
@@ -230,9 +275,15 @@ impl Triangle {
                     &[surface.margin_m; LANES],
                     &wins,
                 );
-                if is_one_color & !TEXTURED {
-                    for (plane, light) in target.color.iter_mut().zip(one_color) {
-                        overwrite(&mut plane[cell.index], &[*light; LANES], &wins);
+                if is_one_color {
+                    for (channel, plane) in target.color.iter_mut().enumerate() {
+                        let mut color = [one_color[channel]; LANES];
+                        if TEXTURED {
+                            for k in 0..LANES {
+                                color[k] *= texel[channel][k];
+                            }
+                        }
+                        overwrite(&mut plane[cell.index], &color, &wins);
                     }
                     continue;
                 }
@@ -253,34 +304,20 @@ impl Triangle {
     }
 }
 
-/// Whether all of some cells shows a surface that is no farther than something.
-#[inline(always)]
-fn is_hidden(inv_depth: f32, rows: &Range<usize>, across: &Range<usize>, target: &Target) -> bool {
-    for row in rows.clone() {
-        let cells = row * CELLS_ACROSS + across.start..row * CELLS_ACROSS + across.end;
-        for farthest in &target.farthest_surface[cells] {
-            if inv_depth > *farthest {
-                return false;
-            }
-        }
-    }
-    true
-}
-
 /// The signed, doubled area between an edge and a point: above 0 on the edge's one side. Worked out
 /// from the same end for both triangles at an edge, so that their values are exactly opposite, and no
 /// sample between them is lost.
 #[derive(Clone, Copy)]
 pub(super) struct Edge {
-    corner: f64,
-    per_x: f64,
-    per_y: f64,
+    pub(super) corner: f64,
+    pub(super) per_x: f64,
+    pub(super) per_y: f64,
 }
 
 impl Edge {
     /// Positions are seen from the tile's corner.
     #[inline(always)]
-    fn new(from: DVec2, to: DVec2) -> Self {
+    pub(super) fn new(from: DVec2, to: DVec2) -> Self {
         let is_turned = (to.x, to.y) < (from.x, from.y);
         let (low, high) = if is_turned { (to, from) } else { (from, to) };
         let along = high - low;
@@ -291,34 +328,20 @@ impl Edge {
             per_y: sign * along.x,
         }
     }
-
-    #[inline(always)]
-    fn slope(&self, factor: f64) -> Slope {
-        Slope {
-            corner: (self.corner * factor) as f32,
-            per_x: (self.per_x * factor) as f32,
-            per_y: (self.per_y * factor) as f32,
-        }
-    }
 }
 
 /// A value of the corners that runs linearly on the screen, and never beyond them: a needle's slope
 /// is too steep for single precision.
+#[derive(Clone, Copy)]
 pub(super) struct Interpolated {
     pub(super) slope: Slope,
-    least: f32,
-    greatest: f32,
+    pub(super) least: f32,
+    pub(super) greatest: f32,
 }
 
 impl Interpolated {
-    /// A tone in shadow everywhere.
-    const DARK: Self = Self {
-        slope: Self::NONE.slope,
-        least: -1.0,
-        greatest: -1.0,
-    };
-    /// A value that nobody asks for, or that is 0 everywhere.
-    const NONE: Self = Self {
+    /// 0 everywhere.
+    pub(super) const ZERO: Self = Self {
         slope: Slope {
             corner: 0.0,
             per_x: 0.0,
@@ -373,21 +396,6 @@ mod tests {
             let sample = positions[number % positions.len()] + Vec2::new(column as f32, row as f32);
             let (low, high) = (sample - Vec2::new(left, above), sample + Vec2::new(right, below));
             prop_assert!(may_hold_sample(low, high, &stacks));
-        }
-
-        /// What keeps a mesh without cracks: no sample is outside of both triangles at an edge.
-        #[test]
-        fn an_edge_seen_from_its_other_triangle_is_its_exact_opposite(
-            (x0, y0, x1, y1) in (-1e9..1e9_f64, -1e9..1e9_f64, -50.0..50.0_f64, -50.0..50.0_f64),
-            sign in prop::sample::select(vec![1.0, -1.0]),
-        ) {
-            let from = DVec2::new(x0, y0);
-            let to = DVec2::new(x1, y1);
-            let one = Edge::new(from, to).slope(sign);
-            let other = Edge::new(to, from).slope(sign);
-            prop_assert_eq!(one.corner, -other.corner);
-            prop_assert_eq!(one.per_x, -other.per_x);
-            prop_assert_eq!(one.per_y, -other.per_y);
         }
     }
 

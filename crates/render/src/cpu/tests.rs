@@ -293,6 +293,7 @@ fn square(inv_depth: f32) -> Surface {
         margin_m: 0.0,
         mesh: 0,
         paint: None,
+        marks: 0,
         vertices: vec![
             vertex(0.0, 0.0, inv_depth, 1.0),
             vertex(20.0, 0.0, inv_depth, -1.0),
@@ -332,6 +333,7 @@ fn a_sample_on_an_edge_is_inside_and_a_flat_triangle_is_nothing() {
         margin_m: 0.0,
         mesh: 0,
         paint: None,
+        marks: 0,
         vertices: vec![a, b, c],
         triangles: vec![[0, 1, 2]],
         light: GREEN,

@@ -398,6 +398,16 @@ impl Target {
         }
     }
 
+    /// The strand that samples of a cell show which show hair, where strokes aren't [`Shifted`](crate::Order::Shifted).
+    #[inline(always)]
+    pub(super) fn strands(&self, cell: usize) -> [u32; LANES] {
+        let mut strands = self.priority[cell];
+        for k in 0..LANES {
+            strands[k] = u32::MAX - strands[k];
+        }
+        strands
+    }
+
     /// Makes of colours what a sample adds to a pixel's light, and of the surfaces' depths what it adds to its alpha.
     /// Loops of their own, as one with the sums would be no vector instructions.
     #[inline(always)]
@@ -609,7 +619,7 @@ impl Sums {
 }
 
 /// A value that runs linearly over the screen, seen from a tile.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slope {
     /// At the tile's upper left corner.
     pub(super) corner: f32,

@@ -2,6 +2,7 @@
 
 use super::{Frame, Light, Object};
 use crate::check::{DrawError, check_picture, check_surfaces};
+use crate::drawing::Decal;
 use crate::mesh_paint::MeshLayer;
 use effects::{Input, Layer, clump};
 use std::ops::Range;
@@ -156,6 +157,24 @@ pub enum FrameError {
         /// How many joints the paths have.
         joints: usize,
     },
+    /// The list is shorter or longer than the paths.
+    #[error(
+        "there are {ends} distances from ends for {joints} joints: one pair is needed for each, or none where nothing reads them"
+    )]
+    FromEnds {
+        /// How many there are.
+        ends: usize,
+        /// How many joints the paths have.
+        joints: usize,
+    },
+    /// What its strands count nearer by is no length.
+    #[error("object {object}: surface_bias_m is {bias_m}, no number of metres from 0 on")]
+    SurfaceBias {
+        /// Index of the object.
+        object: usize,
+        /// What it is.
+        bias_m: f32,
+    },
     /// A layer for meshes doesn't paint, its head is nowhere or without height, or it is seen through hair by no share from 0 to 1.
     #[error(
         "mesh layer {index}, \"{layer}\": its effect must paint, its head be somewhere and have a height, and through_hair lie in 0 to 1"
@@ -164,6 +183,14 @@ pub enum FrameError {
         /// Its place among the frame's.
         index: usize,
         /// Its name.
+        layer: String,
+    },
+    /// What a frame says of decals is not of the layers that are some, one after the other, or a reach is no length, or a decal paints.
+    #[error(
+        "layer \"{layer}\": a layer with `clip`, and no other, has one decal in the frame, in the layers' order, its reach is finite and 0 or more, and its effect doesn't paint"
+    )]
+    Decal {
+        /// The name of the first layer that is wrong; empty where there are decals of no layer.
         layer: String,
     },
     /// The light is nowhere.
@@ -185,6 +212,7 @@ impl Frame<'_> {
         check_picture(self.camera.size_px(), self.background, self.edge_depth_m)?;
         check_surfaces(&self.surfaces, self.mesh_layers.len())?;
         self.check_mesh_layers()?;
+        self.check_decals()?;
         let (Light::Direction(light) | Light::Point(light)) = self.light;
         if !light.is_finite() {
             return Err(FrameError::Light);
@@ -218,6 +246,11 @@ impl Frame<'_> {
         if positions != joints && (positions > 0 || self.objects.iter().any(reads_rest)) {
             return Err(FrameError::RestPositions { positions, joints });
         }
+        let ends = self.from_ends.len();
+        let reads_ends = |object: &Object| object.inputs().has(Input::FromEnds);
+        if ends != joints && (ends > 0 || self.objects.iter().any(reads_ends)) {
+            return Err(FrameError::FromEnds { ends, joints });
+        }
         Ok(())
     }
 
@@ -234,6 +267,28 @@ impl Frame<'_> {
             }
         }
         Ok(())
+    }
+
+    fn check_decals(&self) -> Result<(), FrameError> {
+        let layers = self.objects.iter().flat_map(|object| object.layers);
+        let mut decals = self.decals.iter();
+        for (index, layer) in layers.enumerate().filter(|(_, layer)| layer.is_decal()) {
+            let is_right = |decal: &&Decal| {
+                let is_shadow = decal.is_shadow == layer.program.casts();
+                let is_length = (0.0..=f32::MAX).contains(&decal.reach_m);
+                decal.layer == index && is_shadow && is_length && layer.program.paints().is_none()
+            };
+            if decals.next().filter(is_right).is_none() {
+                let layer = layer.name.clone();
+                return Err(FrameError::Decal { layer });
+            }
+        }
+        match decals.next() {
+            None => Ok(()),
+            Some(_) => Err(FrameError::Decal {
+                layer: String::new(),
+            }),
+        }
     }
 
     fn check_paths(&self) -> Result<(), FrameError> {
@@ -335,6 +390,11 @@ impl Frame<'_> {
                 object: index,
                 height_m: head.height_m,
             });
+        }
+        let bias_m = object.surface_bias_m;
+        if !(bias_m.is_finite() && bias_m >= 0.0) {
+            let object = index;
+            return Err(FrameError::SurfaceBias { object, bias_m });
         }
         if object.layers.len() != object.layer_joints.len() {
             return Err(FrameError::Layers {

@@ -2,7 +2,8 @@
 
 use super::inputs::{mesh_sample_in_wgsl, sample_in_wgsl};
 use super::layout::JointLayout;
-use super::programs::Tells;
+use super::programs::{Tells, TilesKey};
+use crate::drawing::Order;
 use crate::features::{Feature, Features};
 use effects::{PaintSource, ParamKind, ProgramSource, SampleInput};
 use std::fmt::Write as _;
@@ -31,6 +32,8 @@ const TEXTURED: &str = include_str!("../../../../shaders/gpu/textured.wgsl");
 const UNTEXTURED: &str = include_str!("../../../../shaders/gpu/untextured.wgsl");
 const UNDER: &str = include_str!("../../../../shaders/gpu/under.wgsl");
 const NO_UNDER: &str = include_str!("../../../../shaders/gpu/no_under.wgsl");
+const DECALS: &str = include_str!("../../../../shaders/gpu/decals.wgsl");
+const NO_DECALS: &str = include_str!("../../../../shaders/gpu/no_decals.wgsl");
 const LOOKUP: &str = include_str!("../../../../shaders/gpu/lookup.wgsl");
 const MESH_MAIN: &str = include_str!("../../../../shaders/gpu/mesh_main.wgsl");
 const SHOWN: &str = include_str!("../../../../shaders/gpu/shown.wgsl");
@@ -40,7 +43,7 @@ const EDGES: &str = include_str!("../../../../shaders/gpu/edges.wgsl");
 const MEAN: &str = include_str!("../../../../shaders/gpu/mean.wgsl");
 
 /// Words before the parameters of a layer or a clump: `shaders/gpu/joint.wgsl` names them.
-pub(super) const LAYER_WORDS: u32 = 15;
+pub(super) const LAYER_WORDS: u32 = 16;
 /// Of them the one that says where what paints a layer begins.
 pub(super) const PAINT_WORD: usize = 13;
 
@@ -82,24 +85,36 @@ pub(super) fn bins() -> String {
     [FRAME, DRAWN, BINS].join("\n")
 }
 
-/// What draws tiles in an order, given by its number in `tiles.wgsl`, keeps of samples what they tell, and looks up the surfaces' pictures where
-/// they are `textured`.
-pub(super) fn tiles(order: u32, tells: Tells, textured: bool) -> String {
+/// What draws tiles, made for that.
+pub(super) fn tiles(key: TilesKey) -> String {
+    // As `tiles.wgsl` numbers them.
+    let order = match key.order {
+        Order::Rounded => 0,
+        Order::StrandFirst => 1,
+        Order::Shifted => 2,
+    };
     let order = format!("const ORDER: u32 = {order}u;\n");
-    let (told, under, binding) = match tells {
+    let (told, under, binding) = match key.tells {
         Tells::Nothing => (UNTOLD, NO_UNDER, 10),
         Tells::Shown => (TOLD, NO_UNDER, 11),
         Tells::Under => (TOLD, UNDER, 12),
     };
     let atlas = format!("@group(0) @binding({binding}) var atlas: texture_2d<f32>;\n");
-    let textures: &[&str] = match textured {
+    let textures: &[&str] = match key.textured {
         true => &[PRELUDE, IMAGE, &atlas, TEXTURED],
         false => &[UNTEXTURED],
     };
     let parts = [
         &[&order, told, under, FRAME, DRAWN][..],
         textures,
-        &[SWEEP, SEGMENTS, SURFACES, STRANDS, TILES],
+        &[
+            SWEEP,
+            SEGMENTS,
+            SURFACES,
+            STRANDS,
+            if key.decals { DECALS } else { NO_DECALS },
+            TILES,
+        ],
     ];
     parts.concat().join("\n")
 }

@@ -32,6 +32,8 @@ pub(super) struct TilesKey {
     pub(super) tells: Tells,
     /// Whether there are pictures on surfaces.
     pub(super) textured: bool,
+    /// Whether strokes are drawn on what is seen.
+    pub(super) decals: bool,
 }
 
 /// What tiles keep of samples beside their colours.
@@ -217,12 +219,7 @@ impl Programs {
         if self.tiles.as_ref().is_some_and(|(made, _)| *made == key) {
             return Ok(0);
         }
-        let number = match key.order {
-            Order::Rounded => 0,
-            Order::StrandFirst => 1,
-            Order::Shifted => 2,
-        };
-        let text = program::tiles(number, key.tells, key.textured);
+        let text = program::tiles(key);
         let layout = self.layouts.tiles(key.tells, key.textured);
         let made = pipelines(device, "tiles", &text, layout, &["draw_tile"])?;
         let made = made.into_iter().next();

@@ -287,9 +287,9 @@ impl Renderer {
                 (drawing.size, drawing.order, settings)
             }
         };
-        let surfaces = match source {
-            Source::Frame(frame) => &frame.surfaces,
-            Source::Drawing(drawing) => &drawing.surfaces,
+        let (surfaces, decals) = match source {
+            Source::Frame(frame) => (&frame.surfaces, !frame.decals.is_empty()),
+            Source::Drawing(drawing) => (&drawing.surfaces, !drawing.decals.is_empty()),
         };
         if self.atlas.follow(&self.device, &self.queue, surfaces)? {
             self.groups = None;
@@ -300,6 +300,7 @@ impl Renderer {
             order,
             tells,
             textured: self.atlas.view().is_some(),
+            decals,
         };
         self.stats.made += self.programs.draw_in(&self.device, key)?;
 
@@ -318,6 +319,7 @@ impl Renderer {
             chunk_capacity,
             triangle_capacity,
             surfaces_at: self.scene.surfaces_at,
+            same_strands_at: self.scene.same_strands_at,
             writes_samples: u32::from(has_samples),
             ..settings
         };

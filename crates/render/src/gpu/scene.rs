@@ -3,7 +3,7 @@
 use super::atlas::images_of;
 use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
 use super::program::{LAYER_WORDS, PAINT_WORD};
-use crate::drawing::{Coverage, Disc, Drawing, Surface};
+use crate::drawing::{Coverage, Decal, Disc, Drawing, Surface};
 use crate::features::{Feature, Features};
 use crate::frame::{Frame, Head, Object, layer_bit};
 use crate::mesh_paint::PaintedMeshes;
@@ -15,9 +15,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Words of a stroke's record in the tables.
-const STROKE_WORDS: usize = 3;
+const STROKE_WORDS: usize = 4;
 /// Words of a surface's record in the tables, as `shaders/gpu/drawn.wgsl` has it.
-const SURFACE_WORDS: usize = 12;
+const SURFACE_WORDS: usize = 13;
+/// Words of a decal's record in the tables, as `shaders/gpu/decals.wgsl` has it.
+const DECAL_WORDS: usize = 3;
 /// Stands where a list has no stroke's record: the tables begin with the lists.
 const NO_STROKE: u32 = 0;
 
@@ -30,6 +32,8 @@ pub(super) struct SceneWords {
     pub(super) chunks: Vec<u32>,
     pub(super) tables: Vec<u32>,
     pub(super) surfaces_at: u32,
+    /// Where the tables tell which pieces are one strand, 0 where they don't.
+    pub(super) same_strands_at: u32,
     pub(super) corners: Vec<u32>,
     pub(super) triangles: Vec<u32>,
     pub(super) clumps: Vec<ClumpScene>,
@@ -78,6 +82,8 @@ struct Placed {
     instances: u32,
     joints: Range<usize>,
     first_disc: usize,
+    /// Its place among the decals, if it is one.
+    decal: Option<usize>,
 }
 
 /// Where a layer draws, for a run.
@@ -132,6 +138,9 @@ impl SceneWords {
         let runs = frame.paths.runs.iter();
         let runs = runs.map(|run| (run.piece as u32, run.joints.clone()));
         self.fill_chunks_and_tables(runs, &placed, frame.paths.len());
+        let mut same_strands = Vec::new();
+        crate::frame::fill_same_strands(frame, &mut same_strands);
+        self.fill_decals(&frame.decals, &same_strands);
         self.fill_surfaces(&frame.surfaces);
         self.fill_meshes(frame);
     }
@@ -164,6 +173,7 @@ impl SceneWords {
                 instances: strokes.instances as u32,
                 joints: strokes.joints.clone(),
                 first_disc: self.discs,
+                decal: place_of(&drawing.decals, layer),
             });
             let count = strokes.joints.len();
             self.discs += count * strokes.instances;
@@ -181,6 +191,7 @@ impl SceneWords {
         let runs = drawing.runs.iter();
         let runs = runs.map(|run| (run.strand, run.joints.clone()));
         self.fill_chunks_and_tables(runs, &placed, joints);
+        self.fill_decals(&drawing.decals, &drawing.same_strands);
         self.fill_surfaces(&drawing.surfaces);
     }
 
@@ -225,7 +236,7 @@ impl SceneWords {
             let (seed, joints) = (layer_seed(object.seed, "clump"), &object.joints);
             let [first, count] = [joints.start, joints.len()].map(|number| number as u32);
             scene.words.extend([seed, 0, first, count, 0, 0, 0, 0]);
-            push_head(&mut scene.words, object.head, 0);
+            push_head(&mut scene.words, object.head, 0, object.surface_bias_m);
             scene.words.extend(object.clump.source().words);
         }
     }
@@ -266,7 +277,8 @@ impl SceneWords {
                 u32::from(layer.units == Units::Pixels),
                 u32::from(layer.program.has_own_paths()),
             ]);
-            push_head(&mut scene.words, object.head, layer_bit(of_object));
+            let bit = layer_bit(of_object);
+            push_head(&mut scene.words, object.head, bit, object.surface_bias_m);
             let source = layer.program.source();
             scene.words.extend(source.words);
             if let Some(paint) = source.paint {
@@ -280,6 +292,7 @@ impl SceneWords {
                 instances: scene.instances,
                 joints: joints.clone(),
                 first_disc,
+                decal: place_of(&frame.decals, index),
             });
         }
         // As they lie, low first; instances of a layer follow each other.
@@ -365,16 +378,35 @@ impl SceneWords {
         }
         // The clump's discs begin at the buffer's start, those of one side after those of the other.
         for disc in 0..clump_discs {
-            self.tables.extend([(disc * joints) as u32, 0, 0]);
+            self.tables.extend([(disc * joints) as u32, 0, 0, 0]);
         }
+        let strokes: usize = placed.iter().map(|p| p.instances as usize).sum();
+        let decals_at = record(clump_discs + strokes);
         let mut number = 0;
         for p in placed {
             for instance in 0..p.instances as usize {
                 number += 1;
                 let first = (p.first_disc + instance * p.joints.len()) as u32;
                 let first = first.wrapping_sub(p.joints.start as u32);
-                self.tables.extend([first, number, u32::from(p.rank >= 0)]);
+                let decal = p.decal.map_or(0, |p| decals_at + (DECAL_WORDS * p) as u32);
+                let is_clipped = u32::from(p.rank >= 0);
+                self.tables.extend([first, number, is_clipped, decal]);
             }
+        }
+    }
+
+    /// The decals' records, which follow those of strokes, and which pieces are one strand.
+    fn fill_decals(&mut self, decals: &[Decal], same_strands: &[u32]) {
+        for decal in decals {
+            let means = u32::from(decal.on_hair) | u32::from(decal.is_shadow) << 1;
+            let words = [means, decal.reach_m.to_bits(), decal.marks];
+            self.tables.extend(words);
+        }
+        self.same_strands_at = 0;
+        if !same_strands.is_empty() {
+            self.same_strands_at = self.tables.len() as u32;
+            self.tables.push(same_strands.len() as u32);
+            self.tables.extend(same_strands);
         }
     }
 
@@ -391,6 +423,7 @@ impl SceneWords {
             let [[lr, lg, lb], [sr, sg, sb]] = surface.drawn_colors();
             let numbers = [lr, lg, lb, sr, sg, sb, surface.margin_m];
             self.tables[record..record + 7].copy_from_slice(&numbers.map(f32::to_bits));
+            self.tables[record + SURFACE_WORDS - 1] = surface.marks;
             let first = self.corners.len() as u32 / 4;
             if let Some(texture) = &surface.texture {
                 let image = images
@@ -404,7 +437,7 @@ impl SceneWords {
                 };
                 let image = image.map_or(0, |(_, at)| *at);
                 let words = [image, places, u32::from(texture.repeats), means, cut];
-                self.tables[record + 7..record + SURFACE_WORDS].copy_from_slice(&words);
+                self.tables[record + 7..record + SURFACE_WORDS - 1].copy_from_slice(&words);
                 let places = texture.places.iter().flat_map(|place| place.to_array());
                 self.tables.extend(places.map(f32::to_bits));
             }
@@ -434,7 +467,7 @@ impl SceneWords {
             let (number, through) = (number as u32 + 1, painted.through_hair.to_bits());
             let focal = frame.camera.focal_px().to_bits();
             let mut words = vec![painted.seed, number, through, focal, 0, 0, 0, 0];
-            push_head(&mut words, mesh.head, 0);
+            push_head(&mut words, mesh.head, 0, 0.0);
             let source = mesh.layer.program.source();
             words.extend(source.words);
             if let Some(paint) = source.paint {
@@ -481,11 +514,16 @@ impl SceneWords {
     }
 }
 
+/// The place of a layer among the decals.
+fn place_of(decals: &[Decal], layer: usize) -> Option<usize> {
+    decals.iter().position(|decal| decal.layer == layer)
+}
+
 /// What `shaders/gpu/joint.wgsl` knows of an object's head, behind the words of a layer.
-fn push_head(words: &mut Vec<u32>, head: Head, layer_bit: u32) {
+fn push_head(words: &mut Vec<u32>, head: Head, layer_bit: u32, surface_bias_m: f32) {
     let [x, y, z] = head.center.to_array();
     words.extend([x, y, z, head.height_m, head.unit_m()].map(f32::to_bits));
-    words.extend([0, layer_bit]);
+    words.extend([0, layer_bit, surface_bias_m.to_bits()]);
     debug_assert_eq!(words.len(), LAYER_WORDS as usize);
 }
 

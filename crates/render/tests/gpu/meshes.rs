@@ -9,7 +9,7 @@ use render::{Coverage, EdgeChannel, Edges, Feature, Features, SurfacePaint, Surf
 use std::sync::Arc;
 
 /// Layers for meshes with the same effect and parameters, the second of them seen through hair.
-fn two(effect: &str, params: &str, through: f32) -> String {
+pub fn two(effect: &str, params: &str, through: f32) -> String {
     format!(
         "[(effect: \"{effect}\", on: \"a\", params: ({params})),
           (effect: \"{effect}\", name: \"second\", on: \"b\", through_hair: {through}, params: ({params}))]"
@@ -17,7 +17,7 @@ fn two(effect: &str, params: &str, through: f32) -> String {
 }
 
 /// Ways to paint: every detail and mode, soft edges, rims.
-const WAYS: [(&str, &str); 6] = [
+pub const WAYS: [(&str, &str); 6] = [
     ("mesh.flat", "threshold: 0.2"),
     ("mesh.flat", "softness: 0.5, shade: \"203060\""),
     ("mesh.toon", "rim: \"FFE0B0\""),
@@ -36,7 +36,7 @@ const WAYS: [(&str, &str); 6] = [
 ];
 
 /// Paints both surfaces of a scene, one with a picture.
-fn paint(scene: &mut Scene, text: &str) {
+pub fn paint(scene: &mut Scene, text: &str) {
     scene.mesh_layers = layers(text, &registry());
     let ways = [(0.3, 0.2), (-0.4, 0.9), (0.8, -0.2), (0.0, 1.0)];
     for (number, surface) in scene.surfaces.iter_mut().enumerate() {

@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::{Vec2, Vec3, vec2};
 use render::gpu::{AdapterKind, Gpu, GpuError, Offscreen};
 use render::{
-    Brush, Edges, Features, Frame, Head, Light, MeshLayer, NO_COLOR, NO_TAPER, Object, Order,
-    StrandInfo, Surface, SurfaceVertex,
+    Brush, Decal, Edges, Features, Frame, Head, Light, MeshLayer, NO_COLOR, NO_TAPER, Object,
+    Order, StrandInfo, Surface, SurfaceVertex,
 };
 use std::iter;
 use std::ops::Range;
@@ -24,6 +24,7 @@ pub struct Scene {
     pub second: Option<Second>,
     pub material_normals: Vec<Vec3>,
     pub rest_positions: Vec<Vec3>,
+    pub from_ends: Vec<Vec2>,
     pub surfaces: Vec<Surface>,
     pub mesh_layers: Vec<Layer>,
     pub light: Light,
@@ -62,6 +63,7 @@ pub const ALL_EFFECTS: &str = "[
     (effect: \"hair.highlight\", params: (kind: ring, exponent: 2, threshold: 0.2, full: 0.5)),
     (effect: \"hair.band\", params: (place: 0.1, thickness: 0.8, slide: 0.4, shade: -0.5, rim: 2)),
     (effect: \"hair.ink\", params: (gaps: 0.3, shadow_color: \"8090A0\")),
+    (effect: \"line.ink\", on: \"rim\", params: (width: 4, light_color: \"8090A0\")),
     (effect: \"hair.fine\", params: (per_strand: 1)),
 ]";
 
@@ -69,6 +71,7 @@ pub fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_cartoon::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
     registry
 }
 
@@ -191,6 +194,7 @@ impl Scene {
             texture: None,
             mesh: 0,
             paint: None,
+            marks: if margin_m > 0.0 { 3 } else { 2 },
             vertices: vec![
                 corner(-20.0, 10.0, 0.8, 1.0),
                 corner(80.0, 5.0, 1.1, -1.0),
@@ -209,6 +213,7 @@ impl Scene {
                 .map(|f| f.any_orthonormal_vector())
                 .collect(),
             rest_positions: paths.position.iter().map(|p| *p / 0.24).collect(),
+            from_ends: ends_of(&paths),
             camera,
             strands,
             clump: Varied::new(&values),
@@ -236,6 +241,15 @@ impl Scene {
             features: Features::NONE,
             passes: Vec::new(),
             seed,
+        }
+    }
+
+    /// Adds layers that draw on all strands.
+    pub fn add_layers(&mut self, text: &str) {
+        let drawn = self.layer_joints[0].clone();
+        for layer in layers(text, &registry()) {
+            self.layers.push(layer);
+            self.layer_joints.push(drawn.clone());
         }
     }
 
@@ -278,6 +292,7 @@ impl Scene {
         self.layer_joints.fill(whole);
         self.material_normals.resize(paths.len(), Vec3::Y);
         self.rest_positions.resize(paths.len(), Vec3::ZERO);
+        self.from_ends = ends_of(&paths);
         self.paths = paths;
     }
 
@@ -293,6 +308,7 @@ impl Scene {
                 .map_or(self.paths.len(), |second| second.joints.start),
             head,
             solid: None,
+            surface_bias_m: 0.0,
             clump: &self.clump,
             seed: self.seed,
             layers: &self.layers,
@@ -302,18 +318,37 @@ impl Scene {
             joints: second.joints.clone(),
             head: second.head,
             seed: self.seed + 1,
+            // Every other pair's second object are lines on surfaces.
+            surface_bias_m: render::ON_SURFACES * (self.seed % 2) as f32,
             layer_joints: &second.layer_joints,
             ..first.clone()
+        });
+        let objects: Vec<Object> = iter::once(first).chain(second).collect();
+        let layers = objects
+            .iter()
+            .flat_map(|object| object.layers.iter().map(|layer| (layer, object.head)));
+        let decals = layers.enumerate().filter_map(|(index, (layer, head))| {
+            let clip = layer.clip.as_deref()?;
+            Some(Decal {
+                layer: index,
+                on_hair: clip.contains("hair"),
+                // One of the surfaces, or all.
+                marks: u32::from(clip.contains("wall")) | (2 * u32::from(clip.contains("head"))),
+                reach_m: layer.reach * head.height_m,
+                is_shadow: layer.program.casts(),
+            })
         });
         Frame {
             camera: &self.camera,
             paths: &self.paths,
             strands: &self.strands,
-            objects: iter::once(first).chain(second).collect(),
+            decals: decals.collect(),
+            objects,
             light: self.light,
             time_s: 0.3,
             material_normals: &self.material_normals,
             rest_positions: &self.rest_positions,
+            from_ends: &self.from_ends,
             surfaces: self.surfaces.clone(),
             mesh_layers: self
                 .mesh_layers
@@ -360,4 +395,10 @@ pub fn driver() -> Option<Offscreen> {
 pub fn driver_gpu() -> Option<Gpu> {
     driver()?;
     Gpu::open(AdapterKind::Any).ok()
+}
+
+fn ends_of(paths: &Paths) -> Vec<Vec2> {
+    let mut ends = Vec::new();
+    render::from_ends(paths, &mut ends);
+    ends
 }

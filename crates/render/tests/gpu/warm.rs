@@ -41,10 +41,10 @@ fn objects_of_one_look_share_their_pipelines() {
     let alone = card.stats();
     let pair = Scene::random_pair(3);
     card.draw(&pair.frame(), 4).unwrap();
-    // Parameters of a clump and seven layers.
+    // Parameters of a clump and eight layers.
     let together = card.stats();
     assert_eq!(together.pipelines, alone.pipelines);
-    assert_eq!(together.buffers, alone.buffers + 8);
+    assert_eq!(together.buffers, alone.buffers + 9);
     card.draw(&pair.frame(), 4).unwrap();
     assert_eq!(card.stats().made, 0);
     card.draw(&Scene::random(3).frame(), 4).unwrap();

@@ -3,7 +3,9 @@
 use glam::Vec2;
 use proptest::collection::vec;
 use proptest::prelude::*;
-use render::{Brush, Disc, Drawing, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex};
+use render::{
+    Brush, Decal, Disc, Drawing, LayerStrokes, Order, Run, Stretches, Surface, SurfaceVertex,
+};
 
 fn disc_around(extent: f32) -> impl Strategy<Value = Disc> {
     let coordinate =
@@ -66,11 +68,17 @@ fn surface(extent: f32) -> impl Strategy<Value = Surface> {
             margin_m,
             mesh: 1,
             paint: None,
+            marks: margin_mark(margin_m),
             vertices,
             triangles,
             light,
             shadow,
         })
+}
+
+/// A mark of its own for surfaces without a margin.
+fn margin_mark(margin_m: f32) -> u32 {
+    if margin_m == 0.0 { 1 } else { 2 }
 }
 
 /// A layer over `clump`: its discs follow the clump's, or are anywhere.
@@ -126,6 +134,19 @@ fn on_some_runs(layer: LayerStrokes, runs: &[Run], [from, to]: [f32; 2]) -> Laye
     }
 }
 
+/// What a layer may be as a decal, and how that is mostly none.
+fn decal() -> impl Strategy<Value = Option<Decal>> {
+    let decal = (any::<bool>(), 0..4u32, 0.0..1.0f32, any::<bool>());
+    let decal = decal.prop_map(|(on_hair, marks, reach_m, is_shadow)| Decal {
+        layer: 0,
+        on_hair,
+        marks,
+        reach_m,
+        is_shadow,
+    });
+    prop_oneof![2 => Just(None), 1 => decal.prop_map(Some)]
+}
+
 /// Everything a drawing may hold, small.
 pub fn drawing() -> impl Strategy<Value = Drawing> {
     let extent = 40.0;
@@ -151,7 +172,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
     let background = prop::option::of(color());
     (
         strokes,
-        vec(surface(extent), 0..3),
+        (vec(surface(extent), 0..3), vec(decal(), 5)),
         (order, brush, any::<bool>()),
         background,
         30..40u32,
@@ -160,7 +181,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
         .prop_map(
             |(
                 (strands, mut clump, mut layers),
-                surfaces,
+                (surfaces, decals),
                 ((order, edge_depth_m), brush, has_sides),
                 background,
                 width,
@@ -191,7 +212,7 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                     }
                 }
                 let some = |(layer, from, to)| on_some_runs(layer, &runs, [from, to]);
-                let layers = layers.into_iter().map(some).collect();
+                let layers: Vec<LayerStrokes> = layers.into_iter().map(some).collect();
                 let beside = |side: f32| {
                     clump.iter().map(move |disc| Disc {
                         center: disc.center + side * Vec2::new(4.0, 3.0),
@@ -204,7 +225,12 @@ pub fn drawing() -> impl Strategy<Value = Drawing> {
                 } else {
                     Vec::new()
                 };
+                let decals = decals.into_iter().take(layers.len()).enumerate();
+                let decals = decals.filter_map(|(layer, decal)| Some(Decal { layer, ..decal? }));
                 Drawing {
+                    decals: decals.collect(),
+                    // The first two strands are pieces of one.
+                    same_strands: vec![0; 4],
                     size: [width, height],
                     runs,
                     clump,

@@ -1,17 +1,19 @@
 //! What moved the hair of a bake: the comment that begins it.
 
+use crate::bodies::BodySection;
 use crate::dynamics::DynamicsSection;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::load::chosen;
 use crate::preset::{HeadShape, Preset};
+use crate::script;
 use effects::section::Section as _;
 use effects::{Param, ParamKind, Value};
 use hair_io::BoneMotion;
 use std::fmt;
 use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How a bake begins.
 const TITLE: &str = "// A bake by `inkstrand simulate`. What moved its hair, each with the value or hash that `render` compares:";
@@ -51,6 +53,7 @@ impl MovedBy {
             head_cause(preset, files, hair)?,
             script_cause(preset, files, hair)?,
             gltf_cause(preset, files)?,
+            bodies_cause(preset, files)?,
             plain("scene.fps", sections.scene.fps.to_string()),
             plain("seed", preset.seed.to_string()),
         ];
@@ -219,6 +222,38 @@ fn gltf_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
     let [bone, animation] = [bone, animation].map(in_comment);
     let words = format!("bone {bone}, animation {animation}{repeats}");
     Ok(hash.cause("gltf", format!("{}, {words}", file_name(Path::new(name)))))
+}
+
+/// Bodies of the preset, and the files of all; what else a script says of its own is in its file.
+fn bodies_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
+    let mut hash = Hash::new();
+    let in_preset = preset.bodies.iter().map(|body| &body.section);
+    for section in in_preset.clone() {
+        for (index, param) in BodySection::TABLE.iter().enumerate() {
+            // A colour moves no hair.
+            let value = section.get(index).filter(|_| param.name != "color");
+            let text = value.map_or(String::new(), |value| shown(param, &value));
+            hash.bytes(format!("{}: {text}", param.name).as_bytes());
+        }
+    }
+    let mut all: Vec<PathBuf> = in_preset
+        .flat_map(|section| section.files(&files.preset_folder))
+        .collect();
+    let own = preset.sections.motion.file.as_ref();
+    if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
+        let script = script::parse(&path.display().to_string(), &files.read_text(&path)?)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let bodies = script.named_bodies.iter();
+        all.extend(bodies.flat_map(|body| body.section.files(folder)));
+    }
+    for path in &all {
+        hash.file(path)?;
+    }
+    let words = match (preset.bodies.len(), all.len()) {
+        (0, 0) => "none".to_owned(),
+        (bodies, files) => format!("{bodies} of the preset, {files} files"),
+    };
+    Ok(hash.cause("bodies", words))
 }
 
 /// The files that hold the numbers of the character, where it has them beside it.

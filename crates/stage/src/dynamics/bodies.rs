@@ -1,25 +1,26 @@
-//! What hair cannot enter: the head, which turns, and the shoulders, which don't.
+//! What hair cannot enter: the head, which turns, the shoulders, which don't, and the bodies of a preset and its script.
 
-use glam::{DVec3, Vec3};
+use crate::posture::Posture;
+use crate::script::MotionScript;
+use glam::Vec3;
 use hair_io::Mesh;
-use hair_sim::{Collider, Pose, Shape, SignedDistance};
+use hair_sim::{Collider, Shape, SignedDistance};
 use render::Head;
 
 /// Heights from the head's middle, in head heights: the head's body ends at the one below, the
-/// shoulders' at the other, inside the neck.
-const HEAD_ENDS: f32 = -0.55;
-const SHOULDERS_END: f32 = -0.45;
+/// shoulders' at the other, inside the neck and below the chin, which is at a half.
+pub(super) const HEAD_ENDS: f32 = -0.62;
+pub(super) const SHOULDERS_END: f32 = -0.54;
 /// Cells of the distances, in head heights: ears show, arms need not.
 const HEAD_CELL: f64 = 1.0 / 40.0;
-const BODY_CELL: f64 = 1.0 / 16.0;
-/// How far from the skin carried hair is kept, in head heights.
-const GAP: f64 = 0.005;
+const BODY_CELL: f64 = 1.0 / 32.0;
+/// How far from bodies hair is drawn, m, but where it starts nearer: paths bulge between their points.
+pub(super) const GAP_M: f32 = 1.3e-3;
 
 /// Distances from head and shoulders.
 pub(crate) struct Bodies {
     head: Option<SignedDistance>,
     shoulders: Option<SignedDistance>,
-    height_m: f64,
 }
 
 impl Bodies {
@@ -37,48 +38,48 @@ impl Bodies {
         Self {
             head: half(HEAD_ENDS, true, HEAD_CELL),
             shoulders: half(SHOULDERS_END, false, BODY_CELL),
-            height_m,
         }
     }
 
-    /// The bodies in a step in which the head and the shoulders move from one pose to another.
-    pub fn colliders(&self, head: [Pose; 2], shoulders: [Pose; 2]) -> Vec<Collider<'_>> {
-        let bodies = [(&self.head, head), (&self.shoulders, shoulders)];
-        let mut colliders = Vec::with_capacity(bodies.len());
-        for (body, [before, now]) in bodies {
+    /// All bodies in a step of this script between two times (seconds), at which the figure stands so.
+    pub fn colliders<'a>(
+        &'a self,
+        script: &'a MotionScript,
+        times: [f64; 2],
+        [before, now]: [&Posture<'a>; 2],
+    ) -> Vec<Collider<'a>> {
+        let grids = [
+            (&self.head, [before.head, now.head]),
+            (&self.shoulders, [before.shoulders, now.shoulders]),
+        ];
+        let mut colliders = Vec::with_capacity(grids.len() + script.bodies.len());
+        for (body, [before, now]) in grids {
             colliders.extend(body.as_ref().map(|grid| Collider {
                 shape: Shape::Grid(grid),
                 before,
                 now,
+                was: None,
             }));
         }
+        if let (Some(skeleton), [Some(from), Some(to)]) = (
+            script.skeleton(),
+            [before, now].map(|posture| posture.bones.as_ref()),
+        ) {
+            colliders.extend(skeleton.colliders([from, to], [before.figure, now.figure]));
+        }
+        let times = times.map(|time| script.within(time));
+        let own = script.bodies.iter();
+        colliders.extend(own.map(|body| body.collider(times, [before, now])));
         colliders
     }
-
-    /// Puts points that are in the head on its skin.
-    pub fn keep_out(&self, pose: Pose, points: &mut [Vec3]) {
-        let Some(grid) = &self.head else { return };
-        let gap = GAP * self.height_m;
-        for point in points {
-            let place = pose.rotation.inverse() * (point.as_dvec3() - pose.translation);
-            let distance = grid.distance(place);
-            if distance < gap {
-                let out = outwards(grid, place, HEAD_CELL * self.height_m);
-                let place = place + out * (gap - distance);
-                *point = (pose.rotation * place + pose.translation).as_vec3();
-            }
-        }
-    }
-}
-
-/// The way in which the distance grows, a unit vector.
-fn outwards(grid: &SignedDistance, at: DVec3, step: f64) -> DVec3 {
-    let slope = |axis: DVec3| grid.distance(at + axis * step) - grid.distance(at - axis * step);
-    DVec3::new(slope(DVec3::X), slope(DVec3::Y), slope(DVec3::Z)).normalize_or(DVec3::Y)
 }
 
 /// The part of a mesh that is kept, closed by a cone to `end`.
-fn cut(mesh: &Mesh, keeps: impl Fn(Vec3) -> bool, end: Vec3) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+pub(super) fn cut(
+    mesh: &Mesh,
+    keeps: impl Fn(Vec3) -> bool,
+    end: Vec3,
+) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let points: Vec<Vec3> = mesh
         .positions
         .iter()

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, Quat, Vec3};
 use groom::Guides;
-use hair_sim::Strands;
+use hair_sim::{Pose, Strands};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -86,13 +86,29 @@ fn nearest(shapes: &[[Vec3; 4]], strand: usize, guides: &[usize]) -> [(usize, f3
 }
 
 impl Carried {
+    /// The points of each carried strand.
+    pub fn ranges(&self) -> &[Range<usize>] {
+        &self.ranges
+    }
+
+    /// Puts the carried strands where they are at rest, on a head in this pose.
+    pub fn at_rest(&self, head: Pose, points: &mut [Vec3]) {
+        for range in &self.ranges {
+            let rest = &self.rest[range.clone()];
+            for (point, rest) in points[range.clone()].iter_mut().zip(rest) {
+                *point = (head.rotation * rest.as_dvec3() + head.translation).as_vec3();
+            }
+        }
+    }
+
     /// Moves the carried strands: each keeps its place in the frames of its guides, whose links have turned
-    /// as `turns` says (one rotation a link). `keep_out` may then move the points of each but its root.
+    /// as `turns` says (one rotation a link). `keep_out` may then move the points of each, of which it is told the
+    /// first one's place in the scene; that is the root.
     pub fn carry(
         &self,
         points: &mut [Vec3],
         turns: impl Fn(usize) -> Vec<DQuat> + Sync,
-        keep_out: impl Fn(&mut [Vec3]) + Sync,
+        keep_out: impl Fn(usize, &mut [Vec3]) + Sync,
     ) {
         let turned = self.turned(turns);
         let guides: Vec<&[Vec3]> = (self.guides.iter())
@@ -118,7 +134,7 @@ impl Carried {
                         })
                         .sum();
                 }
-                keep_out(&mut moved[1..]);
+                keep_out(range.start, moved);
             });
     }
 
@@ -147,16 +163,11 @@ impl Carried {
     }
 
     /// The carried strands, what carries them, and their part of a list of all points. Strands lie one after the other in it.
-    fn strands_of<'a, 'b>(&'a self, mut list: &'b mut [Vec3]) -> Vec<Strand<'a, 'b>> {
-        let mut from = 0;
+    fn strands_of<'a, 'b>(&'a self, list: &'b mut [Vec3]) -> Vec<Strand<'a, 'b>> {
         let strands = self.ranges.iter().zip(&self.carriers);
         strands
-            .map(|(range, carriers)| {
-                let (_, rest) = std::mem::take(&mut list).split_at_mut(range.start - from);
-                let (own, rest) = rest.split_at_mut(range.len());
-                (list, from) = (rest, range.end);
-                (range, carriers, own)
-            })
+            .zip(parts_of(list, self.ranges.iter()))
+            .map(|((range, carriers), own)| (range, carriers, own))
             .collect()
     }
 
@@ -175,6 +186,21 @@ type Strand<'a, 'b> = (
     &'a [(usize, f32); CARRIERS],
     &'b mut [Vec3],
 );
+
+/// The parts of a list in these ranges, which ascend.
+pub(super) fn parts_of<'a, 'b>(
+    list: &'b mut [Vec3],
+    ranges: impl Iterator<Item = &'a Range<usize>>,
+) -> impl Iterator<Item = &'b mut [Vec3]> {
+    let mut left = (list, 0);
+    ranges.map(move |range| {
+        let (list, from) = std::mem::take(&mut left);
+        let (_, rest) = list.split_at_mut(range.start - from);
+        let (own, rest) = rest.split_at_mut(range.len());
+        left = (rest, range.end);
+        own
+    })
+}
 
 /// The turn of the link at share `u` of a guide.
 fn link_at(links: &[Quat], u: f32) -> Quat {
@@ -204,8 +230,8 @@ mod tests {
             }
         }
         let turns = |guide: usize| vec![DQuat::from_rotation_z(0.1 * guide as f64); 4];
-        let floor = |points: &mut [Vec3]| {
-            for point in points {
+        let floor = |_, points: &mut [Vec3]| {
+            for point in &mut points[1..] {
                 point.y = point.y.max(-0.035);
             }
         };

@@ -7,33 +7,39 @@ mod air;
 mod bodies;
 mod carried;
 mod feel;
+#[cfg(test)]
+mod kept_out;
 mod running;
 mod section;
+mod ties;
 
 pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 
+use crate::bodies::{Gap, clear, gaps};
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::hand::Driver;
-use crate::neck::{pivot, rigid};
+use crate::neck::rigid;
 use crate::placement::Placement;
-use crate::script::HeadPose;
-use crate::skeleton::{Bones, after};
-use bodies::Bodies;
+use crate::posture::Posture;
+use bodies::{Bodies, GAP_M};
 use carried::Carried;
 pub(crate) use feel::ZoneDynamics;
 use feel::{Feel, Strand};
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use hair_io::Mesh;
 #[cfg(feature = "compare")]
 use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
-    Acceleration, DynamicsError, GRAVITY, Params, PointCache, Pose, Roots, Solver, Stats, Strands,
-    Surroundings, Wind,
+    Acceleration, Collider, DynamicsError, GRAVITY, Params, PointCache, Pose, Roots, Solver, Stats,
+    Strands, Surroundings, Wind,
 };
+use rayon::prelude::*;
 use render::Head;
 use running::{Run, Running};
 use std::ops::Range;
+use ties::Ties;
+pub(crate) use ties::turn_of;
 
 /// Steps within a step of the solvers that take some, where the preset says nothing.
 #[cfg(feature = "compare")]
@@ -45,8 +51,9 @@ const MASS_SPRING_SUBSTEPS: u32 = 4;
 const SHORTEST_STEP: f64 = 2e-6;
 /// Parts of a second that times are told in: as fine as needed for the shortest step's accelerations.
 const MOMENTS: f64 = (1_u64 << 44) as f64;
-/// So many steps of hair that is not seen are taken as one,
+/// So many steps of hair that is not seen are taken as one, and of hair that is seen small,
 const UNSEEN_STEPS: i64 = 4;
+const SMALL_STEPS: i64 = 2;
 /// while the head's acceleration is below this, in m/s^2: a long step through a turn of the head would throw hair about.
 const CALM: f64 = 2.0;
 
@@ -58,14 +65,22 @@ struct Part {
     strand: usize,
 }
 
-/// Where a head, its shoulders and the whole figure are at a time. The shoulders follow the head's shift and the whole figure's turn, not the
-/// head's.
-struct Posture<'s> {
-    head: Pose,
-    shoulders: Pose,
-    figure: Pose,
-    /// Of the skeleton that moves it, where one does.
-    bones: Option<Bones<'s>>,
+/// How hair is seen by a live program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Seen {
+    /// Wholly off the picture.
+    Not,
+    /// So small that nobody sees where it is to a step.
+    Small,
+    /// As it is.
+    Well,
+}
+
+/// Whether strands are moved, or it is looked where they would come to.
+#[derive(Clone, Copy)]
+enum Drives {
+    Step,
+    Look,
 }
 
 /// The solver with its strands, and the time it has come to.
@@ -77,6 +92,11 @@ pub(crate) struct Dynamics {
     shape: Vec<Vec3>,
     goal: Vec<Vec3>,
     carried: Carried,
+    /// How far the links of the scene's points are kept from bodies: no farther than they were at the start.
+    gaps: Vec<Gap>,
+    ties: Ties,
+    /// Whether all strands slept in the last step. What is looked at between two steps doesn't count.
+    is_asleep: bool,
     bodies: Bodies,
     head: Head,
     placement: Placement,
@@ -196,13 +216,29 @@ impl Dynamics {
             strand,
         });
         let guides: Vec<Part> = guides.collect();
+        let first_of = |part: &Part| {
+            let strand = chosen.id(part.strand) as usize;
+            (strand, part.points.start - all.point_range(strand).start)
+        };
+        let ties = Ties::new(hair, &guides.iter().map(first_of).collect::<Vec<_>>());
+        if !ties.are_none() && section.solver != SolverChoice::Rods {
+            let solver = section.solver.name();
+            let message = format!(
+                "solver: {solver} has no ties that move with the hair, as zones have with `low_tie`; take rods"
+            );
+            let section = "dynamics";
+            return Err(StageError::Unsupported { section, message });
+        }
         Ok(Self {
+            gaps: Vec::new(),
+            bodies: Bodies::new(mesh, hair.head),
+            ties,
+            is_asleep: false,
             shapes: hair.shapes.clone(),
             shape: all.points().to_vec(),
             goal: Vec::new(),
             carried,
             guides,
-            bodies: Bodies::new(mesh, hair.head),
             strands,
             head: hair.head,
             placement: Placement::default(),
@@ -241,8 +277,8 @@ impl Dynamics {
 
     /// Steps towards `time` (seconds) of a driver for as long as `goes_on` says so, and answers to which time it came: where that is
     /// before `time`, the next call goes on from there. A time between two steps is come to by a shorter step of its own, from which
-    /// nothing goes on: the motion is the same whatever times are looked at. Hair that is not seen comes after in long steps; as soon as
-    /// it is seen, one step takes it to where it should be.
+    /// nothing goes on: the motion is the same whatever times are looked at. Hair that is not seen, or seen small, comes after in long steps; as soon as
+    /// it is seen well, one step takes it to where it should be.
     ///
     /// # Errors
     ///
@@ -251,7 +287,7 @@ impl Dynamics {
         &mut self,
         time: f64,
         driver: Driver,
-        is_seen: bool,
+        seen: Seen,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<f64, StageError> {
         // What the time's own precision, single, can tell from a whole step.
@@ -263,8 +299,12 @@ impl Dynamics {
             self.owed = 0;
             let first = Roots::Head(self.pose_at(self.time_of(0), driver));
             self.strands.restart(first)?;
+            self.ties.restart();
+            self.is_asleep = false;
+            self.gaps = self.gaps_at_start(driver);
         }
         let mut goes_on_to = |done: i64| done < wanted && goes_on();
+        let is_seen = seen == Seen::Well;
         if is_seen {
             let owed = self.owed.min(wanted - self.done);
             if owed > 0 {
@@ -275,12 +315,16 @@ impl Dynamics {
                 self.step(1, driver)?;
             }
         } else {
+            let steps = match seen {
+                Seen::Not => UNSEEN_STEPS,
+                Seen::Small | Seen::Well => SMALL_STEPS,
+            };
             while goes_on_to(self.done) {
                 let is_calm = self.is_calm(driver);
-                if is_calm && wanted - self.done < UNSEEN_STEPS {
+                if is_calm && wanted - self.done < steps {
                     break;
                 }
-                self.step(if is_calm { UNSEEN_STEPS } else { 1 }, driver)?;
+                self.step(if is_calm { steps } else { 1 }, driver)?;
             }
             self.owed = wanted - self.done;
         }
@@ -290,32 +334,91 @@ impl Dynamics {
         if is_seen && is_there && time > shown + slack {
             shown = time;
             let ahead = time - self.time_of(self.done);
-            self.stats = self.drive(time, driver, |strands, scene| {
-                strands.look_ahead(scene, ahead)
-            })?;
+            let ties = self.ties.anchors().to_vec();
+            self.stats = self.drive((time, ahead), driver, Drives::Look)?;
+            self.ties.put_back(ties);
         }
         self.shown = shown;
         Ok(if is_there { time } else { shown })
     }
 
-    /// Writes where it came to into the points of what moves; those of the others are where the head has them.
-    pub fn write(&self, driver: Driver, points: &mut [Vec3]) {
+    /// Writes where it came to into the points of what moves; those of the others are where the head has them. Hair that comes after is on the head
+    /// where that is at `time` (seconds).
+    pub fn write(&self, driver: Driver, time: f64, points: &mut [Vec3]) {
         if self.is_at_start() {
             // All hair is where the head's pose has put it.
             return;
         }
-        let pose = self.pose_at(self.shown, driver);
+        let posture = self.posture_at(self.shown, driver);
+        let colliders = self.colliders_at(self.shown, &posture, driver);
+        let keep_out = |first: usize, points: &mut [Vec3]| {
+            let gap = |i| self.gaps[first + i];
+            clear(points, 1, &colliders, f64::from(GAP_M), gap);
+        };
+        let own = carried::parts_of(points, self.guides.iter().map(|part| &part.points));
+        let guides: Vec<(&Part, &mut [Vec3])> = self.guides.iter().zip(own).collect();
+        guides.into_par_iter().for_each(|(part, points)| {
+            self.write_guide(part, points);
+            keep_out(part.points.start, points);
+        });
+        let turns = |strand| self.strands.turns(strand);
+        self.carried.carry(points, turns, keep_out);
+        if self.owed > 0 {
+            self.carry_on(driver, time, points);
+        }
+    }
+
+    /// Writes the points of a guide as its solver has them.
+    fn write_guide(&self, part: &Part, points: &mut [Vec3]) {
+        for (point, moved) in points.iter_mut().zip(self.strands.points(part.strand)) {
+            *point = moved.as_vec3();
+        }
+    }
+
+    /// How near to bodies hair is at the start.
+    fn gaps_at_start(&self, driver: Driver) -> Vec<Gap> {
+        let start = self.time_of(0);
+        let posture = self.posture_at(start, driver);
+        let colliders = self.colliders_at(start, &posture, driver);
+        let mut points = vec![Vec3::ZERO; self.shape.len()];
         for part in &self.guides {
-            let moved = self.strands.points(part.strand);
-            for (point, moved) in points[part.points.clone()].iter_mut().zip(moved) {
-                *point = moved.as_vec3();
+            self.write_guide(part, &mut points[part.points.clone()]);
+        }
+        self.carried.at_rest(posture.head, &mut points);
+        let parts = self.guides.iter().map(|part| &part.points);
+        let parts: Vec<&Range<usize>> = parts.chain(self.carried.ranges()).collect();
+        let found: Vec<Vec<Gap>> = (parts.par_iter())
+            .map(|range| gaps(&points[(*range).clone()], &colliders, GAP_M))
+            .collect();
+        let mut all = vec![[GAP_M; 4]; points.len()];
+        for (range, found) in parts.iter().zip(found) {
+            all[(*range).clone()].copy_from_slice(&found);
+        }
+        all
+    }
+
+    /// All bodies at a time (seconds), at which the figure stands so.
+    fn colliders_at<'a>(
+        &'a self,
+        time: f64,
+        posture: &Posture<'a>,
+        driver: Driver<'a>,
+    ) -> Vec<Collider<'a>> {
+        self.bodies
+            .colliders(driver.script, [time; 2], [posture; 2])
+    }
+
+    /// Moves what is shown on with the head, to `time` (seconds).
+    fn carry_on(&self, driver: Driver, time: f64, points: &mut [Vec3]) {
+        let [then, now] = [self.shown, time].map(|time| self.pose_at(time, driver));
+        let turn = now.rotation * then.rotation.inverse();
+        let shift = now.translation - turn * then.translation;
+        let parts = self.guides.iter().map(|part| &part.points);
+        for range in parts.chain(self.carried.ranges()) {
+            for point in &mut points[range.clone()] {
+                *point = (turn * point.as_dvec3() + shift).as_vec3();
             }
         }
-        self.carried.carry(
-            points,
-            |strand| self.strands.turns(strand),
-            |points| self.bodies.keep_out(pose, points),
-        );
     }
 
     /// Whether what is shown is the start.
@@ -349,7 +452,7 @@ impl Dynamics {
         let end = self.time_of(self.done + steps);
         // Not the difference of two times, whose last bits hang on when it is.
         let dt = steps as f64 * self.step;
-        self.stats = self.drive(end, driver, |strands, scene| strands.step(scene, dt))?;
+        self.stats = self.drive((end, dt), driver, Drives::Step)?;
         self.done += steps;
         self.taken += 1;
         Ok(())
@@ -372,12 +475,12 @@ impl Dynamics {
         self.carried.turn(rest, normals, turns);
     }
 
-    /// Takes a step from the last one to `end` (seconds), by `step` of the solver.
+    /// Takes a step of `dt` seconds from the last one to `end`, or looks there.
     fn drive(
         &mut self,
-        end: f64,
+        (end, dt): (f64, f64),
         driver: Driver,
-        step: impl Fn(&mut (dyn Running + 'static), &Surroundings) -> Result<Stats, DynamicsError>,
+        drives: Drives,
     ) -> Result<Stats, StageError> {
         let begin = self.time_of(self.done);
         let postures = [begin, end].map(|time| self.posture_at(time, driver));
@@ -400,15 +503,9 @@ impl Dynamics {
                 [-self.step, self.step].map(|by| self.pose_at(time + by, driver));
             Acceleration::between([earlier, pose, later], self.step)
         });
-        let shoulders = [0, 1].map(|i| postures[i].shoulders);
-        let mut colliders = self.bodies.colliders([before, now], shoulders);
-        if let (Some(skeleton), [Some(before), Some(now)]) = (
-            driver.script.skeleton(),
-            [0, 1].map(|i| postures[i].bones.as_ref()),
-        ) {
-            let on_top = [0, 1].map(|i| postures[i].figure);
-            colliders.extend(skeleton.colliders([before, now], on_top));
-        }
+        let colliders =
+            self.bodies
+                .colliders(driver.script, [begin, end], [0, 1].map(|i| &postures[i]));
         let scene = Surroundings {
             roots: Roots::Head(now),
             acceleration: Some(accelerations),
@@ -418,8 +515,29 @@ impl Dynamics {
             streams: &streams,
             colliders: &colliders,
             goal: self.shapes.as_ref().map(|_| &self.goal[..]),
+            anchors: &[],
         };
-        Ok(step(&mut *self.strands, &scene)?)
+        if !self.ties.are_none() {
+            // What sleeps stays in its ties, until its head moves.
+            if self.is_asleep && before == now {
+                self.ties.stay();
+            } else {
+                self.strands.look_ahead(&scene, dt)?;
+                self.ties.aim(&*self.strands, now, &colliders);
+            }
+        }
+        let scene = Surroundings {
+            anchors: self.ties.anchors(),
+            ..scene
+        };
+        Ok(match drives {
+            Drives::Step => {
+                let stats = self.strands.step(&scene, dt)?;
+                self.is_asleep = stats.strands == 0 && stats.asleep > 0;
+                stats
+            }
+            Drives::Look => self.strands.look_ahead(&scene, dt)?,
+        })
     }
 
     /// Takes the goals of the script's own `time` from the key shapes.
@@ -448,41 +566,7 @@ impl Dynamics {
 
     /// Where all that hair is kept out of is.
     fn posture_at<'s>(&self, time: f64, driver: Driver<'s>) -> Posture<'s> {
-        let pose = driver.head_at(time);
-        let skeleton = driver.script.skeleton();
-        let bones = skeleton.map(|skeleton| skeleton.at(driver.script.within(time)));
-        let figure = self.figure_in(pose, bones.as_ref());
-        let (rotation, translation) = rigid(pose, self.head);
-        Posture {
-            head: Pose {
-                rotation,
-                translation,
-            },
-            shoulders: match &bones {
-                Some(bones) => after(bones.shoulders(), figure),
-                None => figure,
-            },
-            figure,
-            bones,
-        }
-    }
-
-    /// How the whole figure is moved by what its skeleton knows nothing of, where it has one.
-    fn figure_in(&self, pose: HeadPose, bones: Option<&Bones>) -> Pose {
-        let mut shift = pose.shift * f64::from(self.head.height_m);
-        if let Some(bones) = bones {
-            shift -= bones.head(self.head).1;
-        }
-        if pose.spin == 0.0 {
-            return Pose {
-                rotation: DQuat::IDENTITY,
-                translation: shift,
-            };
-        }
-        let (rotation, pivot) = (pose.spun(), pivot(self.head).as_dvec3());
-        Pose {
-            rotation,
-            translation: pivot + shift - rotation * pivot,
-        }
+        let script = driver.script;
+        Posture::of(driver.head_at(time), self.head, script, script.within(time))
     }
 }

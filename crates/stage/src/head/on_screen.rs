@@ -1,7 +1,7 @@
 //! Triangles of a mesh on the screen: those that face the eye and those that don't, cut at the near plane.
 
 use crate::painted::MeshPicture;
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec3A};
 use render::{Surface, SurfacePaint, SurfaceTexture, SurfaceVertex};
 use stroke_path::Camera;
 
@@ -37,6 +37,7 @@ pub(super) struct Side {
     pub(super) margin_m: f32,
     /// The layer that paints it, by its place among the frame's.
     pub(super) layer: Option<u32>,
+    pub(super) marks: u32,
 }
 
 impl Side {
@@ -47,6 +48,7 @@ impl Side {
             shadow: color,
             margin_m,
             layer: None,
+            marks: 0,
         }
     }
 }
@@ -69,31 +71,122 @@ impl Extra {
     }
 }
 
+/// Numbers of vertices from here on are corners that cuts have made, until it is known how many others there are.
+const CUT: u32 = 1 << 31;
+
 impl Part<'_> {
     /// Its triangles on the screen, cut at the near plane: a surface for each side that is painted, the front first.
     pub(super) fn seen_by(&self, camera: &Camera) -> impl Iterator<Item = Surface> + use<> {
         let near = camera.near_m();
-        let on =
-            |side: &Option<Side>, facing: f32| side.map(|side| OnScreen::new(side, facing, self));
-        let (mut front, mut back) = (on(&self.front, 1.0), on(&self.back, -1.0));
+        let is_whole = self.corners.iter().all(|corner| corner.view.z >= near);
+        let near = (!is_whole).then_some(near);
+        let [front, back] = self.by_side();
+        let of = |side: &Option<Side>, facing: f32, triangles: Vec<[u32; 3]>| {
+            side.map(|side| self.on_screen(&side, facing, triangles, near, camera))
+        };
+        let (front, back) = (of(&self.front, 1.0, front), of(&self.back, -1.0, back));
+        front.into_iter().chain(back)
+    }
+
+    /// The triangles whose outer side the eye is on, and those of which it sees the other one: of sides that are painted.
+    fn by_side(&self) -> [Vec<[u32; 3]>; 2] {
+        let is_painted = [self.front.is_some(), self.back.is_some()];
+        let mut sides = is_painted.map(|is_painted| match is_painted {
+            // What isn't used isn't touched.
+            true => Vec::with_capacity(self.triangles.len()),
+            false => Vec::new(),
+        });
         for triangle in self.triangles {
-            let seen = triangle.map(|i| self.corners[i as usize]);
-            let side = if is_front(&seen) {
-                &mut front
-            } else {
-                &mut back
-            };
-            let Some(side) = side else {
-                continue;
-            };
-            if seen.iter().all(|corner| corner.view.z >= near) {
-                side.push(*triangle, &seen, self, camera);
-            } else {
-                let extras = triangle.map(|i| self.extra(i as usize));
-                side.push_polygon(&cut(&seen, &extras, near), camera);
+            let is_front = is_front(triangle.map(|i| &self.corners[i as usize]));
+            let side = usize::from(!is_front);
+            if is_painted[side] {
+                sides[side].push(*triangle);
             }
         }
-        front.into_iter().chain(back).map(OnScreen::finish)
+        sides
+    }
+
+    /// Triangles on the screen as a side is painted, cut at the near plane where any may reach over it; only corners that are seen are
+    /// projected. Normals are multiplied by `facing`, so that they face the side that is seen.
+    fn on_screen(
+        &self,
+        side: &Side,
+        facing: f32,
+        mut triangles: Vec<[u32; 3]>,
+        near: Option<f32>,
+        camera: &Camera,
+    ) -> Surface {
+        // Of each corner its vertex, and of each vertex its corner; those that cuts have made come behind them.
+        let mut vertex_of = vec![u32::MAX; self.corners.len()];
+        let mut seen = Vec::with_capacity(self.corners.len().min(3 * triangles.len()));
+        let mut made = Vec::new();
+        let mut enter = |triangle: &mut [u32; 3]| {
+            for corner in triangle {
+                let vertex = &mut vertex_of[*corner as usize];
+                if *vertex == u32::MAX {
+                    *vertex = seen.len() as u32;
+                    seen.push(*corner);
+                }
+                *corner = *vertex;
+            }
+        };
+        match near {
+            None => triangles.iter_mut().for_each(enter),
+            Some(near) => {
+                let all = std::mem::take(&mut triangles);
+                for mut triangle in all {
+                    let corners = triangle.map(|i| self.corners[i as usize]);
+                    if corners.iter().all(|corner| corner.view.z >= near) {
+                        enter(&mut triangle);
+                        triangles.push(triangle);
+                        continue;
+                    }
+                    let extras = triangle.map(|i| self.extra(i as usize));
+                    let first = CUT + made.len() as u32;
+                    made.extend(cut(&corners, &extras, near));
+                    let others = first + 1..CUT + made.len() as u32;
+                    let fan = others.clone().zip(others.skip(1));
+                    triangles.extend(fan.map(|(a, b)| [first, a, b]));
+                }
+                let behind = |vertex: u32| match vertex.checked_sub(CUT) {
+                    Some(made) => seen.len() as u32 + made,
+                    None => vertex,
+                };
+                for triangle in &mut triangles {
+                    *triangle = triangle.map(behind);
+                }
+            }
+        }
+        // Copies of their own, of which nothing is worked out twice.
+        let (camera, corners) = (*camera, self.corners);
+        let vertices = seen.iter().map(|i| corners[*i as usize].project(&camera));
+        let mut vertices: Vec<SurfaceVertex> = vertices.collect();
+        vertices.extend(made.iter().map(|(corner, _)| corner.project(&camera)));
+        let extras = || {
+            let of_seen = seen.iter().map(|i| self.extra(*i as usize));
+            let of_made = made.iter().map(|(_, extra)| *extra);
+            of_seen.chain(of_made)
+        };
+        without_far(Surface {
+            texture: self.picture.map(|(picture, _)| SurfaceTexture {
+                image: picture.image.clone(),
+                repeats: picture.repeats,
+                places: extras().map(|extra| extra.place).collect(),
+                coverage: picture.coverage,
+            }),
+            paint: side.layer.map(|layer| SurfacePaint {
+                layer,
+                normals: extras().map(|extra| facing * extra.normal).collect(),
+                occlusion: extras().map(|extra| extra.occlusion).collect(),
+            }),
+            vertices,
+            triangles,
+            margin_m: side.margin_m,
+            mesh: self.mesh,
+            marks: side.marks,
+            light: side.light,
+            shadow: side.shadow,
+        })
     }
 
     /// What a corner has.
@@ -109,109 +202,23 @@ impl Part<'_> {
     }
 }
 
-/// A side of a part on the screen, in the making.
-struct OnScreen {
-    surface: Surface,
-    /// For each corner of the mesh its vertex: only those that are seen are projected.
-    entered: Vec<u32>,
-    /// What normals are multiplied by, so that they face the side that is seen.
-    facing: f32,
-}
-
-impl OnScreen {
-    fn new(side: Side, facing: f32, part: &Part) -> Self {
-        Self {
-            facing,
-            surface: Surface {
-                texture: part.picture.map(|(picture, _)| SurfaceTexture {
-                    image: picture.image.clone(),
-                    repeats: picture.repeats,
-                    places: Vec::new(),
-                    coverage: picture.coverage,
-                }),
-                vertices: Vec::new(),
-                triangles: Vec::new(),
-                margin_m: side.margin_m,
-                mesh: part.mesh,
-                light: side.light,
-                shadow: side.shadow,
-                paint: side.layer.map(|layer| SurfacePaint {
-                    layer,
-                    normals: Vec::new(),
-                    occlusion: Vec::new(),
-                }),
-            },
-            entered: vec![u32::MAX; part.corners.len()],
-        }
-    }
-
-    /// Adds a triangle of the mesh, whose corners those are.
-    #[inline]
-    fn push(&mut self, mut triangle: [u32; 3], seen: &[Corner; 3], part: &Part, camera: &Camera) {
-        let has_extra = self.surface.texture.is_some() | self.surface.paint.is_some();
-        for (index, corner) in triangle.iter_mut().zip(seen) {
-            let entered = self.entered[*index as usize];
-            *index = if entered == u32::MAX {
-                let new = self.surface.vertices.len() as u32;
-                self.entered[*index as usize] = new;
-                self.surface.vertices.push(corner.project(camera));
-                if has_extra {
-                    self.push_extra(&part.extra(*index as usize));
-                }
-                new
-            } else {
-                entered
-            };
-        }
-        self.surface.triangles.push(triangle);
-    }
-
-    /// Adds what the last vertex has beside its place and tone.
-    fn push_extra(&mut self, extra: &Extra) {
-        if let Some(texture) = &mut self.surface.texture {
-            texture.places.push(extra.place);
-        }
-        if let Some(paint) = &mut self.surface.paint {
-            paint.normals.push(self.facing * extra.normal);
-            paint.occlusion.push(extra.occlusion);
-        }
-    }
-
-    /// Adds what is left of a triangle that was cut.
-    fn push_polygon(&mut self, corners: &[(Corner, Extra)], camera: &Camera) {
-        let first = self.surface.vertices.len() as u32;
-        for (corner, extra) in corners {
-            self.surface.vertices.push(corner.project(camera));
-            self.push_extra(extra);
-        }
-        let others = first + 1..self.surface.vertices.len() as u32;
-        self.surface.triangles.extend(
-            others
-                .clone()
-                .zip(others.skip(1))
-                .map(|(a, b)| [first, a, b]),
-        );
-    }
-
-    /// Without triangles that no picture can mean.
-    fn finish(self) -> Surface {
-        let mut surface = self.surface;
-        if !surface.vertices.iter().all(is_at_hand) {
-            let vertices = &surface.vertices;
-            let is_meant = |triangle: &[u32; 3]| {
-                let mut corners = triangle.iter().map(|i| &vertices[*i as usize]);
-                corners.all(is_at_hand)
-            };
-            surface.triangles.retain(is_meant);
-            // What no triangle uses any more may lie anywhere.
-            for vertex in &mut surface.vertices {
-                if !is_at_hand(vertex) {
-                    vertex.position = Vec2::ZERO;
-                }
+/// A surface without triangles that no picture can mean.
+fn without_far(mut surface: Surface) -> Surface {
+    if !surface.vertices.iter().all(is_at_hand) {
+        let vertices = &surface.vertices;
+        let is_meant = |triangle: &[u32; 3]| {
+            let mut corners = triangle.iter().map(|i| &vertices[*i as usize]);
+            corners.all(is_at_hand)
+        };
+        surface.triangles.retain(is_meant);
+        // What no triangle uses any more may lie anywhere.
+        for vertex in &mut surface.vertices {
+            if !is_at_hand(vertex) {
+                vertex.position = Vec2::ZERO;
             }
         }
-        surface
     }
+    surface
 }
 
 impl Corner {
@@ -236,10 +243,10 @@ const FARTHEST_PX: f32 = 1e8;
 
 /// Whether the eye, at the origin of view space, is on the triangle's outer side.
 #[inline]
-fn is_front([a, b, c]: &[Corner; 3]) -> bool {
+fn is_front([a, b, c]: [&Corner; 3]) -> bool {
     // View space is left-handed (z is depth), so outside triangles wind the other way around.
-    let normal = (b.view - a.view).cross(c.view - a.view);
-    normal.dot(a.view) > 0.0
+    let [a, b, c] = [a, b, c].map(|corner| Vec3A::from(corner.view));
+    (b - a).cross(c - a).dot(a) > 0.0
 }
 
 /// The part of a triangle at depth `near` or beyond: three or four corners.

@@ -11,7 +11,7 @@ use groom::{Cloth, Patch};
 use hair_io::Mesh;
 use rayon::prelude::*;
 use render::{Coverage, Light, Surface};
-use std::iter::{once, repeat};
+use std::iter::once;
 use stroke_path::Camera;
 
 /// What of a head is told apart as a mesh of its own ([`Surface::mesh`]): itself, its clothes, ornaments, then painted meshes.
@@ -52,22 +52,21 @@ pub(crate) fn surfaces(
         false => facing,
     };
     let occlusion = &shade[..];
-    let shade = shade.iter().copied().chain(repeat(0.0));
-    let corners: Vec<Corner> = mesh
-        .positions
-        .iter()
-        .zip(facing)
-        .zip(shade)
-        .map(|((position, facing), shade)| Corner {
-            view: camera.view_from_world(*position),
-            tone: facing.dot(light.seen_from(*position).0) - paint.threshold - shade,
-        })
-        .collect();
-    let bare = match scalp.is_empty() {
-        true => skin,
-        false => bare,
+    let is_flat = !model.is_painted();
+    let corner = |(i, (position, facing)): (usize, (&Vec3, &Vec3))| Corner {
+        view: camera.view_from_world(*position),
+        tone: facing.dot(light.seen_from(*position).0)
+            - paint.threshold
+            - shade.get(i).copied().unwrap_or(0.0),
     };
-    let hull = match !model.is_painted() && paint.width_m > 0.0 {
+    let corners = || -> Vec<Corner> {
+        let all = mesh.positions.iter().zip(facing).enumerate().map(corner);
+        match model.shows_mesh() {
+            true => all.collect(),
+            false => Vec::new(),
+        }
+    };
+    let hull = || match is_flat && paint.width_m > 0.0 {
         true => hull(
             &mesh.positions,
             &mesh.normals,
@@ -77,8 +76,13 @@ pub(crate) fn surfaces(
         ),
         false => Vec::new(),
     };
+    let (corners, hull) = rayon::join(corners, hull);
+    let bare = match scalp.is_empty() {
+        true => skin,
+        false => bare,
+    };
     let inside = Side::flat(paint.shadow, paint.inside_margin_m);
-    let part = |triangles, light, shadow, mesh, layer| Part {
+    let part = |triangles, light, shadow, mesh, layer, marks| Part {
         triangles,
         corners: &corners,
         front: Some(Side {
@@ -86,6 +90,7 @@ pub(crate) fn surfaces(
             shadow,
             margin_m: 0.0,
             layer,
+            marks,
         }),
         back: Some(inside),
         mesh,
@@ -93,21 +98,27 @@ pub(crate) fn surfaces(
         normals: facing,
         occlusion,
     };
-    let skin_layer = layers.of(&[SKIN]);
-    let is_flat = !model.is_painted();
+    let (skin_layer, skin_marks) = (layers.of(&[SKIN]), layers.marks(&[SKIN]));
     let mut parts = Vec::new();
     if is_flat {
-        parts.push(part(bare, paint.light, paint.shadow, 0, skin_layer));
+        parts.push(part(
+            bare,
+            paint.light,
+            paint.shadow,
+            0,
+            skin_layer,
+            skin_marks,
+        ));
     }
     if is_flat && !scalp.is_empty() {
-        parts.push(part(scalp, paint.scalp, paint.scalp, 0, None));
+        parts.push(part(scalp, paint.scalp, paint.scalp, 0, None, skin_marks));
     }
-    let dress_layer = layers.of(&[DRESS]);
+    let (dress_layer, dress_marks) = (layers.of(&[DRESS]), layers.marks(&[DRESS]));
     for (cloth, triangles) in clothes {
         let [light, shadow, _] = paint.of_cloth(*cloth);
         parts.push(Part {
             back: Some(Side::flat(shadow, inside.margin_m)),
-            ..part(triangles, light, shadow, CLOTHES, dress_layer)
+            ..part(triangles, light, shadow, CLOTHES, dress_layer, dress_marks)
         });
     }
     if is_flat && paint.width_m > 0.0 {
@@ -161,6 +172,7 @@ pub(crate) fn surfaces(
             corners: &corners,
             front: Some(Side {
                 layer,
+                marks: layers.marks(&[name_of(patch.part)]),
                 ..Side::flat(paint.of(patch.ink), 0.0)
             }),
             back: None,
@@ -172,6 +184,17 @@ pub(crate) fn surfaces(
         part.seen_by(camera)
     }));
     surfaces
+}
+
+/// What the camera sees of a mesh in its own colours that is no part of a head.
+pub(crate) fn painted(
+    mesh: &PaintedMesh,
+    paint: &HeadPaint,
+    layers: &MeshLayers,
+    camera: &Camera,
+    light: &Light,
+) -> Vec<Surface> {
+    painted_mesh(mesh, MESHES - 1, paint, &[], layers, camera, light)
 }
 
 /// The unit normal of a patch, which is nearly flat.
@@ -192,13 +215,13 @@ fn hull(
     width_m: f32,
     camera: &Camera,
 ) -> Vec<Corner> {
-    let widths = widths.iter().copied().chain(repeat(1.0));
+    let width = |i: usize| widths.get(i).copied().unwrap_or(1.0);
     positions
         .iter()
         .zip(normals)
-        .zip(widths)
-        .map(|((position, normal), width)| Corner {
-            view: camera.view_from_world(*position + *normal * (width_m * width)),
+        .enumerate()
+        .map(|(i, (position, normal))| Corner {
+            view: camera.view_from_world(*position + *normal * (width_m * width(i))),
             tone: 0.0,
         })
         .collect()
@@ -249,6 +272,7 @@ fn painted_mesh(
             false => 0.0,
         },
         layer: layers.of(&mesh.names),
+        marks: layers.marks(&mesh.names),
     };
     let back = match (own.both_sides, section) {
         (true, _) => Some(front),
@@ -269,8 +293,11 @@ fn painted_mesh(
         normals: &mesh.normals,
         occlusion: &[],
     };
-    let mut surfaces: Vec<Surface> = part.seen_by(camera).collect();
-    if width_m > 0.0 && own.has_outline() {
+    let fill = || part.seen_by(camera).collect();
+    let outline = || {
+        if width_m <= 0.0 || !own.has_outline() {
+            return None;
+        }
         let outline = Part {
             corners: &hull(&mesh.positions, &mesh.normals, &[], width_m, camera),
             front: None,
@@ -280,13 +307,15 @@ fn painted_mesh(
                 .filter(|(picture, _)| picture.coverage != Coverage::Ignored),
             ..part
         };
-        surfaces.extend(outline.seen_by(camera));
-    }
+        outline.seen_by(camera).next()
+    };
+    let (mut surfaces, outline): (Vec<Surface>, _) = rayon::join(fill, outline);
+    surfaces.extend(outline);
     surfaces
 }
 
 /// What the hair wears. Hair goes by its depth alone here: what is in a band does not hide it.
-fn worn(
+pub(crate) fn worn(
     ornaments: &Mesh,
     paint: &HeadPaint,
     layers: &MeshLayers,
@@ -310,6 +339,7 @@ fn worn(
             shadow: paint.tie_shadow,
             margin_m: BAND_MARGIN_M,
             layer: layers.of(&[TIES]),
+            marks: layers.marks(&[TIES]),
         }),
         back: None,
         mesh: ORNAMENTS,

@@ -1,6 +1,6 @@
 //! What is seen of heads.
 
-use super::layers::MeshLayers;
+use super::layers::{Clips, MeshLayers};
 use super::*;
 use render::{Light, Surface};
 use stroke_path::{Camera, OrbitView};
@@ -60,7 +60,7 @@ fn the_outside_is_lit_and_the_inside_is_in_shadow() {
         &plate().into(),
         &PAINT,
         &[],
-        &MeshLayers::new(&[], 0),
+        &MeshLayers::new(&[], 0, &Clips::default()),
         &camera(0.0),
         &light,
     );
@@ -77,7 +77,7 @@ fn the_outside_is_lit_and_the_inside_is_in_shadow() {
         &plate().into(),
         &PAINT,
         &[],
-        &MeshLayers::new(&[], 0),
+        &MeshLayers::new(&[], 0, &Clips::default()),
         &camera(180.0),
         &light,
     );
@@ -95,7 +95,7 @@ fn shade_is_dark_in_full_light() {
         &model,
         &PAINT,
         &[],
-        &MeshLayers::new(&[], 0),
+        &MeshLayers::new(&[], 0, &Clips::default()),
         &camera(0.0),
         &Light::Direction(Vec3::Z),
     );
@@ -124,7 +124,7 @@ fn clothes_have_colours_of_their_own() {
         &sailor,
         &PAINT,
         &[],
-        &MeshLayers::new(&[], 0),
+        &MeshLayers::new(&[], 0, &Clips::default()),
         &bust_camera(),
         &Light::Direction(Vec3::Z),
     );
@@ -152,7 +152,7 @@ fn the_side_of_the_nose_is_dark_where_light_is_away() {
             &figure,
             &PAINT,
             &[],
-            &MeshLayers::new(&[], 0),
+            &MeshLayers::new(&[], 0, &Clips::default()),
             &bust_camera(),
             &light,
         );
@@ -189,7 +189,7 @@ fn triangles_are_cut_at_the_near_plane() {
         &mesh.into(),
         &PAINT,
         &[],
-        &MeshLayers::new(&[], 0),
+        &MeshLayers::new(&[], 0, &Clips::default()),
         &camera(0.0),
         &Light::Direction(Vec3::Z),
     );

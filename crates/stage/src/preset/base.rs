@@ -149,6 +149,9 @@ impl<'r> Preset<'r> {
             let files = [&mut mesh.section.file, &mut mesh.section.texture];
             files.into_iter().flatten().for_each(moved);
         }
+        for body in &mut self.bodies {
+            body.section.file.iter_mut().for_each(moved);
+        }
         for object in &mut self.objects {
             object.section.preset.as_mut().map(moved);
         }

@@ -1,29 +1,37 @@
 //! The preset's script of motion, with what it names.
 
 use super::{Below, Bone, MotionScript, parse};
+use crate::bodies::{self, NamedBody};
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
 use crate::load::chosen;
 use crate::preset::Preset;
 use crate::shapes;
+use effects::preset::{PresetError, PresetErrors};
 use hair_io::BoneMotion;
-use std::path::Path;
+use hair_io::orient::Orientation;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-/// What moves head, wind and hair; the hair is given its key shapes.
+/// What moves head, wind, bodies and hair; the hair is given its key shapes. Meshes of bodies lie as `orientation` has it.
 pub(crate) fn load(
     preset: &Preset,
     files: &Files,
     hair: &mut HairModel,
     head: Option<&HeadModel>,
+    orientation: &Orientation,
 ) -> Result<MotionScript, StageError> {
     let own = preset.sections.motion.file.as_ref();
     let mut script = MotionScript::default();
+    let mut folder = PathBuf::new();
     if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
         let text = files.read_text(&path)?;
         script = parse(&path.display().to_string(), &text)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        hair.shapes = shapes::load(preset, files, &script, folder, hair, head)?;
+        path.parent()
+            .unwrap_or(Path::new(""))
+            .clone_into(&mut folder);
+        hair.shapes = shapes::load(preset, files, &script, &folder, hair, head)?;
     }
     let section = &preset.sections.motion;
     if let Some(name) = &section.gltf {
@@ -40,5 +48,34 @@ pub(crate) fn load(
     if let Some(skeleton) = head.and_then(|head| head.skeleton.as_deref()) {
         script.below = Some(Below::skeleton(skeleton, hair));
     }
+    let in_preset = preset
+        .bodies
+        .iter()
+        .map(|body| (body, files.preset_folder.as_path()));
+    let in_script = script
+        .named_bodies
+        .iter()
+        .map(|body| (body, folder.as_path()));
+    let all: Vec<(&NamedBody, &Path)> = in_preset.chain(in_script).collect();
+    let bodies = bodies::load(&all, &script.body_keys, hair.head, orientation)?;
+    script.bodies = bodies.into_iter().map(Arc::new).collect();
+    check_loop(&script)?;
     Ok(script)
+}
+
+/// Bodies of a script that goes round must, too.
+fn check_loop(script: &MotionScript) -> Result<(), PresetErrors> {
+    let Some(period) = script.period.filter(|_| script.closes) else {
+        return Ok(());
+    };
+    let open = |body: &&Arc<bodies::Body>| !body.is_alike(0.0, period);
+    let mistake = |body: &Arc<bodies::Body>| -> Option<PresetError> {
+        let keys = script.body_keys.iter();
+        let key = keys
+            .rev()
+            .find(|key| body.section.name.as_deref() == Some(key.body()))?;
+        Some(key.open(period))
+    };
+    let open = script.bodies.iter().filter(open);
+    PresetErrors::report(open.filter_map(mistake).collect())
 }

@@ -11,14 +11,16 @@ pub(crate) use bone::{Below, Bone};
 pub(crate) use load::load;
 pub use parse::MOTION_PARTS;
 pub(crate) use parse::parse;
-pub(crate) use pose::HeadPose;
+pub(crate) use pose::{HeadPose, turned};
 
+use crate::bodies::{Body, NamedBody, NamedKey};
 use crate::hair::HairModel;
 use crate::skeleton::Skeleton;
 use effects::choices;
 use effects::preset::Place;
 use glam::{DQuat, DVec3};
 use hair_sim::key_weights;
+use std::sync::Arc;
 use stroke_path::sin_cos_degrees;
 
 /// A script of motion.
@@ -42,6 +44,11 @@ pub(crate) struct MotionScript {
     pub has_wake: bool,
     /// Whether hair comes back to where it was when the script starts again; it has a period then.
     pub closes: bool,
+    /// Bodies that the script itself lists, and the keys of those and of the preset's, as they are written.
+    pub named_bodies: Vec<NamedBody>,
+    pub body_keys: Vec<NamedKey>,
+    /// All bodies that hair is kept out of beside head and shoulders: the preset's and the script's.
+    pub bodies: Vec<Arc<Body>>,
 }
 
 /// Where the head is at a time.
@@ -152,7 +159,8 @@ impl MotionScript {
     /// Whether nothing moves.
     pub fn is_still(&self) -> bool {
         let head_is = self.keys.is_empty() && self.moves.is_empty() && self.below.is_none();
-        head_is && self.winds.is_empty() && self.shapes.is_empty()
+        let bodies_are = self.bodies.iter().all(|body| !body.moves());
+        head_is && self.winds.is_empty() && self.shapes.is_empty() && bodies_are
     }
 
     /// The head's pose at `time` (seconds).

@@ -1,6 +1,7 @@
 //! Scripts of motion as text.
 
 use super::{HeadPose, Key, KeyShape, MotionScript, Move, MoveKind, Wind, WindKind};
+use crate::bodies::{BODIES, BodyKeySection, NamedBody, NamedKey};
 use crate::part::FilePart;
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::section;
@@ -129,7 +130,7 @@ pub const MOTION_PARTS: &[FilePart] = &[
     FilePart {
         name: "script",
         doc: "How head, wind and hair move, a file of its own: NAME.motion.ron.",
-        example: "(version: 1, moves: [...], keys: [...], winds: [...], shapes: [...])",
+        example: "(version: 1, moves: [...], keys: [...], winds: [...], shapes: [...], bodies: [...], body_keys: [...])",
         table: ScriptFields::TABLE,
         places: &[],
     },
@@ -161,7 +162,18 @@ pub const MOTION_PARTS: &[FilePart] = &[
         table: ShapeFields::TABLE,
         places: &[],
     },
+    BODIES,
+    FilePart {
+        name: "body_keys",
+        doc: "Keyframes of bodies, those of this script and of the preset's, each joined by a spline.",
+        example: "body_keys: [(body: \"ball\", time: 0), (body: \"ball\", time: 1, at: (0, 0, -2)), ...]",
+        table: BodyKeySection::TABLE,
+        places: &[],
+    },
 ];
+
+/// What of a script is a list.
+const LISTS: [&str; 6] = ["keys", "moves", "winds", "shapes", "bodies", "body_keys"];
 
 /// Reads the script `text`, which messages call `file`.
 ///
@@ -174,7 +186,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
     reader.report()?;
     let (lists, plain): (Vec<Field>, Vec<Field>) = fields
         .into_iter()
-        .partition(|field| ["keys", "moves", "winds", "shapes"].contains(&field.name));
+        .partition(|field| LISTS.contains(&field.name));
     if plain.iter().all(|field| field.name != "version") {
         reader.error(
             text,
@@ -190,8 +202,13 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
         ..MotionScript::default()
     };
     for list in lists {
+        if list.name == "bodies" {
+            script.named_bodies = NamedBody::read_list(&mut reader, list.value);
+            continue;
+        }
         for item in reader.list(list.value, list.name) {
             match list.name {
+                "body_keys" => script.body_keys.push(NamedKey::read(&mut reader, item)),
                 "keys" => {
                     let key = key(&reader.section(item, "a key"));
                     if script.keys.last().is_some_and(|last| last.time >= key.time) {

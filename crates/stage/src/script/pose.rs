@@ -55,6 +55,15 @@ impl HeadPose {
     }
 }
 
+/// A turn in degrees: to the left, up, towards the left shoulder; in this order from the outermost. A unit quaternion.
+pub(crate) fn turned(turn: DVec3) -> DQuat {
+    let pose = HeadPose {
+        turn,
+        ..HeadPose::REST
+    };
+    pose.rotation(1.0)
+}
+
 /// A share of a rotation, 0 to 1: along the chord, which needs no sine.
 fn part_of(rotation: DQuat, share: f64) -> DQuat {
     if rotation == DQuat::IDENTITY || share == 1.0 {

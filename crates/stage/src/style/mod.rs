@@ -32,6 +32,8 @@ section! {
         undercoat: bool = flag(true),
         /// How high the undercoat stands above the skin at the whorl: roots sink into it, so that the crown is no valley.
         cap: f32 = number(0.05, 0.0..=0.3).unit("head heights"),
+        /// Points of hair that hangs without curls: more bend in smaller bows, lie closer on shoulders and other bodies, and take the simulation longer.
+        points: u32 = whole(10, 10..=160),
         /// How many broad clumps the undercoat is made of, 6 at least; 0: rings of narrow ones, 72 in all.
         coat: u32 = whole(0, 0..=200),
     }
@@ -168,7 +170,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Written, PresetErrors> {
             zone,
             dynamics: moved,
             colors: own,
-        } = zone::zone(&mut reader, item);
+        } = zone::zone(&mut reader, item, top.points);
         dynamics.push(moved);
         colors.push(own);
         if style.zones.iter().any(|other| other.name == zone.name) {

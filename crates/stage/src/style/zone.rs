@@ -36,6 +36,8 @@ choices! {
         Scrunchie = "scrunchie",
         /// A band with a bow on it.
         Bow = "bow",
+        /// A bar across the hair, as a pin.
+        Clip = "clip",
     }
 }
 
@@ -127,6 +129,10 @@ section! {
         tie: f32 = number(0.0, 0.0..=1.0).unit("head heights"),
         /// What the tie is.
         tie_kind: TieChoice = TieChoice::Ring.or_another(),
+        /// Where along its hanging length the zone's hair is tied once more, 0 root to 1 tip, and held together there as it moves; 0: nowhere.
+        low_tie: f32 = number(0.0, 0.0..=1.0),
+        /// Radius of that tie, which moves with the hair.
+        low_tie_size: f32 = number(0.05, 0.001..=1.0).unit("head heights"),
         /// Radius of a clump at its full size; 0 takes it from `overlap`.
         size: f32 = number(0.0, 0.0..=200.0).unit("1/300 head height"),
         /// How many times the widths of a row's clumps cover its length.
@@ -180,8 +186,8 @@ pub(super) struct ReadZone {
     pub colors: [Vec3; 2],
 }
 
-/// Reads one zone.
-pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> ReadZone {
+/// Reads one zone of a style whose hanging hair has so many points.
+pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str, points: u32) -> ReadZone {
     let fields = reader.fields(item, "a zone");
     let (places, plain): (Vec<Field>, Vec<Field>) = fields
         .into_iter()
@@ -219,12 +225,12 @@ pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str) -> ReadZone {
     ReadZone {
         dynamics: (dynamics != ZoneDynamics::default()).then_some(dynamics),
         colors: [fields.color, fields.tip_color].map(or_none),
-        zone: as_grown(fields, roots.unwrap_or(Line::Whorl), tips),
+        zone: as_grown(fields, roots.unwrap_or(Line::Whorl), tips, points),
     }
 }
 
 /// The zone as it is grown.
-fn as_grown(fields: ZoneFields, roots: Line, tips: Option<Line>) -> Zone {
+fn as_grown(fields: ZoneFields, roots: Line, tips: Option<Line>, points: u32) -> Zone {
     Zone {
         name: fields.name.unwrap_or_default(),
         form: match fields.form {
@@ -246,6 +252,7 @@ fn as_grown(fields: ZoneFields, roots: Line, tips: Option<Line>) -> Zone {
         lift_variation: fields.lift_variation,
         held: fields.held,
         hang: fields.hang,
+        points,
         length_variation: fields.length_variation,
         weight: fields.weight,
         spread: fields.spread,
@@ -261,7 +268,10 @@ fn as_grown(fields: ZoneFields, roots: Line, tips: Option<Line>) -> Zone {
             TieChoice::Band => TieKind::Band,
             TieChoice::Scrunchie => TieKind::Scrunchie,
             TieChoice::Bow => TieKind::Bow,
+            TieChoice::Clip => TieKind::Clip,
         },
+        low_tie: fields.low_tie,
+        low_tie_size: fields.low_tie_size,
         size: Some(fields.size).filter(|size| *size > 0.0),
         overlap: fields.overlap,
         mixed_sizes: fields.mixed_sizes,

@@ -5,8 +5,8 @@ use super::{Drawn, Facts, Look, Problem, Times, Wish};
 use effects::Registry;
 use effects::preset::PresetErrors;
 use stage::{
-    AlphaChoice, CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections, StageError,
-    Textures,
+    AlphaChoice, BodySection, CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections,
+    StageError, Textures,
 };
 use std::fs;
 use std::path::PathBuf;
@@ -41,8 +41,11 @@ struct From {
     has_objects: bool,
     /// Of each mesh which it is: how it is painted is the look's.
     meshes: Vec<([Option<String>; 4], AlphaChoice)>,
+    bodies: Vec<BodySection>,
     /// Those that layers name, which must be the hair's.
     zones: Vec<String>,
+    /// The names of lines and of what they are of, and those that layers draw.
+    lines: Vec<[Option<String>; 2]>,
     texts: Vec<(PathBuf, Arc<str>)>,
     files: Vec<(PathBuf, Option<(u64, SystemTime)>)>,
 }
@@ -230,8 +233,19 @@ impl From {
                     (names.map(Option::clone), mesh.alpha)
                 })
                 .collect(),
+            bodies: (preset.bodies.iter())
+                .map(|body| body.section.clone())
+                .collect(),
             zones: (preset.layers.iter())
                 .filter_map(|layer| layer.zones.clone())
+                .collect(),
+            lines: (preset.lines.iter())
+                .map(|lines| [&lines.section.name, &lines.section.of].map(Option::clone))
+                .chain(
+                    (preset.layers.iter())
+                        .filter(|layer| layer.effect.is_for_lines())
+                        .map(|layer| [None, layer.on.clone()]),
+                )
                 .collect(),
             texts: (look.texts.iter())
                 .filter(|(path, _)| named.contains(path))

@@ -368,7 +368,7 @@ impl<'a> Found<'a> {
 /// Whether a new layer can't have a name: it is another layer's, or a section's.
 fn is_taken(name: &str, names: &BTreeSet<String>) -> bool {
     names.contains(name)
-        || ["layers", "meshes", "passes", "objects"].contains(&name)
+        || ["layers", "meshes", "lines", "passes", "objects"].contains(&name)
         || Preset::TOP.iter().any(|param| param.name == name)
         || Sections::ALL.iter().any(|(section, ..)| *section == name)
 }
@@ -421,6 +421,8 @@ fn new_layer(effect: &dyn AnyEffect, names: &BTreeSet<String>) -> String {
     }
     if effect.is_for_meshes() {
         text += ", on: \"*\"";
+    } else if effect.is_for_lines() {
+        text += ", on: \"rim\"";
     }
     text + ")"
 }

@@ -10,7 +10,7 @@ use crate::inherited::Inherited;
 use effects::preset::edit;
 use effects::{Param, ParamKind, Value};
 use eframe::egui::{RichText, Ui};
-use stage::{FilePart, MESHES, ObjectSection, PASSES, Preset, Sections};
+use stage::{BODIES, FilePart, LINES, MESHES, ObjectSection, PASSES, Preset, Sections};
 
 /// The name of what stands in a preset beside its sections: its version and seed.
 pub const PRESET: &str = "preset";
@@ -28,6 +28,8 @@ pub fn look(ui: &mut Ui, text: &str, inherited: &Inherited, search: &str, edits:
         section(ui, text, name, inherited, search, edits);
     }
     meshes(ui, text, search, edits);
+    lines(ui, text, search, edits);
+    bodies(ui, text, search, edits);
     passes(ui, text, search, edits);
     objects(ui, text, search, edits);
 }
@@ -68,6 +70,37 @@ fn meshes(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
         title: &title,
     };
     list(ui, text, &MESHES, &shown, search, edits);
+}
+
+/// The lines of meshes of the preset `text`, each list with its name.
+fn lines(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
+    let title = |(index, item): (usize, &&str)| {
+        let name = edit::get(item, &[edit::Step::Field("name")]).unwrap_or("?");
+        format!("{}: {}", index + 1, name.trim_matches('"'))
+    };
+    let shown = Shown {
+        noun: "lines",
+        needed: &["name"],
+        new: "(name: \"rim\")",
+        title: &title,
+    };
+    list(ui, text, &LINES, &shown, search, edits);
+}
+
+/// The bodies of the preset or motion script `text`, each with its name or shape.
+pub(super) fn bodies(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
+    let title = |(index, item): (usize, &&str)| {
+        let field = |name: &str| edit::get(item, &[edit::Step::Field(name)]);
+        let name = field("name").or_else(|| field("shape")).unwrap_or("sphere");
+        format!("{}: {}", index + 1, name.trim_matches('"'))
+    };
+    let shown = Shown {
+        noun: "body",
+        needed: &[],
+        new: "(shape: sphere, at: (0, 0, 1))",
+        title: &title,
+    };
+    list(ui, text, &BODIES, &shown, search, edits);
 }
 
 /// How a list is shown.
@@ -141,7 +174,7 @@ pub fn section(
     if name == PRESET {
         let sections = Sections::ALL.iter().map(|(name, ..)| *name);
         let others: Vec<&str> = sections
-            .chain(["layers", "meshes", "passes", "objects"])
+            .chain(["layers", "meshes", "lines", "bodies", "passes", "objects"])
             .collect();
         form = form.without(&others).needed(&["version"]);
     }

@@ -2,8 +2,8 @@
 
 use super::fold::fold;
 use super::items::Change;
-use super::look::about;
-use super::parts::{Asked, Parts, items_of, number_of, text_of, value_of, with};
+use super::look::{about, bodies};
+use super::parts::{Asked, Parts, items_of, number_of, quoted, text_of, value_of, with};
 use crate::controls::{Form, Search};
 use crate::edit::{Edit, Place};
 use effects::preset::edit::{self, Step};
@@ -15,9 +15,9 @@ use stage::{FilePart, MOTION_PARTS};
 const LEAST_GAP: f32 = 0.001;
 
 /// Shows the motion script `text`.
-pub fn motion_script(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
-    let search = Search::new(search);
-    let [top, moves, keys, winds, shapes] = MOTION_PARTS else {
+pub fn motion_script(ui: &mut Ui, text: &str, searched: &str, edits: &mut Vec<Edit>) {
+    let search = Search::new(searched);
+    let [top, moves, keys, winds, shapes, _, body_keys] = MOTION_PARTS else {
         return;
     };
     top_fields(ui, text, top, &search, edits);
@@ -25,6 +25,75 @@ pub fn motion_script(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit
     timed_list(ui, text, keys, "key", &search, edits);
     plain_list(ui, text, winds, "wind", "(speed: 4)", &search, edits);
     timed_list(ui, text, shapes, "shape", &search, edits);
+    bodies(ui, text, searched, edits);
+    body_key_list(ui, text, body_keys, &search, edits);
+}
+
+/// The keys of bodies: those of one body ascend, whatever lies between them.
+fn body_key_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: &mut Vec<Edit>) {
+    let items = items_of(text, part.name);
+    let body = |item: &str| text_of(item, "body").unwrap_or_default();
+    let title = |(index, item): (usize, &&str)| {
+        let time = number_of(item, part.table, "time");
+        format!("{}: {} at {time} s", index + 1, body(item))
+    };
+    let parts = Parts {
+        part,
+        noun: "body key",
+        titles: items.iter().enumerate().map(title).collect(),
+        fields: &[],
+        needed: &["body"],
+        refusal: &|_, _, _| None,
+        is_movable: false,
+        may_remove: true,
+        may_add: true,
+    };
+    let table = |index: usize| {
+        let name = body(items[index]);
+        let of_body = (0..items.len()).filter(|other| body(items[*other]) == name);
+        let of_body: Vec<usize> = of_body.collect();
+        let times: Vec<f32> = (of_body.iter())
+            .map(|other| number_of(items[*other], part.table, "time"))
+            .collect();
+        let own = of_body
+            .iter()
+            .position(|other| *other == index)
+            .unwrap_or(0);
+        // Where a body is moved to needs no file.
+        let mut table = table_between(part.table, items[index], &times, own);
+        let at = part.table.iter().filter(|param| param.name == "at");
+        if table.iter().all(|param| param.name != "at") {
+            table.extend(at);
+        }
+        table
+    };
+    let place = parts.place();
+    let asked = parts.show(ui, text, search, table, edits);
+    let later = |item: &str| {
+        let name = body(item);
+        let own = items.iter().filter(|other| body(other) == name);
+        let times = own.map(|other| number_of(other, part.table, "time"));
+        rounded(times.fold(0.0, f32::max) + 0.5)
+    };
+    match asked {
+        None | Some(Asked::Of(Change::Move(..))) => {}
+        Some(Asked::Add) => {
+            let new = match items.last() {
+                Some(last) => with(last, "time", &later(last).to_string()),
+                None => {
+                    let bodies = items_of(text, "bodies");
+                    let name = bodies.iter().find_map(|body| text_of(body, "name"));
+                    format!("(body: {})", quoted(&name.unwrap_or("ball".to_owned())))
+                }
+            };
+            edits.push(parts.add(text, &new));
+        }
+        Some(Asked::Of(Change::Duplicate(index))) => {
+            let copy = with(items[index], "time", &later(items[index]).to_string());
+            edits.push(Edit::Insert(place, items.len(), copy));
+        }
+        Some(Asked::Of(Change::Remove(index))) => edits.push(Edit::Remove(place.item(index))),
+    }
 }
 
 fn top_fields(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: &mut Vec<Edit>) {

@@ -102,8 +102,9 @@ const LOOK: &str = r#"(
 )"#;
 
 /// Mistakes that need two parameters to be made: each by itself is right.
-const BETWEEN: [&str; 7] = [
+const BETWEEN: [&str; 8] = [
     "it is a frame's",
+    "`reach` is of strokes that are drawn on something",
     "solver:",
     "leave it out",
     "step: expected 0",

@@ -4,7 +4,9 @@ use crate::pane::{Kind, Pane, names, open_all};
 use effects::Param;
 use effects::preset::{LAYER, may_say};
 use egui_kittest::Harness;
-use stage::{MESHES, MOTION_PARTS, ObjectSection, PASSES, Preset, STYLE_PARTS, Sections};
+use stage::{
+    BODIES, LINES, MESHES, MOTION_PARTS, ObjectSection, PASSES, Preset, STYLE_PARTS, Sections,
+};
 use std::path::{Path, PathBuf};
 
 fn presets() -> PathBuf {
@@ -47,6 +49,13 @@ fn every_section_is_there() {
     let meshes = "(version: 1, layers: [], meshes: [(file: \"eyes.obj\")])";
     let names_of_meshes = names(&opened(Kind::Look, meshes, 300.0));
     has_all(&names_of_meshes, "mesh 1: eyes.obj", MESHES.table, &[]);
+    let lines = "(version: 1, layers: [], lines: [(name: \"rim\")])";
+    let names_of_lines = names(&opened(Kind::Look, lines, 300.0));
+    has_all(&names_of_lines, "lines 1: rim", LINES.table, &[]);
+    let bodies = "(version: 1, layers: [], bodies: [(name: \"ball\"), (shape: capsule)])";
+    let names_of_bodies = names(&opened(Kind::Look, bodies, 300.0));
+    has_all(&names_of_bodies, "body 1: ball", BODIES.table, &[]);
+    has_all(&names_of_bodies, "body 2: capsule", BODIES.table, &[]);
     let objects = "(version: 1, objects: [(preset: \"a.ron\"), (preset: \"b.ron\")])";
     let harness = opened(Kind::Look, objects, 300.0);
     let names = names(&harness);
@@ -94,7 +103,8 @@ fn every_part_of_styles_is_there() {
 
 #[test]
 fn every_part_of_scripts_is_there() {
-    let text = "(version: 1, moves: [()], keys: [()], winds: [()], shapes: [(hair: \"a.tfx\")])";
+    let text = "(version: 1, moves: [()], keys: [()], winds: [()], shapes: [(hair: \"a.tfx\")], \
+                bodies: [(name: \"ball\")], body_keys: [(body: \"ball\")])";
     let names = names(&opened(Kind::Motion, text, 300.0));
     let owners = [
         "script",
@@ -102,7 +112,10 @@ fn every_part_of_scripts_is_there() {
         "key 1: 0 s",
         "wind 1: at 0 s",
         "shape 1: 0 s",
+        "body 1: ball",
+        "body key 1: ball at 0 s",
     ];
+    assert_eq!(owners.len(), MOTION_PARTS.len());
     for (part, owner) in MOTION_PARTS.iter().zip(owners) {
         has_all(&names, owner, part.table, &[]);
     }

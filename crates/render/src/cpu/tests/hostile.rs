@@ -288,6 +288,7 @@ fn any_surface() -> impl Strategy<Value = Surface> {
             margin_m: if triangles.len() == 1 { f32::MAX } else { 0.0 },
             mesh: 0,
             paint: None,
+            marks: 0,
             vertices,
             triangles,
             light: RED,

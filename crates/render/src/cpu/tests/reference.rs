@@ -1,6 +1,6 @@
 //! The rules of [`crate::drawing`] written down sample by sample, without tiles, planes or clipping.
 
-use super::super::segment::strokes_in_order;
+use super::super::segment::{Kind, strokes_in_order};
 use crate::drawing::{Brush, Disc, Drawing, Order, Run};
 use crate::picture::Picture;
 use crate::samples::sample_positions;
@@ -54,7 +54,7 @@ pub(super) fn draw(drawing: &Drawing, samples: u32) -> Picture {
 }
 
 fn sample(drawing: &Drawing, position: DVec2) -> Option<[f32; 3]> {
-    let strokes = strokes_in_order(drawing);
+    let strokes = strokes_in_order(drawing, Kind::Ordered);
     let joints = drawing.clump.len();
     // (inverse depth, place of the stroke, colour)
     let mut best: Option<(f32, usize, [f32; 3])> = None;

@@ -201,6 +201,7 @@ fn apart(params: &Params, mutual: Option<Mutual>, ball: bool, rate: u32) -> f64 
             },
             before: head(step),
             now: head(step + 1),
+            was: None,
         }];
         let surroundings = Surroundings {
             roots: Roots::Head(head(step + 1)),

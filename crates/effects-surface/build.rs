@@ -1,0 +1,5 @@
+//! Translates the effects.
+
+fn main() {
+    effects_build::effect("src/line_ink.wgsl");
+}

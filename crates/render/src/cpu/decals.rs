@@ -1,0 +1,430 @@
+//! Decals of a tile ([`Decal`]): strokes that are drawn on what is seen without them. Once all else is there, each sample keeps the highest one
+//! that fits it; no decal hides another's way, so that they come in any order and none pops.
+
+use super::bin::{Bins, cells as cells_across};
+use super::segment::{Kind, Segment, Segments, Stroke, strokes_in_order};
+use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
+use super::strand::TileContext;
+use super::stroke::Placed;
+use super::tile::{
+    self, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, Plane, ROWS, Stack,
+    Target, WIDTH, add, any, both, cells, columns, id_plane, is_empty, overwrite, plane, select,
+    without,
+};
+use super::{Frame, Worker};
+use crate::drawing::{Decal, Drawing, Order};
+use std::cmp::Reverse;
+use std::ops::Range;
+
+/// What a surface in the shadow of hair is told as how much it lies in shadow: whatever the light, and wherever it turns to shade.
+const IN_SHADOW: f32 = 3.0;
+
+/// A drawing's decals taken apart. Empty where there are none.
+#[derive(Default)]
+pub(super) struct DecalParts {
+    strokes: Vec<Stroke>,
+    segments: Segments,
+    /// Whether one is drawn on surfaces, so that samples must know theirs.
+    pub(super) on_surfaces: bool,
+    /// Whether hair must tell which strand it is by more than its order.
+    pub(super) asks_for_strands: bool,
+}
+
+impl DecalParts {
+    pub(super) fn is_empty(&self) -> bool {
+        self.strokes.is_empty()
+    }
+
+    /// Takes those of a checked drawing in place of what was there.
+    pub(super) fn collect(&mut self, drawing: &Drawing, tile_height: usize) {
+        let decals = &drawing.decals;
+        self.on_surfaces = decals.iter().any(|decal| decal.marks != 0);
+        let is_on_strands = |decal: &Decal| decal.is_shadow && decal.on_hair;
+        self.asks_for_strands = drawing.order == Order::Shifted && decals.iter().any(is_on_strands);
+        self.strokes.clear();
+        if !decals.is_empty() {
+            self.strokes = strokes_in_order(drawing, Kind::Decals);
+            let kind = Kind::Decals;
+            (self.segments).collect(drawing, &self.strokes, kind, tile_height);
+        }
+    }
+}
+
+/// A thread's memory.
+#[derive(Default)]
+pub(super) struct Decals {
+    columns: Vec<(u32, Range<usize>)>,
+    of_tiles: Bins,
+    /// A tile's segments, those of the highest stroke first, then of the lowest strand.
+    order: Vec<u32>,
+    planes: Option<Planes>,
+    /// Samples that have a decal's colour, and surfaces' samples that lie in a shadow.
+    replaced: Option<Box<Mask>>,
+    shaded: Option<Box<Mask>>,
+}
+
+/// What samples of a tile show, and the decals that fit them so far.
+struct Planes {
+    /// Marks of the surface that is seen; 0 where hair is.
+    marks: IdPlane,
+    ratio: Plane,
+    color: [Plane; 3],
+}
+
+/// What the samples of a tile show that are no decals.
+struct Seen {
+    hair: Mask,
+    surfaces: Mask,
+}
+
+impl Decals {
+    /// The samples of a cell that a decal colours, and those of surfaces in a shadow. As they were decided last.
+    #[inline(always)]
+    pub(super) fn lanes(&self, cell: Cell) -> [LaneMask; 2] {
+        [&self.replaced, &self.shaded].map(|mask| match mask {
+            Some(mask) => cell.lanes(mask),
+            None => [0; LANES],
+        })
+    }
+}
+
+impl Worker {
+    /// Finds the decals of each of the band's tiles.
+    #[inline(always)]
+    pub(super) fn sort_decals_into_tiles(&mut self, frame: &Frame, band: usize) {
+        let segments = &frame.parts.decals.segments;
+        let Decals {
+            columns, of_tiles, ..
+        } = &mut self.decals;
+        columns.clear();
+        segments.of_band(band).for_each(|i| {
+            let own = segments.list()[i as usize].bounds.x;
+            columns.push((i, cells_across(own, WIDTH)));
+        });
+        let tiles = (frame.drawing.size[0] as usize).div_ceil(WIDTH);
+        of_tiles.fill(tiles, columns.iter().cloned());
+    }
+
+    /// Finds which decals the samples of a tile show, once all else is drawn there.
+    #[inline(always)] // compiled for each set of `Instructions`
+    pub(super) fn decide_decals(&mut self, frame: &Frame, scene: &TileContext, tile: usize) {
+        let Self {
+            decals,
+            target,
+            shown,
+            ..
+        } = self;
+        (decals.replaced, decals.shaded) = (None, None);
+        let parts = &frame.parts.decals;
+        let of_tile = decals.of_tiles.bin(tile);
+        if of_tile.is_empty() {
+            return;
+        }
+        let list = parts.segments.list();
+        let segment = |i: u32| &list[i as usize];
+        decals.order.clear();
+        decals.order.extend_from_slice(of_tile);
+        let key = |i: &u32| (Reverse(segment(*i).stroke), segment(*i).strand, *i);
+        decals.order.sort_unstable_by_key(key);
+        let planes = decals.planes.get_or_insert_with(|| Planes {
+            marks: id_plane(),
+            ratio: plane(),
+            color: [plane(), plane(), plane()],
+        });
+        let seen = planes.look(frame, target, shown);
+        let scene = TileContext {
+            strokes: &parts.strokes,
+            segments: list,
+            ..*scene
+        };
+        let (mut replaced, mut shaded) = (NO_SAMPLES, NO_SAMPLES);
+        let mut closed = NO_SAMPLES;
+        let (mut of_layer, mut open) = (usize::MAX, NO_SAMPLES);
+        for stroke in decals.order.chunk_by(|&a, &b| {
+            (segment(a).stroke, segment(a).strand) == (segment(b).stroke, segment(b).strand)
+        }) {
+            let first = segment(stroke[0]);
+            let layer = parts.strokes[first.stroke as usize - 1].layer;
+            let Some(decal) = frame.drawing.decal(layer) else {
+                continue;
+            };
+            if layer != of_layer {
+                of_layer = layer;
+                open = without(&planes.targets(decal, &seen), &closed);
+            }
+            if is_empty(&open) {
+                continue;
+            }
+            let offer = Offer {
+                decal,
+                drawing: frame.drawing,
+                strand: frame.drawing.whole_strand(first.strand),
+                list: frame.parts.segments.list(),
+                target,
+                shown,
+            };
+            let mut taken = NO_SAMPLES;
+            for &index in stroke {
+                offer.make(&scene, index, &open, planes, &mut taken);
+            }
+            open = without(&open, &taken);
+            add(&mut closed, &taken);
+            if decal.is_shadow {
+                add(&mut shaded, &both(&taken, &seen.surfaces));
+                add(&mut replaced, &both(&taken, &seen.hair));
+            } else {
+                add(&mut replaced, &taken);
+            }
+        }
+        decals.replaced = (!is_empty(&replaced)).then(|| Box::new(replaced));
+        decals.shaded = (!is_empty(&shaded)).then(|| Box::new(shaded));
+    }
+
+    /// Gives samples the colours of the decals that were decided; painted surfaces in a shadow are left to what paints them.
+    #[inline(always)] // compiled for each set of `Instructions`
+    pub(super) fn apply_decals(&mut self, frame: &Frame, origin: [usize; 2], stack: &Stack) {
+        let Self {
+            decals,
+            target,
+            shown,
+            ..
+        } = self;
+        if let (Some(replaced), Some(planes)) = (&decals.replaced, &decals.planes) {
+            for row in 0..ROWS {
+                for cell in cells(row, columns(replaced, row)) {
+                    let lanes = cell.lanes(replaced);
+                    for (plane, color) in target.color.iter_mut().zip(&planes.color) {
+                        overwrite(&mut plane[cell.index], &color[cell.index], &lanes);
+                    }
+                }
+            }
+        }
+        if let (Some(shaded), Some(shown)) = (&decals.shaded, shown.planes()) {
+            for row in 0..ROWS {
+                for cell in cells(row, columns(shaded, row)) {
+                    let what = &shown.what[cell.index];
+                    shade(
+                        frame,
+                        origin,
+                        stack,
+                        cell,
+                        what,
+                        &cell.lanes(shaded),
+                        target,
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Gives samples of a cell that show surfaces the colours that these have in shadow.
+#[inline(always)]
+fn shade(
+    frame: &Frame,
+    origin: [usize; 2],
+    stack: &Stack,
+    cell: Cell,
+    what: &[u32; LANES],
+    lanes: &LaneMask,
+    target: &mut Target,
+) {
+    let mut left = tile::bits(lanes);
+    while left != 0 {
+        let shows = what[left.trailing_zeros() as usize];
+        let mut own = *lanes;
+        for k in 0..LANES {
+            own[k] &= select(what[k] == shows, u32::MAX, 0);
+        }
+        left &= !tile::bits(&own);
+        let Some(surface) = frame.surface_of(shows).filter(|s| s.paint.is_none()) else {
+            continue;
+        };
+        if surface.texture.is_none() {
+            for (plane, shadow) in target.color.iter_mut().zip(surface.shadow) {
+                overwrite(&mut plane[cell.index], &[shadow; LANES], &own);
+            }
+            continue;
+        }
+        // What is lit is its texel times the colour in light.
+        let triangle = &frame.parts.triangles[(shows & !TRIANGLE) as usize];
+        let tones = triangle.corners(frame.drawing).map(|corner| corner.tone);
+        let Some([tones]) = triangle.interpolated(frame.drawing, origin, [tones]) else {
+            continue;
+        };
+        let tone = tones.slope.at_samples(stack).of(cell);
+        for k in 0..LANES {
+            own[k] &= select(tones.clamp(tone[k]) >= 0.0, u32::MAX, 0);
+        }
+        let both = surface.light.into_iter().zip(surface.shadow);
+        for (plane, (light, shadow)) in target.color.iter_mut().zip(both) {
+            let factor = if light > 0.0 { shadow / light } else { 1.0 };
+            let mut color = plane[cell.index];
+            for k in 0..LANES {
+                color[k] *= factor;
+            }
+            overwrite(&mut plane[cell.index], &color, &own);
+        }
+    }
+}
+
+impl Planes {
+    /// Finds what the samples of a tile show.
+    #[inline(always)]
+    fn look(&mut self, frame: &Frame, target: &Target, shown: &Shown) -> Seen {
+        let mut seen = Seen {
+            hair: NO_SAMPLES,
+            surfaces: NO_SAMPLES,
+        };
+        let shown = shown.planes().filter(|_| frame.parts.decals.on_surfaces);
+        let mut last = (SHOWS_NOTHING, 0);
+        for row in 0..ROWS {
+            for cell in cells(row, u32::MAX >> (32 - WIDTH)) {
+                let strand = &target.strand[cell.index];
+                let (mut hair, mut surface) = ([0; LANES], [0; LANES]);
+                for k in 0..LANES {
+                    hair[k] = select(strand[k] > NOTHING, u32::MAX, 0);
+                }
+                let mut marks = [0; LANES];
+                if let Some(shown) = shown {
+                    let what = &shown.what[cell.index];
+                    for k in 0..LANES {
+                        if hair[k] == 0 && what[k] != last.0 {
+                            let marks = frame.surface_of(what[k]).map_or(0, |s| s.marks);
+                            last = (what[k], marks);
+                        }
+                        marks[k] = select(hair[k] == 0, last.1, 0);
+                        surface[k] = select(marks[k] != 0, u32::MAX, 0);
+                    }
+                }
+                self.marks[cell.index] = marks;
+                cell.add_to(&mut seen.hair, &hair);
+                cell.add_to(&mut seen.surfaces, &surface);
+            }
+        }
+        seen
+    }
+
+    /// The samples that show what a decal is drawn on.
+    #[inline(always)]
+    fn targets(&self, decal: &Decal, seen: &Seen) -> Mask {
+        let mut targets = NO_SAMPLES;
+        if decal.on_hair {
+            targets = seen.hair;
+        }
+        if decal.marks != 0 {
+            for row in 0..ROWS {
+                for cell in cells(row, columns(&seen.surfaces, row)) {
+                    let mut lanes = [0; LANES];
+                    for k in 0..LANES {
+                        let is_meant = self.marks[cell.index][k] & decal.marks != 0;
+                        lanes[k] = select(is_meant, u32::MAX, 0);
+                    }
+                    cell.add_to(&mut targets, &lanes);
+                }
+            }
+        }
+        targets
+    }
+}
+
+/// A strand's stroke that is held against what samples show.
+struct Offer<'a> {
+    decal: &'a Decal,
+    drawing: &'a Drawing,
+    /// Its strand, whatever piece of it.
+    strand: u32,
+    /// The segments of hair.
+    list: &'a [Segment],
+    /// What samples show.
+    target: &'a Target,
+    shown: &'a Shown,
+}
+
+impl Offer<'_> {
+    /// Gives those `open` samples that a segment fits its colours, where no segment of the stroke is nearer; they are `taken`.
+    #[inline(always)]
+    fn make(
+        &self,
+        scene: &TileContext,
+        index: u32,
+        open: &Mask,
+        planes: &mut Planes,
+        taken: &mut Mask,
+    ) {
+        let mut rows = [0; ROWS];
+        for (row, open_columns) in rows.iter_mut().enumerate() {
+            *open_columns = columns(open, row);
+        }
+        let Some(placed) = Placed::new(scene, index, &rows) else {
+            return;
+        };
+        let covered = both(&placed.covered, open);
+        for row in 0..ROWS {
+            for cell in cells(row, columns(&covered, row)) {
+                let beside = placed.beside(cell);
+                let fits = self.fits(cell, &cell.lanes(&covered), &beside.inv_depth);
+                if !any(&fits) {
+                    continue;
+                }
+                let (mut wins, before) = (fits, cell.lanes(taken));
+                let ratio = &planes.ratio[cell.index];
+                for k in 0..LANES {
+                    let is_nearer = (before[k] == 0) | (beside.ratio[k] < ratio[k]);
+                    wins[k] &= select(is_nearer, u32::MAX, 0);
+                }
+                overwrite(&mut planes.ratio[cell.index], &beside.ratio, &wins);
+                for (plane, color) in planes.color.iter_mut().zip(&beside.color) {
+                    overwrite(&mut plane[cell.index], color, &wins);
+                }
+                cell.add_to(taken, &fits);
+            }
+        }
+    }
+
+    /// Those of some samples of a cell, which show what it is drawn on, that are as near as it must be.
+    #[inline(always)]
+    fn fits(&self, cell: Cell, samples: &LaneMask, inv_depth: &Lanes) -> LaneMask {
+        let (target, shown) = (self.target, self.shown);
+        let (hair, surface) = (&target.strand[cell.index], &target.surface[cell.index]);
+        let (reach_m, is_shadow) = (self.decal.reach_m, self.decal.is_shadow);
+        let mut fits = *samples;
+        for k in 0..LANES {
+            let is_hair = hair[k] > NOTHING;
+            let seen = select(is_hair, hair[k], surface[k]);
+            // How far the seen lies behind, and the reach, both times the inverse depths.
+            let behind = inv_depth[k] - seen;
+            let reach = reach_m * (inv_depth[k] * seen);
+            let is_near = (behind <= reach) & (behind >= -reach);
+            let is_in_shadow = select(is_hair, behind > reach, behind >= -reach);
+            let is_right = select(is_shadow, is_in_shadow, is_near) & (inv_depth[k] > 0.0);
+            fits[k] &= select(is_right, u32::MAX, 0);
+        }
+        if !is_shadow || !self.decal.on_hair || !any(&fits) {
+            return fits;
+        }
+        let strands = match shown
+            .planes()
+            .filter(|_| self.drawing.order == Order::Shifted)
+        {
+            None => target.strands(cell.index),
+            Some(shown) => shown.what[cell.index].map(|what| match what < TRIANGLE {
+                true => self.list[what as usize].strand,
+                false => u32::MAX,
+            }),
+        };
+        for k in 0..LANES {
+            let is_own = hair[k] > NOTHING && self.drawing.whole_strand(strands[k]) == self.strand;
+            fits[k] &= select(is_own, 0, u32::MAX);
+        }
+        fits
+    }
+}
+
+/// Marks samples of a cell as in the shadow of hair.
+#[inline(always)]
+pub(super) fn shade_occlusion(occlusion: &mut [f32], lanes: &LaneMask) {
+    for (occlusion, lane) in occlusion.iter_mut().zip(lanes) {
+        *occlusion = select(*lane != 0, IN_SHADOW, *occlusion);
+    }
+}

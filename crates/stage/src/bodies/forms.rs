@@ -1,0 +1,212 @@
+//! The forms that a body's mesh takes in time, and their distances.
+
+use super::drawn::Surface;
+use glam::{DVec3, Vec3};
+use hair_sim::{GridError, SignedDistance};
+use std::sync::OnceLock;
+
+/// Cells on the longest side of a form: what is thinner than two of them is not felt.
+const CELLS: f64 = 36.0;
+
+/// A mesh, and the forms that it takes one after the other.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Forms {
+    /// One or more.
+    forms: Vec<Form>,
+    /// Forms a second.
+    rate: f64,
+    /// Whether they start again after the last one.
+    repeats: bool,
+    /// The side of a cell of their distances, m.
+    cell: f64,
+}
+
+/// One form of a mesh, about the body's middle, m.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Form {
+    pub positions: Vec<Vec3>,
+    pub normals: Vec<Vec3>,
+    pub triangles: Vec<[u32; 3]>,
+    /// Its distances, made when they are first needed.
+    grid: OnceLock<SignedDistance>,
+}
+
+impl Form {
+    pub fn new((positions, normals, triangles): Surface) -> Self {
+        Self {
+            positions,
+            normals,
+            triangles,
+            grid: OnceLock::new(),
+        }
+    }
+
+    /// The corners of the box around it.
+    pub fn bounds(&self) -> [Vec3; 2] {
+        let positions = || self.positions.iter().copied();
+        [
+            positions().fold(Vec3::INFINITY, Vec3::min),
+            positions().fold(Vec3::NEG_INFINITY, Vec3::max),
+        ]
+    }
+
+    /// Moves its middle and makes it larger.
+    pub fn put(&mut self, from_middle: DVec3, turn: glam::DQuat, size: f64) {
+        for position in &mut self.positions {
+            *position = (turn * (position.as_dvec3() - from_middle) * size).as_vec3();
+        }
+        for normal in &mut self.normals {
+            *normal = turn.as_quat() * *normal;
+        }
+    }
+}
+
+impl Forms {
+    /// Forms of this many a second.
+    ///
+    /// # Errors
+    ///
+    /// The number of the first one, from 0, that has no distances, and why.
+    pub fn new(forms: Vec<Form>, rate: f64, repeats: bool) -> Result<Self, (usize, GridError)> {
+        // Of the largest form, so that none of them takes more cells.
+        let side = |form: &Form| {
+            let [low, high] = form.bounds();
+            f64::from((high - low).max_element())
+        };
+        let longest = forms.iter().map(side).fold(1e-6, f64::max);
+        let forms = Self {
+            cell: longest / CELLS,
+            forms,
+            rate,
+            repeats,
+        };
+        for (number, form) in forms.forms.iter().enumerate() {
+            SignedDistance::check(&form.positions, &form.triangles, forms.cell)
+                .map_err(|error| (number, error))?;
+        }
+        Ok(forms)
+    }
+
+    pub fn deforms(&self) -> bool {
+        self.forms.len() > 1
+    }
+
+    /// The distances of a form.
+    pub fn grid(&self, form: usize) -> &SignedDistance {
+        let form = &self.forms[form];
+        form.grid.get_or_init(|| {
+            SignedDistance::new(&form.positions, &form.triangles, self.cell)
+                .expect("forms are checked when they are read")
+        })
+    }
+
+    /// The forms before and after a time (seconds), by their numbers, and the share of the way between them.
+    pub fn between(&self, time: f64) -> (usize, usize, f64) {
+        let count = self.forms.len() as f64;
+        let place = time * self.rate;
+        let place = match self.repeats {
+            true => place.rem_euclid(count),
+            false => place.clamp(0.0, count - 1.0),
+        };
+        let from = place.floor().min(count - 1.0);
+        let next = match self.repeats {
+            true => (from + 1.0) % count,
+            false => (from + 1.0).min(count - 1.0),
+        };
+        (from as usize, next as usize, (place - from).clamp(0.0, 1.0))
+    }
+
+    /// The surface that is drawn at a time (seconds): between two forms of one mesh it is in between, else the form before.
+    pub fn shape(&self, time: f64) -> Surface {
+        let (from, to, share) = self.between(time);
+        let [from, to] = [from, to].map(|form| &self.forms[form]);
+        let surface = |positions, normals| (positions, normals, from.triangles.clone());
+        if share == 0.0 || from.triangles != to.triangles {
+            return surface(from.positions.clone(), from.normals.clone());
+        }
+        let mixed = |from: &[Vec3], to: &[Vec3]| -> Vec<Vec3> {
+            let pairs = from.iter().zip(to);
+            pairs
+                .map(|(from, to)| from.lerp(*to, share as f32))
+                .collect()
+        };
+        let normals = mixed(&from.normals, &to.normals);
+        let unit = |normal: Vec3| normal.normalize_or(Vec3::Y);
+        surface(
+            mixed(&from.positions, &to.positions),
+            normals.into_iter().map(unit).collect(),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A closed box of this half side.
+    fn cube(half: f32) -> Form {
+        let side = |corner: u32, bit: u32| if corner & bit == 0 { -half } else { half };
+        let corner = |i: u32| Vec3::new(side(i, 1), side(i, 2), side(i, 4));
+        let faces = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let triangles = faces
+            .iter()
+            .flat_map(|f| [[f[0], f[1], f[2]], [f[0], f[2], f[3]]]);
+        let positions: Vec<Vec3> = (0..8).map(corner).collect();
+        Form::new((positions.clone(), positions, triangles.collect()))
+    }
+
+    #[test]
+    fn forms_follow_each_other_as_their_rate_says() {
+        let forms = || vec![cube(0.1), cube(0.2), cube(0.4)];
+        let once = Forms::new(forms(), 2.0, false).unwrap();
+        let round = Forms::new(forms(), 2.0, true).unwrap();
+        for (time, alone, again) in [
+            (-1.0, (0, 1, 0.0), (1, 2, 0.0)),
+            (0.0, (0, 1, 0.0), (0, 1, 0.0)),
+            (0.25, (0, 1, 0.5), (0, 1, 0.5)),
+            (1.25, (2, 2, 0.0), (2, 0, 0.5)),
+            (9.0, (2, 2, 0.0), (0, 1, 0.0)),
+        ] {
+            assert_eq!(once.between(time), alone, "{time}");
+            assert_eq!(round.between(time), again, "{time}");
+        }
+        // Each form has its distances.
+        for (form, half) in [(0, 0.1), (1, 0.2), (2, 0.4)] {
+            let distance = once.grid(form).distance(DVec3::X * (half + 0.03));
+            assert!((distance - 0.03).abs() < 1e-3, "{distance}");
+        }
+        let (positions, ..) = once.shape(0.25);
+        assert!((positions[0].x + 0.15).abs() < 1e-6, "{}", positions[0]);
+    }
+
+    #[test]
+    fn a_form_without_distances_is_named() {
+        let mut bad = cube(0.2);
+        bad.triangles.push([0, 1, 99]);
+        let error = Forms::new(vec![cube(0.1), bad], 1.0, false).unwrap_err();
+        assert_eq!(
+            error,
+            (
+                1,
+                GridError::Index {
+                    triangle: 12,
+                    point: 99
+                }
+            )
+        );
+        let mut bad = cube(0.2);
+        bad.positions[3].y = f32::NAN;
+        let error = Forms::new(vec![cube(0.1), cube(0.1), bad], 1.0, false).unwrap_err();
+        assert_eq!(error, (2, GridError::NotFinite(3)));
+        // A later form that is a thousand times as large takes no more memory.
+        let forms = Forms::new(vec![cube(0.001), cube(1.0)], 1.0, false).unwrap();
+        assert!(forms.cell > 0.01);
+    }
+}

@@ -1,0 +1,203 @@
+//! The meshes of a head as one: what is to hide each other must be one mesh.
+
+use super::strand::Seen;
+use crate::head::HeadModel;
+use crate::head::layers::{DRESS, SKIN, TIES};
+use crate::names::Names;
+use crate::painted::PaintedMesh;
+use glam::Vec3;
+use mesh_lines::{
+    Bvh, MeshError, Surface, TURN_COSINE, Topology, View, borders, contours, creases, facing,
+    visible,
+};
+use render::Head;
+use std::collections::HashMap;
+
+/// What heads have under these names without a file, or may lack by the style and the preset's own words.
+pub(super) const MAY_LACK: [&str; 2] = [DRESS, TIES];
+
+/// The meshes of a head as one, whose lines are looked for.
+pub(super) struct LineMesh {
+    /// The angle of its creases, degrees; without it there are none.
+    crease: Option<f32>,
+    topology: Topology,
+    bvh: Bvh,
+    /// Where each of its vertices is found in the head.
+    sources: Vec<Source>,
+    /// Where they are, and the surface's normals: of its smooth vertices, as `mesh_lines` counts them.
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    /// The same at rest, head heights from the head's centre.
+    rest: Vec<Vec3>,
+    /// The part of each triangle, and what the parts are called.
+    part_of: Vec<u16>,
+    parts: Vec<Vec<String>>,
+}
+
+/// A vertex of a head.
+#[derive(Clone, Copy)]
+struct Source {
+    of: Of,
+    index: u32,
+}
+
+/// The mesh of a head that a vertex is of.
+#[derive(Clone, Copy)]
+enum Of {
+    Head,
+    Ornaments,
+    Painted(u16),
+}
+
+/// What the lines of a head may be of, by name.
+pub(super) fn names(head: &HeadModel, wears_ties: bool) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    if !head.is_painted() {
+        names.push(SKIN);
+    }
+    if !head.clothes.is_empty() {
+        names.push(DRESS);
+    }
+    if wears_ties {
+        names.push(TIES);
+    }
+    let painted = head.painted.iter().filter(|mesh| has_lines(mesh));
+    names.extend(painted.flat_map(|mesh| mesh.names.iter().map(String::as_str)));
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// Whether a mesh in its own colours has lines, and hides those behind it: not what is seen through.
+fn has_lines(mesh: &PaintedMesh) -> bool {
+    mesh.paint.has_outline()
+}
+
+/// The triangles of a part of a head, the mesh that they are of, and what it is called.
+type Part<'h> = (Of, &'h [[u32; 3]], Vec<String>);
+
+fn parts(head: &HeadModel) -> Vec<Part<'_>> {
+    let mut parts: Vec<Part> = Vec::new();
+    if !head.is_painted() {
+        parts.push((Of::Head, &head.skin, vec![SKIN.to_owned()]));
+    }
+    let clothes = head.clothes.iter();
+    parts.extend(clothes.map(|(_, triangles)| {
+        let name = vec![DRESS.to_owned()];
+        (Of::Head, &triangles[..], name)
+    }));
+    let worn = &head.ornaments.triangles;
+    parts.push((Of::Ornaments, worn, vec![TIES.to_owned()]));
+    let painted = (0..=u16::MAX).zip(&head.painted);
+    let painted = painted.filter(|(_, mesh)| has_lines(mesh));
+    parts.extend(
+        painted
+            .map(|(number, mesh)| (Of::Painted(number), &mesh.triangles[..], mesh.names.clone())),
+    );
+    parts
+}
+
+impl Source {
+    fn position(self, head: &HeadModel) -> Vec3 {
+        let positions = match self.of {
+            Of::Head => &head.mesh.positions,
+            Of::Ornaments => &head.ornaments.positions,
+            Of::Painted(number) => &head.painted[usize::from(number)].positions,
+        };
+        positions[self.index as usize]
+    }
+}
+
+impl LineMesh {
+    /// Of a head at rest: vertices at one place are one.
+    pub fn new(rest: &HeadModel, crease: Option<f32>, head: Head) -> Result<Self, MeshError> {
+        let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+        let (mut sources, mut positions) = (Vec::new(), Vec::new());
+        let (mut triangles, mut part_of) = (Vec::new(), Vec::new());
+        let mut part_names = Vec::new();
+        for (number, (of, part, name)) in (0..=u16::MAX).zip(parts(rest)) {
+            for triangle in part {
+                triangles.push(triangle.map(|index| {
+                    let source = Source { of, index };
+                    let position = source.position(rest);
+                    // So that 0 and -0 are one place.
+                    let place = (position + Vec3::ZERO).to_array().map(f32::to_bits);
+                    *known.entry(place).or_insert_with(|| {
+                        sources.push(source);
+                        positions.push(position);
+                        positions.len() as u32 - 1
+                    })
+                }));
+                part_of.push(number);
+            }
+            part_names.push(name);
+        }
+        let mut topology = Topology::new(&positions, &triangles)?;
+        if let Some(degrees) = crease {
+            let cosine = f64::from(degrees).to_radians().cos();
+            topology = topology.with_creases(&positions, cosine)?;
+        }
+        let surface = Surface::new(&topology, &positions)?;
+        let (bvh, normals) = (Bvh::new(&surface), surface.normals().to_vec());
+        let at_rest = |place: &Vec3| (*place - head.center) / head.height_m;
+        Ok(Self {
+            crease,
+            bvh,
+            topology,
+            sources,
+            rest: positions.iter().map(at_rest).collect(),
+            positions,
+            normals,
+            part_of,
+            parts: part_names,
+        })
+    }
+
+    /// The angle of its creases, degrees.
+    pub fn crease(&self) -> Option<f32> {
+        self.crease
+    }
+
+    /// Takes it to where the head is.
+    pub fn pose(&mut self, head: &HeadModel) -> Result<(), MeshError> {
+        let mut is_still = true;
+        for (place, source) in self.positions.iter_mut().zip(&self.sources) {
+            let now = source.position(head);
+            is_still &= now == *place;
+            *place = now;
+        }
+        if is_still {
+            return Ok(());
+        }
+        let surface = Surface::new(&self.topology, &self.positions)?;
+        self.normals.clear();
+        self.normals.extend_from_slice(surface.normals());
+        self.bvh.refit(&surface);
+        Ok(())
+    }
+
+    /// Whether a triangle is of what has one of these names.
+    pub fn is_called(&self, triangle: u32, names: Names) -> bool {
+        let part = &self.parts[usize::from(self.part_of[triangle as usize])];
+        part.iter().any(|own| names.have(own)) || names.have("")
+    }
+
+    /// What an eye sees of its lines; a pixel is so long in the image ([`View`]).
+    pub fn seen(&self, view: &View, pixel: f64) -> Result<Seen<'_>, MeshError> {
+        let surface = Surface::with_normals(&self.topology, &self.positions, &self.normals)?;
+        let mut lines = contours(&surface, view, &facing(&surface, view))?;
+        if self.crease.is_some() {
+            lines.extend(creases(&surface, TURN_COSINE));
+        }
+        lines.extend(borders(&surface, TURN_COSINE));
+        let spans = visible(&surface, &self.bvh, view, &lines, pixel)?;
+        Ok(Seen {
+            surface,
+            rest: &self.rest,
+            lines,
+            spans,
+            view: *view,
+            pixel,
+        })
+    }
+}

@@ -1,0 +1,464 @@
+//! Bodies of presets and scripts, and ties that move with the hair.
+
+#![allow(
+    clippy::print_stdout,
+    reason = "a test shows the figures that it holds"
+)]
+
+use effects::Registry;
+use glam::Vec3;
+use stage::{Files, Motion, Preset, Scene};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The head's height and middle of the bust.
+const TAIL: &str = "(version: 1, undercoat: false, zones: [(name: \"tail\", form: tail, roots: [(180, 30)], hang: 1.5, count: 6)])";
+
+fn registry() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    registry
+}
+
+/// A folder with a style, a script, and a preset on a bust that says more.
+struct Given {
+    folder: tempfile::TempDir,
+    preset: String,
+}
+
+impl Given {
+    fn new(style: &str, script: &str, more: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("a.style.ron"), style).unwrap();
+        fs::write(folder.path().join("a.motion.ron"), script).unwrap();
+        let preset = format!(
+            "(version: 1, hair: (file: \"a.style.ron\"), head: (shape: bust), motion: (file: \"a.motion.ron\"), {more}\n\
+             layers: [(effect: \"hair.base\")])"
+        );
+        Self { folder, preset }
+    }
+
+    fn files(&self) -> Files {
+        Files {
+            preset_folder: self.folder.path().to_owned(),
+            ..Files::default()
+        }
+    }
+
+    fn scene(&self) -> Result<Scene, String> {
+        let registry = registry();
+        let preset = Preset::parse("look.ron", &self.preset, &registry);
+        let preset = preset.map_err(|errors| errors.to_string())?;
+        Scene::load(&preset, &self.files()).map_err(|error| error.to_string())
+    }
+
+    /// All that `inkstrand check` says.
+    fn checked(&self) -> String {
+        let registry = registry();
+        let checked = Preset::check("look.ron", &self.preset, &registry, &self.files());
+        checked
+            .err()
+            .map_or(String::new(), |errors| errors.to_string())
+    }
+}
+
+fn points(scene: &Scene, motion: &mut Motion, time: f32) -> Vec<Vec3> {
+    motion.advance_to(scene, time).unwrap();
+    motion.points(scene, 0).to_vec()
+}
+
+/// How deep the points, and what is between them, are in a ball, m.
+fn depth_in(points: &[Vec3], strands: usize, center: Vec3, radius_m: f32) -> f32 {
+    let links = points
+        .chunks(points.len() / strands)
+        .flat_map(|strand| strand.windows(2));
+    links
+        .flat_map(|link| (0..=8).map(|i| link[0].lerp(link[1], i as f32 / 8.0)))
+        .map(|at| radius_m - at.distance(center))
+        .fold(0.0, f32::max)
+}
+
+#[test]
+fn hair_styled_in_a_body_lies_around_it_and_stays_there() {
+    let still = Given::new(TAIL, "(version: 1)", "");
+    let scene = still.scene().unwrap();
+    let styled = points(&scene, &mut Motion::new(), 0.0);
+    let (center, height_m) = (scene.head().center, scene.head().height_m);
+    // Where the tail is half way down.
+    let middle = styled.iter().sum::<Vec3>() / styled.len() as f32;
+    let at = (middle - center) / height_m;
+    let radius_m = 0.15 * height_m;
+    assert!(depth_in(&styled, 6, middle, radius_m) > 0.01);
+    let body = format!(
+        "bodies: [(at: ({}, {}, {}), radius: 0.15)],",
+        at.x, at.y, at.z
+    );
+    // In still air, and while something else moves far away.
+    let far = "(version: 1, bodies: [(name: \"far\", at: (50, 0, 0))], \
+               body_keys: [(body: \"far\", time: 0), (body: \"far\", time: 9, at: (5, 0, 0))])";
+    for script in ["(version: 1)", far] {
+        let given = Given::new(TAIL, script, &body);
+        assert_eq!(given.checked(), "");
+        let scene = given.scene().unwrap();
+        let mut motion = Motion::new();
+        let first = points(&scene, &mut motion, 0.0);
+        let deepest = depth_in(&first, 6, middle, radius_m);
+        assert!(deepest < 1e-4, "{deepest}");
+        let later = points(&scene, &mut motion, 3.0);
+        let sagged = first.iter().zip(&later).map(|(a, b)| a.distance(*b));
+        let sagged = sagged.fold(0.0, f32::max);
+        println!("styled in a ball: {deepest:.1e} m in it, and {sagged:.1e} m away after 3 s");
+        assert!(sagged < 1e-4, "{sagged}");
+    }
+}
+
+#[test]
+fn a_body_that_moves_takes_hair_along_and_what_it_swallows_comes_out() {
+    let script = |keys: &str| {
+        format!(
+            "(version: 1, bodies: [(name: \"ball\", at: (3, -0.7, -0.65), radius: 0.2)], body_keys: [{keys}])"
+        )
+    };
+    // Slowly from the side, and at once into the tail's midst.
+    let slow = "(body: \"ball\", time: 0), (body: \"ball\", time: 1, at: (-3.2, 0, 0)), (body: \"ball\", time: 1.01, at: (-3.2, 0, 0)), (body: \"ball\", time: 3, at: (-3.2, 0, 0))";
+    let sudden = "(body: \"ball\", time: 0.5), (body: \"ball\", time: 0.54, at: (-3, 0, 0)), (body: \"ball\", time: 0.55, at: (-3, 0, 0)), (body: \"ball\", time: 3, at: (-3, 0, 0))";
+    for (what, keys, within, x) in [
+        ("pushed", slow, 1.02, -0.2),
+        ("swallowed", sudden, 1.54, 0.0),
+    ] {
+        for rate in [24.0_f32, 60.0] {
+            let given = Given::new(TAIL, &script(keys), &format!("scene: (fps: {rate}),"));
+            let scene = given.scene().unwrap();
+            let (center, height_m) = (scene.head().center, scene.head().height_m);
+            let mut motion = Motion::new();
+            let rest = points(&scene, &mut motion, 0.0);
+            let mut deepest: f32 = 0.0;
+            for frame in 0..(3.0 * rate) as u32 {
+                let time = frame as f32 / rate;
+                let now = points(&scene, &mut motion, time);
+                if time >= within {
+                    let ball = center + Vec3::new(x, -0.7, -0.65) * height_m;
+                    deepest = deepest.max(depth_in(&now, 6, ball, 0.2 * height_m));
+                }
+                assert!(now.iter().all(|point| point.is_finite()));
+            }
+            let moved = points(&scene, &mut motion, 3.0);
+            let moved = rest.iter().zip(&moved).map(|(a, b)| a.distance(*b));
+            let moved = moved.fold(0.0, f32::max);
+            println!(
+                "{what} at {rate} frames a second: {deepest:.1e} m in it from {within} s on; moved by {moved:.3} m"
+            );
+            assert!(deepest < 1e-3, "{what}, {rate}: {deepest}");
+            assert!(moved > 0.01, "{what}: {moved}");
+        }
+    }
+}
+
+/// A box about 0, m, and the same in another form.
+fn cube(half: [f32; 3], at: [f32; 3]) -> String {
+    let mut text = String::new();
+    for corner in 0..8 {
+        let side = |axis: usize| {
+            if corner >> axis & 1 == 1 {
+                half[axis]
+            } else {
+                -half[axis]
+            }
+        };
+        let [x, y, z] = [0, 1, 2].map(|axis| side(axis) + at[axis]);
+        text += &format!("v {x} {y} {z}\n");
+    }
+    for quad in [
+        [1, 3, 4, 2],
+        [5, 6, 8, 7],
+        [1, 2, 6, 5],
+        [3, 7, 8, 4],
+        [1, 5, 7, 3],
+        [2, 4, 8, 6],
+    ] {
+        text += &format!("f {} {} {} {}\n", quad[0], quad[1], quad[2], quad[3]);
+    }
+    text
+}
+
+#[test]
+fn meshes_move_and_change_their_form() {
+    let scene = Given::new(TAIL, "(version: 1)", "").scene().unwrap();
+    let styled = points(&scene, &mut Motion::new(), 0.0);
+    let middle = styled.iter().sum::<Vec3>() / styled.len() as f32;
+    // A wall behind the tail that grows towards it, by files.
+    let (thin, thick) = (0.01, 0.12);
+    let behind = middle - Vec3::Z * 0.12;
+    let given = Given::new(
+        TAIL,
+        "(version: 1, bodies: [(shape: mesh, file: \"wall.####.obj\", rate: 4)])",
+        "",
+    );
+    let wall = |half: f32| cube([0.15, 0.15, half], behind.to_array());
+    let write = |name: &str, text: &str| fs::write(given.folder.path().join(name), text).unwrap();
+    for (number, half) in [(1, thin), (2, 0.05), (3, 0.09), (4, thick)] {
+        write(&format!("wall.{number:04}.obj"), &wall(half));
+    }
+    assert_eq!(given.checked(), "");
+    let scene = given.scene().unwrap();
+    let mut motion = Motion::new();
+    let rest = points(&scene, &mut motion, 0.0);
+    assert_eq!(rest, styled);
+    let mut last = rest.clone();
+    for frame in 1..48 {
+        last = points(&scene, &mut motion, frame as f32 / 24.0);
+    }
+    let front = behind.z + thick;
+    let is_beside = |point: &&Vec3| {
+        let way = **point - behind;
+        way.x.abs() < 0.13 && way.y.abs() < 0.13
+    };
+    let deepest = last.iter().filter(is_beside).map(|point| front - point.z);
+    let deepest = deepest.fold(0.0, f32::max);
+    let before = rest.iter().filter(is_beside).map(|point| front - point.z);
+    let before = before.fold(0.0, f32::max);
+    println!(
+        "a wall that grows by {:.2} m: {deepest:.4} m in it, {before:.4} m before it grew",
+        thick - thin
+    );
+    assert!(before > 0.02 && deepest < 2e-3, "{before} {deepest}");
+    // A later form that is none is told by its file.
+    write("wall.0003.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    let message = given.scene().err().unwrap();
+    assert!(
+        message.contains("wall.0003.obj: no triangle with an area was found"),
+        "{message}"
+    );
+    // A mesh stands where its file has it, turned about its middle and as large as is said.
+    let turned = Given::new(
+        TAIL,
+        "(version: 1)",
+        "bodies: [(shape: mesh, file: \"wall.0004.obj\", at: (0, 0, 0.1), size: 0.5, turn: (90, 0, 0), on: shoulders)],",
+    );
+    fs::write(turned.folder.path().join("wall.0004.obj"), wall(thick)).unwrap();
+    assert_eq!(turned.checked(), "");
+    turned.scene().unwrap();
+}
+
+#[test]
+fn mistakes_of_bodies_are_told_at_their_places() {
+    let given = |more: &str, script: &str| Given::new(TAIL, script, more);
+    let still = "(version: 1)";
+    let preset = |more: &str| given(more, still).checked();
+    let script = |text: &str| given("", text).checked();
+    for (message, expected) in [
+        (
+            preset("bodies: (radius: 1),"),
+            "bodies is a list, of one body too",
+        ),
+        (
+            preset("bodies: [(shape: ball)],"),
+            "shape: there is no `ball`",
+        ),
+        (
+            preset("bodies: [(shape: capsul)],"),
+            "did you mean `capsule`?",
+        ),
+        (
+            preset("bodies: [(radios: 1)],"),
+            "a body has no `radios`, did you mean `radius`?",
+        ),
+        (
+            preset("bodies: [(radius: -1)],"),
+            "radius: expected a number from 0",
+        ),
+        (
+            preset("bodies: [(to: (1, 1, 1))],"),
+            "to: a sphere has none, only capsule",
+        ),
+        (
+            preset("bodies: [(shape: mesh)],"),
+            "a body of shape mesh needs `file",
+        ),
+        (
+            preset("bodies: [(shape: mesh, file: \"nobody.obj\")],"),
+            "file: there is no `",
+        ),
+        (
+            preset("bodies: [(name: \"a\"), (name: \"a\")],"),
+            "name: two bodies are called `a`",
+        ),
+        (
+            script("(version: 1, body_keys: [(time: 1)])"),
+            "a key of a body needs `body: \"...\"`",
+        ),
+        (
+            script("(version: 1, bodies: [(name: \"hand\")], body_keys: [(body: \"hnad\")])"),
+            "a.motion.ron:1:59: body: neither the script nor the preset has a body `hnad`, did you mean `hand`?",
+        ),
+        (
+            script(
+                "(version: 1, bodies: [(name: \"a\")], body_keys: [(body: \"a\", time: 2), (body: \"a\", time: 1)])",
+            ),
+            "the keys of the body `a` must ascend",
+        ),
+        (
+            script(
+                "(version: 1, period: 2, loop: true, bodies: [(name: \"a\")], \
+                    body_keys: [(body: \"a\"), (body: \"a\", time: 2, at: (1, 0, 0))])",
+            ),
+            "body: `a` ends elsewhere than it begins",
+        ),
+        (
+            script("(version: 1, bodies: [(shape: mesh, file: \"b.obj\")])"),
+            "file: there is no `",
+        ),
+    ] {
+        assert!(message.contains(expected), "{expected}\n{message}");
+    }
+    // A mesh that closes nothing in.
+    let empty = given("bodies: [(shape: mesh, file: \"a.obj\")],", still);
+    fs::write(
+        empty.folder.path().join("a.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
+    )
+    .unwrap();
+    let message = empty.checked();
+    assert!(
+        message.contains("look.ron:1:") && message.contains("file: "),
+        "{message}"
+    );
+}
+
+#[test]
+fn the_preset_s_bodies_are_moved_by_the_script() {
+    let more = "bodies: [(name: \"hand\", at: (0, -0.9, -3), radius: 0.2)],";
+    let keys = "(version: 1, body_keys: [(body: \"hand\", time: 0), (body: \"hand\", time: 1, at: (0, 0, 2.4))])";
+    let moved = Given::new(TAIL, keys, more).scene().unwrap();
+    let own = "(version: 1, bodies: [(name: \"ball\", at: (0, -0.9, -3), radius: 0.2)], \
+               body_keys: [(body: \"ball\", time: 0), (body: \"ball\", time: 1, at: (0, 0, 2.4))])";
+    let scripted = Given::new(TAIL, own, "").scene().unwrap();
+    let [one, other] = [moved, scripted].map(|scene| points(&scene, &mut Motion::new(), 1.5));
+    assert!(one == other);
+}
+
+/// Carried strands are kept out of the shoulders and of all bodies.
+#[test]
+fn strands_that_guides_carry_are_kept_out_too() {
+    let style = "(version: 1, undercoat: false, zones: [(name: \"back\", roots: [(120, 30), (180, 40), (-120, 30)], hang: 1.6, count: 60, spread: 0.3)])";
+    let ball = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: 40)], \
+                bodies: [(name: \"ball\", at: (3, -0.55, -0.3), radius: 0.25)], \
+                body_keys: [(body: \"ball\", time: 0), (body: \"ball\", time: 1, at: (-2.25, 0, 0)), (body: \"ball\", time: 2, at: (-2.25, 0, 0))])";
+    let given = Given::new(style, ball, "dynamics: (guides: 12),");
+    let scene = given.scene().unwrap();
+    let (center, height_m) = (scene.head().center, scene.head().height_m);
+    let mut motion = Motion::new();
+    let mut deepest: f32 = 0.0;
+    for frame in 0..48 {
+        let now = points(&scene, &mut motion, frame as f32 / 24.0);
+        if frame >= 24 {
+            let ball = center + Vec3::new(0.75, -0.55, -0.3) * height_m;
+            deepest = deepest.max(depth_in(&now, 60, ball, 0.25 * height_m));
+        }
+    }
+    assert_eq!(motion.simulated().strands, 12);
+    println!("60 strands, 12 of them guides: {deepest:.1e} m in the ball");
+    assert!(deepest < 1e-3, "{deepest}");
+}
+
+#[test]
+fn tied_hair_stays_together_and_its_tie_goes_with_it() {
+    let style = |low: &str| {
+        format!(
+            "(version: 1, undercoat: false, zones: [(name: \"tail\", form: tail, roots: [(180, 30)], hang: 1.6, count: 9, \
+             fullness: 0.25, sway: 0.5, length_variation: 0, feel: limp{low})])"
+        )
+    };
+    let thrown = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: 60), (move: turn, start: 1.1, length: 0.5, angle: -60)], \
+                  winds: [(speed: 4, gusts: 2, yaw: 60)])";
+    let tie = ", low_tie: 0.5, low_tie_size: 0.06";
+    let scenes = |rate: f32| {
+        let more = format!("scene: (fps: {rate}),");
+        ["", tie].map(|low| Given::new(&style(low), thrown, &more).scene().unwrap())
+    };
+    let [free, tied] = scenes(24.0);
+    let radius_m = 0.06 * free.head().height_m;
+    // How far tied points are from their middle.
+    let spread = |points: &[Vec3], at: usize| {
+        let strands = points.chunks(points.len() / 9);
+        let tied: Vec<Vec3> = strands.map(|strand| strand[at]).collect();
+        let middle = tied.iter().sum::<Vec3>() / 9.0;
+        tied.iter()
+            .map(|point| point.distance(middle))
+            .fold(0.0, f32::max)
+    };
+    let rest = points(&tied, &mut Motion::new(), 0.0);
+    let count = rest.len() / 9;
+    let at = (2..count)
+        .min_by(|a, b| spread(&rest, *a).total_cmp(&spread(&rest, *b)))
+        .unwrap();
+    assert!(spread(&rest, at) < radius_m, "{at}");
+    for rate in [24.0_f32, 60.0] {
+        let widest = scenes(rate).map(|scene| {
+            let mut motion = Motion::new();
+            let frames = (2.5 * rate) as u32;
+            let widest = (0..frames).map(|frame| {
+                let now = points(&scene, &mut motion, frame as f32 / rate);
+                assert!(now.iter().all(|point| point.is_finite()));
+                spread(&now, at)
+            });
+            widest.fold(0.0, f32::max)
+        });
+        println!(
+            "{rate} frames a second: tied points at most {:.4} m from their middle, free ones {:.4}; the tie's radius is {radius_m:.4} m",
+            widest[1], widest[0]
+        );
+        assert!(
+            widest[1] < radius_m && widest[0] > 1.5 * radius_m,
+            "{widest:?}"
+        );
+    }
+    // It comes to rest for the eye, if not yet to sleep.
+    let calm = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.3, angle: 40)])";
+    let scene = Given::new(&style(tie), calm, "").scene().unwrap();
+    let mut motion = Motion::new();
+    let [one, other] = [30.0, 31.0].map(|time| points(&scene, &mut motion, time));
+    let moved = one.iter().zip(&other).map(|(a, b)| a.distance(*b));
+    let moved = moved.fold(0.0, f32::max);
+    let asleep = motion.simulated().asleep;
+    println!(
+        "tied hair moves by {moved:.1e} m in a second after half a minute, and {asleep} strands of 9 sleep"
+    );
+    assert!(moved < 1e-3, "{moved}");
+    // A moment is the same however it is reached.
+    let at_once = points(&tied, &mut Motion::new(), 1.0);
+    let mut motion = Motion::new();
+    for frame in 0..30 {
+        points(&tied, &mut motion, frame as f32 / 29.0);
+    }
+    assert!(points(&tied, &mut motion, 1.0) == at_once);
+}
+
+#[test]
+fn the_bits_are_the_same_for_any_number_of_threads() {
+    let style = "(version: 1, zones: [(name: \"tail\", form: tail, roots: [(180, 30)], hang: 1.6, count: 24, low_tie: 0.6)])";
+    let script = "(version: 1, moves: [(move: shake, length: 1, angle: 30)], bodies: [(on: shoulders, shape: capsule, at: (-1, -1, -0.4), to: (1, -1, -0.4))])";
+    let scene = Given::new(style, script, "").scene().unwrap();
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| points(&scene, &mut Motion::new(), 1.5))
+    };
+    assert!(with(1) == with(2));
+}
+
+#[test]
+fn a_folder_is_no_mesh() {
+    let given = Given::new(
+        TAIL,
+        "(version: 1)",
+        "bodies: [(shape: mesh, file: \"sub\")],",
+    );
+    fs::create_dir(given.folder.path().join("sub")).unwrap();
+    let message = given.checked();
+    let path: PathBuf = Path::new("sub").to_owned();
+    assert!(
+        message.contains("is a folder") && message.contains(&path.display().to_string()),
+        "{message}"
+    );
+}

@@ -1,0 +1,306 @@
+//! Lines of meshes, drawn as strokes: which there are, where they lie, what hides them, and mistakes.
+
+use effects::Registry;
+use glam::{Vec2, Vec3};
+use render::cpu::{Evaluator, Rasterizer};
+use render::{Drawing, Frame, Picture};
+use stage::{Files, Preset, Stage};
+use std::fmt::Write as _;
+use std::fs;
+use std::ops::Range;
+use stroke_path::{Camera, OrbitView};
+use tempfile::TempDir;
+
+const RADIUS_M: f32 = 0.05;
+/// Before the bust's face, and beside it.
+const BALL: Vec3 = Vec3::new(0.0, 1.52, 0.3);
+const BOX: Vec3 = Vec3::new(0.2, 1.52, 0.1);
+
+/// One strand of hair behind the head, a ball and a box.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "a.strands.ron",
+        "(version: 1, strands: [(points: [(0, 1.63, -0.06), (0, 1.6, -0.13), (0, 1.5, -0.14)])])",
+    );
+    write(
+        "curtain.strands.ron",
+        "(version: 1, strands: [(points: [(0, 1.63, 0.06), (0, 1.6, 0.4), (0, 1.4, 0.4)])])",
+    );
+    write("ball.obj", &ball(24, 48));
+    write("box.obj", &cube());
+    folder
+}
+
+fn ball(rows: usize, columns: usize) -> String {
+    let mut text = String::new();
+    for row in 0..=rows {
+        for column in 0..columns {
+            let down = std::f32::consts::PI * row as f32 / rows as f32;
+            // At both poles all is one point.
+            let width = if row % rows == 0 { 0.0 } else { down.sin() };
+            let around = std::f32::consts::TAU * column as f32 / columns as f32;
+            let way = Vec3::new(width * around.sin(), down.cos(), width * around.cos());
+            let Vec3 { x, y, z } = BALL + RADIUS_M * way;
+            let _ = writeln!(text, "v {x} {y} {z}");
+        }
+    }
+    for row in 0..rows {
+        for column in 0..columns {
+            let at = |row: usize, column: usize| row * columns + column % columns + 1;
+            let [a, b] = [at(row, column), at(row, column + 1)];
+            let [c, d] = [at(row + 1, column + 1), at(row + 1, column)];
+            let _ = writeln!(text, "f {d} {c} {b} {a}");
+        }
+    }
+    text
+}
+
+fn cube() -> String {
+    let mut text = String::new();
+    for corner in 0..8 {
+        let at = |bit: usize| if corner >> bit & 1 == 1 { 0.03 } else { -0.03 };
+        let Vec3 { x, y, z } = BOX + Vec3::new(at(0), at(1), at(2));
+        let _ = writeln!(text, "v {x} {y} {z}");
+    }
+    text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
+}
+
+fn text(hair: &str, lines: &str, layers: &str) -> String {
+    format!(
+        "(version: 1, hair: (file: \"{hair}.strands.ron\"), head: (shape: bust, width: 0, light: \"FFFFFF\", shadow: \"FFFFFF\"),\n \
+         meshes: [(file: \"ball.obj\"), (file: \"box.obj\")],\n \
+         scene: (size: (240, 240), samples: 4, background: \"FFFFFF\"), clump: (size: 0.5, color: \"C04020\"),\n \
+         camera: (distance: 6), light: (yaw: 0, pitch: 10),\n lines: [{lines}],\n layers: [(effect: \"hair.base\"), {layers}])"
+    )
+}
+
+fn registry() -> Registry {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
+    registry
+}
+
+fn stage(hair: &str, lines: &str, layers: &str) -> Result<Stage, String> {
+    let (folder, text, registry) = (folder(), text(hair, lines, layers), registry());
+    let preset = Preset::parse("look.ron", &text, &registry).map_err(|error| error.to_string())?;
+    let files = Files {
+        preset_folder: folder.path().to_owned(),
+        ..Files::default()
+    };
+    preset
+        .check_scene("look.ron", &text, &files)
+        .map_err(|error| error.to_string())?;
+    Stage::new(&preset, &files).map_err(|error| error.to_string())
+}
+
+const INK: &str =
+    "(effect: \"line.ink\", on: \"rim\", params: (wobble: 0, light_width: 1, color: \"000000\"))";
+
+fn drawn(frame: &Frame) -> Picture {
+    let mut drawing = Drawing::default();
+    Evaluator::default().evaluate(frame, &mut drawing).unwrap();
+    Rasterizer::new(4, Some(1)).unwrap().draw(&drawing).unwrap()
+}
+
+fn picture(hair: &str, lines: &str, layers: &str) -> Picture {
+    drawn(&stage(hair, lines, layers).unwrap().frame().unwrap())
+}
+
+/// How many pixels are dark, all of a black one.
+fn ink(picture: &Picture) -> f32 {
+    picture.pixels.iter().map(|[red, ..]| 1.0 - red).sum()
+}
+
+/// The joints of each line of the last list.
+fn strands(frame: &Frame) -> Vec<Range<usize>> {
+    let own = frame.objects.last().unwrap().joints.clone();
+    let runs = frame.paths.runs.iter().map(|run| run.joints.clone());
+    runs.filter(|joints| joints.start >= own.start).collect()
+}
+
+#[test]
+fn a_balls_contour_is_the_exact_circle() {
+    let lines = "(name: \"rim\", of: \"ball\", kind: \"contour\")";
+    let mut stage = stage("a", lines, INK).unwrap();
+    let frame = stage.frame().unwrap();
+    let strands = strands(&frame);
+    assert_eq!(strands.len(), 1, "{strands:?}");
+    // Seen from the eye, all points of it are as far from the line of sight to the middle as a tangent is.
+    let eye = frame.camera.eye();
+    let ahead = (BALL - eye).normalize();
+    let sine = RADIUS_M / BALL.distance(eye);
+    for joint in strands[0].clone() {
+        let way = (frame.paths.position[joint] - eye).normalize();
+        let off = way.cross(ahead).length() - sine;
+        let off_px = off * frame.camera.focal_px();
+        assert!(off_px.abs() < 0.15, "{off_px} px at joint {joint}");
+    }
+    // It goes on beyond its beginning, by half of itself at most, so that no taper shows.
+    let centers = &frame.paths.center[strands[0].clone()];
+    let length: f32 = centers
+        .windows(2)
+        .map(|pair| pair[0].distance(pair[1]))
+        .sum();
+    let whole = std::f32::consts::TAU * sine * frame.camera.focal_px();
+    assert!(
+        length > 1.3 * whole && length < 1.6 * whole,
+        "{length} of {whole}"
+    );
+    let ends: Vec<Vec2> = frame.from_ends[strands[0].clone()].to_vec();
+    assert!(ends[0].x == 0.0 && ends[ends.len() - 1].y == 0.0);
+    let sum = ends[0].y;
+    assert!(
+        ends.iter()
+            .all(|ends| (ends.x + ends.y - sum).abs() < 1e-4 * sum)
+    );
+}
+
+#[test]
+fn a_box_has_nine_creases_that_are_seen() {
+    let count = |kind: &str| {
+        let lines = format!("(name: \"rim\", of: \"box\", kind: \"{kind}\")");
+        let mut stage = stage("a", &lines, INK).unwrap();
+        let frame = stage.frame().unwrap();
+        strands(&frame).len()
+    };
+    // The eye is to the left of it and not far above or below: two or three sides are seen.
+    let creases = count("crease");
+    assert!((7..=9).contains(&creases), "{creases}");
+    assert_eq!(count("border"), 0);
+}
+
+#[test]
+fn lines_are_black_where_they_are_seen_and_hair_hides_them() {
+    let lines = "(name: \"rim\", of: \"ball\", kind: \"contour\")";
+    let none = picture("a", "", "");
+    let open = picture("a", lines, INK);
+    // A circle of some width, drawn upon the ball and around it.
+    let added = ink(&open) - ink(&none);
+    assert!(added > 100.0, "{added}");
+    let behind = picture("curtain", lines, INK);
+    let hidden = ink(&behind) - ink(&picture("curtain", "", ""));
+    assert!(
+        hidden > 0.5 * added && hidden < 0.97 * added,
+        "{hidden} of {added}"
+    );
+}
+
+#[test]
+fn what_no_layer_draws_costs_nothing() {
+    let lines = "(name: \"rim\", of: \"ball\")";
+    let mut with = stage("a", lines, "").unwrap();
+    let mut without = stage("a", "", "").unwrap();
+    let (with, without) = (with.frame().unwrap(), without.frame().unwrap());
+    assert_eq!(with.objects.len(), 1);
+    assert!(with.from_ends.is_empty() && with.rest_positions.is_empty());
+    assert_eq!(drawn(&with).pixels, drawn(&without).pixels);
+}
+
+#[test]
+fn frames_in_any_order_have_the_same_lines() {
+    let lines = "(name: \"rim\", of: \"skin\"), (name: \"edges\", of: \"*\", kind: \"crease, contour\", halo: 3)";
+    let layers = "(effect: \"line.ink\", on: \"*\")";
+    let make = || stage("a", lines, layers).unwrap();
+    let (mut one, mut other) = (make(), make());
+    let pixels = |stage: &mut Stage, yaw_degrees: f32| {
+        let view = OrbitView {
+            target: Vec3::new(0.05, 1.5, 0.05),
+            yaw_degrees,
+            pitch_degrees: 5.0,
+            distance_m: 1.2,
+            vertical_fov_degrees: 30.0,
+        };
+        let camera = Camera::orbit(view, [240, 240], 0.01).unwrap();
+        drawn(&stage.frame_seen_by(camera).unwrap()).pixels
+    };
+    let forth: Vec<_> = [0.0, 40.0, 80.0].map(|yaw| pixels(&mut one, yaw)).into();
+    let back: Vec<_> = [80.0, 40.0, 0.0].map(|yaw| pixels(&mut other, yaw)).into();
+    assert!(forth.iter().eq(back.iter().rev()));
+}
+
+#[test]
+fn halos_leave_room_before_what_hides_a_line() {
+    // The ball hides part of the bust's own lines, if any: the box's edges behind nothing stay whole.
+    let ink_of = |of: &str, halo: f32| {
+        let lines =
+            format!("(name: \"rim\", of: \"{of}\", kind: \"contour, crease\", halo: {halo})");
+        ink(&picture("a", &lines, INK))
+    };
+    assert!(ink_of("skin", 12.0) < ink_of("skin", 0.0));
+    assert_eq!(
+        ink_of("ball", 12.0),
+        ink_of("ball", 0.0),
+        "nothing hides it"
+    );
+}
+
+#[test]
+fn mistakes_are_told_at_their_places() {
+    let error = |lines: &str, layers: &str| stage("a", lines, layers).err().unwrap_or_default();
+    let rim = "(name: \"rim\")";
+    let checks: [(&str, &str, &str); 10] = [
+        (
+            "(name: \"rim\", of: \"bal\")",
+            INK,
+            "look.ron:5:28: of: there is no mesh `bal` that has lines",
+        ),
+        ("(name: \"rim\", of: \"bal\")", INK, "did you mean `ball`"),
+        (
+            "(name: \"rim\", kind: \"contur\")",
+            INK,
+            "look.ron:5:30: kind: there are no lines of the kind `contur`, did you mean `contour`",
+        ),
+        ("(of: \"ball\")", "", "look.ron:5:10: lines need `name:"),
+        (
+            "(name: \"rim\"), (name: \"rim\")",
+            INK,
+            "there are already lines called `rim`",
+        ),
+        ("(name: \"a, b\")", "", "name: one word"),
+        (
+            rim,
+            "(effect: \"line.ink\", on: \"rin\")",
+            "look.ron:6:59: on: the preset has no lines called `rin`, did you mean `rim`",
+        ),
+        (
+            rim,
+            "(effect: \"line.ink\")",
+            "`line.ink` draws lines, and the layer doesn't say which",
+        ),
+        (
+            rim,
+            "(effect: \"line.ink\", on: \"rim\", zones: \"a\")",
+            "`zones` is not of lines",
+        ),
+        ("(name: \"rim\", crease: 400)", INK, "1 to 179"),
+    ];
+    for (lines, layers, expected) in checks {
+        let message = error(lines, layers);
+        assert!(message.contains(expected), "{message}\n  lacks {expected}");
+    }
+    let one = text("a", "", "").replace("lines: []", "lines: (name: \"rim\")");
+    let error = Preset::parse("look.ron", &one, &registry()).err().unwrap();
+    assert!(error.to_string().contains("lines is a list"), "{error}");
+}
+
+#[test]
+fn they_are_set_by_their_number() {
+    let registry = registry();
+    let text = text("a", "(name: \"rim\")", INK);
+    let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    preset.set("lines.1.halo", "4").unwrap();
+    preset.set("lines.1.kind", "border").unwrap();
+    assert_eq!(preset.lines[0].section.halo, 4.0);
+    let error = preset.set("lines.1.kind", "rim").unwrap_err();
+    assert!(
+        error.to_string().contains("no lines of the kind `rim`"),
+        "{error}"
+    );
+    assert_eq!(preset.lines[0].section.kind.as_deref(), Some("border"));
+    let error = preset.set("lines.2.halo", "4").unwrap_err();
+    assert!(error.to_string().contains("lines.1"), "{error}");
+}
