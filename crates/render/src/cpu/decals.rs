@@ -8,8 +8,8 @@ use super::strand::TileContext;
 use super::stroke::Placed;
 use super::tile::{
     self, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, Plane, ROWS, Stack,
-    Target, WIDTH, add, any, both, cells, columns, id_plane, is_empty, overwrite, plane, select,
-    without,
+    Target, WIDTH, add, any, both, cells, columns, id_plane, is_empty, least, lesser, overwrite,
+    plane, select, without,
 };
 use super::{Frame, Worker};
 use crate::drawing::{Decal, Drawing, Order};
@@ -75,6 +75,9 @@ struct Planes {
 struct Seen {
     hair: Mask,
     surfaces: Mask,
+    /// The farthest hair, and the farthest surface that has a mark, 1/m; infinite where there is none.
+    farthest_hair: f32,
+    farthest_surface: f32,
 }
 
 impl Decals {
@@ -165,6 +168,9 @@ impl Worker {
             };
             let mut taken = NO_SAMPLES;
             for &index in stroke {
+                if !decal.may_fit_any(&seen, segment(index).inv_depth) {
+                    continue;
+                }
                 offer.make(&scene, index, &open, planes, &mut taken);
             }
             open = without(&open, &taken);
@@ -275,7 +281,10 @@ impl Planes {
         let mut seen = Seen {
             hair: NO_SAMPLES,
             surfaces: NO_SAMPLES,
+            farthest_hair: f32::INFINITY,
+            farthest_surface: f32::INFINITY,
         };
+        let (mut far_hair, mut far_surface) = ([f32::INFINITY; LANES], [f32::INFINITY; LANES]);
         let shown = shown.planes().filter(|_| frame.parts.decals.on_surfaces);
         let mut last = (SHOWS_NOTHING, 0);
         for row in 0..ROWS {
@@ -298,10 +307,19 @@ impl Planes {
                     }
                 }
                 self.marks[cell.index] = marks;
+                let depth = &target.surface[cell.index];
+                for k in 0..LANES {
+                    let hair = select(hair[k] != 0, strand[k], f32::INFINITY);
+                    far_hair[k] = lesser(hair, far_hair[k]);
+                    let surface = select(surface[k] != 0, depth[k], f32::INFINITY);
+                    far_surface[k] = lesser(surface, far_surface[k]);
+                }
                 cell.add_to(&mut seen.hair, &hair);
                 cell.add_to(&mut seen.surfaces, &surface);
             }
         }
+        seen.farthest_hair = least(&far_hair);
+        seen.farthest_surface = least(&far_surface);
         seen
     }
 
@@ -325,6 +343,32 @@ impl Planes {
             }
         }
         targets
+    }
+}
+
+/// Whether what is seen there lies so far behind (m), or farther, of anything that is no nearer than that (both 1/m), with some room for rounding.
+#[inline(always)]
+fn may_lie_behind(nearest: f32, seen: f32, least_m: f32) -> bool {
+    nearest * (1.0 + 1e-4) - seen >= least_m * (nearest * seen) * (1.0 - 1e-4 * least_m.signum())
+}
+
+impl Decal {
+    /// How far hair and surfaces lie behind at least (m) which it fits; below 0 they lie before it.
+    #[inline(always)]
+    fn least_behind(&self) -> [f32; 2] {
+        let before = -self.reach_m;
+        [if self.is_shadow { self.reach_m } else { before }, before]
+    }
+
+    /// Whether it may fit anything that a tile shows, of a segment of which nothing is nearer than that (1/m).
+    #[inline(always)]
+    fn may_fit_any(&self, seen: &Seen, nearest: f32) -> bool {
+        let [on_hair, on_surface] = self.least_behind();
+        let may = |is_on: bool, farthest: f32, least_m| {
+            is_on && farthest < f32::INFINITY && may_lie_behind(nearest, farthest, least_m)
+        };
+        may(self.on_hair, seen.farthest_hair, on_hair)
+            || may(self.marks != 0, seen.farthest_surface, on_surface)
     }
 }
 
@@ -362,8 +406,22 @@ impl Offer<'_> {
         let covered = both(&placed.covered, open);
         for row in 0..ROWS {
             for cell in cells(row, columns(&covered, row)) {
+                let mut lanes = cell.lanes(&covered);
+                let hair = &self.target.strand[cell.index];
+                if self.decal.is_shadow {
+                    // A surface in a shadow is no darker in two.
+                    let before = cell.lanes(taken);
+                    for k in 0..LANES {
+                        let is_done = (before[k] != 0) & (hair[k] <= NOTHING);
+                        lanes[k] &= select(is_done, 0, u32::MAX);
+                    }
+                }
+                let lanes = self.may_fit(cell, &lanes, placed.shape.inv_depth.greatest());
+                if !any(&lanes) {
+                    continue;
+                }
                 let beside = placed.beside(cell);
-                let fits = self.fits(cell, &cell.lanes(&covered), &beside.inv_depth);
+                let fits = self.fits(cell, &lanes, &beside.inv_depth);
                 if !any(&fits) {
                     continue;
                 }
@@ -380,6 +438,24 @@ impl Offer<'_> {
                 cell.add_to(taken, &fits);
             }
         }
+    }
+
+    /// Those of some samples of a cell that a segment may fit of which nothing is nearer than that (1/m).
+    #[inline(always)]
+    fn may_fit(&self, cell: Cell, samples: &LaneMask, nearest: f32) -> LaneMask {
+        let (hair, surface) = (
+            &self.target.strand[cell.index],
+            &self.target.surface[cell.index],
+        );
+        let [on_hair, on_surface] = self.decal.least_behind();
+        let mut may = *samples;
+        for k in 0..LANES {
+            let is_hair = hair[k] > NOTHING;
+            let seen = select(is_hair, hair[k], surface[k]);
+            let least = select(is_hair, on_hair, on_surface);
+            may[k] &= select(may_lie_behind(nearest, seen, least), u32::MAX, 0);
+        }
+        may
     }
 
     /// Those of some samples of a cell, which show what it is drawn on, that are as near as it must be.
