@@ -225,6 +225,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             material_normals: &[],
             rest_positions: &[],
             from_ends: &[],
+            path_weights: &[],
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
             decals: Vec::new(),

@@ -115,6 +115,7 @@ pub(crate) const INPUTS: &[Input] = &[
         .where_empty(|| quote!(::effects::wgsl::vec3([0.0; 3]))),
     input("rest_position", Vec3, Both, "where the strand is here at rest, head heights from the head's centre: x to its left, y up, z to the face"),
     input("from_ends", Vec2, Both, "how far it is, as it is seen, to where the strand begins (x) and where it ends (y), metres at its depth"),
+    input("path_weight", F32, Both, "how much of a path that the effect made is there, as its `make_paths` says it; 1 on strands"),
     input("unit", F32, ToEffects, "one unit of the layer's widths in 1/300 of the head's height: 1, or a pixel's size at 720 lines")
         .where_empty(|| quote!(1.0)),
     input("normal", Vec3, ToEffects, "the clump's unit normal (5.4)"),

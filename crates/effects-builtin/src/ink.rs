@@ -6,6 +6,9 @@ effects::effect!("ink");
 /// root and tip, and as a hand trembles.
 pub struct Ink;
 
+/// As in the WGSL.
+const GAP_STEPS: u32 = 5;
+
 impl effects::StrokeEffect for Ink {
     type Program = Program;
     const ID: &'static str = "hair.ink";
@@ -14,18 +17,29 @@ impl effects::StrokeEffect for Ink {
     const RANK: i32 = -100;
     const DEPTH_OFFSET: f32 = 0.05;
 
-    fn instances(_: &Params) -> u32 {
-        effects::CLUMP_DISCS
+    fn instances(params: &Params) -> u32 {
+        match params.gap_width > 1.0 {
+            true => effects::CLUMP_DISCS * GAP_STEPS,
+            false => effects::CLUMP_DISCS,
+        }
     }
 
     fn reach(params: &Params) -> effects::Reach {
         effects::Reach {
             clumps: 2.0,
-            units: params.width * params.light_width.max(1.0) * (1.0 + params.wobble),
+            units: params.width
+                * params.gap_width.max(1.0)
+                * params.light_width.max(1.0)
+                * (1.0 + params.wobble),
         }
     }
 
     fn extent(_: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
-        strand.clump_disc_extent()
+        let instance = strand.instance % effects::CLUMP_DISCS;
+        effects::StrandJoints {
+            instance,
+            ..strand.clone()
+        }
+        .clump_disc_extent()
     }
 }

@@ -26,6 +26,12 @@ struct Params {
     /// long as trembles.
     /// @range 0..1 @default 0
     gaps: f32,
+    /// Factor on the width where what lies behind the line is farther away than `gap`: above 1 lines around a mass are bolder than those in it.
+    /// @constant @range 1..8 @default 1
+    gap_width: f32,
+    /// How far behind the line things must be for it to have all of that.
+    /// @unit head heights @range 0..4 @default 0.1
+    gap: f32,
     /// Colour of the line, or none for a dark shade of the hair's own.
     /// @default none
     color: vec4<f32>,
@@ -36,6 +42,9 @@ struct Params {
     /// @unit gray, 0 dark to 1 lit @range 0..1 @default 0.4
     shade: f32,
 }
+
+/// In how many steps the width grows with the gap: each is a line of its own, wider and farther away than the one before, which hides nothing of it.
+const GAP_STEPS: u32 = 5u;
 
 /// Over how many grays one colour becomes the other.
 const BLEND: f32 = 0.1;
@@ -53,7 +62,8 @@ fn tremble(place: f32, seed: u32) -> f32 {
 }
 
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
-    let disc = clump_disc(instance, joint.clump_radius, joint.clump_shift);
+    let step = f32(instance / 3u) / f32(GAP_STEPS - 1u);
+    let disc = clump_disc(instance % 3u, joint.clump_radius, joint.clump_shift);
     let gray = saturate(dot(joint.light_direction, joint.normal));
     let own = color_or(params.color, DARK * joint.clump_color);
     let color = mix(color_or(params.shadow_color, own), own, vec3<f32>(saturate((gray - params.shade) / BLEND + 0.5)));
@@ -67,8 +77,9 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let from_root = select(1.0, smoothstep(0.0, params.root_fade, joint.u), joint.u < params.root_fade);
     let to_tip = select(1.0, smoothstep(0.0, params.tip_fade, 1.0 - joint.u), 1.0 - joint.u < params.tip_fade);
     let share = by_hand * by_light * from_root * to_tip * on;
-    let whole = min(params.width * joint.unit * share, params.ratio * joint.clump_radius);
+    let by_gap = 1.0 + (params.gap_width - 1.0) * step;
+    let whole = min(params.width * joint.unit * share * by_gap, params.ratio * joint.clump_radius);
     // A side that is not there has no line.
     let width = whole * saturate(4.0 * disc.z / max(joint.clump_radius, 1e-6));
-    return Stroke(vec2<f32>(disc.x, disc.y), disc.z + width, 0.0, color);
+    return Stroke(vec2<f32>(disc.x, disc.y), disc.z + width, params.gap * step, color);
 }

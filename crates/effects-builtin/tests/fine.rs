@@ -2,7 +2,7 @@
 
 mod joint;
 
-use effects::{Hair, HairStrand, MadePaths, StrokeEffect};
+use effects::{Hair, HairStrand, Light, MadePaths, StrokeEffect};
 use effects_builtin::Fine;
 use glam::Vec3;
 use joint::{One, lit_joint, stroke};
@@ -41,12 +41,14 @@ fn made(
         strands: &strands,
         head_center: Vec3::ZERO,
         head_height_m: 0.24,
+        light: Light::Direction(Vec3::Z),
+        eye: Vec3::Z,
     };
     let mut paths = MadePaths::default();
     Fine::make_paths(&One::<Fine>::params(set), &hair, seed, &mut paths);
     paths
         .iter()
-        .map(|(strand, number, points)| (strand, number, points.to_vec()))
+        .map(|path| (path.strand, path.number, path.points.to_vec()))
         .collect()
 }
 

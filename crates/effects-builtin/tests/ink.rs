@@ -2,10 +2,10 @@
 
 mod joint;
 
-use effects::Joints;
 use effects::wgsl::{hash, vec3};
+use effects::{Joints, StrokeEffect as _};
 use effects_builtin::Ink;
-use joint::{lit_joint, stroke};
+use joint::{One, lit_joint, stroke};
 use proptest::prelude::*;
 
 /// An even line: only what a test sets makes it swell.
@@ -117,4 +117,35 @@ proptest! {
         let got = width(&joint_at(u, from_root, strand, gray), &[("width", "50"), ("ratio", "0.2"), ("wobble", "1"), ("light_width", "1.5")]);
         prop_assert!((-1e-4..=4.0001).contains(&got), "{got}");
     }
+}
+
+/// What lies so far behind the line (head heights) sees all strokes that are nearer than it: the widest of them is the line.
+fn width_before(behind: f32, set: &[(&str, &str)]) -> f32 {
+    let all: Vec<_> = EVEN.iter().chain(set).copied().collect();
+    let params = One::<Ink>::params(&all);
+    let strokes = (0..Ink::instances(&params))
+        .map(|instance| stroke::<Ink>(&joint_at(0.5, 1.0, 3, 0.5), instance, 1, &all));
+    let shown = strokes.filter(|stroke| stroke.depth <= behind);
+    shown.map(|stroke| stroke.radius - 20.0).fold(0.0, f32::max)
+}
+
+/// Line quality by depth: the widths at gaps of 0 and of 0.1 head heights differ by the set ratio, and between both the width grows steadily.
+#[test]
+fn it_is_bolder_before_what_is_far_behind() {
+    for ratio in [1.5_f32, 2.0, 3.0] {
+        let text = ratio.to_string();
+        let set = [("gap_width", &*text)];
+        let [close, far] = [0.0, 0.1].map(|behind| width_before(behind, &set));
+        assert!((close - 4.0).abs() < 1e-4, "{close}");
+        assert!((far / close / ratio - 1.0).abs() < 0.05, "{far} / {close}");
+        let half_way = width_before(0.05, &set);
+        assert!((half_way - 2.0 * (1.0 + ratio)).abs() < 1e-3, "{half_way}");
+        assert!((width_before(5.0, &set) - far).abs() < 1e-6);
+        let deeper = [("gap_width", &*text), ("gap", "0.2")];
+        assert!(width_before(0.1, &deeper) < far && width_before(0.2, &deeper) == far);
+    }
+    // Without it there is one line, as before.
+    let params = One::<Ink>::params(&EVEN);
+    assert_eq!(Ink::instances(&params), effects::CLUMP_DISCS);
+    assert_eq!(width_before(0.0, &[]), 4.0);
 }

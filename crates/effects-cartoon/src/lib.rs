@@ -14,10 +14,12 @@ mod mesh_toon;
 #[cfg(test)]
 mod on_mesh;
 mod toon;
+mod zigzag;
 
 pub use mesh_flat::MeshFlat;
 pub use mesh_toon::MeshToon;
 pub use toon::Toon;
+pub use zigzag::Zigzag;
 
 use effects::{Registry, RegistryError};
 
@@ -28,6 +30,7 @@ use effects::{Registry, RegistryError};
 /// When the registry already has an effect of the same id.
 pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
     registry.register::<Toon>()?;
+    registry.register::<Zigzag>()?;
     registry.register_mesh::<MeshFlat>()?;
     registry.register_mesh::<MeshToon>()
 }

@@ -84,6 +84,7 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         depth: EYE.distance(position) / HEAD_M,
         time: 0.7,
         across: vec2([-ahead.y, ahead.x]),
+        path_weight: 0.3 + 0.7 * u,
         from_ends: vec2([i, last - i].map(|links| 0.02 * links as f32)),
         rest_position: vec3((position / HEAD_M).to_array()),
         unit: 0.8,

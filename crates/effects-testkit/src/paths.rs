@@ -2,8 +2,8 @@
 
 use crate::hair::{HEAD_M, strands};
 use crate::values::{defaults, extremes};
-use effects::{AnyEffect, Hair, HairStrand, LayerProgram, MadePaths};
-use glam::Vec3;
+use effects::{AnyEffect, Hair, HairStrand, LayerProgram, Light, MadePaths};
+use glam::{Quat, Vec3};
 
 /// Strand and number of a path, and its points.
 pub(crate) type Path = (usize, u32, Vec<Vec3>);
@@ -15,12 +15,25 @@ const HALVINGS: u32 = 16;
 /// How far a path may come from one moment to the next without having jumped, metres.
 const SMALL_M: f32 = 0.01 * HEAD_M;
 
-/// The paths that are made of strands that rest as `rest` and stand as `now`, and what is wrong with them.
+/// The paths that are made of strands that rest as `rest` and stand as `now`, lit and seen from the front, and what is wrong with them.
 pub(crate) fn made(
     program: &dyn LayerProgram,
     rest: &[Vec<Vec3>],
     now: &[Vec<Vec3>],
 ) -> Result<Vec<Path>, String> {
+    made_at(program, rest, now, 0.0)
+}
+
+/// The same, with light and eye as far around the head as they come in that time, 0 to 1.
+fn made_at(
+    program: &dyn LayerProgram,
+    rest: &[Vec<Vec3>],
+    now: &[Vec<Vec3>],
+    time: f32,
+) -> Result<Vec<Path>, String> {
+    let around = |degrees: f32| Quat::from_rotation_y(degrees.to_radians());
+    let light = around(120.0 * time - 40.0) * Vec3::new(0.0, 0.7, 0.7);
+    let eye = around(90.0 * time) * Vec3::new(0.0, 0.1, 8.0 * HEAD_M);
     let strands: Vec<HairStrand> = (0..)
         .zip(rest.iter().zip(now))
         .map(|(number, (at_rest, particles))| HairStrand {
@@ -35,6 +48,8 @@ pub(crate) fn made(
         strands: &strands,
         head_center: Vec3::ZERO,
         head_height_m: HEAD_M,
+        light: Light::Direction(light.normalize()),
+        eye,
     };
     let mut paths = MadePaths::default();
     program.make_paths(&hair, 1, &mut paths);
@@ -43,7 +58,7 @@ pub(crate) fn made(
     }
     let points = paths.iter();
     Ok(points
-        .map(|(strand, number, points)| (strand, number, points.to_vec()))
+        .map(|path| (path.strand, path.number, path.points.to_vec()))
         .collect())
 }
 
@@ -81,14 +96,14 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
     moves_with_the_hair(&*program, &rest)
 }
 
-/// Hair that is blown aside: its paths are the same ones all the while, and none jumps. Where one comes far from one moment to the
+/// Hair that is blown aside while light and eye go around it: its paths are the same ones all the while, and none jumps. Where one comes far from one moment to the
 /// next, the time between them is halved again and again: what moves fast comes less far then, what jumps doesn't.
 fn moves_with_the_hair(program: &dyn LayerProgram, rest: &[Vec<Vec3>]) -> Result<(), String> {
     let hair = |time: f32| -> Vec<Vec<Vec3>> {
         let strand = |points: &Vec<Vec3>| points.iter().map(|p| blown(*p, time)).collect();
         rest.iter().map(strand).collect()
     };
-    let paths = |time: f32| made(program, rest, &hair(time));
+    let paths = |time: f32| made_at(program, rest, &hair(time), time);
     let mut before = paths(0.0)?;
     for moment in 0..MOMENTS {
         let [start, end] = [moment, moment + 1].map(|m| m as f32 / MOMENTS as f32);

@@ -26,7 +26,7 @@
 //! assert!(!clump.inputs().has(Input::ArcLength));
 //! ```
 //!
-//! Modules, each made of those before it alone: [`wgsl`] (the prelude), `color`, [`smooth`], `paths`, `joints` (what a joint
+//! Modules, each made of those before it alone: [`wgsl`] (the prelude), `color`, [`smooth`], `light`, `paths`, `joints` (what a joint
 //! offers), `samples` (what one that is painted offers), `lanes`, `texture`, `seed`, `variation`; `param` (tables and values),
 //! [`mod@section`] (typed ones), `program` (what translated code implements), `source` (the same for a
 //! graphics card), `varied` (a program with its values), [`clump`]; `effect`, `layer`, `registry`; [`preset`].
@@ -46,6 +46,7 @@ mod effect;
 mod joints;
 mod lanes;
 mod layer;
+mod light;
 mod mesh_effect;
 mod param;
 mod paths;
@@ -66,9 +67,10 @@ pub use color::{linear_from_srgb, parse_hex, to_hex};
 pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Reach, StrandJoints, StrokeEffect};
 pub use joints::{Input, InputSet, Joints};
 pub use layer::{Layer, Units};
+pub use light::Light;
 pub use mesh_effect::MeshEffect;
 pub use param::{Param, ParamKind, Value, Values};
-pub use paths::{Hair, HairStrand, MOST_PATHS, MadePaths};
+pub use paths::{Hair, HairStrand, MOST_PATHS, MadePath, MadePaths};
 pub use program::{Parameters, Program};
 pub use registry::{Registry, RegistryError};
 pub use samples::{BLOCK, SampleBlock, SampleInput, SampleSet, Samples, Vectors};

@@ -1,5 +1,6 @@
 //! Paths that effects make: strokes that follow no strand of their own (thesis 5.5).
 
+use crate::light::Light;
 use glam::Vec3;
 
 /// The hair as it stands, for effects that make paths.
@@ -11,6 +12,10 @@ pub struct Hair<'a> {
     pub head_center: Vec3,
     /// Height of the head, metres.
     pub head_height_m: f32,
+    /// The light, as the strands are.
+    pub light: Light,
+    /// The eye's place, metres. At rest, light and eye are before the face.
+    pub eye: Vec3,
 }
 
 /// One strand of the hair.
@@ -56,16 +61,48 @@ fn point(particles: &[Vec3], u: f32) -> Vec3 {
 #[derive(Clone, Debug, Default)]
 pub struct MadePaths {
     points: Vec<Vec3>,
-    paths: Vec<MadePath>,
+    /// As many as points.
+    weights: Vec<f32>,
+    paths: Vec<Part>,
     fault: Option<String>,
 }
 
 /// Where a path's points end, and whose it is.
 #[derive(Clone, Copy, Debug)]
-struct MadePath {
+struct Part {
     strand: usize,
     number: u32,
     end: usize,
+}
+
+/// A path that an effect made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MadePath<'a> {
+    /// The strand that it is of, an index of [`Hair::strands`].
+    pub strand: usize,
+    /// Which of the strand's it is, 0 to 7.
+    pub number: u32,
+    /// From root to tip, metres.
+    pub points: &'a [Vec3],
+    /// How much of it is there at each point: `joint.path_weight`.
+    pub weights: &'a [f32],
+}
+
+impl MadePath<'_> {
+    /// How much of it is there at `u` of the way, from 0 to 1, by points.
+    #[must_use]
+    pub fn weight(&self, u: f32) -> f32 {
+        let last = self.weights.len().saturating_sub(1);
+        let place = (u * last as f32).clamp(0.0, last as f32);
+        let before = (place as usize).min(last.saturating_sub(1));
+        let (Some(a), Some(b)) = (
+            self.weights.get(before),
+            self.weights.get((before + 1).min(last)),
+        ) else {
+            return 1.0;
+        };
+        a + (b - a) * (place - before as f32)
+    }
 }
 
 /// Most paths that can be made of one strand.
@@ -75,6 +112,7 @@ impl MadePaths {
     /// Forgets all paths.
     pub fn clear(&mut self) {
         self.points.clear();
+        self.weights.clear();
         self.paths.clear();
         self.fault = None;
     }
@@ -87,6 +125,18 @@ impl MadePaths {
     ///
     /// A path that is out of this order, or whose number is above 7, is left out, and the frame isn't drawn: [`Self::fault`].
     pub fn push(&mut self, strand: usize, number: u32, points: impl IntoIterator<Item = Vec3>) {
+        let whole = points.into_iter().map(|point| (point, 1.0));
+        self.push_weighted(strand, number, whole);
+    }
+
+    /// [`Self::push`] with how much of the path is there at each point, 0 or more, which `joint.path_weight` says: 0 where nothing of it is to
+    /// be seen. A path that comes and goes is there in every frame, with weights that grow from 0.
+    pub fn push_weighted(
+        &mut self,
+        strand: usize,
+        number: u32,
+        points: impl IntoIterator<Item = (Vec3, f32)>,
+    ) {
         let before = self.paths.last().map(|path| (path.strand, path.number));
         let fault = if number >= MOST_PATHS {
             format!(
@@ -104,8 +154,22 @@ impl MadePaths {
             self.fault.get_or_insert(fault);
             return;
         }
-        self.points.extend(points);
-        self.paths.push(MadePath {
+        let first = self.points.len();
+        for (point, weight) in points {
+            self.points.push(point);
+            self.weights.push(weight);
+        }
+        let bad = |weight: &&f32| !(0.0..f32::INFINITY).contains(*weight);
+        if let Some(weight) = self.weights[first..].iter().find(bad) {
+            let fault = format!(
+                "path {number} of strand {strand} has a weight of {weight}: weights are 0 or more"
+            );
+            self.fault.get_or_insert(fault);
+            self.points.truncate(first);
+            self.weights.truncate(first);
+            return;
+        }
+        self.paths.push(Part {
             strand,
             number,
             end: self.points.len(),
@@ -118,13 +182,15 @@ impl MadePaths {
         self.fault.as_deref()
     }
 
-    /// All paths: strand, number and points.
-    pub fn iter(&self) -> impl Iterator<Item = (usize, u32, &[Vec3])> {
+    /// All paths.
+    pub fn iter(&self) -> impl Iterator<Item = MadePath<'_>> {
         let starts = std::iter::once(0).chain(self.paths.iter().map(|path| path.end));
-        self.paths
-            .iter()
-            .zip(starts)
-            .map(|(path, start)| (path.strand, path.number, &self.points[start..path.end]))
+        self.paths.iter().zip(starts).map(|(path, start)| MadePath {
+            strand: path.strand,
+            number: path.number,
+            points: &self.points[start..path.end],
+            weights: &self.weights[start..path.end],
+        })
     }
 }
 
@@ -162,13 +228,40 @@ mod tests {
         paths.push(0, 3, [Vec3::X]);
         paths.push(2, 0, [Vec3::Y, Vec3::Z]);
         paths.push(2, 1, []);
-        let made: Vec<_> = paths.iter().map(|(s, n, p)| (s, n, p.to_vec())).collect();
+        let made: Vec<_> = (paths.iter())
+            .map(|path| (path.strand, path.number, path.points.to_vec()))
+            .collect();
         let expected = [
             (0, 3, vec![Vec3::X]),
             (2, 0, vec![Vec3::Y, Vec3::Z]),
             (2, 1, vec![]),
         ];
         assert_eq!(made, expected);
+    }
+
+    #[test]
+    fn weights_lie_between_those_of_points() {
+        let mut paths = MadePaths::default();
+        paths.push_weighted(0, 0, [(Vec3::X, 0.0), (Vec3::Y, 0.5), (Vec3::Z, 2.0)]);
+        paths.push(1, 0, [Vec3::X]);
+        let all: Vec<MadePath> = paths.iter().collect();
+        for (u, weight) in [
+            (-1.0, 0.0),
+            (0.0, 0.0),
+            (0.25, 0.25),
+            (0.75, 1.25),
+            (1.0, 2.0),
+            (3.0, 2.0),
+        ] {
+            assert_eq!(all[0].weight(u), weight, "{u}");
+        }
+        assert_eq!(all[1].weight(0.5), 1.0);
+        for bad in [f32::NAN, f32::INFINITY, -0.1] {
+            paths.clear();
+            paths.push_weighted(0, 0, [(Vec3::X, 1.0), (Vec3::Y, bad)]);
+            assert!(paths.fault().unwrap().contains("weights are 0 or more"));
+            assert_eq!(paths.iter().count(), 0);
+        }
     }
 
     #[test]

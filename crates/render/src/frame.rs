@@ -3,6 +3,7 @@
 mod check;
 
 pub use check::FrameError;
+pub use effects::Light;
 
 use crate::drawing::{Decal, Order, Surface};
 use crate::edges::Edges;
@@ -71,38 +72,8 @@ impl Head {
     }
 }
 
-/// The light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Light {
-    /// The unit vector towards it, in the world.
-    Direction(Vec3),
-    /// Its place in the world, metres.
-    Point(Vec3),
-}
-
 /// Distance that effects are told for a light without a place, in head heights.
 pub(crate) const FAR_LIGHT: f32 = 1e6;
-
-impl Light {
-    /// The unit vector from `point` to the light, and the distance in metres.
-    #[inline]
-    #[must_use]
-    pub fn seen_from(&self, point: Vec3) -> (Vec3, Option<f32>) {
-        match *self {
-            Self::Direction(direction) => (direction, None),
-            Self::Point(place) => {
-                let to_light = place - point;
-                let distance = to_light.length();
-                let direction = if distance > 0.0 {
-                    to_light / distance
-                } else {
-                    Vec3::Y
-                };
-                (direction, Some(distance))
-            }
-        }
-    }
-}
 
 /// One frame.
 pub struct Frame<'a> {
@@ -126,6 +97,9 @@ pub struct Frame<'a> {
     /// How far each joint of `paths` is from the first and the last one of its strand, as [`from_ends`] says it; empty where neither a clump nor
     /// a layer reads it.
     pub from_ends: &'a [Vec2],
+    /// How much of its path is there at each joint of `paths`, 0 or more: of those that effects made as they say it, of others 1; empty where
+    /// neither a clump nor a layer reads it.
+    pub path_weights: &'a [f32],
     /// The heads' surfaces on the screen.
     pub surfaces: Vec<Surface>,
     /// Layers that paint surfaces, which name them by their places here ([`Surface::paint`]).

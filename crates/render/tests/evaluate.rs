@@ -110,6 +110,7 @@ fn drawing_of(
         material_normals: &[],
         rest_positions: &[],
         from_ends: &[],
+        path_weights: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
         decals: Vec::new(),

@@ -25,6 +25,7 @@ struct Scene {
     normals: Vec<Vec3>,
     rest_positions: Vec<Vec3>,
     from_ends: Vec<Vec2>,
+    path_weights: Vec<f32>,
     surface_bias_m: f32,
 }
 
@@ -79,6 +80,7 @@ impl Scene {
             normals: Vec::new(),
             rest_positions: Vec::new(),
             from_ends: Vec::new(),
+            path_weights: Vec::new(),
             surface_bias_m: 0.0,
         }
     }
@@ -104,6 +106,7 @@ impl Scene {
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
             from_ends: &self.from_ends,
+            path_weights: &self.path_weights,
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
             decals: Vec::new(),
@@ -263,6 +266,8 @@ fn strands_and_paths_are_whole() {
     ));
     let error = refused(|scene| scene.from_ends = vec![Vec2::ZERO; 9]);
     assert!(matches!(error, FrameError::FromEnds { ends: 9, .. }));
+    let error = refused(|scene| scene.path_weights = vec![1.0; 3]);
+    assert!(matches!(error, FrameError::PathWeights { weights: 3, .. }));
     for bias_m in [-1.0, f32::NAN, f32::INFINITY] {
         let error = refused(|scene| scene.surface_bias_m = bias_m);
         assert!(matches!(error, FrameError::SurfaceBias { object: 0, .. }));

@@ -87,6 +87,7 @@ fn drawing_of(count: usize, list: &str, features: Features) -> Drawing {
         material_normals: &[],
         rest_positions: &[],
         from_ends: &[],
+        path_weights: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
         decals: Vec::new(),

@@ -106,6 +106,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         material_normals: &[],
         rest_positions: &[],
         from_ends: &[],
+        path_weights: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
         decals: Vec::new(),

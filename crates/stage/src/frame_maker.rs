@@ -19,7 +19,7 @@ use crate::scene::Scene;
 use crate::script::HeadPose;
 use crate::zones;
 use effects::wgsl::hash;
-use effects::{HairStrand, Input, Layer, MadePaths, layer_seed};
+use effects::{HairStrand, Input, Layer, MadePath, MadePaths, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use render::{Ball, Frame, Light, MeshLayer, NO_COLOR, NO_TAPER, StrandInfo, Surface};
@@ -44,6 +44,7 @@ pub struct FrameMaker {
     rest_positions: Vec<Vec3>,
     /// How far joints are from the ends of their strands; empty where nothing reads it.
     from_ends: Vec<Vec2>,
+    path_weights: Vec<f32>,
     objects: Vec<ObjectFrame>,
     camera: Option<Camera>,
     /// Look and time (seconds) of the last frame.
@@ -139,6 +140,7 @@ impl FrameMaker {
             normals,
             rest_positions,
             from_ends,
+            path_weights,
             objects,
             ..
         } = self;
@@ -146,6 +148,7 @@ impl FrameMaker {
         strands.clear();
         normals.clear();
         rest_positions.clear();
+        path_weights.clear();
         objects.truncate(scene.objects().len());
         let mut looks = scene.objects().iter().map(Object::look);
         let reads_material = looks
@@ -154,7 +157,8 @@ impl FrameMaker {
         let reads_rest = looks
             .clone()
             .any(|look| look.reads_rest() || look.lines_read(Input::RestPosition));
-        let reads_ends = looks.any(Look::reads_ends);
+        let reads_ends = looks.clone().any(Look::reads_ends);
+        let reads_weights = looks.any(Look::reads_weights);
         let light = scene.look().light(&camera, motion.head(scene));
         let section = &scene.look().sections.scene;
         let mut surfaces = Vec::new();
@@ -173,7 +177,8 @@ impl FrameMaker {
             let sight = Sight::new(&own_camera, object, section.detail, shows_all);
             frame.keep(motion);
             frame.push_strands(motion, &sight, strands, paths)?;
-            frame.push_made_paths(motion, &sight, strands, paths)?;
+            let weights = reads_weights.then_some(&mut *path_weights);
+            frame.push_made_paths(motion, &sight, light, strands, paths, weights)?;
             if reads_material {
                 frame.push_material_normals(motion, paths, normals);
             }
@@ -208,6 +213,9 @@ impl FrameMaker {
                 rest_positions: reads_rest.then_some(&mut *rest_positions),
             };
             objects[index].push_lines(motion, &sight, strands, paths, &mut joints)?;
+        }
+        if reads_weights {
+            path_weights.resize(paths.len(), 1.0);
         }
         if reads_ends {
             render::from_ends(paths, from_ends);
@@ -265,6 +273,7 @@ impl FrameMaker {
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
             from_ends: &self.from_ends,
+            path_weights: &self.path_weights,
             surfaces,
             mesh_layers,
             decals,
@@ -521,13 +530,15 @@ impl ObjectFrame {
         Ok(())
     }
 
-    /// Appends the paths that layers make, and notes which joints each layer draws on.
+    /// Appends the paths that layers make in this light, and notes which joints each layer draws on; `weights` are those of all joints.
     fn push_made_paths(
         &mut self,
         motion: &ObjectMotion,
         sight: &Sight,
+        light: Light,
         strands: &mut Vec<StrandInfo>,
         paths: &mut Paths,
+        mut weights: Option<&mut Vec<f32>>,
     ) -> Result<(), StageError> {
         let (hair, look) = (self.of.hair(), self.of.look());
         self.layer_joints.clear();
@@ -570,6 +581,8 @@ impl ObjectFrame {
                 strands: &above,
                 head_center: head.center,
                 head_height_m: head.height_m,
+                light: self.of.placement().own_light(light),
+                eye: sight.camera().eye(),
             };
             self.made.clear();
             layer.program.make_paths(&of_effects, seed, &mut self.made);
@@ -582,7 +595,8 @@ impl ObjectFrame {
             }
             let start = paths.len();
             paths.set_along_tangents(look.paints());
-            for (i, (strand, number, points)) in self.made.iter().enumerate() {
+            for (i, made) in self.made.iter().enumerate() {
+                let (strand, number, points) = (made.strand, made.number, made.points);
                 if strand >= above.len() {
                     let what = format!("a path of strand {strand}, and there are {}", above.len());
                     return Err(fault(what));
@@ -602,8 +616,12 @@ impl ObjectFrame {
                     let name = (strand, number, points.len());
                     let detail = at_rest.get(i).filter(|path| path.name == name);
                     let detail = detail.map(|path| &path.detail);
-                    let (kind, camera) = (look.path(), sight.camera());
+                    let (kind, camera, before) = (look.path(), sight.camera(), paths.len());
                     paths.push_pieces(index, points, &[], detail, kind, camera)?;
+                    if let Some(weights) = &mut weights {
+                        weights.resize(before, 1.0);
+                        weights.extend(paths.u[before..].iter().map(|u| made.weight(*u)));
+                    }
                 }
             }
             self.layer_joints.push(start..paths.len());
@@ -903,13 +921,15 @@ fn made_at_rest(
         strands: &strands_above(hair, hair.file.strands.points()),
         head_center: hair.head.center,
         head_height_m: hair.head.height_m,
+        light: Light::Direction(Vec3::Z),
+        eye: hair.head.center + 10.0 * hair.head.height_m * Vec3::Z,
     };
     let mut made = MadePaths::default();
     layer.program.make_paths(&of_effects, seed, &mut made);
-    let with_detail = |(strand, number, points): (usize, u32, &[Vec3])| {
+    let with_detail = |made: MadePath| {
         Ok(MadeAtRest {
-            name: (strand, number, points.len()),
-            detail: Detail::of(points, path, &[], 1.0)?,
+            name: (made.strand, made.number, made.points.len()),
+            detail: Detail::of(made.points, path, &[], 1.0)?,
         })
     };
     made.iter().map(with_detail).collect()

@@ -154,6 +154,12 @@ impl Look {
         self.layers.iter().any(reads) || self.lines_read(Input::FromEnds)
     }
 
+    /// Whether anything reads how much of the paths that effects made is there.
+    pub(crate) fn reads_weights(&self) -> bool {
+        let reads = |layer: &Layer| layer.program.inputs().has(Input::PathWeight);
+        self.layers.iter().any(reads) || self.lines_read(Input::PathWeight)
+    }
+
     /// Whether pictures change with time alone.
     pub(crate) fn reads_time(&self) -> bool {
         let reads = |layer: &Layer| {

@@ -178,6 +178,7 @@ impl Animation for Strands {
             material_normals: &[],
             rest_positions: &[],
             from_ends: &[],
+            path_weights: &[],
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
             decals: Vec::new(),

@@ -280,6 +280,7 @@ impl Evaluator {
                     vec2(v.to_array())
                 });
             }
+            Input::PathWeight => joints.path_weight.extend_from_slice(frame.path_weights),
             Input::Strand => of_runs(&mut joints.strand, runs, |run| of(run).id),
             Input::Seed => of_runs(&mut joints.seed, runs, |run| hash(of(run).id)),
             Input::StrandMean => {

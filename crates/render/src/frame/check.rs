@@ -167,6 +167,16 @@ pub enum FrameError {
         /// How many joints the paths have.
         joints: usize,
     },
+    /// The list is shorter or longer than the paths.
+    #[error(
+        "there are {weights} weights of paths for {joints} joints: one is needed for each, or none where nothing reads them"
+    )]
+    PathWeights {
+        /// How many there are.
+        weights: usize,
+        /// How many joints the paths have.
+        joints: usize,
+    },
     /// What its strands count nearer by is no length.
     #[error("object {object}: surface_bias_m is {bias_m}, no number of metres from 0 on")]
     SurfaceBias {
@@ -250,6 +260,11 @@ impl Frame<'_> {
         let reads_ends = |object: &Object| object.inputs().has(Input::FromEnds);
         if ends != joints && (ends > 0 || self.objects.iter().any(reads_ends)) {
             return Err(FrameError::FromEnds { ends, joints });
+        }
+        let weights = self.path_weights.len();
+        let reads_weights = |object: &Object| object.inputs().has(Input::PathWeight);
+        if weights != joints && (weights > 0 || self.objects.iter().any(reads_weights)) {
+            return Err(FrameError::PathWeights { weights, joints });
         }
         Ok(())
     }

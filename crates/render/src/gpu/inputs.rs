@@ -30,6 +30,7 @@ impl InputSource {
             Input::MaterialNormal => Triples(|frame| frame.material_normals),
             Input::RestPosition => Triples(|frame| frame.rest_positions),
             Input::FromEnds => Pairs(|frame| frame.from_ends),
+            Input::PathWeight => Numbers(|frame| frame.path_weights),
             Input::Strand => Wgsl("gpu_of_strand(joint, 0u)"),
             Input::Seed => Wgsl("gpu_seed(joint)"),
             Input::StrandMean => Wgsl("gpu_strand_mean(joint)"),

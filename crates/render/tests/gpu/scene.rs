@@ -25,6 +25,7 @@ pub struct Scene {
     pub material_normals: Vec<Vec3>,
     pub rest_positions: Vec<Vec3>,
     pub from_ends: Vec<Vec2>,
+    pub path_weights: Vec<f32>,
     pub surfaces: Vec<Surface>,
     pub mesh_layers: Vec<Layer>,
     pub light: Light,
@@ -214,6 +215,7 @@ impl Scene {
                 .collect(),
             rest_positions: paths.position.iter().map(|p| *p / 0.24).collect(),
             from_ends: ends_of(&paths),
+            path_weights: paths.u.iter().map(|u| 0.2 + u).collect(),
             camera,
             strands,
             clump: Varied::new(&values),
@@ -293,6 +295,7 @@ impl Scene {
         self.material_normals.resize(paths.len(), Vec3::Y);
         self.rest_positions.resize(paths.len(), Vec3::ZERO);
         self.from_ends = ends_of(&paths);
+        self.path_weights.resize(paths.len(), 1.0);
         self.paths = paths;
     }
 
@@ -349,6 +352,7 @@ impl Scene {
             material_normals: &self.material_normals,
             rest_positions: &self.rest_positions,
             from_ends: &self.from_ends,
+            path_weights: &self.path_weights,
             surfaces: self.surfaces.clone(),
             mesh_layers: self
                 .mesh_layers

@@ -1,0 +1,379 @@
+//! Merged highlights (Shin, Haller, Mukundan, section 3.4.2, Figs 13 to 16): what shines on neighbouring strands is joined to one strip around
+//! the head.
+//!
+//! There, particles brighter than a threshold are averaged in groups, and the means of neighbours are linked: groups come and go from frame to
+//! frame, and the strip jumps. Here each strand is linked to the same neighbour in every frame, means are weighted by how far the brightness is
+//! above the threshold, and so is the strip's width: it grows from nothing.
+
+use effects::wgsl::power;
+use effects::{Hair, HairStrand, MadePaths};
+use glam::Vec3;
+
+effects::effect!("zigzag");
+
+/// `hair.zigzag`: strips of light from strand to strand.
+pub struct Zigzag;
+
+/// Places along a strand at which its brightness is looked at.
+const PLACES: usize = 24;
+
+/// Half the stretch over which a strand's direction is taken, in parts of its length: particles' links meet in corners.
+const STRETCH: f32 = 0.06;
+
+/// Half the stretch over which the lower highlight takes over from the upper one, in parts of the strand.
+const BETWEEN: f32 = 0.1;
+
+/// Points of a link.
+const POINTS: usize = 7;
+
+/// A highlight of less brightness than this is drawn to the middle of its strand: where it is must not jump as it vanishes.
+const FAINT: f32 = 0.02;
+
+/// The lesser end of a link has its full share in the link's width from here on.
+const WHOLE: f32 = 0.25;
+
+/// The last part of `longest` over which a link grows from nothing.
+const FADE: f32 = 0.4;
+
+impl effects::StrokeEffect for Zigzag {
+    type Program = Program;
+    const ID: &'static str = "hair.zigzag";
+    const DOC: &'static str =
+        "highlights of neighbouring strands joined to one strip around the head";
+    const RANK: i32 = 220;
+    const OWN_PATHS: bool = true;
+    const ON_UNDERCOAT: bool = false;
+    const CLIP: Option<&'static str> = Some("hair");
+    const REACH: f32 = 0.1;
+
+    fn make_paths(params: &Params, hair: &Hair, _seed: u32, paths: &mut MadePaths) {
+        let groups = params.groups as usize;
+        let shining: Vec<[Highlight; 2]> = (hair.strands.iter())
+            .map(|strand| [0, 1].map(|group| Highlight::of(params, hair, strand, group, groups)))
+            .collect();
+        let beside: Vec<Beside> = hair.strands.iter().map(Beside::of).collect();
+        for (index, strand) in hair.strands.iter().enumerate() {
+            let Some(other) = next_around(&beside, index, hair.head_center) else {
+                continue;
+            };
+            for group in 0..groups {
+                let ends = [index, other].map(|strand| shining[strand][group]);
+                let strands = [strand, &hair.strands[other]];
+                paths.push_weighted(index, group as u32, link(params, hair, strands, ends));
+            }
+        }
+    }
+
+    fn extent(params: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
+        let joints = strand.joints;
+        strand.extent(|i| joints.path_weight[i] > 0.0 && params.thickness > 0.0)
+    }
+
+    fn reach(params: &Params) -> effects::Reach {
+        effects::Reach {
+            clumps: 0.0,
+            units: 150.0 * params.thickness,
+        }
+    }
+}
+
+/// Where a strand shines.
+#[derive(Clone, Copy)]
+struct Highlight {
+    /// Its middle along the strand, 0 to 1.
+    place: f32,
+    /// How much there is, 0 to 1.
+    amount: f32,
+}
+
+impl Highlight {
+    /// The highlight `group` of so many.
+    fn of(params: &Params, hair: &Hair, strand: &HairStrand, group: usize, groups: usize) -> Self {
+        let start = params.start.min(1.0);
+        let (mut sum, mut sum_of_squares, mut moment) = (0.0, 0.0, 0.0);
+        for place in 0..PLACES {
+            let u = start + (1.0 - start) * (place as f32 + 0.5) / PLACES as f32;
+            let lower = smooth((u - params.split) / (2.0 * BETWEEN) + 0.5);
+            let own = match (groups, group) {
+                (1, _) => 1.0,
+                (_, 0) => 1.0 - lower,
+                _ => lower,
+            };
+            let range = (params.full - params.threshold).max(1e-3);
+            let above = (brightness(params, hair, strand, u) - params.threshold) / range;
+            let weight = own * above.clamp(0.0, 1.0);
+            sum += weight;
+            sum_of_squares += weight * weight;
+            moment += weight * u;
+        }
+        let middle = 0.5 * (start + 1.0);
+        Self {
+            place: (moment + FAINT * middle) / (sum + FAINT),
+            amount: sum_of_squares / (sum + FAINT),
+        }
+    }
+}
+
+/// How brightly a strand shines at `u` of its way.
+fn brightness(params: &Params, hair: &Hair, strand: &HairStrand, u: f32) -> f32 {
+    let point = strand.point(u);
+    let (light, _) = hair.light.seen_from(point);
+    let (along, normal) = along_and_normal(hair, strand, u);
+    let facing = match params.kind {
+        Params::KIND_BLINN => {
+            let to_eye = (hair.eye - point).normalize_or(Vec3::Z);
+            let half_way = (light + to_eye).normalize_or_zero();
+            // None from behind.
+            let lit = smooth(10.0 * light.dot(normal));
+            lit * half_way.dot(normal)
+        }
+        _ => {
+            let to_root = -along;
+            let weighted = normal * params.weight + to_root * (1.0 - params.weight);
+            light.dot(weighted.normalize_or(normal))
+        }
+    };
+    power(facing.max(0.0), params.exponent)
+}
+
+/// The strand's direction to its tip, and the normal away from the head across it.
+fn along_and_normal(hair: &Hair, strand: &HairStrand, u: f32) -> (Vec3, Vec3) {
+    let along = strand.point(u + STRETCH) - strand.point(u - STRETCH);
+    let along = along.normalize_or(Vec3::NEG_Y);
+    let out = (strand.point(u) - hair.head_center).reject_from_normalized(along);
+    (along, out.normalize_or(along.any_orthonormal_vector()))
+}
+
+/// A link from one strand's highlight to another's: its points, and how much of it is there at each.
+fn link(
+    params: &Params,
+    hair: &Hair,
+    strands: [&HairStrand; 2],
+    ends: [Highlight; 2],
+) -> impl Iterator<Item = (Vec3, f32)> {
+    let at = |end: usize, place: f32| {
+        let (_, normal) = along_and_normal(hair, strands[end], place);
+        let lift_m = params.lift * 0.5 * strands[end].size / 300.0 * hair.head_height_m;
+        strands[end].point(place) + lift_m * normal
+    };
+    let [from, to] = [0, 1].map(|end| at(end, ends[end].place));
+    let length = from.distance(to) / hair.head_height_m;
+    let near = ((params.longest - length) / (FADE * params.longest).max(1e-6)).clamp(0.0, 1.0);
+    let lesser = ends[0].amount.min(ends[1].amount);
+    let whole = smooth(near) * smooth(lesser / WHOLE);
+    (0..POINTS)
+        .map(move |i| {
+            let t = i as f32 / (POINTS - 1) as f32;
+            let [a, b] = ends;
+            // Beside both strands all the way, so that it follows the hair's shape between them.
+            let place = a.place + (b.place - a.place) * t;
+            let point = at(0, place).lerp(at(1, place), t);
+            (point, whole * (a.amount + (b.amount - a.amount) * t))
+        })
+        .collect::<Vec<_>>()
+        .into_iter()
+}
+
+/// Where a strand is at rest.
+struct Beside {
+    /// At its root, and a third and two thirds of its way.
+    points: [Vec3; 3],
+}
+
+impl Beside {
+    fn of(strand: &HairStrand) -> Self {
+        Self {
+            points: [0.0, 0.35, 0.7].map(|u| strand.point_at_rest(u)),
+        }
+    }
+}
+
+/// The strand that is next to strand `index` around the head, counterclockwise from above, at rest: the nearest of those that are more beside it
+/// than above, below or behind it.
+fn next_around(all: &[Beside], index: usize, head_center: Vec3) -> Option<usize> {
+    let own = &all[index];
+    let middle = own.points[1] - head_center;
+    let around = Vec3::Y.cross(middle).normalize_or(Vec3::X);
+    let distance = |other: &Beside| -> f32 {
+        let pairs = own.points.iter().zip(&other.points);
+        pairs.map(|(a, b)| a.distance(*b)).sum()
+    };
+    let is_beside = |other: &Beside| {
+        let way: Vec3 = (own.points.iter().zip(&other.points))
+            .map(|(a, b)| *b - *a)
+            .sum();
+        2.0 * way.dot(around) > way.length() && way.length() > 0.0
+    };
+    (all.iter().enumerate())
+        .filter(|(other, beside)| *other != index && is_beside(beside))
+        .map(|(other, beside)| (distance(beside), other))
+        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+        .map(|(_, other)| other)
+}
+
+/// 0 to 1 as `t` goes from 0 to 1, without corners.
+fn smooth(t: f32) -> f32 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use effects::{Light, Parameters as _, Program as _, StrokeEffect as _, Values};
+
+    #[test]
+    fn it_conforms() {
+        effects_testkit::assert_conforms::<Zigzag>();
+    }
+
+    /// Strands from the top of a head of 0.24 m down its sides, all around it.
+    fn cap(count: usize) -> Vec<Vec<Vec3>> {
+        let strand = |i: usize| {
+            let angle = std::f32::consts::TAU * i as f32 / count as f32;
+            let out = Vec3::new(angle.sin(), 0.0, angle.cos());
+            let point = |k: usize| {
+                let down = 0.15 + 0.14 * k as f32;
+                0.12 * (down.cos() * Vec3::Y + down.sin() * out)
+            };
+            (0..11).map(point).collect()
+        };
+        (0..count).map(strand).collect()
+    }
+
+    fn params(set: &[(&str, &str)]) -> Params {
+        let mut values = Values::defaults(Program::PARAMS);
+        for (name, text) in set {
+            values.set_text(Zigzag::ID, name, text).unwrap();
+        }
+        Program::params(&values)
+    }
+
+    /// Each path's points with their weights.
+    fn made(strands: &[Vec<Vec3>], light: Vec3, set: &[(&str, &str)]) -> Vec<Vec<(Vec3, f32)>> {
+        let strands: Vec<HairStrand> = (0..)
+            .zip(strands)
+            .map(|(id, particles)| HairStrand {
+                id,
+                particles,
+                at_rest: particles,
+                size: 12.0,
+            })
+            .collect();
+        let hair = Hair {
+            strands: &strands,
+            head_center: Vec3::ZERO,
+            head_height_m: 0.24,
+            light: Light::Direction(light),
+            eye: Vec3::new(0.0, 0.0, 1.5),
+        };
+        let mut paths = MadePaths::default();
+        Zigzag::make_paths(&params(set), &hair, 1, &mut paths);
+        assert_eq!(paths.fault(), None);
+        let path = |path: effects::MadePath| {
+            let weights = path.weights.iter().copied();
+            path.points.iter().copied().zip(weights).collect()
+        };
+        paths.iter().map(path).collect()
+    }
+
+    fn weights(paths: &[Vec<(Vec3, f32)>]) -> impl Iterator<Item = f32> {
+        paths.iter().flatten().map(|(_, weight)| *weight)
+    }
+
+    const FROM_ABOVE: Vec3 = Vec3::new(0.0, 0.8, 0.6);
+
+    /// Shin's Fig 14: strands shine, what shines is averaged, the means of neighbours are linked.
+    #[test]
+    fn what_shines_on_neighbours_is_linked() {
+        let paths = made(&cap(24), FROM_ABOVE, &[]);
+        assert_eq!(paths.len(), 24);
+        // The side of the light has it, the other has none.
+        for (i, path) in paths.iter().enumerate() {
+            let toward = path.iter().all(|(point, _)| point.z > 0.06);
+            let away = path.iter().all(|(point, _)| point.z < 0.0);
+            let widest = path.iter().map(|(_, weight)| *weight).fold(0.0, f32::max);
+            assert!(!toward || widest > 0.5, "{i}: {widest}");
+            assert!(!away || widest == 0.0, "{i}: {widest}");
+        }
+        // Each ends where the next one begins, in place and width.
+        let next = |path: &[(Vec3, f32)]| {
+            let (end, _) = path[POINTS - 1];
+            let distance = |other: &&Vec<(Vec3, f32)>| other[0].0.distance(end);
+            let nearest = paths
+                .iter()
+                .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            nearest.map(|other| distance(&other)).unwrap()
+        };
+        assert!(paths.iter().all(|path| next(path) < 1e-5));
+    }
+
+    #[test]
+    fn nothing_is_drawn_where_nothing_shines() {
+        let dark = made(&cap(24), FROM_ABOVE, &[("threshold", "1"), ("full", "1")]);
+        assert!(weights(&dark).all(|weight| weight == 0.0));
+        let below = made(&cap(24), -Vec3::Y, &[]);
+        assert!(weights(&below).all(|weight| weight == 0.0));
+        // Everything shines: all strands are linked, whole.
+        let all = made(
+            &cap(24),
+            FROM_ABOVE,
+            &[("exponent", "1"), ("threshold", "0"), ("full", "0")],
+        );
+        assert!(weights(&all).filter(|weight| *weight > 0.9).count() > 24 * POINTS / 2);
+        assert!(made(&cap(1), FROM_ABOVE, &[]).is_empty());
+        assert!(made(&[], FROM_ABOVE, &[]).is_empty());
+    }
+
+    #[test]
+    fn links_break_at_partings() {
+        // Every strand but a wedge.
+        let mut strands = cap(24);
+        strands.drain(0..3);
+        let whole = weights(&made(&cap(24), Vec3::Z, &[]))
+            .filter(|w| *w > 0.0)
+            .count();
+        let parted = made(&strands, Vec3::Z, &[("longest", "0.2")]);
+        let crosses = |path: &&Vec<(Vec3, f32)>| {
+            path[0].0.x < 0.0 && path[POINTS - 1].0.x > 0.0 && path[0].0.z > 0.0
+        };
+        let across: Vec<_> = parted.iter().filter(crosses).collect();
+        assert!(whole > 0 && !across.is_empty());
+        assert!(
+            across
+                .iter()
+                .all(|path| path.iter().all(|(_, weight)| *weight == 0.0))
+        );
+    }
+
+    /// As the light goes round nothing jumps: half of the step is about half of the change.
+    #[test]
+    fn it_grows_from_nothing_and_never_jumps() {
+        let light = |degrees: f32| {
+            let angle = degrees.to_radians();
+            Vec3::new(0.6 * angle.sin(), 0.8, 0.6 * angle.cos())
+        };
+        for groups in ["1", "2"] {
+            let at = |degrees: f32| made(&cap(24), light(degrees), &[("groups", groups)]);
+            let farthest = |step: f32| {
+                let steps = (360.0 / step) as usize;
+                let mut farthest = (0.0_f32, 0.0_f32);
+                let mut before = at(0.0);
+                for i in 1..=steps {
+                    let now = at(step * i as f32);
+                    for (a, b) in before.iter().flatten().zip(now.iter().flatten()) {
+                        farthest.0 = farthest.0.max(a.0.distance(b.0));
+                        farthest.1 = farthest.1.max((a.1 - b.1).abs());
+                    }
+                    before = now;
+                }
+                farthest
+            };
+            let (coarse, fine) = (farthest(2.0), farthest(1.0));
+            assert!(
+                coarse.0 > 1.8 * fine.0 && coarse.1 > 1.8 * fine.1,
+                "{coarse:?}, {fine:?}"
+            );
+        }
+    }
+}
