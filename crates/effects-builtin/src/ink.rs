@@ -8,6 +8,7 @@ pub struct Ink;
 
 /// As in the WGSL.
 const GAP_STEPS: u32 = 5;
+const WIDEST: f32 = 150.0;
 
 impl effects::StrokeEffect for Ink {
     type Program = Program;
@@ -25,12 +26,11 @@ impl effects::StrokeEffect for Ink {
     }
 
     fn reach(params: &Params) -> effects::Reach {
+        let by_light = params.light_width.max(1.0);
+        let widest = params.width * params.gap_width.max(1.0) * by_light * (1.0 + params.wobble);
         effects::Reach {
             clumps: 2.0,
-            units: params.width
-                * params.gap_width.max(1.0)
-                * params.light_width.max(1.0)
-                * (1.0 + params.wobble),
+            units: widest.min(WIDEST),
         }
     }
 

@@ -46,6 +46,9 @@ struct Params {
 /// In how many steps the width grows with the gap: each is a line of its own, wider and farther away than the one before, which hides nothing of it.
 const GAP_STEPS: u32 = 5u;
 
+/// The widest line, in the layer's unit: the effect's reach.
+const WIDEST: f32 = 150.0;
+
 /// Over how many grays one colour becomes the other.
 const BLEND: f32 = 0.1;
 
@@ -78,7 +81,7 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let to_tip = select(1.0, smoothstep(0.0, params.tip_fade, 1.0 - joint.u), 1.0 - joint.u < params.tip_fade);
     let share = by_hand * by_light * from_root * to_tip * on;
     let by_gap = 1.0 + (params.gap_width - 1.0) * step;
-    let whole = min(params.width * joint.unit * share * by_gap, params.ratio * joint.clump_radius);
+    let whole = min(min(params.width * joint.unit * share * by_gap, WIDEST * joint.unit), params.ratio * joint.clump_radius);
     // A side that is not there has no line.
     let width = whole * saturate(4.0 * disc.z / max(joint.clump_radius, 1e-6));
     return Stroke(vec2<f32>(disc.x, disc.y), disc.z + width, params.gap * step, color);

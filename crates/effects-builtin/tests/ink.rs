@@ -125,7 +125,7 @@ fn width_before(behind: f32, set: &[(&str, &str)]) -> f32 {
     let params = One::<Ink>::params(&all);
     let strokes = (0..Ink::instances(&params))
         .map(|instance| stroke::<Ink>(&joint_at(0.5, 1.0, 3, 0.5), instance, 1, &all));
-    let shown = strokes.filter(|stroke| stroke.depth <= behind);
+    let shown = strokes.filter(|stroke| stroke.depth_offset <= behind);
     shown.map(|stroke| stroke.radius - 20.0).fold(0.0, f32::max)
 }
 

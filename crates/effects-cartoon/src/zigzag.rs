@@ -27,7 +27,7 @@ const BETWEEN: f32 = 0.1;
 const POINTS: usize = 7;
 
 /// A highlight of less brightness than this is drawn to the middle of its strand: where it is must not jump as it vanishes.
-const FAINT: f32 = 0.02;
+const FAINT: f32 = 0.2;
 
 /// The lesser end of a link has its full share in the link's width from here on.
 const WHOLE: f32 = 0.25;
@@ -66,13 +66,13 @@ impl effects::StrokeEffect for Zigzag {
 
     fn extent(params: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
         let joints = strand.joints;
-        strand.extent(|i| joints.path_weight[i] > 0.0 && params.thickness > 0.0)
+        strand.extent(|i| joints.path_weight[i] > 0.0 && params.width > 0.0)
     }
 
     fn reach(params: &Params) -> effects::Reach {
         effects::Reach {
             clumps: 0.0,
-            units: 150.0 * params.thickness,
+            units: 0.5 * params.width,
         }
     }
 }
@@ -220,7 +220,7 @@ fn smooth(t: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use effects::{Light, Parameters as _, Program as _, StrokeEffect as _, Values};
+    use effects::{Light, Parameters as _, StrokeEffect as _, Values};
 
     #[test]
     fn it_conforms() {
@@ -290,8 +290,8 @@ mod tests {
         assert_eq!(paths.len(), 24);
         // The side of the light has it, the other has none.
         for (i, path) in paths.iter().enumerate() {
-            let toward = path.iter().all(|(point, _)| point.z > 0.06);
-            let away = path.iter().all(|(point, _)| point.z < 0.0);
+            let toward = path.iter().all(|(point, _)| point.z > 0.085);
+            let away = path.iter().all(|(point, _)| point.z < -0.04);
             let widest = path.iter().map(|(_, weight)| *weight).fold(0.0, f32::max);
             assert!(!toward || widest > 0.5, "{i}: {widest}");
             assert!(!away || widest == 0.0, "{i}: {widest}");
@@ -330,10 +330,10 @@ mod tests {
         // Every strand but a wedge.
         let mut strands = cap(24);
         strands.drain(0..3);
-        let whole = weights(&made(&cap(24), Vec3::Z, &[]))
+        let whole = weights(&made(&cap(24), FROM_ABOVE, &[]))
             .filter(|w| *w > 0.0)
             .count();
-        let parted = made(&strands, Vec3::Z, &[("longest", "0.2")]);
+        let parted = made(&strands, FROM_ABOVE, &[("longest", "0.2")]);
         let crosses = |path: &&Vec<(Vec3, f32)>| {
             path[0].0.x < 0.0 && path[POINTS - 1].0.x > 0.0 && path[0].0.z > 0.0
         };
@@ -369,9 +369,9 @@ mod tests {
                 }
                 farthest
             };
-            let (coarse, fine) = (farthest(2.0), farthest(1.0));
+            let (coarse, fine) = (farthest(1.0), farthest(0.5));
             assert!(
-                coarse.0 > 1.8 * fine.0 && coarse.1 > 1.8 * fine.1,
+                coarse.0 > 1.7 * fine.0 && coarse.1 > 1.7 * fine.1,
                 "{coarse:?}, {fine:?}"
             );
         }

@@ -9,13 +9,13 @@ struct Params {
     /// @constant @range 0..1 @default 0.65
     weight: f32,
     /// How sharp the light is: larger makes a narrower highlight.
-    /// @constant @range 1..1000 @default 12
+    /// @constant @range 1..1000 @default 6
     exponent: f32,
     /// How bright a strand must be for the highlight to begin on it: it grows from nothing there.
-    /// @unit gray, 0 dark to 1 lit @constant @range 0..1 @default 0.6
+    /// @unit gray, 0 dark to 1 lit @constant @range 0..1 @default 0.5
     threshold: f32,
     /// How bright a strand must be for the highlight to be whole.
-    /// @unit gray, 0 dark to 1 lit @constant @range 0..1 @default 0.9
+    /// @unit gray, 0 dark to 1 lit @constant @range 0..1 @default 0.85
     full: f32,
     /// Highlights on each strand at most: with 2 those above and below `split` are drawn apart.
     /// @range 1..2 @default 1
@@ -30,8 +30,8 @@ struct Params {
     /// @unit head heights @constant @range 0..4 @default 0.3
     longest: f32,
     /// How wide the highlight is, along the hair.
-    /// @unit head heights @range 0..1 @default 0.09
-    thickness: f32,
+    /// @unit the layer's unit: 1/300 head height, or pixels @range 0..300 @default 26
+    width: f32,
     /// How far above its strands the highlight is laid, so that it lies on clumps and not in them.
     /// @unit 1 is half the clump's width @constant @range 0..4 @default 1
     lift: f32,
@@ -44,7 +44,7 @@ struct Params {
 }
 
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
-    let size = 150.0 * params.thickness;
+    let size = 0.5 * params.width * joint.unit;
     let share = without_hairlines(saturate(joint.path_weight), max(size, 1e-6), 0.5 * params.thinnest * joint.unit);
     return Stroke(vec2<f32>(0.0), share * size, 0.0, params.color);
 }

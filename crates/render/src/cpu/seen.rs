@@ -22,6 +22,8 @@ const RIGHT: u8 = 2;
 const ABOVE: u8 = 4;
 const BELOW: u8 = 8;
 const HIDDEN: u8 = 16;
+/// Not a side: it is deeper than the middle of the head's ball, and so seen nowhere before it.
+const DEEP: u8 = 32;
 
 /// Runs that a thread works on at a time, at least.
 const SOME_RUNS: usize = 64;
@@ -131,7 +133,9 @@ impl Seen {
                     cover: view.cover.filter(|_| is_whole),
                     ..view
                 };
-                segments.find(&view, &rooms[room], run, all, within);
+                // Each as if it were seen by itself: no head hides one of several.
+                let hides = if is_whole { HIDDEN } else { 0 };
+                segments.find(&view, &rooms[room], (run, hides), all, within);
             },
         );
         if !within.contains(&false) {
@@ -146,7 +150,7 @@ impl Segments {
         &mut self,
         view: &View,
         room: &Room,
-        run: &PathRun,
+        (run, hides): (&PathRun, u8),
         all: &mut [bool],
         within: &mut [bool],
     ) {
@@ -161,7 +165,10 @@ impl Segments {
         reaches.extend(run.joints.clone().map(|i| room.reach_px(view, i)));
         let joints = run.joints.clone().zip(&*reaches);
         sides.clear();
-        sides.extend(joints.map(|(i, reach)| room.sides(view.frame, view.joints, i, reach.all)));
+        let shown_by_itself = HIDDEN & !hides;
+        let of_joint =
+            |(i, reach): (usize, &ReachPx)| room.sides(view.frame, view.joints, i, reach.all);
+        sides.extend(joints.map(|joint| of_joint(joint) & !shown_by_itself));
         // One joint alone is a segment from itself to itself.
         let last = sides.len() - 1;
         let pairs = (0..last.max(1)).map(|k| [k, (k + 1).min(last)]);
@@ -176,8 +183,10 @@ impl Segments {
                 high: (centers[a] + ra).max(centers[b] + rb),
             }
         };
+        let common = |[a, b]: [usize; 2]| sides[a] & sides[b];
+        let on_picture = |ends| common(ends) & !(HIDDEN | DEEP) == 0;
         for ends in pairs.clone() {
-            let may_be = sides[ends[0]] & sides[ends[1]] == 0;
+            let may_be = common(ends) & !DEEP == 0;
             let Some(cover) = view.cover else {
                 seen.push(may_be);
                 continue;
@@ -189,14 +198,36 @@ impl Segments {
             let is_seen = shows || may_be && !cover.hides(strokes, nearness);
             seen.push(is_seen);
             clumps.push(shows.then_some(clump));
-            areas.push(may_be.then_some(strokes));
+            areas.push(on_picture(ends).then_some(strokes));
         }
-        // What a sample shows of a strand is of all its segments there, also of those that other hair hides by themselves.
-        let shown = || areas.iter().zip(&*seen).filter(|(_, is_seen)| **is_seen);
+        let is_hidden = |(ends, is_seen): ([usize; 2], &bool)| !is_seen && on_picture(ends);
+        if view.cover.is_none() && seen.contains(&true) && pairs.clone().zip(&*seen).any(is_hidden)
+        {
+            let strokes = |ends| on_picture(ends).then(|| area(ends, |reach| reach.all));
+            areas.extend(pairs.clone().map(strokes));
+        }
+        // What a sample shows of a strand is of all its segments there, also of those that a head or other hair hides by themselves.
+        let shown = || {
+            let areas = areas.iter().zip(&*seen).enumerate();
+            areas.filter_map(|(k, (area, is_seen))| Some((k, area.as_ref().filter(|_| *is_seen)?)))
+        };
+        let strokes = |k: usize| {
+            let ends = [k, (k + 1).min(last)];
+            let reach_px = ends.map(|end| reaches[end].all + COVER_MARGIN_PX);
+            (ends.map(|end| centers[end]), reach_px[0].max(reach_px[1]))
+        };
         for (k, [a, b]) in pairs.clone().enumerate() {
+            // What the head hides lies in its ball's shadow, where nothing deep is seen.
+            let is_behind_head = common([a, b]) & HIDDEN != 0;
             let lies_over = |hidden: &Area| {
-                let mut shown = shown().filter_map(|(area, _)| area.as_ref());
-                shown.any(|area| area.meets(hidden))
+                let mut shown = shown().filter(|(other, area)| {
+                    let is_deep = common([*other, (other + 1).min(last)]) & DEEP != 0;
+                    !(is_behind_head && is_deep) && area.meets(hidden)
+                });
+                shown.any(|(other, _)| {
+                    let ((own, reach), (others, others_reach)) = (strokes(k), strokes(other));
+                    distance(own, others) <= reach + others_reach
+                })
             };
             let hidden = areas.get(k).and_then(Option::as_ref);
             let is_needed = seen[k] || hidden.is_some_and(lies_over);
@@ -218,6 +249,27 @@ impl Segments {
             within[ends[1]] |= is_needed;
         }
     }
+}
+
+/// How far two lines from point to point are from each other.
+fn distance(a: [Vec2; 2], b: [Vec2; 2]) -> f32 {
+    let to_line = |point: Vec2, [from, to]: [Vec2; 2]| {
+        let way = to - from;
+        let share = (point - from).dot(way) / way.length_squared().max(f32::MIN_POSITIVE);
+        point.distance(from + share.clamp(0.0, 1.0) * way)
+    };
+    let side = |[from, to]: [Vec2; 2], point: Vec2| (to - from).perp_dot(point - from);
+    let crosses = |one, [from, to]: [Vec2; 2]| side(one, from) * side(one, to) < 0.0;
+    if crosses(a, b) && crosses(b, a) {
+        return 0.0;
+    }
+    let of_ends = [
+        to_line(a[0], b),
+        to_line(a[1], b),
+        to_line(b[0], a),
+        to_line(b[1], a),
+    ];
+    of_ends.into_iter().fold(f32::INFINITY, lesser)
 }
 
 /// How far discs of a joint reach from its place on the screen, pixels.
@@ -460,11 +512,13 @@ impl Room {
         let side = |is_there: bool, side: u8| if is_there { side } else { 0 };
         let nearest_m = paths.depth[i] - joints.clump_radius[i] * self.unit_m - self.decals_m;
         let is_hidden = |shadow: &Shadow| shadow.holds(center, reach_px, nearest_m);
+        let is_deep = |shadow: &Shadow| nearest_m >= shadow.depth_m;
         side(center.x < -reach_px, LEFT)
             | side(center.x > size[0] + reach_px, RIGHT)
             | side(center.y < -reach_px, ABOVE)
             | side(center.y > size[1] + reach_px, BELOW)
             | side(self.shadow.as_ref().is_some_and(is_hidden), HIDDEN)
+            | side(self.shadow.as_ref().is_some_and(is_deep), DEEP)
     }
 
     /// No disc between two neighbouring joints is nearer, 1/m.

@@ -74,6 +74,22 @@ proptest! {
     }
 }
 
+/// A strand whose root the head hides passes before the face, and over its own root there: what a sample shows of a strand is of both.
+#[test]
+fn roots_behind_the_head_show_in_what_hangs_before_them() {
+    let mut scene = yardstick("flat-tails-red");
+    let camera = &mut scene.camera;
+    (camera.yaw, camera.pitch, camera.distance) = (63.41607, -56.696106, 2.7440948);
+    (camera.target[0], camera.target[1]) = (-0.6836571, 0.37310672);
+    let motion = Motion::new();
+    let mut frames = FrameMaker::new();
+    let frame = frames.frame(&scene, &motion).unwrap();
+    assert!(frame.objects[0].solid.is_some());
+    let (expected, _) = picture(&frame, Evaluator::everywhere());
+    let (found, _) = picture(&frame, Evaluator::default());
+    assert!(found == expected);
+}
+
 #[test]
 fn strokes_behind_the_head_are_not_worked_out() {
     let mut scene = yardstick_of("short-ash", [480, 360]);
