@@ -4,6 +4,8 @@
 /// A decal's record in the tables: what it is, its reach (m), the marks of the surfaces that it is drawn on.
 const DECAL_REACH: u32 = 1u;
 const DECAL_MARKS: u32 = 2u;
+/// Where its brush's record begins, 0 of one that is whole.
+const DECAL_BRUSH: u32 = 3u;
 const DECAL_ON_HAIR: u32 = 1u;
 const DECAL_IS_SHADOW: u32 = 2u;
 
@@ -16,55 +18,100 @@ struct Decals {
     disc: vec4<u32>,
     way: vec4<f32>,
     is_shadow: vec4<bool>,
+    /// Where `BRUSHED`, as that of a `Paint`.
+    side: vec4<f32>,
 }
 
-fn draw_decals(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<f32>, y: vec4<f32>, samples: ptr<function, Samples>) {
-    let marks = marks_of(*samples);
+fn no_decals() -> Decals {
     let none = vec4<u32>(0u);
-    var decals = Decals(none, none, vec4<f32>(FAR_RATIO), none, vec4<f32>(0.0), vec4<bool>(false));
+    return Decals(none, none, vec4<f32>(FAR_RATIO), none, vec4<f32>(0.0), vec4<bool>(false), vec4<f32>(1.0));
+}
+
+/// Takes from one stroke of a decal, with that record, what its brush leaves bare.
+fn thin_decals(own: ptr<function, Decals>, record: u32, first_sample: u32) {
+    if (record == 0u || tables[record + DECAL_BRUSH] == 0u) {
+        return;
+    }
+    let brush = tables[record + DECAL_BRUSH];
+    let v = across((*own).side, (*own).ratio);
+    for (var k = 0u; k < 4u; k++) {
+        let at = *own;
+        if (at.number[k] > 0u && !brush_covers(brush, at.disc[k], at.way[k], v[k], first_sample + k)) {
+            (*own).number[k] = 0u;
+        }
+    }
+}
+
+/// For each sample the one that lies above.
+fn higher_decals(a: Decals, b: Decals) -> Decals {
+    let is_higher = (b.number > a.number) | ((b.number == a.number) & (b.strand < a.strand));
+    let wins = is_higher & (b.number > vec4<u32>(0u));
+    return Decals(
+        select(a.number, b.number, wins),
+        select(a.strand, b.strand, wins),
+        select(a.ratio, b.ratio, wins),
+        select(a.disc, b.disc, wins),
+        select(a.way, b.way, wins),
+        select(a.is_shadow, b.is_shadow, wins),
+        select(a.side, b.side, wins),
+    );
+}
+
+fn draw_decals(
+    tile: vec2<f32>,
+    at: u32,
+    local: u32,
+    pixel: vec2<f32>,
+    x: vec4<f32>,
+    y: vec4<f32>,
+    first_sample: u32,
+    samples: ptr<function, Samples>,
+) {
+    let marks = marks_of(*samples);
+    var decals = no_decals();
     let found = find_list(at, 0u, gpu_frame.chunk_capacity, gpu_frame.chunks, local);
-    // The next thing to look at: an entry, and a segment of it, counted on through its strokes.
-    var next = 0u;
-    var item = 0u;
-    while (next < found.y) {
+    var walk = begin_walk(found, BRUSHED);
+    // Where `BRUSHED` one stroke of a strand at a time: its strand, number and record.
+    var own = no_decals();
+    var key = vec3<u32>(0u);
+    while (walk.next < found.y) {
         if (local < BATCH / 32u) {
             atomicStore(&reaching[local], 0u);
         }
         workgroupBarrier();
-        var seen: Found;
-        var offset = 0u;
-        while (next < found.y && offset < BATCH) {
-            let chunk = chunks[entry(found, next)];
-            let places = max(chunk.segments, 1u);
-            let items = places * tables[2u * chunk.strokes + 1u];
-            let taken = min(items - item, BATCH - offset);
-            if (local >= offset && local < offset + taken) {
-                let own = item + local - offset;
-                seen = look_at(chunk, own / places, own % places, tile, true);
-            }
-            offset += taken;
-            item += taken;
-            if (item < items) {
-                continue;
-            }
-            item = 0u;
-            next++;
-        }
-        if (seen.is_there) {
+        let looked = walk_batch(&walk, found, local, tile, true);
+        if (looked.seen.is_there) {
             atomicOr(&reaching[local / 32u], 1u << (local % 32u));
         }
         workgroupBarrier();
-        if (seen.is_there) {
-            store(slot_of(local), seen.segment);
+        if (looked.seen.is_there) {
+            store(slot_of(local), looked.seen.segment);
         }
         workgroupBarrier();
         let count = reaching_count();
         for (var slot = 0u; slot < count; slot++) {
-            if (!is_beside(slot, pixel)) {
-                add_decal(&decals, *samples, marks, segment_in(slot), x, y);
+            if (is_beside(slot, pixel)) {
+                continue;
+            }
+            let segment = segment_in(slot);
+            if (BRUSHED) {
+                let next_key = vec3<u32>(segment.strand, segment.number, segment.record);
+                if (any(next_key != key)) {
+                    thin_decals(&own, key.z, first_sample);
+                    decals = higher_decals(decals, own);
+                    own = no_decals();
+                    key = next_key;
+                }
+                add_decal(&own, *samples, marks, segment, x, y);
+            } else {
+                add_decal(&decals, *samples, marks, segment, x, y);
             }
         }
         workgroupBarrier();
+    }
+    if (BRUSHED) {
+        thin_decals(&own, key.z, first_sample);
+        decals = higher_decals(decals, own);
     }
     for (var k = 0u; k < 4u; k++) {
         if (decals.number[k] == 0u) {
@@ -113,16 +160,16 @@ fn add_decal(decals: ptr<function, Decals>, samples: Samples, marks: vec4<u32>, 
         return;
     }
     let at = nearest(s.sweep, p);
-    let means = tables[s.decal];
+    let means = tables[s.record];
     let is_shadow = (means & DECAL_IS_SHADOW) != 0u;
-    let on_surface = (marks & vec4<u32>(tables[s.decal + DECAL_MARKS])) != vec4<u32>(0u);
+    let on_surface = (marks & vec4<u32>(tables[s.record + DECAL_MARKS])) != vec4<u32>(0u);
     let is_hair = samples.strand > vec4<f32>(NOTHING);
     let is_target = select(on_surface, vec4<bool>((means & DECAL_ON_HAIR) != 0u), is_hair);
     let depth = s.inv_depth.x + at.u * s.inv_depth.y;
     let seen = select(samples.surface, samples.strand, is_hair);
     // How far the seen lies behind, and the reach, both times the inverse depths.
     let behind = depth - seen;
-    let reach = table(s.decal + DECAL_REACH) * (depth * seen);
+    let reach = table(s.record + DECAL_REACH) * (depth * seen);
     let is_near = (behind <= reach) & (behind >= -reach);
     let is_in_shadow = select(behind >= -reach, behind > reach, is_hair);
     var fits = covered & is_target & select(is_near, is_in_shadow, vec4<bool>(is_shadow)) & (depth > vec4<f32>(0.0));
@@ -147,6 +194,9 @@ fn add_decal(decals: ptr<function, Decals>, samples: Samples, marks: vec4<u32>, 
     (*decals).disc = select((*decals).disc, vec4<u32>(s.disc), wins);
     (*decals).way = select((*decals).way, s.way.x + at.u * s.way.y, wins);
     (*decals).is_shadow = select((*decals).is_shadow, vec4<bool>(is_shadow), wins);
+    if (BRUSHED) {
+        (*decals).side = select((*decals).side, side_of(s, p), wins);
+    }
 }
 
 /// The colour that a triangle has in shadow where it is drawn in another.

@@ -31,6 +31,8 @@ const STROKE_NUMBER: u32 = 1u;
 const STROKE_IS_CLIPPED: u32 = 2u;
 /// Of a decal where its record begins, 0 of others.
 const STROKE_DECAL: u32 = 3u;
+/// Where its brush's record begins, 0 of a stroke that is whole.
+const STROKE_BRUSH: u32 = 4u;
 
 /// In place of a stroke's record: a stroke that draws on other runs of the strand, and not on this chunk's.
 const NO_STROKE: u32 = 0u;

@@ -14,8 +14,8 @@ struct Segment {
     number: u32,
     is_clipped: bool,
     strand: u32,
-    /// The record of a decal, 0 of others.
-    decal: u32,
+    /// The record of a decal, or of a brush; 0 of others.
+    record: u32,
 }
 
 fn store(slot: u32, s: Segment) {
@@ -31,7 +31,7 @@ fn store(slot: u32, s: Segment) {
     batch[at + 3u] = vec4<f32>(s.sweep.body_end, s.sweep.flat_end, s.way);
     batch[at + 4u] = vec4<f32>(s.inv_depth, s.biased);
     let number = 2u * s.number + select(0u, 1u, s.is_clipped);
-    batch[at + 5u] = bitcast<vec4<f32>>(vec4<u32>(s.disc, number, s.strand, s.decal) + KEEPS_BITS);
+    batch[at + 5u] = bitcast<vec4<f32>>(vec4<u32>(s.disc, number, s.strand, s.record) + KEEPS_BITS);
 }
 
 /// Added to whole numbers that pass as floating point ones: as such they are normal numbers, whose bits no processor
@@ -142,7 +142,7 @@ fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>, decals: bool
         number,
         ORDER != SHIFTED && tables[stroke + STROKE_IS_CLIPPED] != 0u,
         chunk.strand,
-        decal,
+        select(tables[stroke + STROKE_BRUSH], decal, decals),
     );
     return found;
 }

@@ -7,7 +7,7 @@ struct Paint {
     ratio: vec4<f32>,
     disc: vec4<u32>,
     way: vec4<f32>,
-    /// Where `TELLS`: 1 to the right of who walks from root to tip, else -1; and the ratio of the segment that says so.
+    /// Where `SIDED`: 1 to the right of who walks from root to tip, else -1; and the ratio of the segment that says so.
     side: vec4<f32>,
     side_ratio: vec4<f32>,
 }
@@ -16,13 +16,16 @@ struct Paint {
 /// turns back, two segments are equally near and may see the sample on other sides, which rounding must not decide.
 const NEARER: f32 = 0.999;
 
+/// Whether it is asked on which side of strokes samples lie.
+const SIDED: bool = TELLS || BRUSHED;
+
 /// One strand at the samples; in `SHIFTED`, where strokes are on their own, one of its strokes, as `outer`.
 struct Strand {
     /// Its clump.
     depth: vec4<f32>,
     biased: vec4<f32>,
     ratio: vec4<f32>,
-    /// Where `TELLS`, as those of a `Paint`.
+    /// Where `SIDED`, as those of a `Paint`.
     side: vec4<f32>,
     side_ratio: vec4<f32>,
     /// The highest stroke that shows outside the clump too, with its own depth.
@@ -68,7 +71,7 @@ fn paint(p: ptr<function, Paint>, s: Segment, local: Local, at: Nearest, covered
     (*p).ratio = select((*p).ratio, at.ratio, is_nearer);
     (*p).disc = select((*p).disc, vec4<u32>(s.disc), is_nearer);
     (*p).way = select((*p).way, s.way.x + at.u * s.way.y, is_nearer);
-    if (TELLS) {
+    if (SIDED) {
         let is_same = covered & (number == (*p).number);
         let tells_side = is_higher | (is_same & (at.ratio < (*p).side_ratio * NEARER));
         (*p).side = select((*p).side, side_of(s, local), tells_side);
@@ -91,7 +94,7 @@ fn add(strand: ptr<function, Strand>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
         let biased = max(s.biased.x + part.low * s.biased.y, s.biased.x + part.high * s.biased.y);
         (*strand).depth = select((*strand).depth, max((*strand).depth, depth), covered);
         (*strand).biased = select((*strand).biased, max((*strand).biased, biased), covered);
-        if (TELLS) {
+        if (SIDED) {
             let tells_side = covered & (at.ratio < (*strand).side_ratio * NEARER);
             (*strand).side = select((*strand).side, side_of(s, p), tells_side);
             (*strand).side_ratio = select((*strand).side_ratio, at.ratio, tells_side);
@@ -143,6 +146,55 @@ fn set_colors(samples: ptr<function, Samples>, disc: vec4<u32>, way: vec4<f32>, 
             (*samples).blue[k] = color.z;
         }
     }
+}
+
+/// Takes from one stroke of a strand what its brush, with that record, leaves bare.
+fn thin(stroke: ptr<function, Strand>, brush: u32, first_sample: u32) {
+    if (brush == 0u) {
+        return;
+    }
+    let outer_v = across((*stroke).outer.side, (*stroke).outer.ratio);
+    let inner_v = across((*stroke).inner.side, (*stroke).inner.ratio);
+    for (var k = 0u; k < 4u; k++) {
+        let sample = first_sample + k;
+        let outer = (*stroke).outer;
+        if (outer.number[k] > 0u && !brush_covers(brush, outer.disc[k], outer.way[k], outer_v[k], sample)) {
+            (*stroke).outer.number[k] = 0u;
+        }
+        let inner = (*stroke).inner;
+        if (inner.number[k] > 0u && !brush_covers(brush, inner.disc[k], inner.way[k], inner_v[k], sample)) {
+            (*stroke).inner.number[k] = 0u;
+        }
+    }
+}
+
+fn higher_paint(below: Paint, above: Paint) -> Paint {
+    let is_there = above.number > vec4<u32>(0u);
+    return Paint(
+        select(below.number, above.number, is_there),
+        select(below.ratio, above.ratio, is_there),
+        select(below.disc, above.disc, is_there),
+        select(below.way, above.way, is_there),
+        select(below.side, above.side, is_there),
+        select(below.side_ratio, above.side_ratio, is_there),
+    );
+}
+
+/// A strand with one more of its strokes, which is higher than those before; or with its clump.
+fn with_stroke(strand: Strand, stroke: Strand) -> Strand {
+    let in_clump = stroke.depth > vec4<f32>(NOTHING);
+    let is_outer = stroke.outer.number > vec4<u32>(0u);
+    return Strand(
+        select(strand.depth, stroke.depth, in_clump),
+        select(strand.biased, stroke.biased, in_clump),
+        select(strand.ratio, stroke.ratio, in_clump),
+        select(strand.side, stroke.side, in_clump),
+        select(strand.side_ratio, stroke.side_ratio, in_clump),
+        select(strand.outer_depth, stroke.outer_depth, is_outer),
+        select(strand.outer_biased, stroke.outer_biased, is_outer),
+        higher_paint(strand.outer, stroke.outer),
+        higher_paint(strand.inner, stroke.inner),
+    );
 }
 
 /// Puts a finished strand into the picture.

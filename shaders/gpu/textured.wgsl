@@ -1,9 +1,6 @@
-// Pictures on surfaces. Composed with tiles.wgsl, behind image.wgsl; the CPU's is crates/render/src/cpu/texels.rs.
+// Pictures on surfaces. Composed with tiles.wgsl, behind atlas.wgsl; the CPU's is crates/render/src/cpu/texels.rs.
 
 const TEXTURED: bool = true;
-
-/// Texels in a row of the texture that holds all pictures, one copy behind the other.
-const ATLAS_WIDTH: u32 = 4096u;
 
 /// In a surface's record: where its image's record begins (0 is none), and the place of the frame's first corner, if it had one; whether the
 /// picture repeats; what coverage means, and where it is cut.
@@ -14,22 +11,6 @@ const SURFACE_COVERAGE: u32 = 10u;
 const SURFACE_CUT: u32 = 11u;
 const COVERAGE_CUTS: u32 = 1u;
 const COVERAGE_SHARES: u32 = 2u;
-
-/// An image's record: how many copies it has; of each its width, its height and its first texel.
-fn gpu_image_levels(image: u32) -> u32 {
-    return tables[image];
-}
-
-fn gpu_image_size(image: u32, level: u32) -> vec2<u32> {
-    let words = image + 1u + 3u * level;
-    return vec2<u32>(tables[words], tables[words + 1u]);
-}
-
-fn gpu_image_texel(image: u32, level: u32, at: vec2<u32>) -> vec4<f32> {
-    let words = image + 1u + 3u * level;
-    let texel = tables[words + 2u] + at.y * tables[words] + at.x;
-    return textureLoad(atlas, vec2<u32>(texel % ATLAS_WIDTH, texel / ATLAS_WIDTH), 0);
-}
 
 fn place_of(surface: u32, corner: u32) -> vec2<f32> {
     let words = tables[surface + SURFACE_PLACES] + 2u * corner;
@@ -67,13 +48,6 @@ fn texel_of(surface: u32, index: u32, tile: vec2<f32>, middle: vec2<f32>, depth:
     let beside = uc - ua;
     let twice_area = abs(along.x * beside.y - along.y * beside.x) * (size.y / size.x);
     return gpu_image_at(image, place, sqrt(twice_area / abs(area)), tables[surface + SURFACE_REPEATS] != 0u);
-}
-
-/// As crate::drawing::scatter.
-fn scatter(strand: u32, sample: u32) -> f32 {
-    var mixed = (strand ^ (strand >> 16u)) * 0x45D9F3B5u;
-    mixed = (mixed ^ (mixed >> 15u)) * 0x2C1B3C6Du;
-    return f32((mixed + sample * 0x9E3779B9u) >> 8u) / 16777216.0;
 }
 
 /// Which of four samples of a pixel show the surface of that number where its picture has that coverage.

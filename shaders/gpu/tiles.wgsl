@@ -1,6 +1,6 @@
 // Draws the tiles: a workgroup a tile, an invocation a pixel, four samples of it at a time. What each sample shows is
 // told at render::Order; ORDER is written before this text, and so is told.wgsl or untold.wgsl, which say whether samples
-// are kept with what they show, textured.wgsl or untextured.wgsl, and decals.wgsl or no_decals.wgsl.
+// are kept with what they show, textured.wgsl or untextured.wgsl, brushed.wgsl or unbrushed.wgsl, and decals.wgsl or no_decals.wgsl.
 //
 // All invocations together look at a batch of a tile's triangles or segments, each at one, and keep what
 // reaches the tile, ready to be drawn, in the memory that they share. Then each draws them all into its own samples.
@@ -118,8 +118,8 @@ fn draw_tile(
             surface_green = samples.green;
             surface_blue = samples.blue;
         }
-        draw_strands(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
-        draw_decals(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, &samples);
+        draw_strands(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, first_sample, &samples);
+        draw_decals(tile, tile_index, local, vec2<f32>(pixel.xy), x, y, first_sample, &samples);
         if (KEEPS_UNDER) {
             write_under(corner + pixel.xy, first_sample, samples, surface_red, surface_green, surface_blue);
         }
@@ -261,10 +261,32 @@ struct EntriesOfStrand {
     strokes: u32,
 }
 
-/// The strand whose entries begin there, for `SHIFTED`.
-fn strand_at(found: vec3<u32>, first: u32) -> EntriesOfStrand {
+/// A way through a tile's list: segment by segment of an entry, counted on through its strokes. `by_stroke`, where strokes are finished one after
+/// the other, the entries of a strand come once for each of its strokes, and have the segments of that one.
+struct Walk {
+    by_stroke: bool,
+    /// The next thing to look at: an entry, and a segment of it.
+    next: u32,
+    item: u32,
+    first_entry: u32,
+    in_list: u32,
+    entries: EntriesOfStrand,
+}
+
+/// What an invocation looks at, and how near its strand is in the tile.
+struct Looked {
+    seen: Found,
+    nearest: f32,
+}
+
+fn begin_walk(found: vec3<u32>, by_stroke: bool) -> Walk {
+    return Walk(by_stroke, 0u, 0u, 0u, 0u, strand_at(found, 0u, by_stroke));
+}
+
+/// The strand whose entries begin there, for walks stroke by stroke.
+fn strand_at(found: vec3<u32>, first: u32, by_stroke: bool) -> EntriesOfStrand {
     var whole = EntriesOfStrand(first, 0u);
-    if (ORDER != SHIFTED) {
+    if (!by_stroke) {
         return whole;
     }
     while (whole.end < found.y) {
@@ -278,19 +300,65 @@ fn strand_at(found: vec3<u32>, first: u32) -> EntriesOfStrand {
     return whole;
 }
 
-fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<f32>, y: vec4<f32>, samples: ptr<function, Samples>) {
+/// All walk along the segments of the next batch; each looks at the one that is its own.
+fn walk_batch(walk: ptr<function, Walk>, found: vec3<u32>, local: u32, tile: vec2<f32>, decals: bool) -> Looked {
+    var looked: Looked;
+    var offset = 0u;
+    while ((*walk).next < found.y && offset < BATCH) {
+        let chunk = chunks[entry(found, (*walk).next)];
+        let places = max(chunk.segments, 1u);
+        let strokes = tables[2u * chunk.strokes + 1u];
+        var items = places * strokes;
+        if ((*walk).by_stroke) {
+            items = select(0u, places, (*walk).in_list < strokes);
+        }
+        let taken = min(items - (*walk).item, BATCH - offset);
+        if (local >= offset && local < offset + taken) {
+            let own = (*walk).item + local - offset;
+            looked.seen = look_at(chunk, (*walk).in_list + own / places, own % places, tile, decals);
+            looked.nearest = nearest_in(found, (*walk).next);
+        }
+        offset += taken;
+        (*walk).item += taken;
+        if ((*walk).item < items) {
+            continue;
+        }
+        (*walk).item = 0u;
+        (*walk).next++;
+        if ((*walk).by_stroke && (*walk).next == (*walk).entries.end) {
+            (*walk).in_list++;
+            if ((*walk).in_list < (*walk).entries.strokes) {
+                (*walk).next = (*walk).first_entry;
+            } else {
+                (*walk).in_list = 0u;
+                (*walk).first_entry = (*walk).next;
+                (*walk).entries = strand_at(found, (*walk).next, true);
+            }
+        }
+    }
+    return looked;
+}
+
+fn draw_strands(
+    tile: vec2<f32>,
+    at: u32,
+    local: u32,
+    pixel: vec2<f32>,
+    x: vec4<f32>,
+    y: vec4<f32>,
+    first_sample: u32,
+    samples: ptr<function, Samples>,
+) {
     let found = find_list(at, 0u, gpu_frame.chunk_capacity, gpu_frame.chunks, local);
+    var walk = begin_walk(found, ORDER == SHIFTED || BRUSHED);
+    // What has come of a strand; where strokes are finished one after the other, of one of its strokes.
     var strand = no_strand();
-    // What `strand` is: the strand's number, and in `SHIFTED` the stroke's.
+    // The strand's number, and the stroke's where there is one at a time; and its brush.
     var key = vec2<u32>(0u);
-    // The next thing to look at: an entry, and a segment of it, counted on through its strokes. In `SHIFTED` the entries of a
-    // strand come once for each stroke.
-    var next = 0u;
-    var item = 0u;
-    var first_entry = 0u;
-    var in_list = 0u;
-    var entries_of_strand = strand_at(found, 0u);
-    while (next < found.y) {
+    var brush = 0u;
+    // Where `BRUSHED` the strand's strokes before.
+    var whole = no_strand();
+    while (walk.next < found.y) {
         if (local < BATCH / 32u) {
             atomicStore(&reaching[local], 0u);
         }
@@ -300,7 +368,7 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<
         workgroupBarrier();
         // From the nearest on: where all samples show something nearer, so they do to the end. A strand that
         // has begun is not yet among what they show.
-        if (farthest(samples) <= nearest_in(found, next)) {
+        if (farthest(samples) <= nearest_in(found, walk.next)) {
             atomicOr(&open_pixels, 1u);
         }
         workgroupBarrier();
@@ -310,50 +378,15 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<
         if (workgroupUniformLoad(&is_open) == 0u) {
             break;
         }
-        var seen: Found;
-        var nearest_seen = 0.0;
-        // All walk along the segments of the batch; each looks at the one that is its own.
-        var offset = 0u;
-        while (next < found.y && offset < BATCH) {
-            let chunk = chunks[entry(found, next)];
-            let places = max(chunk.segments, 1u);
-            let strokes = tables[2u * chunk.strokes + 1u];
-            var items = places * strokes;
-            if (ORDER == SHIFTED) {
-                items = select(0u, places, in_list < strokes);
-            }
-            let taken = min(items - item, BATCH - offset);
-            if (local >= offset && local < offset + taken) {
-                let own = item + local - offset;
-                seen = look_at(chunk, in_list + own / places, own % places, tile, false);
-                nearest_seen = nearest_in(found, next);
-            }
-            offset += taken;
-            item += taken;
-            if (item < items) {
-                continue;
-            }
-            item = 0u;
-            next++;
-            if (ORDER == SHIFTED && next == entries_of_strand.end) {
-                in_list++;
-                if (in_list < entries_of_strand.strokes) {
-                    next = first_entry;
-                } else {
-                    in_list = 0u;
-                    first_entry = next;
-                    entries_of_strand = strand_at(found, next);
-                }
-            }
-        }
-        if (seen.is_there) {
+        let looked = walk_batch(&walk, found, local, tile, false);
+        if (looked.seen.is_there) {
             atomicOr(&reaching[local / 32u], 1u << (local % 32u));
         }
         workgroupBarrier();
-        if (seen.is_there) {
+        if (looked.seen.is_there) {
             let slot = slot_of(local);
-            store(slot, seen.segment);
-            nearest_of[slot] = nearest_seen;
+            store(slot, looked.seen.segment);
+            nearest_of[slot] = looked.nearest;
         }
         workgroupBarrier();
         let count = reaching_count();
@@ -362,15 +395,29 @@ fn draw_strands(tile: vec2<f32>, at: u32, local: u32, pixel: vec2<f32>, x: vec4<
                 continue;
             }
             let segment = segment_in(slot);
-            let next_key = vec2<u32>(segment.strand, select(0u, segment.number, ORDER == SHIFTED));
+            let next_key = vec2<u32>(segment.strand, select(0u, segment.number, walk.by_stroke));
             if (any(next_key != key)) {
-                compose(samples, strand, key.x);
+                if (BRUSHED) {
+                    thin(&strand, brush, first_sample);
+                    whole = with_stroke(whole, strand);
+                    if (ORDER == SHIFTED || next_key.x != key.x) {
+                        compose(samples, whole, key.x);
+                        whole = no_strand();
+                    }
+                } else {
+                    compose(samples, strand, key.x);
+                }
                 strand = no_strand();
                 key = next_key;
+                brush = segment.record;
             }
             add(&strand, segment, x, y);
         }
         workgroupBarrier();
+    }
+    if (BRUSHED) {
+        thin(&strand, brush, first_sample);
+        strand = with_stroke(whole, strand);
     }
     compose(samples, strand, key.x);
 }

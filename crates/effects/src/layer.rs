@@ -1,5 +1,6 @@
 //! A layer: one effect in a preset, with its parameters.
 
+use crate::brush::BrushTexture;
 use crate::choices;
 use crate::effect::LayerProgram;
 use crate::joints::Input;
@@ -42,6 +43,8 @@ pub struct Layer {
     pub clip: Option<String>,
     /// How far before or behind its strokes, head heights, decals are drawn on that.
     pub reach: f32,
+    /// What of its strokes is covered; all where there is none.
+    pub brush: Option<Arc<BrushTexture>>,
     /// The effect with its parameters.
     pub program: Arc<dyn LayerProgram>,
 }

@@ -29,7 +29,7 @@
 //! Modules, each made of those before it alone: [`wgsl`] (the prelude), `color`, [`smooth`], `light`, `paths`, `joints` (what a joint
 //! offers), `samples` (what one that is painted offers), `lanes`, `texture`, `seed`, `variation`; `param` (tables and values),
 //! [`mod@section`] (typed ones), `program` (what translated code implements), `source` (the same for a
-//! graphics card), `varied` (a program with its values), [`clump`]; `effect`, `layer`, `registry`; [`preset`].
+//! graphics card), `varied` (a program with its values), [`clump`], `brush` (what tools leave of strokes); `effect`, `layer`, `registry`; [`preset`].
 
 // The translated WGSL names this crate by its name, here as everywhere.
 extern crate self as effects;
@@ -40,6 +40,7 @@ include!(concat!(env!("OUT_DIR"), "/inputs.rs"));
 #[macro_use]
 mod set;
 
+mod brush;
 pub mod clump;
 mod color;
 mod effect;
@@ -63,6 +64,7 @@ mod variation;
 mod varied;
 pub mod wgsl;
 
+pub use brush::{BrushPlace, BrushSection, BrushTexture, Fit, StrandBrush, Tool};
 pub use color::{linear_from_srgb, parse_hex, to_hex};
 pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Reach, StrandJoints, StrokeEffect};
 pub use joints::{Input, InputSet, Joints};

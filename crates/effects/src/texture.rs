@@ -3,6 +3,7 @@
 mod image;
 mod ramp;
 
+pub(crate) use image::nearest;
 pub use image::{Blurred, Image, ImageError};
 pub use ramp::{Ramp, Row};
 

@@ -132,6 +132,31 @@ fn check_and_render_say_the_same() {
             broken,
             "look.ron:3:48: tones: tones.png: it is no PNG file, or a broken one",
         ),
+        (
+            hair,
+            "(effect: \"hair.base\", brush: (texture: \"tone.png\"))",
+            "look.ron:3:49: texture: there is no `tone.png`, did you mean `tones.png`?",
+        ),
+        (
+            hair,
+            "(effect: \"hair.base\", brush: (texture: \"tones.png\"))",
+            "look.ron:3:49: texture: tones.png: it is no PNG file, or a broken one",
+        ),
+        (
+            hair,
+            "(effect: \"hair.base\", brush: (kind: crayon, length: NaN))",
+            "look.ron:3:62: length: expected a number from 0.01 to 100, found `NaN`",
+        ),
+        (
+            hair,
+            "(effect: \"hair.base\", brush: (kind: crayon, length: -0.2))",
+            "look.ron:3:62: length: expected a number from 0.01 to 100, found `-0.2`",
+        ),
+        (
+            hair,
+            "(effect: \"hair.base\", brush: (kind: crayons))",
+            "look.ron:3:46: kind: there is no `crayons`, did you mean `crayon`?",
+        ),
     ] {
         let text = format!("(version: 1,\n{sections}\nlayers: [{layer}])");
         fs::write(folder.path().join("look.ron"), text).unwrap();

@@ -2,7 +2,7 @@
 
 use assert_cmd::Command;
 use effects::preset::{LAYER, OF_THE_EFFECT, may_say};
-use effects::{Param, ParamKind, Registry, Section};
+use effects::{BrushSection, Param, ParamKind, Registry, Section};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
@@ -178,7 +178,7 @@ fn the_schema_is_the_tables() {
     let schema = schema(&[]);
     assert_eq!(schema["version"], stage::VERSION);
     let sections = schema["sections"].as_array().unwrap();
-    assert_eq!(sections.len(), Sections::ALL.len() + 7);
+    assert_eq!(sections.len(), Sections::ALL.len() + 8);
     assert_eq!(sections[0]["id"], "preset");
     assert_is_table(&sections[0], Preset::TOP);
     for (section, (name, doc, table)) in sections[1..].iter().zip(Sections::ALL) {
@@ -191,19 +191,22 @@ fn the_schema_is_the_tables() {
     let layers = &sections[Sections::ALL.len() + 1];
     assert_eq!(layers["id"], "layers");
     assert_is_table(layers, LAYER);
-    let meshes = &sections[Sections::ALL.len() + 2];
+    let brush = &sections[Sections::ALL.len() + 2];
+    assert_eq!(brush["id"], "brush");
+    assert_is_table(brush, BrushSection::TABLE);
+    let meshes = &sections[Sections::ALL.len() + 3];
     assert_eq!(meshes["id"], "meshes");
     assert_is_table(meshes, MeshSection::TABLE);
-    let lines = &sections[Sections::ALL.len() + 3];
+    let lines = &sections[Sections::ALL.len() + 4];
     assert_eq!(lines["id"], "lines");
     assert_is_table(lines, LineSection::TABLE);
-    let bodies = &sections[Sections::ALL.len() + 4];
+    let bodies = &sections[Sections::ALL.len() + 5];
     assert_eq!(bodies["id"], "bodies");
     assert_is_table(bodies, BODIES.table);
-    let passes = &sections[Sections::ALL.len() + 5];
+    let passes = &sections[Sections::ALL.len() + 6];
     assert_eq!(passes["id"], "passes");
     assert_is_table(passes, PassSection::TABLE);
-    let objects = &sections[Sections::ALL.len() + 6];
+    let objects = &sections[Sections::ALL.len() + 7];
     assert_eq!(objects["id"], "objects");
     assert_is_table(objects, ObjectSection::TABLE);
     for value in layers["parameters"].as_array().unwrap() {
@@ -261,12 +264,13 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
     let registry = registry();
     let schema = schema(&[]);
     let mut text = "(".to_owned();
-    let mut layer_fields = String::new();
+    let (mut layer_fields, mut brush_fields) = (String::new(), String::new());
     for section in schema["sections"].as_array().unwrap() {
         let fields = defaults(section);
         match section["id"].as_str().unwrap() {
             "preset" => text += &format!("{fields}, "),
             "layers" => layer_fields = fields,
+            "brush" => brush_fields = fields,
             "meshes" => text += &format!("meshes: [(file: \"eyes.obj\", {fields})], "),
             "lines" => text += &format!("lines: [(name: \"rim\", {fields})], "),
             "bodies" => text += &format!("bodies: [({fields})], "),
@@ -288,6 +292,8 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
         if own.is_for_meshes() || own.is_for_lines() {
             fields.push("on: \"*\"");
         }
+        let brush = format!("brush: ({brush_fields})");
+        fields.extend(may_say(own, "brush").then_some(&brush[..]));
         let fields = fields.join(", ");
         format!("(effect: {}, {fields}, params: ({params}))", effect["id"])
     });
@@ -329,5 +335,6 @@ fn a_preset_of_all_defaults_is_accepted_and_says_nothing_new() {
         assert_eq!(values(&all.values), values(&none.values));
         assert_eq!((&all.name, all.rank), (&none.name, none.rank));
         assert_eq!(all.depth_offset, none.depth_offset);
+        assert_eq!(all.brush, none.brush);
     }
 }

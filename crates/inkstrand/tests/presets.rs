@@ -2,7 +2,7 @@
 //! legal. Never a panic, never silence.
 
 use effects::preset::{LAYER, Reader, may_say};
-use effects::{AnyEffect, Param, ParamKind, Registry};
+use effects::{AnyEffect, BrushSection, Param, ParamKind, Registry};
 use proptest::prelude::*;
 use ron::value::RawValue;
 use stage::{BODIES, LineSection, MeshSection, ObjectSection, PassSection, Preset, Sections};
@@ -70,9 +70,14 @@ fn everything(registry: &Registry) -> String {
         let fields = list(&own, "            ").replace("effect: \"x\"", "effect: \"ID\"");
         let fields = fields.replace("\"x\"", "\"ID\"").replace("ID", effect.id());
         let params = list(effect.params(), "                ");
+        let brush = list(BrushSection::TABLE, "                ");
+        let brush = match may_say(effect, "brush") {
+            true => format!("            brush: (\n{brush}            ),\n"),
+            false => String::new(),
+        };
         let _ = writeln!(
             text,
-            "        (\n{fields}            params: (\n{params}            ),\n        ),"
+            "        (\n{fields}{brush}            params: (\n{params}            ),\n        ),"
         );
     }
     text + "    ],\n)\n"
@@ -175,6 +180,11 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
                 let effect = registry.get(id.trim_matches('"')).unwrap();
                 for inner in &fields {
                     add(inner.name, inner.value, LAYER);
+                    if inner.name == "brush" {
+                        for field in reader.fields(inner.value, "brush") {
+                            add(field.name, field.value, BrushSection::TABLE);
+                        }
+                    }
                     if inner.name == "params" {
                         for param in reader.fields(inner.value, "params") {
                             add(param.name, param.value, AnyEffect::params(effect));

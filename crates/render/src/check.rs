@@ -270,6 +270,19 @@ pub enum DrawError {
         /// How many joints there are.
         needed: usize,
     },
+    /// A layer has a brush that isn't there, or not behind the one before.
+    #[error("brushwork: layer {0} is not there, or not behind the one before")]
+    BrushedLayer(usize),
+    /// Where joints are along their strands is said of too few or too many, or of one by a number that is none.
+    #[error(
+        "brushwork: {found} of the {joints} joints say where along their strands they are: s, whole and pixels must be finite numbers of 0 or more"
+    )]
+    AlongStrands {
+        /// How many do.
+        found: usize,
+        /// How many joints there are.
+        joints: usize,
+    },
     /// A layer for meshes has no head, or is seen through hair by no share from 0 to 1, or nothing says what sees it.
     #[error("mesh painting: layer {0} needs a head, an eye, and a share from 0 to 1")]
     MeshLayer(usize),
@@ -316,6 +329,7 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     check_features(drawing)?;
     check_painting(drawing)?;
     check_decals(drawing)?;
+    check_brushwork(drawing)?;
     check_mesh_painting(drawing)?;
     check_surfaces(&drawing.surfaces, drawing.mesh_painting.layers.len())
 }
@@ -381,6 +395,24 @@ fn check_mesh_painting(drawing: &Drawing) -> Result<(), DrawError> {
     match painting.layers.iter().position(|layer| !is_whole(layer)) {
         None if seen => Ok(()),
         index => Err(DrawError::MeshLayer(index.unwrap_or(0))),
+    }
+}
+
+fn check_brushwork(drawing: &Drawing) -> Result<(), DrawError> {
+    let (brushwork, joints) = (&drawing.brushwork, drawing.clump.len());
+    let mut after = 0;
+    for brushed in &brushwork.layers {
+        if !(after..drawing.layers.len()).contains(&brushed.layer) {
+            return Err(DrawError::BrushedLayer(brushed.layer));
+        }
+        after = brushed.layer + 1;
+    }
+    let found = brushwork.joints.iter().filter(|joint| joint.is_valid());
+    match (brushwork.is_empty(), found.count()) {
+        (false, found) if found != joints || brushwork.joints.len() != joints => {
+            Err(DrawError::AlongStrands { found, joints })
+        }
+        _ => Ok(()),
     }
 }
 

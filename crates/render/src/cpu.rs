@@ -10,6 +10,7 @@
 //! `inline(always)`, or it would be compiled without them.
 
 mod bin;
+mod brush;
 mod cover;
 mod decals;
 mod evaluate;

@@ -5,6 +5,7 @@
 //! axis, because that is what runs linearly along a projected segment; larger is nearer.
 //! Colours are linear light, red, green, blue.
 
+use crate::brushwork::Brushwork;
 use crate::edges::Edges;
 use crate::features::DrawnFeatures;
 use crate::mesh_paint::{MeshPainting, SurfacePaint};
@@ -379,6 +380,8 @@ pub struct Drawing {
     /// For each strand's number, of runs, which others are the same strand: those of an equal number here. Empty where each is its own. A strand
     /// casts no shadow on itself.
     pub same_strands: Vec<u32>,
+    /// Layers that have a brush.
+    pub brushwork: Brushwork,
     /// Layers whose samples are painted.
     pub painting: Painting,
     /// Layers that paint surfaces.

@@ -41,6 +41,7 @@
 //!
 //! - `gpu`, on by default: the module `gpu`, and wgpu for it.
 
+mod brushwork;
 mod check;
 pub mod cpu;
 mod drawing;
@@ -55,6 +56,7 @@ mod picture;
 mod planes;
 mod samples;
 
+pub use brushwork::{AlongStrand, BrushedLayer, Brushwork};
 pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use drawing::{
     Brush, Coverage, Decal, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface,

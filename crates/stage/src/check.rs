@@ -85,7 +85,7 @@ impl<'r> Preset<'r> {
             paths.extend(BoneMotion::files(&character).into_iter().flatten());
         }
         for layer in &self.layers {
-            paths.extend(textures::named(layer, files).map(|(_, path)| path));
+            paths.extend(textures::named(layer, files).map(|(_, _, path)| path));
         }
         let meshes = self.meshes.iter();
         paths.extend(meshes.flat_map(|mesh| {
@@ -160,9 +160,8 @@ impl<'r> Preset<'r> {
             .0
             .extend(mistakes_of_bodies(&self.bodies, &files.preset_folder));
         for layer in &self.layers {
-            for (param, path) in textures::named(layer, files) {
-                let place = layer.textures.iter().find(|(name, _)| *name == param);
-                if let (Some((_, place)), true) = (place, path.is_file())
+            for (param, place, path) in textures::named(layer, files) {
+                if let (Some(place), true) = (place, path.is_file())
                     && let Some(fault) = textures::fault(&path, files)
                 {
                     found.add(Err(PresetErrors(vec![PresetError {

@@ -83,10 +83,8 @@ impl Look {
         }
         let light = &sections.light;
         let light_direction = direction_from_angles(light.yaw, light.pitch)?;
-        let layers = preset.layers.iter().map(|layer| {
-            let values = with_textures(layer, files)?;
-            Ok(layer.build_with(&values))
-        });
+        let layers = preset.layers.iter();
+        let layers = layers.map(|layer| with_textures(layer, files));
         let layers = layers.collect::<Result<Vec<_>, StageError>>()?;
         let (mut strokes, mut mesh_layers, mut line_layers) = (Vec::new(), Vec::new(), Vec::new());
         for (layer, spec) in layers.into_iter().zip(&preset.layers) {

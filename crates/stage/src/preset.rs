@@ -17,11 +17,12 @@ pub use sections::*;
 
 use crate::bodies::NamedBody;
 use crate::files::Files;
+use crate::textures::textures_of;
 use effects::preset::{
     Field, LayerSpec, Place, PresetError, PresetErrors, Reader, SetError, nearest, set_text,
     suggestion,
 };
-use effects::{Param, Registry, Texture};
+use effects::{Param, Registry};
 use std::path::{Path, PathBuf};
 
 /// The newest version of presets that this build reads.
@@ -263,8 +264,8 @@ impl<'r> Preset<'r> {
         };
         let mut errors: Vec<PresetError> = self.named.iter().filter_map(missing_file).collect();
         for layer in &self.layers {
-            for (param, place) in &layer.textures {
-                if let Texture::File(name) = layer.values.texture(param)
+            for (param, place, name) in textures_of(layer) {
+                if let Some(place) = place
                     && let Some(message) = missing(&files.preset_folder, param, name)
                 {
                     let place = place.clone();
@@ -311,6 +312,11 @@ impl<'r> Preset<'r> {
         };
         if let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == owner) {
             return layer.set(param, text);
+        }
+        if let Some(name) = owner.strip_suffix(".brush")
+            && let Some(layer) = self.layers.iter_mut().find(|layer| layer.name == name)
+        {
+            return layer.set_brush(param, text);
         }
         if let Some(number) = owner.strip_prefix("passes.") {
             return set_text(

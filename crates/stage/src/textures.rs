@@ -1,8 +1,8 @@
 //! Files of textures: PNG pictures that layers' parameters name.
 
 use crate::files::{Files, StageError};
-use effects::preset::LayerSpec;
-use effects::{Image, Texture, Values};
+use effects::preset::{LayerSpec, Place};
+use effects::{BrushSection, BrushTexture, Image, Layer, Texture};
 use hair_io::read_bytes;
 use std::collections::HashMap;
 use std::fmt;
@@ -14,11 +14,20 @@ use std::time::SystemTime;
 /// Bytes of a file at most: more than any picture within [`Image::MOST_TEXELS`] has.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// Pictures that were read, by path; read again where the file's size or date has changed. Copies share them.
+/// Pictures that were read, by path, read again where the file's size or date has changed; and brushes that were made. Copies share them.
 #[derive(Clone, Default)]
-pub struct Textures(Arc<Mutex<Known>>);
+pub struct Textures {
+    known: Arc<Mutex<Known>>,
+    brushes: Arc<Mutex<Brushes>>,
+}
 
 type Known = HashMap<PathBuf, (Stamp, Arc<Image>)>;
+
+/// The newest last.
+type Brushes = Vec<(BrushSection, Arc<BrushTexture>)>;
+
+/// Brushes that are kept: while one is edited, each edit makes another.
+const MOST_BRUSHES: usize = 16;
 
 /// A file's size and date.
 type Stamp = (u64, Option<SystemTime>);
@@ -34,7 +43,7 @@ impl Textures {
         let data = std::fs::metadata(path);
         let stamp = data.map(|data| (data.len(), data.modified().ok()));
         // A panic elsewhere leaves whole entries.
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if let (Some((old, image)), Ok(stamp)) = (known.get(path), &stamp)
             && old == stamp
         {
@@ -46,32 +55,72 @@ impl Textures {
         }
         Ok(image)
     }
+
+    /// What the section's tool leaves, made once.
+    fn tool(&self, section: &BrushSection) -> Option<Arc<BrushTexture>> {
+        let mut brushes = self.brushes.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, brush)) = brushes.iter().find(|(made_of, _)| made_of == section) {
+            return Some(brush.clone());
+        }
+        let brush = Arc::new(BrushTexture::of_tool(section)?);
+        if brushes.len() >= MOST_BRUSHES {
+            brushes.remove(0);
+        }
+        brushes.push((section.clone(), brush.clone()));
+        Some(brush)
+    }
+
+    /// A layer's brush, if it has one.
+    fn brush(
+        &self,
+        section: &BrushSection,
+        files: &Files,
+    ) -> Result<Option<Arc<BrushTexture>>, String> {
+        let Some(file) = &section.texture else {
+            return Ok(self.tool(section));
+        };
+        let picture = self.read(&files.preset_folder.join(file))?;
+        let brush =
+            BrushTexture::of_picture(section, &picture).map_err(|error| error.to_string())?;
+        Ok(Some(Arc::new(brush)))
+    }
 }
 
-/// A layer's parameters with pictures in place of their files' names.
-pub(crate) fn with_textures(layer: &LayerSpec, files: &Files) -> Result<Values, StageError> {
+/// A layer with pictures in place of their files' names.
+pub(crate) fn with_textures(layer: &LayerSpec, files: &Files) -> Result<Layer, StageError> {
     let mut values = layer.values.clone();
-    values
-        .read_textures(|file| files.textures.read(&files.preset_folder.join(file)))
+    let read = values.read_textures(|file| files.textures.read(&files.preset_folder.join(file)));
+    read.and_then(|()| files.textures.brush(&layer.brush, files))
+        .map(|brush| layer.build_with(&values, brush))
         .map_err(|message| StageError::Texture {
             layer: layer.name.clone(),
             message,
-        })?;
-    Ok(values)
+        })
 }
 
-/// The files that a layer's textures name, by their parameters.
-pub(crate) fn named<'l>(
+/// The files that a layer's textures name: their parameters, where the preset names them, and their names.
+pub(crate) fn textures_of<'l>(
     layer: &'l LayerSpec,
-    files: &Files,
-) -> impl Iterator<Item = (&'static str, PathBuf)> + use<'l> {
-    let folder = files.preset_folder.clone();
-    layer.effect.params().iter().filter_map(move |param| {
+) -> impl Iterator<Item = (&'static str, Option<&'l Place>, &'l str)> {
+    let of_params = layer.effect.params().iter().filter_map(|param| {
         let effects::Value::Texture(Texture::File(file)) = layer.values.value(param.name) else {
             return None;
         };
-        Some((param.name, folder.join(file)))
-    })
+        let place = layer.textures.iter().find(|(name, _)| *name == param.name);
+        Some((param.name, place.map(|(_, place)| place), file.as_str()))
+    });
+    let of_brush = layer.brush.texture.as_deref();
+    let of_brush = of_brush.map(|file| ("texture", layer.brush_place.as_ref(), file));
+    of_params.chain(of_brush)
+}
+
+/// The files that a layer's textures name, by their parameters, and where.
+pub(crate) fn named<'l>(
+    layer: &'l LayerSpec,
+    files: &Files,
+) -> impl Iterator<Item = (&'static str, Option<&'l Place>, PathBuf)> + use<'l> {
+    let folder = files.preset_folder.clone();
+    textures_of(layer).map(move |(param, place, file)| (param, place, folder.join(file)))
 }
 
 /// What is wrong with a texture's file.

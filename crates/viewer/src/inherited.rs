@@ -1,9 +1,9 @@
 //! What a preset's base says where the preset says nothing: controls show it, and an edit writes only what is otherwise.
 
-use effects::AnyEffect;
 use effects::preset::LayerSpec;
 use effects::preset::edit::written;
 use effects::section::Section;
+use effects::{AnyEffect, BrushSection};
 use effects::{Param, ParamKind, Value};
 use stage::{Preset, Sections};
 
@@ -27,6 +27,8 @@ pub struct InheritedLayer {
     pub effect: &'static str,
     /// What it says beside its effect's parameters.
     pub own: Texts,
+    /// What its strokes are drawn with.
+    pub brush: Texts,
     /// Its effect's parameters.
     pub params: Texts,
 }
@@ -81,6 +83,7 @@ impl InheritedLayer {
             name: layer.name.clone(),
             effect: AnyEffect::id(layer.effect),
             own,
+            brush: texts(BrushSection::TABLE, &layer.brush),
             params: texts(layer.effect.params(), &layer.values),
         }
     }

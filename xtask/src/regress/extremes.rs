@@ -24,6 +24,8 @@ struct Sheets {
 struct Sheet {
     /// The effect or section.
     of: String,
+    /// What `--set` calls it, where that isn't `of`.
+    at: Option<String>,
     /// What `inkstrand render` gets, the preset first.
     args: Vec<String>,
     /// What a parameter needs to be seen: it does nothing where another is not set.
@@ -105,7 +107,7 @@ fn cells(sheet: &Sheet, parameters: &[Value]) -> Outcome<Vec<Cell>> {
             }
         }
         for value in values(parameter)? {
-            let set = format!("{}.{name}={value}", sheet.of);
+            let set = format!("{}.{name}={value}", sheet.at.as_ref().unwrap_or(&sheet.of));
             cells.push(Cell {
                 name: set.clone(),
                 sets: with.iter().cloned().chain([set]).collect(),
@@ -134,6 +136,8 @@ fn values(parameter: &Value) -> Outcome<Vec<String>> {
             .collect(),
         "texture" => vec![format!("[(0, \"{OTHER_COLOR}\"), (1, \"FFFFFF\")]")],
         "color" | "color or none" => vec![OTHER_COLOR.to_owned()],
+        // A file: tests of its own show it.
+        "text" => Vec::new(),
         other => return Err(format!("no sheet shows a parameter of type {other:?}").into()),
     };
     Ok(all.into_iter().filter(|value| *value != default).collect())

@@ -4,6 +4,7 @@ use super::error::{Place, suggestion};
 use super::reader::{Field, Reader};
 use super::set::{SetError, set_text, unknown};
 use super::value::{parse_value, shown};
+use crate::brush::{BrushSection, BrushTexture};
 use crate::effect::AnyEffect;
 use crate::layer::{Layer, Units};
 use crate::param::{Param, ParamKind, Value, Values};
@@ -11,6 +12,7 @@ use crate::registry::Registry;
 use crate::section;
 use crate::texture::Texture;
 use std::collections::HashSet;
+use std::sync::Arc;
 
 section! {
     /// What a layer may say, beside the effect's own parameters.
@@ -94,6 +96,10 @@ pub struct LayerSpec<'r> {
     pub clip_place: Option<Place>,
     /// How far before or behind its strokes decals are drawn on that, head heights.
     pub reach: f32,
+    /// What its strokes are drawn with.
+    pub brush: BrushSection,
+    /// Where the file names the brush's texture.
+    pub brush_place: Option<Place>,
     /// The effect's parameters.
     pub values: Values,
     /// Where the file names its textures' files: their parameters, and the place of each value.
@@ -155,15 +161,36 @@ impl LayerSpec<'_> {
         Ok(())
     }
 
-    /// The layer, ready to be evaluated.
-    #[must_use]
-    pub fn build(&self) -> Layer {
-        self.build_with(&self.values)
+    /// Sets one parameter of its brush from its text.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such parameter, or the text is not one of its values; or its effect draws no strokes.
+    pub fn set_brush(&mut self, param: &str, text: &str) -> Result<(), SetError> {
+        if let Some(message) = misfit(self.effect, "brush") {
+            return Err(SetError::Unknown(message));
+        }
+        if param == "texture" {
+            self.brush_place = None;
+        }
+        set_text(
+            &mut self.brush,
+            &format!("{}.brush", self.name),
+            param,
+            text,
+        )
     }
 
-    /// The layer with other values than its own: such as those with pictures in place of their files' names.
+    /// The layer, ready to be evaluated; with nothing in place of textures' files.
     #[must_use]
-    pub fn build_with(&self, values: &Values) -> Layer {
+    pub fn build(&self) -> Layer {
+        let brush = BrushTexture::of_tool(&self.brush);
+        self.build_with(&self.values, brush.map(Arc::new))
+    }
+
+    /// The layer with other values than its own, such as those with pictures in place of their files' names, and with this for its brush.
+    #[must_use]
+    pub fn build_with(&self, values: &Values, brush: Option<Arc<BrushTexture>>) -> Layer {
         Layer {
             name: self.name.clone(),
             effect: self.effect.id(),
@@ -175,6 +202,7 @@ impl LayerSpec<'_> {
             through_hair: self.through_hair,
             clip: self.clip.clone(),
             reach: self.reach,
+            brush,
             program: self.effect.program(values).into(),
         }
     }
@@ -249,10 +277,11 @@ impl<'a> Reader<'a> {
             self.error(item, message);
             return None;
         }
-        let (params, own): (Vec<Field>, Vec<Field>) = self
+        let (sections, own): (Vec<Field>, Vec<Field>) = self
             .fields(item, "a layer")
             .into_iter()
-            .partition(|field| field.name == "params");
+            .partition(|field| ["params", "brush"].contains(&field.name));
+        let section = |name: &str| sections.iter().find(|field| field.name == name).copied();
         let effect = self.effect(item, &own, registry, base);
         let changed = effect.and_then(|effect| {
             let name = named(&own).unwrap_or_else(|| effect.id().to_owned());
@@ -267,7 +296,10 @@ impl<'a> Reader<'a> {
                 let value = shown(field.value);
                 return format!("`{name}` belongs to the effect: params: ({name}: {value})");
             }
-            let names = LAYER.iter().map(|param| param.name).chain(["params"]);
+            let names = LAYER
+                .iter()
+                .map(|param| param.name)
+                .chain(["params", "brush"]);
             format!(
                 "a layer has no `{}`{}",
                 shown(name),
@@ -275,7 +307,7 @@ impl<'a> Reader<'a> {
             )
         });
         let effect = effect?;
-        for field in &own {
+        for field in own.iter().chain(&section("brush")) {
             if let Some(message) = misfit(effect, field.name) {
                 self.error(field.name, message);
             }
@@ -297,8 +329,17 @@ impl<'a> Reader<'a> {
             None => Values::defaults(effect.params()),
         };
         let mut textures = changed.map_or_else(Vec::new, |changed| changed.textures.clone());
-        if let Some(field) = params.first() {
+        if let Some(field) = section("params") {
             self.params(field.value, effect, &mut values, &mut textures);
+        }
+        let mut brush = changed.map_or_else(BrushSection::default, |changed| changed.brush.clone());
+        let mut brush_place = changed.and_then(|changed| changed.brush_place.clone());
+        if let Some(field) = section("brush") {
+            let fields = self.fields(field.value, "brush");
+            self.fill(&fields, &mut brush, "brush");
+            if let Some(field) = fields.iter().find(|field| field.name == "texture") {
+                brush_place = Some(self.place(field.value));
+            }
         }
         let zones_of_base = changed.and_then(|changed| changed.zones_place.clone());
         let on_of_base = changed.and_then(|changed| changed.on_place.clone());
@@ -318,6 +359,8 @@ impl<'a> Reader<'a> {
             clip,
             clip_place: clip_field.map_or(clip_of_base, |field| Some(self.place(field.value))),
             reach: layer.reach.unwrap_or(effect.clip_reach()),
+            brush,
+            brush_place,
             values,
             textures,
         })
@@ -423,7 +466,15 @@ fn needs_on(effect: &dyn AnyEffect) -> Option<String> {
 /// Why a layer of this effect can't say that.
 fn misfit(effect: &dyn AnyEffect, param: &str) -> Option<String> {
     let id = effect.id();
-    let of_strokes = ["rank", "depth_offset", "units", "zones", "clip", "reach"];
+    let of_strokes = [
+        "rank",
+        "depth_offset",
+        "units",
+        "zones",
+        "clip",
+        "reach",
+        "brush",
+    ];
     let of_decals = ["clip", "reach"];
     let of_surfaces = ["on", "through_hair"];
     let not_of_lines = ["zones", "through_hair", "clip", "reach"];

@@ -31,7 +31,7 @@ pub enum ImageError {
     Length {
         /// How many there are.
         found: usize,
-        /// Four a texel.
+        /// So many as its texels have.
         expected: usize,
     },
 }
@@ -58,23 +58,32 @@ impl Image {
     ///
     /// When it has no texels or too many, or the list isn't four numbers each.
     pub fn from_srgb(size: [usize; 2], rgba: &[u16]) -> Result<Self, ImageError> {
-        if !size.iter().all(|side| (1..=MOST_TEXELS).contains(side)) {
-            return Err(ImageError::Size(size));
-        }
-        let expected = 4 * size[0] * size[1];
-        if rgba.len() != expected {
-            return Err(ImageError::Length {
-                found: rgba.len(),
-                expected,
-            });
-        }
+        check_length(size, rgba.len(), 4)?;
         let texel = |rgba: &[u16]| {
             let alpha = f32::from(rgba[3]) / 65535.0;
             let color = |i: usize| LINEAR[usize::from(rgba[i])] * alpha;
             [color(0), color(1), color(2), alpha]
         };
-        let mut whole: Vec<[f32; 4]> = rgba.chunks_exact(4).map(texel).collect();
-        let mut size = size;
+        let whole = rgba.chunks_exact(4).map(texel).collect();
+        Ok(Self::with_copies(size, whole))
+    }
+
+    /// White that covers so much of each texel, 0 to 1, row by row from the top.
+    ///
+    /// # Errors
+    ///
+    /// When it has no texels or too many, or the list isn't one number each.
+    pub fn of_coverage(size: [usize; 2], coverage: &[f32]) -> Result<Self, ImageError> {
+        check_length(size, coverage.len(), 1)?;
+        let texel = |coverage: &f32| [coverage.clamp(0.0, 1.0); 4];
+        Ok(Self::with_copies(
+            size,
+            coverage.iter().map(texel).collect(),
+        ))
+    }
+
+    /// These texels, whose colours are multiplied by coverage, and the smaller copies.
+    fn with_copies(mut size: [usize; 2], mut whole: Vec<[f32; 4]>) -> Self {
         let mut levels = vec![Level::of(size, &whole)];
         while size != [1, 1] {
             let half = size.map(|side| (side / 2).max(1));
@@ -82,7 +91,7 @@ impl Image {
             size = half;
             levels.push(Level::of(size, &whole));
         }
-        Ok(Self { levels })
+        Self { levels }
     }
 
     /// Width and height in texels.
@@ -138,6 +147,18 @@ impl Image {
             coarser,
             sides: [width, half_width, height, half_height].map(|side| side as f32),
         }
+    }
+}
+
+/// That a picture has texels, not too many, and so many numbers of each.
+fn check_length(size: [usize; 2], found: usize, of_texel: usize) -> Result<(), ImageError> {
+    if !size.iter().all(|side| (1..=MOST_TEXELS).contains(side)) {
+        return Err(ImageError::Size(size));
+    }
+    let expected = of_texel * size[0] * size[1];
+    match found == expected {
+        true => Ok(()),
+        false => Err(ImageError::Length { found, expected }),
     }
 }
 
@@ -318,7 +339,7 @@ fn numbers(halves: &[f16; 4]) -> [f32; 4] {
 
 /// The two texels nearest to a place along a side, and how far it is from the first's middle to the second's.
 #[inline]
-fn nearest(place: f32, side: usize, repeats: bool) -> (usize, usize, f32) {
+pub(crate) fn nearest(place: f32, side: usize, repeats: bool) -> (usize, usize, f32) {
     let place = if repeats {
         place - place.floor()
     } else {

@@ -3,7 +3,7 @@
 use super::schema::{self, Section, sections};
 use crate::{Failure, say};
 use effects::preset::{OF_THE_EFFECT, suggestion};
-use effects::{AnyEffect, Param, ParamKind, Registry};
+use effects::{AnyEffect, BrushSection, Param, ParamKind, Registry};
 use stage::{BODIES, FilePart, MOTION_PARTS, STYLE_PARTS};
 
 /// Lists effects and sections, or what one of them takes.
@@ -129,6 +129,10 @@ fn section_text(section: &Section) -> String {
     let example = match section.name {
         "preset" => "(name: value, ..., layers: [...])".to_owned(),
         "layers" => "layers: [(effect: \"hair.base\", name: value, ...), ...]".to_owned(),
+        "brush" => {
+            "layers: [(effect: \"hair.base\", brush: (kind: crayon, name: value, ...)), ...]"
+                .to_owned()
+        }
         "meshes" => "meshes: [(file: \"eyes.obj\", name: value, ...), ...]".to_owned(),
         "lines" => {
             "lines: [(name: \"rim\", of: \"skin, dress\", kind: \"contour\", ...), ...]".to_owned()
@@ -143,8 +147,11 @@ fn section_text(section: &Section) -> String {
         section.name, section.doc
     );
     for param in section.table {
+        let is_of_tool = section.name == "brush" && BrushSection::OF_THE_TOOL.contains(&param.name);
         text += &if is_layer && OF_THE_EFFECT.contains(&param.name) {
             param_text(param, "the effect's own")
+        } else if is_of_tool {
+            param_text(param, "the tool's own")
         } else {
             param_text(param, &default(param))
         };
@@ -155,6 +162,8 @@ fn section_text(section: &Section) -> String {
     if is_layer {
         text += "\n  params: (name: value, ...)\n";
         text += "      The effect's own parameters: `inkstrand effects ID`.\n";
+        text += "\n  brush: (name: value, ...)\n";
+        text += "      What its strokes are drawn with: `inkstrand effects brush`.\n";
     }
     text
 }

@@ -1,7 +1,7 @@
 //! All that a preset may say, as data: the tables that the parser reads by.
 
 use effects::preset::{LAYER, OF_THE_EFFECT};
-use effects::{AnyEffect, Param, ParamKind, Registry};
+use effects::{AnyEffect, BrushSection, Param, ParamKind, Registry};
 use serde_json::{Value, json};
 use stage::{
     BODIES, FilePart, LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection, Preset,
@@ -15,10 +15,11 @@ pub(super) struct Section {
     pub table: &'static [Param],
 }
 
-/// The sections in their order: what stands beside them, their own, and the fields of layers, meshes, lines, bodies, passes and objects.
+/// The sections in their order: what stands beside them, their own, and the fields of layers and their brushes, meshes, lines, bodies, passes and objects.
 pub(super) fn sections() -> Vec<Section> {
     let top = ("preset", "What stands beside the sections.", Preset::TOP);
     let layers = ("layers", "What is drawn: effects, in a list.", LAYER);
+    let brush = ("brush", BrushSection::DOC, BrushSection::TABLE);
     let meshes = ("meshes", MeshSection::DOC, MeshSection::TABLE);
     let lines = ("lines", LineSection::DOC, LineSection::TABLE);
     let bodies = ("bodies", BODIES.doc, BODIES.table);
@@ -31,7 +32,7 @@ pub(super) fn sections() -> Vec<Section> {
     [top]
         .iter()
         .chain(Sections::ALL)
-        .chain(&[layers, meshes, lines, bodies, passes, objects])
+        .chain(&[layers, brush, meshes, lines, bodies, passes, objects])
         .map(|&(name, doc, table)| Section { name, doc, table })
         .collect()
 }
@@ -62,7 +63,11 @@ pub(super) fn file_part(part: &FilePart) -> Value {
 
 /// A section's schema.
 pub(super) fn section(section: &Section) -> Value {
-    let own = |param: &Param| section.name == "layers" && OF_THE_EFFECT.contains(&param.name);
+    let own = |param: &Param| match section.name {
+        "layers" => OF_THE_EFFECT.contains(&param.name),
+        "brush" => BrushSection::OF_THE_TOOL.contains(&param.name),
+        _ => false,
+    };
     let parameters = section.table.iter().map(|param| {
         let mut value = parameter(param);
         if own(param) {

@@ -2,6 +2,7 @@
 //! that fits it; no decal hides another's way, so that they come in any order and none pops.
 
 use super::bin::{Bins, cells as cells_across};
+use super::brush::StrokeBrush;
 use super::segment::{Kind, Segment, Segments, Stroke, strokes_in_order};
 use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
 use super::strand::TileContext;
@@ -69,6 +70,15 @@ struct Planes {
     marks: IdPlane,
     ratio: Plane,
     color: [Plane; 3],
+    /// Where the decals that fit have brushes: the places beside their strokes.
+    places: Option<PlacePlanes>,
+}
+
+/// Places beside strokes: the segments, the way from their first joints to the next, and across.
+struct PlacePlanes {
+    segment: IdPlane,
+    way: Plane,
+    across: Plane,
 }
 
 /// What the samples of a tile show that are no decals.
@@ -133,6 +143,7 @@ impl Worker {
             marks: id_plane(),
             ratio: plane(),
             color: [plane(), plane(), plane()],
+            places: None,
         });
         let seen = planes.look(frame, target, shown);
         let scene = TileContext {
@@ -165,6 +176,10 @@ impl Worker {
                 list: frame.parts.segments.list(),
                 target,
                 shown,
+                brush: frame.drawing.brushwork.of_layer(layer).map(|brushed| {
+                    let of_stroke = &parts.strokes[first.stroke as usize - 1];
+                    StrokeBrush::new(&scene, brushed, of_stroke, stroke[0])
+                }),
             };
             let mut taken = NO_SAMPLES;
             for &index in stroke {
@@ -172,6 +187,9 @@ impl Worker {
                     continue;
                 }
                 offer.make(&scene, index, &open, planes, &mut taken);
+            }
+            if let Some(brush) = &offer.brush {
+                planes.thin(brush, &mut taken);
             }
             open = without(&open, &taken);
             add(&mut closed, &taken);
@@ -323,6 +341,39 @@ impl Planes {
         seen
     }
 
+    /// Notes where beside a segment some samples of a cell lie.
+    #[inline(always)]
+    fn put_places(&mut self, cell: Cell, segment: u32, placed: &Placed, samples: &LaneMask) {
+        let places = self.places.get_or_insert_with(|| PlacePlanes {
+            segment: id_plane(),
+            way: plane(),
+            across: plane(),
+        });
+        let (way, across) = placed.place(cell);
+        let segments = &mut places.segment[cell.index];
+        for k in 0..LANES {
+            segments[k] = select(samples[k] != 0, segment, segments[k]);
+        }
+        overwrite(&mut places.way[cell.index], &way, samples);
+        overwrite(&mut places.across[cell.index], &across, samples);
+    }
+
+    /// Takes from the samples that a stroke fits those that its brush leaves bare.
+    #[inline(always)]
+    fn thin(&self, brush: &StrokeBrush, taken: &mut Mask) {
+        let Some(places) = &self.places else {
+            return;
+        };
+        for row in 0..ROWS {
+            for cell in cells(row, columns(taken, row)) {
+                let at = cell.index;
+                let [way, across] = [&places.way[at], &places.across[at]];
+                let bare = brush.bare(&cell.lanes(taken), &places.segment[at], way, across);
+                cell.take_from(taken, &bare);
+            }
+        }
+    }
+
     /// The samples that show what a decal is drawn on.
     #[inline(always)]
     fn targets(&self, decal: &Decal, seen: &Seen) -> Mask {
@@ -383,6 +434,7 @@ struct Offer<'a> {
     /// What samples show.
     target: &'a Target,
     shown: &'a Shown,
+    brush: Option<StrokeBrush<'a>>,
 }
 
 impl Offer<'_> {
@@ -408,7 +460,7 @@ impl Offer<'_> {
             for cell in cells(row, columns(&covered, row)) {
                 let mut lanes = cell.lanes(&covered);
                 let hair = &self.target.strand[cell.index];
-                if self.decal.is_shadow {
+                if self.decal.is_shadow && self.brush.is_none() {
                     // A surface in a shadow is no darker in two.
                     let before = cell.lanes(taken);
                     for k in 0..LANES {
@@ -432,6 +484,9 @@ impl Offer<'_> {
                     wins[k] &= select(is_nearer, u32::MAX, 0);
                 }
                 overwrite(&mut planes.ratio[cell.index], &beside.ratio, &wins);
+                if self.brush.is_some() {
+                    planes.put_places(cell, index, &placed, &wins);
+                }
                 for (plane, color) in planes.color.iter_mut().zip(&beside.color) {
                     overwrite(&mut plane[cell.index], color, &wins);
                 }

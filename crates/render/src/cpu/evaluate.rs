@@ -77,6 +77,7 @@ impl Evaluator {
         self.fill_sides(frame, drawing);
 
         self.fill_features(frame, &mut drawing.features);
+        drawing.brushwork.fill(frame);
         drawing.painting.fill(frame, &self.joints);
         drawing.mesh_painting.fill(frame);
         drawing.decals.clone_from(&frame.decals);

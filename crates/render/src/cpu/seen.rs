@@ -299,7 +299,7 @@ const MANY: usize = 1 << 16;
 
 /// Whether a layer's strokes are their clumps, so that nothing is seen through them.
 fn is_cover(layer: &Layer) -> bool {
-    layer.program.is_clump() && layer.rank >= 0
+    layer.program.is_clump() && layer.rank >= 0 && layer.brush.is_none()
 }
 
 /// Fills the cover by hair, where a frame's hair may hide much of itself.

@@ -505,6 +505,14 @@ impl Segment {
         [first, first + usize::from(!self.is_dot)]
     }
 
+    /// Its radii at these, px.
+    #[inline(always)]
+    pub(super) fn radii(&self, drawing: &Drawing, strokes: &[Stroke]) -> [f32; 2] {
+        let discs = discs(drawing, strokes, self.stroke, self.is_side);
+        let first = self.disc as usize;
+        [first, first + usize::from(!self.is_dot)].map(|disc| discs[disc].radius)
+    }
+
     /// 1 more than the place of the stroke whose colour it has, in [`strokes_in_order`]; 0 where it has none.
     #[inline(always)]
     pub(super) fn colored(&self) -> u32 {

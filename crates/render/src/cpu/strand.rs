@@ -5,6 +5,7 @@
 //! stroke's nearest disc in the tile would show, its segments give depth and roundness, and what of that shows in the picture
 //! goes there; only that gets a colour.
 
+use super::brush::StrokeBrush;
 use super::reached::Reached;
 use super::segment::{Segment, Stroke};
 use super::shown::Shown;
@@ -118,6 +119,25 @@ impl StrandMasks {
         }
         if let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) {
             self.place_base(clump.segments.clone());
+        }
+        if !scene.drawing.brushwork.is_empty() {
+            self.thin(scene);
+        }
+    }
+
+    /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it.
+    #[inline(always)]
+    fn thin(&mut self, scene: &TileContext) {
+        for covered in &mut self.strokes {
+            let Some(place) = covered.number.checked_sub(1) else {
+                continue;
+            };
+            let stroke = &scene.strokes[place as usize];
+            if let Some(layer) = scene.drawing.brushwork.of_layer(stroke.layer) {
+                let placed = &self.placed[covered.segments.clone()];
+                let brush = StrokeBrush::new(scene, layer, stroke, placed[0].index);
+                brush.thin(placed, &mut self.row, &mut covered.samples);
+            }
         }
     }
 

@@ -117,6 +117,24 @@ impl Placed {
     }
 }
 
+impl Placed {
+    /// The way from the segment's first joint to the next at the axis points that are the nearest to the samples of a cell, and places across,
+    /// -1 to 1.
+    #[inline(always)]
+    pub(super) fn place(&self, cell: Cell) -> (Lanes, Lanes) {
+        let (x, y) = (self.x.of(cell), self.y.of(cell));
+        let Shape { sweep, way, .. } = &self.shape;
+        let side = select((way.rise < 0.0) & sweep.has_direction(), -1.0, 1.0);
+        let (mut ways, mut across) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            let (u, ratio) = sweep.attribute_point(x[k], y[k]);
+            ways[k] = way.at(u);
+            across[k] = select(y[k] < 0.0, -side, side) * lesser(ratio, 1.0).sqrt();
+        }
+        (ways, across)
+    }
+}
+
 /// A cell's samples in a segment's frame, and those that it covers.
 pub(super) struct InFrame {
     covered: LaneMask,

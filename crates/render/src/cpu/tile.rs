@@ -288,6 +288,15 @@ impl Cell {
         lanes
     }
 
+    /// Takes some of its samples from a mask.
+    #[inline(always)]
+    pub(super) fn take_from(&self, mask: &mut Mask, lanes: &LaneMask) {
+        let words = &mut mask[self.row * STACK..][..STACK];
+        for k in 0..STACK {
+            words[k] &= !((lanes[k] & 1 | lanes[k + STACK] & 2) << self.column);
+        }
+    }
+
     /// Adds some of its samples to a mask.
     #[inline(always)]
     pub(super) fn add_to(&self, mask: &mut Mask, lanes: &LaneMask) {

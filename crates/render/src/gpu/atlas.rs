@@ -1,7 +1,8 @@
-//! The pictures on a frame's surfaces: all texels of all their copies, one behind the other in the rows of one texture.
+//! The pictures on a frame's surfaces, and those of its brushes: all texels of all their copies, one behind the other in the rows of one texture.
 
 use super::error::GpuError;
 use super::images::{TEXEL, VIEW, create, write_rows};
+use crate::brushwork::Brushwork;
 use crate::drawing::Surface;
 use effects::Image;
 use std::sync::Arc;
@@ -18,18 +19,20 @@ pub(super) struct Atlas {
     rows: usize,
 }
 
-/// The pictures of some surfaces, each once, in the order of their first surfaces.
-pub(super) fn images_of(surfaces: &[Surface]) -> Vec<&Arc<Image>> {
+/// The pictures of some surfaces and brushes, each once, in the order of their first surfaces, then of their first layers.
+pub(super) fn images_of<'a>(
+    surfaces: &'a [Surface],
+    brushwork: &'a Brushwork,
+) -> Vec<&'a Arc<Image>> {
+    let textures = surfaces.iter().filter_map(|s| s.texture.as_ref());
+    let layers = brushwork.layers.iter();
+    let all = textures
+        .map(|texture| &texture.image)
+        .chain(layers.flat_map(|layer| layer.brush.marks()));
     let mut images: Vec<&Arc<Image>> = Vec::new();
-    for texture in surfaces
-        .iter()
-        .filter_map(|surface| surface.texture.as_ref())
-    {
-        if !images
-            .iter()
-            .any(|image| Arc::ptr_eq(image, &texture.image))
-        {
-            images.push(&texture.image);
+    for image in all {
+        if !images.iter().any(|known| Arc::ptr_eq(known, image)) {
+            images.push(image);
         }
     }
     images
@@ -43,14 +46,15 @@ pub(super) fn texels(image: &Image) -> usize {
 }
 
 impl Atlas {
-    /// Holds the pictures of these surfaces, and no others. Whether they are others than before.
+    /// Holds the pictures of these surfaces and brushes, and no others. Whether they are others than before.
     pub(super) fn follow(
         &mut self,
         device: &Device,
         queue: &Queue,
         surfaces: &[Surface],
+        brushwork: &Brushwork,
     ) -> Result<bool, GpuError> {
-        let images = images_of(surfaces);
+        let images = images_of(surfaces, brushwork);
         let is_same = |(old, new): (&Arc<Image>, &&Arc<Image>)| Arc::ptr_eq(old, new);
         if images.len() == self.images.len() && self.images.iter().zip(&images).all(is_same) {
             return Ok(false);
@@ -77,7 +81,7 @@ impl Atlas {
         Ok(true)
     }
 
-    /// What is bound; nothing where no surface has a picture.
+    /// What is bound; nothing where there are no pictures.
     pub(super) fn view(&self) -> Option<&TextureView> {
         self.view.as_ref()
     }

@@ -48,10 +48,10 @@ const PAINT_MESHES: &[Binding] = &[
     Uniform, Read, Read, Read, Read, Uniform, Shown, Write, Shown,
 ];
 
-/// The bindings of what draws tiles: what samples tell, and the surfaces' pictures where they are `textured`.
-pub(super) fn tiles_bindings(tells: Tells, textured: bool) -> Vec<Binding> {
+/// The bindings of what draws tiles: what samples tell, and pictures where there are some.
+pub(super) fn tiles_bindings(tells: Tells, pictures: bool) -> Vec<Binding> {
     let told = std::iter::repeat_n(Told, tells.textures());
-    let pictures = textured.then_some(Image);
+    let pictures = pictures.then_some(Image);
     TILES.iter().copied().chain(told).chain(pictures).collect()
 }
 

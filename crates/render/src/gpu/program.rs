@@ -28,10 +28,13 @@ const TILES: &str = include_str!("../../../../shaders/gpu/tiles.wgsl");
 const TOLD: &str = include_str!("../../../../shaders/gpu/told.wgsl");
 const UNTOLD: &str = include_str!("../../../../shaders/gpu/untold.wgsl");
 const IMAGE: &str = include_str!("../../../../shaders/gpu/image.wgsl");
+const ATLAS: &str = include_str!("../../../../shaders/gpu/atlas.wgsl");
 const TEXTURED: &str = include_str!("../../../../shaders/gpu/textured.wgsl");
 const UNTEXTURED: &str = include_str!("../../../../shaders/gpu/untextured.wgsl");
 const UNDER: &str = include_str!("../../../../shaders/gpu/under.wgsl");
 const NO_UNDER: &str = include_str!("../../../../shaders/gpu/no_under.wgsl");
+const BRUSHED: &str = include_str!("../../../../shaders/gpu/brushed.wgsl");
+const UNBRUSHED: &str = include_str!("../../../../shaders/gpu/unbrushed.wgsl");
 const DECALS: &str = include_str!("../../../../shaders/gpu/decals.wgsl");
 const NO_DECALS: &str = include_str!("../../../../shaders/gpu/no_decals.wgsl");
 const LOOKUP: &str = include_str!("../../../../shaders/gpu/lookup.wgsl");
@@ -100,14 +103,16 @@ pub(super) fn tiles(key: TilesKey) -> String {
         Tells::Under => (TOLD, UNDER, 12),
     };
     let atlas = format!("@group(0) @binding({binding}) var atlas: texture_2d<f32>;\n");
-    let textures: &[&str] = match key.textured {
-        true => &[PRELUDE, IMAGE, &atlas, TEXTURED],
-        false => &[UNTEXTURED],
+    let pictures: &[&str] = match key.has_pictures() {
+        true => &[PRELUDE, IMAGE, &atlas, ATLAS],
+        false => &[],
     };
     let parts = [
         &[&order, told, under, FRAME, DRAWN][..],
-        textures,
+        pictures,
         &[
+            if key.textured { TEXTURED } else { UNTEXTURED },
+            if key.brushed { BRUSHED } else { UNBRUSHED },
             SWEEP,
             SEGMENTS,
             SURFACES,

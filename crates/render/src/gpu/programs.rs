@@ -32,8 +32,17 @@ pub(super) struct TilesKey {
     pub(super) tells: Tells,
     /// Whether there are pictures on surfaces.
     pub(super) textured: bool,
+    /// Whether strokes have brushes.
+    pub(super) brushed: bool,
     /// Whether strokes are drawn on what is seen.
     pub(super) decals: bool,
+}
+
+impl TilesKey {
+    /// Whether it looks pictures up.
+    pub(super) fn has_pictures(&self) -> bool {
+        self.textured || self.brushed
+    }
 }
 
 /// What tiles keep of samples beside their colours.
@@ -92,14 +101,14 @@ pub(super) struct Layouts {
     pub(super) strokes: BindGroupLayout,
     pub(super) smooth: BindGroupLayout,
     pub(super) bins: BindGroupLayout,
-    /// By what they tell, and whether surfaces are textured.
+    /// By what they tell, and whether there are pictures.
     tiles: [[BindGroupLayout; 2]; 3],
 }
 
 impl Layouts {
     /// What the pipeline that draws tiles binds.
-    pub(super) fn tiles(&self, tells: Tells, textured: bool) -> &BindGroupLayout {
-        &self.tiles[tells as usize][usize::from(textured)]
+    pub(super) fn tiles(&self, tells: Tells, pictures: bool) -> &BindGroupLayout {
+        &self.tiles[tells as usize][usize::from(pictures)]
     }
 }
 
@@ -113,7 +122,7 @@ impl Programs {
             smooth: of("smooth", pipelines::SMOOTH),
             bins: of("bins", pipelines::BINS),
             tiles: Tells::ALL.map(|tells| {
-                [false, true].map(|textured| of("tiles", &tiles_bindings(tells, textured)))
+                [false, true].map(|pictures| of("tiles", &tiles_bindings(tells, pictures)))
             }),
         };
         let entry_points = [
@@ -220,7 +229,7 @@ impl Programs {
             return Ok(0);
         }
         let text = program::tiles(key);
-        let layout = self.layouts.tiles(key.tells, key.textured);
+        let layout = self.layouts.tiles(key.tells, key.has_pictures());
         let made = pipelines(device, "tiles", &text, layout, &["draw_tile"])?;
         let made = made.into_iter().next();
         self.tiles = made.map(|pipeline| (key, pipeline));

@@ -67,7 +67,7 @@ pub struct Renderer {
     programs: Programs,
     /// Where samples are painted, drawn on, or tell what they show.
     samples: Option<SampleStage>,
-    /// Pictures on surfaces.
+    /// Pictures on surfaces and of brushes.
     atlas: Atlas,
     groups: Option<Groups>,
     composer: Option<Composer>,
@@ -291,7 +291,10 @@ impl Renderer {
             Source::Frame(frame) => (&frame.surfaces, !frame.decals.is_empty()),
             Source::Drawing(drawing) => (&drawing.surfaces, !drawing.decals.is_empty()),
         };
-        if self.atlas.follow(&self.device, &self.queue, surfaces)? {
+        if self
+            .atlas
+            .follow(&self.device, &self.queue, surfaces, &self.scene.brushwork)?
+        {
             self.groups = None;
             self.stats.made += 1;
         }
@@ -299,7 +302,8 @@ impl Renderer {
         let key = TilesKey {
             order,
             tells,
-            textured: self.atlas.view().is_some(),
+            textured: surfaces.iter().any(|surface| surface.texture.is_some()),
+            brushed: !self.scene.brushwork.is_empty(),
             decals,
         };
         self.stats.made += self.programs.draw_in(&self.device, key)?;

@@ -3,6 +3,7 @@
 use super::atlas::images_of;
 use super::layout::{CHUNK, DISC_BYTES, JointLayout, Needs};
 use super::program::{LAYER_WORDS, PAINT_WORD};
+use crate::brushwork::Brushwork;
 use crate::drawing::{Coverage, Decal, Disc, Drawing, Surface};
 use crate::features::{Feature, Features};
 use crate::frame::{Frame, Head, Object, layer_bit};
@@ -15,11 +16,11 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Words of a stroke's record in the tables.
-const STROKE_WORDS: usize = 4;
+const STROKE_WORDS: usize = 5;
 /// Words of a surface's record in the tables, as `shaders/gpu/drawn.wgsl` has it.
 const SURFACE_WORDS: usize = 13;
 /// Words of a decal's record in the tables, as `shaders/gpu/decals.wgsl` has it.
-const DECAL_WORDS: usize = 3;
+const DECAL_WORDS: usize = 4;
 /// Stands where a list has no stroke's record: the tables begin with the lists.
 const NO_STROKE: u32 = 0;
 
@@ -32,6 +33,8 @@ pub(super) struct SceneWords {
     pub(super) chunks: Vec<u32>,
     pub(super) tables: Vec<u32>,
     pub(super) surfaces_at: u32,
+    /// Where those of strokes begin, after the clump's.
+    strokes_at: usize,
     /// Where the tables tell which pieces are one strand, 0 where they don't.
     pub(super) same_strands_at: u32,
     pub(super) corners: Vec<u32>,
@@ -47,6 +50,8 @@ pub(super) struct SceneWords {
     pub(super) discs: usize,
     /// The discs themselves, of a drawing; empty for a frame, whose discs the card makes.
     pub(super) disc_words: Vec<u32>,
+    /// The layers' brushes.
+    pub(super) brushwork: Brushwork,
     seen_length: Vec<f32>,
 }
 
@@ -141,7 +146,9 @@ impl SceneWords {
         let mut same_strands = Vec::new();
         crate::frame::fill_same_strands(frame, &mut same_strands);
         self.fill_decals(&frame.decals, &same_strands);
-        self.fill_surfaces(&frame.surfaces);
+        self.brushwork.fill(frame);
+        let images = self.fill_surfaces(&frame.surfaces);
+        self.fill_brushes(&placed, &images);
         self.fill_meshes(frame);
     }
 
@@ -192,7 +199,9 @@ impl SceneWords {
         let runs = runs.map(|run| (run.strand, run.joints.clone()));
         self.fill_chunks_and_tables(runs, &placed, joints);
         self.fill_decals(&drawing.decals, &drawing.same_strands);
-        self.fill_surfaces(&drawing.surfaces);
+        self.brushwork.clone_from(&drawing.brushwork);
+        let images = self.fill_surfaces(&drawing.surfaces);
+        self.fill_brushes(&placed, &images);
     }
 
     /// Adds a stroke without size on that many joints.
@@ -378,9 +387,10 @@ impl SceneWords {
         }
         // The clump's discs begin at the buffer's start, those of one side after those of the other.
         for disc in 0..clump_discs {
-            self.tables.extend([(disc * joints) as u32, 0, 0, 0]);
+            self.tables.extend([(disc * joints) as u32, 0, 0, 0, 0]);
         }
         let strokes: usize = placed.iter().map(|p| p.instances as usize).sum();
+        self.strokes_at = record(clump_discs) as usize;
         let decals_at = record(clump_discs + strokes);
         let mut number = 0;
         for p in placed {
@@ -390,7 +400,7 @@ impl SceneWords {
                 let first = first.wrapping_sub(p.joints.start as u32);
                 let decal = p.decal.map_or(0, |p| decals_at + (DECAL_WORDS * p) as u32);
                 let is_clipped = u32::from(p.rank >= 0);
-                self.tables.extend([first, number, is_clipped, decal]);
+                self.tables.extend([first, number, is_clipped, decal, 0]);
             }
         }
     }
@@ -399,7 +409,7 @@ impl SceneWords {
     fn fill_decals(&mut self, decals: &[Decal], same_strands: &[u32]) {
         for decal in decals {
             let means = u32::from(decal.on_hair) | u32::from(decal.is_shadow) << 1;
-            let words = [means, decal.reach_m.to_bits(), decal.marks];
+            let words = [means, decal.reach_m.to_bits(), decal.marks, 0];
             self.tables.extend(words);
         }
         self.same_strands_at = 0;
@@ -410,7 +420,47 @@ impl SceneWords {
         }
     }
 
-    fn fill_surfaces(&mut self, surfaces: &[Surface]) {
+    /// What `shaders/gpu/brushed.wgsl` knows of brushes and joints: their places go into the records of strokes and decals.
+    fn fill_brushes(&mut self, placed: &[Placed], images: &[(Arc<Image>, u32)]) {
+        let along = self.tables.len() as u32;
+        for joint in &self.brushwork.joints {
+            let numbers = [joint.s, joint.whole, joint.pixels].map(f32::to_bits);
+            self.tables.extend(numbers);
+            self.tables.push(joint.strand);
+        }
+        let mut stroke = self.strokes_at;
+        let strokes: usize = placed.iter().map(|p| p.instances as usize).sum();
+        let decals_at = stroke + STROKE_WORDS * strokes;
+        for p in placed {
+            let end = stroke + STROKE_WORDS * p.instances as usize;
+            if let Some(layer) = self.brushwork.of_layer(p.layer) {
+                let at = self.tables.len() as u32;
+                let [first, count] = [p.joints.start, p.joints.len()].map(|joints| joints as u32);
+                let length = layer.brush.length().unwrap_or(0.0).to_bits();
+                let marks = layer.brush.marks();
+                self.tables
+                    .extend([layer.seed, p.first_disc as u32, first, count]);
+                let is_outline = p.rank < 0 && p.decal.is_none();
+                self.tables
+                    .extend([along, length, u32::from(is_outline), marks.len() as u32]);
+                let place = |mark: &Arc<Image>| {
+                    let image = images.iter().find(|(image, _)| Arc::ptr_eq(image, mark));
+                    image.map_or(0, |(_, at)| *at)
+                };
+                self.tables.extend(marks.map(place));
+                for record in (stroke..end).step_by(STROKE_WORDS) {
+                    self.tables[record + STROKE_WORDS - 1] = at;
+                }
+                if let Some(decal) = p.decal {
+                    self.tables[decals_at + DECAL_WORDS * (decal + 1) - 1] = at;
+                }
+            }
+            stroke = end;
+        }
+    }
+
+    /// Says where the record of each picture begins.
+    fn fill_surfaces(&mut self, surfaces: &[Surface]) -> Vec<(Arc<Image>, u32)> {
         self.surfaces_at = self.tables.len() as u32;
         self.corners.clear();
         self.triangles.clear();
@@ -451,6 +501,7 @@ impl SceneWords {
                     .extend([first + a, first + b, first + c, number]);
             }
         }
+        images
     }
 
     /// What `shaders/gpu/mesh_main.wgsl` knows of layers and surfaces.
@@ -497,10 +548,10 @@ impl SceneWords {
         }
     }
 
-    /// Adds the records of the surfaces' pictures to the tables, and says where each begins.
-    fn push_images<'s>(&mut self, surfaces: &'s [Surface]) -> Vec<(&'s Arc<Image>, u32)> {
+    /// Adds the records of the surfaces' and brushes' pictures to the tables, and says where each begins.
+    fn push_images(&mut self, surfaces: &[Surface]) -> Vec<(Arc<Image>, u32)> {
         let mut next = 0;
-        let mut push = |image: &'s Arc<Image>| {
+        let push = |image: &Arc<Image>| {
             let at = self.tables.len() as u32;
             self.tables.push(image.levels() as u32);
             for level in 0..image.levels() {
@@ -508,9 +559,10 @@ impl SceneWords {
                 self.tables.extend([width as u32, height as u32, next]);
                 next += texels.len() as u32;
             }
-            (image, at)
+            (image.clone(), at)
         };
-        images_of(surfaces).into_iter().map(&mut push).collect()
+        let images = images_of(surfaces, &self.brushwork);
+        images.into_iter().map(push).collect()
     }
 }
 

@@ -4,6 +4,7 @@
 #![allow(clippy::print_stderr, reason = "what is skipped is said")]
 
 mod agree;
+mod brushes;
 mod decals;
 mod faults;
 mod inputs;

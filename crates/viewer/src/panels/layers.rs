@@ -8,7 +8,7 @@ use crate::inherited::{Inherited, InheritedLayer};
 use crate::layers_shown::LayersShown;
 use effects::preset::edit::{self, Step, written};
 use effects::preset::{LAYER, may_say, read_value, suggestion};
-use effects::{AnyEffect, Param, ParamKind, Registry, Value};
+use effects::{AnyEffect, BrushSection, Param, ParamKind, Registry, Value};
 use eframe::egui::{ComboBox, RichText, ScrollArea, Ui};
 use stage::{Preset, Sections};
 use std::collections::BTreeSet;
@@ -21,6 +21,8 @@ struct Found<'a> {
     effect: Option<&'a dyn AnyEffect>,
     /// What its `name` says, or the effect's id.
     name: String,
+    /// What its brush's rows are called.
+    brush_name: String,
     place: Place,
     /// The layer's own fields, with the effect's defaults.
     own: Vec<Param>,
@@ -212,12 +214,14 @@ impl<'a> Found<'a> {
         let effect = registry.get(&id);
         let name = own_name.unwrap_or_else(|| id.clone());
         let below = inherited.layer(&name).filter(|layer| layer.effect == id);
+        let name = match name.is_empty() {
+            true => format!("number {}", index + 1),
+            false => name,
+        };
         Self {
             item,
-            name: match name.is_empty() {
-                true => format!("number {}", index + 1),
-                false => name,
-            },
+            brush_name: format!("{name} brush"),
+            name,
             own: effect.map_or_else(|| LAYER.to_vec(), own_fields),
             id,
             effect,
@@ -230,7 +234,7 @@ impl<'a> Found<'a> {
         Form::new(&self.name, &self.own, Some(self.item), self.place.clone())
             .about("layer")
             .over(self.below.map_or(&[], |below| &below.own))
-            .without(&["effect", "name", "params"])
+            .without(&["effect", "name", "params", "brush"])
     }
 
     fn effect_form(&self) -> Option<Form<'_>> {
@@ -241,12 +245,22 @@ impl<'a> Found<'a> {
         Some(form.over(self.below.map_or(&[], |below| &below.params)))
     }
 
+    /// What its strokes are drawn with, of an effect that draws some.
+    fn brush_form(&self) -> Option<Form<'_>> {
+        self.effect.filter(|effect| may_say(*effect, "brush"))?;
+        let brush = edit::get(self.item, &[Step::Field("brush")]);
+        let place = self.place.field("brush");
+        let form = Form::new(&self.brush_name, BrushSection::TABLE, brush, place).about("brush");
+        Some(form.over(self.below.map_or(&[], |below| &below.brush)))
+    }
+
     fn matches(&self, search: &Search) -> bool {
         let doc = self.effect.map_or("", |effect| effect.doc());
         let effect = self.effect_form();
         search.matches(&[&self.name, &self.id, doc])
             || self.own_form().matches(search)
             || effect.is_some_and(|form| form.matches(search))
+            || self.brush_form().is_some_and(|form| form.matches(search))
     }
 
     /// Shows what the layer says. Gives its new name, where it has one from now on.
@@ -264,10 +278,12 @@ impl<'a> Found<'a> {
         }
         let own = self.own_form();
         let params = self.effect_form();
+        let brush = self.brush_form();
         // What matches as a whole is shown as a whole.
         let all = Search::default();
         let has_rows = |form: &Form| form.matches(search);
-        let search = match has_rows(&own) || params.as_ref().is_some_and(has_rows) {
+        let mut others = params.iter().chain(&brush);
+        let search = match has_rows(&own) || others.any(has_rows) {
             true => search,
             false => &all,
         };
@@ -281,6 +297,11 @@ impl<'a> Found<'a> {
         if own.matches(search) {
             ui.add_space(2.0);
             own.show(ui, search, edits);
+        }
+        if let Some(brush) = brush.filter(|brush| brush.matches(search)) {
+            ui.add_space(2.0);
+            about(ui, "Brush");
+            brush.show(ui, search, edits);
         }
         renamed
     }

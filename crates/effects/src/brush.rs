@@ -1,0 +1,263 @@
+//! Brushes: what a tool leaves of a stroke on paper. Coverage along the stroke and across it, in place of a whole stroke.
+
+mod mark;
+mod noise;
+#[cfg(test)]
+mod tests;
+mod tools;
+
+use crate::choices;
+use crate::param::{ParamKind, Value};
+use crate::section;
+use crate::section::ParamType;
+use crate::texture::{Image, ImageError};
+use crate::wgsl::hash;
+use mark::Mark;
+use std::sync::Arc;
+
+choices! {
+    /// What a stroke is drawn with.
+    pub enum Tool {
+        /// What leaves nothing bare.
+        Solid = "solid",
+        /// A pencil: grain of the paper in a soft line.
+        Pencil = "pencil",
+        /// Charcoal: coarse grain, edges that crumble.
+        Charcoal = "charcoal",
+        /// A brush that runs dry: streaks along the stroke, which open up.
+        DryInk = "dry_ink",
+        /// A wash with dark edges.
+        Watercolour = "watercolour",
+        /// Wax on rough paper: hard grain, clots.
+        Crayon = "crayon",
+    }
+}
+
+choices! {
+    /// How a brush's texture lies along a stroke.
+    pub enum Fit {
+        /// One copy behind the other.
+        Repeat = "repeat",
+        /// One copy from root to tip.
+        Stretch = "stretch",
+    }
+}
+
+impl ParamType for Option<Fit> {
+    fn from_value(value: Value) -> Self {
+        Some(Fit::from_value(value))
+    }
+
+    fn to_value(&self) -> Option<Value> {
+        self.as_ref().and_then(Fit::to_value)
+    }
+
+    fn unset(_: &ParamKind) -> Self {
+        None
+    }
+}
+
+section! {
+    /// What a layer's strokes are drawn with. Where the tool leaves the paper bare, one sees what lies beneath, as if the stroke weren't there. Its marks
+    /// stay where they are on the strand, and no two strands have the same.
+    pub struct BrushSection {
+        /// The tool: `pencil`, `charcoal`, `dry_ink`, `watercolour` or `crayon`; `solid` leaves nothing bare.
+        kind: Tool = Tool::Solid.or_another(),
+        /// A PNG file in place of a tool: from left to right along the stroke, from top to bottom across it. It covers where it is opaque; of one that
+        /// is opaque all over, where it is dark.
+        texture: Option<String> = text(),
+        /// How much of a stroke the texture covers before it is repeated. The tool's own by default.
+        length: Option<f32> = number(0.4, 0.01..=100.0).unit("head heights").optional(),
+        /// Whether the texture is repeated along the stroke, or stretched once from root to tip. The tool's own by default: `stretch` of `dry_ink`.
+        fit: Option<Fit> = Fit::Repeat.or_another().optional(),
+        /// How coarse the tool's marks are: 2 is twice as coarse.
+        grain: f32 = number(1.0, 0.25..=4.0),
+        /// How little the tool leaves: 0 nearly covers the stroke, at 1 most of it is bare.
+        dry: f32 = number(0.5, 0.0..=1.0),
+        /// Other numbers are other marks of the same tool.
+        seed: u32 = whole(1, 0..=i32::MAX as u32),
+    }
+}
+
+impl BrushSection {
+    /// What is the tool's own where the section says nothing, in place of the table's default.
+    pub const OF_THE_TOOL: &'static [&'static str] = &["length", "fit"];
+
+    /// Whether it leaves anything bare.
+    #[must_use]
+    pub fn is_solid(&self) -> bool {
+        self.kind == Tool::Solid && self.texture.is_none()
+    }
+
+    fn fit(&self) -> Fit {
+        let own = match (&self.texture, self.kind) {
+            (None, Tool::DryInk) => Fit::Stretch,
+            _ => Fit::Repeat,
+        };
+        self.fit.unwrap_or(own)
+    }
+
+    /// The head heights that a copy covers; nothing where it is stretched.
+    fn length(&self) -> Option<f32> {
+        let own = if self.texture.is_some() {
+            0.4
+        } else {
+            self.kind.length()
+        };
+        (self.fit() == Fit::Repeat).then(|| self.length.unwrap_or(own))
+    }
+}
+
+/// The coverage of strokes that a tool draws. Each strand has it from another place on, on one side or the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BrushTexture {
+    /// All of one size: a strand has one of them.
+    marks: Vec<Mark>,
+    /// Head heights along the strand; nothing where it is stretched.
+    length: Option<f32>,
+}
+
+impl BrushTexture {
+    /// What the section's tool leaves; nothing of one that leaves nothing bare, or of a file.
+    #[must_use]
+    pub fn of_tool(section: &BrushSection) -> Option<Self> {
+        if section.is_solid() || section.texture.is_some() {
+            return None;
+        }
+        Some(Self {
+            marks: tools::marks(section).map(Mark::new).collect(),
+            length: section.length(),
+        })
+    }
+
+    /// What a picture leaves, as the section says.
+    ///
+    /// # Errors
+    ///
+    /// Never for a picture that could be read.
+    pub fn of_picture(section: &BrushSection, picture: &Image) -> Result<Self, ImageError> {
+        let (size, texels) = picture.level(0);
+        let alpha = |texel: &[half::f16; 4]| texel[3].to_f32();
+        let is_opaque = texels.iter().all(|texel| alpha(texel) >= 1.0);
+        let coverage = texels.iter().map(|texel| match is_opaque {
+            true => {
+                let [red, green, blue, _] = texel.map(half::f16::to_f32);
+                // What black covers of white paper lacks of its light.
+                1.0 - (0.2126 * red + 0.7152 * green + 0.0722 * blue)
+            }
+            false => alpha(texel),
+        });
+        let image = Image::of_coverage(size, &coverage.collect::<Vec<_>>())?;
+        Ok(Self {
+            marks: vec![Mark::new(image)],
+            length: section.length(),
+        })
+    }
+
+    /// The pictures whose coverage it is, all of one size.
+    pub fn marks(&self) -> impl ExactSizeIterator<Item = &Arc<Image>> {
+        self.marks.iter().map(|mark| &mark.image)
+    }
+
+    /// How many head heights along a strand a copy is; nothing where one is as long as the strand.
+    #[must_use]
+    pub fn length(&self) -> Option<f32> {
+        self.length
+    }
+
+    /// What of it a strand of that seed has.
+    #[must_use]
+    pub fn of_strand(&self, seed: u32) -> StrandBrush<'_> {
+        let mixed = hash(seed);
+        StrandBrush {
+            mark: &self.marks[mixed as usize % self.marks.len()],
+            length: self.length,
+            side: if mixed & 0x100 == 0 { 1.0 } else { -1.0 },
+            start: (mixed >> 9) as f32 / (1 << 23) as f32,
+        }
+    }
+}
+
+/// What of a brush one strand has.
+#[derive(Clone, Copy, Debug)]
+pub struct StrandBrush<'a> {
+    mark: &'a Mark,
+    length: Option<f32>,
+    /// 1, or -1 where it is turned over.
+    side: f32,
+    /// The part of a copy at which it begins.
+    start: f32,
+}
+
+/// A place beside a stroke.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BrushPlace {
+    /// Length of the strand up to there, head heights.
+    pub s: f32,
+    /// Length of the whole strand, head heights.
+    pub whole: f32,
+    /// Place across the stroke, -1 to 1.
+    pub v: f32,
+    /// Pixels that a head's height takes there.
+    pub pixels: f32,
+    /// Radius of the stroke there, pixels.
+    pub radius_px: f32,
+}
+
+impl BrushPlace {
+    /// The same place across an outline, whose stroke shows outside of a clump of this radius (px) alone: between the clump's edge and its own.
+    #[must_use]
+    pub fn on_outline(self, clump_px: f32) -> Self {
+        let width = self.radius_px - clump_px;
+        if clump_px <= 0.0 || width <= 0.0 {
+            return self; // all of the stroke shows
+        }
+        let side = if self.v < 0.0 { -1.0 } else { 1.0 };
+        let from_middle = 2.0 * (self.v.abs() * self.radius_px - clump_px) / width - 1.0;
+        Self {
+            v: side * from_middle.clamp(-1.0, 1.0),
+            radius_px: 0.5 * width,
+            ..self
+        }
+    }
+}
+
+/// How many places of a picture are looked up at most where a pixel covers more texels one way than the other.
+const MOST_LOOKUPS: f32 = 4.0;
+
+impl StrandBrush<'_> {
+    /// How much of a pixel at a place is covered, 0 to 1.
+    ///
+    /// A pixel covers a box of the picture, which is long and thin where the stroke is: it is looked up at several places along its longer side,
+    /// in copies whose texels are as large as the shorter one. `shaders/gpu/brushed.wgsl` does the same.
+    #[must_use]
+    pub fn coverage(&self, at: &BrushPlace) -> f32 {
+        const TINY: f32 = 1e-6;
+        let repeats = self.length.is_some();
+        let [width, height] = self.mark.size();
+        let length = self.length.unwrap_or(at.whole).max(TINY);
+        let x = at.s / length + if repeats { self.start } else { 0.0 };
+        let y = 0.5 + 0.5 * self.side * at.v;
+        // Texels of a pixel along the stroke and across it.
+        let along = (width / (at.pixels * length).max(TINY)).min(width);
+        let across = (height / (2.0 * at.radius_px).max(TINY)).min(height);
+        let longer = along.max(across);
+        let texels = along.min(across).max(longer / MOST_LOOKUPS).max(1.0);
+        let count = (longer / texels).ceil().clamp(1.0, MOST_LOOKUPS);
+        let blurred = self.mark.blurred(texels);
+        // What repeats does so across too: it is kept away from there by half a texel of the coarser copy.
+        let edge = blurred.edge();
+        let mut sum = 0.0;
+        let mut i = 0.0;
+        while i < count {
+            let shift = ((i + 0.5) / count - 0.5) * longer;
+            let [x, y] = match along > across {
+                true => [x + shift / width, y],
+                false => [x, y + shift / height],
+            };
+            sum += blurred.at([x, y.max(edge).min(1.0 - edge)], repeats);
+            i += 1.0;
+        }
+        sum / count
+    }
+}

@@ -1,0 +1,243 @@
+use super::*;
+use crate::preset::Reader;
+
+const TOOLS: [Tool; 5] = [
+    Tool::Pencil,
+    Tool::Charcoal,
+    Tool::DryInk,
+    Tool::Watercolour,
+    Tool::Crayon,
+];
+
+fn section(kind: Tool) -> BrushSection {
+    BrushSection {
+        kind,
+        ..BrushSection::default()
+    }
+}
+
+fn mean(brush: &BrushTexture) -> f32 {
+    let means = brush
+        .marks()
+        .map(|mark| mark.level(mark.levels() - 1).1[0][3].to_f32());
+    means.sum::<f32>() / brush.marks().len() as f32
+}
+
+/// A place beside a stroke of that radius, on a head of 300 pixels.
+fn place(s: f32, v: f32, radius_px: f32) -> BrushPlace {
+    BrushPlace {
+        s,
+        whole: 1.5,
+        v,
+        pixels: 300.0,
+        radius_px,
+    }
+}
+
+#[test]
+fn what_is_solid_has_no_texture() {
+    assert_eq!(BrushTexture::of_tool(&BrushSection::default()), None);
+    let of_file = BrushSection {
+        texture: Some("a.png".to_owned()),
+        ..section(Tool::Pencil)
+    };
+    assert_eq!(BrushTexture::of_tool(&of_file), None);
+}
+
+#[test]
+fn each_tool_leaves_less_where_it_is_dry() {
+    for kind in TOOLS {
+        let of = |dry| {
+            let section = BrushSection {
+                dry,
+                ..section(kind)
+            };
+            mean(&BrushTexture::of_tool(&section).unwrap())
+        };
+        let [wet, own, dry] = [0.0, 0.5, 1.0].map(of);
+        assert!(
+            wet > own + 0.03 && own > dry + 0.03,
+            "{kind:?}: {wet}, {own}, {dry}"
+        );
+        assert!(wet > 0.6 && dry < 0.6, "{kind:?}: {wet}, {own}, {dry}");
+    }
+}
+
+#[test]
+fn strands_and_seeds_differ() {
+    for kind in TOOLS {
+        let brush = BrushTexture::of_tool(&section(kind)).unwrap();
+        let other = BrushSection {
+            seed: 2,
+            ..section(kind)
+        };
+        assert_ne!(brush, BrushTexture::of_tool(&other).unwrap(), "{kind:?}");
+        assert_eq!(brush, BrushTexture::of_tool(&section(kind)).unwrap());
+        let along = |strand: u32| -> Vec<f32> {
+            let strand = brush.of_strand(crate::strand_seed(7, strand));
+            (0..60)
+                .map(|i| strand.coverage(&place(0.025 * i as f32, 0.3, 8.0)))
+                .collect()
+        };
+        let apart = |a: &[f32], b: &[f32]| -> f32 {
+            a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f32>() / 60.0
+        };
+        let (first, second) = (along(1), along(2));
+        assert!(
+            apart(&first, &second) > 0.03,
+            "{kind:?}: {}",
+            apart(&first, &second)
+        );
+        assert_eq!(first, along(1));
+    }
+}
+
+/// A repeated copy ends as the next begins: no seam.
+#[test]
+fn copies_follow_each_other_without_a_seam() {
+    for kind in TOOLS {
+        let section = BrushSection {
+            fit: Some(Fit::Repeat),
+            ..section(kind)
+        };
+        let brush = BrushTexture::of_tool(&section).unwrap();
+        for mark in brush.marks() {
+            let ([width, height], texels) = mark.level(0);
+            let step = |column: usize| -> f32 {
+                let of_row = |row: usize| {
+                    let at = |column: usize| texels[row * width + column % width][3].to_f32();
+                    (at(column) - at(column + 1)).abs()
+                };
+                (0..height).map(of_row).sum::<f32>() / height as f32
+            };
+            let usual: f32 = (0..width).map(step).sum::<f32>() / width as f32;
+            assert!(
+                step(width - 1) < 3.0 * usual + 0.02,
+                "{kind:?}: {}",
+                step(width - 1)
+            );
+        }
+    }
+}
+
+/// From afar all of a stroke is as much covered as its mean says, so that nothing sparkles.
+#[test]
+fn far_away_coverage_is_the_mean() {
+    for kind in [
+        Tool::Pencil,
+        Tool::Charcoal,
+        Tool::Watercolour,
+        Tool::Crayon,
+    ] {
+        let brush = BrushTexture::of_tool(&section(kind)).unwrap();
+        for seed in 0..8 {
+            let strand = brush.of_strand(seed);
+            let image = &strand.mark.image;
+            let mark = image.level(image.levels() - 1).1[0][3].to_f32();
+            for i in 0..20 {
+                let far = BrushPlace {
+                    pixels: 0.5,
+                    radius_px: 0.01,
+                    ..place(0.07 * i as f32, 0.1 * i as f32 - 1.0, 0.0)
+                };
+                let coverage = strand.coverage(&far);
+                assert!(
+                    (coverage - mark).abs() < 0.1,
+                    "{kind:?}: {coverage}, {mark}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_dry_brush_opens_up_towards_the_tip() {
+    let brush = BrushTexture::of_tool(&section(Tool::DryInk)).unwrap();
+    assert_eq!(brush.length(), None);
+    let at = |s: f32| -> f32 {
+        let of_strand = |seed: u32| {
+            let strand = brush.of_strand(seed);
+            (0..9)
+                .map(|i| strand.coverage(&place(s, 0.2 * i as f32 - 0.8, 9.0)))
+                .sum::<f32>()
+                / 9.0
+        };
+        (0..16).map(of_strand).sum::<f32>() / 16.0
+    };
+    let [root, middle, tip] = [0.05, 0.9, 1.45].map(at);
+    assert!(
+        root > 0.85 && middle < root && tip < 0.55 * middle,
+        "{root}, {middle}, {tip}"
+    );
+}
+
+#[test]
+fn any_place_is_covered_by_a_share() {
+    let numbers = [0.0, 1e-30, 1e-3, 0.5, 1.0, 7.0, 1e9, f32::MAX];
+    for kind in TOOLS {
+        let brush = BrushTexture::of_tool(&section(kind)).unwrap();
+        for (s, whole) in [(0.0, 0.0), (0.3, 0.0), (0.3, 2.0), (1e6, 1e6)] {
+            for pixels in numbers {
+                for radius_px in numbers {
+                    let at = BrushPlace {
+                        s,
+                        whole,
+                        v: 0.4,
+                        pixels,
+                        radius_px,
+                    };
+                    let coverage = brush.of_strand(3).coverage(&at);
+                    assert!(
+                        (0.0..=1.0001).contains(&coverage),
+                        "{kind:?}, {at:?}: {coverage}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn pictures_cover_where_they_are_opaque_or_dark() {
+    let section = BrushSection::default();
+    let full = u16::MAX;
+    let at = |texels: &[[u16; 4]]| {
+        let image = Image::from_srgb([2, 1], texels.as_flattened()).unwrap();
+        let brush = BrushTexture::of_picture(&section, &image).unwrap();
+        let (_, texels) = brush.marks().next().unwrap().level(0);
+        [texels[0][3].to_f32(), texels[1][3].to_f32()]
+    };
+    assert_eq!(at(&[[0, 0, 0, full], [full, full, full, full]]), [1.0, 0.0]);
+    assert_eq!(at(&[[full, full, full, full], [0, 0, 0, 0]]), [1.0, 0.0]);
+}
+
+#[test]
+fn mistakes_are_told_at_their_place() {
+    let mistakes = [
+        ("(kind: pen)", "there is no `pen`"),
+        (
+            "(length: NaN)",
+            "length: expected a number from 0.01 to 100",
+        ),
+        ("(length: -1)", "length: expected a number from 0.01 to 100"),
+        ("(dry: 2)", "dry: expected a number from 0 to 1"),
+        ("(grain: inf)", "grain: expected a number"),
+        ("(fit: tile)", "there is no `tile`"),
+        ("(tool: pencil)", "brush has no `tool`"),
+    ];
+    for (text, message) in mistakes {
+        let mut reader = Reader::new("a.ron", text);
+        let _: BrushSection = reader.section(text, "brush");
+        let error = reader.report().unwrap_err().to_string();
+        assert!(error.contains(message), "{text}: {error}");
+    }
+    let text =
+        "(kind: crayon, length: 2, fit: stretch, grain: 0.5, dry: 1, seed: 9, texture: \"a.png\")";
+    let mut reader = Reader::new("a.ron", text);
+    let read: BrushSection = reader.section(text, "brush");
+    reader.report().unwrap();
+    assert_eq!(
+        (read.length, read.fit, read.seed),
+        (Some(2.0), Some(Fit::Stretch), 9)
+    );
+}
