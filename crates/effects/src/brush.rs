@@ -30,6 +30,8 @@ choices! {
         Watercolour = "watercolour",
         /// Wax on rough paper: hard grain, clots.
         Crayon = "crayon",
+        /// Whole teeth at both edges, as a highlight in drawn hair has them.
+        Zigzag = "zigzag",
     }
 }
 
@@ -61,14 +63,14 @@ section! {
     /// What a layer's strokes are drawn with. Where the tool leaves the paper bare, one sees what lies beneath, as if the stroke weren't there. Its marks
     /// stay where they are on the strand, and no two strands have the same.
     pub struct BrushSection {
-        /// The tool: `pencil`, `charcoal`, `dry_ink`, `watercolour` or `crayon`; `solid` leaves nothing bare.
+        /// The tool: `pencil`, `charcoal`, `dry_ink`, `watercolour`, `crayon`, or `zigzag` for teeth at both edges; `solid` leaves nothing bare.
         kind: Tool = Tool::Solid.or_another(),
         /// A PNG file in place of a tool: from left to right along the stroke, from top to bottom across it. It covers where it is opaque; of one that
         /// is opaque all over, where it is dark.
         texture: Option<String> = text(),
         /// How much of a stroke the texture covers before it is repeated. The tool's own by default.
         length: Option<f32> = number(0.4, 0.01..=100.0).unit("head heights").optional(),
-        /// Whether the texture is repeated along the stroke, or stretched once from root to tip. The tool's own by default: `stretch` of `dry_ink`.
+        /// Whether the texture is repeated along the stroke, or stretched once from root to tip. The tool's own by default: `stretch` of `dry_ink` and `zigzag`.
         fit: Option<Fit> = Fit::Repeat.or_another().optional(),
         /// How coarse the tool's marks are: 2 is twice as coarse.
         grain: f32 = number(1.0, 0.25..=4.0),
@@ -91,7 +93,7 @@ impl BrushSection {
 
     fn fit(&self) -> Fit {
         let own = match (&self.texture, self.kind) {
-            (None, Tool::DryInk) => Fit::Stretch,
+            (None, Tool::DryInk | Tool::Zigzag) => Fit::Stretch,
             _ => Fit::Repeat,
         };
         self.fit.unwrap_or(own)

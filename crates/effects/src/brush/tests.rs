@@ -1,12 +1,13 @@
 use super::*;
 use crate::preset::Reader;
 
-const TOOLS: [Tool; 5] = [
+const TOOLS: [Tool; 6] = [
     Tool::Pencil,
     Tool::Charcoal,
     Tool::DryInk,
     Tool::Watercolour,
     Tool::Crayon,
+    Tool::Zigzag,
 ];
 
 fn section(kind: Tool) -> BrushSection {
@@ -73,10 +74,12 @@ fn strands_and_seeds_differ() {
         };
         assert_ne!(brush, BrushTexture::of_tool(&other).unwrap(), "{kind:?}");
         assert_eq!(brush, BrushTexture::of_tool(&section(kind)).unwrap());
+        // The middle of a zigzag is whole.
+        let across = if kind == Tool::Zigzag { 0.8 } else { 0.3 };
         let along = |strand: u32| -> Vec<f32> {
             let strand = brush.of_strand(crate::strand_seed(7, strand));
             (0..60)
-                .map(|i| strand.coverage(&place(0.025 * i as f32, 0.3, 8.0)))
+                .map(|i| strand.coverage(&place(0.025 * i as f32, across, 8.0)))
                 .collect()
         };
         let apart = |a: &[f32], b: &[f32]| -> f32 {
@@ -240,4 +243,54 @@ fn mistakes_are_told_at_their_place() {
         (read.length, read.fit, read.seed),
         (Some(2.0), Some(Fit::Stretch), 9)
     );
+}
+
+/// Row 19 of S's highlights: whole teeth on a link, whatever its length, and strips that meet go on in each other.
+#[test]
+fn a_zigzag_has_whole_teeth_and_ends_in_valleys() {
+    for (grain, teeth) in [(1.0, 3), (0.5, 6), (3.0, 1)] {
+        let section = BrushSection {
+            grain,
+            dry: 1.0,
+            ..section(Tool::Zigzag)
+        };
+        let brush = BrushTexture::of_tool(&section).unwrap();
+        for seed in 0..8 {
+            let strand = brush.of_strand(seed);
+            for whole in [0.1, 0.6] {
+                let reach = |share: f32, side: f32| -> f32 {
+                    let covered = |v: f32| {
+                        strand.coverage(&BrushPlace {
+                            s: share * whole,
+                            whole,
+                            v: side * v,
+                            pixels: 4000.0,
+                            radius_px: 400.0,
+                        }) > 0.5
+                    };
+                    (0..100)
+                        .map(|i| 0.01 * i as f32)
+                        .take_while(|v| covered(*v))
+                        .count() as f32
+                        / 100.0
+                };
+                let sides = [1.0, -1.0].map(|side| {
+                    let edge: Vec<f32> = (0..=240).map(|i| reach(i as f32 / 240.0, side)).collect();
+                    let (first, last) = (edge[0], edge[240]);
+                    assert!(
+                        (first - 0.15).abs() < 0.05 && (last - 0.15).abs() < 0.05,
+                        "{first}, {last}"
+                    );
+                    let rises = edge
+                        .windows(2)
+                        .filter(|pair| pair[0] <= 0.3 && pair[1] > 0.3);
+                    rises.count()
+                });
+                let expected = [teeth, teeth + 1];
+                let mut sides = sides;
+                sides.sort_unstable();
+                assert_eq!(sides, expected, "{grain}, {seed}");
+            }
+        }
+    }
 }

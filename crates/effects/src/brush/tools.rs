@@ -11,11 +11,15 @@ const SIZE: [usize; 2] = [512, 64];
 /// Of so many pictures of a tool's marks each strand has one, so that neighbours differ also where they are stretched.
 const VARIANTS: u32 = 4;
 
+/// Teeth at the upper edge of a zigzag of grain 1.
+const TEETH: f32 = 3.0;
+
 impl Tool {
     /// The head heights that a copy of its marks covers.
     pub(super) fn length(self) -> f32 {
         match self {
             Self::Solid | Self::Pencil => 0.4,
+            Self::Zigzag => 0.3,
             Self::Charcoal | Self::Crayon => 0.6,
             Self::DryInk | Self::Watercolour => 1.2,
         }
@@ -73,6 +77,7 @@ impl Paper {
             Tool::DryInk => Box::new(self.dry_ink()),
             Tool::Watercolour => Box::new(self.watercolour()),
             Tool::Crayon => Box::new(self.crayon()),
+            Tool::Zigzag => Box::new(self.zigzag()),
         }
     }
 
@@ -168,6 +173,29 @@ impl Paper {
             let clot = 0.3 * smooth(0.6, 1.0, clots.at([x, y]));
             let bare = 0.62 + 0.44 * self.dry;
             smooth(-0.06, 0.06, pressure + clot - bare * (0.55 + valley))
+        }
+    }
+
+    /// Teeth along both edges, one more on the lower one, no two alike. Both edges lie in a valley at each end, so that strokes which meet there go on in one
+    /// another, however they are turned.
+    fn zigzag(self) -> impl Fn([f32; 2]) -> f32 {
+        let teeth = (TEETH / self.grain).round().max(1.0);
+        let reach = Noise::new(self.seed, 1, [0.5 / teeth, 4.0]);
+        let depth = 0.25 + 0.6 * self.dry;
+        move |[x, y]| {
+            let from_middle = 2.0 * y - 1.0;
+            let (count, row) = if from_middle < 0.0 {
+                (teeth, 0.0)
+            } else {
+                (teeth + 1.0, 0.5)
+            };
+            let place = x * count;
+            let tooth = place.floor().min(count - 1.0);
+            // How far the tooth reaches, and how far along it this is: from 0 at its sides to 1 at its point.
+            let own = 1.0 - 0.45 * reach.at([(tooth + 0.5) / count, row]);
+            let height = 1.0 - (2.0 * (place - tooth) - 1.0).abs();
+            let edge = 1.0 - depth + depth * own * height;
+            smooth(-0.04, 0.04, edge - from_middle.abs())
         }
     }
 }
