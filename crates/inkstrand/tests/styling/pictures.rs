@@ -15,7 +15,7 @@ const LIKENESS: f64 = 0.1;
 const LARGEST: (u32, u32) = (480, 360);
 const MOST_BYTES: usize = 40_000;
 const MOST_BYTES_MOVING: usize = 100_000;
-const MOST_OF_ALL: usize = 1_500_000;
+const MOST_OF_ALL: usize = 2_000_000;
 
 /// A picture, or the frames of one that moves one after the other.
 struct Picture {
