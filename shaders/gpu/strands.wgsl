@@ -34,6 +34,8 @@ struct Strand {
     outer: Paint,
     /// The highest stroke that is clipped to the clump.
     inner: Paint,
+    /// Where `BRUSHED`: whether a brush left bare what such a stroke reaches.
+    bare: vec4<bool>,
 }
 
 fn no_paint() -> Paint {
@@ -44,7 +46,7 @@ fn no_paint() -> Paint {
 fn no_strand() -> Strand {
     let nothing = vec4<f32>(NOTHING);
     let one = vec4<f32>(1.0);
-    return Strand(nothing, nothing, one, one, vec4<f32>(FAR_RATIO), nothing, nothing, no_paint(), no_paint());
+    return Strand(nothing, nothing, one, one, vec4<f32>(FAR_RATIO), nothing, nothing, no_paint(), no_paint(), vec4<bool>(false));
 }
 
 /// The inverse depth of what lies so many metres deeper. There is nothing deeper than 0 or below.
@@ -164,6 +166,7 @@ fn thin(stroke: ptr<function, Strand>, brush: u32, first_sample: u32) {
         let inner = (*stroke).inner;
         if (inner.number[k] > 0u && !brush_covers(brush, inner.disc[k], inner.way[k], inner_v[k], sample)) {
             (*stroke).inner.number[k] = 0u;
+            (*stroke).bare[k] = true;
         }
     }
 }
@@ -194,6 +197,7 @@ fn with_stroke(strand: Strand, stroke: Strand) -> Strand {
         select(strand.outer_biased, stroke.outer_biased, is_outer),
         higher_paint(strand.outer, stroke.outer),
         higher_paint(strand.inner, stroke.inner),
+        strand.bare | stroke.bare,
     );
 }
 
@@ -201,7 +205,11 @@ fn with_stroke(strand: Strand, stroke: Strand) -> Strand {
 fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32) {
     let nothing = vec4<f32>(NOTHING);
     let in_clump = strand.depth > nothing;
-    let is_outer = strand.outer.number > vec4<u32>(0u);
+    var is_outer = strand.outer.number > vec4<u32>(0u);
+    if (BRUSHED) {
+        // Outlines don't show where what they are around is left bare.
+        is_outer = is_outer & !(in_clump & strand.bare);
+    }
     let is_inner = in_clump & (strand.inner.number > vec4<u32>(0u));
     let is_drawn = is_inner | is_outer;
     if (!any(is_drawn)) {

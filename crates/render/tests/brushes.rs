@@ -212,6 +212,28 @@ fn what_covers_nothing_is_as_without_the_layer() {
     );
 }
 
+/// An outline stays one where the clump is left bare.
+#[test]
+fn outlines_do_not_fill_what_is_bare() {
+    let list = format!("[{LINE}, (effect: \"hair.base\")]");
+    let blue = |picture: &Picture| -> f32 {
+        picture
+            .pixels
+            .iter()
+            .map(|pixel| (pixel[2] - 0.5).max(0.0))
+            .sum()
+    };
+    let filled = picture(&format!("[{LINE}]"), "", None, Order::Rounded, 4);
+    let lines = picture(&list, "hair.base", even(0.0), Order::Rounded, 4);
+    assert!(
+        blue(&lines) < 0.8 * blue(&filled),
+        "{} {}",
+        blue(&lines),
+        blue(&filled)
+    );
+    assert!(blue(&lines) > 0.1 * blue(&filled));
+}
+
 /// Of one strand a half covers half of its samples, with one sample all or nothing.
 #[test]
 fn samples_are_covered_by_their_share() {

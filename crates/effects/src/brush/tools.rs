@@ -83,8 +83,8 @@ impl Paper {
 
     /// Graphite stays on the tooth of the paper; the line is soft at its edges, and the hand presses now more, now less.
     fn pencil(self) -> impl Fn([f32; 2]) -> f32 {
-        let fine = self.noise(1, [5.0, 5.0]);
-        let tooth = self.noise(2, [11.0, 11.0]);
+        let fine = self.noise(1, [6.0, 4.5]);
+        let tooth = self.noise(2, [15.0, 10.0]);
         let hand = Noise::new(self.seed, 3, [0.12, 4.0]);
         let sway = Noise::new(self.seed, 4, [0.2, 4.0]);
         move |[x, y]| {
@@ -99,8 +99,8 @@ impl Paper {
 
     /// Coal catches on the ridges alone and crumbles towards its edges, where dust lies beside.
     fn charcoal(self) -> impl Fn([f32; 2]) -> f32 {
-        let dust = self.noise(1, [4.0, 4.0]);
-        let tooth = self.noise(2, [12.0, 10.0]);
+        let dust = self.noise(1, [5.0, 4.0]);
+        let tooth = self.noise(2, [15.0, 10.0]);
         let drag = self.noise(3, [80.0, 8.0]);
         let hand = Noise::new(self.seed, 4, [0.1, 4.0]);
         move |[x, y]| {

@@ -34,6 +34,8 @@ pub(super) struct StrandMasks {
     placed: Vec<Placed>,
     /// Its strokes, lowest first; the clump before them.
     strokes: Vec<Covered>,
+    /// Where brushes left bare what strokes that are clipped to the clump reach; of drawings without brushes anything.
+    bare: Mask,
     row: Reached,
 }
 
@@ -62,6 +64,7 @@ impl StrandMasks {
         Self {
             placed: Vec::new(),
             strokes: Vec::new(),
+            bare: NO_SAMPLES,
             row: Reached::default(),
         }
     }
@@ -126,8 +129,9 @@ impl StrandMasks {
     }
 
     /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it.
-    #[inline(always)]
+    #[inline(never)] // drawings without brushes have none of it in their loops
     fn thin(&mut self, scene: &TileContext) {
+        self.bare = NO_SAMPLES;
         for covered in &mut self.strokes {
             let Some(place) = covered.number.checked_sub(1) else {
                 continue;
@@ -136,7 +140,11 @@ impl StrandMasks {
             if let Some(layer) = scene.drawing.brushwork.of_layer(stroke.layer) {
                 let placed = &self.placed[covered.segments.clone()];
                 let brush = StrokeBrush::new(scene, layer, stroke, placed[0].index);
+                let reached = covered.samples;
                 brush.thin(placed, &mut self.row, &mut covered.samples);
+                if stroke.rank >= 0 {
+                    add(&mut self.bare, &without(&reached, &covered.samples));
+                }
             }
         }
     }
@@ -183,10 +191,14 @@ impl StrandMasks {
         };
         let clump_samples = clump.as_ref().map_or(NO_SAMPLES, |clump| clump.samples);
         let rank = |stroke: &Covered| scene.strokes[stroke.number as usize - 1].rank;
+        let has_brushes = !scene.drawing.brushwork.is_empty();
         let mut drawn = NO_SAMPLES;
         for stroke in strokes.iter_mut().rev() {
             if rank(stroke) >= 0 {
                 stroke.samples = both(&stroke.samples, &clump_samples);
+            } else if has_brushes {
+                let bare = both(&self.bare, &clump_samples);
+                stroke.samples = without(&stroke.samples, &bare);
             }
             stroke.samples = without(&stroke.samples, &drawn);
             add(&mut drawn, &stroke.samples);
