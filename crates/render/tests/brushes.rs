@@ -125,6 +125,7 @@ fn drawing(layers: &[Layer], order: Order) -> Drawing {
         material_normals: &[],
         rest_positions: &[],
         from_ends: &[],
+        path_weights: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
         decals: decals.collect(),
