@@ -301,7 +301,8 @@ impl<'a> Found<'a> {
         if let Some(brush) = brush.filter(|brush| brush.matches(search)) {
             ui.add_space(2.0);
             about(ui, "Brush");
-            brush.show(ui, search, edits);
+            // Its rows may be called as some of the effect's are.
+            ui.push_id("brush", |ui| brush.show(ui, search, edits));
         }
         renamed
     }
