@@ -291,7 +291,7 @@ mod tests {
         // The side of the light has it, the other has none.
         for (i, path) in paths.iter().enumerate() {
             let toward = path.iter().all(|(point, _)| point.z > 0.085);
-            let away = path.iter().all(|(point, _)| point.z < -0.04);
+            let away = path.iter().all(|(point, _)| point.z < -0.08);
             let widest = path.iter().map(|(_, weight)| *weight).fold(0.0, f32::max);
             assert!(!toward || widest > 0.5, "{i}: {widest}");
             assert!(!away || widest == 0.0, "{i}: {widest}");

@@ -155,7 +155,10 @@ fn assert_is_table(schema: &Value, table: &[Param]) {
 /// The fields of a schema at their defaults, as a preset writes them.
 fn defaults(schema: &Value) -> String {
     let parameters = schema["parameters"].as_array().unwrap();
-    let fields = parameters.iter().filter_map(|value| {
+    let fields = parameters
+        .iter()
+        .filter(|value| !value["default"].is_null());
+    let fields = fields.map(|value| {
         let default = &value["default"];
         let text = match value["type"].as_str().unwrap() {
             "number" | "integer" | "true or false" => default.to_string(),
@@ -167,7 +170,7 @@ fn defaults(schema: &Value) -> String {
             other => panic!("type {other}"),
         };
         let name = value["name"].as_str().unwrap();
-        (!default.is_null()).then(|| format!("{name}: {text}"))
+        format!("{name}: {text}")
     });
     fields.collect::<Vec<_>>().join(", ")
 }
