@@ -196,6 +196,8 @@ fn eye_pixels(name: &str, text: &str) -> [usize; 2] {
         for (name, value) in set {
             preset.set(name, value).unwrap();
         }
+        // Eyes in their own colours, whatever light is painted on them.
+        preset.layers.retain(|layer| !layer.effect.is_for_meshes());
         preset.set("clump.size", size).unwrap();
         if size == "0" {
             let is_hair = |name: &&str| ["hair.base", "hair.toon"].contains(name);
