@@ -146,7 +146,7 @@ fn a_bake_that_something_else_moved_is_refused_and_says_what() {
     for more in [
         &[][..],
         &["--camera", "90,0", "--light", "0,0"],
-        &["--set", "hair.silhouette.width=9", "--samples", "1"],
+        &["--set", "contour.width=9", "--samples", "1"],
     ] {
         draw_with(more).assert().success();
     }

@@ -45,9 +45,11 @@ fn sections_show_what_the_base_says_and_write_what_is_otherwise() {
 fn layers_of_the_base_are_changed_by_their_names() {
     let mut harness = shown(Kind::Layers);
     for layer in [
-        "hair.silhouette",
+        "contour",
+        "inner",
         "hair.base",
         "hair.cel",
+        "deep",
         "ring",
         "tail light",
     ] {
@@ -56,16 +58,16 @@ fn layers_of_the_base_are_changed_by_their_names() {
             "{layer}"
         );
     }
-    click(&mut harness, "change layer hair.silhouette");
+    click(&mut harness, "change layer contour");
     harness.run();
     open_all(&mut harness);
-    assert!(!names(&harness).contains(&"change layer hair.silhouette".to_owned()));
-    assert_eq!(number(&harness, "hair.silhouette width"), 2.0);
-    set_number(&mut harness, "hair.silhouette width", 4.0);
+    assert!(!names(&harness).contains(&"change layer contour".to_owned()));
+    assert_eq!(number(&harness, "contour width"), 2.8);
+    set_number(&mut harness, "contour width", 4.0);
     let Pane { text, refused, .. } = harness.state();
     assert_eq!(*refused, Vec::<String>::new());
     assert!(
-        text.contains(r#"(name: "hair.silhouette", params: (width: 4))"#),
+        text.contains(r#"(name: "contour", params: (width: 4))"#),
         "{text}"
     );
     // A new layer of the effect doesn't change the base's by its name.
