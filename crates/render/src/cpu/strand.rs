@@ -128,23 +128,42 @@ impl StrandMasks {
         }
     }
 
-    /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it.
+    /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it. Where the strand is drawn as
+    /// one, samples that a higher stroke takes are not looked at.
     #[inline(never)] // drawings without brushes have none of it in their loops
     fn thin(&mut self, scene: &TileContext) {
         self.bare = NO_SAMPLES;
-        for covered in &mut self.strokes {
+        let is_one = scene.drawing.order != Order::Shifted;
+        let clump = match self.strokes.first() {
+            Some(clump) if clump.number == 0 => clump.samples,
+            _ => NO_SAMPLES,
+        };
+        let mut taken = NO_SAMPLES;
+        for covered in self.strokes.iter_mut().rev() {
             let Some(place) = covered.number.checked_sub(1) else {
                 continue;
             };
             let stroke = &scene.strokes[place as usize];
+            let is_clipped = is_one && stroke.rank >= 0;
+            if is_clipped {
+                covered.samples = both(&covered.samples, &clump);
+            } else if is_one {
+                covered.samples = without(&covered.samples, &both(&self.bare, &clump));
+            }
             if let Some(layer) = scene.drawing.brushwork.of_layer(stroke.layer) {
                 let placed = &self.placed[covered.segments.clone()];
                 let brush = StrokeBrush::new(scene, layer, stroke, placed[0].index);
-                let reached = covered.samples;
-                brush.thin(placed, &mut self.row, &mut covered.samples);
+                let wanted = without(&covered.samples, &taken);
+                let mut left = wanted;
+                brush.thin(placed, &mut self.row, &mut left);
+                let bare = without(&wanted, &left);
+                covered.samples = without(&covered.samples, &bare);
                 if stroke.rank >= 0 {
-                    add(&mut self.bare, &without(&reached, &covered.samples));
+                    add(&mut self.bare, &bare);
                 }
+            }
+            if is_one {
+                add(&mut taken, &covered.samples);
             }
         }
     }
@@ -194,11 +213,9 @@ impl StrandMasks {
         let has_brushes = !scene.drawing.brushwork.is_empty();
         let mut drawn = NO_SAMPLES;
         for stroke in strokes.iter_mut().rev() {
-            if rank(stroke) >= 0 {
+            // Brushes are through with both before.
+            if rank(stroke) >= 0 && !has_brushes {
                 stroke.samples = both(&stroke.samples, &clump_samples);
-            } else if has_brushes {
-                let bare = both(&self.bare, &clump_samples);
-                stroke.samples = without(&stroke.samples, &bare);
             }
             stroke.samples = without(&stroke.samples, &drawn);
             add(&mut drawn, &stroke.samples);
