@@ -4,15 +4,17 @@
 const BRUSHED: bool = true;
 
 /// A brush's record in the tables: the layer's seed; its first disc, the first joint that it draws on, and how many; where the joints' records
-/// begin; head heights along the strand, 0 where it is stretched; whether it shows outside of its clump alone; then how many pictures there are, and where each one's record begins.
+/// begin; head heights along the strand of a copy or a whole mark, 0 where a copy is stretched; how many whole marks a copy is made of, 0 where they may be cut; whether
+/// it shows outside of its clump alone; then how many pictures there are, and where each one's record begins.
 const BRUSH_SEED: u32 = 0u;
 const BRUSH_FIRST_DISC: u32 = 1u;
 const BRUSH_FIRST_JOINT: u32 = 2u;
 const BRUSH_JOINTS: u32 = 3u;
 const BRUSH_ALONG: u32 = 4u;
 const BRUSH_LENGTH: u32 = 5u;
-const BRUSH_IS_OUTLINE: u32 = 6u;
-const BRUSH_MARKS: u32 = 7u;
+const BRUSH_PARTS: u32 = 6u;
+const BRUSH_IS_OUTLINE: u32 = 7u;
+const BRUSH_MARKS: u32 = 8u;
 
 /// Where along its strand a joint is: the length up to there and the whole length (head heights), pixels of a head's height, the strand's id.
 const ALONG_WORDS: u32 = 4u;
@@ -57,29 +59,72 @@ fn on_outline(v: f32, radius: f32, clump: f32) -> vec2<f32> {
 fn brush_coverage(brush: u32, seed: u32, along_strand: vec3<f32>, v: f32, radius: f32) -> f32 {
     let mixed = hash(seed);
     let mark = tables[brush + BRUSH_MARKS + 1u + mixed % tables[brush + BRUSH_MARKS]];
-    let side = select(-1.0, 1.0, (mixed & 0x100u) == 0u);
+    let y = 0.5 + 0.5 * select(-1.0, 1.0, (mixed & 0x100u) == 0u) * v;
+    let start = f32(mixed >> 9u) / 8388608.0;
     let own = table(brush + BRUSH_LENGTH);
-    let repeats = own > 0.0;
+    let parts = f32(tables[brush + BRUSH_PARTS]);
+    let whole = max(along_strand.y, TINY_LENGTH);
+    if (own <= 0.0) {
+        return laid(mark, vec2<f32>(along_strand.x / whole, y), whole, along_strand.z, radius, false);
+    }
+    if (parts == 0.0) {
+        return laid(mark, vec2<f32>(along_strand.x / own + start, y), own, along_strand.z, radius, true);
+    }
+    let first = floor(start * parts);
+    let fitting = clamp(along_strand.y / own, 1.0, 1e6);
+    let count = floor(fitting);
+    let t = clamp((fitting - count - 0.4) / 0.2, 0.0, 1.0);
+    let more = t * t * (3.0 - 2.0 * t);
+    var covered = vec2<f32>(0.0);
+    for (var i = 0u; i < 2u; i += 1u) {
+        if (select(more < 1.0, more > 0.0, i == 1u)) {
+            let length = whole / (count + f32(i));
+            covered[i] = laid(mark, vec2<f32>((first + along_strand.x / length) / parts, y), length * parts, along_strand.z, radius, true);
+        }
+    }
+    return covered.x * (1.0 - more) + covered.y * more;
+}
+
+/// The same where the mark's texture lies so that the place is at `at` of it, and a copy is `length` long (head heights).
+fn laid(mark: u32, at: vec2<f32>, length: f32, pixels: f32, radius: f32, repeats: bool) -> f32 {
     let size = vec2<f32>(gpu_image_size(mark, 0u));
-    let length = max(select(along_strand.y, own, repeats), TINY_LENGTH);
-    let at = vec2<f32>(
-        along_strand.x / length + select(0.0, f32(mixed >> 9u) / 8388608.0, repeats),
-        0.5 + 0.5 * side * v,
-    );
     // Texels of a pixel along the stroke and across it.
-    let along = min(size.x / max(along_strand.z * length, TINY_LENGTH), size.x);
+    let along = min(size.x / max(pixels * length, TINY_LENGTH), size.x);
     let across = min(size.y / max(2.0 * radius, TINY_LENGTH), size.y);
     let longer = max(along, across);
     let texels = max(max(min(along, across), longer / MOST_LOOKUPS), 1.0);
-    let count = clamp(ceil(longer / texels), 1.0, MOST_LOOKUPS);
-    let level = u32(log_to_two(texels)) + 1u;
-    let edge = 0.5 / f32(gpu_image_size(mark, min(level, gpu_image_levels(mark) - 1u)).y);
+    let parts = clamp(longer / texels, 1.0, MOST_LOOKUPS);
+    let level = min(log_to_two(texels), f32(gpu_image_levels(mark) - 1u));
     var sum = 0.0;
-    for (var i = 0.0; i < count; i += 1.0) {
-        let shift = ((i + 0.5) / count - 0.5) * longer;
+    for (var from = 0.0; from < parts; from += 1.0) {
+        let part = min(parts - from, 1.0);
+        let shift = (from + 0.5 * part - 0.5 * parts) * texels;
         let place = at + select(vec2<f32>(0.0, shift / size.y), vec2<f32>(shift / size.x, 0.0), along > across);
-        let inside = vec2<f32>(place.x, clamp(place.y, edge, 1.0 - edge));
-        sum += gpu_image_at(mark, inside, texels / size.x, repeats).w;
+        sum += part * mark_at(mark, level, place, repeats);
     }
-    return sum / count;
+    return sum / parts;
+}
+
+/// A mark's coverage at a place, between two of its copies.
+fn mark_at(mark: u32, level: f32, place: vec2<f32>, repeats: bool) -> f32 {
+    let finer = floor(level);
+    let covered = mark_copy_at(mark, u32(finer), place, repeats);
+    if (level <= finer) {
+        return covered;
+    }
+    return covered + (mark_copy_at(mark, u32(finer) + 1u, place, repeats) - covered) * (level - finer);
+}
+
+/// That of one copy. What repeats does so along the stroke alone.
+fn mark_copy_at(mark: u32, level: u32, place: vec2<f32>, repeats: bool) -> f32 {
+    let size = gpu_image_size(mark, level);
+    let across = gpu_nearest(place.x, size.x, repeats);
+    let down = gpu_nearest(place.y, size.y, false);
+    let a = gpu_image_texel(mark, level, vec2<u32>(across.first, down.first)).w;
+    let b = gpu_image_texel(mark, level, vec2<u32>(across.second, down.first)).w;
+    let c = gpu_image_texel(mark, level, vec2<u32>(across.first, down.second)).w;
+    let d = gpu_image_texel(mark, level, vec2<u32>(across.second, down.second)).w;
+    let above = a + (b - a) * across.share;
+    let below = c + (d - c) * across.share;
+    return above + (below - above) * down.share;
 }

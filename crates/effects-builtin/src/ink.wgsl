@@ -22,10 +22,13 @@ struct Params {
     /// How far it is along the strand from one tremble to the next.
     /// @unit head heights @range 0.01..10 @default 0.18
     wobble_length: f32,
-    /// How much of the line the brush is off the paper, in places of its own on each strand: 1 is all of it. Gaps are about twice as
-    /// long as trembles.
+    /// How much of the line the brush is off the paper, in places of its own on each strand: 1 is all of it.
     /// @range 0..1 @default 0
     gaps: f32,
+    /// No stretch of the line between two gaps is shorter than this along the strand, and no gap, but that half as long ones may be left at the tip: no
+    /// crumbs. 0 is twice as long as trembles.
+    /// @unit head heights @range 0..10 @default 0
+    shortest: f32,
     /// Factor on the width where what lies behind the line is farther away than `gap`: above 1 lines around a mass are bolder than those in it.
     /// @constant @range 1..8 @default 1
     gap_width: f32,
@@ -64,6 +67,36 @@ fn tremble(place: f32, seed: u32) -> f32 {
     return mix(random_signed(seed, index), random_signed(seed, index + 1u), smooth_way);
 }
 
+/// At each end of a stretch of the line that share of the shortest one is its point.
+const POINT: f32 = 0.3;
+
+/// Whether the brush is on the paper in a stretch of a strand: 1 or 0.
+fn is_on(seed: u32, stretch: f32, gaps: f32) -> f32 {
+    return select(0.0, 1.0, random(seed, u32(stretch)) >= gaps);
+}
+
+/// The same where the strand ends in the stretch `last`, and so much of it is left: what is shorter than half of one goes on as the one before.
+fn is_on_of(seed: u32, stretch: f32, gaps: f32, last: f32, left: f32) -> f32 {
+    let own = is_on(seed, stretch, gaps);
+    if (stretch < last || stretch <= 0.0) {
+        return own;
+    }
+    return mix(is_on(seed, stretch - 1.0, gaps), own, smoothstep(0.5, 1.0, left));
+}
+
+/// How much of the line's width there is, so many shortest stretches from the root of a strand of `whole` ones. It is on the paper or off it in each
+/// stretch as a whole.
+fn on_paper(along: f32, whole: f32, seed: u32, gaps: f32) -> f32 {
+    let last = floor(whole);
+    let left = whole - last;
+    let own = min(floor(along), last);
+    let before = select(is_on_of(seed, max(own - 1.0, 0.0), gaps, last, left), 1.0, own <= 0.0);
+    let after = select(is_on_of(seed, own + 1.0, gaps, last, left), 1.0, own >= last);
+    let begun = max(before, saturate((along - own) / POINT));
+    let to_come = max(after, saturate((own + 1.0 - along) / POINT));
+    return is_on_of(seed, own, gaps, last, left) * min(begun, to_come);
+}
+
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let step = f32(instance / 3u) / f32(GAP_STEPS - 1u);
     let disc = clump_disc(instance % 3u, joint.clump_radius, joint.clump_shift);
@@ -74,8 +107,9 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     // A strand 1000 km long trembles no more.
     let along = min(joint.arc_length / (joint.head_height * params.wobble_length), 1e6);
     let by_hand = 1.0 + params.wobble * tremble(along, hash(joint.seed));
-    // The brush is off where another tremble is low, twice as slow a one; it comes and goes over a twentieth of its range.
-    let on = saturate((tremble(0.5 * along, hash(joint.seed + 1u)) - 2.2 * params.gaps + 1.1) / 0.1);
+    let shortest = select(2.0 * params.wobble_length, params.shortest, params.shortest > 0.0);
+    let stretches = min(joint.arc_length / (joint.head_height * shortest), 1e6);
+    let on = on_paper(stretches, stretches / max(joint.u, 1e-6), hash(joint.seed + 1u), params.gaps);
     let by_light = mix(1.0, params.light_width, gray);
     let from_root = select(1.0, smoothstep(0.0, params.root_fade, joint.u), joint.u < params.root_fade);
     let to_tip = select(1.0, smoothstep(0.0, params.tip_fade, 1.0 - joint.u), 1.0 - joint.u < params.tip_fade);

@@ -99,6 +99,33 @@ fn the_brush_leaves_the_paper_where_it_is_told_to() {
     assert!((shares[2] - 0.5).abs() < 0.06, "{shares:?}");
 }
 
+/// No line between two gaps, and no gap, is shorter than the author says, from root to tip; each line ends in points.
+#[test]
+fn no_line_between_gaps_is_shorter_than_said() {
+    const LENGTH: f32 = 2.37;
+    let set = [("gaps", "0.5"), ("shortest", "0.3")];
+    let mut count = [0, 0];
+    for strand in 0..60 {
+        let along = |i: usize| 0.001 * i as f32;
+        let widths = (0..2370).map(|i| {
+            let at = along(i);
+            width(&joint_at(at / LENGTH, at, strand, 0.5), &set)
+        });
+        let widths: Vec<f32> = widths.collect();
+        let steps = widths.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        assert!(steps.fold(0.0, f32::max) < 0.05, "a blunt end");
+        let stretches = widths.chunk_by(|a, b| (*a > 0.1) == (*b > 0.1));
+        let mut stretches = stretches.peekable();
+        while let Some(stretch) = stretches.next() {
+            let is_line = stretch[0] > 0.1;
+            count[usize::from(is_line)] += 1;
+            let least = if stretches.peek().is_some() { 280 } else { 140 };
+            assert!(stretch.len() > least, "{strand}: {} of 300", stretch.len());
+        }
+    }
+    assert!(count[0] > 60 && count[1] > 60, "{count:?}");
+}
+
 #[test]
 fn within_a_shadow_it_has_the_shadows_line() {
     let set = [("color", "000000"), ("shadow_color", "FFFFFF")];

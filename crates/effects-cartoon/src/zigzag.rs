@@ -188,6 +188,10 @@ impl Beside {
     }
 }
 
+/// How much farther what lies before, behind, above or below a strand counts as its distance than what lies beside it: the next of its own row is its
+/// neighbour, not one of a row under it.
+const OFF_ROW: f32 = 3.0;
+
 /// The strand that is next to strand `index` around the head, counterclockwise from above, at rest: the nearest of those that are more beside it
 /// than above, below or behind it.
 fn next_around(all: &[Beside], index: usize, head_center: Vec3) -> Option<usize> {
@@ -196,7 +200,11 @@ fn next_around(all: &[Beside], index: usize, head_center: Vec3) -> Option<usize>
     let around = Vec3::Y.cross(middle).normalize_or(Vec3::X);
     let distance = |other: &Beside| -> f32 {
         let pairs = own.points.iter().zip(&other.points);
-        pairs.map(|(a, b)| a.distance(*b)).sum()
+        let apart = |way: Vec3| {
+            let beside = way.dot(around) * around;
+            (beside + OFF_ROW * (way - beside)).length()
+        };
+        pairs.map(|(a, b)| apart(*b - *a)).sum()
     };
     let is_beside = |other: &Beside| {
         let way: Vec3 = (own.points.iter().zip(&other.points))
@@ -344,6 +352,21 @@ mod tests {
                 .iter()
                 .all(|path| path.iter().all(|(_, weight)| *weight == 0.0))
         );
+    }
+
+    /// A row under another one, nearer than the row's own neighbours: links stay within their rows.
+    #[test]
+    fn links_stay_within_their_rows() {
+        let inner: Vec<Vec<Vec3>> = (cap(24).iter())
+            .map(|strand| strand.iter().map(|point| 0.9 * *point).collect())
+            .collect();
+        let both: Vec<_> = cap(24).into_iter().chain(inner).collect();
+        let paths = made(&both, FROM_ABOVE, &[("lift", "0")]);
+        assert_eq!(paths.len(), 48);
+        for path in &paths {
+            let [from, to] = [0, POINTS - 1].map(|i| path[i].0.length());
+            assert!((from - to).abs() < 1e-3, "{from}, {to}");
+        }
     }
 
     /// As the light goes round nothing jumps: half of the step is about half of the change.

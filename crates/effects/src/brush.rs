@@ -42,6 +42,8 @@ choices! {
         Repeat = "repeat",
         /// One copy from root to tip.
         Stretch = "stretch",
+        /// As many whole marks as come nearest to their length; at least one.
+        Whole = "whole",
     }
 }
 
@@ -68,9 +70,10 @@ section! {
         /// A PNG file in place of a tool: from left to right along the stroke, from top to bottom across it. It covers where it is opaque; of one that
         /// is opaque all over, where it is dark.
         texture: Option<String> = text(),
-        /// How much of a stroke the texture covers before it is repeated. The tool's own by default.
+        /// How much of a stroke the texture covers before it is repeated; of whole marks, a mark: a tooth. The tool's own by default.
         length: Option<f32> = number(0.4, 0.01..=100.0).unit("head heights").optional(),
-        /// Whether the texture is repeated along the stroke, or stretched once from root to tip. The tool's own by default: `stretch` of `dry_ink` and `zigzag`.
+        /// Whether the texture is repeated along the stroke, stretched once from root to tip, or lies there in whole marks, as many as come nearest to
+        /// `length`. The tool's own by default: `stretch` of `dry_ink`, `whole` of `zigzag`.
         fit: Option<Fit> = Fit::Repeat.or_another().optional(),
         /// How coarse the tool's marks are: 2 is twice as coarse.
         grain: f32 = number(1.0, 0.25..=4.0),
@@ -93,21 +96,57 @@ impl BrushSection {
 
     fn fit(&self) -> Fit {
         let own = match (&self.texture, self.kind) {
-            (None, Tool::DryInk | Tool::Zigzag) => Fit::Stretch,
+            (None, Tool::DryInk) => Fit::Stretch,
+            (None, Tool::Zigzag) => Fit::Whole,
             _ => Fit::Repeat,
         };
         self.fit.unwrap_or(own)
     }
 
-    /// The head heights that a copy covers; nothing where it is stretched.
-    fn length(&self) -> Option<f32> {
-        let own = if self.texture.is_some() {
-            0.4
-        } else {
-            self.kind.length()
-        };
-        (self.fit() == Fit::Repeat).then(|| self.length.unwrap_or(own))
+    /// How many whole marks a copy is made of.
+    fn parts(&self) -> u32 {
+        match self.texture {
+            Some(_) => 1,
+            None => self.kind.parts(),
+        }
     }
+
+    fn lie(&self) -> Lie {
+        let own = match self.texture {
+            Some(_) => 0.4,
+            None => self.kind.length() * self.grain_of_marks(),
+        };
+        let parts = self.parts();
+        match self.fit() {
+            Fit::Stretch => Lie::Stretched,
+            Fit::Repeat => Lie::Repeated {
+                length: self.length.unwrap_or(own * parts as f32),
+            },
+            Fit::Whole => Lie::Whole {
+                length: self.length.unwrap_or(own),
+                parts,
+            },
+        }
+    }
+
+    /// Coarser teeth are longer ones: of other tools grain is finer than a copy.
+    fn grain_of_marks(&self) -> f32 {
+        match self.kind {
+            Tool::Zigzag => self.grain,
+            _ => 1.0,
+        }
+    }
+}
+
+/// How copies of a texture lie along a stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Lie {
+    /// One behind the other, each that many head heights long.
+    Repeated { length: f32 },
+    /// One from root to tip.
+    Stretched,
+    /// So many of a copy's parts that each is about that long (head heights), from one of them on that is the strand's own.
+    Whole { length: f32, parts: u32 },
 }
 
 /// The coverage of strokes that a tool draws. Each strand has it from another place on, on one side or the other.
@@ -115,8 +154,7 @@ impl BrushSection {
 pub struct BrushTexture {
     /// All of one size: a strand has one of them.
     marks: Vec<Mark>,
-    /// Head heights along the strand; nothing where it is stretched.
-    length: Option<f32>,
+    lie: Lie,
 }
 
 impl BrushTexture {
@@ -128,7 +166,7 @@ impl BrushTexture {
         }
         Some(Self {
             marks: tools::marks(section).map(Mark::new).collect(),
-            length: section.length(),
+            lie: section.lie(),
         })
     }
 
@@ -152,7 +190,7 @@ impl BrushTexture {
         let image = Image::of_coverage(size, &coverage.collect::<Vec<_>>())?;
         Ok(Self {
             marks: vec![Mark::new(image)],
-            length: section.length(),
+            lie: section.lie(),
         })
     }
 
@@ -161,10 +199,22 @@ impl BrushTexture {
         self.marks.iter().map(|mark| &mark.image)
     }
 
-    /// How many head heights along a strand a copy is; nothing where one is as long as the strand.
+    /// How many head heights along a strand a copy is, or a whole mark; nothing where a copy is as long as the strand.
     #[must_use]
     pub fn length(&self) -> Option<f32> {
-        self.length
+        match self.lie {
+            Lie::Repeated { length } | Lie::Whole { length, .. } => Some(length),
+            Lie::Stretched => None,
+        }
+    }
+
+    /// How many whole marks a copy is made of, where strokes show whole ones alone.
+    #[must_use]
+    pub fn parts(&self) -> Option<u32> {
+        match self.lie {
+            Lie::Whole { parts, .. } => Some(parts),
+            _ => None,
+        }
     }
 
     /// What of it a strand of that seed has.
@@ -173,7 +223,7 @@ impl BrushTexture {
         let mixed = hash(seed);
         StrandBrush {
             mark: &self.marks[mixed as usize % self.marks.len()],
-            length: self.length,
+            lie: self.lie,
             side: if mixed & 0x100 == 0 { 1.0 } else { -1.0 },
             start: (mixed >> 9) as f32 / (1 << 23) as f32,
         }
@@ -184,7 +234,7 @@ impl BrushTexture {
 #[derive(Clone, Copy, Debug)]
 pub struct StrandBrush<'a> {
     mark: &'a Mark,
-    length: Option<f32>,
+    lie: Lie,
     /// 1, or -1 where it is turned over.
     side: f32,
     /// The part of a copy at which it begins.
@@ -224,42 +274,74 @@ impl BrushPlace {
     }
 }
 
+/// The shortest stroke that a texture is laid on, head heights.
+const TINY: f32 = 1e-6;
+
+/// How many whole marks there are where that many would fit, and how much of one more: the one number goes over into the other where both are as near.
+fn whole_marks(fitting: f32) -> (f32, f32) {
+    // No more than can be told apart.
+    let fitting = fitting.clamp(1.0, 1e6);
+    let count = fitting.floor();
+    let more = ((fitting - count - 0.4) / 0.2).clamp(0.0, 1.0);
+    (count, more * more * (3.0 - 2.0 * more))
+}
+
 /// How many places of a picture are looked up at most where a pixel covers more texels one way than the other.
 const MOST_LOOKUPS: f32 = 4.0;
 
 impl StrandBrush<'_> {
-    /// How much of a pixel at a place is covered, 0 to 1.
-    ///
-    /// A pixel covers a box of the picture, which is long and thin where the stroke is: it is looked up at several places along its longer side,
-    /// in copies whose texels are as large as the shorter one. `shaders/gpu/brushed.wgsl` does the same.
+    /// How much of a pixel at a place is covered, 0 to 1. `shaders/gpu/brushed.wgsl` does the same.
     #[must_use]
     pub fn coverage(&self, at: &BrushPlace) -> f32 {
-        const TINY: f32 = 1e-6;
-        let repeats = self.length.is_some();
+        match self.lie {
+            Lie::Repeated { length } => self.laid(at, at.s / length + self.start, length, true),
+            Lie::Stretched => {
+                let length = at.whole.max(TINY);
+                self.laid(at, at.s / length, length, false)
+            }
+            Lie::Whole { length, parts } => {
+                let parts = parts as f32;
+                let first = (self.start * parts).floor();
+                let with = |count: f32| {
+                    let mark = at.whole.max(TINY) / count;
+                    self.laid(at, (first + at.s / mark) / parts, mark * parts, true)
+                };
+                let (count, more) = whole_marks(at.whole / length);
+                match more {
+                    0.0 => with(count),
+                    1.0 => with(count + 1.0),
+                    _ => with(count) * (1.0 - more) + with(count + 1.0) * more,
+                }
+            }
+        }
+    }
+
+    /// How much of a pixel is covered where the texture lies so that the place is at `x` of it, and a copy is `length` long (head heights).
+    ///
+    /// A pixel covers a box of the picture, which is long and thin where the stroke is: it is looked up at several places along its longer side,
+    /// in copies whose texels are as large as the shorter one.
+    fn laid(&self, at: &BrushPlace, x: f32, length: f32, repeats: bool) -> f32 {
         let [width, height] = self.mark.size();
-        let length = self.length.unwrap_or(at.whole).max(TINY);
-        let x = at.s / length + if repeats { self.start } else { 0.0 };
         let y = 0.5 + 0.5 * self.side * at.v;
         // Texels of a pixel along the stroke and across it.
         let along = (width / (at.pixels * length).max(TINY)).min(width);
         let across = (height / (2.0 * at.radius_px).max(TINY)).min(height);
         let longer = along.max(across);
         let texels = along.min(across).max(longer / MOST_LOOKUPS).max(1.0);
-        let count = (longer / texels).ceil().clamp(1.0, MOST_LOOKUPS);
+        // Not a whole number, as the last lookup counts for its part of the box alone: their number changes without a jump.
+        let parts = (longer / texels).clamp(1.0, MOST_LOOKUPS);
         let blurred = self.mark.blurred(texels);
-        // What repeats does so across too: it is kept away from there by half a texel of the coarser copy.
-        let edge = blurred.edge();
-        let mut sum = 0.0;
-        let mut i = 0.0;
-        while i < count {
-            let shift = ((i + 0.5) / count - 0.5) * longer;
-            let [x, y] = match along > across {
+        let (mut sum, mut from) = (0.0, 0.0);
+        while from < parts {
+            let part = (parts - from).min(1.0);
+            let shift = (from + 0.5 * part - 0.5 * parts) * texels;
+            let place = match along > across {
                 true => [x + shift / width, y],
                 false => [x, y + shift / height],
             };
-            sum += blurred.at([x, y.max(edge).min(1.0 - edge)], repeats);
-            i += 1.0;
+            sum += part * blurred.at(place, repeats);
+            from += 1.0;
         }
-        sum / count
+        sum / parts
     }
 }

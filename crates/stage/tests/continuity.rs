@@ -30,6 +30,12 @@ const LAYERS: &str = r#"[
     (effect: "hair.fine", params: (per_strand: 2, width: 2, color: "FFF0C0")),
 ]"#;
 
+/// Ink that lifts off the paper.
+const INK: &str = r#"[
+    (effect: "hair.ink", params: (width: 4, gaps: 0.5, shortest: 0.1, wobble_length: 0.03, color: "203050")),
+    (effect: "hair.base"),
+]"#;
+
 /// Wavy strands side by side, some nearer than others, and a ringlet.
 fn strands() -> String {
     let mut text = String::from("(version: 1, strands: [\n");
@@ -54,14 +60,14 @@ fn strands() -> String {
     text + "])"
 }
 
-/// The scene with these numbers set.
-fn stage(folder: &Path, values: &[(&str, f32)]) -> Stage {
+/// The scene with these layers, and these numbers set.
+fn stage_of(layers: &str, folder: &Path, values: &[(&str, f32)]) -> Stage {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     let text = format!(
         "(version: 1, hair: (file: \"a.strands.ron\"), scene: (size: ({WIDTH}, {HEIGHT}), background: \"FFFFFF\"), \
          camera: (yaw: 20, pitch: 10, distance: 2.8, target: (0, -0.4, 0)), light: (yaw: 40, pitch: 45), \
-         path: (kind: catmull_rom, subdivision: 4), clump: (color: \"3FC1C0\"), layers: {LAYERS})"
+         path: (kind: catmull_rom, subdivision: 4), clump: (color: \"3FC1C0\"), layers: {layers})"
     );
     let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
     for (name, value) in values {
@@ -99,7 +105,7 @@ fn change(a: &Picture, b: &Picture) -> f32 {
 }
 
 /// The scene at each step while numbers run from one end of a range to the other.
-fn stages(ranges: &[(&str, [f32; 2])]) -> Vec<Stage> {
+fn stages(layers: &str, ranges: &[(&str, [f32; 2])]) -> Vec<Stage> {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.strands.ron"), strands()).unwrap();
     let at = |step: usize| {
@@ -107,7 +113,7 @@ fn stages(ranges: &[(&str, [f32; 2])]) -> Vec<Stage> {
         let values = ranges
             .iter()
             .map(|(name, [from, to])| (*name, from + (to - from) * t));
-        stage(folder.path(), &values.collect::<Vec<_>>())
+        stage_of(layers, folder.path(), &values.collect::<Vec<_>>())
     };
     (0..=STEPS).map(at).collect()
 }
@@ -127,7 +133,12 @@ fn ratio(stages: &mut [Stage]) -> f32 {
 
 #[track_caller]
 fn assert_continuous(ranges: &[(&str, [f32; 2])]) {
-    let ratio = ratio(&mut stages(ranges));
+    assert_continuous_in(LAYERS, ranges);
+}
+
+#[track_caller]
+fn assert_continuous_in(layers: &str, ranges: &[(&str, [f32; 2])]) {
+    let ratio = ratio(&mut stages(layers, ranges));
     assert!(ratio > 1.7, "{ranges:?} jumps: {ratio}");
 }
 
@@ -140,6 +151,7 @@ fn strokes_grow_and_shrink_with_the_light() {
 #[test]
 fn hair_turns_with_the_eye() {
     assert_continuous(&[("camera.yaw", [20.0, 28.0])]);
+    assert_continuous_in(INK, &[("camera.yaw", [20.0, 28.0])]);
     // Strands come to point at the eye, and turn to the other side of the picture.
     assert_continuous(&[("camera.pitch", [75.0, 82.0])]);
 }
@@ -179,7 +191,7 @@ fn the_near_plane_cuts_without_a_jump() {
         ("camera.distance", [0.49, 0.4825]),
         ("clump.size", [0.5, 0.5]),
     ];
-    let mut stages = stages(&range);
+    let mut stages = stages(LAYERS, &range);
     // It is reached: joints are lost on the way.
     let mut joints = stages
         .iter_mut()
@@ -192,6 +204,9 @@ fn the_near_plane_cuts_without_a_jump() {
 /// The measure is measured: a strand has a highlight or it has none.
 #[test]
 fn what_jumps_is_found() {
-    let ratio = ratio(&mut stages(&[("hair.highlight.strand_share", [0.1, 0.9])]));
+    let ratio = ratio(&mut stages(
+        LAYERS,
+        &[("hair.highlight.strand_share", [0.1, 0.9])],
+    ));
     assert!(ratio < 1.2, "{ratio}");
 }

@@ -64,11 +64,6 @@ impl Mark {
 }
 
 impl Blurred<'_> {
-    /// Half a texel of the coarser copy, as a share of the height.
-    pub(super) fn edge(&self) -> f32 {
-        0.5 / self.coarser.size[1] as f32
-    }
-
     /// The coverage at a place, 0 to 1 from left to right and from top to bottom.
     pub(super) fn at(&self, place: [f32; 2], repeats: bool) -> f32 {
         let coverage = self.finer.at(place, repeats);
@@ -80,11 +75,11 @@ impl Blurred<'_> {
 }
 
 impl Plane {
-    /// Between the middles of the four nearest texels.
+    /// Between the middles of the four nearest texels. What repeats does so along the stroke alone.
     fn at(&self, [x, y]: [f32; 2], repeats: bool) -> f32 {
         let [width, height] = self.size;
         let (left, right, across) = nearest(x, width, repeats);
-        let (upper, lower, down) = nearest(y, height, repeats);
+        let (upper, lower, down) = nearest(y, height, false);
         let row = |row: usize| {
             let texels = &self.coverage[row * width..][..width];
             mix(texels[left], texels[right], across)

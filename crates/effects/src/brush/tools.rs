@@ -11,17 +11,25 @@ const SIZE: [usize; 2] = [512, 64];
 /// Of so many pictures of a tool's marks each strand has one, so that neighbours differ also where they are stretched.
 const VARIANTS: u32 = 4;
 
-/// Teeth at the upper edge of a zigzag of grain 1.
-const TEETH: f32 = 3.0;
+/// Teeth at each edge of a zigzag's picture: strokes show as many of them as fit.
+const TEETH: u32 = 12;
 
 impl Tool {
-    /// The head heights that a copy of its marks covers.
+    /// The head heights that one of its marks covers: a tooth, or a whole copy.
     pub(super) fn length(self) -> f32 {
         match self {
             Self::Solid | Self::Pencil => 0.4,
-            Self::Zigzag => 0.3,
+            Self::Zigzag => 0.1,
             Self::Charcoal | Self::Crayon => 0.6,
             Self::DryInk | Self::Watercolour => 1.2,
+        }
+    }
+
+    /// How many marks a copy is made of, each of which begins and ends alike.
+    pub(super) fn parts(self) -> u32 {
+        match self {
+            Self::Zigzag => TEETH,
+            _ => 1,
         }
     }
 }
@@ -176,24 +184,25 @@ impl Paper {
         }
     }
 
-    /// Teeth along both edges, one more on the lower one, no two alike. Both edges lie in a valley at each end, so that strokes which meet there go on in one
-    /// another, however they are turned.
+    /// Teeth along both edges, no two alike; those of the lower one lean. Both edges lie in a valley where teeth begin and end, so that strokes of whole
+    /// teeth which meet there go on in one another, however they are turned.
     fn zigzag(self) -> impl Fn([f32; 2]) -> f32 {
-        let teeth = (TEETH / self.grain).round().max(1.0);
+        let teeth = TEETH as f32;
         let reach = Noise::new(self.seed, 1, [0.5 / teeth, 4.0]);
         let depth = 0.25 + 0.6 * self.dry;
         move |[x, y]| {
             let from_middle = 2.0 * y - 1.0;
-            let (count, row) = if from_middle < 0.0 {
-                (teeth, 0.0)
+            let (row, point) = if from_middle < 0.0 {
+                (0.0, 0.5)
             } else {
-                (teeth + 1.0, 0.5)
+                (0.5, 0.3)
             };
-            let place = x * count;
-            let tooth = place.floor().min(count - 1.0);
+            let place = x * teeth;
+            let tooth = place.floor().min(teeth - 1.0);
+            let way = place - tooth;
             // How far the tooth reaches, and how far along it this is: from 0 at its sides to 1 at its point.
-            let own = 1.0 - 0.45 * reach.at([(tooth + 0.5) / count, row]);
-            let height = 1.0 - (2.0 * (place - tooth) - 1.0).abs();
+            let own = 1.0 - 0.45 * reach.at([(tooth + 0.5) / teeth, row]);
+            let height = (way / point).min((1.0 - way) / (1.0 - point));
             let edge = 1.0 - depth + depth * own * height;
             smooth(-0.04, 0.04, edge - from_middle.abs())
         }

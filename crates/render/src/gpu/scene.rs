@@ -437,12 +437,14 @@ impl SceneWords {
                 let at = self.tables.len() as u32;
                 let [first, count] = [p.joints.start, p.joints.len()].map(|joints| joints as u32);
                 let length = layer.brush.length().unwrap_or(0.0).to_bits();
+                let parts = layer.brush.parts().unwrap_or(0);
                 let marks = layer.brush.marks();
                 self.tables
                     .extend([layer.seed, p.first_disc as u32, first, count]);
                 let is_outline = p.rank < 0 && p.decal.is_none();
+                self.tables.extend([along, length, parts]);
                 self.tables
-                    .extend([along, length, u32::from(is_outline), marks.len() as u32]);
+                    .extend([u32::from(is_outline), marks.len() as u32]);
                 let place = |mark: &Arc<Image>| {
                     let image = images.iter().find(|(image, _)| Arc::ptr_eq(image, mark));
                     image.map_or(0, |(_, at)| *at)

@@ -9,5 +9,7 @@
 mod levels;
 mod light;
 mod lines;
+mod marks;
 mod shown;
 mod strands;
+mod tube;

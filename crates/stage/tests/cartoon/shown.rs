@@ -3,7 +3,7 @@
 use effects::Registry;
 use glam::{Vec2, Vec3};
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Drawing, Feature, Features, Picture, Sample, SamplePlanes};
+use render::{Drawing, Feature, Features, Frame, Picture, Sample, SamplePlanes};
 use stage::{Files, Preset, Stage};
 use std::path::{Path, PathBuf};
 use stroke_path::Camera;
@@ -56,8 +56,14 @@ pub fn shown(text: &str, settings: &[(&str, &str)]) -> Shown {
 
 /// Draws what a stage shows.
 pub fn draw(stage: &mut Stage) -> Shown {
+    draw_changed(stage, |_| {})
+}
+
+/// Draws what a stage shows, of a frame with other numbers.
+pub fn draw_changed(stage: &mut Stage, change: impl FnOnce(&mut Frame)) -> Shown {
     let mut frame = stage.frame().unwrap();
     frame.features = Features::of(Feature::ALL);
+    change(&mut frame);
     let (camera, head) = (*frame.camera, frame.objects[0].head);
     let mut drawing = Drawing::default();
     Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
