@@ -472,6 +472,9 @@ impl ObjectFrame {
         self.strands = first..first + hair.infos.len();
         self.joints = paths.len()..paths.len();
         (self.unseen, self.merged) = (0, 0);
+        if hair.infos.is_empty() {
+            return Ok(());
+        }
         // Paths that effects make may go on where no strand is.
         let makes_paths = |layer: &Layer| layer.program.has_own_paths();
         let (center, radius_m) = ball_around(points);

@@ -269,7 +269,8 @@ impl ObjectMotion {
             motion.sample(time as f32, &mut self.points);
             return Ok(time);
         }
-        if !Dynamics::moves(&object.look().sections.dynamics, driver) {
+        let has_hair = !hair.file.strands.is_empty();
+        if !has_hair || !Dynamics::moves(&object.look().sections.dynamics, driver) {
             self.dynamics = None;
             self.place(object, driver, time);
             return Ok(time);

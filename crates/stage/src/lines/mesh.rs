@@ -52,7 +52,7 @@ enum Of {
 /// What the lines of a head may be of, by name.
 pub(super) fn names(head: &HeadModel, wears_ties: bool) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
-    if !head.is_painted() {
+    if !head.is_painted() && !head.is_things {
         names.push(SKIN);
     }
     if !head.clothes.is_empty() {
@@ -78,7 +78,7 @@ type Part<'h> = (Of, &'h [[u32; 3]], Vec<String>);
 
 fn parts(head: &HeadModel) -> Vec<Part<'_>> {
     let mut parts: Vec<Part> = Vec::new();
-    if !head.is_painted() {
+    if !head.is_painted() && !head.is_things {
         parts.push((Of::Head, &head.skin, vec![SKIN.to_owned()]));
     }
     let clothes = head.clothes.iter();

@@ -7,6 +7,9 @@ use mesh_lines::{Cut, Kind, Line, Span, Surface, View};
 /// Points of a strand are no nearer to each other in the picture, pixels: what is between them lies on a smooth curve.
 const APART_PX: f64 = 1.5;
 
+/// Where points are farther apart, as along the edges of a box, there are points between them, so that a stroke may swell, taper and stray there: pixels.
+const FARTHEST_PX: f64 = 10.0;
+
 /// How far a line without ends goes on beyond its beginning, pixels and as a share of its length: so that where it is tapered it has been drawn before.
 const OVERLAP_PX: f64 = 60.0;
 const OVERLAP_SHARE: f64 = 0.5;
@@ -68,6 +71,7 @@ impl Seen<'_> {
                     self.go_on(line, &mut piece);
                 }
                 self.thin_out(line, &mut piece);
+                self.fill_in(line, &mut piece);
                 if piece.along.len() > 1 {
                     strands.push(self.strand(line, &piece.along));
                 }
@@ -162,6 +166,25 @@ impl Seen<'_> {
             }
         }
         piece.along = kept;
+    }
+
+    /// Puts places between those that are far apart in the picture.
+    fn fill_in(&self, line: &Line, piece: &mut Piece) {
+        let mut filled = Vec::with_capacity(piece.along.len());
+        for step in piece.along.windows(2) {
+            let [from, to] = [step[0], step[1]];
+            let parts = (self.apart_px(line, from, to) / FARTHEST_PX).ceil();
+            // Before and behind the eye lengths in the picture may be anything.
+            let parts = if parts.is_finite() {
+                parts.clamp(1.0, 1000.0) as usize
+            } else {
+                1
+            };
+            let place = |part: usize| from + (to - from) * part as f64 / parts as f64;
+            filled.extend((0..parts).map(place));
+        }
+        filled.extend(piece.along.last());
+        piece.along = filled;
     }
 
     fn strand(&self, line: &Line, along: &[f64]) -> LineStrand {
