@@ -69,3 +69,4 @@ pub use script::MOTION_PARTS;
 pub use stage::Stage;
 pub use style::STYLE_PARTS;
 pub use textures::Textures;
+pub use things::thing_mesh;

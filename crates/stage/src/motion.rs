@@ -397,7 +397,7 @@ impl ObjectMotion {
 }
 
 /// The time (seconds) of the frame whose pose is shown at `time`, in a scene of so many frames a second.
-fn held_time(section: &MotionSection, fps: f32, time: f64) -> f64 {
+pub(crate) fn held_time(section: &MotionSection, fps: f32, time: f64) -> f64 {
     if section.on <= 1 {
         return time;
     }

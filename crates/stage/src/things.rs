@@ -160,6 +160,17 @@ impl Thing {
     }
 }
 
+/// The points and triangles of a thing, its largest side 1 and its middle at 0: +Y up, +Z to the eye; of what moves by itself at a share of a
+/// beat, 0 to 1. Nothing of [`ThingChoice::None`].
+#[must_use]
+pub fn thing_mesh(shape: ThingChoice, beat: f64) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    match (shape, Thing::new(shape)) {
+        (ThingChoice::Wings, Some(thing)) => (wings(beat).points, thing.faces),
+        (_, Some(thing)) => (thing.points, thing.faces),
+        (_, None) => (Vec::new(), Vec::new()),
+    }
+}
+
 /// The normal of a face, of twice its area: in thousandths, so that its square is no underflow.
 fn area_normal(points: &[Vec3], face: &[u32; 3]) -> Vec3 {
     let [a, b, c] = face.map(|point| 1000.0 * points[point as usize]);

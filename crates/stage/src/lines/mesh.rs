@@ -185,7 +185,8 @@ impl LineMesh {
     /// What an eye sees of its lines; a pixel is so long in the image ([`View`]).
     pub fn seen(&self, view: &View, pixel: f64) -> Result<Seen<'_>, MeshError> {
         let surface = Surface::with_normals(&self.topology, &self.positions, &self.normals)?;
-        let mut lines = contours(&surface, view, &facing(&surface, view))?;
+        let facing = facing(&surface, view);
+        let mut lines = contours(&surface, view, &facing)?;
         if self.crease.is_some() {
             lines.extend(creases(&surface, TURN_COSINE));
         }
@@ -194,6 +195,7 @@ impl LineMesh {
         Ok(Seen {
             surface,
             rest: &self.rest,
+            facing,
             lines,
             spans,
             view: *view,

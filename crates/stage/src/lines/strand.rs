@@ -1,5 +1,6 @@
 //! What is seen of lines, as strands.
 
+use super::marks::Marks;
 use crate::preset::LineKinds;
 use glam::{DVec3, Vec3};
 use mesh_lines::{Cut, Kind, Line, Span, Surface, View};
@@ -19,6 +20,8 @@ pub(super) struct Seen<'m> {
     pub surface: Surface<'m>,
     /// Where its vertices are at rest.
     pub rest: &'m [Vec3],
+    /// How far it faces the eye.
+    pub facing: Vec<f64>,
     pub lines: Vec<Line>,
     pub spans: Vec<Span>,
     pub view: View,
@@ -35,6 +38,8 @@ pub(crate) struct LineStrand {
     pub normals: Vec<Vec3>,
     /// Where the surface is there at rest, head heights from the head's centre.
     pub rest: Vec<Vec3>,
+    /// How far along a brush's marks it is there, head heights; empty where no brush leaves any.
+    pub marks: Vec<f32>,
 }
 
 /// A piece of a line, and why it begins and ends.
@@ -46,22 +51,28 @@ struct Piece {
 
 impl Seen<'_> {
     /// The strands of lines of these kinds on triangles that are meant. Where something hides the rest of a line, it ends `halo_m` before; what
-    /// is seen to be shorter than `shortest_m` is left out.
+    /// is seen to be shorter than `shortest_m` is left out. Brushes leave `marks`, if any.
     pub fn strands(
         &self,
         kinds: LineKinds,
         is_meant: &dyn Fn(u32) -> bool,
         halo_m: f64,
         shortest_m: f64,
+        marks: Option<&Marks>,
     ) -> Vec<LineStrand> {
-        let is_wanted = |span: &&Span| match self.lines[span.line].kind {
+        let is_wanted = |(_, span): &(usize, &Span)| match self.lines[span.line].kind {
             Kind::Contour => kinds.contour,
             Kind::Crease => kinds.crease,
             Kind::Border => kinds.border,
         };
         let mut strands = Vec::new();
-        for span in self.spans.iter().filter(is_wanted) {
+        for (number, span) in self.spans.iter().enumerate().filter(is_wanted) {
             let line = &self.lines[span.line];
+            let of_span = marks.map(|marks| marks.of_span(number, line, self.rest, &self.surface));
+            let span = match &of_span {
+                Some(of_span) => &of_span.begun(span),
+                None => span,
+            };
             for mut piece in pieces(line, span, is_meant) {
                 self.cut_halo(line, &mut piece, halo_m);
                 if self.length_m(line, &piece) < shortest_m {
@@ -73,7 +84,12 @@ impl Seen<'_> {
                 self.thin_out(line, &mut piece);
                 self.fill_in(line, &mut piece);
                 if piece.along.len() > 1 {
-                    strands.push(self.strand(line, &piece.along));
+                    let mut strand = self.strand(line, &piece.along);
+                    if let Some(of_span) = &of_span {
+                        let at = piece.along.iter().map(|along| of_span.at(*along));
+                        strand.marks = at.collect();
+                    }
+                    strands.push(strand);
                 }
             }
         }
