@@ -466,3 +466,62 @@ fn marks_stay_on_edges_whatever_hides_them() {
         "{stayed} of {compared}"
     );
 }
+
+#[test]
+fn eyes_in_things_and_beside_them_draw_what_there_is() {
+    let lines = "(name: \"rim\", kind: \"contour, crease, border\", halo: 4)";
+    for shape in ["cup", "cube", "gear", "wings"] {
+        let layers = format!("{CHALK}, {}", INK.replace("on:", "name: \"ink\", on:"));
+        let mut stage = things(&format!("(shape: {shape})"), lines, &layers).unwrap();
+        let target = stage.head().center;
+        // In the middle, within a wall, at a corner, beside it where the near plane cuts it.
+        for distance_m in [1e-4, 0.06, 0.12, 0.1205, 0.15, 1e4] {
+            let view = OrbitView {
+                target,
+                yaw_degrees: 45.0,
+                pitch_degrees: 35.0,
+                distance_m,
+                vertical_fov_degrees: 30.0,
+            };
+            let camera = Camera::orbit(view, [120, 90], stage.near_m()).unwrap();
+            let frame = stage.frame_seen_by(camera).unwrap();
+            assert!(frame.marks.iter().all(|mark| mark.is_finite()));
+            let picture = drawn(&frame);
+            let is_color = |pixel: &[f32; 4]| pixel.iter().all(|channel| channel.is_finite());
+            assert!(picture.pixels.iter().all(is_color), "{shape} {distance_m}");
+        }
+    }
+}
+
+#[test]
+fn empty_and_flat_files_of_things_are_told_or_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("empty.obj", "v 0 0 0\n");
+    write("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+    write(
+        "sheet.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 1\nf 1 2 3\nf 3 2 1\nf 1 2 4\n",
+    );
+    let registry = registry();
+    for (file, is_drawn) in [
+        ("empty.obj", false),
+        ("point.obj", true),
+        ("sheet.obj", true),
+    ] {
+        let text = format!(
+            "(version: 1, head: (shape: none), meshes: [(file: \"{file}\")], scene: (size: (60, 40), samples: 1),\n \
+             lines: [(name: \"rim\")], layers: [{CHALK}])"
+        );
+        let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+        let files = Files {
+            preset_folder: folder.path().to_owned(),
+            ..Files::default()
+        };
+        let stage = Stage::new(&preset, &files);
+        match stage {
+            Ok(mut stage) => drop(drawn(&stage.frame().unwrap())),
+            Err(error) => assert!(!is_drawn, "{file}: {error}"),
+        }
+    }
+}
