@@ -506,7 +506,7 @@ fn empty_and_flat_files_of_things_are_told_or_drawn() {
     let registry = registry();
     for (file, is_drawn) in [
         ("empty.obj", false),
-        ("point.obj", true),
+        ("point.obj", false),
         ("sheet.obj", true),
     ] {
         let text = format!(
