@@ -6,7 +6,7 @@ use crate::program::{cargo, succeed};
 use crate::{Outcome, count};
 
 /// Suites of the program, and our own.
-const SUITES: [&str; 9] = [
+const SUITES: [&str; 10] = [
     "all",
     "strokes",
     "dynamics",
@@ -14,6 +14,7 @@ const SUITES: [&str; 9] = [
     "frame",
     "scale",
     "cartoon",
+    "lines",
     "skip",
     COUNT,
 ];

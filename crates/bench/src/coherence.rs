@@ -1,6 +1,7 @@
 //! Suite `coherence`: how continuous pictures are in time, in every order of strokes.
 
 pub mod animation;
+pub mod lines;
 pub mod looks;
 pub mod painter;
 pub mod pictures;
@@ -58,6 +59,8 @@ pub struct Measured {
     pub targets: Vec<Target>,
     /// Pictures of what changes most.
     pub pictures: Vec<PathBuf>,
+    /// Lines of meshes.
+    pub lines: Vec<lines::LineFigures>,
 }
 
 /// What was found in a scene.
@@ -95,7 +98,8 @@ pub struct Figures {
 pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchError> {
     let data = options.data.as_deref();
     let mut scenes = scenes::scenes(&options.root, data, options.quick, &options.only)?;
-    if scenes.is_empty() {
+    let of_lines = lines::measure(options.quick, &options.only)?;
+    if scenes.is_empty() && of_lines.is_empty() {
         return Err(format!("no scene's name holds `{}`", options.only).into());
     }
     progress.set_length(scenes.iter().map(search::length).sum::<usize>() as u64);
@@ -148,12 +152,14 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         });
     }
     let path = options.out.join("coherence.csv");
-    let csv = results::csv("coherence", &comments(options), &rows(&figures));
+    let rows = [rows(&figures), lines::rows(&of_lines)].concat();
+    let csv = results::csv("coherence", &comments(options), &rows);
     results::write(&path, &csv).map_err(|error| format!("{}: {error}", path.display()))?;
     Ok(Measured {
-        targets: targets::targets(&figures),
+        targets: [targets::targets(&figures), lines::targets(&of_lines)].concat(),
         scenes: figures,
         pictures,
+        lines: of_lines,
     })
 }
 
@@ -278,6 +284,8 @@ fn comments(options: &Options) -> Vec<String> {
         "ORDER-warp: mean difference of a frame's hair from the frame 1/24 s before, moved as the strands have; knob: \
          samples a pixel",
         "ORDER-still: pixels that change though nothing moves",
+        "tracker-, arc-length-, votes-: marks along lines of meshes in 1/24 s, pixels of 720 lines, periods of 100 pixels: by mesh-lines' tracker, by \
+         the length from a line's beginning, and by what was there in the frame before alone; no time",
     ];
     comments.extend(text.map(str::to_owned));
     comments

@@ -8,6 +8,7 @@ pub mod coherence;
 pub mod dynamics;
 mod error;
 pub mod frame;
+pub mod lines;
 pub mod page;
 pub mod plot;
 pub mod ratios;

@@ -11,7 +11,7 @@ use bench::dynamics::{self, peers::Peers, stored};
 use bench::page::{self, Finished};
 use bench::results::Row;
 use bench::targets::{Target, report};
-use bench::{cartoon, coherence, frame, ratios, results, scale, skip, stress, strokes};
+use bench::{cartoon, coherence, frame, lines, ratios, results, scale, skip, stress, strokes};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
@@ -43,6 +43,8 @@ enum Suite {
     Scale(CardOptions),
     /// Cartoon: painted looks and lines of the whole picture, on scenes of two older systems
     Cartoon(CardOptions),
+    /// Lines: what an eye sees of a mesh's lines, beside an image of numbers; lines and tracking by size
+    Lines(LineOptions),
     /// Skip: what a scene doesn't need, and what it costs all the same
     Skip(RatioOptions),
     /// No measure: random scenes with hostile numbers, in which strands must hold
@@ -76,6 +78,12 @@ struct RatioOptions {
     /// Stores our ratios as those that later ones are checked against
     #[arg(long, conflicts_with = "quick")]
     store: bool,
+}
+
+#[derive(clap::Args)]
+struct LineOptions {
+    #[command(flatten)]
+    common: Options,
 }
 
 #[derive(clap::Args)]
@@ -162,6 +170,7 @@ fn main() -> ExitCode {
         Suite::Frame(options) => frame(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Scale(options) => scale(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Cartoon(options) => cartoon(options).map(|it| exit_code(&it, options.common.check)),
+        Suite::Lines(options) => lines(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Skip(options) => skip(options).map(|it| exit_code(&it, options.common.check)),
     };
     done.unwrap_or_else(|error| {
@@ -190,6 +199,9 @@ fn all(options: &CardOptions) -> Result<ExitCode, BenchError> {
         frame(options)?,
         scale(options)?,
         cartoon(options)?,
+        lines(&LineOptions {
+            common: options.common.clone(),
+        })?,
         skip(&with_ratios())?,
     ];
     let out = &options.common.out;
@@ -341,6 +353,7 @@ fn coherence(options: &CoherenceOptions) -> Result<Finished, BenchError> {
     let measured = with_progress(|progress| coherence::run(&suite, progress))?;
     println!("{}", coherence::summary(&measured.scenes));
     println!("{}", coherence::places(&measured.scenes));
+    println!("{}", coherence::lines::summary(&measured.lines));
     println!("{}", report(&measured.targets));
     let mut done = finished(
         "coherence",
@@ -354,6 +367,27 @@ fn coherence(options: &CoherenceOptions) -> Result<Finished, BenchError> {
         done.files.push(picture);
     }
     Ok(done)
+}
+
+fn lines(options: &LineOptions) -> Result<Finished, BenchError> {
+    let common = &options.common;
+    let suite = lines::Options {
+        out: common.out.clone(),
+        quick: common.quick,
+        threads: common.threads(),
+    };
+    let measured = with_progress(|progress| lines::run(&suite, progress))?;
+    println!("{}", results::summary(&measured.rows));
+    println!("{}", report(&measured.targets));
+    println!("{}", lines::NOT_MEASURED);
+    let files = ["lines.csv", "lines.svg"];
+    Ok(finished(
+        "lines",
+        common,
+        &files,
+        measured.rows,
+        measured.targets,
+    ))
 }
 
 fn frame(options: &CardOptions) -> Result<Finished, BenchError> {

@@ -226,6 +226,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             rest_positions: &[],
             from_ends: &[],
             path_weights: &[],
+            marks: &[],
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
             decals: Vec::new(),

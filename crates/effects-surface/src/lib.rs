@@ -8,8 +8,10 @@
 //! # Ok::<(), effects::RegistryError>(())
 //! ```
 
+mod line_chalk;
 mod line_ink;
 
+pub use line_chalk::LineChalk;
 pub use line_ink::LineInk;
 
 use effects::{Registry, RegistryError};
@@ -20,5 +22,6 @@ use effects::{Registry, RegistryError};
 ///
 /// When the registry already has an effect of the same id.
 pub fn register(registry: &mut Registry) -> Result<(), RegistryError> {
+    registry.register::<LineChalk>()?;
     registry.register::<LineInk>()
 }

@@ -358,6 +358,46 @@ fn many_edges_may_meet_in_a_vertex() {
     all_of(&topology, &positions, &from(Vec3::new(3.0, 2.0, 1.0)));
 }
 
+#[test]
+fn a_million_faces_are_read_seen_and_followed() {
+    let shape = sphere(410, DVec3::ZERO, 1.0);
+    let count = shape.topology.triangles().len();
+    assert!(count > 1_000_000, "{count}");
+    all_of(
+        &shape.topology,
+        &shape.positions,
+        &from(Vec3::new(3.0, 2.0, 1.0)),
+    );
+}
+
+#[test]
+fn needles_and_faces_on_edge_have_lines() {
+    // A fan of needles in planes through the eye, and a sheet that is seen exactly from its side.
+    let eye = Vec3::new(0.0, 0.0, 4.0);
+    let mut positions = vec![Vec3::ZERO];
+    let mut triangles = Vec::new();
+    for i in 0..64 {
+        let (sin, cos) = (i as f32 * 0.1).sin_cos();
+        let first = positions.len() as u32;
+        positions.push(Vec3::new(cos, sin, 0.0));
+        positions.push(Vec3::new(cos, sin, 1e-6));
+        triangles.push([0, first, first + 1]);
+    }
+    let first = positions.len() as u32;
+    positions.extend(
+        [
+            [0.5, 0.0, -1.0],
+            [0.5, 0.0, 1.0],
+            [2.0, 0.0, 1.0],
+            [2.0, 0.0, -1.0],
+        ]
+        .map(Vec3::from),
+    );
+    triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    let topology = Topology::new(&positions, &triangles).unwrap();
+    all_of(&topology, &positions, &from(eye));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 120, failure_persistence: None, ..ProptestConfig::default() })]
 

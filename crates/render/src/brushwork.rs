@@ -143,7 +143,10 @@ impl Brushwork {
             for run in &runs[first..end] {
                 for joint in run.joints.clone() {
                     self.joints[joint] = AlongStrand {
-                        s: paths.arc_length[joint] / height_m,
+                        s: match frame.marks.get(joint) {
+                            Some(mark) if *mark >= 0.0 => *mark,
+                            _ => paths.arc_length[joint] / height_m,
+                        },
                         whole: whole / height_m,
                         pixels: paths.px_per_metre[joint] * height_m,
                         strand: frame.strands[strand].id,

@@ -100,6 +100,9 @@ pub struct Frame<'a> {
     /// How much of its path is there at each joint of `paths`, 0 or more: of those that effects made as they say it, of others 1; empty where
     /// neither a clump nor a layer reads it.
     pub path_weights: &'a [f32],
+    /// How far along the marks of its layers' brushes each joint of `paths` is, head heights, where these stay on something else than the strand: as
+    /// lines of surfaces begin elsewhere in each frame. Below 0, or empty, it is the strand's length up to there.
+    pub marks: &'a [f32],
     /// The heads' surfaces on the screen.
     pub surfaces: Vec<Surface>,
     /// Layers that paint surfaces, which name them by their places here ([`Surface::paint`]).

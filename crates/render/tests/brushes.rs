@@ -126,6 +126,7 @@ fn drawing(layers: &[Layer], order: Order) -> Drawing {
         rest_positions: &[],
         from_ends: &[],
         path_weights: &[],
+        marks: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
         decals: decals.collect(),

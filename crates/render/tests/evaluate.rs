@@ -111,6 +111,7 @@ fn drawing_of(
         rest_positions: &[],
         from_ends: &[],
         path_weights: &[],
+        marks: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
         decals: Vec::new(),

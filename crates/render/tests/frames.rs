@@ -107,6 +107,7 @@ impl Scene {
             rest_positions: &self.rest_positions,
             from_ends: &self.from_ends,
             path_weights: &self.path_weights,
+            marks: &[],
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
             decals: Vec::new(),

@@ -88,6 +88,7 @@ fn drawing_of(count: usize, list: &str, features: Features) -> Drawing {
         rest_positions: &[],
         from_ends: &[],
         path_weights: &[],
+        marks: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
         decals: Vec::new(),

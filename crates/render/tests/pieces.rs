@@ -107,6 +107,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         rest_positions: &[],
         from_ends: &[],
         path_weights: &[],
+        marks: &[],
         surfaces: Vec::new(),
         mesh_layers: Vec::new(),
         decals: Vec::new(),

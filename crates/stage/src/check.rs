@@ -90,9 +90,8 @@ impl<'r> Preset<'r> {
         let meshes = self.meshes.iter();
         paths.extend(meshes.flat_map(|mesh| {
             let texture = mesh.section.texture_path(&files.preset_folder);
-            [mesh.section.path(&files.preset_folder)]
-                .into_iter()
-                .chain(texture)
+            let path = mesh.section.path(&files.preset_folder);
+            path.into_iter().chain(texture)
         }));
         let bodies = self.bodies.iter();
         paths.extend(bodies.flat_map(|body| body.section.files(&files.preset_folder)));
@@ -147,7 +146,8 @@ impl<'r> Preset<'r> {
         }
         for mesh in &self.meshes {
             let path = mesh.section.path(&files.preset_folder);
-            if let (true, Err(error)) = (path.is_file(), mesh_io::read_model(&path)) {
+            let path = path.filter(|path| path.is_file());
+            if let Some(Err(error)) = path.map(|path| mesh_io::read_model(&path)) {
                 found.add(Err(PresetErrors(vec![mesh.mistake(error.to_string())])));
             }
             let texture = mesh.section.texture_path(&files.preset_folder);

@@ -127,7 +127,7 @@ pub enum StageError {
     AllHidden(PathBuf),
     /// Meshes move with a head.
     #[error(
-        "the preset lists `meshes` and has no head that they are beside: --head FILE, or head: (shape: bust)"
+        "the preset lists `meshes` beside hair and has no head that both are on: --head FILE, or head: (shape: bust)"
     )]
     MeshesWithoutHead,
     /// A mesh has no places for a picture.

@@ -9,7 +9,7 @@ use crate::levels::levels;
 use crate::lines::{HeadLines, LineStrand};
 use crate::look::{LineSet, Look};
 use crate::material::Material;
-use crate::motion::{Motion, ObjectMotion};
+use crate::motion::{Motion, ObjectMotion, held_time};
 use crate::neck::{PosedHead, rigid};
 use crate::object::{Object, PathShape};
 use crate::placement::Placement;
@@ -45,6 +45,8 @@ pub struct FrameMaker {
     /// How far joints are from the ends of their strands; empty where nothing reads it.
     from_ends: Vec<Vec2>,
     path_weights: Vec<f32>,
+    /// Where joints of lines are along the marks of brushes; empty where none has such.
+    marks: Vec<f32>,
     objects: Vec<ObjectFrame>,
     camera: Option<Camera>,
     /// Look and time (seconds) of the last frame.
@@ -141,6 +143,7 @@ impl FrameMaker {
             rest_positions,
             from_ends,
             path_weights,
+            marks,
             objects,
             ..
         } = self;
@@ -149,6 +152,7 @@ impl FrameMaker {
         normals.clear();
         rest_positions.clear();
         path_weights.clear();
+        marks.clear();
         objects.truncate(scene.objects().len());
         let mut looks = scene.objects().iter().map(Object::look);
         let reads_material = looks
@@ -158,6 +162,9 @@ impl FrameMaker {
             .clone()
             .any(|look| look.reads_rest() || look.lines_read(Input::RestPosition));
         let reads_ends = looks.clone().any(Look::reads_ends);
+        let has_marks = looks
+            .clone()
+            .any(|look| look.lines.iter().any(LineSet::has_marks));
         let reads_weights = looks.any(Look::reads_weights);
         let light = scene.look().light(&camera, motion.head(scene));
         let section = &scene.look().sections.scene;
@@ -204,6 +211,13 @@ impl FrameMaker {
             decals.extend(layers.filter_map(of_layer));
             layers_before += look.layers.len();
         }
+        let time = LineTime {
+            time_s: f64::from(motion.time_s()),
+            fps: f64::from(scene.fps()),
+        };
+        if has_marks {
+            marks.resize(paths.len(), NO_MARK);
+        }
         for (index, object) in scene.objects().iter().enumerate() {
             let motion = motion.of(index, object);
             let own_camera = object.placement().own_camera(&camera);
@@ -211,8 +225,9 @@ impl FrameMaker {
             let mut joints = LineJoints {
                 normals: reads_material.then_some(&mut *normals),
                 rest_positions: reads_rest.then_some(&mut *rest_positions),
+                marks: has_marks.then_some(&mut *marks),
             };
-            objects[index].push_lines(motion, &sight, strands, paths, &mut joints)?;
+            objects[index].push_lines(motion, time, &sight, strands, paths, &mut joints)?;
         }
         if reads_weights {
             path_weights.resize(paths.len(), 1.0);
@@ -274,6 +289,7 @@ impl FrameMaker {
             rest_positions: &self.rest_positions,
             from_ends: &self.from_ends,
             path_weights: &self.path_weights,
+            marks: &self.marks,
             surfaces,
             mesh_layers,
             decals,
@@ -472,6 +488,9 @@ impl ObjectFrame {
         self.strands = first..first + hair.infos.len();
         self.joints = paths.len()..paths.len();
         (self.unseen, self.merged) = (0, 0);
+        if hair.infos.is_empty() {
+            return Ok(());
+        }
         // Paths that effects make may go on where no strand is.
         let makes_paths = |layer: &Layer| layer.program.has_own_paths();
         let (center, radius_m) = ball_around(points);
@@ -690,6 +709,7 @@ impl ObjectFrame {
     fn push_lines(
         &mut self,
         motion: &ObjectMotion,
+        time: LineTime,
         sight: &Sight,
         strands: &mut Vec<StrandInfo>,
         paths: &mut Paths,
@@ -711,9 +731,17 @@ impl ObjectFrame {
             Some(lines) => lines,
             lines => lines.insert(HeadLines::new(neck, sets, rest_head)?),
         };
-        let model = posed.in_pose(neck, motion.head_pose());
         let (look, placement) = (self.of.look(), self.of.placement());
-        let found = lines.find(model, sets, sight.camera(), rest_head.unit_m())?;
+        let now = time.time_s * time.fps;
+        for frame in lines.frames_before(now) {
+            // Where the script has the head then; a hand that turns it live isn't asked.
+            let frame = frame as f64;
+            let held = held_time(&look.sections.motion, time.fps as f32, frame / time.fps);
+            let model = posed.in_pose(neck, self.of.script().head_at(held));
+            lines.follow(model, sight.camera(), rest_head, frame)?;
+        }
+        let model = posed.in_pose(neck, motion.head_pose());
+        let found = lines.find(model, sets, sight.camera(), rest_head, now)?;
         for (set, found) in sets.iter().zip(found) {
             let start = paths.len();
             let name = set.section.name.as_deref().unwrap_or_default();
@@ -858,10 +886,21 @@ fn bodies_s(object: &Object, motion: &ObjectMotion) -> f64 {
     }
 }
 
+/// No place along marks: that of hair is its length.
+const NO_MARK: f32 = -1.0;
+
+/// When lines are looked for, and how many frames a second there are.
+#[derive(Clone, Copy)]
+struct LineTime {
+    time_s: f64,
+    fps: f64,
+}
+
 /// Where what joints of lines are told goes to.
 struct LineJoints<'a> {
     normals: Option<&'a mut Vec<Vec3>>,
     rest_positions: Option<&'a mut Vec<Vec3>>,
+    marks: Option<&'a mut Vec<f32>>,
 }
 
 impl LineJoints<'_> {
@@ -881,6 +920,18 @@ impl LineJoints<'_> {
         }
         if let Some(positions) = &mut self.rest_positions {
             positions.extend(u.iter().map(|u| between(&strand.rest, *u)));
+        }
+        if let Some(marks) = &mut self.marks {
+            let list = &strand.marks;
+            marks.extend(u.iter().map(|u| {
+                let Some(last) = list.len().checked_sub(1) else {
+                    return NO_MARK;
+                };
+                let place = u * last as f32;
+                let before = (place as usize).min(last);
+                let after = (before + 1).min(last);
+                list[before] + (list[after] - list[before]) * (place - before as f32)
+            }));
         }
     }
 }

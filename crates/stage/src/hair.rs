@@ -112,6 +112,16 @@ impl HairModel {
         }
     }
 
+    /// None, for pictures without any hair.
+    pub(crate) fn none(head: Option<&HeadModel>) -> Self {
+        let file = HairFile {
+            strands: Strands::new(),
+            motion: None,
+            notes: Vec::new(),
+        };
+        Self::read(file, head)
+    }
+
     /// The number of strands.
     #[must_use]
     pub fn strand_count(&self) -> usize {

@@ -48,6 +48,8 @@ pub struct HeadModel {
     pub(crate) painted: Vec<PaintedMesh>,
     /// What moves those of its own file.
     pub(crate) skeleton: Option<Arc<Skeleton>>,
+    /// Whether there is no head, and things stand in its place: they turn whole, about their middle.
+    pub(crate) is_things: bool,
 }
 
 impl HeadModel {
@@ -90,6 +92,35 @@ impl HeadModel {
         self.painted = own;
         self.painted.extend(beside);
         self
+    }
+
+    /// None, beside which meshes lie.
+    pub(crate) fn none() -> Self {
+        no_mesh().into()
+    }
+
+    /// Things that stand where a head would: the box around them is as a head is, as high as its longest side.
+    pub(crate) fn of_things(mut self) -> Self {
+        let points = || {
+            self.painted
+                .iter()
+                .flat_map(|mesh| &mesh.positions)
+                .copied()
+        };
+        if let (Some(low), Some(high)) = (points().reduce(Vec3::min), points().reduce(Vec3::max)) {
+            let height_m = (high - low).max_element();
+            self.frame = (height_m > 0.0).then_some(Head {
+                center: 0.5 * (low + high),
+                height_m,
+            });
+        }
+        self.is_things = true;
+        self
+    }
+
+    /// Whether anything of it moves by itself.
+    pub(crate) fn moves(&self) -> bool {
+        self.painted.iter().any(|mesh| mesh.moving.is_some())
     }
 
     /// Whether its own file's colours are in place of the preset's.
@@ -162,6 +193,7 @@ impl From<Bust> for HeadModel {
             ornaments: no_mesh(),
             painted: Vec::new(),
             skeleton: None,
+            is_things: false,
         }
     }
 }
@@ -181,6 +213,7 @@ impl From<Mesh> for HeadModel {
             ornaments: no_mesh(),
             painted: Vec::new(),
             skeleton: None,
+            is_things: false,
         }
     }
 }

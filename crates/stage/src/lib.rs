@@ -38,6 +38,7 @@ mod solid;
 mod stage;
 mod style;
 mod textures;
+mod things;
 mod zones;
 
 pub use bake::{Bake, is_bake};
@@ -60,11 +61,12 @@ pub use preset::{
     ExpressionChoice, EyesChoice, FixedTo, HairFrom, HairSection, HeadColors, HeadSection,
     HeadShape, HeldChoice, LINES, LightKind, LightSection, LineSection, MESHES, MeshSection,
     MotionSection, NamedLines, NamedMesh, NamedObject, ObjectSection, OrderChoice, PASSES,
-    PassSection, PathChoice, PathSection, Preset, SceneSection, Sections, TopSection, UpAxis,
-    VERSION,
+    PassSection, PathChoice, PathSection, Preset, SceneSection, Sections, ThingChoice, TopSection,
+    UpAxis, VERSION,
 };
 pub use scene::Scene;
 pub use script::MOTION_PARTS;
 pub use stage::Stage;
 pub use style::STYLE_PARTS;
 pub use textures::Textures;
+pub use things::thing_mesh;

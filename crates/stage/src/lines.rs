@@ -1,8 +1,10 @@
 //! Lines of meshes as strands: which of them the eye sees, and where strokes are drawn along them (W, rows W3, W5, W7 and W8).
 //!
 //! Lines hang on nothing but the meshes and the eye, so that frames may be drawn in any order. A strand of theirs has no clump, and no number of
-//! its own: what varies along it is fixed to the surface.
+//! its own: what varies along it is fixed to the surface. Only where brushes leave marks along contours, which have no fixed place, these are followed
+//! from frame to frame, at the preset's rate from the start on, as hair is simulated: so a frame is the same whichever frames are asked for.
 
+mod marks;
 mod mesh;
 mod strand;
 
@@ -15,9 +17,12 @@ use crate::names::Names;
 use crate::neck::Neck;
 use crate::preset::NamedLines;
 use effects::preset::{LayerSpec, PresetError, PresetErrors, suggestion};
+use glam::Vec3;
+use marks::Followed;
 use mesh::LineMesh;
 use mesh_lines::{MeshError, View};
 use render::Head;
+use std::ops::Range;
 use stroke_path::Camera;
 
 /// The lines of a head that a look draws.
@@ -28,7 +33,14 @@ pub(crate) struct HeadLines {
     mesh_of: Vec<usize>,
     /// For each list of the look what is seen of its lines.
     strands: Vec<Vec<LineStrand>>,
+    /// For each mesh its contours from frame to frame, where brushes leave marks along them.
+    followed: Vec<Option<Followed>>,
+    /// The frame to which they were followed, which may lie between two, and the eye.
+    at: Option<(f64, Vec3)>,
 }
+
+/// Frames closer to each other than this are one.
+const SAME_FRAME: f64 = 1e-3;
 
 impl HeadLines {
     /// None has been looked for yet.
@@ -37,6 +49,8 @@ impl HeadLines {
             meshes: Vec::new(),
             mesh_of: Vec::new(),
             strands: vec![Vec::new(); sets.len()],
+            followed: Vec::new(),
+            at: None,
         };
         for set in sets {
             let crease = set.crease();
@@ -45,9 +59,58 @@ impl HeadLines {
             if known.is_none() {
                 let mesh = LineMesh::new(neck.rest(), crease, head);
                 lines.meshes.push(mesh.map_err(fault)?);
+                lines.followed.push(None);
+            }
+            let followed = &mut lines.followed[lines.mesh_of[lines.mesh_of.len() - 1]];
+            if set.has_marks() {
+                followed.get_or_insert_default();
             }
         }
         Ok(lines)
+    }
+
+    /// The whole frames through which contours are still to be followed before they are looked for in frame `now`: none where they aren't followed. Where time
+    /// went back they begin anew.
+    pub fn frames_before(&mut self, now: f64) -> Range<i64> {
+        let is_followed = self.followed.iter().any(Option::is_some);
+        if !is_followed || !now.is_finite() {
+            return 0..0;
+        }
+        if self.at.is_some_and(|(at, _)| at > now + SAME_FRAME) {
+            self.followed
+                .iter_mut()
+                .flatten()
+                .for_each(|followed| *followed = Followed::default());
+            self.at = None;
+        }
+        let first = match self.at {
+            Some((at, _)) => (at + SAME_FRAME).floor() as i64 + 1,
+            None => now.floor().min(0.0) as i64,
+        };
+        first..(now - SAME_FRAME).ceil() as i64
+    }
+
+    /// Follows contours to frame `now`, in which the head is in this pose, without a picture.
+    pub fn follow(
+        &mut self,
+        model: &HeadModel,
+        camera: &Camera,
+        head: Head,
+        now: f64,
+    ) -> Result<(), StageError> {
+        let view = View::perspective(camera.eye()).map_err(fault)?;
+        let pixel = f64::from(camera.focal_px()).recip();
+        for (mesh, followed) in self.meshes.iter_mut().zip(&mut self.followed) {
+            if let Some(followed) = followed {
+                mesh.pose(model).map_err(fault)?;
+                let seen = mesh.seen(&view, pixel).map_err(fault)?;
+                followed
+                    .step(&seen, height_px(&view, pixel, head))
+                    .map_err(fault)?;
+            }
+        }
+        self.at = Some((now, camera.eye()));
+        Ok(())
     }
 
     /// Finds what the camera sees of the lines on the head in its pose: those of each list, in the look's order.
@@ -56,24 +119,48 @@ impl HeadLines {
         model: &HeadModel,
         sets: &[LineSet],
         camera: &Camera,
-        unit_m: f32,
+        head: Head,
+        now: f64,
     ) -> Result<&[Vec<LineStrand>], StageError> {
+        let unit_m = head.unit_m();
+        let is_there = self
+            .at
+            .is_some_and(|(at, eye)| (at - now).abs() <= SAME_FRAME && eye == camera.eye());
         let view = View::perspective(camera.eye()).map_err(fault)?;
         let pixel = f64::from(camera.focal_px()).recip();
         for (number, mesh) in self.meshes.iter_mut().enumerate() {
             mesh.pose(model).map_err(fault)?;
             let mesh = &*mesh;
             let seen = mesh.seen(&view, pixel).map_err(fault)?;
+            let followed = &mut self.followed[number];
+            if let (Some(followed), false) = (&mut *followed, is_there) {
+                followed
+                    .step(&seen, height_px(&view, pixel, head))
+                    .map_err(fault)?;
+            }
+            let marks = followed.as_ref().map(Followed::marks);
             for (index, set) in sets.iter().enumerate() {
                 if self.mesh_of[index] == number {
                     let [halo_m, shortest_m] = [set.section.halo, set.section.shortest]
                         .map(|units| f64::from(units * unit_m));
                     let is_meant = |triangle| mesh.is_called(triangle, set.section.meshes());
-                    self.strands[index] = seen.strands(set.kinds, &is_meant, halo_m, shortest_m);
+                    let marks = marks.as_ref().filter(|_| set.has_marks());
+                    self.strands[index] =
+                        seen.strands(set.kinds, &is_meant, halo_m, shortest_m, marks);
                 }
             }
         }
+        self.at = Some((now, camera.eye()));
         Ok(&self.strands)
+    }
+}
+
+/// How many pixels high a head is where its middle is.
+fn height_px(view: &View, pixel: f64, head: Head) -> f64 {
+    let height_px = f64::from(head.height_m) * view.image_scale(head.center.as_dvec3()) / pixel;
+    match height_px.is_finite() {
+        true => height_px.max(1.0),
+        false => 1.0,
     }
 }
 

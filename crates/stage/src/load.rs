@@ -5,13 +5,14 @@ use crate::hair::HairModel;
 use crate::head::HeadModel;
 use crate::mesh_hair;
 use crate::names::Names;
-use crate::painted::{self, MeshNames};
+use crate::painted::{self, MeshNames, PaintedMesh};
 use crate::preset::{
     BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HeadColors, HeadSection,
     HeadShape, Preset, UpAxis,
 };
 use crate::skeleton::Skeleton;
 use crate::style;
+use effects::preset::LayerSpec;
 use glam::{Vec2, Vec3};
 use groom::{Blush, Dress, Expression, Eyes, Face, Figure, Taper};
 use hair_io::orient::{Axes, Orientation};
@@ -84,21 +85,25 @@ pub(crate) fn head(
             );
         }
         let head = match section.shape {
-            HeadShape::None => {
-                return Ok(ReadHead {
-                    model: no_head(preset)?,
-                    hair: None,
-                    orientation: Orientation::OURS,
-                });
-            }
+            HeadShape::None => HeadModel::none(),
             HeadShape::Bust => HeadModel::bust(),
             HeadShape::Figure => HeadModel::figure(&figure(section)),
         };
-        let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
-        let folder = &files.preset_folder;
-        let beside = painted::of_sections(&sections, folder, &Orientation::OURS, notes)?;
+        let is_none = section.shape == HeadShape::None;
+        let model = match (is_none, preset.meshes.is_empty()) {
+            (true, true) => None,
+            (true, false) if has_hair(preset, files) => return Err(StageError::MeshesWithoutHead),
+            _ => {
+                let beside = beside(preset, files, &Orientation::OURS, &head, notes)?;
+                let model = head.painted(Vec::new(), beside);
+                Some(match is_none {
+                    true => model.of_things(),
+                    false => model,
+                })
+            }
+        };
         return Ok(ReadHead {
-            model: Some(head.painted(Vec::new(), beside)),
+            model,
             hair: None,
             orientation: Orientation::OURS,
         });
@@ -146,10 +151,9 @@ pub(crate) fn head(
             mesh.is_turned = true;
         }
     }
-    let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
-    let folder = &files.preset_folder;
-    let beside = painted::of_sections(&sections, folder, orientation, notes)?;
-    let mut head = HeadModel::from(mesh).painted(painted, beside);
+    let head = HeadModel::from(mesh);
+    let beside = beside(preset, files, orientation, &head, notes)?;
+    let mut head = head.painted(painted, beside);
     if preset.sections.motion.character {
         if section.colors != HeadColors::File {
             return Err(StageError::NoCharacter);
@@ -216,12 +220,32 @@ fn turn_around(triangles: &mut [[u32; 3]], normals: &mut [Vec3]) {
     normals.iter_mut().for_each(|normal| *normal = -*normal);
 }
 
-/// Meshes lie beside a head.
-fn no_head(preset: &Preset) -> Result<Option<HeadModel>, StageError> {
-    match preset.meshes.is_empty() {
-        true => Ok(None),
-        false => Err(StageError::MeshesWithoutHead),
+/// The meshes that a preset lists beside a head.
+fn beside(
+    preset: &Preset,
+    files: &Files,
+    orientation: &Orientation,
+    head: &HeadModel,
+    notes: &mut Vec<String>,
+) -> Result<Vec<PaintedMesh>, StageError> {
+    if preset.meshes.is_empty() {
+        return Ok(Vec::new());
     }
+    let sections: Vec<_> = preset.meshes.iter().map(|mesh| &mesh.section).collect();
+    let folder = &files.preset_folder;
+    painted::of_sections(&sections, folder, orientation, head.frame(&[]), notes)
+}
+
+/// Whether a file is named that holds hair.
+fn has_hair(preset: &Preset, files: &Files) -> bool {
+    files.hair.is_some() || preset.sections.hair.file.is_some()
+}
+
+/// Whether a picture may be one without hair: nothing that a layer draws is of hair, and something else is there.
+fn may_lack_hair(preset: &Preset, head: Option<&HeadModel>) -> bool {
+    let is_of_hair =
+        |layer: &LayerSpec| !layer.effect.is_for_meshes() && !layer.effect.is_for_lines();
+    head.is_some() && !preset.layers.iter().any(is_of_hair)
 }
 
 /// The figure that a section describes.
@@ -283,7 +307,12 @@ pub(crate) fn hair(
     notes: &mut Vec<String>,
 ) -> Result<HairModel, StageError> {
     let own = preset.sections.hair.file.as_ref();
-    let path = chosen(files.hair.as_ref(), own, &files.preset_folder).ok_or(StageError::NoHair)?;
+    let Some(path) = chosen(files.hair.as_ref(), own, &files.preset_folder) else {
+        return match may_lack_hair(preset, head) {
+            true => Ok(HairModel::none(head)),
+            false => Err(StageError::NoHair),
+        };
+    };
     let hair = strands(preset, files, &path, head, notes)?;
     note_guides(preset, &hair, notes);
     Ok(hair)

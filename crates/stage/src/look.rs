@@ -34,6 +34,17 @@ impl LineSet {
     pub fn crease(&self) -> Option<f32> {
         self.kinds.crease.then_some(self.section.crease)
     }
+
+    /// Whether brushes leave marks along them that are to stay on the surface.
+    pub fn has_marks(&self) -> bool {
+        let repeats = |layer: &Layer| {
+            layer
+                .brush
+                .as_ref()
+                .is_some_and(|brush| brush.length().is_some())
+        };
+        self.layers.iter().any(repeats)
+    }
 }
 
 /// What a preset says of strokes, colours, light, picture and dynamics, ready to be used.

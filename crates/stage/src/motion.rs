@@ -269,7 +269,8 @@ impl ObjectMotion {
             motion.sample(time as f32, &mut self.points);
             return Ok(time);
         }
-        if !Dynamics::moves(&object.look().sections.dynamics, driver) {
+        let has_hair = !hair.file.strands.is_empty();
+        if !has_hair || !Dynamics::moves(&object.look().sections.dynamics, driver) {
             self.dynamics = None;
             self.place(object, driver, time);
             return Ok(time);
@@ -396,7 +397,7 @@ impl ObjectMotion {
 }
 
 /// The time (seconds) of the frame whose pose is shown at `time`, in a scene of so many frames a second.
-fn held_time(section: &MotionSection, fps: f32, time: f64) -> f64 {
+pub(crate) fn held_time(section: &MotionSection, fps: f32, time: f64) -> f64 {
     if section.on <= 1 {
         return time;
     }

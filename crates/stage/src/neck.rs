@@ -47,7 +47,15 @@ pub(crate) struct PosedHead {
 impl Neck {
     /// The neck under a head of this middle and height.
     pub fn new(model: HeadModel, head: Head) -> Self {
+        let is_things = model.is_things;
+        let pivot = |head: Head| match is_things {
+            true => head.center,
+            false => pivot(head),
+        };
         let share = |p: &Vec3| {
+            if is_things {
+                return STEPS as u16;
+            }
             let y = (p.y - head.center.y) / head.height_m;
             let t = ((y - SHOULDERS) / (JAW - SHOULDERS)).clamp(0.0, 1.0);
             let share = t * t * (3.0 - 2.0 * t);
@@ -175,11 +183,15 @@ impl PosedHead {
                 continue;
             }
             let (rest, posed) = (&neck.rest.painted[index], &mut self.model.painted[index]);
-            motion.pose(
-                shares,
-                [&rest.positions, &rest.normals],
-                [&mut posed.positions, &mut posed.normals],
-            );
+            let moved = match (&rest.moving, self.pose.animated_s) {
+                (Some(moving), Some(time)) => Some(moving.at(time)),
+                _ => None,
+            };
+            let rest = match &moved {
+                Some([places, normals]) => [&places[..], &normals[..]],
+                None => [&rest.positions[..], &rest.normals[..]],
+            };
+            motion.pose(shares, rest, [&mut posed.positions, &mut posed.normals]);
         }
         for (index, shares) in neck.patch_shares.iter().enumerate() {
             let (rest, posed) = (&neck.rest.patches[index], &mut self.model.patches[index]);

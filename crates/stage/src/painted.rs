@@ -4,12 +4,13 @@ use crate::files::StageError;
 use crate::names::Names;
 use crate::pictures;
 use crate::preset::{AlphaChoice, MeshSection};
+use crate::things::{Moving, Placed, Thing};
 use effects::Image;
 use effects::preset::suggestion;
 use glam::{Vec2, Vec3};
 use hair_io::orient::Orientation;
 use mesh_io::{Alpha, Material, Mesh, Model, Wrap};
-use render::Coverage;
+use render::{Coverage, Head};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -33,6 +34,8 @@ pub(crate) struct PaintedMesh {
     pub is_turned: bool,
     /// Whether hair lies on it, and covers it where it is a little deeper.
     pub is_cap: bool,
+    /// What it is, where it moves by itself.
+    pub moving: Option<Moving>,
 }
 
 /// How a file paints a mesh.
@@ -56,6 +59,19 @@ pub(crate) struct MeshPicture {
 }
 
 impl PaintedMesh {
+    /// Moves what a file holds to where a preset wants it.
+    fn put(&mut self, section: &MeshSection, head: Head, placed: &Placed) {
+        if (section.at, section.turn, section.size) == ([0.0; 3], [0.0; 3], 1.0) {
+            return;
+        }
+        for position in &mut self.positions {
+            *position = placed.point((*position - head.center) / head.height_m);
+        }
+        for normal in &mut self.normals {
+            *normal = placed.turn * *normal;
+        }
+    }
+
     /// The vertex of its file's mesh that one of its own is.
     pub(crate) fn vertex(&self, own: usize) -> usize {
         self.kept.get(own).copied().unwrap_or(own)
@@ -184,6 +200,7 @@ pub(crate) fn of_model(
             kept: Vec::new(),
             is_turned: false,
             is_cap: false,
+            moving: None,
         });
     }
     notes.append(&mut pictures.notes);
@@ -266,11 +283,17 @@ pub(crate) fn of_sections(
     sections: &[&MeshSection],
     folder: &Path,
     orientation: &Orientation,
+    head: Head,
     notes: &mut Vec<String>,
 ) -> Result<Vec<PaintedMesh>, StageError> {
     let mut painted = Vec::new();
     for (number, section) in sections.iter().enumerate() {
-        let path = section.path(folder);
+        let placed = Placed::new(head, section.at, section.turn, section.size);
+        if let Some(thing) = Thing::new(section.shape) {
+            painted.push(of_thing(thing, section, number, placed));
+            continue;
+        }
+        let path = section.path(folder).unwrap_or_default();
         let model = mesh_io::read_model(&path)?;
         let of_file = |note: &String| format!("{}: {note}", path.display());
         notes.extend(model.notes.iter().map(of_file));
@@ -281,14 +304,14 @@ pub(crate) fn of_sections(
         let is_meant =
             |mesh: &Mesh| (only.is_empty() || only.have(&model, mesh)) && !hide.have(&model, mesh);
         let mut meshes = of_model(&model, &path, orientation, Some(number), is_meant, notes)?;
-        if let Some(path) = section.texture_path(folder) {
-            let image = picture(&path)?;
+        if let Some(picture_path) = section.texture_path(folder) {
+            let image = picture(&picture_path)?;
             for (mesh, own) in meshes
                 .iter_mut()
                 .zip(model.meshes.iter().filter(|m| is_meant(m)))
             {
                 if own.uvs.is_empty() {
-                    return Err(StageError::NoPlaces(section.path(folder)));
+                    return Err(StageError::NoPlaces(path.clone()));
                 }
                 mesh.places.clone_from(&own.uvs);
                 mesh.paint.picture = Some(MeshPicture {
@@ -307,6 +330,8 @@ pub(crate) fn of_sections(
         let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         for mesh in &mut meshes {
             mesh.names.extend(stem.iter().map(|stem| stem.to_string()));
+            mesh.names.extend(section.name.clone());
+            mesh.put(section, head, &placed);
             if let (Some(picture), Some(coverage)) = (&mut mesh.paint.picture, coverage) {
                 picture.coverage = coverage;
             }
@@ -314,6 +339,30 @@ pub(crate) fn of_sections(
         painted.extend(meshes);
     }
     Ok(painted)
+}
+
+/// A thing that a preset lists.
+fn of_thing(thing: Thing, section: &MeshSection, number: usize, placed: Placed) -> PaintedMesh {
+    let [positions, normals] = thing.in_place(&placed);
+    let names = [Some(section.shape.name().to_owned()), section.name.clone()];
+    PaintedMesh {
+        positions,
+        normals,
+        triangles: thing.triangles.clone(),
+        places: Vec::new(),
+        paint: MeshPaint::NONE,
+        names: names.into_iter().flatten().collect(),
+        section: Some(number),
+        index: 0,
+        kept: Vec::new(),
+        is_turned: false,
+        is_cap: false,
+        moving: thing.moves().then(|| Moving {
+            thing: Arc::new(thing),
+            placed,
+            beat: section.beat,
+        }),
+    }
 }
 
 /// A picture that a preset names.

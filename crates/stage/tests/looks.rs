@@ -51,7 +51,7 @@ fn registry() -> Registry {
     registry
 }
 
-/// The looks of one head: names and texts.
+/// The looks of one figure with hair: names and texts.
 fn looks() -> Vec<(String, String)> {
     let mut looks: Vec<(String, String)> = fs::read_dir(presets())
         .unwrap()
@@ -61,7 +61,8 @@ fn looks() -> Vec<(String, String)> {
             let name = path.file_stem().unwrap().to_string_lossy().into_owned();
             (name, fs::read_to_string(&path).unwrap())
         })
-        .filter(|(_, text)| !text.contains("objects:"))
+        // Others are of several heads, of the bust, or of things.
+        .filter(|(_, text)| text.contains("hair: (file") && text.contains("shape: figure"))
         .collect();
     looks.sort();
     assert!(looks.len() >= 8);

@@ -80,7 +80,8 @@ pub struct Look {
     passes: bool,
 }
 
-/// The project's looks, by name. A preset that puts other presets' heads into one picture is none of its own.
+/// The project's looks, by name. A preset that puts other presets' heads into one picture is none of its own, nor is one without
+/// hair.
 ///
 /// # Errors
 ///
@@ -93,7 +94,8 @@ pub fn looks(root: &Path) -> Result<Vec<Look>, BenchError> {
     for entry in std::fs::read_dir(&folder).map_err(failed)? {
         let preset = entry.map_err(failed)?.path();
         if preset.extension().is_some_and(|ending| ending == "ron") {
-            if !frame::preset(&preset, &registry)?.objects.is_empty() {
+            let read = frame::preset(&preset, &registry)?;
+            if !read.objects.is_empty() || read.sections.hair.file.is_none() {
                 continue;
             }
             let name = preset.file_stem().unwrap_or_default();

@@ -179,6 +179,7 @@ impl Animation for Strands {
             rest_positions: &[],
             from_ends: &[],
             path_weights: &[],
+            marks: &[],
             surfaces: Vec::new(),
             mesh_layers: Vec::new(),
             decals: Vec::new(),

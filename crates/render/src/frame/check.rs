@@ -177,6 +177,16 @@ pub enum FrameError {
         /// How many joints the paths have.
         joints: usize,
     },
+    /// The list is shorter or longer than the paths, or has a number that isn't finite.
+    #[error(
+        "there are {marks} places along marks for {joints} joints: one finite number is needed for each, or none at all"
+    )]
+    Marks {
+        /// How many there are.
+        marks: usize,
+        /// How many joints the paths have.
+        joints: usize,
+    },
     /// What its strands count nearer by is no length.
     #[error("object {object}: surface_bias_m is {bias_m}, no number of metres from 0 on")]
     SurfaceBias {
@@ -265,6 +275,10 @@ impl Frame<'_> {
         let reads_weights = |object: &Object| object.inputs().has(Input::PathWeight);
         if weights != joints && (weights > 0 || self.objects.iter().any(reads_weights)) {
             return Err(FrameError::PathWeights { weights, joints });
+        }
+        let marks = self.marks.len();
+        if marks != 0 && marks != joints || !self.marks.iter().all(|mark| mark.is_finite()) {
+            return Err(FrameError::Marks { marks, joints });
         }
         Ok(())
     }

@@ -353,6 +353,7 @@ impl Scene {
             rest_positions: &self.rest_positions,
             from_ends: &self.from_ends,
             path_weights: &self.path_weights,
+            marks: &[],
             surfaces: self.surfaces.clone(),
             mesh_layers: self
                 .mesh_layers

@@ -67,6 +67,7 @@ pub(super) fn painted(
         kept: Vec::new(),
         is_turned: false,
         is_cap: false,
+        moving: None,
     }
 }
 

@@ -116,7 +116,7 @@ impl HeadModel {
     /// The names of what can be painted.
     fn paintable(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
-        if !self.is_painted() {
+        if !self.is_painted() && !self.is_things {
             names.push(SKIN);
         }
         if !self.clothes.is_empty() {

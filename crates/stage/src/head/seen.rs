@@ -46,6 +46,7 @@ pub(crate) fn surfaces(
         ornaments,
         painted: _,
         skeleton: _,
+        is_things: _,
     } = model;
     let facing = match facing.is_empty() {
         true => &mesh.normals,

@@ -52,7 +52,7 @@ enum Of {
 /// What the lines of a head may be of, by name.
 pub(super) fn names(head: &HeadModel, wears_ties: bool) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
-    if !head.is_painted() {
+    if !head.is_painted() && !head.is_things {
         names.push(SKIN);
     }
     if !head.clothes.is_empty() {
@@ -78,7 +78,7 @@ type Part<'h> = (Of, &'h [[u32; 3]], Vec<String>);
 
 fn parts(head: &HeadModel) -> Vec<Part<'_>> {
     let mut parts: Vec<Part> = Vec::new();
-    if !head.is_painted() {
+    if !head.is_painted() && !head.is_things {
         parts.push((Of::Head, &head.skin, vec![SKIN.to_owned()]));
     }
     let clothes = head.clothes.iter();
@@ -185,7 +185,8 @@ impl LineMesh {
     /// What an eye sees of its lines; a pixel is so long in the image ([`View`]).
     pub fn seen(&self, view: &View, pixel: f64) -> Result<Seen<'_>, MeshError> {
         let surface = Surface::with_normals(&self.topology, &self.positions, &self.normals)?;
-        let mut lines = contours(&surface, view, &facing(&surface, view))?;
+        let facing = facing(&surface, view);
+        let mut lines = contours(&surface, view, &facing)?;
         if self.crease.is_some() {
             lines.extend(creases(&surface, TURN_COSINE));
         }
@@ -194,6 +195,7 @@ impl LineMesh {
         Ok(Seen {
             surface,
             rest: &self.rest,
+            facing,
             lines,
             spans,
             view: *view,

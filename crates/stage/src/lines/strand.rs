@@ -1,11 +1,15 @@
 //! What is seen of lines, as strands.
 
+use super::marks::Marks;
 use crate::preset::LineKinds;
 use glam::{DVec3, Vec3};
 use mesh_lines::{Cut, Kind, Line, Span, Surface, View};
 
 /// Points of a strand are no nearer to each other in the picture, pixels: what is between them lies on a smooth curve.
 const APART_PX: f64 = 1.5;
+
+/// Where points are farther apart, as along the edges of a box, there are points between them, so that a stroke may swell, taper and stray there: pixels.
+const FARTHEST_PX: f64 = 10.0;
 
 /// How far a line without ends goes on beyond its beginning, pixels and as a share of its length: so that where it is tapered it has been drawn before.
 const OVERLAP_PX: f64 = 60.0;
@@ -16,6 +20,8 @@ pub(super) struct Seen<'m> {
     pub surface: Surface<'m>,
     /// Where its vertices are at rest.
     pub rest: &'m [Vec3],
+    /// How far it faces the eye.
+    pub facing: Vec<f64>,
     pub lines: Vec<Line>,
     pub spans: Vec<Span>,
     pub view: View,
@@ -32,6 +38,8 @@ pub(crate) struct LineStrand {
     pub normals: Vec<Vec3>,
     /// Where the surface is there at rest, head heights from the head's centre.
     pub rest: Vec<Vec3>,
+    /// How far along a brush's marks it is there, head heights; empty where no brush leaves any.
+    pub marks: Vec<f32>,
 }
 
 /// A piece of a line, and why it begins and ends.
@@ -43,22 +51,28 @@ struct Piece {
 
 impl Seen<'_> {
     /// The strands of lines of these kinds on triangles that are meant. Where something hides the rest of a line, it ends `halo_m` before; what
-    /// is seen to be shorter than `shortest_m` is left out.
+    /// is seen to be shorter than `shortest_m` is left out. Brushes leave `marks`, if any.
     pub fn strands(
         &self,
         kinds: LineKinds,
         is_meant: &dyn Fn(u32) -> bool,
         halo_m: f64,
         shortest_m: f64,
+        marks: Option<&Marks>,
     ) -> Vec<LineStrand> {
-        let is_wanted = |span: &&Span| match self.lines[span.line].kind {
+        let is_wanted = |(_, span): &(usize, &Span)| match self.lines[span.line].kind {
             Kind::Contour => kinds.contour,
             Kind::Crease => kinds.crease,
             Kind::Border => kinds.border,
         };
         let mut strands = Vec::new();
-        for span in self.spans.iter().filter(is_wanted) {
+        for (number, span) in self.spans.iter().enumerate().filter(is_wanted) {
             let line = &self.lines[span.line];
+            let of_span = marks.map(|marks| marks.of_span(number, line, self.rest, &self.surface));
+            let span = match &of_span {
+                Some(of_span) => &of_span.begun(span),
+                None => span,
+            };
             for mut piece in pieces(line, span, is_meant) {
                 self.cut_halo(line, &mut piece, halo_m);
                 if self.length_m(line, &piece) < shortest_m {
@@ -68,8 +82,14 @@ impl Seen<'_> {
                     self.go_on(line, &mut piece);
                 }
                 self.thin_out(line, &mut piece);
+                self.fill_in(line, &mut piece);
                 if piece.along.len() > 1 {
-                    strands.push(self.strand(line, &piece.along));
+                    let mut strand = self.strand(line, &piece.along);
+                    if let Some(of_span) = &of_span {
+                        let at = piece.along.iter().map(|along| of_span.at(*along));
+                        strand.marks = at.collect();
+                    }
+                    strands.push(strand);
                 }
             }
         }
@@ -162,6 +182,25 @@ impl Seen<'_> {
             }
         }
         piece.along = kept;
+    }
+
+    /// Puts places between those that are far apart in the picture.
+    fn fill_in(&self, line: &Line, piece: &mut Piece) {
+        let mut filled = Vec::with_capacity(piece.along.len());
+        for step in piece.along.windows(2) {
+            let [from, to] = [step[0], step[1]];
+            let parts = (self.apart_px(line, from, to) / FARTHEST_PX).ceil();
+            // Before and behind the eye lengths in the picture may be anything.
+            let parts = if parts.is_finite() {
+                parts.clamp(1.0, 1000.0) as usize
+            } else {
+                1
+            };
+            let place = |part: usize| from + (to - from) * part as f64 / parts as f64;
+            filled.extend((0..parts).map(place));
+        }
+        filled.extend(piece.along.last());
+        piece.along = filled;
     }
 
     fn strand(&self, line: &Line, along: &[f64]) -> LineStrand {

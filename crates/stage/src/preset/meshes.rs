@@ -13,6 +13,22 @@ const MOST_MESHES: usize = 64;
 const WRITTEN: &str = "meshes: [(file: \"eyes.obj\", color: \"FFFFFF\"), ...]";
 
 choices! {
+    /// A thing that needs no file.
+    pub enum ThingChoice {
+        /// None: a file's meshes.
+        None = "none",
+        /// A tea cup.
+        Cup = "cup",
+        /// A cube.
+        Cube = "cube",
+        /// A gear of twelve teeth, its axis to the eye.
+        Gear = "gear",
+        /// A bird that flies to the eye and beats its wings.
+        Wings = "wings",
+    }
+}
+
+choices! {
     /// What the coverage of a mesh's picture means.
     pub enum AlphaChoice {
         /// What the file says; of a picture that the preset names: `cut`.
@@ -27,10 +43,23 @@ choices! {
 }
 
 section! {
-    /// Meshes of files, in their own colours: eyes, lashes, clothes, glasses. They lie as the head's file does, and move with the head. A list.
+    /// Meshes of files, in their own colours: eyes, lashes, clothes, glasses; and things that need no file. They lie as the head's file does, and move
+    /// with the head. A list.
     pub struct MeshSection {
         /// The meshes, relative to the preset: .obj, .ply, .gltf, .glb or .vrm.
         file: Option<String> = text(),
+        /// A thing in place of a file, one head height large; its file's name is then `cup`, `cube`, `gear` or `wings`.
+        shape: ThingChoice = ThingChoice::None.or_another(),
+        /// Another name by which layers and lines mean it.
+        name: Option<String> = text(),
+        /// How far it is moved: to its left, up, forwards. A thing is moved from the middle of the head.
+        at: [f32; 3] = triple([0.0; 3], -1000.0..=1000.0).unit("head heights"),
+        /// How far it is turned: to its left, up, towards its left shoulder. A thing about its own middle, a file about that of the head.
+        turn: [f32; 3] = triple([0.0; 3], -3600.0..=3600.0).unit("degrees"),
+        /// How many times as large it is.
+        size: f32 = number(1.0, 0.001..=1000.0),
+        /// How often wings beat.
+        beat: f32 = number(1.0, 0.0..=100.0).unit("1/s"),
         /// Which of its meshes: names of meshes or materials with commas between them, `*` for any end; without it all.
         only: Option<String> = text(),
         /// Which of them not.
@@ -88,8 +117,25 @@ impl NamedMesh {
             let fields = reader.fields(item, "a mesh");
             let section: MeshSection = reader.section_of(&fields, "a mesh");
             let name = fields.iter().find(|field| field.name == "file");
-            if name.is_none() {
-                reader.error(item, "a mesh needs `file: \"...\"`, which holds it");
+            let shape = fields.iter().find(|field| field.name == "shape");
+            let is_thing = section.shape != ThingChoice::None;
+            match (name, shape) {
+                (None, _) if !is_thing => {
+                    let message = "a mesh needs `file: \"...\"`, which holds it, or `shape:`, such as shape: cup";
+                    reader.error(item, message);
+                }
+                (Some(_), Some(shape)) if is_thing => {
+                    let message = "shape: a mesh is of a file or of a shape, not of both";
+                    reader.error(shape.value, message);
+                }
+                _ => {}
+            }
+            if let (true, Some(texture)) = (
+                is_thing,
+                fields.iter().find(|field| field.name == "texture"),
+            ) {
+                let message = "texture: things of a `shape` have no places for a picture";
+                reader.error(texture.value, message);
             }
             let texture = fields.iter().find(|field| field.name == "texture");
             Self {
@@ -124,9 +170,9 @@ impl NamedMesh {
 }
 
 impl MeshSection {
-    /// Its file, of a preset in `folder`.
-    pub(crate) fn path(&self, folder: &Path) -> PathBuf {
-        folder.join(self.file.as_deref().unwrap_or_default())
+    /// Its file, of a preset in `folder`, if it has one.
+    pub(crate) fn path(&self, folder: &Path) -> Option<PathBuf> {
+        Some(folder.join(self.file.as_deref()?))
     }
 
     /// Its picture, of a preset in `folder`.

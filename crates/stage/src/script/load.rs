@@ -45,6 +45,7 @@ pub(crate) fn load(
             head_height_m: f64::from(hair.head.height_m),
         }));
     }
+    script.moves_meshes = head.is_some_and(HeadModel::moves);
     if let Some(skeleton) = head.and_then(|head| head.skeleton.as_deref()) {
         script.below = Some(Below::skeleton(skeleton, hair));
     }

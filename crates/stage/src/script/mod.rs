@@ -49,6 +49,8 @@ pub(crate) struct MotionScript {
     pub body_keys: Vec<NamedKey>,
     /// All bodies that hair is kept out of beside head and shoulders: the preset's and the script's.
     pub bodies: Vec<Arc<Body>>,
+    /// Whether meshes beside the head move by themselves, so that poses differ with time.
+    pub moves_meshes: bool,
 }
 
 /// Where the head is at a time.
@@ -179,6 +181,9 @@ impl MotionScript {
             base = rotation;
             shift += moved;
             animated_s = time_s;
+        }
+        if self.moves_meshes {
+            animated_s = animated_s.or(Some(time));
         }
         for part in &self.moves {
             let (t, s) = part.at(time, self.goes_round(part.start, part.length));

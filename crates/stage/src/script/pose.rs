@@ -15,7 +15,8 @@ pub(crate) struct HeadPose {
     pub turn: DVec3,
     /// Head heights.
     pub shift: DVec3,
-    /// The time in seconds that the character's own skeleton is at, where that moves it; `base` and `shift` have its head's motion.
+    /// The time in seconds that the character's own skeleton is at, where that moves it, and meshes beside it that move by themselves; `base` and
+    /// `shift` have the motion of the skeleton's head.
     pub animated_s: Option<f64>,
 }
 
