@@ -125,7 +125,8 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
                 if let Some(before) = before.filter(|_| k < batch.counts[lane]) {
                     let from = collider.before.to_local(before);
                     let ends = [(from, shape.distance(from)), (to, distance)];
-                    if let Some((_, lowest)) = lowest(shape, ends, f64::INFINITY) {
+                    let middle = shape.distance(from.lerp(to, 0.5));
+                    if let Some((_, lowest)) = lowest(shape, ends, middle, f64::INFINITY) {
                         between = between.min(lowest - batch.thickness[lane]);
                     }
                 }

@@ -13,7 +13,7 @@ use crate::{
 use super::{
     super::batch::{Batch, BatchState},
     find::{Bodies, Ways},
-    link::lowest,
+    link::{CROSSES, lowest},
     path::Path,
 };
 
@@ -180,7 +180,7 @@ impl Link {
             };
             let is_in = keep - distance > deepest.0;
             let way = (collider.now.to_local(to) - collider.before.to_local(from)).length();
-            if !is_in && distance - keep > way {
+            if !is_in && (way < CROSSES || distance - keep > way) {
                 return;
             }
             let last = shape.normal(collider.now.to_local(to));
@@ -199,10 +199,11 @@ impl Link {
         };
         look(1.0, ends[1].1);
         if self.keep[0].is_finite() && 0.5 * (ends[0].1 + ends[1].1 - self.length) < self.keep[1] {
-            if let Some((share, least)) = lowest(shape, ends, self.keep[1]) {
+            let middle = shape.distance(ends[0].0.lerp(ends[1].0, 0.5));
+            if let Some((share, least)) = lowest(shape, ends, middle, self.keep[1]) {
                 look(share, least);
             }
-            look(0.5, shape.distance(ends[0].0.lerp(ends[1].0, 0.5)));
+            look(0.5, middle);
         }
     }
 }
