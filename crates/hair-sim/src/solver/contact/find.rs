@@ -30,6 +30,8 @@ pub(crate) struct Guard {
     /// From where something was, as the body carries it along: `carry` times the place, and `shift`.
     carry: DMat3,
     shift: DVec3,
+    /// Whether links between particles count.
+    has_links: bool,
 }
 
 impl Guard {
@@ -42,6 +44,7 @@ impl Guard {
             radius,
             carry,
             shift: now.translation - carry * before.translation,
+            has_links: !collider.shape.is_sampled(),
         }
     }
 
@@ -122,7 +125,8 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
                 let distance = shape.distance(to);
                 own = own.min(distance - batch.thickness[lane]);
                 // The root's link is as deep as the root is.
-                if let Some(before) = before.filter(|_| k < batch.counts[lane]) {
+                let is_link = k < batch.counts[lane] && !shape.is_sampled();
+                if let Some(before) = before.filter(|_| is_link) {
                     let from = collider.before.to_local(before);
                     let ends = [(from, shape.distance(from)), (to, distance)];
                     let middle = shape.distance(from.lerp(to, 0.5));
@@ -232,10 +236,13 @@ impl Ways {
             .map_or(T::splat(0.0), |link| link.length.load::<T>());
         let own = batch.links[k].length.load::<T>();
         let longer = T::choose(own.less(next), next, own);
-        let keep = batch.thickness.load::<T>() + state.skin[k].load() + longer * T::splat(0.5);
+        let keep = batch.thickness.load::<T>() + state.skin[k].load();
+        let half = longer * T::splat(0.5);
+        let (from, to) = (self.from[k].load::<T>(), self.to[k].load());
         let mut near = Mask::NONE;
         for guard in bodies.guards {
-            near = near.or(guard.is_near(self.from[k].load::<T>(), self.to[k].load(), keep));
+            let keep = if guard.has_links { keep + half } else { keep };
+            near = near.or(guard.is_near(from, to, keep));
         }
         near
     }

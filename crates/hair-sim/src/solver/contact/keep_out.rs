@@ -41,6 +41,9 @@ pub(crate) fn keep_out<T: Number>(
     ways: &mut Ways,
     active: Mask,
 ) -> Mask {
+    if bodies.colliders.iter().all(|body| body.shape.is_sampled()) {
+        return Mask::NONE;
+    }
     let mut near = Mask::NONE;
     T::run(
         #[inline(always)]
@@ -139,7 +142,7 @@ impl Link {
         for turn in 0..MOST_TURNS {
             let most = if turn == 0 { DEEP } else { OUT };
             let mut deepest = (most, 1.0, DVec3::ZERO);
-            for collider in colliders {
+            for collider in colliders.iter().filter(|body| !body.shape.is_sampled()) {
                 self.look(collider, turn < BY_WAYS, &mut deepest);
             }
             let (depth, share, normal) = deepest;
@@ -154,7 +157,8 @@ impl Link {
 
     /// How far its end is from bodies, over what it keeps, in m.
     fn above(&self, colliders: &[Collider]) -> f64 {
-        let distances = colliders.iter().map(|body| body.distance(self.now[1]));
+        let exact = colliders.iter().filter(|body| !body.shape.is_sampled());
+        let distances = exact.map(|body| body.distance(self.now[1]));
         distances.fold(f64::INFINITY, f64::min) - self.keep[1]
     }
 

@@ -38,6 +38,10 @@ impl Lack {
     pub(super) fn deepest(colliders: &[Collider], ends: &[Path; 2], length: f64) -> Option<Self> {
         let mut deepest: Option<Self> = None;
         for (body, collider) in colliders.iter().enumerate() {
+            // The distances of a grid turn at every cell: hair that lies on it would tremble with what they say of links.
+            if collider.shape.is_sampled() {
+                continue;
+            }
             let Some(lack) = Self::of((body, collider), ends, length) else {
                 continue;
             };
