@@ -476,7 +476,7 @@ fn wings(beat: f64) -> Solid {
         across.iter().map(point).collect()
     };
     let rings: Vec<Vec<Vec3>> = sizes.iter().zip(&places).map(ring).collect();
-    let ends = [Vec3::new(0.0, 0.0, -0.366), Vec3::new(0.0, -0.002, 0.318)].map(bobbed);
+    let ends = [Vec3::new(0.0, 0.0, -0.366), Vec3::new(0.0, -0.002, 0.32)].map(bobbed);
     solid.through(&rings, ends.map(Some));
     solid
 }
