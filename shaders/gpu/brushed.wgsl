@@ -77,7 +77,7 @@ fn brush_coverage(brush: u32, seed: u32, along_strand: vec3<f32>, v: f32, radius
     let more = t * t * (3.0 - 2.0 * t);
     var covered = vec2<f32>(0.0);
     for (var i = 0u; i < 2u; i += 1u) {
-        if (select(more < 1.0, more > 0.0, i == 1u)) {
+        if (select((more < 1.0), (more > 0.0), i == 1u)) {
             let length = whole / (count + f32(i));
             covered[i] = laid(mark, vec2<f32>((first + along_strand.x / length) / parts, y), length * parts, along_strand.z, radius, true);
         }
@@ -96,9 +96,9 @@ fn laid(mark: u32, at: vec2<f32>, length: f32, pixels: f32, radius: f32, repeats
     let parts = clamp(longer / texels, 1.0, MOST_LOOKUPS);
     let level = min(log_to_two(texels), f32(gpu_image_levels(mark) - 1u));
     var sum = 0.0;
-    for (var from = 0.0; from < parts; from += 1.0) {
-        let part = min(parts - from, 1.0);
-        let shift = (from + 0.5 * part - 0.5 * parts) * texels;
+    for (var done = 0.0; done < parts; done += 1.0) {
+        let part = min(parts - done, 1.0);
+        let shift = (done + 0.5 * part - 0.5 * parts) * texels;
         let place = at + select(vec2<f32>(0.0, shift / size.y), vec2<f32>(shift / size.x, 0.0), along > across);
         sum += part * mark_at(mark, level, place, repeats);
     }

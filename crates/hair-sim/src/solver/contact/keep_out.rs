@@ -102,7 +102,8 @@ fn strand(
         (starts[0], start_before) = (end, end_before);
         if turned {
             // What comes after a link that was turned stays where it is, as far as it can.
-            link.now[1] = link.now[0] + (end - link.now[0]).normalize_or(old / length) * length;
+            let way = (end - link.now[0]).normalize_or(old.normalize_or_zero());
+            link.now[1] = link.now[0] + way * length;
         }
         let is_near = ways.near[k].get(lane) || k > 0 && ways.near[k - 1].get(lane);
         if (turned || is_near) && link.turn_out(bodies.colliders) {
@@ -117,9 +118,10 @@ fn strand(
             let (y, v) = (state.y[k].get(lane), state.v[k].get(lane));
             state.y[k].set(lane, y + shift);
             state.v[k].set(lane, v + shift / bodies.dt);
-            if let Some(frames) = state.frames.get_mut(k) {
-                let new = link.now[1] - link.now[0];
-                let turn = DQuat::from_rotation_arc(old.normalize(), new.normalize());
+            // A link without a length has no direction.
+            let directions = [old, link.now[1] - link.now[0]].map(DVec3::try_normalize);
+            if let (Some(frames), [Some(old), Some(new)]) = (state.frames.get_mut(k), directions) {
+                let turn = DQuat::from_rotation_arc(old, new);
                 frames.set(lane, (turn * frames.get(lane)).normalize());
             }
         }
