@@ -416,9 +416,7 @@ impl ObjectFrame {
             self.material = None;
             self.head = None;
         }
-        if !self.of.has_hair_and_head_of(object)
-            || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
-        {
+        if !self.of.moves_as(object) || !Arc::ptr_eq(self.of.shared_look(), object.shared_look()) {
             self.lines = None;
         }
         if !self.of.has_hair_and_head_of(object)
@@ -732,15 +730,24 @@ impl ObjectFrame {
             lines => lines.insert(HeadLines::new(neck, sets, rest_head)?),
         };
         let (look, placement) = (self.of.look(), self.of.placement());
-        let now = time.time_s * time.fps;
+        // A whole frame is one, as exactly as its time can say.
+        let mut now = time.time_s * time.fps;
+        if (now - now.round()).abs() <= now.abs() * f64::from(f32::EPSILON) {
+            now = now.round();
+        }
         for frame in lines.frames_before(now) {
             // Where the script has the head then; a hand that turns it live isn't asked.
             let frame = frame as f64;
             let held = held_time(&look.sections.motion, time.fps as f32, frame / time.fps);
-            let model = posed.in_pose(neck, self.of.script().head_at(held));
-            lines.follow(model, sight.camera(), rest_head, frame)?;
+            let pose = self.of.script().head_at(held);
+            if lines.stays(sight.camera(), pose, frame) {
+                continue;
+            }
+            let model = posed.in_pose(neck, pose);
+            lines.follow((model, pose), sight.camera(), rest_head, frame)?;
         }
-        let model = posed.in_pose(neck, motion.head_pose());
+        let pose = motion.head_pose();
+        let model = (posed.in_pose(neck, pose), pose);
         let found = lines.find(model, sets, sight.camera(), rest_head, now)?;
         for (set, found) in sets.iter().zip(found) {
             let start = paths.len();

@@ -2,7 +2,8 @@
 //!
 //! Lines hang on nothing but the meshes and the eye, so that frames may be drawn in any order. A strand of theirs has no clump, and no number of
 //! its own: what varies along it is fixed to the surface. Only where brushes leave marks along contours, which have no fixed place, these are followed
-//! from frame to frame, at the preset's rate from the start on, as hair is simulated: so a frame is the same whichever frames are asked for.
+//! from frame to frame, at the preset's rate from the start on, as hair is simulated: so a frame is the same whichever frames are asked for. A moment between
+//! two frames follows the one before it, and none follows that moment.
 
 mod marks;
 mod mesh;
@@ -16,6 +17,7 @@ use crate::look::LineSet;
 use crate::names::Names;
 use crate::neck::Neck;
 use crate::preset::NamedLines;
+use crate::script::HeadPose;
 use effects::preset::{LayerSpec, PresetError, PresetErrors, suggestion};
 use glam::Vec3;
 use marks::Followed;
@@ -35,8 +37,28 @@ pub(crate) struct HeadLines {
     strands: Vec<Vec<LineStrand>>,
     /// For each mesh its contours from frame to frame, where brushes leave marks along them.
     followed: Vec<Option<Followed>>,
-    /// The frame to which they were followed, which may lie between two, and the eye.
-    at: Option<(f64, Vec3)>,
+    /// The whole frame to which they were followed, and what was seen then.
+    at: Option<f64>,
+    seen: Option<Sight>,
+}
+
+/// What lines hang on: while it stays, there is nothing to follow.
+#[derive(Clone, Copy, PartialEq)]
+struct Sight {
+    eye: Vec3,
+    /// Of a pixel at a distance of 1.
+    pixel: f64,
+    pose: HeadPose,
+}
+
+impl Sight {
+    fn of(camera: &Camera, pose: HeadPose) -> Self {
+        Self {
+            eye: camera.eye(),
+            pixel: f64::from(camera.focal_px()).recip(),
+            pose,
+        }
+    }
 }
 
 /// Frames closer to each other than this are one.
@@ -51,6 +73,7 @@ impl HeadLines {
             strands: vec![Vec::new(); sets.len()],
             followed: Vec::new(),
             at: None,
+            seen: None,
         };
         for set in sets {
             let crease = set.crease();
@@ -76,30 +99,41 @@ impl HeadLines {
         if !is_followed || !now.is_finite() {
             return 0..0;
         }
-        if self.at.is_some_and(|(at, _)| at > now + SAME_FRAME) {
+        if self.at.is_some_and(|at| at > now + SAME_FRAME) {
             self.followed
                 .iter_mut()
                 .flatten()
                 .for_each(|followed| *followed = Followed::default());
             self.at = None;
+            self.seen = None;
         }
         let first = match self.at {
-            Some((at, _)) => (at + SAME_FRAME).floor() as i64 + 1,
+            Some(at) => (at + SAME_FRAME).floor() as i64 + 1,
             None => now.floor().min(0.0) as i64,
         };
         first..(now - SAME_FRAME).ceil() as i64
     }
 
+    /// Whether frame `now`, in which the head has this pose, shows what the one before did: then contours are followed to it.
+    pub fn stays(&mut self, camera: &Camera, pose: HeadPose, now: f64) -> bool {
+        let stays = self.seen == Some(Sight::of(camera, pose));
+        if stays {
+            self.at = Some(now);
+        }
+        stays
+    }
+
     /// Follows contours to frame `now`, in which the head is in this pose, without a picture.
     pub fn follow(
         &mut self,
-        model: &HeadModel,
+        (model, pose): (&HeadModel, HeadPose),
         camera: &Camera,
         head: Head,
         now: f64,
     ) -> Result<(), StageError> {
+        let sight = Sight::of(camera, pose);
         let view = View::perspective(camera.eye()).map_err(fault)?;
-        let pixel = f64::from(camera.focal_px()).recip();
+        let pixel = sight.pixel;
         for (mesh, followed) in self.meshes.iter_mut().zip(&mut self.followed) {
             if let Some(followed) = followed {
                 mesh.pose(model).map_err(fault)?;
@@ -109,36 +143,43 @@ impl HeadLines {
                     .map_err(fault)?;
             }
         }
-        self.at = Some((now, camera.eye()));
+        (self.at, self.seen) = (Some(now), Some(sight));
         Ok(())
     }
 
     /// Finds what the camera sees of the lines on the head in its pose: those of each list, in the look's order.
     pub fn find(
         &mut self,
-        model: &HeadModel,
+        (model, pose): (&HeadModel, HeadPose),
         sets: &[LineSet],
         camera: &Camera,
         head: Head,
         now: f64,
     ) -> Result<&[Vec<LineStrand>], StageError> {
         let unit_m = head.unit_m();
-        let is_there = self
-            .at
-            .is_some_and(|(at, eye)| (at - now).abs() <= SAME_FRAME && eye == camera.eye());
+        let sight = Sight::of(camera, pose);
+        let is_there = self.seen == Some(sight);
+        let is_whole = (now - now.round()).abs() <= SAME_FRAME;
         let view = View::perspective(camera.eye()).map_err(fault)?;
-        let pixel = f64::from(camera.focal_px()).recip();
+        let pixel = sight.pixel;
         for (number, mesh) in self.meshes.iter_mut().enumerate() {
             mesh.pose(model).map_err(fault)?;
             let mesh = &*mesh;
             let seen = mesh.seen(&view, pixel).map_err(fault)?;
-            let followed = &mut self.followed[number];
-            if let (Some(followed), false) = (&mut *followed, is_there) {
-                followed
-                    .step(&seen, height_px(&view, pixel, head))
-                    .map_err(fault)?;
+            let mut between;
+            let mut followed = self.followed[number].as_mut();
+            if !is_there {
+                if !is_whole {
+                    between = followed.as_deref().cloned();
+                    followed = between.as_mut();
+                }
+                if let Some(followed) = &mut followed {
+                    followed
+                        .step(&seen, height_px(&view, pixel, head))
+                        .map_err(fault)?;
+                }
             }
-            let marks = followed.as_ref().map(Followed::marks);
+            let marks = followed.as_deref().map(Followed::marks);
             for (index, set) in sets.iter().enumerate() {
                 if self.mesh_of[index] == number {
                     let [halo_m, shortest_m] = [set.section.halo, set.section.shortest]
@@ -150,7 +191,9 @@ impl HeadLines {
                 }
             }
         }
-        self.at = Some((now, camera.eye()));
+        if is_whole {
+            (self.at, self.seen) = (Some(now), Some(sight));
+        }
         Ok(&self.strands)
     }
 }

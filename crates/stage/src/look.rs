@@ -37,13 +37,10 @@ impl LineSet {
 
     /// Whether brushes leave marks along them that are to stay on the surface.
     pub fn has_marks(&self) -> bool {
-        let repeats = |layer: &Layer| {
-            layer
-                .brush
-                .as_ref()
-                .is_some_and(|brush| brush.length().is_some())
-        };
-        self.layers.iter().any(repeats)
+        // Others lie by the line's length: all of a list have the same places.
+        let mut brushes = self.layers.iter().filter_map(|layer| layer.brush.as_ref());
+        self.layers.iter().any(|layer| layer.brush.is_some())
+            && brushes.all(|brush| brush.length().is_some() && brush.parts().is_none())
     }
 }
 

@@ -357,7 +357,7 @@ fn of_thing(thing: Thing, section: &MeshSection, number: usize, placed: Placed) 
         kept: Vec::new(),
         is_turned: false,
         is_cap: false,
-        moving: thing.moves().then(|| Moving {
+        moving: (thing.moves() && section.beat > 0.0).then(|| Moving {
             thing: Arc::new(thing),
             placed,
             beat: section.beat,

@@ -11,7 +11,7 @@ const FIRST: f64 = 64.0;
 const SPREAD: f64 = 16.0;
 
 /// The contours of a mesh, followed from frame to frame (W, row W7 and section 3).
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Followed {
     tracker: Tracker,
 }
