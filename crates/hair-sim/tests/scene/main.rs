@@ -8,7 +8,6 @@ mod goals;
 mod locks;
 mod mutual;
 mod rate;
-mod ridges;
 mod roots;
 mod sleep;
 mod wind;
