@@ -102,9 +102,9 @@ fn draw_decals(
                     own = no_decals();
                     key = next_key;
                 }
-                add_decal(&own, *samples, marks, segment, x, y);
+                add_decal(&own, *samples, marks, segment, x, y, first_sample);
             } else {
-                add_decal(&decals, *samples, marks, segment, x, y);
+                add_decal(&decals, *samples, marks, segment, x, y, first_sample);
             }
         }
         workgroupBarrier();
@@ -152,8 +152,23 @@ fn whole_strand(strand: u32) -> u32 {
     return tables[at + 1u + strand];
 }
 
+/// The part of a decal's reach within which each of four samples shows it, as crate::drawing::shown_reach.
+fn shown_reach(first_sample: u32) -> vec4<f32> {
+    let mixed = (vec4<u32>(first_sample) + vec4<u32>(0u, 1u, 2u, 3u)) * 0x9E3779B9u;
+    let part = vec4<f32>(mixed >> vec4<u32>(8u)) / 16777216.0;
+    return 0.5 + 0.5 * select(part, vec4<f32>(0.5), gpu_frame.samples == 1u);
+}
+
 /// Adds a segment to the decals.
-fn add_decal(decals: ptr<function, Decals>, samples: Samples, marks: vec4<u32>, s: Segment, x: vec4<f32>, y: vec4<f32>) {
+fn add_decal(
+    decals: ptr<function, Decals>,
+    samples: Samples,
+    marks: vec4<u32>,
+    s: Segment,
+    x: vec4<f32>,
+    y: vec4<f32>,
+    first_sample: u32,
+) {
     let p = local_of(s.sweep, x, y);
     let covered = covers(s.sweep, p);
     if (!any(covered)) {
@@ -169,7 +184,8 @@ fn add_decal(decals: ptr<function, Decals>, samples: Samples, marks: vec4<u32>, 
     let seen = select(samples.surface, samples.strand, is_hair);
     // How far the seen lies behind, and the reach, both times the inverse depths.
     let behind = depth - seen;
-    let reach = table(s.record + DECAL_REACH) * (depth * seen);
+    let shown = select(shown_reach(first_sample), vec4<f32>(1.0), is_shadow);
+    let reach = shown * table(s.record + DECAL_REACH) * (depth * seen);
     let is_near = (behind <= reach) & (behind >= -reach);
     let is_in_shadow = select(behind >= -reach, behind > reach, is_hair);
     var fits = covered & is_target & select(is_near, is_in_shadow, vec4<bool>(is_shadow)) & (depth > vec4<f32>(0.0));

@@ -136,11 +136,11 @@ impl Candidates {
         }
     }
 
-    /// The colour at `point`, or nothing where the picture is transparent.
-    pub fn color(&self, point: DVec2) -> Option<[f64; 3]> {
+    /// The colour at `point`, or nothing where the picture is transparent. `shown_reach` is the part of their reach in which its sample shows decals.
+    pub fn color(&self, point: DVec2, shown_reach: f32) -> Option<[f64; 3]> {
         let shown = self.shown(point);
         let mut decals = self.decals.iter();
-        if let Some(color) = decals.find_map(|decal| decal.on(&shown, point)) {
+        if let Some(color) = decals.find_map(|decal| decal.on(&shown, point, shown_reach)) {
             return Some(color);
         }
         match shown {
@@ -347,7 +347,7 @@ impl DecalStroke {
     }
 
     /// The colour that it gives a point, if it fits what that shows.
-    fn on(&self, shown: &Shown, point: DVec2) -> Option<[f64; 3]> {
+    fn on(&self, shown: &Shown, point: DVec2, shown_reach: f32) -> Option<[f64; 3]> {
         let (depth, shadow) = match shown {
             Shown::Nothing => return None,
             Shown::Hair(hair) => {
@@ -369,7 +369,7 @@ impl DecalStroke {
             let behind_m = 1.0 / depth - 1.0 / inv_depth;
             inv_depth > 0.0
                 && match (self.decal.is_shadow, shadow.is_some()) {
-                    (false, _) => behind_m.abs() <= reach_m,
+                    (false, _) => behind_m.abs() <= f64::from(shown_reach) * reach_m,
                     (true, true) => behind_m >= -reach_m,
                     (true, false) => behind_m > reach_m,
                 }

@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use render::{Drawing, DrawnFeatures, Feature, NO_ID, Sample, object_of_hair, object_of_mesh};
 
 /// What the sample at `position` in each pixel tells, row by row, from 0 to 1 on both axes with y down. All features that the drawing has
-/// lists for are worked out, whatever is declared.
+/// lists for are worked out, whatever is declared. `shown_reach` is the part of their reach in which it shows decals ([`render::shown_reach`]).
 ///
 /// # Panics
 ///
 /// As [`picture_at`](crate::picture_at), and where a run has no information.
-pub fn samples_at(drawing: &Drawing, position: DVec2) -> Vec<Sample> {
+pub fn samples_at(drawing: &Drawing, position: DVec2, shown_reach: f32) -> Vec<Sample> {
     let [width, height] = drawing.size;
     let scene = Candidates::new(drawing);
     let rows = (0..height).into_par_iter().flat_map_iter(|y| {
@@ -24,6 +24,7 @@ pub fn samples_at(drawing: &Drawing, position: DVec2) -> Vec<Sample> {
                     drawing,
                     &scene,
                     position + DVec2::new(f64::from(x), corner.y),
+                    shown_reach,
                 )
             })
             .collect();
@@ -32,10 +33,12 @@ pub fn samples_at(drawing: &Drawing, position: DVec2) -> Vec<Sample> {
     rows.collect()
 }
 
-fn sample(drawing: &Drawing, scene: &Candidates, point: DVec2) -> Sample {
-    let color = scene.color(point).map_or([0.0; 4], |[red, green, blue]| {
-        [red, green, blue, 1.0].map(|value| value.clamp(0.0, 1.0) as f32)
-    });
+fn sample(drawing: &Drawing, scene: &Candidates, point: DVec2, shown_reach: f32) -> Sample {
+    let color = scene
+        .color(point, shown_reach)
+        .map_or([0.0; 4], |[red, green, blue]| {
+            [red, green, blue, 1.0].map(|value| value.clamp(0.0, 1.0) as f32)
+        });
     match scene.shown(point) {
         Shown::Nothing => Sample {
             color,

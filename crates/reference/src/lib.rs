@@ -108,8 +108,9 @@ fn row(scene: &Candidates, width: u32, y: u32, positions: &[DVec2]) -> Vec<[f32;
 fn pixel(scene: &Candidates, corner: DVec2, positions: &[DVec2]) -> [f32; 4] {
     let scene = scene.within(corner, corner + 1.0);
     let mut sum = [0.0; 4];
-    for position in positions {
-        if let Some([red, green, blue]) = scene.color(corner + *position) {
+    for (sample, position) in positions.iter().enumerate() {
+        let reach = render::shown_reach(sample as u32, positions.len() as u32);
+        if let Some([red, green, blue]) = scene.color(corner + *position, reach) {
             for (total, value) in sum.iter_mut().zip([red, green, blue, 1.0]) {
                 *total += value.clamp(0.0, 1.0);
             }

@@ -154,8 +154,8 @@ pub struct Surface {
 /// A layer whose strokes are drawn on what is seen without them, and nowhere else.
 ///
 /// They are no part of the order of strokes. A segment of such a stroke fits a sample that it covers where what is seen there, had the drawing
-/// no decals, is one of those that it is drawn on, and lies at most `reach_m` before or behind the segment's axis point of least distance over
-/// radius. Of those that fit the highest stroke (by rank, layer, instance) gives its colour, of these the lowest strand, then the
+/// no decals, is one of those that it is drawn on, and lies at most [`shown_reach`] of `reach_m` before or behind the segment's axis point of least
+/// distance over radius. Of those that fit the highest stroke (by rank, layer, instance) gives its colour, of these the lowest strand, then the
 /// segment whose axis point is the nearest. What samples tell beside their colour stays that of what is drawn on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decal {
@@ -165,12 +165,24 @@ pub struct Decal {
     pub on_hair: bool,
     /// The surfaces that it is drawn on: those that have one of these marks.
     pub marks: u32,
-    /// Metres, 0 or more.
+    /// Metres, 0 or more. Half as far and nearer every sample shows it, beyond none.
     pub reach_m: f32,
-    /// Whether its strokes are shadows. These fit surfaces that are at most `reach_m` before them, or any way behind, and hair of other strands
+    /// Whether its strokes are shadows. All of `reach_m` counts in every sample of these: they fit surfaces that are at most `reach_m` before them, or any way behind, and hair of other strands
     /// that is more than `reach_m` behind them. A surface shows its own colour in shadow there; a painted one lies in shadow whatever the
     /// light.
     pub is_shadow: bool,
+}
+
+/// The part of a decal's reach within which a sample shows it: half of it in the first of a pixel's samples, and more in each of the others, so that a
+/// stroke that moves out of reach fades where an edge in depth would make it jump. 0.75 where a pixel has one sample.
+#[must_use]
+pub fn shown_reach(sample: u32, samples: u32) -> f32 {
+    let part = if samples == 1 {
+        0.5
+    } else {
+        scatter(0, sample)
+    };
+    0.5 + 0.5 * part
 }
 
 impl Decal {

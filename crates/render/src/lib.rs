@@ -60,7 +60,7 @@ pub use brushwork::{AlongStrand, BrushedLayer, Brushwork};
 pub use check::{DrawError, MAX_COORDINATE, MAX_SIZE};
 pub use drawing::{
     Brush, Coverage, Decal, Disc, Drawing, LayerStrokes, Order, Run, Stretch, Stretches, Surface,
-    SurfaceTexture, SurfaceVertex, scatter,
+    SurfaceTexture, SurfaceVertex, scatter, shown_reach,
 };
 pub use edges::{EdgeChannel, Edges};
 pub use features::{

@@ -141,6 +141,7 @@ fn a_decal_shows_on_its_target_alone() {
     assert_eq!(beside, [RED, RED, BLACK]);
     let both = Decal {
         marks: MARK,
+        reach_m: 0.5,
         ..ON_HAIR
     };
     let [wall, beside] = columns(&drawing(25.0, 2.25, &both), [18, 22, 28]);
@@ -157,20 +158,42 @@ fn a_decal_shows_on_its_target_alone() {
 
 #[test]
 fn a_decal_shows_as_far_before_and_behind_its_target_as_it_reaches() {
+    // As far as half its reach in every sample.
     for (depth_m, expected) in [
         (1.74, RED),
-        (1.76, GREEN),
+        (1.88, GREEN),
         (2.0, GREEN),
-        (2.24, GREEN),
+        (2.12, GREEN),
         (2.26, RED),
     ] {
         let [_, [hair, ..]] = columns(&drawing(25.0, depth_m, &ON_HAIR), [22, 22, 22]);
         assert_eq!(hair, expected, "{depth_m}");
     }
-    for (depth_m, expected) in [(2.24, WALL), (2.26, GREEN), (2.74, GREEN), (2.76, WALL)] {
+    for (depth_m, expected) in [(2.24, WALL), (2.38, GREEN), (2.62, GREEN), (2.76, WALL)] {
         let [[.., wall], _] = columns(&drawing(25.0, depth_m, &ON_WALL), [18, 22, 28]);
         assert_eq!(wall, expected, "{depth_m}");
     }
+}
+
+#[test]
+fn a_decal_fades_on_its_way_out_of_reach() {
+    // How much of a pixel in the middle of the hair it takes: nothing jumps by more than one of 64 samples.
+    let green = |depth_m: f32| {
+        let mut rasterizer = Rasterizer::new(64, Some(1)).unwrap();
+        let picture = rasterizer.draw(&drawing(25.0, depth_m, &ON_HAIR)).unwrap();
+        picture.pixels[22 * 40 + 8][1]
+    };
+    let mut before = green(2.1);
+    assert_eq!(before, 1.0);
+    for step in 1..=80 {
+        let now = green(2.1 + 0.002 * step as f32);
+        assert!(
+            (0.0..=0.05).contains(&(before - now)),
+            "{step}: {before} {now}"
+        );
+        before = now;
+    }
+    assert_eq!(before, 0.0);
 }
 
 #[test]

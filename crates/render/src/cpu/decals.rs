@@ -13,7 +13,7 @@ use super::tile::{
     plane, select, without,
 };
 use super::{Frame, Worker};
-use crate::drawing::{Decal, Drawing, Order};
+use crate::drawing::{Decal, Drawing, Order, shown_reach};
 use std::cmp::Reverse;
 use std::ops::Range;
 
@@ -174,6 +174,7 @@ impl Worker {
                 drawing: frame.drawing,
                 strand: frame.drawing.whole_strand(first.strand),
                 list: frame.parts.segments.list(),
+                reach_m: reaches_m(decal, scene.stack),
                 target,
                 shown,
                 brush: frame.drawing.brushwork.of_layer(layer).map(|brushed| {
@@ -431,6 +432,8 @@ struct Offer<'a> {
     strand: u32,
     /// The segments of hair.
     list: &'a [Segment],
+    /// How far the decal reaches in each lane.
+    reach_m: Lanes,
     /// What samples show.
     target: &'a Target,
     shown: &'a Shown,
@@ -518,14 +521,14 @@ impl Offer<'_> {
     fn fits(&self, cell: Cell, samples: &LaneMask, inv_depth: &Lanes) -> LaneMask {
         let (target, shown) = (self.target, self.shown);
         let (hair, surface) = (&target.strand[cell.index], &target.surface[cell.index]);
-        let (reach_m, is_shadow) = (self.decal.reach_m, self.decal.is_shadow);
+        let is_shadow = self.decal.is_shadow;
         let mut fits = *samples;
         for k in 0..LANES {
             let is_hair = hair[k] > NOTHING;
             let seen = select(is_hair, hair[k], surface[k]);
             // How far the seen lies behind, and the reach, both times the inverse depths.
             let behind = inv_depth[k] - seen;
-            let reach = reach_m * (inv_depth[k] * seen);
+            let reach = self.reach_m[k] * (inv_depth[k] * seen);
             let is_near = (behind <= reach) & (behind >= -reach);
             let is_in_shadow = select(is_hair, behind > reach, behind >= -reach);
             let is_right = select(is_shadow, is_in_shadow, is_near) & (inv_depth[k] > 0.0);
@@ -550,6 +553,19 @@ impl Offer<'_> {
         }
         fits
     }
+}
+
+/// How far a decal reaches in the samples of each lane.
+#[inline(always)]
+fn reaches_m(decal: &Decal, stack: &Stack) -> Lanes {
+    let together = stack.lanes_of_pixel();
+    let mut reaches = [decal.reach_m; LANES];
+    if !decal.is_shadow {
+        for (k, reach) in reaches.iter_mut().enumerate() {
+            *reach *= shown_reach((stack.first + k % together) as u32, together as u32);
+        }
+    }
+    reaches
 }
 
 /// Marks samples of a cell as in the shadow of hair.

@@ -115,15 +115,16 @@ fn agree(a: &Sample, b: &Sample, sides: Sides) -> bool {
 fn wrong(drawing: &Drawing, count: u32, sides: Sides) -> (usize, Option<(Sample, Sample)>) {
     let told = samples(drawing, count, 2);
     let mut wrong = Vec::new();
-    for (told, position) in told.iter().zip(positions(count)) {
-        let reference = reference::samples_at(drawing, position);
+    for (sample, (told, position)) in (0..).zip(told.iter().zip(positions(count))) {
+        let reach = render::shown_reach(sample, count);
+        let reference = reference::samples_at(drawing, position, reach);
         let differs = |i: &usize| !agree(&told[*i], &reference[*i], sides);
         let mut different: Vec<usize> = (0..told.len()).filter(differs).collect();
         if !different.is_empty() {
             let moved = [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y]
-                .map(|way| reference::samples_at(drawing, position + way * 4e-3));
-            let nudged =
-                [1e-6, -1e-6].map(|by| reference::samples_at(&nudged(drawing, by), position));
+                .map(|way| reference::samples_at(drawing, position + way * 4e-3, reach));
+            let nudged = [1e-6, -1e-6]
+                .map(|by| reference::samples_at(&nudged(drawing, by), position, reach));
             for other in moved.iter().chain(&nudged) {
                 different.retain(|i| agree(&other[*i], &reference[*i], sides));
             }

@@ -37,7 +37,9 @@ pub(crate) fn clear(
             let mut moves_here = false;
             for (t, gap) in PLACES.into_iter().zip(gap(i)) {
                 let place = on_path(points, i, t);
-                let Some(push) = push(place, colliders, f64::from(gap)) else {
+                // What has been moved may have come near others.
+                let may_meet = |body: &usize| moves_here || near.may_meet(*body);
+                let Some(push) = push(place, colliders, may_meet, f64::from(gap)) else {
                     continue;
                 };
                 // As little as moves the place by that much; what is held stays.
@@ -91,25 +93,45 @@ pub(crate) fn gaps(points: &[Vec3], colliders: &[Collider], most: f32) -> Vec<Ga
             continue;
         }
         for (t, gap) in PLACES.into_iter().zip(&mut gaps[i]) {
-            *gap = gap.min(distance(on_path(points, i, t), colliders) as f32);
+            let place = on_path(points, i, t);
+            let bodies = colliders.iter().enumerate();
+            for (_, collider) in bodies.filter(|(body, _)| near.may_meet(*body)) {
+                *gap = gap.min(collider.distance(place) as f32);
+            }
         }
     }
     gaps
 }
 
-/// How far a strand is from bodies at the point that it has been followed to.
+/// How far a strand is from each body at the point that it has been followed to.
 struct Near<'a> {
     colliders: &'a [Collider<'a>],
+    bodies: Vec<Body>,
+}
+
+struct Body {
     /// No more than the distance there, m.
     distance: f64,
+    /// Whether the way to there may come nearer than was asked for.
+    may_meet: bool,
 }
 
 impl<'a> Near<'a> {
     fn new(points: &[Vec3], at: usize, colliders: &'a [Collider<'a>]) -> Self {
+        let at = points[at].as_dvec3();
+        let body = |collider: &Collider| Body {
+            distance: collider.distance(at),
+            may_meet: false,
+        };
         Self {
-            distance: distance(points[at].as_dvec3(), colliders),
+            bodies: colliders.iter().map(body).collect(),
             colliders,
         }
+    }
+
+    /// Whether the way to the point that was gone on to last may meet a body.
+    fn may_meet(&self, body: usize) -> bool {
+        self.bodies[body].may_meet
     }
 
     /// Goes on to the next point, `to`. Whether all on the way that is drawn there is farther from bodies than `gap` m.
@@ -117,15 +139,20 @@ impl<'a> Near<'a> {
         let link = f64::from(points[to].distance(points[to - 1]));
         // No place of the spline is farther than this from the link.
         let bulge = 0.125 * bend(points, to - 1).max(bend(points, to));
-        if self.distance - link - bulge > gap {
-            // Nothing on the way is nearer than this; the distance itself is not asked for.
-            self.distance -= link;
-            return true;
+        let mut is_clear = true;
+        for (body, collider) in self.bodies.iter_mut().zip(self.colliders) {
+            let before = body.distance;
+            // Nothing on the way is nearer than this: so the distance itself is not asked for.
+            body.distance -= link;
+            body.may_meet = body.distance - bulge <= gap;
+            if body.may_meet {
+                body.distance = collider.distance(points[to].as_dvec3());
+                // A place of the link is no nearer than the mean of its ends less half of it.
+                body.may_meet = 0.5 * (before + body.distance - link) - bulge <= gap;
+                is_clear &= !body.may_meet;
+            }
         }
-        let before = self.distance;
-        self.distance = distance(points[to].as_dvec3(), self.colliders);
-        // A place of the link is no nearer than the mean of its ends less half of it.
-        0.5 * (before + self.distance - link) - bulge > gap
+        is_clear
     }
 }
 
@@ -152,16 +179,19 @@ fn on_path(points: &[Vec3], to: usize, t: f64) -> DVec3 {
     b + (from + (3.0 * way - 2.0 * from - to + (from + to - 2.0 * way) * t) * t) * t
 }
 
-/// How far a place is from the nearest body, m, negative inside.
-fn distance(at: DVec3, colliders: &[Collider]) -> f64 {
-    let distances = colliders.iter().map(|collider| collider.distance(at));
-    distances.fold(f64::INFINITY, f64::min)
-}
-
-/// What takes a place out of the body that it is deepest in, to `gap` m from it; nothing where it is out of all.
-fn push(at: DVec3, colliders: &[Collider], gap: f64) -> Option<DVec3> {
+/// What takes a place out of the body that it is deepest in, of those that it may meet, to `gap` m from it; nothing where it is out of all.
+fn push(
+    at: DVec3,
+    colliders: &[Collider],
+    may_meet: impl Fn(&usize) -> bool,
+    gap: f64,
+) -> Option<DVec3> {
     let mut deepest: Option<(f64, &Collider)> = None;
-    for collider in colliders {
+    for (_, collider) in colliders
+        .iter()
+        .enumerate()
+        .filter(|(body, _)| may_meet(body))
+    {
         let distance = collider.distance(at);
         if distance < gap - NEAR && deepest.is_none_or(|(other, _)| distance < other) {
             deepest = Some((distance, collider));
@@ -180,6 +210,12 @@ mod tests {
     fn ball(y: f64, radius: f64) -> Collider<'static> {
         let center = DVec3::new(0.0, y, 0.0);
         Collider::fixed(Shape::Sphere { center, radius }, Pose::IDENTITY)
+    }
+
+    /// How far a place is from the nearest body, m, negative inside.
+    fn distance(at: DVec3, colliders: &[Collider]) -> f64 {
+        let distances = colliders.iter().map(|collider| collider.distance(at));
+        distances.fold(f64::INFINITY, f64::min)
     }
 
     /// The nearest place to bodies of the way that is drawn through points.
