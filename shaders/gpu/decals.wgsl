@@ -18,13 +18,15 @@ struct Decals {
     disc: vec4<u32>,
     way: vec4<f32>,
     is_shadow: vec4<bool>,
-    /// Where `BRUSHED`, as that of a `Paint`.
+    /// Where `BRUSHED`, as those of a `Paint`.
     side: vec4<f32>,
+    side_ratio: vec4<f32>,
 }
 
 fn no_decals() -> Decals {
     let none = vec4<u32>(0u);
-    return Decals(none, none, vec4<f32>(FAR_RATIO), none, vec4<f32>(0.0), vec4<bool>(false), vec4<f32>(1.0));
+    let far = vec4<f32>(FAR_RATIO);
+    return Decals(none, none, far, none, vec4<f32>(0.0), vec4<bool>(false), vec4<f32>(1.0), far);
 }
 
 /// Takes from one stroke of a decal, with that record, what its brush leaves bare.
@@ -54,6 +56,7 @@ fn higher_decals(a: Decals, b: Decals) -> Decals {
         select(a.way, b.way, wins),
         select(a.is_shadow, b.is_shadow, wins),
         select(a.side, b.side, wins),
+        select(a.side_ratio, b.side_ratio, wins),
     );
 }
 
@@ -211,7 +214,9 @@ fn add_decal(
     (*decals).way = select((*decals).way, s.way.x + at.u * s.way.y, wins);
     (*decals).is_shadow = select((*decals).is_shadow, vec4<bool>(is_shadow), wins);
     if (BRUSHED) {
-        (*decals).side = select((*decals).side, side_of(s, p), wins);
+        let tells_side = fits & (is_higher | (is_same & (at.ratio < (*decals).side_ratio * NEARER)));
+        (*decals).side = select((*decals).side, side_of(s, p), tells_side);
+        (*decals).side_ratio = select((*decals).side_ratio, at.ratio, tells_side);
     }
 }
 

@@ -4,6 +4,7 @@
 use std::io::{self, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
 use serde_json::Value;
 
@@ -33,11 +34,13 @@ pub fn run() -> Outcome {
     let mut programs = tests_of(&program::built_with_tests()?);
     programs.sort_by_key(|tests| !tests.name.ends_with(LONGEST));
     let ends = work::on_all_cores(&programs, "programs of tests", |tests| {
+        let start = Instant::now();
         let (said, is_good) = tests.run().unwrap_or_else(|error| {
             let said = format!("cannot start {}: {error}", tests.file.display());
             (said, false)
         });
-        println!("-- {}: {}\n", tests.name, said.trim());
+        let time = start.elapsed().as_secs_f32();
+        println!("-- {}, {time:.1} s: {}\n", tests.name, said.trim());
         is_good
     });
     let failures = programs.iter().zip(&ends).filter(|(_, is_good)| !**is_good);

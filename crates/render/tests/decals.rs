@@ -2,13 +2,13 @@
 //! reference's in any drawing is held by `rasteriser`.
 
 use effects::preset::Reader;
-use effects::{Image, Layer, Registry};
+use effects::{BrushSection, BrushTexture, Fit, Image, Layer, Registry};
 use glam::{Vec2, Vec3};
 use render::cpu::Rasterizer;
 use render::{
-    Coverage, Decal, Disc, DrawError, Drawing, Head, LayerStrokes, Light, MeshLayer, MeshPainting,
-    Order, PaintedLayer, PaintedMeshes, Run, Seen, Stretches, Surface, SurfacePaint,
-    SurfaceTexture, SurfaceVertex,
+    AlongStrand, BrushedLayer, Brushwork, Coverage, Decal, Disc, DrawError, Drawing, Head,
+    LayerStrokes, Light, MeshLayer, MeshPainting, Order, PaintedLayer, PaintedMeshes, Run, Seen,
+    Stretches, Surface, SurfacePaint, SurfaceTexture, SurfaceVertex,
 };
 use std::ops::Range;
 use std::sync::Arc;
@@ -194,6 +194,65 @@ fn a_decal_fades_on_its_way_out_of_reach() {
         before = now;
     }
     assert_eq!(before, 0.0);
+}
+
+/// Where a stroke turns back in one joint, both its segments are as near to what lies beyond, and see it on other sides: rounding must not choose
+/// between them.
+#[test]
+fn a_brush_beyond_a_joint_that_turns_back_is_in_one_piece() {
+    let disc = |x, y| Disc {
+        center: Vec2::new(x, y),
+        radius: 9.0,
+        inv_depth: 0.5,
+        inv_depth_biased: 0.5,
+    };
+    let joints = [[3.3, 20.1], [22.7, 21.9], [4.9, 24.3]].map(|[x, y]| disc(x, y));
+    let mut drawing = drawing(20.0, 2.0, &ON_HAIR);
+    drawing.runs[1].joints = 2..5;
+    drawing.clump.truncate(2);
+    drawing.clump.extend(joints);
+    drawing.layers[1] = layer(2..5, -3, &joints, GREEN);
+    // One half of the stroke, from its axis to an edge.
+    let image = Image::of_coverage([1, 2], &[1.0, 0.0]).unwrap();
+    let section = BrushSection {
+        fit: Some(Fit::Stretch),
+        ..BrushSection::default()
+    };
+    let brush = Arc::new(BrushTexture::of_picture(&section, &image).unwrap());
+    let along = |s| AlongStrand {
+        s,
+        whole: 1.0,
+        pixels: 40.0,
+        strand: 1,
+    };
+    drawing.brushwork = Brushwork {
+        layers: vec![BrushedLayer {
+            layer: 1,
+            brush,
+            seed: 1,
+        }],
+        joints: [0.0, 1.0, 0.0, 0.5, 1.0].map(along).to_vec(),
+    };
+    let picture = Rasterizer::new(1, Some(1)).unwrap().draw(&drawing).unwrap();
+    // Of pixels beyond the joint how many are green on each side of the way to it, and of how many.
+    let [start, joint, end] = joints.map(|disc| disc.center);
+    let mut green = [(0, 0); 2];
+    for y in 16..25 {
+        for x in 23..32 {
+            let from = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) - joint;
+            let is_beyond = from.dot(start - joint) < 0.0 && from.dot(end - joint) < 0.0;
+            let side = (joint - start).normalize().perp_dot(from);
+            if is_beyond && from.length() < 8.5 && side.abs() > 1.0 {
+                let (count, all) = &mut green[usize::from(side > 0.0)];
+                *count += usize::from(picture.pixels[y * 40 + x][1] > 0.5);
+                *all += 1;
+            }
+        }
+    }
+    assert!(green.iter().all(|(_, all)| *all > 10), "{green:?}");
+    let is_whole = |side: usize| green[side] == (green[side].1, green[side].1);
+    assert!(is_whole(0) != is_whole(1), "{green:?}");
+    assert!(green.iter().any(|(count, _)| *count == 0), "{green:?}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::brush::StrokeBrush;
 use super::segment::{Kind, Segment, Segments, Stroke, strokes_in_order};
 use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
 use super::strand::TileContext;
-use super::stroke::Placed;
+use super::stroke::{NEARER, Placed, across};
 use super::tile::{
     self, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, Plane, ROWS, Stack,
     Target, WIDTH, add, any, both, cells, columns, id_plane, is_empty, least, lesser, overwrite,
@@ -74,11 +74,20 @@ struct Planes {
     places: Option<PlacePlanes>,
 }
 
-/// Places beside strokes: the segments, the way from their first joints to the next, and across.
+/// Places beside strokes: the segments, the way from their first joints to the next, and the side with the ratio of the segment that says so.
 struct PlacePlanes {
     segment: IdPlane,
     way: Plane,
-    across: Plane,
+    side: Plane,
+    side_ratio: Plane,
+}
+
+/// The samples of a cell that a segment fits, those of them to which it is the nearest so far, those that earlier ones fit, and its ratios.
+struct Nearer<'a> {
+    fits: &'a LaneMask,
+    wins: &'a LaneMask,
+    taken: &'a LaneMask,
+    ratio: &'a Lanes,
 }
 
 /// What the samples of a tile show that are no decals.
@@ -342,21 +351,34 @@ impl Planes {
         seen
     }
 
-    /// Notes where beside a segment some samples of a cell lie.
+    /// Notes where beside a segment those samples of a cell lie that it fits and is nearer to than others before it, of which some fit those that
+    /// are `taken`.
     #[inline(always)]
-    fn put_places(&mut self, cell: Cell, segment: u32, placed: &Placed, samples: &LaneMask) {
+    fn put_places(&mut self, cell: Cell, segment: u32, placed: &Placed, nearer: Nearer) {
         let places = self.places.get_or_insert_with(|| PlacePlanes {
             segment: id_plane(),
             way: plane(),
-            across: plane(),
+            side: plane(),
+            side_ratio: plane(),
         });
-        let (way, across) = placed.place(cell);
+        let Nearer {
+            fits,
+            wins,
+            taken,
+            ratio,
+        } = nearer;
+        let (way, side) = placed.place(cell);
         let segments = &mut places.segment[cell.index];
+        let side_ratio = &places.side_ratio[cell.index];
+        let mut tells_side = *fits;
         for k in 0..LANES {
-            segments[k] = select(samples[k] != 0, segment, segments[k]);
+            segments[k] = select(wins[k] != 0, segment, segments[k]);
+            let tells = (taken[k] == 0) | (ratio[k] < side_ratio[k] * NEARER);
+            tells_side[k] &= select(tells, u32::MAX, 0);
         }
-        overwrite(&mut places.way[cell.index], &way, samples);
-        overwrite(&mut places.across[cell.index], &across, samples);
+        overwrite(&mut places.way[cell.index], &way, wins);
+        overwrite(&mut places.side[cell.index], &side, &tells_side);
+        overwrite(&mut places.side_ratio[cell.index], ratio, &tells_side);
     }
 
     /// Takes from the samples that a stroke fits those that its brush leaves bare.
@@ -368,8 +390,9 @@ impl Planes {
         for row in 0..ROWS {
             for cell in cells(row, columns(taken, row)) {
                 let at = cell.index;
-                let [way, across] = [&places.way[at], &places.across[at]];
-                let bare = brush.bare(&cell.lanes(taken), &places.segment[at], way, across);
+                let across = across(&places.side[at], &self.ratio[at]);
+                let (segment, way) = (&places.segment[at], &places.way[at]);
+                let bare = brush.bare(&cell.lanes(taken), segment, way, &across);
                 cell.take_from(taken, &bare);
             }
         }
@@ -488,7 +511,13 @@ impl Offer<'_> {
                 }
                 overwrite(&mut planes.ratio[cell.index], &beside.ratio, &wins);
                 if self.brush.is_some() {
-                    planes.put_places(cell, index, &placed, &wins);
+                    let nearer = Nearer {
+                        fits: &fits,
+                        wins: &wins,
+                        taken: &before,
+                        ratio: &beside.ratio,
+                    };
+                    planes.put_places(cell, index, &placed, nearer);
                 }
                 for (plane, color) in planes.color.iter_mut().zip(&beside.color) {
                     overwrite(&mut plane[cell.index], color, &wins);

@@ -118,20 +118,20 @@ impl Placed {
 }
 
 impl Placed {
-    /// The way from the segment's first joint to the next at the axis points that are the nearest to the samples of a cell, and places across,
-    /// -1 to 1.
+    /// The way from the segment's first joint to the next at the axis points that are the nearest to the samples of a cell, and the samples' sides:
+    /// 1 to the right of who walks from root to tip, else -1.
     #[inline(always)]
     pub(super) fn place(&self, cell: Cell) -> (Lanes, Lanes) {
         let (x, y) = (self.x.of(cell), self.y.of(cell));
         let Shape { sweep, way, .. } = &self.shape;
         let side = select((way.rise < 0.0) & sweep.has_direction(), -1.0, 1.0);
-        let (mut ways, mut across) = ([0.0; LANES], [0.0; LANES]);
+        let (mut ways, mut sides) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
-            let (u, ratio) = sweep.attribute_point(x[k], y[k]);
+            let (u, _) = sweep.attribute_point(x[k], y[k]);
             ways[k] = way.at(u);
-            across[k] = select(y[k] < 0.0, -side, side) * lesser(ratio, 1.0).sqrt();
+            sides[k] = select(y[k] < 0.0, -side, side);
         }
-        (ways, across)
+        (ways, sides)
     }
 }
 
@@ -367,7 +367,17 @@ pub(super) struct Places<const COLORED: bool> {
 
 /// A later segment says on which side a sample lies only where its ratio is less by this factor: around a joint, where a stroke turns back, two
 /// segments are equally near and may see the sample on other sides, which rounding must not decide.
-const NEARER: f32 = 0.999;
+pub(super) const NEARER: f32 = 0.999;
+
+/// Places across a stroke, -1 to 1, of samples on these sides of it and with these squares of distance over radius.
+#[inline(always)]
+pub(super) fn across(side: &Lanes, ratio: &Lanes) -> Lanes {
+    let mut across = *side;
+    for k in 0..LANES {
+        across[k] *= lesser(ratio[k], 1.0).sqrt();
+    }
+    across
+}
 
 impl<const COLORED: bool> Places<COLORED> {
     #[inline(always)]
@@ -385,10 +395,6 @@ impl<const COLORED: bool> Places<COLORED> {
     /// Places across the stroke, -1 to 1.
     #[inline(always)]
     pub(super) fn across(&self) -> Lanes {
-        let mut across = self.side;
-        for k in 0..LANES {
-            across[k] *= lesser(self.ratio[k], 1.0).sqrt();
-        }
-        across
+        across(&self.side, &self.ratio)
     }
 }
