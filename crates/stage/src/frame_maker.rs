@@ -13,7 +13,7 @@ use crate::levels::levels;
 use crate::look::{LineSet, Look};
 use crate::material::Material;
 use crate::motion::{Motion, ObjectMotion};
-use crate::neck::{PosedHead, rigid};
+use crate::neck::PosedHead;
 use crate::object::{Object, PathShape};
 use crate::posture::Posture;
 use crate::reach::Sight;
@@ -537,7 +537,7 @@ impl ObjectFrame {
         let rest = &hair.file.strands;
         let points = motion.points(&self.of);
         let strands = || (0..rest.len()).map(|strand| rest.point_range(strand));
-        let (rotation, _) = rigid(motion.head_pose(), hair.head);
+        let rotation = motion.head_pose().rotation(1.0);
         material.turn(rest.points(), strands(), hair.head.center, rotation);
         match motion.dynamics() {
             _ if hair.file.motion.is_some() || motion.has_points_alone(&self.of) => {
@@ -624,7 +624,12 @@ impl ObjectFrame {
         }
         let head = self.of.hair().head;
         let paint = self.of.look().paint(head);
-        let posture = Posture::of(motion.head_pose(), head, script, motion.posed_s());
+        let posture = Posture::of(
+            motion.head_pose(),
+            (head, self.of.pivot()),
+            script,
+            motion.posed_s(),
+        );
         let drawn = script.bodies.iter().filter_map(|body| {
             let mesh = body.drawn(motion.posed_s(), &posture)?;
             let (center, radius_m) = ball_around(&mesh.positions);

@@ -307,6 +307,11 @@ fn they_are_set_by_their_number() {
 
 /// A preset of things alone, without a file.
 fn things(meshes: &str, lines: &str, layers: &str) -> Result<Stage, String> {
+    things_of(meshes, lines, layers, &Files::default())
+}
+
+/// The same with files that are given.
+fn things_of(meshes: &str, lines: &str, layers: &str, files: &Files) -> Result<Stage, String> {
     let text = format!(
         "(version: 1, head: (shape: none), meshes: [{meshes}],\n \
          scene: (size: (240, 240), samples: 4, background: \"FFFFFF\"), camera: (distance: 3, pitch: 20),\n \
@@ -314,10 +319,9 @@ fn things(meshes: &str, lines: &str, layers: &str) -> Result<Stage, String> {
     );
     let registry = registry();
     let preset = Preset::parse("look.ron", &text, &registry).map_err(|error| error.to_string())?;
-    let files = Files::default();
-    let checked = preset.check_scene("look.ron", &text, &files);
+    let checked = preset.check_scene("look.ron", &text, files);
     checked.map_err(|error| error.to_string())?;
-    Stage::new(&preset, &files).map_err(|error| error.to_string())
+    Stage::new(&preset, files).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -360,6 +364,27 @@ fn things_need_neither_file_nor_hair_nor_head() {
         assert!(message.contains(expected), "{message}\n  lacks {expected}");
     }
     assert!(error("(shape: cup, name: \"mine\")", INK).is_empty());
+}
+
+/// What effects and lamps are told of things is of their middle, about which they turn, and not of a neck.
+#[test]
+fn things_that_spin_stay_where_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = folder.path().join("spin.motion.ron");
+    let text = "(version: 1, moves: [(move: spin, length: 1, angle: 90), (move: lean, length: 1, angle: 40)])";
+    fs::write(&script, text).unwrap();
+    let files = Files {
+        motion: Some(script),
+        ..Files::default()
+    };
+    let mut stage = things_of("(shape: cup, at: (0.3, 0.2, 0))", "", "", &files).unwrap();
+    let at_rest = stage.head();
+    for time in [0.5, 1.0, 2.0] {
+        stage.advance_to(time).unwrap();
+        let head = stage.frame().unwrap().objects[0].head;
+        let off = head.center.distance(at_rest.center);
+        assert!(off < 1e-6 * at_rest.height_m, "{time}: {off}");
+    }
 }
 
 #[test]
