@@ -16,7 +16,7 @@ const SHOULDERS: f32 = -0.95;
 const JAW: f32 = -0.42;
 /// Corners of one share turn alike: as many turns as there are steps are enough for the eye.
 const STEPS: usize = 256;
-/// How much farther from the neck than at rest bones may take hands and feet.
+/// How much farther from the neck than at rest bones may take hands and feet, and beats a wing.
 const STRETCH: f32 = 2.0;
 /// Corners that a thread poses at a time, at least.
 const SOME_CORNERS: usize = 2048;
@@ -104,7 +104,7 @@ impl Neck {
     /// The ball that all of the head stays in, in this pose: its middle and its radius, metres.
     pub fn ball(&self, pose: HeadPose) -> (Vec3, f32) {
         let shift_m = pose.shift.length() as f32 * self.height_m;
-        let reach_m = match pose.animated_s {
+        let reach_m = match pose.animated_s.or(pose.beaten_s) {
             Some(_) => STRETCH * self.reach_m,
             None => self.reach_m,
         };
@@ -188,7 +188,7 @@ impl PosedHead {
                 continue;
             }
             let (rest, posed) = (&neck.rest.painted[index], &mut self.model.painted[index]);
-            let moved = match (&rest.moving, self.pose.animated_s) {
+            let moved = match (&rest.moving, self.pose.beaten_s) {
                 (Some(moving), Some(time)) => Some(moving.at(time)),
                 _ => None,
             };
@@ -306,6 +306,7 @@ mod tests {
             base: DQuat::from_rotation_y(0.3),
             spin: 0.0,
             animated_s: None,
+            beaten_s: None,
         };
         let (rotation, translation) = rigid(pose, head, pivot(head));
         let turned_head = posed.in_pose(&neck, pose).clone();
