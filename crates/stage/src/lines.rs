@@ -147,6 +147,13 @@ impl HeadLines {
         Ok(())
     }
 
+    /// Through how many frames contours were followed, mesh by mesh together.
+    #[cfg(test)]
+    pub fn steps(&self) -> usize {
+        let followed = self.followed.iter().flatten();
+        followed.map(|followed| followed.steps).sum()
+    }
+
     /// Finds what the camera sees of the lines on the head in its pose: those of each list, in the look's order.
     pub fn find(
         &mut self,

@@ -452,6 +452,47 @@ fn marks_are_those_of_the_sequence_whichever_frame_is_asked_for() {
     assert!(at(&mut all, 5) == sequence[5], "again");
 }
 
+/// As `--time` asks for them, and as what is blurred by motion is made of.
+#[test]
+fn moments_between_frames_follow_the_one_before_and_are_not_followed() {
+    let lines = "(name: \"rim\", kind: \"contour, crease\")";
+    let make = || things("(shape: wings)", lines, CHALK).unwrap();
+    let at = |stage: &mut Stage, frame: f32| {
+        stage.advance_to(frame / 24.0).unwrap();
+        let frame = stage.frame().unwrap();
+        assert_eq!(frame.marks.len(), frame.paths.len());
+        (frame.paths.center.to_vec(), frame.marks.to_vec())
+    };
+    let mut all = make();
+    let sequence: Vec<_> = (0..6).map(|frame| at(&mut all, frame as f32)).collect();
+    let moment = at(&mut make(), 3.5);
+    let mut stage = make();
+    for earlier in [0.0, 1.25, 3.0, 3.25, 3.75] {
+        at(&mut stage, earlier);
+    }
+    assert!(at(&mut stage, 3.5) == moment, "after others");
+    assert!(at(&mut stage, 4.0) == sequence[4], "the frame after it");
+    assert!(at(&mut stage, 3.5) == moment, "back");
+    assert!(at(&mut stage, 5.0) == sequence[5], "and forth");
+    // On it is neither what the frame before it was nor the one after.
+    assert!(moment != sequence[3] && moment != sequence[4]);
+    // Its marks lie along what moved: most are within a step of what was there.
+    let step = |other: &(Vec<Vec2>, Vec<f32>)| {
+        let near = |(place, mark): (&Vec2, &f32)| {
+            let there = other.0.iter().zip(&other.1);
+            let nearest = there.min_by(|a, b| {
+                a.0.distance_squared(*place)
+                    .total_cmp(&b.0.distance_squared(*place))
+            });
+            nearest.is_some_and(|(_, at)| (at - mark).abs() < 0.1)
+        };
+        let all = moment.0.iter().zip(&moment.1);
+        all.filter(|joint| near(*joint)).count() as f32 / moment.0.len() as f32
+    };
+    let [before, after] = [&sequence[3], &sequence[4]].map(step);
+    assert!(before > 0.8 && after > 0.8, "{before}, {after}");
+}
+
 #[test]
 fn what_leaves_no_marks_is_not_followed() {
     let lines = "(name: \"rim\", kind: \"contour, crease\")";

@@ -197,3 +197,42 @@ impl LineLists<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::frame_maker::FrameMaker;
+    use crate::{Files, Motion, Preset, Scene};
+    use effects::Registry;
+
+    /// Through how many frames the contours of a thing are followed until one of these was drawn, frame after frame.
+    fn steps(thing: &str, frames: &[u32]) -> Vec<usize> {
+        let text = format!(
+            "(version: 1, head: (shape: none), meshes: [(shape: {thing})], scene: (size: (90, 90), samples: 1), \
+             lines: [(name: \"rim\")], layers: [(effect: \"line.chalk\", on: \"rim\", brush: (kind: charcoal))])"
+        );
+        let mut registry = Registry::new();
+        effects_surface::register(&mut registry).unwrap();
+        let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+        let scene = Scene::load(&preset, &Files::default()).unwrap();
+        let (mut motion, mut maker) = (Motion::new(), FrameMaker::new());
+        let after = |frame: &u32| {
+            motion.advance_to(&scene, *frame as f32 / 24.0).unwrap();
+            assert!(!maker.frame(&scene, &motion).unwrap().marks.is_empty());
+            let lines = maker.objects[0].lines.of_head.as_ref().unwrap();
+            lines.steps()
+        };
+        frames.iter().map(after).collect()
+    }
+
+    #[test]
+    fn a_still_thing_is_followed_once() {
+        assert_eq!(steps("cup", &[0, 1, 5, 100, 5000]), [1; 5]);
+        assert_eq!(steps("cup", &[5000]), [1]);
+    }
+
+    #[test]
+    fn what_moves_is_followed_through_every_frame_once() {
+        assert_eq!(steps("wings", &[0, 1, 5, 5, 9]), [1, 2, 6, 6, 10]);
+        assert_eq!(steps("wings", &[9]), [10]);
+    }
+}
