@@ -1,10 +1,12 @@
 //! The text that naga sees: the author's source first, so that lines and columns are the author's own,
-//! then the declared inputs, of joints and of samples, then the prelude. WGSL does not care about order.
+//! then the declared inputs, of joints and of samples, then what the crate's effects share, then the prelude. WGSL does not care about
+//! order.
 
 use crate::error::BuildError;
 use crate::inputs::{INPUTS, Input, Offered, SAMPLE_INPUTS};
 use naga::Span;
 use std::fmt::Write as _;
+use std::ops::Range;
 
 /// The WGSL that every effect is composed with.
 pub(crate) const PRELUDE: &str = include_str!("../../../shaders/prelude.wgsl");
@@ -27,6 +29,14 @@ impl Entry {
     }
 }
 
+/// WGSL that several effects of a crate share.
+#[derive(Clone, Copy)]
+pub(crate) struct Shared<'a> {
+    /// Its file, for messages.
+    pub path: &'a str,
+    pub text: &'a str,
+}
+
 /// A composed source.
 pub(crate) struct Source {
     /// The author's file, for messages.
@@ -35,6 +45,8 @@ pub(crate) struct Source {
     pub text: String,
     /// Bytes of the author's.
     pub author_length: usize,
+    /// The file that is shared with other effects, and where its bytes are.
+    pub shared: Option<(String, Range<usize>)>,
     /// The declared inputs, in the order of [`INPUTS`].
     pub inputs: Vec<&'static Input>,
     /// What is declared of a sample, in the order of [`SAMPLE_INPUTS`]; nothing where the effect doesn't paint.
@@ -46,15 +58,48 @@ pub(crate) struct Source {
 impl Source {
     /// An error at a place of the text.
     pub fn error(&self, span: Span, message: impl std::fmt::Display) -> BuildError {
-        let place = span.location(&self.text);
+        let (path, text, span) = match &self.shared {
+            Some((path, bytes)) if self.is_shared(span) => {
+                let own = span.to_range().unwrap_or_default();
+                let [start, end] = [own.start, own.end.min(bytes.end)];
+                let span = Span::new((start - bytes.start) as u32, (end - bytes.start) as u32);
+                (path, &self.text[bytes.clone()], span)
+            }
+            _ => (&self.path, &self.text[..], span),
+        };
+        let place = span.location(text);
         BuildError(format!(
-            "{}:{}:{}: {message}",
-            self.path, place.line_number, place.line_position
+            "{path}:{}:{}: {message}",
+            place.line_number, place.line_position
         ))
+    }
+
+    /// Whether a place is in the file that is shared.
+    pub fn is_shared(&self, span: Span) -> bool {
+        let bytes = self.shared.as_ref().map(|(_, bytes)| bytes);
+        let start = span.to_range().map(|own| own.start);
+        bytes.is_some_and(|bytes| start.is_some_and(|start| bytes.contains(&start)))
+    }
+
+    /// Appends what is shared, and the prelude.
+    fn finish(mut self, shared: Option<Shared>) -> Self {
+        if let Some(Shared { path, text }) = shared {
+            let start = self.text.len();
+            self.text.push_str(text);
+            self.shared = Some((path.to_owned(), start..self.text.len()));
+            self.text.push('\n');
+        }
+        self.text.push_str(PRELUDE);
+        self
     }
 }
 
-pub(crate) fn compose(author: &str, path: &str, entry: Entry) -> Result<Source, BuildError> {
+pub(crate) fn compose(
+    author: &str,
+    path: &str,
+    shared: Option<Shared>,
+    entry: Entry,
+) -> Result<Source, BuildError> {
     let samples_of = |others: Offered| {
         let offered = SAMPLE_INPUTS.iter();
         offered.filter(move |input| input.offered != others)
@@ -70,15 +115,16 @@ pub(crate) fn compose(author: &str, path: &str, entry: Entry) -> Result<Source, 
         }
         let mut text = String::from(author);
         structure(&mut text, "Sample", &inputs);
-        text.push_str(PRELUDE);
-        return Ok(Source {
+        let source = Source {
             path: path.to_owned(),
             text,
             author_length: author.len(),
+            shared: None,
             inputs: Vec::new(),
             sample_inputs: Some(inputs),
             is_for_meshes: true,
-        });
+        };
+        return Ok(source.finish(shared));
     }
     let offered = INPUTS.iter().filter(|input| entry.offers(input)).collect();
     let Some(inputs) = declared(author, path, "inputs", offered)? else {
@@ -100,15 +146,16 @@ pub(crate) fn compose(author: &str, path: &str, entry: Entry) -> Result<Source, 
     if let Some(inputs) = &sample_inputs {
         structure(&mut text, "Sample", inputs);
     }
-    text.push_str(PRELUDE);
-    Ok(Source {
+    let source = Source {
         path: path.to_owned(),
         text,
         author_length: author.len(),
+        shared: None,
         inputs,
         sample_inputs,
         is_for_meshes: false,
-    })
+    };
+    Ok(source.finish(shared))
 }
 
 /// What a line `//! KEY: a, b` declares.

@@ -420,6 +420,7 @@ fn prelude_docs() -> Result<Vec<(String, String)>, BuildError> {
         path: "prelude.wgsl".to_owned(),
         text: PRELUDE.to_owned(),
         author_length: PRELUDE.len(),
+        shared: None,
         inputs: Vec::new(),
         sample_inputs: None,
         is_for_meshes: false,

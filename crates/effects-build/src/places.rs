@@ -38,6 +38,9 @@ pub(crate) fn error(source: &Source, span: Option<Span>, message: &str, text: &s
     }
     match start {
         Some(start) if start < author.len() => source.error(span.unwrap_or_default(), text),
+        Some(_) if source.is_shared(span.unwrap_or_default()) => {
+            source.error(span.unwrap_or_default(), message)
+        }
         Some(_) => {
             let last = author.trim_end().char_indices().next_back();
             let at = last.map_or(0, |(at, _)| at as u32);

@@ -186,11 +186,13 @@ impl Parts {
 ///
 /// As of [`WholeFile::create`].
 pub fn try_to_write(path: &Path) -> io::Result<()> {
-    // Who reads a pipe would take its closing for the end.
-    if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
-        return Ok(());
+    match fs::metadata(path) {
+        // Who reads a pipe would take its closing for the end.
+        Ok(there) if !there.is_file() && !there.is_dir() => Ok(()),
+        // What is written is named so only at its end.
+        Err(error) if error.kind() == io::ErrorKind::InvalidFilename => Err(named(path, &error)),
+        _ => WholeFile::create(path).map(drop),
     }
-    WholeFile::create(path).map(drop)
 }
 
 /// The error, beginning with the file's name.

@@ -165,7 +165,7 @@ pub(crate) struct RenderOptions {
     #[arg(long, value_enum, default_value = "auto")]
     pub backend: Backend,
 
-    /// Write what samples show in place of the picture, for compositing: the CPU draws it
+    /// Write what samples show in place of the picture, for compositing
     #[arg(long, value_enum, value_name = "PASS")]
     pub pass: Option<Pass>,
 

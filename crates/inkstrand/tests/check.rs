@@ -211,6 +211,15 @@ fn files_are_judged_by_their_kind() {
             .and(contains("3 files, 3 of them with mistakes"))
             .and(contains("inkstrand: 4 mistakes")),
     );
+    // Heads and characters, as `render` reads them.
+    inkstrand(&folder, &["check", "cut.obj", "cut.glb"])
+        .assert()
+        .code(1)
+        .stderr(
+            contains("cut.obj:1: a vertex")
+                .and(contains("cut.glb: "))
+                .and(contains("a preset begins").not()),
+        );
 }
 
 #[test]

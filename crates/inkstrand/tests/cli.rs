@@ -82,6 +82,68 @@ fn a_preset_becomes_a_picture_named_after_it_in_the_current_folder() {
     assert_eq!(files(here.path()), ["small.png"], "nothing else is left");
 }
 
+/// A character in glTF that is a body alone, a pyramid on a bone of this name.
+#[cfg(feature = "gltf")]
+fn write_body(folder: &Path, bone: &str) {
+    let corners: [[f32; 3]; 4] = [
+        [0.0, 0.2, 0.0],
+        [-0.1, 0.0, 0.1],
+        [0.1, 0.0, 0.1],
+        [0.0, 0.0, -0.1],
+    ];
+    let triangles: [u16; 12] = [0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2];
+    let mut bytes: Vec<u8> = corners
+        .iter()
+        .flatten()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    bytes.extend(triangles.iter().flat_map(|i| i.to_le_bytes()));
+    fs::write(folder.join("body.bin"), &bytes).unwrap();
+    let text = r#"{"asset": {"version": "2.0"}, "buffers": [{"uri": "body.bin", "byteLength": 72}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-0.1, 0, -0.1], "max": [0.1, 0.2, 0.1]},
+                      {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+        "meshes": [{"name": "Body", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "nodes": [{"name": "BONE", "mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0}"#;
+    fs::write(folder.join("body.gltf"), text.replace("BONE", bone)).unwrap();
+}
+
+#[cfg(feature = "gltf")]
+#[test]
+fn a_character_without_hair_and_head_is_told() {
+    let folder = folder();
+    let render = |character: &str, quiet: bool| {
+        let mut arguments = vec!["render", "small.ron", "--character", character];
+        arguments.extend(quiet.then_some("--quiet"));
+        inkstrand(folder.path(), &arguments).assert().success()
+    };
+    write_body(folder.path(), "spine");
+    render("body.gltf", false).stderr(
+        contains("head: WARNING: body.gltf has neither hair nor a bone called `head`")
+            .and(contains("--set head.hide="))
+            .and(contains("the preset's file is drawn")),
+    );
+    render("body.gltf", true).stderr("");
+    write_body(folder.path(), "mixamorig:Head");
+    render("body.gltf", false).stderr(contains("WARNING").not());
+    let Some(data) = std::env::var_os("INKSTRAND_DATA") else {
+        return println!("SKIPPED characters that are there: INKSTRAND_DATA is not set");
+    };
+    for (file, has_none) in [
+        ("threevrm_springbone_sphere-collider.gltf", true),
+        ("threevrm_springbone_plane-collider.gltf", true),
+        ("threevrm_springbone_inside-collider.gltf", true),
+        ("vrm1_springbone_fixture.vrm", true),
+        ("Godette_vrm_v4.vrm", false),
+    ] {
+        let path = Path::new(&data).join("vrm").join(file);
+        let told = render(path.to_str().unwrap(), false);
+        let stderr = String::from_utf8_lossy(&told.get_output().stderr).into_owned();
+        let is_told = stderr.contains("has neither hair nor a bone called `head`");
+        assert_eq!(is_told, has_none, "{file}: {stderr}");
+    }
+}
+
 #[test]
 fn options_take_the_place_of_the_presets() {
     let folder = folder();

@@ -236,10 +236,14 @@ fn what_cannot_be_written_is_said_before_the_work() {
     fs::create_dir(folder.path().join("taken.strands.ron")).unwrap();
     // Broken hair would be found later.
     fs::write(folder.path().join("small.strands.ron"), "(").unwrap();
+    // Of 256 bytes, one more than file systems have.
+    let long = format!("{}.png", "a".repeat(252));
     let before = contents(folder.path());
     for line in [
         ["render", "small.ron", "-o", "no/where/a.png"],
         ["render", "small.ron", "-o", "taken.png"],
+        #[cfg(target_os = "linux")]
+        ["render", "small.ron", "-o", &long],
         ["render", "small.ron", "--stats", "no/where/s.json"],
         ["render", "small.ron", "--stats", "taken.png"],
         ["simulate", "small.ron", "-o", "no/where/a.strands.ron"],

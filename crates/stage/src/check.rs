@@ -330,6 +330,22 @@ pub fn check_hair(path: &Path) -> Result<(), StageError> {
     Ok(())
 }
 
+/// Whether a file is one of meshes, a head or a character, by its name's ending.
+#[must_use]
+pub fn is_mesh_file(path: &Path) -> bool {
+    mesh_io::is_model(path, b"")
+}
+
+/// Looks for what is wrong with a file of meshes.
+///
+/// # Errors
+///
+/// The first mistake, with the file's name.
+pub fn check_mesh(path: &Path) -> Result<(), StageError> {
+    mesh_io::read_model(path)?;
+    Ok(())
+}
+
 /// Mistakes from several places.
 #[derive(Default)]
 struct Found(Vec<PresetError>);

@@ -8,7 +8,6 @@
 use crate::dynamics::{Dynamics, Seen};
 use crate::files::StageError;
 use crate::hand::Driver;
-use crate::neck::rigid;
 use crate::object::Object;
 use crate::script::{HeadPose, smooth};
 use glam::Vec3;
@@ -204,7 +203,7 @@ fn on_head(object: &Object, pose: HeadPose) -> Vec<Vec3> {
 
 /// Moves points with the head, from rest to this pose.
 pub(crate) fn move_by(object: &Object, pose: HeadPose, points: &mut [Vec3]) {
-    let (rotation, translation) = rigid(pose, object.hair().head);
+    let (rotation, translation) = object.rigid(pose);
     for point in points {
         *point = (rotation * point.as_dvec3() + translation).as_vec3();
     }
@@ -212,7 +211,7 @@ pub(crate) fn move_by(object: &Object, pose: HeadPose, points: &mut [Vec3]) {
 
 /// Moves points with the head, from this pose to rest.
 pub(crate) fn off_head(object: &Object, pose: HeadPose, points: &mut [Vec3]) {
-    let (rotation, translation) = rigid(pose, object.hair().head);
+    let (rotation, translation) = object.rigid(pose);
     let back = rotation.inverse();
     for point in points {
         *point = (back * (point.as_dvec3() - translation)).as_vec3();

@@ -1,31 +1,34 @@
 //! Frames of a scene in motion. What a frame needs is kept and reused.
 
+mod lines;
+mod made;
+#[cfg(test)]
+mod tests;
+
 use crate::bodies::Body;
 use crate::files::StageError;
-use crate::hair::HairModel;
 use crate::head;
 use crate::head::layers::{Clips, MeshLayers};
 use crate::levels::levels;
-use crate::lines::{HeadLines, LineStrand};
 use crate::look::{LineSet, Look};
 use crate::material::Material;
-use crate::motion::{Motion, ObjectMotion, held_time};
-use crate::neck::{PosedHead, rigid};
+use crate::motion::{Motion, ObjectMotion};
+use crate::neck::PosedHead;
 use crate::object::{Object, PathShape};
-use crate::placement::Placement;
 use crate::posture::Posture;
 use crate::reach::Sight;
 use crate::scene::Scene;
 use crate::script::HeadPose;
 use crate::zones;
-use effects::wgsl::hash;
-use effects::{HairStrand, Input, Layer, MadePath, MadePaths, layer_seed};
+use effects::{Input, Layer};
 use glam::{Vec2, Vec3};
+use lines::{LineLists, LineTime, NO_MARK, ObjectLines};
+use made::ObjectPaths;
 use rayon::prelude::*;
-use render::{Ball, Frame, Light, MeshLayer, NO_COLOR, NO_TAPER, StrandInfo, Surface};
+use render::{Ball, Frame, Light, MeshLayer, StrandInfo, Surface};
 use std::ops::Range;
 use std::sync::Arc;
-use stroke_path::{Camera, Detail, PathError, PathKind, Paths};
+use stroke_path::{Camera, PathError, Paths};
 
 /// How many strands a thread makes the paths of at a time, and how many such parts there are before they are put together, which
 /// keeps the parts of dense hair small.
@@ -76,11 +79,7 @@ struct ObjectFrame {
     /// Its hair's strands, and its joints.
     strands: Range<usize>,
     joints: Range<usize>,
-    made: MadePaths,
-    /// Of each layer that makes paths those that it makes of the hair at rest; found where they are first drawn.
-    at_rest: Vec<Vec<MadeAtRest>>,
-    /// The strand of its hair that each made path belongs to.
-    made_of: Vec<usize>,
+    made: ObjectPaths,
     layer_joints: Vec<Range<usize>>,
     /// Normals of the links, where something reads them.
     material: Option<Material>,
@@ -88,17 +87,7 @@ struct ObjectFrame {
     head: Option<PosedHead>,
     /// What hides hair, in the world.
     solid: Option<Ball>,
-    /// The lines of its head; made where they are first drawn.
-    lines: Option<HeadLines>,
-    /// For each list of its look's lines their joints, and for each of their layers once more.
-    line_joints: Vec<(Range<usize>, Vec<Range<usize>>)>,
-}
-
-/// A path that a layer makes of the hair at rest.
-struct MadeAtRest {
-    /// Its strand, its number there, and how many points it has.
-    name: (usize, u32, usize),
-    detail: Detail,
+    lines: ObjectLines,
 }
 
 impl FrameMaker {
@@ -218,16 +207,22 @@ impl FrameMaker {
         if has_marks {
             marks.resize(paths.len(), NO_MARK);
         }
+        let mut lists = LineLists {
+            strands: &mut *strands,
+            paths: &mut *paths,
+            normals: reads_material.then_some(normals),
+            rest_positions: reads_rest.then_some(rest_positions),
+            marks: has_marks.then_some(marks),
+        };
         for (index, object) in scene.objects().iter().enumerate() {
             let motion = motion.of(index, object);
             let own_camera = object.placement().own_camera(&camera);
             let sight = Sight::new(&own_camera, object, section.detail, shows_all);
-            let mut joints = LineJoints {
-                normals: reads_material.then_some(&mut *normals),
-                rest_positions: reads_rest.then_some(&mut *rest_positions),
-                marks: has_marks.then_some(&mut *marks),
-            };
-            objects[index].push_lines(motion, time, &sight, strands, paths, &mut joints)?;
+            let frame = &mut objects[index];
+            let posed = frame.head.as_mut();
+            frame
+                .lines
+                .push(object, posed, motion, time, &sight, &mut lists)?;
         }
         if reads_weights {
             path_weights.resize(paths.len(), 1.0);
@@ -237,13 +232,15 @@ impl FrameMaker {
         } else {
             from_ends.clear();
         }
+        let head_of = |index: usize, object: &Object| {
+            let head = motion.of(index, object).head(object);
+            object.placement().head(head)
+        };
         let of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
             let look = object.look();
             render::Object {
                 joints: frame.joints.clone(),
-                head: object
-                    .placement()
-                    .head(motion.of(index, object).head(object)),
+                head: head_of(index, object),
                 solid: frame.solid,
                 surface_bias_m: 0.0,
                 clump: &look.clump,
@@ -252,32 +249,13 @@ impl FrameMaker {
                 layer_joints: &frame.layer_joints,
             }
         };
-        // Behind all hair, as their joints are.
-        let lines_of_frame = |(index, (frame, object)): (usize, (&'a ObjectFrame, &'a Object))| {
-            let look = object.look();
-            let head = object
-                .placement()
-                .head(motion.of(index, object).head(object));
-            let of_list = move |(set, (joints, layer_joints)): (
-                &'a LineSet,
-                &'a (Range<usize>, Vec<Range<usize>>),
-            )| {
-                render::Object {
-                    joints: joints.clone(),
-                    head,
-                    solid: None,
-                    surface_bias_m: render::ON_SURFACES,
-                    clump: &look.line_clump,
-                    seed: look.seed,
-                    layers: &set.layers,
-                    layer_joints,
-                }
-            };
-            look.lines.iter().zip(&frame.line_joints).map(of_list)
-        };
         self.of = Some((scene.shared_look().clone(), motion.time_s()));
         let all = || self.objects.iter().zip(scene.objects()).enumerate();
-        let objects = all().map(of_frame).chain(all().flat_map(lines_of_frame));
+        // Lines are behind all hair, as their joints are.
+        let lines = all().flat_map(|(index, (frame, object))| {
+            frame.lines.of_frame(object, head_of(index, object))
+        });
+        let objects = all().map(of_frame).chain(lines);
         Ok(Frame {
             camera: self.camera.insert(camera),
             paths: &self.paths,
@@ -395,29 +373,26 @@ impl ObjectFrame {
             parts: Vec::new(),
             strands: 0..0,
             joints: 0..0,
-            made: MadePaths::default(),
-            at_rest: Vec::new(),
-            made_of: Vec::new(),
+            made: ObjectPaths::default(),
             layer_joints: Vec::new(),
             material: reads_material.then(Material::default),
             head: None,
             solid: None,
-            lines: None,
-            line_joints: Vec::new(),
+            lines: ObjectLines::default(),
         }
     }
 
     /// Drops what was kept of another object.
     fn follow(&mut self, object: &Object) {
         if !self.of.is_drawn_as(object) {
-            self.at_rest.clear();
+            self.made.forget();
         }
         if !self.of.has_hair_and_head_of(object) {
             self.material = None;
             self.head = None;
         }
         if !self.of.moves_as(object) || !Arc::ptr_eq(self.of.shared_look(), object.shared_look()) {
-            self.lines = None;
+            self.lines.forget();
         }
         if !self.of.has_hair_and_head_of(object)
             || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
@@ -552,106 +527,6 @@ impl ObjectFrame {
         Ok(())
     }
 
-    /// Appends the paths that layers make in this light, and notes which joints each layer draws on; `weights` are those of all joints.
-    fn push_made_paths(
-        &mut self,
-        motion: &ObjectMotion,
-        sight: &Sight,
-        light: Light,
-        strands: &mut Vec<StrandInfo>,
-        paths: &mut Paths,
-        mut weights: Option<&mut Vec<f32>>,
-    ) -> Result<(), StageError> {
-        let (hair, look) = (self.of.hair(), self.of.look());
-        self.layer_joints.clear();
-        self.made_of.clear();
-        if self.unseen > 0 {
-            let none = paths.len()..paths.len();
-            self.layer_joints.resize(look.layers.len(), none);
-            return Ok(());
-        }
-        let points = motion.points(&self.of);
-        let of_hair = self.joints.clone();
-        let first_above = self.strands.start + hair.undercoat;
-        let runs = &paths.runs[paths
-            .runs
-            .partition_point(|run| run.joints.end <= of_hair.start)..];
-        let of_undercoat = runs.iter().take_while(|run| run.strand < first_above);
-        let above_undercoat = of_undercoat
-            .last()
-            .map_or(of_hair.start, |run| run.joints.end);
-        let head = motion.head(&self.of);
-        let mut making = 0;
-        for (layer_number, layer) in look.layers.iter().enumerate() {
-            if !layer.program.has_own_paths() {
-                let start = match layer.program.is_on_undercoat() {
-                    true => of_hair.start,
-                    false => above_undercoat,
-                };
-                self.layer_joints.push(start..of_hair.end);
-                continue;
-            }
-            let above = strands_above(hair, points);
-            let seed = layer_seed(look.seed, &layer.name);
-            if self.at_rest.len() == making {
-                let at_rest = made_at_rest(hair, layer, seed, look.path())?;
-                self.at_rest.push(at_rest);
-            }
-            let at_rest = &self.at_rest[making];
-            making += 1;
-            let of_effects = effects::Hair {
-                strands: &above,
-                head_center: head.center,
-                head_height_m: head.height_m,
-                light: self.of.placement().own_light(light),
-                eye: sight.camera().eye(),
-            };
-            self.made.clear();
-            layer.program.make_paths(&of_effects, seed, &mut self.made);
-            let fault = |what: String| StageError::MadePaths {
-                layer: layer.name.clone(),
-                what,
-            };
-            if let Some(what) = self.made.fault() {
-                return Err(fault(what.to_owned()));
-            }
-            let start = paths.len();
-            paths.set_along_tangents(look.paints());
-            for (i, made) in self.made.iter().enumerate() {
-                let (strand, number, points) = (made.strand, made.number, made.points);
-                if strand >= above.len() {
-                    let what = format!("a path of strand {strand}, and there are {}", above.len());
-                    return Err(fault(what));
-                }
-                // As large as it is where nothing is merged: the hair that came loose of it isn't.
-                let parent = StrandInfo {
-                    size: hair.infos[hair.undercoat + strand].size,
-                    ..strands[first_above + strand]
-                };
-                let index = strands.len();
-                self.made_of.push(hair.undercoat + strand);
-                strands.push(StrandInfo {
-                    id: made_id(parent.id, number),
-                    ..parent
-                });
-                if sight.may_see(points, parent.size) && !parent.is_left_out_by(layer_number) {
-                    let name = (strand, number, points.len());
-                    let detail = at_rest.get(i).filter(|path| path.name == name);
-                    let detail = detail.map(|path| &path.detail);
-                    let (kind, camera, before) = (look.path(), sight.camera(), paths.len());
-                    paths.push_pieces(index, points, &[], detail, kind, camera)?;
-                    if let Some(weights) = &mut weights {
-                        weights.resize(before, 1.0);
-                        weights.extend(paths.u[before..].iter().map(|u| made.weight(*u)));
-                    }
-                }
-            }
-            self.layer_joints.push(start..paths.len());
-        }
-        self.joints.end = paths.len();
-        Ok(())
-    }
-
     /// Appends the material normals of the object's joints: any where it reads none.
     fn push_material_normals(
         &mut self,
@@ -667,7 +542,7 @@ impl ObjectFrame {
         let rest = &hair.file.strands;
         let points = motion.points(&self.of);
         let strands = || (0..rest.len()).map(|strand| rest.point_range(strand));
-        let (rotation, _) = rigid(motion.head_pose(), hair.head);
+        let rotation = motion.head_pose().rotation(1.0);
         material.turn(rest.points(), strands(), hair.head.center, rotation);
         match motion.dynamics() {
             _ if hair.file.motion.is_some() || motion.has_points_alone(&self.of) => {
@@ -682,7 +557,7 @@ impl ObjectFrame {
             }
             None => {}
         }
-        let (strands, made_of) = (&self.strands, &self.made_of);
+        let (strands, made_of) = (&self.strands, self.made.strands());
         let of_path = |strand: usize| rest.point_range(strand_of(strands, made_of, strand));
         material.push_at_joints(paths, self.joints.clone(), of_path, normals);
     }
@@ -695,102 +570,14 @@ impl ObjectFrame {
             .runs
             .partition_point(|run| run.joints.end <= self.joints.start);
         for run in &paths.runs[first..] {
-            let strand = strand_of(&self.strands, &self.made_of, run.strand);
+            let strand = strand_of(&self.strands, self.made.strands(), run.strand);
             let points = hair.file.strands.strand(strand);
             let at_rest = |joint: usize| {
-                let place = paths.u[joint] * (points.len() - 1) as f32;
-                let before = (place as usize).min(points.len() - 1);
-                let after = (before + 1).min(points.len() - 1);
-                let point = points[before].lerp(points[after], place - before as f32);
+                let point = along(points, paths.u[joint], Vec3::lerp);
                 (point - hair.head.center) / hair.head.height_m
             };
             positions.extend(run.joints.clone().map(at_rest));
         }
-    }
-
-    /// Appends what is seen of the lines of the head, list after list, and notes which joints each has.
-    fn push_lines(
-        &mut self,
-        motion: &ObjectMotion,
-        time: LineTime,
-        sight: &Sight,
-        strands: &mut Vec<StrandInfo>,
-        paths: &mut Paths,
-        joints: &mut LineJoints,
-    ) -> Result<(), StageError> {
-        self.line_joints.clear();
-        let sets = &self.of.look().lines;
-        if sets.is_empty() {
-            return Ok(());
-        }
-        let start = paths.len();
-        let none = |set: &LineSet| (start..start, vec![start..start; set.layers.len()]);
-        let (Some(neck), Some(posed)) = (self.of.neck(), &mut self.head) else {
-            self.line_joints.extend(sets.iter().map(none));
-            return Ok(());
-        };
-        let rest_head = self.of.hair().head;
-        let lines = match &mut self.lines {
-            Some(lines) => lines,
-            lines => lines.insert(HeadLines::new(neck, sets, rest_head)?),
-        };
-        let (look, placement) = (self.of.look(), self.of.placement());
-        // A whole frame is one, as exactly as its time can say.
-        let mut now = time.time_s * time.fps;
-        if (now - now.round()).abs() <= now.abs() * f64::from(f32::EPSILON) {
-            now = now.round();
-        }
-        for frame in lines.frames_before(now) {
-            // Where the script has the head then; a hand that turns it live isn't asked.
-            let frame = frame as f64;
-            let held = held_time(&look.sections.motion, time.fps as f32, frame / time.fps);
-            let pose = self.of.script().head_at(held);
-            if lines.stays(sight.camera(), pose, frame) {
-                continue;
-            }
-            let model = posed.in_pose(neck, pose);
-            lines.follow((model, pose), sight.camera(), rest_head, frame)?;
-        }
-        let pose = motion.head_pose();
-        let model = (posed.in_pose(neck, pose), pose);
-        let found = lines.find(model, sets, sight.camera(), rest_head, now)?;
-        for (set, found) in sets.iter().zip(found) {
-            let start = paths.len();
-            let name = set.section.name.as_deref().unwrap_or_default();
-            let id = layer_seed(look.seed, name);
-            for strand in found
-                .iter()
-                .filter(|strand| sight.may_see(&strand.points, 0.0))
-            {
-                let mean = strand.points.iter().sum::<Vec3>() / strand.points.len() as f32;
-                let first = paths.len();
-                let kind = PathKind::Linear { subdivision: 1 };
-                paths.push_pieces(
-                    strands.len(),
-                    &strand.points,
-                    &[],
-                    None,
-                    kind,
-                    sight.camera(),
-                )?;
-                joints.push(strand, &paths.u[first..], placement);
-                strands.push(StrandInfo {
-                    id,
-                    mean: placement.point(mean),
-                    size: 0.0,
-                    taper: NO_TAPER,
-                    colors: [NO_COLOR; 2],
-                    level: 0,
-                    lift: 0.0,
-                    left_out_by: 0,
-                });
-            }
-            let own = start..paths.len();
-            placement.joints(paths, own.clone(), &mut []);
-            let of_layers = vec![own.clone(); set.layers.len()];
-            self.line_joints.push((own, of_layers));
-        }
-        Ok(())
     }
 
     /// The surfaces of the head on the screen, and of bodies.
@@ -842,7 +629,12 @@ impl ObjectFrame {
         }
         let head = self.of.hair().head;
         let paint = self.of.look().paint(head);
-        let posture = Posture::of(motion.head_pose(), head, script, motion.posed_s());
+        let posture = Posture::of(
+            motion.head_pose(),
+            (head, self.of.pivot()),
+            script,
+            motion.posed_s(),
+        );
         let drawn = script.bodies.iter().filter_map(|body| {
             let mesh = body.drawn(motion.posed_s(), &posture)?;
             let (center, radius_m) = ball_around(&mesh.positions);
@@ -898,56 +690,6 @@ fn bodies_s(object: &Object, motion: &ObjectMotion) -> f64 {
     }
 }
 
-/// No place along marks: that of hair is its length.
-const NO_MARK: f32 = -1.0;
-
-/// When lines are looked for, and how many frames a second there are.
-#[derive(Clone, Copy)]
-struct LineTime {
-    time_s: f64,
-    fps: f64,
-}
-
-/// Where what joints of lines are told goes to.
-struct LineJoints<'a> {
-    normals: Option<&'a mut Vec<Vec3>>,
-    rest_positions: Option<&'a mut Vec<Vec3>>,
-    marks: Option<&'a mut Vec<f32>>,
-}
-
-impl LineJoints<'_> {
-    /// Appends that of a strand's joints, which lie at these places along it.
-    fn push(&mut self, strand: &LineStrand, u: &[f32], placement: Placement) {
-        let between = |list: &[Vec3], u: f32| {
-            let place = u * (list.len() - 1) as f32;
-            let before = (place as usize).min(list.len() - 1);
-            let after = (before + 1).min(list.len() - 1);
-            list[before].lerp(list[after], place - before as f32)
-        };
-        if let Some(normals) = &mut self.normals {
-            let first = normals.len();
-            let normal = |u: &f32| between(&strand.normals, *u).normalize_or(Vec3::Y);
-            normals.extend(u.iter().map(normal));
-            placement.turn(&mut normals[first..]);
-        }
-        if let Some(positions) = &mut self.rest_positions {
-            positions.extend(u.iter().map(|u| between(&strand.rest, *u)));
-        }
-        if let Some(marks) = &mut self.marks {
-            let list = &strand.marks;
-            marks.extend(u.iter().map(|u| {
-                let Some(last) = list.len().checked_sub(1) else {
-                    return NO_MARK;
-                };
-                let place = u * last as f32;
-                let before = (place as usize).min(last);
-                let after = (before + 1).min(last);
-                list[before] + (list[after] - list[before]) * (place - before as f32)
-            }));
-        }
-    }
-}
-
 /// The levels of an object's strands; none where there is one.
 fn levels_of(object: &Object) -> Vec<u32> {
     let (hair, look) = (object.hair(), object.look());
@@ -961,49 +703,21 @@ fn levels_of(object: &Object) -> Vec<u32> {
     levels(params, look.seed, &ids, &roots.collect::<Vec<_>>())
 }
 
-/// The strands that layers make paths of: those above the undercoat.
-fn strands_above<'a>(hair: &'a HairModel, points: &'a [Vec3]) -> Vec<HairStrand<'a>> {
-    let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
-        id: info.id,
-        particles: &points[hair.file.strands.point_range(i)],
-        at_rest: hair.file.strands.strand(i),
-        size: info.size,
-    };
-    let above = hair.infos.iter().enumerate().skip(hair.undercoat);
-    above.map(of_strand).collect()
-}
-
-/// The paths that a layer makes of hair at rest: as a path keeps its name, they tell which of its joints a picture needs.
-fn made_at_rest(
-    hair: &HairModel,
-    layer: &Layer,
-    seed: u32,
-    path: PathKind,
-) -> Result<Vec<MadeAtRest>, StageError> {
-    let of_effects = effects::Hair {
-        strands: &strands_above(hair, hair.file.strands.points()),
-        head_center: hair.head.center,
-        head_height_m: hair.head.height_m,
-        light: Light::Direction(Vec3::Z),
-        eye: hair.head.center + 10.0 * hair.head.height_m * Vec3::Z,
-    };
-    let mut made = MadePaths::default();
-    layer.program.make_paths(&of_effects, seed, &mut made);
-    let with_detail = |made: MadePath| {
-        Ok(MadeAtRest {
-            name: (made.strand, made.number, made.points.len()),
-            detail: Detail::of(made.points, path, &[], 1.0)?,
-        })
-    };
-    made.iter().map(with_detail).collect()
-}
-
 /// The strand of an object's hair that a strand of the frame is, or belongs to: `strands` are its hair's, and those behind it have made paths.
 fn strand_of(strands: &Range<usize>, made_of: &[usize], strand: usize) -> usize {
     match strand.checked_sub(strands.end) {
         Some(made) => made_of[made],
         None => strand - strands.start,
     }
+}
+
+/// What lies at `u` (0 to 1) of the way along a list that has something, between the two next to it.
+fn along<T: Copy>(list: &[T], u: f32, mix: impl Fn(T, T, f32) -> T) -> T {
+    let last = list.len() - 1;
+    let place = u * last as f32;
+    let before = (place as usize).min(last);
+    let after = (before + 1).min(last);
+    mix(list[before], list[after], place - before as f32)
 }
 
 /// A ball that paths through these points stay in: its middle and its radius, metres. A path leaves the hull of its points by no more than
@@ -1014,11 +728,3 @@ fn ball_around(points: &[Vec3]) -> (Vec3, f32) {
     let radius_m = 0.5 * low.distance(high);
     (0.5 * (low + high), radius_m + 2.0 * radius_m / 3.0)
 }
-
-/// The number that the variations of path `number` of strand `id` hang on.
-fn made_id(id: u32, number: u32) -> u32 {
-    hash(id ^ hash(number + 1))
-}
-
-#[cfg(test)]
-mod tests;

@@ -5,7 +5,7 @@ use crate::dynamics::{DynamicsSection, ZoneDynamics, turn_of};
 use crate::files::StageError;
 use crate::head::HeadModel;
 use crate::merged::Ranks;
-use crate::neck::rigid;
+use crate::neck::pivot;
 use crate::posture::Posture;
 use crate::preset::HairSection;
 use crate::reach::reach_m;
@@ -182,7 +182,12 @@ impl HairModel {
             return;
         }
         let time = script.within(-f64::from(dynamics.warm_up));
-        let posture = Posture::of(script.head_before(time), self.head, script, time);
+        let posture = Posture::of(
+            script.head_before(time),
+            (self.head, pivot(self.head)),
+            script,
+            time,
+        );
         // Hair is styled on a head that does not move.
         let on_head = |pose: Pose| {
             let back = posture.head.rotation.inverse();
@@ -214,7 +219,7 @@ impl HairModel {
             normals: Vec::new(),
             triangles: Vec::new(),
         };
-        let (head, _) = rigid(pose, self.head);
+        let head = pose.rotation(1.0);
         for tie in &self.low_ties {
             let place = |&(id, point): &(u32, usize)| {
                 let strand = self.infos.binary_search_by_key(&id, |info| info.id).ok()?;

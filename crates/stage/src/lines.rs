@@ -39,19 +39,19 @@ pub(crate) struct HeadLines {
     followed: Vec<Option<Followed>>,
     /// The whole frame to which they were followed, and what was seen then.
     at: Option<f64>,
-    seen: Option<Sight>,
+    seen: Option<SeenFrom>,
 }
 
 /// What lines hang on: while it stays, there is nothing to follow.
 #[derive(Clone, Copy, PartialEq)]
-struct Sight {
+struct SeenFrom {
     eye: Vec3,
     /// Of a pixel at a distance of 1.
     pixel: f64,
     pose: HeadPose,
 }
 
-impl Sight {
+impl SeenFrom {
     fn of(camera: &Camera, pose: HeadPose) -> Self {
         Self {
             eye: camera.eye(),
@@ -116,7 +116,7 @@ impl HeadLines {
 
     /// Whether frame `now`, in which the head has this pose, shows what the one before did: then contours are followed to it.
     pub fn stays(&mut self, camera: &Camera, pose: HeadPose, now: f64) -> bool {
-        let stays = self.seen == Some(Sight::of(camera, pose)) && !self.is_growing();
+        let stays = self.seen == Some(SeenFrom::of(camera, pose)) && !self.is_growing();
         if stays {
             self.at = Some(now);
         }
@@ -136,9 +136,9 @@ impl HeadLines {
         head: Head,
         now: f64,
     ) -> Result<(), StageError> {
-        let sight = Sight::of(camera, pose);
+        let seen_from = SeenFrom::of(camera, pose);
         let view = View::perspective(camera.eye()).map_err(fault)?;
-        let pixel = sight.pixel;
+        let pixel = seen_from.pixel;
         for (mesh, followed) in self.meshes.iter_mut().zip(&mut self.followed) {
             if let Some(followed) = followed {
                 mesh.pose(model).map_err(fault)?;
@@ -148,8 +148,15 @@ impl HeadLines {
                     .map_err(fault)?;
             }
         }
-        (self.at, self.seen) = (Some(now), Some(sight));
+        (self.at, self.seen) = (Some(now), Some(seen_from));
         Ok(())
+    }
+
+    /// Through how many frames contours were followed, mesh by mesh together.
+    #[cfg(test)]
+    pub fn steps(&self) -> usize {
+        let followed = self.followed.iter().flatten();
+        followed.map(|followed| followed.steps).sum()
     }
 
     /// Finds what the camera sees of the lines on the head in its pose: those of each list, in the look's order.
@@ -162,13 +169,13 @@ impl HeadLines {
         now: f64,
     ) -> Result<&[Vec<LineStrand>], StageError> {
         let unit_m = head.unit_m();
-        let sight = Sight::of(camera, pose);
+        let seen_from = SeenFrom::of(camera, pose);
         // With another eye at the same time lines have no time to grow.
         let is_same_time = self.at.is_some_and(|at| (at - now).abs() <= SAME_FRAME);
-        let is_there = self.seen == Some(sight) && (is_same_time || !self.is_growing());
+        let is_there = self.seen == Some(seen_from) && (is_same_time || !self.is_growing());
         let is_whole = (now - now.round()).abs() <= SAME_FRAME;
         let view = View::perspective(camera.eye()).map_err(fault)?;
-        let pixel = sight.pixel;
+        let pixel = seen_from.pixel;
         for (number, mesh) in self.meshes.iter_mut().enumerate() {
             mesh.pose(model).map_err(fault)?;
             let mesh = &*mesh;
@@ -202,7 +209,7 @@ impl HeadLines {
             }
         }
         if is_whole {
-            (self.at, self.seen) = (Some(now), Some(sight));
+            (self.at, self.seen) = (Some(now), Some(seen_from));
         }
         Ok(&self.strands)
     }

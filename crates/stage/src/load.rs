@@ -123,6 +123,14 @@ pub(crate) fn head(
         true => mesh_hair::find(&model, &path, orientation, &preset.sections.hair, is_there)?,
         false => None,
     };
+    if own_hair.is_none() && preset.sections.hair.from == HairFrom::Character && lacks_head(&model)
+    {
+        notes.push(format!(
+            "head: WARNING: {} has neither hair nor a bone called `head`, so all of its meshes are taken for a head. If they are \
+             none, take a character that has one; if they are a head and more, hide the rest (head.hide, --set head.hide='\"Body*\"')",
+            path.display()
+        ));
+    }
     let mut mesh = match (hidden.is_empty(), &own_hair) {
         (true, None) => mesh,
         _ => {
@@ -185,6 +193,16 @@ pub(crate) fn head(
         hair,
         orientation: *orientation,
     })
+}
+
+/// Whether a file of nodes has none that is a head by its name. Files of meshes alone don't say what they are.
+fn lacks_head(model: &Model) -> bool {
+    let Some(rig) = &model.rig else {
+        return false;
+    };
+    let names = rig.nodes.iter().filter_map(|node| node.name.as_deref());
+    let mut names = names.chain(model.meshes.iter().map(|mesh| &mesh.name[..]));
+    !rig.humanoid.contains_key("head") && !names.any(|name| name.to_lowercase().contains("head"))
 }
 
 /// Whether hair is the character's own where it has some.

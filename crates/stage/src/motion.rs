@@ -5,7 +5,6 @@ use crate::closed::{Closed, Return, move_by, off_head};
 use crate::dynamics::{Dynamics, Seen};
 use crate::files::StageError;
 use crate::hand::{Driver, Hand};
-use crate::neck::rigid;
 use crate::object::Object;
 use crate::preset::{HeldChoice, MotionSection};
 use crate::reach::may_see;
@@ -360,7 +359,7 @@ impl ObjectMotion {
     /// Its head where it is now.
     pub(crate) fn head(&self, object: &Object) -> Head {
         let head = object.hair().head;
-        let (rotation, translation) = rigid(self.pose, head);
+        let (rotation, translation) = object.rigid(self.pose);
         Head {
             center: (rotation * head.center.as_dvec3() + translation).as_vec3(),
             ..head

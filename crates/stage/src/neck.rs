@@ -16,7 +16,7 @@ const SHOULDERS: f32 = -0.95;
 const JAW: f32 = -0.42;
 /// Corners of one share turn alike: as many turns as there are steps are enough for the eye.
 const STEPS: usize = 256;
-/// How much farther from the neck than at rest bones may take hands and feet.
+/// How much farther from the neck than at rest bones may take hands and feet, and beats a wing.
 const STRETCH: f32 = 2.0;
 /// Corners that a thread poses at a time, at least.
 const SOME_CORNERS: usize = 2048;
@@ -96,10 +96,15 @@ impl Neck {
         &self.rest
     }
 
+    /// What it turns about: the top of the neck, or the middle of things that stand in a head's place.
+    pub fn pivot(&self) -> Vec3 {
+        self.pivot
+    }
+
     /// The ball that all of the head stays in, in this pose: its middle and its radius, metres.
     pub fn ball(&self, pose: HeadPose) -> (Vec3, f32) {
         let shift_m = pose.shift.length() as f32 * self.height_m;
-        let reach_m = match pose.animated_s {
+        let reach_m = match pose.animated_s.or(pose.beaten_s) {
             Some(_) => STRETCH * self.reach_m,
             None => self.reach_m,
         };
@@ -110,7 +115,7 @@ impl Neck {
 impl Neck {
     /// A ball within the head in this pose that an eye at this place, which sees nothing nearer than `near_m` metres, sees nothing through.
     pub fn solid(&self, pose: HeadPose, head: Head, eye: Vec3, near_m: f32) -> Option<Ball> {
-        let (rotation, translation) = rigid(pose, head);
+        let (rotation, translation) = rigid(pose, head, self.pivot);
         let eye = rotation.inverse() * (eye.as_dvec3() - translation);
         let ball = self.solid.as_ref()?.seen_from(eye.as_vec3(), near_m)?;
         let center = rotation * ball.center.as_dvec3() + translation;
@@ -183,7 +188,7 @@ impl PosedHead {
                 continue;
             }
             let (rest, posed) = (&neck.rest.painted[index], &mut self.model.painted[index]);
-            let moved = match (&rest.moving, self.pose.animated_s) {
+            let moved = match (&rest.moving, self.pose.beaten_s) {
                 (Some(moving), Some(time)) => Some(moving.at(time)),
                 _ => None,
             };
@@ -272,10 +277,10 @@ pub(crate) fn pivot(head: Head) -> Vec3 {
     head.center + PIVOT * head.height_m
 }
 
-/// The rigid motion of what is fixed to the head: `rotation * p + translation`.
-pub(crate) fn rigid(pose: HeadPose, head: Head) -> (DQuat, DVec3) {
+/// The rigid motion of what is fixed to a head that turns about a point: `rotation * p + translation`.
+pub(crate) fn rigid(pose: HeadPose, head: Head, pivot: Vec3) -> (DQuat, DVec3) {
     let rotation = pose.rotation(1.0);
-    let pivot = pivot(head).as_dvec3();
+    let pivot = pivot.as_dvec3();
     let shift = pose.shift * f64::from(head.height_m);
     (rotation, pivot + shift - rotation * pivot)
 }
@@ -301,8 +306,9 @@ mod tests {
             base: DQuat::from_rotation_y(0.3),
             spin: 0.0,
             animated_s: None,
+            beaten_s: None,
         };
-        let (rotation, translation) = rigid(pose, head);
+        let (rotation, translation) = rigid(pose, head, pivot(head));
         let turned_head = posed.in_pose(&neck, pose).clone();
         let up = Vec3::new(0.0, 0.12, 0.0);
         let (mut turned, mut still) = (0, 0);

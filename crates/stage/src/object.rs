@@ -7,12 +7,12 @@ use crate::head::{self, HeadModel};
 use crate::lines;
 use crate::load::{self, ReadHead};
 use crate::look::Look;
-use crate::neck::Neck;
+use crate::neck::{Neck, pivot, rigid};
 use crate::placement::Placement;
 use crate::preset::Preset;
-use crate::script::{self, MotionScript};
+use crate::script::{self, HeadPose, MotionScript};
 use crate::zones;
-use glam::Vec3;
+use glam::{DQuat, DVec3, Vec3};
 use hair_io::Mesh;
 use rayon::prelude::*;
 use render::{Head, StrandInfo};
@@ -179,6 +179,19 @@ impl Object {
 
     pub(crate) fn script(&self) -> &MotionScript {
         &self.script
+    }
+
+    /// What its head turns about.
+    pub(crate) fn pivot(&self) -> Vec3 {
+        match &self.neck {
+            Some(neck) => neck.pivot(),
+            None => pivot(self.hair.head),
+        }
+    }
+
+    /// The rigid motion of what is fixed to its head, in this pose: `rotation * p + translation`, where its files have it.
+    pub(crate) fn rigid(&self, pose: HeadPose) -> (DQuat, DVec3) {
+        rigid(pose, self.hair.head, self.pivot())
     }
 
     /// The head's mesh as it was given, which hair cannot enter: however it is painted.

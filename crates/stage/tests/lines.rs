@@ -389,6 +389,11 @@ fn a_tones_edge_on_a_ball_is_an_exact_circle() {
 
 /// A preset of things alone, without a file.
 fn things(meshes: &str, lines: &str, layers: &str) -> Result<Stage, String> {
+    things_of(meshes, lines, layers, &Files::default())
+}
+
+/// The same with files that are given.
+fn things_of(meshes: &str, lines: &str, layers: &str, files: &Files) -> Result<Stage, String> {
     let text = format!(
         "(version: 1, head: (shape: none), meshes: [{meshes}],\n \
          scene: (size: (240, 240), samples: 4, background: \"FFFFFF\"), camera: (distance: 3, pitch: 20),\n \
@@ -396,10 +401,9 @@ fn things(meshes: &str, lines: &str, layers: &str) -> Result<Stage, String> {
     );
     let registry = registry();
     let preset = Preset::parse("look.ron", &text, &registry).map_err(|error| error.to_string())?;
-    let files = Files::default();
-    let checked = preset.check_scene("look.ron", &text, &files);
+    let checked = preset.check_scene("look.ron", &text, files);
     checked.map_err(|error| error.to_string())?;
-    Stage::new(&preset, &files).map_err(|error| error.to_string())
+    Stage::new(&preset, files).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -442,6 +446,27 @@ fn things_need_neither_file_nor_hair_nor_head() {
         assert!(message.contains(expected), "{message}\n  lacks {expected}");
     }
     assert!(error("(shape: cup, name: \"mine\")", INK).is_empty());
+}
+
+/// What effects and lamps are told of things is of their middle, about which they turn, and not of a neck.
+#[test]
+fn things_that_spin_stay_where_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = folder.path().join("spin.motion.ron");
+    let text = "(version: 1, moves: [(move: spin, length: 1, angle: 90), (move: lean, length: 1, angle: 40)])";
+    fs::write(&script, text).unwrap();
+    let files = Files {
+        motion: Some(script),
+        ..Files::default()
+    };
+    let mut stage = things_of("(shape: cup, at: (0.3, 0.2, 0))", "", "", &files).unwrap();
+    let at_rest = stage.head();
+    for time in [0.5, 1.0, 2.0] {
+        stage.advance_to(time).unwrap();
+        let head = stage.frame().unwrap().objects[0].head;
+        let off = head.center.distance(at_rest.center);
+        assert!(off < 1e-6 * at_rest.height_m, "{time}: {off}");
+    }
 }
 
 #[test]
@@ -507,6 +532,47 @@ fn marks_are_those_of_the_sequence_whichever_frame_is_asked_for() {
     assert!(at(&mut all, 2) == sequence[2], "back");
     assert!(at(&mut all, 5) == sequence[5], "and forth");
     assert!(at(&mut all, 5) == sequence[5], "again");
+}
+
+/// As `--time` asks for them, and as what is blurred by motion is made of.
+#[test]
+fn moments_between_frames_follow_the_one_before_and_are_not_followed() {
+    let lines = "(name: \"rim\", kind: \"contour, crease\")";
+    let make = || things("(shape: wings)", lines, CHALK).unwrap();
+    let at = |stage: &mut Stage, frame: f32| {
+        stage.advance_to(frame / 24.0).unwrap();
+        let frame = stage.frame().unwrap();
+        assert_eq!(frame.marks.len(), frame.paths.len());
+        (frame.paths.center.to_vec(), frame.marks.to_vec())
+    };
+    let mut all = make();
+    let sequence: Vec<_> = (0..6).map(|frame| at(&mut all, frame as f32)).collect();
+    let moment = at(&mut make(), 3.5);
+    let mut stage = make();
+    for earlier in [0.0, 1.25, 3.0, 3.25, 3.75] {
+        at(&mut stage, earlier);
+    }
+    assert!(at(&mut stage, 3.5) == moment, "after others");
+    assert!(at(&mut stage, 4.0) == sequence[4], "the frame after it");
+    assert!(at(&mut stage, 3.5) == moment, "back");
+    assert!(at(&mut stage, 5.0) == sequence[5], "and forth");
+    // On it is neither what the frame before it was nor the one after.
+    assert!(moment != sequence[3] && moment != sequence[4]);
+    // Its marks lie along what moved: most are within a step of what was there.
+    let step = |other: &(Vec<Vec2>, Vec<f32>)| {
+        let near = |(place, mark): (&Vec2, &f32)| {
+            let there = other.0.iter().zip(&other.1);
+            let nearest = there.min_by(|a, b| {
+                a.0.distance_squared(*place)
+                    .total_cmp(&b.0.distance_squared(*place))
+            });
+            nearest.is_some_and(|(_, at)| (at - mark).abs() < 0.1)
+        };
+        let all = moment.0.iter().zip(&moment.1);
+        all.filter(|joint| near(*joint)).count() as f32 / moment.0.len() as f32
+    };
+    let [before, after] = [&sequence[3], &sequence[4]].map(step);
+    assert!(before > 0.8 && after > 0.8, "{before}, {after}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::paths::file_name;
 use crate::say::say;
 use crate::{Failure, counted};
 use effects::Registry;
-use stage::{Files, Preset, check_hair, check_motion, check_style};
+use stage::{Files, Preset, check_hair, check_mesh, check_motion, check_style, is_mesh_file};
 use std::fs;
 use std::io::{self, IsTerminal as _};
 use std::path::{Path, PathBuf};
@@ -85,6 +85,10 @@ fn mistakes_of(path: &Path, registry: &Registry) -> Vec<String> {
     let name = path.display().to_string();
     if name.ends_with(".strands.ron") || name.ends_with(".tfx") {
         let wrong = check_hair(path).err();
+        return wrong.map(|error| error.to_string()).into_iter().collect();
+    }
+    if is_mesh_file(path) {
+        let wrong = check_mesh(path).err();
         return wrong.map(|error| error.to_string()).into_iter().collect();
     }
     let text = match read_text(path) {

@@ -95,7 +95,7 @@ pub(super) fn deepest(scene: &Scene, motion: &Motion, truth: &Truth) -> Deepest 
     let (hair, script) = (object.hair(), object.script());
     let own = motion.of(0, object);
     let time = own.posed_s();
-    let posture = Posture::of(own.head_pose(), hair.head, script, time);
+    let posture = Posture::of(own.head_pose(), (hair.head, object.pivot()), script, time);
     let grids = [
         (&truth.head, posture.head, "head"),
         (&truth.shoulders, posture.shoulders, "shoulders"),

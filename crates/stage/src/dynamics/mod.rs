@@ -19,7 +19,7 @@ use crate::bodies::{Gap, clear, gaps};
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::hand::Driver;
-use crate::neck::rigid;
+use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
 use crate::posture::Posture;
 use bodies::{Bodies, GAP_M};
@@ -557,7 +557,7 @@ impl Dynamics {
     }
 
     fn pose_at(&self, time: f64, driver: Driver) -> Pose {
-        let (rotation, translation) = rigid(driver.head_at(time), self.head);
+        let (rotation, translation) = rigid(driver.head_at(time), self.head, pivot(self.head));
         Pose {
             rotation,
             translation,
@@ -567,6 +567,7 @@ impl Dynamics {
     /// Where all that hair is kept out of is.
     fn posture_at<'s>(&self, time: f64, driver: Driver<'s>) -> Posture<'s> {
         let script = driver.script;
-        Posture::of(driver.head_at(time), self.head, script, script.within(time))
+        let head = (self.head, pivot(self.head));
+        Posture::of(driver.head_at(time), head, script, script.within(time))
     }
 }

@@ -15,6 +15,9 @@ const SPREAD: f64 = 16.0;
 #[derive(Clone, Default)]
 pub(super) struct Followed {
     tracker: Tracker,
+    /// How many frames it has gone through.
+    #[cfg(test)]
+    pub steps: usize,
 }
 
 /// Where marks lie in a frame.
@@ -37,6 +40,10 @@ pub(super) struct SpanMarks<'t> {
 impl Followed {
     /// Goes on to a frame, in which a head's height is so many pixels.
     pub fn step(&mut self, seen: &Seen, height_px: f64) -> Result<(), MeshError> {
+        #[cfg(test)]
+        {
+            self.steps += 1;
+        }
         let frame = Frame {
             surface: &seen.surface,
             view: &seen.view,

@@ -182,9 +182,6 @@ impl MotionScript {
             shift += moved;
             animated_s = time_s;
         }
-        if self.moves_meshes {
-            animated_s = animated_s.or(Some(time));
-        }
         for part in &self.moves {
             let (t, s) = part.at(time, self.goes_round(part.start, part.length));
             turn += t;
@@ -197,6 +194,7 @@ impl MotionScript {
             turn,
             shift,
             animated_s,
+            beaten_s: self.moves_meshes.then_some(time),
         }
     }
 

@@ -15,9 +15,10 @@ pub(crate) struct HeadPose {
     pub turn: DVec3,
     /// Head heights.
     pub shift: DVec3,
-    /// The time in seconds that the character's own skeleton is at, where that moves it, and meshes beside it that move by themselves; `base` and
-    /// `shift` have the motion of the skeleton's head.
+    /// The time in seconds that the character's own skeleton is at, where that moves it; `base` and `shift` have the motion of the skeleton's head.
     pub animated_s: Option<f64>,
+    /// The script's own time in seconds, where meshes beside the head move by themselves.
+    pub beaten_s: Option<f64>,
 }
 
 impl HeadPose {
@@ -28,6 +29,7 @@ impl HeadPose {
         turn: DVec3::ZERO,
         shift: DVec3::ZERO,
         animated_s: None,
+        beaten_s: None,
     };
 
     /// The turn as a unit quaternion, of which `share` (0 to 1) is done: the neck turns less than the

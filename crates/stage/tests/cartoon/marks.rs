@@ -169,12 +169,9 @@ fn a_sweep_is_a_tube_of_many_sides() {
     assert!(0.5 * apart <= 0.5, "{apart}");
 }
 
-/// Row 21: a line goes around a corner of 150 degrees without a gap, on its outer side and its inner one.
-#[test]
-fn lines_have_no_gap_at_sharp_corners() {
-    let folder = tempfile::tempdir().unwrap();
-    // Down and, within a twelfth of its length, almost all the way back up.
-    let points = curve(61, |u| {
+/// A strand that goes down and, within a twelfth of its length, almost all the way back up: around a corner of 150 degrees.
+fn sharp_corner() -> Vec<Vec3> {
+    curve(61, |u| {
         const STEPS: usize = 400;
         let mut place = Vec2::new(-0.05, 0.1);
         for i in 0..(u * STEPS as f32).round() as usize {
@@ -184,15 +181,27 @@ fn lines_have_no_gap_at_sharp_corners() {
             place += 0.36 / STEPS as f32 * Vec2::new(sin, -cos);
         }
         [place.x, place.y, 0.0]
-    });
+    })
+}
+
+const ORDERS: [&str; 3] = ["rounded", "strand_first", "shifted"];
+
+/// The pixels at the edge of what is there, but for the strand's ends.
+fn edge(shown: &Shown) -> Vec<usize> {
+    let is_between = |i: &usize| (0.05..0.95).contains(&shown.samples[*i].u);
+    let edge = border(&mask(shown), 720).into_iter();
+    edge.filter(is_between).collect()
+}
+
+/// Row 21: a line goes around a corner of 150 degrees without a gap, on its outer side and its inner one.
+#[test]
+fn lines_have_no_gap_at_sharp_corners() {
+    let folder = tempfile::tempdir().unwrap();
     let layers = "(effect: \"hair.silhouette\", params: (width: 4, ratio: 10, root_fade: 0, color: \"000000\")), (effect: \"hair.base\")";
-    for order in ["rounded", "strand_first", "shifted"] {
-        let text = look(folder.path(), &points, 720, layers);
+    for order in ORDERS {
+        let text = look(folder.path(), &sharp_corner(), 720, layers);
         let shown = shown(&text, &[("scene.order", order)]);
-        let is_between = |i: &usize| (0.05..0.95).contains(&shown.samples[*i].u);
-        let edge: Vec<usize> = (border(&mask(&shown), 720).into_iter())
-            .filter(is_between)
-            .collect();
+        let edge = edge(&shown);
         let gaps = edge.iter().filter(|i| shown.samples[**i].layer != 0);
         let gaps = gaps.count();
         println!(
@@ -200,6 +209,75 @@ fn lines_have_no_gap_at_sharp_corners() {
             edge.len()
         );
         assert!(edge.len() > 600 && gaps == 0, "{order}: {gaps}");
+    }
+}
+
+/// Row 21 with a brush: one that leaves the middle of the line and nothing beside it draws a line in its middle, which goes around the corner without a gap.
+/// And one that leaves all leaves no gap either.
+#[test]
+fn brushed_lines_have_no_gap_at_sharp_corners() {
+    const ROWS: usize = 64;
+    let folder = tempfile::tempdir().unwrap();
+    let brush = |name: &str, is_black: &dyn Fn(usize) -> bool| {
+        let path = folder.path().join(name);
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 4, ROWS as u32);
+        encoder.set_color(png::ColorType::Grayscale);
+        let mut writer = encoder.write_header().unwrap();
+        let gray = |row: usize| [if is_black(row) { 0 } else { 255 }; 4];
+        let rows: Vec<u8> = (0..ROWS).flat_map(gray).collect();
+        writer.write_image_data(&rows).unwrap();
+        writer.finish().unwrap();
+        std::fs::write(&path, bytes).unwrap();
+        format!("brush: (texture: {:?}),", path.display().to_string())
+    };
+    let all = brush("all.png", &|_| true);
+    let middle = brush("middle.png", &|row| {
+        (ROWS / 3..ROWS - ROWS / 3).contains(&row)
+    });
+    let drawn = |brush: &str, order: &str| {
+        let layers = format!(
+            "(effect: \"hair.silhouette\", {brush} params: (width: 12, ratio: 10, root_fade: 0, color: \"000000\")), (effect: \"hair.base\")"
+        );
+        let text = look(folder.path(), &sharp_corner(), 720, &layers);
+        shown(&text, &[("scene.order", order)])
+    };
+    for order in ORDERS {
+        let solid = drawn("", order);
+        let edge = edge(&solid);
+        let is_line = |shown: &Shown, i: usize| {
+            shown.samples[i].object % 2 == 1 && shown.samples[i].layer == 0
+        };
+        let full = drawn(&all, order);
+        let gaps = edge.iter().filter(|i| !is_line(&full, **i)).count();
+        // How wide the line is, pixels.
+        let strokes = &solid.drawing.layers[0].discs;
+        let widths = strokes.iter().zip(&solid.drawing.clump);
+        let width_px = widths.map(|(line, clump)| line.radius - clump.radius);
+        let width_px = width_px.fold(0.0, f32::max);
+        let thin = drawn(&middle, order);
+        let lines: Vec<Vec2> = (0..thin.samples.len())
+            .filter(|i| is_line(&thin, *i))
+            .map(|i| pixel(720, i))
+            .collect();
+        let to_line = |i: &usize| {
+            let place = pixel(720, *i);
+            let distances = lines.iter().map(|line| line.distance_squared(place));
+            distances.fold(f32::INFINITY, f32::min).sqrt()
+        };
+        let distances: Vec<f32> = edge.iter().map(to_line).collect();
+        let nearest = distances.iter().copied().fold(f32::INFINITY, f32::min);
+        let farthest = distances.iter().copied().fold(0.0, f32::max);
+        println!(
+            "row 21 with a brush, {order}: {gaps} of {} pixels at the edge have no line; one in the middle third of {width_px:.1} px is {nearest:.1} to \
+             {farthest:.1} px from the edge",
+            edge.len()
+        );
+        assert!(edge.len() > 600 && width_px > 8.0);
+        assert_eq!(gaps, 0, "{order}");
+        // A third of its width from the edge, to within what a corner of pixels makes of that.
+        assert!(nearest > width_px / 3.0 - 2.5, "{order}: {nearest}");
+        assert!(farthest < width_px / 3.0 + 2.5, "{order}: {farthest}");
     }
 }
 

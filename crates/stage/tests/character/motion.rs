@@ -201,6 +201,22 @@ fn a_scripts_moves_come_on_top() {
     }
 }
 
+/// The animation is over after a second, and wings beside the character beat on; she moves as without them.
+#[test]
+fn wings_and_skeletons_keep_their_own_times() {
+    let folder = animated(&[turn()], |_| {});
+    let alone = scene(folder.path(), "character: true", STILL).unwrap();
+    let wings = format!("{STILL} meshes: [(shape: wings, at: (0, 1, 0))],");
+    let both = scene(folder.path(), "character: true", &wings).unwrap();
+    for time in [0.25, 1.0, 1.3] {
+        assert_eq!(points_at(&both, time), points_at(&alone, time));
+        let (hers, all) = (corners_at(&alone, time), corners_at(&both, time));
+        assert_eq!(all[..hers.len()], hers, "{time}");
+    }
+    let [at_end, later, a_beat_later] = [1.0, 1.3, 2.0].map(|time| corners_at(&both, time));
+    assert!(at_end != later && at_end == a_beat_later);
+}
+
 /// A ball on an arm that comes up to the hair pushes it away.
 #[test]
 fn bodies_follow_the_skeleton() {

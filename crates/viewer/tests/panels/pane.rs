@@ -97,16 +97,17 @@ pub fn names(harness: &Harness<Pane>) -> Vec<String> {
 
 /// Opens all parts, also those within parts.
 pub fn open_all(harness: &mut Harness<Pane>) {
+    // What is opened holds more; one after the other they would take minutes.
     for _ in 0..3 {
-        let closed: Vec<String> = names(harness)
-            .into_iter()
-            .filter(|name| name.starts_with("open "))
-            .collect();
-        for name in closed {
-            if node(harness, &name).accesskit_node().toggled() == Some(Toggled::False) {
-                click(harness, &name);
-            }
+        let closed = harness.root().children_recursive().filter(|node| {
+            let node = node.accesskit_node();
+            let is_opener = node.label().is_some_and(|name| name.starts_with("open "));
+            is_opener && node.toggled() == Some(Toggled::False)
+        });
+        for node in closed.collect::<Vec<_>>() {
+            node.click_accesskit();
         }
+        harness.run();
     }
 }
 

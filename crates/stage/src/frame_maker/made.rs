@@ -1,0 +1,188 @@
+//! What frames have of the paths that effects make of hair: strands after those of the hair, each of one of them.
+
+use super::ObjectFrame;
+use crate::files::StageError;
+use crate::hair::HairModel;
+use crate::motion::ObjectMotion;
+use crate::reach::Sight;
+use effects::wgsl::hash;
+use effects::{HairStrand, Layer, MadePath, MadePaths, layer_seed};
+use glam::Vec3;
+use render::{Light, StrandInfo};
+use stroke_path::{Detail, PathKind, Paths};
+
+/// The paths that an object's layers make.
+#[derive(Default)]
+pub(super) struct ObjectPaths {
+    /// Those of the layer that made some last.
+    paths: MadePaths,
+    /// Of each layer that makes paths those that it makes of the hair at rest; found where they are first drawn.
+    at_rest: Vec<Vec<MadeAtRest>>,
+    /// The strand of its hair that each path of the last frame belongs to.
+    strands: Vec<usize>,
+}
+
+/// A path that a layer makes of the hair at rest.
+struct MadeAtRest {
+    /// Its strand, its number there, and how many points it has.
+    name: (usize, u32, usize),
+    detail: Detail,
+}
+
+impl ObjectPaths {
+    /// Drops what was kept of another object.
+    pub fn forget(&mut self) {
+        self.at_rest.clear();
+    }
+
+    /// The strand of the object's hair that each path of the last frame belongs to.
+    pub fn strands(&self) -> &[usize] {
+        &self.strands
+    }
+}
+
+impl ObjectFrame {
+    /// Appends the paths that layers make in this light, and notes which joints each layer draws on; `weights` are those of all joints.
+    pub(super) fn push_made_paths(
+        &mut self,
+        motion: &ObjectMotion,
+        sight: &Sight,
+        light: Light,
+        strands: &mut Vec<StrandInfo>,
+        paths: &mut Paths,
+        mut weights: Option<&mut Vec<f32>>,
+    ) -> Result<(), StageError> {
+        let (hair, look) = (self.of.hair(), self.of.look());
+        self.layer_joints.clear();
+        self.made.strands.clear();
+        if self.unseen > 0 {
+            let none = paths.len()..paths.len();
+            self.layer_joints.resize(look.layers.len(), none);
+            return Ok(());
+        }
+        let points = motion.points(&self.of);
+        let of_hair = self.joints.clone();
+        let first_above = self.strands.start + hair.undercoat;
+        let runs = &paths.runs[paths
+            .runs
+            .partition_point(|run| run.joints.end <= of_hair.start)..];
+        let of_undercoat = runs.iter().take_while(|run| run.strand < first_above);
+        let above_undercoat = of_undercoat
+            .last()
+            .map_or(of_hair.start, |run| run.joints.end);
+        let head = motion.head(&self.of);
+        let mut making = 0;
+        for (layer_number, layer) in look.layers.iter().enumerate() {
+            if !layer.program.has_own_paths() {
+                let start = match layer.program.is_on_undercoat() {
+                    true => of_hair.start,
+                    false => above_undercoat,
+                };
+                self.layer_joints.push(start..of_hair.end);
+                continue;
+            }
+            let above = strands_above(hair, points);
+            let seed = layer_seed(look.seed, &layer.name);
+            if self.made.at_rest.len() == making {
+                let at_rest = made_at_rest(hair, layer, seed, look.path())?;
+                self.made.at_rest.push(at_rest);
+            }
+            let at_rest = &self.made.at_rest[making];
+            making += 1;
+            let of_effects = effects::Hair {
+                strands: &above,
+                head_center: head.center,
+                head_height_m: head.height_m,
+                light: self.of.placement().own_light(light),
+                eye: sight.camera().eye(),
+            };
+            self.made.paths.clear();
+            layer
+                .program
+                .make_paths(&of_effects, seed, &mut self.made.paths);
+            let fault = |what: String| StageError::MadePaths {
+                layer: layer.name.clone(),
+                what,
+            };
+            if let Some(what) = self.made.paths.fault() {
+                return Err(fault(what.to_owned()));
+            }
+            let start = paths.len();
+            paths.set_along_tangents(look.paints());
+            for (i, made) in self.made.paths.iter().enumerate() {
+                let (strand, number, points) = (made.strand, made.number, made.points);
+                if strand >= above.len() {
+                    let what = format!("a path of strand {strand}, and there are {}", above.len());
+                    return Err(fault(what));
+                }
+                // As large as it is where nothing is merged: the hair that came loose of it isn't.
+                let parent = StrandInfo {
+                    size: hair.infos[hair.undercoat + strand].size,
+                    ..strands[first_above + strand]
+                };
+                let index = strands.len();
+                self.made.strands.push(hair.undercoat + strand);
+                strands.push(StrandInfo {
+                    id: made_id(parent.id, number),
+                    ..parent
+                });
+                if sight.may_see(points, parent.size) && !parent.is_left_out_by(layer_number) {
+                    let name = (strand, number, points.len());
+                    let detail = at_rest.get(i).filter(|path| path.name == name);
+                    let detail = detail.map(|path| &path.detail);
+                    let (kind, camera, before) = (look.path(), sight.camera(), paths.len());
+                    paths.push_pieces(index, points, &[], detail, kind, camera)?;
+                    if let Some(weights) = &mut weights {
+                        weights.resize(before, 1.0);
+                        weights.extend(paths.u[before..].iter().map(|u| made.weight(*u)));
+                    }
+                }
+            }
+            self.layer_joints.push(start..paths.len());
+        }
+        self.joints.end = paths.len();
+        Ok(())
+    }
+}
+
+/// The strands that layers make paths of: those above the undercoat.
+fn strands_above<'a>(hair: &'a HairModel, points: &'a [Vec3]) -> Vec<HairStrand<'a>> {
+    let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
+        id: info.id,
+        particles: &points[hair.file.strands.point_range(i)],
+        at_rest: hair.file.strands.strand(i),
+        size: info.size,
+    };
+    let above = hair.infos.iter().enumerate().skip(hair.undercoat);
+    above.map(of_strand).collect()
+}
+
+/// The paths that a layer makes of hair at rest: as a path keeps its name, they tell which of its joints a picture needs.
+fn made_at_rest(
+    hair: &HairModel,
+    layer: &Layer,
+    seed: u32,
+    path: PathKind,
+) -> Result<Vec<MadeAtRest>, StageError> {
+    let of_effects = effects::Hair {
+        strands: &strands_above(hair, hair.file.strands.points()),
+        head_center: hair.head.center,
+        head_height_m: hair.head.height_m,
+        light: Light::Direction(Vec3::Z),
+        eye: hair.head.center + 10.0 * hair.head.height_m * Vec3::Z,
+    };
+    let mut made = MadePaths::default();
+    layer.program.make_paths(&of_effects, seed, &mut made);
+    let with_detail = |made: MadePath| {
+        Ok(MadeAtRest {
+            name: (made.strand, made.number, made.points.len()),
+            detail: Detail::of(made.points, path, &[], 1.0)?,
+        })
+    };
+    made.iter().map(with_detail).collect()
+}
+
+/// The number that the variations of path `number` of strand `id` hang on.
+fn made_id(id: u32, number: u32) -> u32 {
+    hash(id ^ hash(number + 1))
+}
