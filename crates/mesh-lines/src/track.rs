@@ -19,6 +19,11 @@ const KNOT_PX: f64 = 48.0;
 const LEAST_VOTES: usize = 2;
 const LEAST_PX: f64 = 5.0;
 const LEAST_SHARE: f64 = 0.05;
+/// What is drawn of a line that comes from nowhere: so long in its first frame, in pixels, and so many times as long in each frame after.
+const BORN_PX: f64 = 2.0;
+const GROWTH: f64 = 2.0;
+/// A new path of which at least this share was there before, but hidden, doesn't come from nowhere.
+const REVEALED_SHARE: f64 = 0.5;
 /// Neighbouring votes that are farther apart in T than on the line by more than this many pixels are of two groups.
 const JUMP_PX: f64 = 24.0;
 
@@ -28,11 +33,19 @@ const JUMP_PX: f64 = 24.0;
 /// surface, walk to the new contour, and vote there for their path and their T; through the votes goes the smooth T that has nearly the
 /// pattern's period everywhere (Kalnins et al., *Coherent stylized silhouettes*, 2003; limits by W and its authors' program). No random numbers, and the same for any number of threads.
 ///
+/// A path gets a new name where nothing votes. Either it was there before, but behind something that has moved away: then it is as long as what uncovered it has gone,
+/// and is drawn whole. Or it comes from nowhere, as where a surface begins to turn away from the eye: then [`Path::shown`] grows from 2 pixels on, twice as
+/// long in each frame, whatever the length of the line that there is. In the first frame all is drawn whole.
+///
 /// Creases and borders are fixed on the mesh and need no tracker.
 #[derive(Clone, Debug, Default)]
 pub struct Tracker {
     paths: Vec<Path>,
     memories: Vec<Memory>,
+    /// Where contours were that something hid.
+    hidden: Vec<Place>,
+    /// How much is drawn, in pixels, of paths that aren't whole yet.
+    growing: HashMap<u64, f64>,
     next_id: u64,
     /// How many triangles and smooth vertices the mesh has, from the first frame on.
     mesh: Option<[usize; 2]>,
@@ -64,6 +77,10 @@ pub struct Path {
     pub id: u64,
     /// True in the frame in which the name is given.
     pub is_new: bool,
+    /// Of a new path whether it was there in the frame before, hidden.
+    pub is_revealed: bool,
+    /// From where to where it is drawn ([`Line::position`]): all of it, but of one that came from nowhere a while ago.
+    pub shown: [f64; 2],
     /// The index of the span on which it lies.
     pub span: usize,
     /// Its joints, at least two: those of the line, and its ends.
@@ -128,7 +145,10 @@ impl Tracker {
         let mesh = self.check_mesh(frame.surface.topology())?;
         check_lines(frame.surface, frame.lines)?;
         check_spans(frame)?;
-        let mut votes = self.votes(frame);
+        let contours = Contours::new(frame);
+        let mut votes = self.votes(&contours);
+        let uncovered = self.uncovered(&contours);
+        let is_first = self.mesh.is_none();
         let mut rulers = Vec::new();
         for (number, span) in frame.spans.iter().enumerate() {
             let line = &frame.lines[span.line];
@@ -147,13 +167,39 @@ impl Tracker {
             }
         }
         self.mesh = Some(mesh);
+        self.growing.values_mut().for_each(|px| *px *= GROWTH);
         self.paths.clear();
         self.memories.clear();
         for (number, ruler) in rulers {
             let line = &frame.lines[frame.spans[number].line];
-            self.name(frame, number, line, &ruler, &votes[number]);
+            let uncovered_px = uncovered[number] as f64 * SAMPLE_PX;
+            let is_revealed = uncovered_px >= REVEALED_SHARE * ruler.length();
+            self.name(frame, number, line, &ruler, &votes[number], is_revealed);
         }
+        if is_first {
+            self.finish();
+        }
+        let paths = &self.paths;
+        self.growing.retain(|id, _| {
+            let mut own = paths.iter().filter(|path| path.id == *id);
+            own.any(|path| path.shown != path.whole())
+        });
+        self.remember_hidden(&contours);
         Ok(&self.paths)
+    }
+
+    /// Whether some paths aren't drawn whole yet: then the next frame shows more of them, even where nothing moves.
+    #[must_use]
+    pub fn is_growing(&self) -> bool {
+        !self.growing.is_empty()
+    }
+
+    /// Has all paths drawn whole at once, as where no time has gone by since the frame before.
+    pub fn finish(&mut self) {
+        self.growing.clear();
+        for path in &mut self.paths {
+            path.shown = path.whole();
+        }
     }
 
     /// The paths of the last frame.
@@ -177,52 +223,10 @@ impl Tracker {
     }
 
     /// Where the samples of the last frame's paths are now, by span.
-    fn votes(&self, frame: &Frame) -> Vec<Vec<Vote>> {
-        let mut segments: HashMap<u32, Vec<(usize, usize)>> = HashMap::new();
-        for (number, line) in frame
-            .lines
-            .iter()
-            .enumerate()
-            .filter(|(_, line)| line.kind == Kind::Contour)
-        {
-            for (segment, at) in line.segments.iter().enumerate() {
-                segments
-                    .entry(at.triangle)
-                    .or_default()
-                    .push((number, segment));
-            }
-        }
-        let mut spans = vec![Vec::new(); frame.lines.len()];
-        for (number, span) in frame.spans.iter().enumerate() {
-            spans[span.line].push(number);
-        }
-        for spans in &mut spans {
-            let start = |span: &usize| frame.spans[*span].start;
-            spans.sort_by(|a, b| start(a).total_cmp(&start(b)));
-        }
-        let mut votes = vec![Vec::new(); frame.spans.len()];
-        let reach = REACH_PX * frame.pixel;
+    fn votes(&self, contours: &Contours) -> Vec<Vec<Vote>> {
+        let mut votes = vec![Vec::new(); contours.frame.spans.len()];
         for memory in &self.memories {
-            let place = walk_to_zero(frame.surface, frame.facing, frame.view, memory.place, reach);
-            let Some(place) = place else {
-                continue;
-            };
-            let point = frame.surface.point(place);
-            // A triangle has one segment, or two with a cusp between.
-            let found =
-                segments
-                    .get(&place.triangle)
-                    .into_iter()
-                    .flatten()
-                    .map(|&(line, segment)| {
-                        let (share, off) = nearest_on(&frame.lines[line], segment, point);
-                        (line, segment as f64 + share, off)
-                    });
-            let Some((line, along, _)) = found.min_by(|a, b| a.2.total_cmp(&b.2)) else {
-                continue;
-            };
-            let count = frame.lines[line].segments.len() as f64;
-            if let Some(span) = span_at(frame.spans, &spans[line], along, count) {
+            if let Some((span, along)) = contours.now(memory.place) {
                 votes[span].push(Vote {
                     id: memory.id,
                     along,
@@ -234,8 +238,60 @@ impl Tracker {
         votes
     }
 
+    /// How many samples of what was hidden in the last frame are now seen, by span.
+    fn uncovered(&self, contours: &Contours) -> Vec<usize> {
+        let mut uncovered = vec![0; contours.frame.spans.len()];
+        for place in &self.hidden {
+            if let Some((span, _)) = contours.now(*place) {
+                uncovered[span] += 1;
+            }
+        }
+        uncovered
+    }
+
+    /// Notes where contours are that something hides.
+    fn remember_hidden(&mut self, contours: &Contours) {
+        self.hidden.clear();
+        let frame = contours.frame;
+        for (line, spans) in frame.lines.iter().zip(&contours.spans) {
+            if line.kind != Kind::Contour || line.segments.is_empty() {
+                continue;
+            }
+            let seen = |along: f64| {
+                let count = line.segments.len() as f64;
+                span_at(frame.spans, spans, along, count).is_some()
+            };
+            // As far apart as those of what is seen.
+            let (mut left, mut room) = (0.5 * SAMPLE_PX, MOST_SAMPLES);
+            let lengths = line.image_lengths(frame.view);
+            for (segment, length) in lengths.iter().enumerate() {
+                let px = length / frame.pixel;
+                if line.segments[segment].is_inside(frame.surface) || !px.is_finite() {
+                    continue;
+                }
+                let samples = ((px - left) / SAMPLE_PX + 1.0).clamp(0.0, room).floor();
+                room -= samples;
+                for sample in 0..samples as usize {
+                    let along = segment as f64 + (left + sample as f64 * SAMPLE_PX) / px;
+                    if !seen(along) {
+                        self.hidden.push(line.place(frame.surface, along));
+                    }
+                }
+                left += samples * SAMPLE_PX - px;
+            }
+        }
+    }
+
     /// Divides a span among those who are voted for, or gives it a new name.
-    fn name(&mut self, frame: &Frame, span: usize, line: &Line, ruler: &Ruler, votes: &[Vote]) {
+    fn name(
+        &mut self,
+        frame: &Frame,
+        span: usize,
+        line: &Line,
+        ruler: &Ruler,
+        votes: &[Vote],
+        is_revealed: bool,
+    ) {
         let slope = frame.period_px.recip();
         let shares = shares(groups(votes, frame.period_px), ruler.length());
         if shares.is_empty() {
@@ -243,12 +299,20 @@ impl Tracker {
             self.next_id += 1;
             let whole = 0.0..ruler.length();
             let spline = Spline::straight(whole.clone(), slope);
-            self.add(frame, span, line, ruler, whole, &spline, id, true);
+            self.add(frame, span, line, ruler, whole, &spline, id);
+            if let Some(path) = self.paths.last_mut() {
+                (path.is_new, path.is_revealed) = (true, is_revealed);
+            }
+            if !is_revealed {
+                self.growing.insert(id, BORN_PX);
+                self.trim(ruler);
+            }
         }
         for (range, group) in shares {
             let points: Vec<(f64, f64)> = group.iter().map(|vote| (vote.s, vote.t)).collect();
             let spline = Spline::fit(range.clone(), KNOT_PX, &points, slope);
-            self.add(frame, span, line, ruler, range, &spline, group[0].id, false);
+            self.add(frame, span, line, ruler, range, &spline, group[0].id);
+            self.trim(ruler);
         }
     }
 
@@ -265,7 +329,6 @@ impl Tracker {
         range: Range<f64>,
         spline: &Spline,
         id: u64,
-        is_new: bool,
     ) {
         let joint = |(along, s): (f64, f64)| PathJoint {
             along,
@@ -273,11 +336,14 @@ impl Tracker {
             length_px: s,
             t: spline.at(s),
         };
+        let joints: Vec<PathJoint> = ruler.joints(&range).into_iter().map(joint).collect();
         self.paths.push(Path {
             id,
-            is_new,
+            is_new: false,
+            is_revealed: false,
+            shown: [joints[0].along, joints[joints.len() - 1].along],
             span,
-            joints: ruler.joints(&range).into_iter().map(joint).collect(),
+            joints,
         });
         let length = range.end - range.start;
         let samples = (length / SAMPLE_PX).ceil().clamp(1.0, MOST_SAMPLES) as usize;
@@ -289,6 +355,84 @@ impl Tracker {
                 t: spline.at(s),
             }
         }));
+    }
+
+    /// Shows of the last path what it has grown to, about its middle.
+    fn trim(&mut self, ruler: &Ruler) {
+        let Some(path) = self.paths.last_mut() else {
+            return;
+        };
+        let (Some(most), [first, .., last]) = (self.growing.get(&path.id), &path.joints[..]) else {
+            return;
+        };
+        let [from, to] = [first.length_px, last.length_px];
+        let cut = 0.5 * (to - from - most);
+        if cut > 0.0 {
+            path.shown = [from + cut, to - cut].map(|length| ruler.along(length));
+        }
+    }
+}
+
+impl Path {
+    /// From where to where it goes.
+    fn whole(&self) -> [f64; 2] {
+        match self.joints[..] {
+            [first, .., last] => [first.along, last.along],
+            _ => self.shown,
+        }
+    }
+}
+
+/// The contours of a frame, to be found from places on the surface.
+struct Contours<'f> {
+    frame: &'f Frame<'f>,
+    /// The segments in each triangle that has some, as line and segment.
+    segments: HashMap<u32, Vec<(usize, usize)>>,
+    /// Of each line its spans, in order.
+    spans: Vec<Vec<usize>>,
+}
+
+impl<'f> Contours<'f> {
+    fn new(frame: &'f Frame) -> Self {
+        let mut segments: HashMap<u32, Vec<(usize, usize)>> = HashMap::new();
+        let contours = frame.lines.iter().enumerate();
+        for (number, line) in contours.filter(|(_, line)| line.kind == Kind::Contour) {
+            for (segment, at) in line.segments.iter().enumerate() {
+                let in_triangle = segments.entry(at.triangle).or_default();
+                in_triangle.push((number, segment));
+            }
+        }
+        let mut spans = vec![Vec::new(); frame.lines.len()];
+        for (number, span) in frame.spans.iter().enumerate() {
+            spans[span.line].push(number);
+        }
+        for spans in &mut spans {
+            let start = |span: &usize| frame.spans[*span].start;
+            spans.sort_by(|a, b| start(a).total_cmp(&start(b)));
+        }
+        Self {
+            frame,
+            segments,
+            spans,
+        }
+    }
+
+    /// The span to which a place of the last frame's contours has come, and where on its line.
+    fn now(&self, before: Place) -> Option<(usize, f64)> {
+        let frame = self.frame;
+        let reach = REACH_PX * frame.pixel;
+        let place = walk_to_zero(frame.surface, frame.facing, frame.view, before, reach)?;
+        let point = frame.surface.point(place);
+        // A triangle has one segment, or two with a cusp between.
+        let here = self.segments.get(&place.triangle)?.iter();
+        let found = here.map(|&(line, segment)| {
+            let (share, off) = nearest_on(&frame.lines[line], segment, point);
+            (line, segment as f64 + share, off)
+        });
+        let (line, along, _) = found.min_by(|a, b| a.2.total_cmp(&b.2))?;
+        let count = frame.lines[line].segments.len() as f64;
+        let span = span_at(frame.spans, &self.spans[line], along, count)?;
+        Some((span, along))
     }
 }
 

@@ -4,7 +4,7 @@ mod shapes;
 
 use glam::{DVec3, Vec3};
 use mesh_lines::{Frame, Path, Surface, Tracker, View, contours, facing, visible};
-use shapes::{Shape, bumpy, sphere, torus};
+use shapes::{Shape, bumpy, grid, sphere, torus};
 use std::collections::HashMap;
 
 /// 720 lines of 30 degrees.
@@ -213,4 +213,90 @@ fn a_mesh_that_moves_takes_its_pattern_along() {
             assert_eq!(ids, first, "frame {frame}");
         }
     }
+}
+
+/// How long all of a path is, and what is drawn of it, pixels.
+fn lengths_px(path: &Path) -> [f64; 2] {
+    let length_at = |along: f64| {
+        let after = path.joints.partition_point(|joint| joint.along < along);
+        let after = after.clamp(1, path.joints.len() - 1);
+        let [a, b] = [path.joints[after - 1], path.joints[after]];
+        a.length_px + (b.length_px - a.length_px) * (along - a.along) / (b.along - a.along)
+    };
+    let ends = [
+        path.joints[0].along,
+        path.joints[path.joints.len() - 1].along,
+    ];
+    [ends, path.shown].map(|[from, to]| length_at(to) - length_at(from))
+}
+
+/// A sheet that lies before the eye, with a hill of this height.
+fn hill(sheet: &Shape, height: f32) -> Vec<Vec3> {
+    let up = |p: &Vec3| Vec3::Y * (height * (-2.0 * (p.x * p.x + p.z * p.z)).exp());
+    sheet.positions.iter().map(|p| *p + up(p)).collect()
+}
+
+#[test]
+fn a_line_from_nowhere_grows_from_two_pixels() {
+    let sheet = grid([80, 80], [false, false], |u, v| {
+        DVec3::new(4.0 * u - 2.0, 0.0, 2.0 - 4.0 * v)
+    });
+    let eye = DVec3::new(0.0, 2.0, 5.5);
+    let mut tracker = Tracker::default();
+    assert!(step(&mut tracker, &sheet, &sheet.positions, eye).is_empty());
+    // All at once the sheet turns away from the eye behind the hill.
+    let risen = hill(&sheet, 0.6);
+    let mut at_once = None;
+    let mut grown = 0;
+    for frame in 0..12 {
+        let paths = step(&mut tracker, &sheet, &risen, eye);
+        assert_eq!(paths.len(), 1);
+        let [whole, shown] = lengths_px(&paths[0]);
+        assert!(whole > 100.0, "{whole}");
+        assert_eq!(paths[0].is_new, frame == 0);
+        assert!(!paths[0].is_revealed);
+        let expected = whole.min(2.0 * f64::from(1 << frame));
+        assert!(
+            (shown - expected).abs() < 1e-6,
+            "frame {frame}: {shown} of {whole}"
+        );
+        assert_eq!(tracker.is_growing(), shown < whole, "frame {frame}");
+        grown += usize::from(shown < whole);
+        if frame == 0 {
+            let mut live = tracker.clone();
+            live.finish();
+            at_once = live.paths().first().map(lengths_px);
+            assert!(!live.is_growing());
+        }
+    }
+    assert!(grown > 4, "{grown}");
+    assert!(at_once.is_some_and(|[whole, shown]| (whole - shown).abs() < 1e-9));
+}
+
+#[test]
+fn a_line_that_is_uncovered_is_whole() {
+    // A ball before another one goes aside.
+    let (far, near) = (DVec3::new(0.0, 0.0, -1.0), DVec3::new(0.0, 0.0, 1.0));
+    let shape = sphere(24, far, 0.5).and(sphere(24, near, 0.8));
+    let moved = |frame: u32| -> Vec<Vec3> {
+        let is_near = |p: &Vec3| p.as_dvec3().distance(near) < 0.9;
+        let aside = |p: &Vec3| *p + Vec3::X * if is_near(p) { 0.17 * frame as f32 } else { 0.0 };
+        shape.positions.iter().map(aside).collect()
+    };
+    let mut tracker = Tracker::default();
+    let mut uncovered = 0;
+    for frame in 0..8 {
+        let shape = Shape::new(moved(frame), shape.topology.triangles());
+        let paths = step(&mut tracker, &shape, &shape.positions, DVec3::Z * 9.0);
+        for path in paths.iter().filter(|path| frame > 0 && path.is_new) {
+            let [whole, shown] = lengths_px(path);
+            assert!(path.is_revealed && whole > 4.0, "frame {frame}: {whole}");
+            assert!(
+                (whole - shown).abs() < 1e-9,
+                "frame {frame}: {shown} of {whole}"
+            );
+            uncovered += 1;
+        }
+    }
+    assert_eq!(uncovered, 1);
 }

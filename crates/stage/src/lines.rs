@@ -116,11 +116,16 @@ impl HeadLines {
 
     /// Whether frame `now`, in which the head has this pose, shows what the one before did: then contours are followed to it.
     pub fn stays(&mut self, camera: &Camera, pose: HeadPose, now: f64) -> bool {
-        let stays = self.seen == Some(SeenFrom::of(camera, pose));
+        let stays = self.seen == Some(SeenFrom::of(camera, pose)) && !self.is_growing();
         if stays {
             self.at = Some(now);
         }
         stays
+    }
+
+    /// Whether a frame later shows more of lines that came from nowhere, even where nothing moves.
+    pub fn is_growing(&self) -> bool {
+        self.followed.iter().flatten().any(Followed::is_growing)
     }
 
     /// Follows contours to frame `now`, in which the head is in this pose, without a picture.
@@ -165,7 +170,9 @@ impl HeadLines {
     ) -> Result<&[Vec<LineStrand>], StageError> {
         let unit_m = head.unit_m();
         let seen_from = SeenFrom::of(camera, pose);
-        let is_there = self.seen == Some(seen_from);
+        // With another eye at the same time lines have no time to grow.
+        let is_same_time = self.at.is_some_and(|at| (at - now).abs() <= SAME_FRAME);
+        let is_there = self.seen == Some(seen_from) && (is_same_time || !self.is_growing());
         let is_whole = (now - now.round()).abs() <= SAME_FRAME;
         let view = View::perspective(camera.eye()).map_err(fault)?;
         let pixel = seen_from.pixel;
@@ -184,6 +191,9 @@ impl HeadLines {
                     followed
                         .step(&seen, height_px(&view, pixel, head))
                         .map_err(fault)?;
+                    if is_same_time {
+                        followed.finish();
+                    }
                 }
             }
             let marks = followed.as_deref().map(Followed::marks);

@@ -1,5 +1,10 @@
 //! Lines of meshes, drawn as strokes: which there are, where they lie, what hides them, and mistakes.
 
+#![allow(
+    clippy::print_stdout,
+    reason = "a test shows the figures that it holds"
+)]
+
 use effects::Registry;
 use glam::{Vec2, Vec3};
 use render::cpu::{Evaluator, Rasterizer};
@@ -303,6 +308,83 @@ fn they_are_set_by_their_number() {
     assert_eq!(preset.lines[0].section.kind.as_deref(), Some("border"));
     let error = preset.set("lines.2.halo", "4").unwrap_err();
     assert!(error.to_string().contains("lines.1"), "{error}");
+}
+
+/// W, row W1: on a ball a table over n . l has its edge, a circle and in the picture an ellipse, within 0.1 pixels of where it should be: of each row of
+/// pixels as much is lit.
+#[test]
+fn a_tones_edge_on_a_ball_is_an_exact_circle() {
+    const GRID: u32 = 16;
+    let folder = folder();
+    fs::write(folder.path().join("ball.obj"), ball(96, 192)).unwrap();
+    let mut rows = 0;
+    for threshold in [0.25, 0.625, 0.875] {
+        let toon = format!(
+            "(effect: \"mesh.toon\", on: \"ball\", params: (mode: replace, tones: (steps: [(0, \"000000\"), ({threshold}, \"FFFFFF\")])))"
+        );
+        let text = text("a", "", &toon)
+            .replace("size: (240, 240)", "size: (480, 480)")
+            .replace("light: (yaw: 0, pitch: 10)", "light: (yaw: 50, pitch: 10)");
+        let preset = Preset::parse("look.ron", &text, &registry()).unwrap();
+        let files = Files {
+            preset_folder: folder.path().to_owned(),
+            ..Files::default()
+        };
+        let mut stage = Stage::new(&preset, &files).unwrap();
+        let frame = stage.frame().unwrap();
+        let (camera, light) = (*frame.camera, frame.light);
+        let mut drawing = Drawing::default();
+        Evaluator::default().evaluate(&frame, &mut drawing).unwrap();
+        let picture = Rasterizer::new(64, Some(2))
+            .unwrap()
+            .draw(&drawing)
+            .unwrap();
+        // Whether light falls on the true ball where a place of the picture shows it, away from the outline, which is the mesh's.
+        let (eye, focal) = (camera.eye().as_dvec3(), camera.focal_px());
+        let (ball, radius) = (BALL.as_dvec3(), f64::from(RADIUS_M));
+        let is_lit = |x: f64, y: f64| {
+            let view = Vec3::new((x as f32 - 240.0) / focal, (240.0 - y as f32) / focal, 1.0);
+            let ray = camera
+                .world_from_view_direction(view)
+                .as_dvec3()
+                .normalize();
+            let along = (ball - eye).dot(ray);
+            let inside = radius * radius - (eye + along * ray - ball).length_squared();
+            let point = eye + (along - inside.max(0.0).sqrt()) * ray;
+            let normal = (point - ball) / radius;
+            let (towards, _) = light.seen_from(point.as_vec3());
+            let faces = inside > 0.0 && normal.dot(ray) < -0.3;
+            faces.then(|| normal.dot(towards.as_dvec3()) >= threshold)
+        };
+        let middle = camera.project(camera.view_from_world(BALL));
+        let reach = 1.2 * RADIUS_M * camera.px_per_metre(camera.depth(BALL));
+        let [low, high] = [middle - reach, middle + reach].map(Vec2::as_uvec2);
+        let mut farthest: f64 = 0.0;
+        for y in low.y..high.y {
+            let (mut moved, mut edge) = (0.0, 0.0);
+            for x in low.x..high.x {
+                let at = |cell: u32| (f64::from(cell) + 0.5) / f64::from(GRID);
+                let samples = (0..GRID * GRID)
+                    .map(|i| is_lit(f64::from(x) + at(i % GRID), f64::from(y) + at(i / GRID)));
+                let Some(lit) = samples.collect::<Option<Vec<bool>>>() else {
+                    continue;
+                };
+                let count = lit.iter().filter(|lit| **lit).count() as f64;
+                let exact = count / f64::from(GRID * GRID);
+                let [drawn, ..] = picture.pixels[(y * 480 + x) as usize];
+                moved += (f64::from(drawn) - exact).abs();
+                edge += f64::from(u8::from(exact > 0.0 && exact < 1.0));
+            }
+            rows += u32::from(edge > 0.0);
+            // An edge that crosses a row is seen in two of its pixels at most; one that runs along it moves as much area for each pixel of its length.
+            farthest = farthest.max(moved / f64::max(0.5 * edge, 1.0));
+        }
+        println!(
+            "W1: the edge of n . l = {threshold} is within {farthest:.3} pixels of the circle"
+        );
+        assert!(farthest < 0.1, "{threshold}: {farthest:.3} pixels");
+    }
+    assert!(rows > 100, "{rows}");
 }
 
 /// A preset of things alone, without a file.

@@ -6,7 +6,10 @@ use crate::lines::subjects::Subject;
 use crate::results::Row;
 use crate::targets::{Found, Limit, Target};
 use glam::{DVec3, Quat, Vec3};
-use mesh_lines::{Bvh, Frame, Kind, MeshError, Path, Place, Surface, Tracker, View, visible};
+use mesh_lines::{
+    Bvh, Frame, Line, MeshError, Path, Place, Ray, Surface, Tracker, View, facing, visible,
+    walk_to_zero,
+};
 use stage::{ThingChoice, thing_mesh};
 use std::fmt::Write as _;
 
@@ -16,8 +19,10 @@ const LINES: usize = 720;
 const PERIOD_PX: f64 = 100.0;
 /// A sample is matched with the line of the next frame no farther away than this.
 const REACH_PX: f64 = 8.0;
-/// What is born longer is seen to come from nowhere.
+/// What is drawn longer than this in its first frame is seen to come from nowhere, unless something uncovered it.
 const BORN_PX: f64 = 4.0;
+/// Of a line that something uncovered at least this share was there in the frame before, hidden.
+const UNCOVERED_SHARE: f64 = 0.5;
 /// Of all joints of a path one in so many is a sample.
 const SOME: usize = 3;
 
@@ -42,8 +47,8 @@ pub struct LineFigures {
     pub drift: [f64; 2],
     /// abs(T' / rho - 1): mean, 99 %.
     pub stretch: [f64; 2],
-    /// Lines that are born longer than 4 pixels; nothing where lines have no names.
-    pub births: Option<usize>,
+    /// Lines that are born longer than 4 pixels, and those that are as long as what was before them has moved away; nothing where lines have no names.
+    pub births: Option<[usize; 2]>,
     /// Samples that were matched.
     pub matched: usize,
 }
@@ -61,6 +66,37 @@ struct Sample {
 struct Stroke {
     id: Option<u64>,
     samples: Vec<Sample>,
+}
+
+/// What an eye saw of a mesh in a frame.
+struct Before<'f> {
+    surface: Surface<'f>,
+    bvh: &'f Bvh,
+    view: View,
+}
+
+impl Before<'_> {
+    /// Whether most of a path of the next frame was there, behind something: by a ray for each joint, from the contour that was nearest to it.
+    fn hid(&self, path: &Path, line: &Line, now: &Surface) -> bool {
+        let values = facing(&self.surface, &self.view);
+        let triangles = self.surface.topology().triangles();
+        let is_hidden = |joint: &&mesh_lines::PathJoint| {
+            let place = line.place(now, joint.along);
+            let reach = REACH_PX * pixel(LINES);
+            let before = walk_to_zero(&self.surface, &values, &self.view, place, reach);
+            before.is_some_and(|before| {
+                let corners = triangles[before.triangle as usize];
+                let is_around = |t: u32| triangles[t as usize].iter().any(|v| corners.contains(v));
+                // From where the smooth surface is, before its triangles.
+                let off = 2.0 * self.surface.sagitta(before.triangle);
+                let start = self.surface.point(before) + self.surface.normal(before) * off;
+                let ray = Ray::to_eye(start, &self.view);
+                self.bvh.is_blocked(&self.surface, &ray, is_around)
+            })
+        };
+        let hidden = path.joints.iter().filter(is_hidden).count();
+        hidden as f64 >= UNCOVERED_SHARE * path.joints.len() as f64
+    }
 }
 
 /// A mesh that moves, or an eye that does.
@@ -133,17 +169,20 @@ impl Scene {
     fn measure(&self, method: Method, frames: u32) -> Result<LineFigures, MeshError> {
         let first = (self.positions)(&self.subject, 0.0);
         let mut bvh = Bvh::new(&self.subject.surface(&first)?);
+        let mut bvh_before = bvh.clone();
+        let mut places_before = first;
         let mut tracker = Tracker::default();
         let (mut drift, mut stretch) = (Vec::new(), Vec::new());
-        let (mut births, mut before) = (0, Vec::<Stroke>::new());
+        let (mut births, mut before) = ([0; 2], Vec::<Stroke>::new());
         for frame in 0..frames {
             let time = f64::from(frame) / FPS;
             let positions = (self.positions)(&self.subject, time);
             let surface = self.subject.surface(&positions)?;
+            std::mem::swap(&mut bvh, &mut bvh_before);
             bvh.refit(&surface);
             let view = View::perspective((self.eye)(&self.subject, time).as_vec3())?;
-            let (mut lines, facing) = self.subject.lines(&surface, &view)?;
-            lines.retain(|line| line.kind == Kind::Contour);
+            // Creases and borders hide contours, and have places of their own.
+            let (lines, facing) = self.subject.lines(&surface, &view)?;
             let spans = visible(&surface, &bvh, &view, &lines, pixel(LINES))?;
             let paths = tracker.step(&Frame {
                 surface: &surface,
@@ -162,10 +201,17 @@ impl Scene {
                 })
                 .collect();
             if frame > 0 {
-                let born = paths
-                    .iter()
-                    .filter(|path| path.is_new && length_px(path) > BORN_PX);
-                births += born.count();
+                let earlier = f64::from(frame - 1) / FPS;
+                let seen = Before {
+                    surface: self.subject.surface(&places_before)?,
+                    bvh: &bvh_before,
+                    view: View::perspective((self.eye)(&self.subject, earlier).as_vec3())?,
+                };
+                let is_long = |path: &&Path| path.is_new && shown_px(path) > BORN_PX;
+                for path in paths.iter().filter(is_long) {
+                    let line = &lines[spans[path.span].line];
+                    births[usize::from(seen.hid(path, line, &surface))] += 1;
+                }
             }
             match method {
                 Method::Tracker => {}
@@ -196,6 +242,7 @@ impl Scene {
                 }
             }
             before = now;
+            places_before = positions;
         }
         drift.sort_by(f64::total_cmp);
         stretch.sort_by(f64::total_cmp);
@@ -219,11 +266,16 @@ impl Scene {
     }
 }
 
-fn length_px(path: &Path) -> f64 {
-    match path.joints[..] {
-        [first, .., last] => last.length_px - first.length_px,
-        _ => 0.0,
-    }
+/// How long the part of a path is that is drawn.
+fn shown_px(path: &Path) -> f64 {
+    let length_at = |along: f64| {
+        let after = path.joints.partition_point(|joint| joint.along < along);
+        let after = after.clamp(1, path.joints.len() - 1);
+        let [a, b] = [path.joints[after - 1], path.joints[after]];
+        let share = (along - a.along) / (b.along - a.along).max(f64::MIN_POSITIVE);
+        a.length_px + (b.length_px - a.length_px) * share.clamp(0.0, 1.0)
+    };
+    length_at(path.shown[1]) - length_at(path.shown[0])
 }
 
 fn stroke(path: &Path, place: impl Fn(f64) -> Place) -> Stroke {
@@ -303,7 +355,7 @@ pub fn targets(figures: &[LineFigures]) -> Vec<Target> {
             at_most("stretch of marks, 99 %", of.stretch[1], 0.5),
             at_most(
                 "lines born longer than 4 px",
-                of.births.unwrap_or(0) as f64,
+                of.births.map_or(0, |[born, _]| born) as f64,
                 0.0,
             ),
         ]
@@ -328,7 +380,10 @@ pub fn rows(figures: &[LineFigures]) -> Vec<Row> {
             row("stretch-mean", of.stretch[0]),
             row("stretch-99", of.stretch[1]),
         ];
-        rows.extend(of.births.map(|births| row("births", births as f64)));
+        for [born, uncovered] in of.births {
+            rows.push(row("births", born as f64));
+            rows.push(row("uncovered", uncovered as f64));
+        }
         rows
     };
     figures.iter().flat_map(of_scene).collect()
@@ -338,13 +393,16 @@ pub fn rows(figures: &[LineFigures]) -> Vec<Row> {
 #[must_use]
 pub fn summary(figures: &[LineFigures]) -> String {
     let mut text = String::from(
-        "| lines | by | drift, median, px | 99 % | stretch, mean | 99 % | born > 4 px | samples |\n|---|---|---|---|---|---|---|---|\n",
+        "| lines | by | drift, median, px | 99 % | stretch, mean | 99 % | born > 4 px | uncovered | samples |\n|---|---|---|---|---|---|---|---|---|\n",
     );
     for of in figures {
-        let births = of.births.map_or(String::new(), |births| births.to_string());
+        let births = of
+            .births
+            .map(|births| births.map(|count| count.to_string()));
+        let [born, uncovered] = births.unwrap_or_default();
         let _ = writeln!(
             text,
-            "| {} | {} | {:.3} | {:.2} | {:.3} | {:.2} | {births} | {} |",
+            "| {} | {} | {:.3} | {:.2} | {:.3} | {:.2} | {born} | {uncovered} | {} |",
             of.scene,
             of.method.name(),
             of.drift[0],

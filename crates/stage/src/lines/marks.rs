@@ -4,6 +4,7 @@ use super::strand::Seen;
 use effects::wgsl::hash;
 use glam::{DVec3, Vec3};
 use mesh_lines::{Cut, Frame, Kind, Line, MeshError, Path, Span, Surface, Tracker};
+use std::rc::Rc;
 
 /// Marks begin so far along, head heights: contours are followed in both directions from where they began, and brushes know no places below 0.
 const FIRST: f64 = 64.0;
@@ -27,11 +28,11 @@ pub(super) struct Marks<'t> {
 /// Where they lie along one span of a line.
 pub(super) struct SpanMarks<'t> {
     /// Of contours.
-    paths: Vec<&'t Path>,
+    paths: &'t [Path],
     /// As many as a closed line has segments, else 0.
     around: f64,
     /// Of lines that are fixed to the mesh, how long the line is up to each joint at rest, head heights.
-    lengths: Vec<f64>,
+    lengths: Rc<[f64]>,
     /// Where the line's own marks begin.
     first: f64,
 }
@@ -55,6 +56,16 @@ impl Followed {
         self.tracker.step(&frame).map(drop)
     }
 
+    /// Whether some contours that came from nowhere aren't drawn whole yet.
+    pub fn is_growing(&self) -> bool {
+        self.tracker.is_growing()
+    }
+
+    /// Has all of them drawn whole.
+    pub fn finish(&mut self) {
+        self.tracker.finish();
+    }
+
     /// Those of the frame that it last went to.
     pub fn marks(&self) -> Marks<'_> {
         Marks {
@@ -63,33 +74,11 @@ impl Followed {
     }
 }
 
-impl Marks<'_> {
-    /// Those of the span of that number, on a line of the mesh.
-    pub fn of_span(
-        &self,
-        number: usize,
-        line: &Line,
-        rest: &[Vec3],
-        surface: &Surface,
-    ) -> SpanMarks<'_> {
-        let around = if line.closed {
-            line.segments.len() as f64
-        } else {
-            0.0
-        };
-        let spread = |id: u32| FIRST + SPREAD * f64::from(hash(id)) / f64::from(u32::MAX);
+impl<'t> Marks<'t> {
+    /// How long a line that is fixed to the mesh is up to each joint at rest, head heights; nothing of a contour. All its spans have these.
+    pub fn lengths(line: &Line, rest: &[Vec3], surface: &Surface) -> Rc<[f64]> {
         if line.kind == Kind::Contour {
-            let paths = self
-                .paths
-                .iter()
-                .filter(|path| path.span == number)
-                .collect();
-            return SpanMarks {
-                paths,
-                around,
-                lengths: Vec::new(),
-                first: FIRST,
-            };
+            return Rc::default();
         }
         let at_rest = |i: usize| -> DVec3 {
             let place = line.points[i].place;
@@ -106,34 +95,76 @@ impl Marks<'_> {
             length += at_rest(segment).distance(at_rest((segment + 1) % count));
             lengths.push(length);
         }
+        lengths.into()
+    }
+
+    /// Those of the span of that number, on a line of the mesh with these lengths.
+    pub fn of_span(&self, number: usize, line: &Line, lengths: &Rc<[f64]>) -> SpanMarks<'t> {
+        let around = if line.closed {
+            line.segments.len() as f64
+        } else {
+            0.0
+        };
+        let spread = |id: u32| FIRST + SPREAD * f64::from(hash(id)) / f64::from(u32::MAX);
+        let (paths, first) = if line.kind == Kind::Contour {
+            // Paths come in the order of their spans.
+            let start = self.paths.partition_point(|path| path.span < number);
+            let end = self.paths.partition_point(|path| path.span <= number);
+            (&self.paths[start..end], FIRST)
+        } else {
+            let triangle = line.points.first().map_or(0, |point| point.place.triangle);
+            (&[][..], spread(triangle))
+        };
         SpanMarks {
-            paths: Vec::new(),
+            paths,
             around,
-            lengths,
-            first: spread(line.points.first().map_or(0, |point| point.place.triangle)),
+            lengths: Rc::clone(lengths),
+            first,
         }
     }
 }
 
 impl SpanMarks<'_> {
-    /// The span as its path begins it, where it goes all around.
-    pub fn begun(&self, span: &Span) -> Span {
-        match self.paths[..] {
-            [path] if span.cuts == [Cut::None; 2] => match path.joints[..] {
-                [first, .., last] => Span {
-                    start: first.along,
-                    end: last.along,
-                    ..*span
-                },
-                _ => *span,
-            },
-            _ => *span,
+    /// What is drawn of the span: where it goes all around as its path begins it, and of contours that came from nowhere what they have grown to.
+    pub fn shown(&self, span: &Span) -> Vec<Span> {
+        let [Some(first), Some(last)] = [self.paths.first(), self.paths.last()] else {
+            return vec![*span];
+        };
+        let (Some(start), Some(end)) = (first.joints.first(), last.joints.last()) else {
+            return vec![*span];
+        };
+        let whole = [start.along, end.along];
+        let mut shown: Vec<[f64; 2]> = Vec::new();
+        for path in self.paths {
+            match shown.last_mut() {
+                Some(before) if before[1] == path.shown[0] => before[1] = path.shown[1],
+                _ => shown.push(path.shown),
+            }
         }
+        let is_around = span.cuts == [Cut::None; 2];
+        if shown[..] == [whole] && !(is_around && self.paths.len() == 1) {
+            return vec![*span];
+        }
+        let part = |part: &[f64; 2]| {
+            let cut = |side: usize| match part[side] == whole[side] {
+                true if !is_around || *part == whole => span.cuts[side],
+                _ => Cut::End,
+            };
+            Span {
+                start: part[0],
+                end: part[1],
+                cuts: [cut(0), cut(1)],
+                ..*span
+            }
+        };
+        shown.iter().map(part).collect()
     }
 
     /// How far along its marks a place of the line is, head heights, 0 or more.
     pub fn at(&self, along: f64) -> f32 {
         let at = match self.paths.is_empty() {
+            // What has no length in the picture has no marks, either.
+            true if self.lengths.is_empty() => self.first,
             true => self.first + self.length_at(along),
             false => self.on_paths(along),
         };
@@ -158,7 +189,7 @@ impl SpanMarks<'_> {
         // The line goes on beyond its beginning; the marks go on, too.
         let turns = [0.0, 1.0, -1.0, 2.0].map(|turns| turns * self.around);
         let mut nearest: Option<(f64, f64)> = None;
-        for path in &self.paths {
+        for path in self.paths {
             let [first, .., last] = path.joints[..] else {
                 continue;
             };

@@ -7,7 +7,7 @@ use crate::names::Names;
 use crate::painted::PaintedMesh;
 use glam::Vec3;
 use mesh_lines::{
-    Bvh, MeshError, Surface, TURN_COSINE, Topology, View, borders, contours, creases, facing,
+    Bvh, Line, MeshError, Surface, TURN_COSINE, Topology, View, borders, contours, creases, facing,
     visible,
 };
 use render::Head;
@@ -29,6 +29,8 @@ pub(super) struct LineMesh {
     normals: Vec<Vec3>,
     /// The same at rest, head heights from the head's centre.
     rest: Vec<Vec3>,
+    /// Its creases and borders, chained once, as they turn at rest: so they are the same lines in each pose.
+    fixed: Vec<Line>,
     /// The part of each triangle, and what the parts are called.
     part_of: Vec<u16>,
     parts: Vec<Vec<String>>,
@@ -139,6 +141,11 @@ impl LineMesh {
         }
         let surface = Surface::new(&topology, &positions)?;
         let (bvh, normals) = (Bvh::new(&surface), surface.normals().to_vec());
+        let mut fixed = Vec::new();
+        if crease.is_some() {
+            fixed.extend(creases(&surface, TURN_COSINE));
+        }
+        fixed.extend(borders(&surface, TURN_COSINE));
         let at_rest = |place: &Vec3| (*place - head.center) / head.height_m;
         Ok(Self {
             crease,
@@ -146,6 +153,7 @@ impl LineMesh {
             topology,
             sources,
             rest: positions.iter().map(at_rest).collect(),
+            fixed,
             positions,
             normals,
             part_of,
@@ -173,6 +181,9 @@ impl LineMesh {
         self.normals.clear();
         self.normals.extend_from_slice(surface.normals());
         self.bvh.refit(&surface);
+        for point in self.fixed.iter_mut().flat_map(|line| &mut line.points) {
+            point.position = surface.position(point.place.vertex(&surface));
+        }
         Ok(())
     }
 
@@ -187,10 +198,7 @@ impl LineMesh {
         let surface = Surface::with_normals(&self.topology, &self.positions, &self.normals)?;
         let facing = facing(&surface, view);
         let mut lines = contours(&surface, view, &facing)?;
-        if self.crease.is_some() {
-            lines.extend(creases(&surface, TURN_COSINE));
-        }
-        lines.extend(borders(&surface, TURN_COSINE));
+        lines.extend_from_slice(&self.fixed);
         let spans = visible(&surface, &self.bvh, view, &lines, pixel)?;
         Ok(Seen {
             surface,

@@ -4,6 +4,7 @@ use super::marks::Marks;
 use crate::preset::LineKinds;
 use glam::{DVec3, Vec3};
 use mesh_lines::{Cut, Kind, Line, Span, Surface, View};
+use std::rc::Rc;
 
 /// Points of a strand are no nearer to each other in the picture, pixels: what is between them lies on a smooth curve.
 const APART_PX: f64 = 1.5;
@@ -66,14 +67,22 @@ impl Seen<'_> {
             Kind::Border => kinds.border,
         };
         let mut strands = Vec::new();
+        // Spans come line by line.
+        let mut measured = (usize::MAX, Rc::default());
         for (number, span) in self.spans.iter().enumerate().filter(is_wanted) {
             let line = &self.lines[span.line];
-            let of_span = marks.map(|marks| marks.of_span(number, line, self.rest, &self.surface));
-            let span = match &of_span {
-                Some(of_span) => &of_span.begun(span),
-                None => span,
+            let of_span = marks.map(|marks| {
+                if measured.0 != span.line {
+                    measured = (span.line, Marks::lengths(line, self.rest, &self.surface));
+                }
+                marks.of_span(number, line, &measured.1)
+            });
+            let shown = match &of_span {
+                Some(of_span) => of_span.shown(span),
+                None => vec![*span],
             };
-            for mut piece in pieces(line, span, is_meant) {
+            let shown = shown.iter();
+            for mut piece in shown.flat_map(|span| pieces(line, span, is_meant)) {
                 self.cut_halo(line, &mut piece, halo_m);
                 if self.length_m(line, &piece) < shortest_m {
                     continue;

@@ -2,5 +2,6 @@
 #![expect(clippy::print_stderr, reason = "skipped tests say so")]
 
 mod hair;
+mod lines;
 mod made;
 mod motion;
