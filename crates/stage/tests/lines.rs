@@ -325,7 +325,8 @@ fn a_tones_edge_on_a_ball_is_an_exact_circle() {
         let text = text("a", "", &toon)
             .replace("size: (240, 240)", "size: (480, 480)")
             .replace("light: (yaw: 0, pitch: 10)", "light: (yaw: 50, pitch: 10)");
-        let preset = Preset::parse("look.ron", &text, &registry()).unwrap();
+        let registry = registry();
+        let preset = Preset::parse("look.ron", &text, &registry).unwrap();
         let files = Files {
             preset_folder: folder.path().to_owned(),
             ..Files::default()
@@ -358,11 +359,11 @@ fn a_tones_edge_on_a_ball_is_an_exact_circle() {
         };
         let middle = camera.project(camera.view_from_world(BALL));
         let reach = 1.2 * RADIUS_M * camera.px_per_metre(camera.depth(BALL));
-        let [low, high] = [middle - reach, middle + reach].map(Vec2::as_uvec2);
+        let [low, high] = [middle - reach, middle + reach].map(|at| [at.x as u32, at.y as u32]);
         let mut farthest: f64 = 0.0;
-        for y in low.y..high.y {
+        for y in low[1]..high[1] {
             let (mut moved, mut edge) = (0.0, 0.0);
-            for x in low.x..high.x {
+            for x in low[0]..high[0] {
                 let at = |cell: u32| (f64::from(cell) + 0.5) / f64::from(GRID);
                 let samples = (0..GRID * GRID)
                     .map(|i| is_lit(f64::from(x) + at(i % GRID), f64::from(y) + at(i / GRID)));
