@@ -22,6 +22,11 @@ const FREE_WAY: f64 = 1e-7;
 const QUIET_SHARE: f64 = 2e-5;
 const QUIET_TIME: f64 = 1.0;
 
+/// What touches bodies or other hair may tremble for ever, as what friction holds slips now and then: it is quiet as well where it does so within
+/// this ball for so long, in m and s. That bounds the speed of what goes somewhere nearly as the others do.
+const TREMBLING_WAY: f64 = 2.4e-5;
+const TREMBLING_TIME: f64 = 4.0;
+
 /// Which strands act on each other: the island of every lane of every batch, by a number below `count`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Islands {
@@ -122,7 +127,8 @@ impl Sleepers {
 impl BatchState {
     /// The strands that have hardly moved for a while.
     fn quiet(&self) -> Mask {
-        self.quiet.gt(Lane::splat(QUIET_TIME))
+        let trembles = self.trembling.gt(Lane::splat(TREMBLING_TIME));
+        self.quiet.gt(Lane::splat(QUIET_TIME)).or(trembles)
     }
 }
 
@@ -145,12 +151,10 @@ fn rest(batch: &Batch, state: &BatchState, surroundings: &Surroundings) -> Mask 
 pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
     if !drive.calm {
         state.quiet = active.pick(Lane::ZERO, state.quiet);
+        state.trembling = active.pick(Lane::ZERO, state.trembling);
         return;
     }
-    let (mut farthest, mut press) = (Lane::ZERO, Lane::ZERO);
-    for k in 0..batch.count() {
-        farthest = farthest.max((state.y[k] - state.quiet_at[k]).length_squared());
-    }
+    let mut press = Lane::ZERO;
     for of_plane in &state.press {
         press = press.max(*of_plane);
     }
@@ -158,15 +162,39 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
         .gt(Lane::ZERO)
         .not()
         .and(Mask::new([drive.others.is_none(); LANES]));
+    let most = batch.length * QUIET_SHARE;
     let way = is_free.pick(Lane::splat(FREE_WAY), Lane::splat(QUIET_WAY));
-    let most = (batch.length * QUIET_SHARE).min(way);
-    let stays = farthest.lt(most * most);
+    let (y, dt) = (&state.y[..], Lane::splat(drive.dt));
+    let stays = (&mut state.quiet, &mut state.quiet_at[..]);
+    count_stay(y, stays, (way.min(most), dt), active);
+    let (most, way) = (
+        most * (TREMBLING_WAY / QUIET_WAY),
+        Lane::splat(TREMBLING_WAY),
+    );
+    let way = is_free.pick(Lane::ZERO, way);
+    let stays = (&mut state.trembling, &mut state.trembling_at[..]);
+    count_stay(y, stays, (way.min(most), dt), active);
+}
+
+/// Counts for how long no particle of a strand has gone farther than `way` from where it was when that began.
+#[inline(always)]
+fn count_stay(
+    y: &[Vec3],
+    (time, at): (&mut Lane, &mut [Vec3]),
+    (way, dt): (Lane, Lane),
+    active: Mask,
+) {
+    let mut farthest = Lane::ZERO;
+    for (y, at) in y.iter().zip(&*at) {
+        farthest = farthest.max((*y - *at).length_squared());
+    }
+    let stays = farthest.lt(way * way);
     let moved = active.and(stays.not());
     if moved.any() {
-        for k in 0..batch.count() {
-            state.quiet_at[k] = Vec3::pick(moved, state.y[k], state.quiet_at[k]);
+        for (y, at) in y.iter().zip(at) {
+            *at = Vec3::pick(moved, *y, *at);
         }
     }
-    let quiet = stays.pick(state.quiet + Lane::splat(drive.dt), Lane::ZERO);
-    state.quiet = active.pick(quiet, state.quiet);
+    let longer = stays.pick(*time + dt, Lane::ZERO);
+    *time = active.pick(longer, *time);
 }
