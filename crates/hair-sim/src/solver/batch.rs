@@ -178,7 +178,8 @@ pub(crate) struct BatchState {
     /// How far particles may be inside of bodies (0 or less, in m), and whether that has been found out.
     pub skin: Vec<Lane>,
     pub skin_known: bool,
-    /// By how much particles are farther from bodies than they would be alone, for the sake of the links beside them, in m.
+    /// By how much particles are farther from bodies than they would be alone, for the sake of the links beside them, in m;
+    /// empty where there are no bodies that links count for.
     pub lifts: Vec<Lane>,
     /// The pressure of planes on particles in m/s^2: of bodies, then those of other strands, where there may be any.
     pub press: Vec<Lane>,
@@ -219,7 +220,7 @@ impl BatchState {
             base: batch.base,
             skin: vec![Lane::ZERO; count],
             skin_known: false,
-            lifts: vec![Lane::ZERO; count],
+            lifts: Vec::new(),
             press: vec![Lane::ZERO; batch.planes],
             creep: vec![Lane::splat(CREEP); batch.planes],
             goal: Vec::new(),
@@ -261,7 +262,7 @@ impl BatchState {
         let planes = [&self.press, &self.creep];
         vectors.iter().all(|list| list.len() == count)
             && self.skin.len() == count
-            && self.lifts.len() == count
+            && (self.lifts.is_empty() || self.lifts.len() == count)
             && planes.iter().all(|list| list.len() == batch.planes)
             && (self.goal.is_empty() || self.goal.len() == count)
     }

@@ -16,7 +16,7 @@ use crate::{
 
 use super::{
     batch::{Batch, BatchState},
-    contact::find::{self, Bodies, Guard},
+    contact::find::{self, Bodies, Guard, Planes},
     load::Loads,
     locks::Locks,
     rods::Rods,
@@ -232,7 +232,11 @@ pub(crate) fn prepare<T: Number>(
             state.skin_known = true;
         }
         let bodies = drive.bodies(state.root, root.root);
-        let planes = (&mut loads.contacts[..], &mut loads.touched, &mut loads.ways);
+        let planes = Planes {
+            contacts: &mut loads.contacts,
+            touched: &mut loads.touched,
+            ways: &mut loads.ways,
+        };
         let mut lifts = std::mem::take(&mut state.lifts);
         stats.contacts = find::detect::<T>((batch, &*state), &bodies, active, planes, &mut lifts);
         state.lifts = lifts;

@@ -65,11 +65,13 @@ pub(crate) fn advance<T: Number>(
             }
             let bodies = drive.bodies(state.root, root.root);
             let mut watched = watched;
-            if !bodies.colliders.is_empty() {
+            if bodies.have_links() {
                 let ways = &mut scratch.work.loads.ways;
                 let turned = keep_out::<T>(batch, state, &bodies, ways, active);
-                state.turned_out(turned);
-                watched = watched.and(turned.not());
+                if turned.any() {
+                    state.turned_out(turned);
+                    watched = watched.and(turned.not());
+                }
             }
             if watched.any() {
                 if failed.any() {

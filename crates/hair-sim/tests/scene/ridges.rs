@@ -201,3 +201,42 @@ fn links_of_thrown_hair_do_not_cut_ridges() {
     let worst = [24.0, 60.0].map(|rate| worst("thrown", thrown, 0.01, rate, 2.0));
     assert!(worst.iter().all(|worst| worst[0] < MOST), "{worst:?}");
 }
+
+/// Strands of another number of links share a batch with longer ones, whose links fill up theirs.
+#[test]
+fn which_strands_share_a_batch_over_a_ridge_decides_nothing() {
+    let (radius, link, rate) = (0.04, 0.018, 60.0);
+    let whole = strands(radius, link, 0.01);
+    let mut all = Strands::new();
+    for (strand, points) in whole.iter().enumerate() {
+        all.push(strand as u32, &points[..=LINKS - 3 * strand], None)
+            .unwrap();
+    }
+    let ways = |strands: &Strands| {
+        let (mut solver, mut state) = Solver::new(strands, &params(30.0, link)).unwrap();
+        let colliders = ridge(radius);
+        let mut ways = vec![Vec::new(); solver.len()];
+        for step in 1..=120 {
+            let surroundings = Surroundings {
+                roots: Roots::Head(Pose {
+                    translation: thrown(f64::from(step) / rate),
+                    ..Pose::IDENTITY
+                }),
+                ..among(&colliders)
+            };
+            solver.step(&mut state, &surroundings, 1.0 / rate).unwrap();
+            for (strand, way) in ways.iter_mut().enumerate() {
+                way.extend(solver.points(&state, strand));
+            }
+        }
+        ways
+    };
+    let together = ways(&all);
+    for (strand, way) in together.iter().enumerate() {
+        let [alone] = &ways(&all.select(&[strand]))[..] else {
+            panic!("one strand has one way");
+        };
+        let differs = way.iter().zip(alone).position(|(one, other)| one != other);
+        assert_eq!(differs, None, "strand {strand}");
+    }
+}

@@ -97,6 +97,12 @@ pub(crate) struct Bodies<'a> {
 }
 
 impl Bodies<'_> {
+    /// Whether there are any that links between particles count for.
+    #[inline]
+    pub(crate) fn have_links(&self) -> bool {
+        self.guards.iter().any(|guard| guard.has_links)
+    }
+
     /// A plane of a body as a strand's surface.
     fn surface(&self, lane: usize, collider: &Collider, plane: &Plane) -> Surface {
         let (before, now) = (collider.before, collider.now);
@@ -150,7 +156,106 @@ pub(crate) fn detect<T: Number>(
     (batch, state): (&Batch, &BatchState),
     bodies: &Bodies,
     active: Mask,
-    (contacts, touched, ways): (&mut [Contact], &mut Vec<usize>, &mut Ways),
+    planes: Planes,
+    lifts: &mut Vec<Lane>,
+) -> usize {
+    if bodies.have_links() {
+        lifts.resize(batch.count(), Lane::ZERO);
+        detect_with_links::<T>((batch, state), bodies, active, planes, lifts)
+    } else {
+        lifts.clear();
+        detect_alone::<T>((batch, state), bodies, active, planes)
+    }
+}
+
+/// Where the planes of a step are put: by particle, which of them have one, and what they were found by.
+pub(crate) struct Planes<'a> {
+    pub contacts: &'a mut [Contact],
+    pub touched: &'a mut Vec<usize>,
+    pub ways: &'a mut Ways,
+}
+
+impl Planes<'_> {
+    /// Puts a plane before particle `k` of a strand. A particle's planes come one after the other.
+    #[inline(always)]
+    fn set(&mut self, k: usize, lane: usize, surface: &Surface, of: (&Batch, &BatchState)) {
+        let contact = &mut self.contacts[k];
+        if self.touched.last() != Some(&k) {
+            contact.clear();
+            self.touched.push(k);
+        }
+        contact.set(lane, surface, of, (k, k));
+    }
+}
+
+/// A particle's places in the world at both ends of a step, as it goes by itself; what its acceleration is isn't always known.
+#[inline(always)]
+fn way<T: Number>(
+    k: usize,
+    state: &BatchState,
+    bodies: &Bodies,
+    known: T::Condition,
+) -> [Vec3<T>; 2] {
+    let y0 = state.y[k].load::<T>();
+    let a = Vec3::choose(known, state.a[k].load(), Vec3::zero());
+    let y1 = y0 + state.v[k].load() * bodies.dt + a * (0.5 * bodies.dt * bodies.dt);
+    [bodies.before.load() + y0, bodies.now.load() + y1]
+}
+
+/// [`detect`] where links don't count.
+fn detect_alone<T: Number>(
+    (batch, state): (&Batch, &BatchState),
+    bodies: &Bodies,
+    active: Mask,
+    mut planes: Planes,
+) -> usize {
+    T::run(
+        #[inline(always)]
+        move || {
+            let mut found = 0;
+            // What is unknown was a blow, which is over.
+            let known = T::condition(&Mask::new(state.restart).not());
+            for k in 0..batch.count() {
+                let [from, to] = way::<T>(k, state, bodies, known);
+                let keep = batch.thickness.load::<T>() + state.skin[k].load();
+                let mut near = Mask::NONE;
+                for guard in bodies.guards {
+                    near = near.or(guard.is_near(from, to, keep));
+                }
+                let near = near.and(active);
+                if !near.any() {
+                    continue;
+                }
+                let (from, to, keep) = (from.store(), to.store(), keep.store());
+                for lane in 0..LANES {
+                    if !near.get(lane) || k >= batch.counts[lane] {
+                        continue;
+                    }
+                    let path = Path {
+                        from: from.get(lane),
+                        to: to.get(lane),
+                        keep: keep[lane],
+                        dt: bodies.dt,
+                    };
+                    let Some((collider, plane)) = path.first(bodies.colliders) else {
+                        continue;
+                    };
+                    found += 1;
+                    let surface = bodies.surface(lane, collider, &plane);
+                    planes.set(k, lane, &surface, (batch, state));
+                }
+            }
+            found
+        },
+    )
+}
+
+/// [`detect`] where links count; `lifts` are by how much particles are farther from bodies for their sake.
+fn detect_with_links<T: Number>(
+    (batch, state): (&Batch, &BatchState),
+    bodies: &Bodies,
+    active: Mask,
+    mut planes: Planes,
     lifts: &mut [Lane],
 ) -> usize {
     T::run(
@@ -158,14 +263,12 @@ pub(crate) fn detect<T: Number>(
         move || {
             // What is unknown was a blow, which is over.
             let known = T::condition(&Mask::new(state.restart).not());
-            let (count, dt) = (batch.count(), bodies.dt);
+            let count = batch.count();
+            let ways = &mut *planes.ways;
             let mut any = Mask::NONE;
             for k in 0..count {
-                let y0 = state.y[k].load::<T>();
-                let a = Vec3::choose(known, state.a[k].load(), Vec3::zero());
-                let y1 = y0 + state.v[k].load() * dt + a * (0.5 * dt * dt);
-                ways.from[k] = (bodies.before.load::<T>() + y0).store();
-                ways.to[k] = (bodies.now.load::<T>() + y1).store();
+                let [from, to] = way::<T>(k, state, bodies, known);
+                (ways.from[k], ways.to[k]) = (from.store(), to.store());
                 let near = ways.near::<T>(k, (batch, state), bodies).and(active);
                 ways.near[k] = near;
                 any = any.or(near);
@@ -176,21 +279,22 @@ pub(crate) fn detect<T: Number>(
                 }
                 return 0;
             }
-            let looked = Looked {
-                batch,
-                state,
-                bodies,
-                from: &ways.from,
-                to: &ways.to,
-            };
             let mut found = 0;
             let mut before = [None; LANES];
             for k in 0..count {
-                let mut touches = false;
+                let ways = &*planes.ways;
+                let looked = Looked {
+                    batch,
+                    state,
+                    bodies,
+                    from: &ways.from,
+                    to: &ways.to,
+                };
                 let near = ways.near[k];
                 let after_near = ways.near.get(k + 1).filter(|_| k + 1 < count);
                 let link_near = near.or(after_near.copied().unwrap_or(Mask::NONE));
                 lifts[k] = active.and(near.not()).pick(Lane::ZERO, lifts[k]);
+                let mut surfaces = [const { None }; LANES];
                 for lane in 0..LANES {
                     let last = before[lane].take();
                     if !link_near.get(lane) || k >= batch.counts[lane] {
@@ -198,21 +302,15 @@ pub(crate) fn detect<T: Number>(
                     }
                     let after = looked.link(k + 1, lane);
                     before[lane] = after;
-                    if !near.get(lane) {
-                        continue;
+                    if near.get(lane) {
+                        let lift = &mut lifts[k][lane];
+                        surfaces[lane] = looked.particle(k, lane, [last, after], lift);
                     }
-                    let lift = &mut lifts[k][lane];
-                    let Some(surface) = looked.particle(k, lane, [last, after], lift) else {
-                        continue;
-                    };
-                    let contact = &mut contacts[k];
-                    if !touches {
-                        contact.clear();
-                        touched.push(k);
-                        touches = true;
-                    }
+                }
+                for (lane, surface) in surfaces.iter().enumerate() {
+                    let Some(surface) = surface else { continue };
                     found += 1;
-                    contact.set(lane, &surface, (batch, state), (k, k));
+                    planes.set(k, lane, surface, (batch, state));
                 }
             }
             found

@@ -41,9 +41,6 @@ pub(crate) fn keep_out<T: Number>(
     ways: &mut Ways,
     active: Mask,
 ) -> Mask {
-    if bodies.colliders.iter().all(|body| body.shape.is_sampled()) {
-        return Mask::NONE;
-    }
     let mut near = Mask::NONE;
     T::run(
         #[inline(always)]
@@ -85,7 +82,10 @@ fn strand(
     let mut turned = false;
     let mut starts = [bodies.now.get(lane); 2];
     let mut start_before = bodies.before.get(lane);
-    for k in 0..batch.counts[lane] {
+    // Of the link before.
+    let mut turn = DQuat::IDENTITY;
+    // What only fills the batch goes with the tip, as a link without a length does: else which strands share a batch would count.
+    for k in 0..batch.count() {
         let (end_before, end) = (ways.from[k].get(lane), ways.to[k].get(lane));
         let length = batch.links[k].length[lane];
         let old = end - starts[0];
@@ -106,7 +106,8 @@ fn strand(
             link.now[1] = link.now[0] + way * length;
         }
         let is_near = ways.near[k].get(lane) || k > 0 && ways.near[k - 1].get(lane);
-        if (turned || is_near) && link.turn_out(bodies.colliders) {
+        let is_link = k < batch.counts[lane];
+        if is_link && (turned || is_near) && link.turn_out(bodies.colliders) {
             turned = true;
             // What lies on a body would fall into it again in the next step.
             let last = &mut state.lifts[k][lane];
@@ -120,8 +121,10 @@ fn strand(
             state.v[k].set(lane, v + shift / bodies.dt);
             // A link without a length has no direction.
             let directions = [old, link.now[1] - link.now[0]].map(DVec3::try_normalize);
-            if let (Some(frames), [Some(old), Some(new)]) = (state.frames.get_mut(k), directions) {
-                let turn = DQuat::from_rotation_arc(old, new);
+            if let [Some(old), Some(new)] = directions {
+                turn = DQuat::from_rotation_arc(old, new);
+            }
+            if let Some(frames) = state.frames.get_mut(k) {
                 frames.set(lane, (turn * frames.get(lane)).normalize());
             }
         }

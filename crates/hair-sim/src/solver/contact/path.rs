@@ -23,6 +23,23 @@ pub(super) struct Plane {
 }
 
 impl Path {
+    /// The body whose plane the path's end is deepest behind.
+    pub(super) fn first<'a, 'b>(
+        &self,
+        colliders: &'b [Collider<'a>],
+    ) -> Option<(&'b Collider<'a>, Plane)> {
+        let mut best: Option<(&Collider, Plane)> = None;
+        for collider in colliders {
+            let Some(plane) = self.against(collider) else {
+                continue;
+            };
+            if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
+                best = Some((collider, plane));
+            }
+        }
+        best
+    }
+
     /// The plane of a body that the path meets, or comes near.
     pub(super) fn against(&self, collider: &Collider) -> Option<Plane> {
         let (shape, was) = (&collider.shape, collider.at_start());
