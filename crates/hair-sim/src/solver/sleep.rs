@@ -162,39 +162,44 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
         .gt(Lane::ZERO)
         .not()
         .and(Mask::new([drive.others.is_none(); LANES]));
-    let most = batch.length * QUIET_SHARE;
+    let (most, dt) = (batch.length * QUIET_SHARE, Lane::splat(drive.dt));
     let way = is_free.pick(Lane::splat(FREE_WAY), Lane::splat(QUIET_WAY));
-    let (y, dt) = (&state.y[..], Lane::splat(drive.dt));
-    let stays = (&mut state.quiet, &mut state.quiet_at[..]);
-    count_stay(y, stays, (way.min(most), dt), active);
-    let (most, way) = (
-        most * (TREMBLING_WAY / QUIET_WAY),
-        Lane::splat(TREMBLING_WAY),
-    );
-    let way = is_free.pick(Lane::ZERO, way);
-    let stays = (&mut state.trembling, &mut state.trembling_at[..]);
-    count_stay(y, stays, (way.min(most), dt), active);
+    let way = way.min(most);
+    let gone = farthest(&state.y, &state.quiet_at);
+    let stays = gone.lt(way * way);
+    keep(&mut state.quiet_at, &state.y, active.and(stays.not()));
+    let quiet = stays.pick(state.quiet + dt, Lane::ZERO);
+    state.quiet = active.pick(quiet, state.quiet);
+
+    let most = most * (TREMBLING_WAY / QUIET_WAY);
+    let way = is_free.pick(Lane::ZERO, most.min(Lane::splat(TREMBLING_WAY)));
+    // What went farther than all across the ball has left it: what is under way costs no more than this.
+    let slow = active.and(gone.lt(way * way * 4.0));
+    let mut stays = slow.and(state.trembling.gt(Lane::ZERO));
+    if stays.any() {
+        stays = stays.and(farthest(&state.y, &state.trembling_at).lt(way * way));
+    }
+    keep(&mut state.trembling_at, &state.y, slow.and(stays.not()));
+    let time = stays.pick(state.trembling, Lane::ZERO) + dt;
+    state.trembling = active.pick(slow.pick(time, Lane::ZERO), state.trembling);
 }
 
-/// Counts for how long no particle of a strand has gone farther than `way` from where it was when that began.
+/// The square of how far the particle of every strand that went farthest is from where it was, in m^2.
 #[inline(always)]
-fn count_stay(
-    y: &[Vec3],
-    (time, at): (&mut Lane, &mut [Vec3]),
-    (way, dt): (Lane, Lane),
-    active: Mask,
-) {
+fn farthest(y: &[Vec3], from: &[Vec3]) -> Lane {
     let mut farthest = Lane::ZERO;
-    for (y, at) in y.iter().zip(&*at) {
-        farthest = farthest.max((*y - *at).length_squared());
+    for (y, from) in y.iter().zip(from) {
+        farthest = farthest.max((*y - *from).length_squared());
     }
-    let stays = farthest.lt(way * way);
-    let moved = active.and(stays.not());
-    if moved.any() {
-        for (y, at) in y.iter().zip(at) {
-            *at = Vec3::pick(moved, *y, *at);
+    farthest
+}
+
+/// Remembers where the strands of `which` are.
+#[inline(always)]
+fn keep(at: &mut [Vec3], y: &[Vec3], which: Mask) {
+    if which.any() {
+        for (at, y) in at.iter_mut().zip(y) {
+            *at = Vec3::pick(which, *y, *at);
         }
     }
-    let longer = stays.pick(*time + dt, Lane::ZERO);
-    *time = active.pick(longer, *time);
 }

@@ -175,17 +175,21 @@ pub(crate) struct Planes<'a> {
     pub ways: &'a mut Ways,
 }
 
-impl Planes<'_> {
-    /// Puts a plane before particle `k` of a strand. A particle's planes come one after the other.
-    #[inline(always)]
-    fn set(&mut self, k: usize, lane: usize, surface: &Surface, of: (&Batch, &BatchState)) {
-        let contact = &mut self.contacts[k];
-        if self.touched.last() != Some(&k) {
-            contact.clear();
-            self.touched.push(k);
-        }
-        contact.set(lane, surface, of, (k, k));
+/// Puts a plane before particle `k` of a strand. A particle's planes come one after the other.
+#[inline(always)]
+fn put(
+    contacts: &mut [Contact],
+    touched: &mut Vec<usize>,
+    (k, lane): (usize, usize),
+    surface: &Surface,
+    of: (&Batch, &BatchState),
+) {
+    let contact = &mut contacts[k];
+    if touched.last() != Some(&k) {
+        contact.clear();
+        touched.push(k);
     }
+    contact.set(lane, surface, of, (k, k));
 }
 
 /// A particle's places in the world at both ends of a step, as it goes by itself; what its acceleration is isn't always known.
@@ -207,11 +211,14 @@ fn detect_alone<T: Number>(
     (batch, state): (&Batch, &BatchState),
     bodies: &Bodies,
     active: Mask,
-    mut planes: Planes,
+    planes: Planes,
 ) -> usize {
     T::run(
         #[inline(always)]
         move || {
+            let Planes {
+                contacts, touched, ..
+            } = planes;
             let mut found = 0;
             // What is unknown was a blow, which is over.
             let known = T::condition(&Mask::new(state.restart).not());
@@ -242,7 +249,7 @@ fn detect_alone<T: Number>(
                     };
                     found += 1;
                     let surface = bodies.surface(lane, collider, &plane);
-                    planes.set(k, lane, &surface, (batch, state));
+                    put(contacts, touched, (k, lane), &surface, (batch, state));
                 }
             }
             found
@@ -255,16 +262,20 @@ fn detect_with_links<T: Number>(
     (batch, state): (&Batch, &BatchState),
     bodies: &Bodies,
     active: Mask,
-    mut planes: Planes,
+    planes: Planes,
     lifts: &mut [Lane],
 ) -> usize {
     T::run(
         #[inline(always)]
         move || {
+            let Planes {
+                contacts,
+                touched,
+                ways,
+            } = planes;
             // What is unknown was a blow, which is over.
             let known = T::condition(&Mask::new(state.restart).not());
             let count = batch.count();
-            let ways = &mut *planes.ways;
             let mut any = Mask::NONE;
             for k in 0..count {
                 let [from, to] = way::<T>(k, state, bodies, known);
@@ -279,22 +290,20 @@ fn detect_with_links<T: Number>(
                 }
                 return 0;
             }
+            let looked = Looked {
+                batch,
+                state,
+                bodies,
+                from: &ways.from,
+                to: &ways.to,
+            };
             let mut found = 0;
             let mut before = [None; LANES];
             for k in 0..count {
-                let ways = &*planes.ways;
-                let looked = Looked {
-                    batch,
-                    state,
-                    bodies,
-                    from: &ways.from,
-                    to: &ways.to,
-                };
                 let near = ways.near[k];
                 let after_near = ways.near.get(k + 1).filter(|_| k + 1 < count);
                 let link_near = near.or(after_near.copied().unwrap_or(Mask::NONE));
                 lifts[k] = active.and(near.not()).pick(Lane::ZERO, lifts[k]);
-                let mut surfaces = [const { None }; LANES];
                 for lane in 0..LANES {
                     let last = before[lane].take();
                     if !link_near.get(lane) || k >= batch.counts[lane] {
@@ -302,15 +311,15 @@ fn detect_with_links<T: Number>(
                     }
                     let after = looked.link(k + 1, lane);
                     before[lane] = after;
-                    if near.get(lane) {
-                        let lift = &mut lifts[k][lane];
-                        surfaces[lane] = looked.particle(k, lane, [last, after], lift);
+                    if !near.get(lane) {
+                        continue;
                     }
-                }
-                for (lane, surface) in surfaces.iter().enumerate() {
-                    let Some(surface) = surface else { continue };
+                    let lift = &mut lifts[k][lane];
+                    let Some(surface) = looked.particle(k, lane, [last, after], lift) else {
+                        continue;
+                    };
                     found += 1;
-                    planes.set(k, lane, surface, (batch, state));
+                    put(contacts, touched, (k, lane), &surface, (batch, state));
                 }
             }
             found
