@@ -104,6 +104,7 @@ impl Bodies<'_> {
     }
 
     /// A plane of a body as a strand's surface.
+    #[inline(always)]
     fn surface(&self, lane: usize, collider: &Collider, plane: &Plane) -> Surface {
         let (before, now) = (collider.before, collider.now);
         let normal = now.rotation * plane.normal;

@@ -216,3 +216,68 @@ impl Link {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        collision::shape::Shape,
+        params::{Natural, Params},
+        pose::Pose,
+        rest::RestStrand,
+        solver::contact::find::Guard,
+    };
+    use glam::Vec3 as Point;
+
+    /// Two strands that came down on a ridge, and into it: what lies beyond the tip of the shorter one stays at it, or the joint there would look
+    /// sharp, and the strand would move otherwise than beside others.
+    #[test]
+    fn what_only_fills_a_batch_goes_with_the_tip() {
+        let params = Params {
+            natural: Natural::Styled,
+            ..Params::default()
+        };
+        let rests = [9, 5].map(|links| {
+            // Bent, so that they have frames.
+            let place =
+                |i: u8| Point::new(1e-4 * f32::from(i * i), 0.03, 0.02 * f32::from(i) - 0.1);
+            let points: Vec<Point> = (0..=links).map(place).collect();
+            RestStrand::new(&points, &params).unwrap()
+        });
+        let batch = Batch::new(&[(0, &rests[0], &params), (1, &rests[1], &params)]);
+        let mut state = BatchState::new(&batch, &[Some(&rests[0]), Some(&rests[1]), None, None]);
+        state.lifts = vec![Lane::ZERO; batch.count()];
+        let ridge = Shape::Capsule {
+            from: DVec3::NEG_X,
+            to: DVec3::X,
+            radius: 0.04,
+        };
+        let colliders = [Collider::fixed(ridge, Pose::IDENTITY)];
+        let bodies = Bodies {
+            colliders: &colliders,
+            guards: &colliders.each_ref().map(Guard::new),
+            before: state.root,
+            now: state.root,
+            dt: 1.0 / 60.0,
+        };
+        let mut ways = Ways::new(batch.count());
+        for k in 0..batch.count() {
+            for lane in 0..LANES {
+                let above = state.root.get(lane) + state.y[k].get(lane) + 0.03 * DVec3::Y;
+                ways.from[k].set(lane, above);
+                ways.to[k].set(lane, above);
+            }
+        }
+        let before = state.clone();
+        let turned = keep_out::<Lane>(&batch, &mut state, &bodies, &mut ways, batch.used);
+        assert_eq!(turned, batch.used);
+        let tip = batch.counts[1] - 1;
+        assert!((state.y[tip].get(1) - before.y[tip].get(1)).length() > 5e-3);
+        assert_ne!(state.frames[tip].get(1), before.frames[tip].get(1));
+        for k in tip + 1..batch.count() {
+            assert_eq!(state.y[k].get(1), state.y[tip].get(1));
+            assert_eq!(state.v[k].get(1), state.v[tip].get(1));
+            assert_eq!(state.frames[k].get(1), state.frames[tip].get(1));
+        }
+    }
+}

@@ -41,6 +41,7 @@ impl Path {
     }
 
     /// The plane of a body that the path meets, or comes near.
+    #[inline(always)]
     pub(super) fn against(&self, collider: &Collider) -> Option<Plane> {
         let (shape, was) = (&collider.shape, collider.at_start());
         let to = collider.now.to_local(self.to);
