@@ -54,7 +54,7 @@ use crate::{
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::avx2::Avx2;
 use batch::{Batch, BatchState};
-use contact::Guard;
+use contact::find::Guard;
 use drive::{Anchored, Drive, Others, roots, whole_poses};
 use energy::whole_energy;
 use locks::Locks;

@@ -567,7 +567,10 @@ fn hair_that_has_come_to_rest_sleeps() {
     let folder = tempfile::tempdir().unwrap();
     let turn = folder.path().join("turn.motion.ron");
     fs::write(&turn, TURN).unwrap();
-    for look in ["twin-tails", "short-ash", "side-braid", "long-pink"] {
+    // `blond-fantasy` goes on trembling.
+    let looks = "curls flat-tails-black flat-tails-red long-pink low-tie manga-ink messy-bun outlined picture-book pixie shonen-spikes \
+        short-ash side-braid twin-tails undercut windy-bob";
+    for look in looks.split_whitespace() {
         let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
         let preset = Preset::parse("look.ron", &text, &registry).unwrap();
         let files = Files {

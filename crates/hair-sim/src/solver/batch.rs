@@ -178,6 +178,9 @@ pub(crate) struct BatchState {
     /// How far particles may be inside of bodies (0 or less, in m), and whether that has been found out.
     pub skin: Vec<Lane>,
     pub skin_known: bool,
+    /// By how much particles are farther from bodies than they would be alone, for the sake of the links beside them, in m;
+    /// empty where there are no bodies that links count for.
+    pub lifts: Vec<Lane>,
     /// The pressure of planes on particles in m/s^2: of bodies, then those of other strands, where there may be any.
     pub press: Vec<Lane>,
     /// The speeds in m/s below which friction with them is viscous; 0 where the pressure is that of a blow, which is over.
@@ -193,6 +196,9 @@ pub(crate) struct BatchState {
     /// For how long strands have hardly moved, in s, and where their particles were when that began.
     pub quiet: Lane,
     pub quiet_at: Vec<Vec3>,
+    /// The same for those that tremble.
+    pub trembling: Lane,
+    pub trembling_at: Vec<Vec3>,
     /// Strands whose accelerations are unknown: the next step starts by backward Euler.
     pub restart: [bool; LANES],
     /// Strands that do not move by themselves, and why.
@@ -214,6 +220,7 @@ impl BatchState {
             base: batch.base,
             skin: vec![Lane::ZERO; count],
             skin_known: false,
+            lifts: Vec::new(),
             press: vec![Lane::ZERO; batch.planes],
             creep: vec![Lane::splat(CREEP); batch.planes],
             goal: Vec::new(),
@@ -222,6 +229,8 @@ impl BatchState {
             ceiling: Lane::ZERO,
             quiet: Lane::ZERO,
             quiet_at: vec![Vec3::ZERO; count],
+            trembling: Lane::ZERO,
+            trembling_at: vec![Vec3::ZERO; count],
             restart: [true; LANES],
             set_aside: [None; LANES],
         };
@@ -248,10 +257,12 @@ impl BatchState {
     /// Whether all lists are as long as a batch needs them, which what was read from a file may not be.
     pub(crate) fn has_lengths(&self, batch: &Batch) -> bool {
         let count = batch.count();
-        let vectors = [&self.y, &self.v, &self.a, &self.past, &self.quiet_at];
+        let stays = [&self.quiet_at, &self.trembling_at];
+        let vectors = [&self.y, &self.v, &self.a, &self.past, stays[0], stays[1]];
         let planes = [&self.press, &self.creep];
         vectors.iter().all(|list| list.len() == count)
             && self.skin.len() == count
+            && (self.lifts.is_empty() || self.lifts.len() == count)
             && planes.iter().all(|list| list.len() == batch.planes)
             && (self.goal.is_empty() || self.goal.len() == count)
     }
@@ -260,6 +271,12 @@ impl BatchState {
     #[inline(always)]
     pub(crate) fn aside(&self) -> Mask {
         Mask::new(self.set_aside.map(|r| r.is_some()))
+    }
+
+    /// Strands that were taken out of a body start anew.
+    pub(crate) fn turned_out(&mut self, which: Mask) {
+        self.restart = Mask::new(self.restart).or(which).bools();
+        self.pull = Vec3::pick(which, NO_PULL, self.pull);
     }
 
     /// Carries shape and motion to another root and skin frame.
@@ -275,6 +292,7 @@ impl BatchState {
         self.a.iter_mut().for_each(turned);
         self.goal.iter_mut().for_each(turned);
         self.quiet_at.iter_mut().for_each(turned);
+        self.trembling_at.iter_mut().for_each(turned);
         turned(&mut self.root_velocity);
         // The next step finds out anew what energy there is.
         self.pull = NO_PULL;

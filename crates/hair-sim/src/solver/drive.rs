@@ -16,7 +16,7 @@ use crate::{
 
 use super::{
     batch::{Batch, BatchState},
-    contact::{self, Guard},
+    contact::find::{self, Bodies, Guard, Planes},
     load::Loads,
     locks::Locks,
     rods::Rods,
@@ -51,6 +51,19 @@ pub(crate) struct Drive<'a> {
     pub locks: Option<(usize, &'a Locks)>,
     /// What pulls at single particles of the batch, each with its lane.
     pub anchors: &'a [Anchored],
+}
+
+impl<'a> Drive<'a> {
+    /// What hair can't enter, where roots go from one place to another.
+    pub(crate) fn bodies(&self, before: Vec3, now: Vec3) -> Bodies<'a> {
+        Bodies {
+            colliders: self.surroundings.colliders,
+            guards: self.guards,
+            before,
+            now,
+            dt: self.dt,
+        }
+    }
 }
 
 /// An anchor with the batch, the lane and the particle that it pulls at.
@@ -215,20 +228,18 @@ pub(crate) fn prepare<T: Number>(
     loads.touched.clear();
     if !drive.surroundings.colliders.is_empty() {
         if !state.skin_known {
-            contact::settle_in(batch, state, drive.surroundings.colliders);
+            find::settle_in(batch, state, drive.surroundings.colliders);
             state.skin_known = true;
         }
-        let bodies = (drive.surroundings.colliders, drive.guards);
-        let (contacts, touched) = (&mut loads.contacts, &mut loads.touched);
-        stats.contacts = contact::detect::<T>(
-            batch,
-            state,
-            bodies,
-            (root.root, drive.dt),
-            active,
-            contacts,
-            touched,
-        );
+        let bodies = drive.bodies(state.root, root.root);
+        let planes = Planes {
+            contacts: &mut loads.contacts,
+            touched: &mut loads.touched,
+            ways: &mut loads.ways,
+        };
+        let mut lifts = std::mem::take(&mut state.lifts);
+        stats.contacts = find::detect::<T>((batch, &*state), &bodies, active, planes, &mut lifts);
+        state.lifts = lifts;
     }
     if let Some((index, locks)) = drive.locks {
         let planes = (&mut loads.contacts[..], &mut loads.touched);

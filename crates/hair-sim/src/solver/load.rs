@@ -8,7 +8,7 @@ use crate::{
 use super::{
     batch::Batch,
     chain::Chain,
-    contact::{Contact, Due},
+    contact::{Contact, Due, find::Ways},
     link::Node,
     stage::{FreeMotion, Stage, Sum},
 };
@@ -27,6 +27,8 @@ pub(crate) struct Loads {
     /// The planes that particles have in this step, by their places in `contacts`: the first are those of bodies, one for each particle, then come
     /// those of other strands.
     pub touched: Vec<usize>,
+    /// What planes of bodies were found by.
+    pub ways: Ways,
 }
 
 impl Loads {
@@ -40,6 +42,7 @@ impl Loads {
             springs: vec![Spring::NONE; count],
             contacts: vec![Contact::NONE; planes],
             touched: Vec::with_capacity(planes),
+            ways: Ways::new(count),
         }
     }
 

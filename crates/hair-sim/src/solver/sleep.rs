@@ -22,6 +22,11 @@ const FREE_WAY: f64 = 1e-7;
 const QUIET_SHARE: f64 = 2e-5;
 const QUIET_TIME: f64 = 1.0;
 
+/// What touches bodies or other hair may tremble for ever, as what friction holds slips now and then: it is quiet as well where it does so within
+/// this ball for so long, in m and s. That bounds the speed of what goes somewhere nearly as the others do.
+const TREMBLING_WAY: f64 = 2.4e-5;
+const TREMBLING_TIME: f64 = 4.0;
+
 /// Which strands act on each other: the island of every lane of every batch, by a number below `count`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Islands {
@@ -122,7 +127,8 @@ impl Sleepers {
 impl BatchState {
     /// The strands that have hardly moved for a while.
     fn quiet(&self) -> Mask {
-        self.quiet.gt(Lane::splat(QUIET_TIME))
+        let trembles = self.trembling.gt(Lane::splat(TREMBLING_TIME));
+        self.quiet.gt(Lane::splat(QUIET_TIME)).or(trembles)
     }
 }
 
@@ -145,12 +151,10 @@ fn rest(batch: &Batch, state: &BatchState, surroundings: &Surroundings) -> Mask 
 pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
     if !drive.calm {
         state.quiet = active.pick(Lane::ZERO, state.quiet);
+        state.trembling = active.pick(Lane::ZERO, state.trembling);
         return;
     }
-    let (mut farthest, mut press) = (Lane::ZERO, Lane::ZERO);
-    for k in 0..batch.count() {
-        farthest = farthest.max((state.y[k] - state.quiet_at[k]).length_squared());
-    }
+    let mut press = Lane::ZERO;
     for of_plane in &state.press {
         press = press.max(*of_plane);
     }
@@ -158,15 +162,44 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
         .gt(Lane::ZERO)
         .not()
         .and(Mask::new([drive.others.is_none(); LANES]));
+    let (most, dt) = (batch.length * QUIET_SHARE, Lane::splat(drive.dt));
     let way = is_free.pick(Lane::splat(FREE_WAY), Lane::splat(QUIET_WAY));
-    let most = (batch.length * QUIET_SHARE).min(way);
-    let stays = farthest.lt(most * most);
-    let moved = active.and(stays.not());
-    if moved.any() {
-        for k in 0..batch.count() {
-            state.quiet_at[k] = Vec3::pick(moved, state.y[k], state.quiet_at[k]);
+    let way = way.min(most);
+    let gone = farthest(&state.y, &state.quiet_at);
+    let stays = gone.lt(way * way);
+    keep(&mut state.quiet_at, &state.y, active.and(stays.not()));
+    let quiet = stays.pick(state.quiet + dt, Lane::ZERO);
+    state.quiet = active.pick(quiet, state.quiet);
+
+    let most = most * (TREMBLING_WAY / QUIET_WAY);
+    let way = is_free.pick(Lane::ZERO, most.min(Lane::splat(TREMBLING_WAY)));
+    // What went farther than all across the ball has left it: what is under way costs no more than this.
+    let slow = active.and(gone.lt(way * way * 4.0));
+    let mut stays = slow.and(state.trembling.gt(Lane::ZERO));
+    if stays.any() {
+        stays = stays.and(farthest(&state.y, &state.trembling_at).lt(way * way));
+    }
+    keep(&mut state.trembling_at, &state.y, slow.and(stays.not()));
+    let time = stays.pick(state.trembling, Lane::ZERO) + dt;
+    state.trembling = active.pick(slow.pick(time, Lane::ZERO), state.trembling);
+}
+
+/// The square of how far the particle of every strand that went farthest is from where it was, in m^2.
+#[inline(always)]
+fn farthest(y: &[Vec3], from: &[Vec3]) -> Lane {
+    let mut farthest = Lane::ZERO;
+    for (y, from) in y.iter().zip(from) {
+        farthest = farthest.max((*y - *from).length_squared());
+    }
+    farthest
+}
+
+/// Remembers where the strands of `which` are.
+#[inline(always)]
+fn keep(at: &mut [Vec3], y: &[Vec3], which: Mask) {
+    if which.any() {
+        for (at, y) in at.iter_mut().zip(y) {
+            *at = Vec3::pick(which, *y, *at);
         }
     }
-    let quiet = stays.pick(state.quiet + Lane::splat(drive.dt), Lane::ZERO);
-    state.quiet = active.pick(quiet, state.quiet);
 }

@@ -8,6 +8,7 @@ use crate::{
 use super::{
     batch::{Batch, BatchState},
     chain::ShapeEnergy,
+    contact::keep_out::keep_out,
     drive::{Drive, RootMotion, prepare},
     energy::{take_gain, watch},
     finish::{carry, finish, turned_too_far},
@@ -61,6 +62,16 @@ pub(crate) fn advance<T: Number>(
             finish::<T>(batch, state, scratch, active.and(failed.not()), (rods, d));
             if failed.any() {
                 safe::step::<T>(rods, batch, state, scratch, drives, failed);
+            }
+            let bodies = drive.bodies(state.root, root.root);
+            let mut watched = watched;
+            if bodies.have_links() {
+                let ways = &mut scratch.work.loads.ways;
+                let turned = keep_out::<T>(batch, state, &bodies, ways, active);
+                if turned.any() {
+                    state.turned_out(turned);
+                    watched = watched.and(turned.not());
+                }
             }
             if watched.any() {
                 if failed.any() {

@@ -8,6 +8,7 @@ mod goals;
 mod locks;
 mod mutual;
 mod rate;
+mod ridges;
 mod roots;
 mod sleep;
 mod wind;

@@ -1,0 +1,483 @@
+//! Finding the planes of a step, from where particles go by themselves.
+
+use glam::{DMat3, DVec3};
+
+use crate::{
+    collision::shape::Collider,
+    lanes::{LANES, Lane, Mask, Number, Vec3},
+};
+
+use super::{
+    super::{
+        batch::{Batch, BatchState},
+        stage::GAMMA,
+    },
+    Contact, NEAR, Surface,
+    link::{Lack, SLOW, lowest},
+    path::{Path, Plane},
+};
+
+/// What keeps a slow particle off for its links' sake stays what it is while they are no deeper in a body than the first of these, and no farther
+/// from it than the second, in m: where it followed how they lie at once, a strand that rocks on a body would do so for ever.
+const CUTS: f64 = 2.5e-4;
+const CLEAR: f64 = 5e-4;
+
+/// A ball around a body, and how the body moves in a step: what lies far off is known by this alone.
+#[derive(Clone, Debug)]
+pub(crate) struct Guard {
+    center: DVec3,
+    radius: f64,
+    /// From where something was, as the body carries it along: `carry` times the place, and `shift`.
+    carry: DMat3,
+    shift: DVec3,
+    /// Whether links between particles count.
+    has_links: bool,
+}
+
+impl Guard {
+    pub(crate) fn new(collider: &Collider) -> Self {
+        let (center, radius) = collider.shape.ball();
+        let (before, now) = (collider.before, collider.now);
+        let carry = DMat3::from_quat(now.rotation) * DMat3::from_quat(before.rotation).transpose();
+        Self {
+            center: now.to_world(center),
+            radius,
+            carry,
+            shift: now.translation - carry * before.translation,
+            has_links: !collider.shape.is_sampled(),
+        }
+    }
+
+    /// Whether particles that go from `from` to `to` and keep `keep` may come near the body. A little more than
+    /// [`Path::against`] asks for, which has the last word.
+    #[inline(always)]
+    fn is_near<T: Number>(&self, from: Vec3<T>, to: Vec3<T>, keep: T) -> Mask {
+        const MARGIN: f64 = 1e-6;
+        let carried = Vec3::all(self.shift)
+            + Vec3::all(self.carry.x_axis).scale(from.x)
+            + Vec3::all(self.carry.y_axis).scale(from.y)
+            + Vec3::all(self.carry.z_axis).scale(from.z);
+        let way = (to - carried).length_squared().sqrt();
+        let reach = way + keep + T::splat(self.radius + NEAR + MARGIN);
+        let apart = (to - Vec3::all(self.center)).length_squared().sqrt();
+        let (apart, reach) = (apart.store(), reach.store());
+        // NaN is near.
+        reach.lt(apart).not()
+    }
+}
+
+/// The ways of a batch's particles through the world in a step, as far as planes were found by them.
+#[derive(Clone, Debug)]
+pub(crate) struct Ways {
+    pub(super) from: Vec<Vec3>,
+    pub(super) to: Vec<Vec3>,
+    /// The strands whose particle, or the link after it, may come near a body.
+    pub(super) near: Vec<Mask>,
+}
+
+impl Ways {
+    /// For batches of at most so many particles in a row.
+    pub(crate) fn new(count: usize) -> Self {
+        Self {
+            from: vec![Vec3::ZERO; count],
+            to: vec![Vec3::ZERO; count],
+            near: vec![Mask::NONE; count],
+        }
+    }
+}
+
+/// The bodies of a step of `dt` seconds, and the roots at both its ends.
+#[derive(Clone, Copy)]
+pub(crate) struct Bodies<'a> {
+    pub colliders: &'a [Collider<'a>],
+    pub guards: &'a [Guard],
+    pub before: Vec3,
+    pub now: Vec3,
+    pub dt: f64,
+}
+
+impl Bodies<'_> {
+    /// Whether there are any that links between particles count for.
+    #[inline]
+    pub(crate) fn have_links(&self) -> bool {
+        self.guards.iter().any(|guard| guard.has_links)
+    }
+
+    /// A plane of a body as a strand's surface.
+    #[inline(always)]
+    fn surface(&self, lane: usize, collider: &Collider, plane: &Plane) -> Surface {
+        let (before, now) = (collider.before, collider.now);
+        let normal = now.rotation * plane.normal;
+        let s0 = before.to_world(plane.at - plane.normal * collider.grown(plane.at));
+        let s1 = now.to_world(plane.at);
+        let (s0, s1) = (s0 - self.before.get(lane), s1 - self.now.get(lane));
+        Surface {
+            normal,
+            mid: normal.dot(s0 + (s1 - s0) * GAMMA),
+            end: normal.dot(s1),
+            flow: (s1 - s0) / self.dt,
+        }
+    }
+}
+
+/// The depth at which every particle of a strand may stay: that of the style, where it or a link beside it starts inside a body.
+pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Collider]) {
+    for lane in 0..LANES {
+        let mut before = None;
+        for k in 0..batch.count() {
+            let at = state.root.get(lane) + state.y[k].get(lane);
+            let (mut own, mut between) = (0.0_f64, 0.0_f64);
+            for collider in colliders {
+                let (shape, to) = (collider.at_start(), collider.before.to_local(at));
+                let distance = shape.distance(to);
+                own = own.min(distance - batch.thickness[lane]);
+                // The root's link is as deep as the root is.
+                let is_link = k < batch.counts[lane] && !shape.is_sampled();
+                if let Some(before) = before.filter(|_| is_link) {
+                    let from = collider.before.to_local(before);
+                    let ends = [(from, shape.distance(from)), (to, distance)];
+                    let middle = shape.distance(from.lerp(to, 0.5));
+                    if let Some((_, lowest)) = lowest(shape, ends, middle, f64::INFINITY) {
+                        between = between.min(lowest - batch.thickness[lane]);
+                    }
+                }
+            }
+            state.skin[k][lane] = own.min(between);
+            if k > 0 {
+                let last = &mut state.skin[k - 1][lane];
+                *last = last.min(between);
+            }
+            before = Some(at);
+        }
+    }
+}
+
+/// Finds the planes of a step. Returns the number of particles that have one; their places on the strands are added to `touched`.
+pub(crate) fn detect<T: Number>(
+    (batch, state): (&Batch, &BatchState),
+    bodies: &Bodies,
+    active: Mask,
+    planes: Planes,
+    lifts: &mut Vec<Lane>,
+) -> usize {
+    if bodies.have_links() {
+        lifts.resize(batch.count(), Lane::ZERO);
+        detect_with_links::<T>((batch, state), bodies, active, planes, lifts)
+    } else {
+        lifts.clear();
+        detect_alone::<T>((batch, state), bodies, active, planes)
+    }
+}
+
+/// Where the planes of a step are put: by particle, which of them have one, and what they were found by.
+pub(crate) struct Planes<'a> {
+    pub contacts: &'a mut [Contact],
+    pub touched: &'a mut Vec<usize>,
+    pub ways: &'a mut Ways,
+}
+
+/// Puts a plane before particle `k` of a strand. A particle's planes come one after the other.
+#[inline(always)]
+fn put(
+    contacts: &mut [Contact],
+    touched: &mut Vec<usize>,
+    (k, lane): (usize, usize),
+    surface: &Surface,
+    of: (&Batch, &BatchState),
+) {
+    let contact = &mut contacts[k];
+    if touched.last() != Some(&k) {
+        contact.clear();
+        touched.push(k);
+    }
+    contact.set(lane, surface, of, (k, k));
+}
+
+/// A particle's places in the world at both ends of a step, as it goes by itself; what its acceleration is isn't always known.
+#[inline(always)]
+fn way<T: Number>(
+    k: usize,
+    state: &BatchState,
+    bodies: &Bodies,
+    known: T::Condition,
+) -> [Vec3<T>; 2] {
+    let y0 = state.y[k].load::<T>();
+    let a = Vec3::choose(known, state.a[k].load(), Vec3::zero());
+    let y1 = y0 + state.v[k].load() * bodies.dt + a * (0.5 * bodies.dt * bodies.dt);
+    [bodies.before.load() + y0, bodies.now.load() + y1]
+}
+
+/// [`detect`] where links don't count.
+fn detect_alone<T: Number>(
+    (batch, state): (&Batch, &BatchState),
+    bodies: &Bodies,
+    active: Mask,
+    planes: Planes,
+) -> usize {
+    T::run(
+        #[inline(always)]
+        move || {
+            let Planes {
+                contacts, touched, ..
+            } = planes;
+            let mut found = 0;
+            // What is unknown was a blow, which is over.
+            let known = T::condition(&Mask::new(state.restart).not());
+            for k in 0..batch.count() {
+                let [from, to] = way::<T>(k, state, bodies, known);
+                let keep = batch.thickness.load::<T>() + state.skin[k].load();
+                let mut near = Mask::NONE;
+                for guard in bodies.guards {
+                    near = near.or(guard.is_near(from, to, keep));
+                }
+                let near = near.and(active);
+                if !near.any() {
+                    continue;
+                }
+                let (from, to, keep) = (from.store(), to.store(), keep.store());
+                for lane in 0..LANES {
+                    if !near.get(lane) || k >= batch.counts[lane] {
+                        continue;
+                    }
+                    let path = Path {
+                        from: from.get(lane),
+                        to: to.get(lane),
+                        keep: keep[lane],
+                        dt: bodies.dt,
+                    };
+                    let Some((collider, plane)) = path.first(bodies.colliders) else {
+                        continue;
+                    };
+                    found += 1;
+                    let surface = bodies.surface(lane, collider, &plane);
+                    put(contacts, touched, (k, lane), &surface, (batch, state));
+                }
+            }
+            found
+        },
+    )
+}
+
+/// [`detect`] where links count; `lifts` are by how much particles are farther from bodies for their sake.
+fn detect_with_links<T: Number>(
+    (batch, state): (&Batch, &BatchState),
+    bodies: &Bodies,
+    active: Mask,
+    planes: Planes,
+    lifts: &mut [Lane],
+) -> usize {
+    T::run(
+        #[inline(always)]
+        move || {
+            let Planes {
+                contacts,
+                touched,
+                ways,
+            } = planes;
+            // What is unknown was a blow, which is over.
+            let known = T::condition(&Mask::new(state.restart).not());
+            let count = batch.count();
+            let mut any = Mask::NONE;
+            for k in 0..count {
+                let [from, to] = way::<T>(k, state, bodies, known);
+                (ways.from[k], ways.to[k]) = (from.store(), to.store());
+                let near = ways.near::<T>(k, (batch, state), bodies).and(active);
+                ways.near[k] = near;
+                any = any.or(near);
+            }
+            if !any.any() {
+                for lift in lifts {
+                    *lift = active.pick(Lane::ZERO, *lift);
+                }
+                return 0;
+            }
+            let looked = Looked {
+                batch,
+                state,
+                bodies,
+                from: &ways.from,
+                to: &ways.to,
+            };
+            let mut found = 0;
+            let mut before = [None; LANES];
+            for k in 0..count {
+                let near = ways.near[k];
+                let after_near = ways.near.get(k + 1).filter(|_| k + 1 < count);
+                let link_near = near.or(after_near.copied().unwrap_or(Mask::NONE));
+                lifts[k] = active.and(near.not()).pick(Lane::ZERO, lifts[k]);
+                for lane in 0..LANES {
+                    let last = before[lane].take();
+                    if !link_near.get(lane) || k >= batch.counts[lane] {
+                        continue;
+                    }
+                    let after = looked.link(k + 1, lane);
+                    before[lane] = after;
+                    if !near.get(lane) {
+                        continue;
+                    }
+                    let lift = &mut lifts[k][lane];
+                    let Some(surface) = looked.particle(k, lane, [last, after], lift) else {
+                        continue;
+                    };
+                    found += 1;
+                    put(contacts, touched, (k, lane), &surface, (batch, state));
+                }
+            }
+            found
+        },
+    )
+}
+
+impl Ways {
+    /// The strands whose particle `k`, or a link beside it, may come near a body.
+    #[inline(always)]
+    pub(super) fn near<T: Number>(
+        &self,
+        k: usize,
+        (batch, state): (&Batch, &BatchState),
+        bodies: &Bodies,
+    ) -> Mask {
+        // No place of a link is farther from the nearer of its ends.
+        let next = batch
+            .links
+            .get(k + 1)
+            .map_or(T::splat(0.0), |link| link.length.load::<T>());
+        let own = batch.links[k].length.load::<T>();
+        let longer = T::choose(own.less(next), next, own);
+        let keep = batch.thickness.load::<T>() + state.skin[k].load();
+        let half = longer * T::splat(0.5);
+        let (from, to) = (self.from[k].load::<T>(), self.to[k].load());
+        let mut near = Mask::NONE;
+        for guard in bodies.guards {
+            let keep = if guard.has_links { keep + half } else { keep };
+            near = near.or(guard.is_near(from, to, keep));
+        }
+        near
+    }
+}
+
+/// Where strands go that are looked at.
+struct Looked<'a> {
+    batch: &'a Batch,
+    state: &'a BatchState,
+    bodies: &'a Bodies<'a>,
+    from: &'a [Vec3],
+    to: &'a [Vec3],
+}
+
+impl Looked<'_> {
+    fn path(&self, k: usize, lane: usize) -> Path {
+        Path {
+            from: self.from[k].get(lane),
+            to: self.to[k].get(lane),
+            keep: self.batch.thickness[lane] + self.state.skin[k][lane],
+            dt: self.bodies.dt,
+        }
+    }
+
+    /// What link `k` lacks; nothing where there is none, or it is the root's.
+    fn link(&self, k: usize, lane: usize) -> Option<Lack> {
+        if k == 0 || k >= self.batch.counts[lane] {
+            return None;
+        }
+        let ends = [self.path(k - 1, lane), self.path(k, lane)];
+        Lack::deepest(
+            self.bodies.colliders,
+            &ends,
+            self.batch.links[k].length[lane],
+        )
+    }
+
+    /// The plane of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone.
+    fn particle(
+        &self,
+        k: usize,
+        lane: usize,
+        links: [Option<Lack>; 2],
+        last_lift: &mut f64,
+    ) -> Option<Surface> {
+        let path = self.path(k, lane);
+        let mut best: Option<(&Collider, Plane)> = None;
+        let (mut need, mut depth, mut of) = (0.0, f64::NEG_INFINITY, 0);
+        for (lack, end) in links.iter().zip([1, 0]) {
+            let Some(lack) = lack else { continue };
+            if lack.lifts[end] > need {
+                (need, of) = (lack.lifts[end], lack.body);
+            }
+            depth = depth.max(lack.depth);
+        }
+        let is_slow = (path.to - path.from).length() < SLOW * path.dt;
+        let (cuts, clear) = if is_slow { (CUTS, CLEAR) } else { (0.0, 0.0) };
+        if depth > cuts {
+            *last_lift = if is_slow { last_lift.max(need) } else { need };
+        } else if depth < -clear {
+            *last_lift = last_lift.min(need);
+        }
+        for (index, collider) in self.bodies.colliders.iter().enumerate() {
+            let lift = if index == of { *last_lift } else { 0.0 };
+            let lifted = Path {
+                keep: path.keep + lift,
+                ..path
+            };
+            let crossed = links
+                .iter()
+                .flatten()
+                .filter_map(|lack| lack.plane(index, &path, collider));
+            for plane in crossed.chain(lifted.against(collider)) {
+                if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
+                    best = Some((collider, plane));
+                }
+            }
+        }
+        let (collider, plane) = best?;
+        Some(self.bodies.surface(lane, collider, &plane))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{collision::shape::Shape, pose::Pose};
+    use glam::DQuat;
+
+    #[test]
+    fn a_ball_around_a_body_hides_nothing_that_the_body_meets() {
+        let shape = Shape::Capsule {
+            from: DVec3::new(-0.1, 0.0, 0.05),
+            to: DVec3::new(0.2, 0.1, 0.0),
+            radius: 0.05,
+        };
+        let collider = Collider {
+            shape,
+            before: Pose {
+                rotation: DQuat::from_rotation_x(0.4),
+                translation: DVec3::new(0.0, 0.3, 0.0),
+            },
+            now: Pose {
+                rotation: DQuat::from_rotation_y(1.1),
+                translation: DVec3::new(0.02, 0.25, 0.01),
+            },
+            was: None,
+        };
+        let guard = Guard::new(&collider);
+        let (mut met, mut hidden) = (0, 0);
+        for i in 0..20_000 {
+            let spread = |k: i32| f64::from((i * 7919 + k * 104_729) % 1009) / 1009.0 - 0.5;
+            let from = DVec3::new(spread(1), spread(2) + 0.3, spread(3));
+            let to = from + DVec3::new(spread(4), spread(5), spread(6)) * 0.05;
+            let path = Path {
+                from,
+                to,
+                keep: 1e-3,
+                dt: 0.01,
+            };
+            let keep = Lane::splat(path.keep);
+            let near = guard.is_near(Vec3::splat(from), Vec3::splat(to), keep);
+            let meets = path.against(&collider).is_some();
+            assert!(near.get(0) || !meets, "{from} {to}");
+            met += usize::from(meets);
+            hidden += usize::from(!near.get(0));
+        }
+        assert!(met > 1000 && hidden > 1000, "{met} {hidden}");
+    }
+}

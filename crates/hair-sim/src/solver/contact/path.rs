@@ -1,0 +1,122 @@
+//! The way of a place through the world in a step, and the plane of a body that it meets.
+
+use glam::DVec3;
+
+use crate::collision::shape::{Collider, Shape};
+
+use super::{NEAR, PUSH_OUT, TOUCH};
+
+/// A particle's way through the world in a step of `dt` seconds, on which it keeps `keep` metres from bodies.
+pub(super) struct Path {
+    pub from: DVec3,
+    pub to: DVec3,
+    pub keep: f64,
+    pub dt: f64,
+}
+
+/// A plane in a body's space.
+pub(super) struct Plane {
+    pub at: DVec3,
+    pub normal: DVec3,
+    /// How far the path's end is behind it.
+    pub depth: f64,
+}
+
+impl Path {
+    /// The body whose plane the path's end is deepest behind.
+    pub(super) fn first<'a, 'b>(
+        &self,
+        colliders: &'b [Collider<'a>],
+    ) -> Option<(&'b Collider<'a>, Plane)> {
+        let mut best: Option<(&Collider, Plane)> = None;
+        for collider in colliders {
+            let Some(plane) = self.against(collider) else {
+                continue;
+            };
+            if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
+                best = Some((collider, plane));
+            }
+        }
+        best
+    }
+
+    /// The plane of a body that the path meets, or comes near.
+    #[inline(always)]
+    pub(super) fn against(&self, collider: &Collider) -> Option<Plane> {
+        let (shape, was) = (&collider.shape, collider.at_start());
+        let to = collider.now.to_local(self.to);
+        let end = shape.distance(to) - self.keep;
+        let moves = collider.before != collider.now;
+        let way = if moves {
+            (to - collider.before.to_local(self.from)).length()
+        } else {
+            (self.to - self.from).length()
+        };
+        // The whole path is within `way` of its end.
+        if end > way + NEAR {
+            return None;
+        }
+        let from = collider.before.to_local(self.from);
+        let start = was.distance(from) - self.keep;
+        if start <= TOUCH {
+            // It touches already. The surface near the end, where that is the same side.
+            let (first, last) = (was.normal(from), self.surface(shape, to, end));
+            let (at, normal) = if first.dot(last.1) > 0.5 {
+                last
+            } else {
+                (from - first * (start - collider.grown(from)), first)
+            };
+            let level = (start + PUSH_OUT * self.dt).min(0.0);
+            return Some(self.plane(at + normal * level, normal, to));
+        }
+        // What the surface comes nearer by itself, where the shape changes.
+        let grows = collider.grown(from).abs().max(collider.grown(to).abs());
+        let way = way + grows;
+        // Along the path by steps that cannot pass the surface (Hart 1996, sphere tracing).
+        let (mut t, mut distance) = (0.0, start);
+        for _ in 0..64 {
+            // Too short a way to the end for both ends to reach the surface on it.
+            if distance + end > (1.0 - t) * way + 2.0 * TOUCH {
+                break;
+            }
+            t += distance.max(TOUCH) / way;
+            if t >= 1.0 {
+                break;
+            }
+            let at = from + (to - from) * t;
+            let at_end = shape.distance(at) - self.keep;
+            distance = at_end + collider.grown(at) * (1.0 - t);
+            if distance <= TOUCH {
+                let normal = shape.normal(at);
+                return Some(self.plane(at - normal * at_end, normal, to));
+            }
+        }
+        // Not met by the free motion: what the strand does may still bring it there.
+        let (at, normal) = self.surface(shape, to, end);
+        Some(self.plane(at, normal, to))
+    }
+
+    /// The surface nearest to a place at this distance from it: a point of it, and its normal there.
+    fn surface(&self, shape: &Shape, place: DVec3, distance: f64) -> (DVec3, DVec3) {
+        let normal = shape.normal(place);
+        let at = place - normal * distance;
+        // The distances of a grid are not exact, and its normals jump from cell to cell: what rests would be held now by one plane, now by
+        // another, would they hang on where its motion points to.
+        if !shape.is_sampled() {
+            return (at, normal);
+        }
+        let there = shape.normal(at);
+        if distance.abs() > NEAR || there.dot(normal) < 0.9 {
+            return (at, normal);
+        }
+        (at - there * (shape.distance(at) - self.keep), there)
+    }
+
+    fn plane(&self, at: DVec3, normal: DVec3, end: DVec3) -> Plane {
+        Plane {
+            at,
+            normal,
+            depth: (at - end).dot(normal),
+        }
+    }
+}
