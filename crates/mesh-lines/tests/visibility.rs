@@ -86,7 +86,9 @@ fn on_exact_contour(solid: &Solid, mut point: DVec3, eye: DVec3) -> DVec3 {
     };
     let facing = |p: DVec3| gradient(solid, p).normalize().dot(eye - p);
     for _ in 0..4 {
-        point -= gradient(solid, point) * solid(point);
+        // Of what is no distance, too.
+        let steepest = gradient(solid, point);
+        point -= steepest * (solid(point) / steepest.length_squared());
         let slope = gradient(&facing, point);
         point -= slope * (facing(point) / slope.length_squared());
     }
