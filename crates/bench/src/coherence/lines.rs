@@ -459,4 +459,14 @@ mod tests {
             votes.stretch
         );
     }
+
+    /// Wings' feathers get contours all at once: those grow. What a wing uncovers was there.
+    #[test]
+    fn lines_grow_or_are_uncovered() {
+        let scenes = scenes().unwrap();
+        let found = scenes[1].measure(Method::Tracker, 25).unwrap();
+        let [born, uncovered] = found.births.unwrap();
+        assert_eq!(born, 0);
+        assert!(uncovered > 0);
+    }
 }
