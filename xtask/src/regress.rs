@@ -72,6 +72,7 @@ pub fn run(filter: &str, backend: Backend, bless: bool) -> Outcome {
         report: program::root().join(report),
         backend,
     };
+    Inkstrand::take_from_tests();
     let program = Inkstrand::build()?;
     let mut cases = folders.cases()?;
     cases.extend(extremes::cases(&folders.golden, &program.schema()?)?);

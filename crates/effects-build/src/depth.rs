@@ -56,7 +56,7 @@ mod tests {
              fn line(radius: f32) -> Stroke {{ return Stroke(vec2<f32>(0.0), radius, 0.0, vec3<f32>(0.0)); }}\n\
              fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {{ {body} }}"
         );
-        let source = compose(&text, "src/line.wgsl", Entry::Effect).unwrap();
+        let source = compose(&text, "src/line.wgsl", None, Entry::Effect).unwrap();
         may_be_nearer(&check::parse(&source).unwrap().0)
     }
 

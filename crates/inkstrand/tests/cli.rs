@@ -120,7 +120,7 @@ fn a_character_without_hair_and_head_is_told() {
     write_body(folder.path(), "spine");
     render("body.gltf", false).stderr(
         contains("head: WARNING: body.gltf has neither hair nor a bone called `head`")
-            .and(contains("--set head.hide="))
+            .and(contains("--set 'head.hide="))
             .and(contains("the preset's file is drawn")),
     );
     render("body.gltf", true).stderr("");

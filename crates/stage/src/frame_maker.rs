@@ -416,13 +416,8 @@ impl ObjectFrame {
         self.of.is_drawn_as(object)
             && self.pose == motion.head_pose()
             && self.bodies_s == bodies_s(object, motion)
-            && (is_same_time || !(turns || look.reads_time() || self.is_growing()))
+            && (is_same_time || !(turns || look.reads_time() || self.lines.is_growing()))
             && self.points == motion.points(object)
-    }
-
-    /// Whether some of its lines are still to be drawn longer.
-    fn is_growing(&self) -> bool {
-        self.lines.as_ref().is_some_and(HeadLines::is_growing)
     }
 
     /// Keeps what the object's hair and head are like.

@@ -127,7 +127,7 @@ pub(crate) fn head(
     {
         notes.push(format!(
             "head: WARNING: {} has neither hair nor a bone called `head`, so all of its meshes are taken for a head. If they are \
-             none, take a character that has one; if they are a head and more, hide the rest (head.hide, --set head.hide='\"Body*\"')",
+             none, take a character that has one; if they are a head and more, hide the rest (head.hide, --set 'head.hide=Body*')",
             path.display()
         ));
     }

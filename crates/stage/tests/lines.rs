@@ -325,7 +325,8 @@ fn a_tones_edge_on_a_ball_is_an_exact_circle() {
         let text = text("a", "", &toon)
             .replace("size: (240, 240)", "size: (480, 480)")
             .replace("light: (yaw: 0, pitch: 10)", "light: (yaw: 50, pitch: 10)");
-        let preset = Preset::parse("look.ron", &text, &registry()).unwrap();
+        let registry = registry();
+        let preset = Preset::parse("look.ron", &text, &registry).unwrap();
         let files = Files {
             preset_folder: folder.path().to_owned(),
             ..Files::default()
@@ -358,11 +359,11 @@ fn a_tones_edge_on_a_ball_is_an_exact_circle() {
         };
         let middle = camera.project(camera.view_from_world(BALL));
         let reach = 1.2 * RADIUS_M * camera.px_per_metre(camera.depth(BALL));
-        let [low, high] = [middle - reach, middle + reach].map(Vec2::as_uvec2);
+        let [low, high] = [middle - reach, middle + reach].map(|at| [at.x as u32, at.y as u32]);
         let mut farthest: f64 = 0.0;
-        for y in low.y..high.y {
+        for y in low[1]..high[1] {
             let (mut moved, mut edge) = (0.0, 0.0);
-            for x in low.x..high.x {
+            for x in low[0]..high[0] {
                 let at = |cell: u32| (f64::from(cell) + 0.5) / f64::from(GRID);
                 let samples = (0..GRID * GRID)
                     .map(|i| is_lit(f64::from(x) + at(i % GRID), f64::from(y) + at(i / GRID)));
@@ -558,21 +559,6 @@ fn moments_between_frames_follow_the_one_before_and_are_not_followed() {
     assert!(at(&mut stage, 5.0) == sequence[5], "and forth");
     // On it is neither what the frame before it was nor the one after.
     assert!(moment != sequence[3] && moment != sequence[4]);
-    // Its marks lie along what moved: most are within a step of what was there.
-    let step = |other: &(Vec<Vec2>, Vec<f32>)| {
-        let near = |(place, mark): (&Vec2, &f32)| {
-            let there = other.0.iter().zip(&other.1);
-            let nearest = there.min_by(|a, b| {
-                a.0.distance_squared(*place)
-                    .total_cmp(&b.0.distance_squared(*place))
-            });
-            nearest.is_some_and(|(_, at)| (at - mark).abs() < 0.1)
-        };
-        let all = moment.0.iter().zip(&moment.1);
-        all.filter(|joint| near(*joint)).count() as f32 / moment.0.len() as f32
-    };
-    let [before, after] = [&sequence[3], &sequence[4]].map(step);
-    assert!(before > 0.8 && after > 0.8, "{before}, {after}");
 }
 
 #[test]

@@ -49,6 +49,11 @@ impl ObjectLines {
         self.of_head = None;
     }
 
+    /// Whether some of them are still to be drawn longer.
+    pub fn is_growing(&self) -> bool {
+        self.of_head.as_ref().is_some_and(HeadLines::is_growing)
+    }
+
     /// Appends what is seen of the lines of the object's head, list after list, and notes which joints each has.
     pub fn push(
         &mut self,

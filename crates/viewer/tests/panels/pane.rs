@@ -97,14 +97,18 @@ pub fn names(harness: &Harness<Pane>) -> Vec<String> {
 
 /// Opens all parts, also those within parts.
 pub fn open_all(harness: &mut Harness<Pane>) {
-    // What is opened holds more; one after the other they would take minutes.
-    for _ in 0..3 {
+    // All that are closed at once, as one after the other they would take minutes, until what is opened holds no more.
+    for _ in 0..20 {
         let closed = harness.root().children_recursive().filter(|node| {
             let node = node.accesskit_node();
             let is_opener = node.label().is_some_and(|name| name.starts_with("open "));
             is_opener && node.toggled() == Some(Toggled::False)
         });
-        for node in closed.collect::<Vec<_>>() {
+        let closed: Vec<_> = closed.collect();
+        if closed.is_empty() {
+            return;
+        }
+        for node in closed {
             node.click_accesskit();
         }
         harness.run();
