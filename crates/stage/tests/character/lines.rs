@@ -14,7 +14,7 @@ const FPS: f64 = 24.0;
 const PIXEL: f64 = 1.0 / 1344.0;
 const PERIOD_PX: f64 = 100.0;
 /// A place is matched with the line of the next frame no farther away than this.
-const REACH_PX: f64 = 8.0;
+const REACH_PX: f64 = 6.0;
 
 /// Walking at rest: legs, arms, chest and head swing, and the pelvis goes up and down.
 fn walking(model: &Model, time: f64) -> Pose {
