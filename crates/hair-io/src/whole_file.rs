@@ -190,7 +190,7 @@ pub fn try_to_write(path: &Path) -> io::Result<()> {
         // Who reads a pipe would take its closing for the end.
         Ok(there) if !there.is_file() && !there.is_dir() => Ok(()),
         // What is written is named so only at its end.
-        Err(error) if error.kind() == io::ErrorKind::InvalidFilename => Err(named(path, &error)),
+        Err(error) if error.kind() == ErrorKind::InvalidFilename => Err(named(path, &error)),
         _ => WholeFile::create(path).map(drop),
     }
 }

@@ -381,7 +381,7 @@ pub fn rows(figures: &[LineFigures]) -> Vec<Row> {
             row("stretch-mean", of.stretch[0]),
             row("stretch-99", of.stretch[1]),
         ];
-        for [born, uncovered] in of.births {
+        if let Some([born, uncovered]) = of.births {
             rows.push(row("births", born as f64));
             rows.push(row("uncovered", uncovered as f64));
         }
