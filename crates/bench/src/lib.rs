@@ -3,7 +3,7 @@
 
 pub mod backends;
 pub mod cartoon;
-pub mod character;
+mod character;
 pub mod coherence;
 pub mod dynamics;
 mod error;
