@@ -149,7 +149,7 @@ fn flash(look: &str) -> (f64, f64) {
 /// Bands of broad teeth. Of thin ones, a pixel or two wide, more differs: hair swings by more than their width.
 #[test]
 fn bands_stay_where_they_are_while_a_head_turns() {
-    for look in ["twin-tails.ron", "long-pink.ron"] {
+    for look in ["twin-tails.ron", "long-pink.ron", "manga-ink.ron"] {
         let (flash, count) = flash(look);
         assert!(count > 2000.0, "{look}: {count} samples show a highlight");
         assert!(flash < MOST, "{look}: {flash}");
