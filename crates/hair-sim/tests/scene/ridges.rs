@@ -76,6 +76,7 @@ fn places(solver: &Solver, state: &State) -> Vec<DVec3> {
 type Motion = fn(f64) -> DVec3;
 
 /// What came of a scene.
+#[derive(Default)]
 struct Found {
     deepest: f64,
     contacts: usize,
@@ -96,14 +97,7 @@ fn run(
     let strands = strands(radius, link, up);
     let (mut solver, mut state) = Solver::new(&strands, &params(gamma, link)).unwrap();
     let colliders = ridge(radius);
-    let mut found = Found {
-        deepest: 0.0,
-        contacts: 0,
-        fallbacks: 0,
-        steps: 0,
-        awake: 0,
-        speed: 0.0,
-    };
+    let mut found = Found::default();
     for step in 1..=(seconds * rate) as usize {
         let before = places(&solver, &state);
         let surroundings = Surroundings {
@@ -132,14 +126,7 @@ fn worst(name: &str, motion: Motion, up: f64, rate: f64, seconds: f64) -> [f64; 
     let mut all = [0.0_f64; 2];
     for radius in RADII {
         for link in LINK_LENGTHS {
-            let mut sum = Found {
-                deepest: 0.0,
-                contacts: 0,
-                fallbacks: 0,
-                steps: 0,
-                awake: 0,
-                speed: 0.0,
-            };
+            let mut sum = Found::default();
             for gamma in GAMMAS {
                 let found = run(motion, (radius, link, gamma, up), rate, seconds);
                 sum.deepest = sum.deepest.max(found.deepest);
