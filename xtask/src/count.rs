@@ -3,13 +3,15 @@
 //! Times lie where other programs run beside; instructions don't. valgrind's callgrind counts those of the program as
 //! the tests build it, with one thread on the CPU, for a frame of each of some presets as it moves: the second one, when
 //! everything has been loaded and has its memory. `tests/yardsticks/counts.toml` holds the counts that later ones are
-//! held to. With `--release` it is the program that users run, and the frame is held to its targets.
+//! held to. With `--release` it is the program that users run, frames are held to their targets, and a character of 30,000 triangles with a
+//! picture on them is counted too, beside the same frame without it: what suite `frame` measures in milliseconds.
 //!
 //! valgrind runs programs on a processor of its own, which has AVX2 and no AVX-512 where the machine has AVX2: so
 //! every such machine counts the same.
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use crate::program::{self, Inkstrand};
@@ -50,6 +52,11 @@ const TOLERANCE: f64 = 0.03;
 /// Most instructions that a whole frame of a yardstick should take in a release build: 60 frames a second on one of two
 /// cores of about 20 million a millisecond.
 const TARGETS: [(&str, u64); 1] = [("twin-tails", 280_000_000)];
+
+/// Presets that `bench character` writes, with a character and without.
+const CHARACTER: [&str; 2] = ["character", "no-character"];
+/// Most instructions that the character should add to a frame: 3 ms on two cores.
+const CHARACTER_TARGET: u64 = 60_000_000;
 
 /// Instructions of a frame's stages, by their names.
 type Counts = BTreeMap<String, u64>;
@@ -104,11 +111,24 @@ pub fn run_release(check: bool) -> Outcome {
         println!("SKIPPED: {reason}");
         return Ok(());
     }
-    let counted = count_all(&Inkstrand::build_release()?)?;
+    let program = Inkstrand::build_release()?;
+    let folder = tempfile::tempdir()?;
+    write_character(folder.path())?;
+    let mut counted = count_all(&program)?;
+    for name in CHARACTER {
+        let presets = folder.path().display().to_string();
+        counted.insert(name.to_owned(), count(&program, name, &presets)?);
+    }
     print(&counted, &Table::new());
+    let in_all = |name: &str| -> u64 { counted[name].values().sum() };
+    let mut found = TARGETS
+        .map(|(name, most)| (name, in_all(name), most))
+        .to_vec();
+    let [with, without] = CHARACTER.map(in_all);
+    let added = with.saturating_sub(without);
+    found.push(("what the character adds", added, CHARACTER_TARGET));
     let mut missed = Vec::new();
-    for (name, most) in TARGETS {
-        let count: u64 = counted[name].values().sum();
+    for (name, count, most) in found {
         let verdict = if count <= most { "met" } else { "MISSED" };
         let line = format!(
             "{name}: {:.1} million instructions a frame, at most {:.1}: {verdict}",
@@ -124,6 +144,21 @@ pub fn run_release(check: bool) -> Outcome {
         true => Err(missed.join("\n").into()),
         false => Ok(()),
     }
+}
+
+/// Has `bench` write the character and its presets.
+fn write_character(folder: &Path) -> Outcome {
+    let mut command = program::cargo(&[
+        "run",
+        "--quiet",
+        "--release",
+        "--package=bench",
+        "--bin=bench",
+        "--",
+        "character",
+    ]);
+    command.arg(folder);
+    program::succeed(command)
 }
 
 /// Counts the frames of all presets.

@@ -1,5 +1,5 @@
 //! What a character's meshes cost: 30,000 triangles with a texture, made here, beside the same hair without a head, and Godette where there
-//! is real data.
+//! is real data. `cargo xtask bench count --release` counts the same scenes.
 
 use crate::BenchError;
 use crate::frame::registry;
@@ -21,6 +21,8 @@ const LIMIT_MS: f64 = 3.0;
 /// Rings and sectors of each of the two meshes, head and dress: 15,000 triangles each.
 const RINGS: usize = 75;
 const SECTORS: usize = 100;
+/// The character's file.
+const FILE: &str = "character.obj";
 /// Sides of the texture.
 const TEXELS: usize = 1024;
 
@@ -36,7 +38,7 @@ pub(crate) fn measure(
 ) -> Result<(Vec<Row>, Vec<Target>), BenchError> {
     let folder = folder.join("character");
     write(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let mut characters = vec![("30,000 triangles", "character.obj".to_owned(), true)];
+    let mut characters = vec![("30,000 triangles", FILE.to_owned(), true)];
     let data = std::env::var_os("INKSTRAND_DATA").map(PathBuf::from);
     let godette = data.map(|data| data.join("vrm/Godette_vrm_v4.vrm"));
     if let Some(path) = godette.filter(|path| path.is_file()) {
@@ -44,10 +46,10 @@ pub(crate) fn measure(
     }
     let (mut rows, mut targets) = (Vec::new(), Vec::new());
     for (name, file, is_held) in characters {
-        let head = format!("file: {file:?}, colors: file, up: y, scale: 1");
+        let head = of_file(&file);
         let mut both = [
             stage(root, &folder, &head, "")?,
-            stage(root, &folder, "shape: none", "")?,
+            stage(root, &folder, NO_HEAD, "")?,
             stage(
                 root,
                 &folder,
@@ -119,14 +121,27 @@ impl Frames {
     }
 }
 
-/// A few strands on a character of the folder.
-fn stage(root: &Path, folder: &Path, head: &str, layers: &str) -> Result<Stage, BenchError> {
+/// A head that is a mesh of a file beside the preset.
+fn of_file(file: &str) -> String {
+    format!("file: {file:?}, colors: file, up: y, scale: 1")
+}
+
+/// No head, with the same hair.
+const NO_HEAD: &str = "shape: none";
+
+/// A preset of a few strands on a head.
+fn preset(root: &Path, head: &str, layers: &str) -> String {
     let hair = root.join("tests/golden/extremes.strands.ron");
-    let text = format!(
+    format!(
         "(version: 1, hair: (file: {:?}), head: ({head}), scene: (size: (960, 720), background: \"E0E8F0\"), \
          camera: (distance: 4.5, target: (0, -0.6, 0)), layers: [{layers} (effect: \"hair.base\")])",
         hair.display().to_string()
-    );
+    )
+}
+
+/// Those strands on a character of the folder.
+fn stage(root: &Path, folder: &Path, head: &str, layers: &str) -> Result<Stage, BenchError> {
+    let text = preset(root, head, layers);
     let registry = registry()?;
     let preset = Preset::parse("character.ron", &text, &registry);
     let preset = preset.map_err(|errors| errors.to_string())?;
@@ -135,6 +150,23 @@ fn stage(root: &Path, folder: &Path, head: &str, layers: &str) -> Result<Stage, 
         ..Files::default()
     };
     Stage::new(&preset, &files).map_err(|error| error.to_string().into())
+}
+
+/// Writes the character of 30,000 triangles, and presets for `inkstrand render`: `character.ron`, and `no-character.ron` without it.
+///
+/// # Errors
+///
+/// When the folder can't be made, or a file can't be written.
+pub fn write_presets(root: &Path, folder: &Path) -> std::io::Result<()> {
+    write(folder)?;
+    let root = root.canonicalize()?;
+    for (name, head) in [
+        ("character.ron", &of_file(FILE)[..]),
+        ("no-character.ron", NO_HEAD),
+    ] {
+        fs::write(folder.join(name), preset(&root, head, ""))?;
+    }
+    Ok(())
 }
 
 /// Writes the character: a head that is nearly a ball and a dress with folds, with a picture of many colours on both.
@@ -168,7 +200,7 @@ fn write(folder: &Path) -> std::io::Result<()> {
     let mut first = 1;
     mesh(&mut obj, "Skin", &mut first, head);
     mesh(&mut obj, "Dress", &mut first, dress);
-    fs::write(folder.join("character.obj"), obj)?;
+    fs::write(folder.join(FILE), obj)?;
     let texel = |i: usize| {
         let (x, y) = (i % TEXELS, i / TEXELS);
         [x * 255 / TEXELS, y * 255 / TEXELS, (x ^ y) / 8 % 2 * 200].map(|channel| channel as u8)
@@ -212,8 +244,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path()).unwrap();
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let head = "file: \"character.obj\", colors: file, up: y, scale: 1";
-        let mut stage = stage(&root, folder.path(), head, "").unwrap();
+        let mut stage = stage(&root, folder.path(), &of_file(FILE), "").unwrap();
         let frame = stage.frame().unwrap();
         let drawn = |surface: &&render::Surface| surface.texture.is_some();
         let textured = frame.surfaces.iter().filter(drawn);
@@ -226,5 +257,11 @@ mod tests {
         let (rows, targets) = measure(&root, folder.path(), effort).unwrap();
         assert!(rows.len() >= 2 && rows.len() % 2 == 0, "{rows:?}");
         assert_eq!(targets.len(), 1);
+        write_presets(&root, folder.path()).unwrap();
+        for name in ["character.ron", "no-character.ron"] {
+            let path = folder.path().join(name);
+            let text = fs::read_to_string(&path).unwrap();
+            Preset::parse(name, &text, &registry().unwrap()).unwrap();
+        }
     }
 }

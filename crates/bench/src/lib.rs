@@ -3,7 +3,7 @@
 
 pub mod backends;
 pub mod cartoon;
-mod character;
+pub mod character;
 pub mod coherence;
 pub mod dynamics;
 mod error;

@@ -11,7 +11,9 @@ use bench::dynamics::{self, peers::Peers, stored};
 use bench::page::{self, Finished};
 use bench::results::Row;
 use bench::targets::{Target, report};
-use bench::{cartoon, coherence, frame, lines, ratios, results, scale, skip, stress, strokes};
+use bench::{
+    cartoon, character, coherence, frame, lines, ratios, results, scale, skip, stress, strokes,
+};
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal as _;
@@ -49,6 +51,15 @@ enum Suite {
     Skip(RatioOptions),
     /// No measure: random scenes with hostile numbers, in which strands must hold
     Stress(StressOptions),
+    /// No measure: writes the character of suite frame, and presets with it and without, for `cargo xtask bench count --release`
+    Character(CharacterOptions),
+}
+
+#[derive(clap::Args)]
+struct CharacterOptions {
+    /// Folder of the files
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
 }
 
 #[derive(clap::Args)]
@@ -154,11 +165,15 @@ struct Options {
 
 fn main() -> ExitCode {
     let suite = Arguments::parse().suite;
-    if cfg!(debug_assertions) && !matches!(suite, Suite::Stress(_)) {
+    let measures = !matches!(suite, Suite::Stress(_) | Suite::Character(_));
+    if cfg!(debug_assertions) && measures {
         eprintln!("bench: not a release build: its times say nothing");
     }
     let done = match &suite {
         Suite::Stress(options) => stress(options),
+        Suite::Character(options) => character::write_presets(&root(), &options.folder)
+            .map(|()| ExitCode::SUCCESS)
+            .map_err(|error| format!("{}: {error}", options.folder.display()).into()),
         Suite::All(options) => all(options),
         Suite::Strokes(options) => strokes(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Dynamics(options) => {

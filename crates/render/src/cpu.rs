@@ -58,6 +58,7 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use strand::{Part, StrandMasks, TileContext};
 use surface::Triangle;
+use texels::Pictures;
 use tile::{LaneMask, Stack, Sums, Target};
 
 /// Most threads of a rasteriser.
@@ -319,6 +320,8 @@ struct Worker {
     sums: Sums,
     /// What samples show; empty where nothing is declared or painted.
     shown: Shown,
+    /// Which pictures on triangles they show.
+    pictures: tile::IdPlane,
     painter: Painter,
     meshes: MeshPainter,
     decals: Decals,
@@ -334,6 +337,7 @@ impl Worker {
             strand: StrandMasks::new(),
             sums: Sums::new(),
             shown: Shown::default(),
+            pictures: tile::id_plane(),
             painter: Painter::default(),
             meshes: MeshPainter::default(),
             decals: Decals::default(),
@@ -441,6 +445,7 @@ impl Worker {
         if keeps_triangles {
             self.shown.clear();
         }
+        let mut pictures = Pictures::new(&mut self.pictures);
         if !triangles.is_empty() {
             let shown = &mut self.shown;
             let shows = |cell, index, lanes: &LaneMask| {
@@ -456,13 +461,15 @@ impl Worker {
                     origin: scene.origin,
                     stack: scene.stack,
                 },
-                &mut self.target,
+                (&mut self.target, &mut pictures),
                 shows,
             );
             self.target.finish_surfaces();
         }
-        if TELLS && frame.drawing.mesh_painting.sees_through() {
-            self.keep_under(frame);
+        let sees_through = TELLS && frame.drawing.mesh_painting.sees_through();
+        if sees_through {
+            pictures.look_up(scene.stack, &mut self.target);
+            self.meshes.keep_under(frame, &self.shown, &self.target);
         }
         let segments_of_tile = self.segments_of_tiles.bin(tile);
         for part in &self.parts {
@@ -473,6 +480,9 @@ impl Worker {
                 &mut self.target,
                 &mut self.shown,
             );
+        }
+        if !sees_through {
+            pictures.look_up(scene.stack, &mut self.target);
         }
     }
 }

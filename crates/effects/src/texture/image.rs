@@ -1,8 +1,8 @@
 //! Pictures as textures: linear light in half precision, with ever smaller copies for what is small on the screen.
 
 use crate::color::linear_from_srgb;
-use crate::wgsl::log_to_two;
 use half::f16;
+use std::hint::black_box;
 use std::sync::LazyLock;
 
 /// The texels of a picture, and of copies of half the size each down to one texel. Colours are multiplied by coverage.
@@ -132,7 +132,7 @@ impl Image {
         let texels = size.max(0.0) * self.size()[0] as f32;
         // No size, or one that is no number, is the whole's.
         let level = if texels > 1.0 {
-            log_to_two(texels).min(last)
+            log_to_two_from_one(texels).min(last)
         } else {
             0.0
         };
@@ -146,8 +146,26 @@ impl Image {
             finer,
             coarser,
             sides: [width, half_width, height, half_height].map(|side| side as f32),
+            strides: [1, 1, width as u32, half_width as u32],
         }
     }
+}
+
+/// WGSL's `log_to_two` of 1 or more, which triangle by triangle would take longer than all else that is worked out for a picture: the same bits, as the
+/// exponent is taken off exactly.
+#[inline]
+fn log_to_two_from_one(x: f32) -> f32 {
+    const FRACTION: u32 = (1 << 23) - 1;
+    let bits = x.to_bits();
+    let one_to_two = f32::from_bits(bits & FRACTION | 1.0_f32.to_bits());
+    let is_above = one_to_two >= std::f32::consts::SQRT_2;
+    let m = choose(is_above, 0.5 * one_to_two, one_to_two);
+    let e = (bits >> 23) as f32 - 127.0 + choose(is_above, 1.0, 0.0);
+    let z = (m - 1.0) / (m + 1.0);
+    let w = z * z;
+    e + z
+        * (2.885_390_1
+            + w * (0.961_796_7 + w * (0.577_078_0 + w * (0.412_198_6 + w * 0.320_598_9))))
 }
 
 /// That a picture has texels, not too many, and so many numbers of each.
@@ -169,88 +187,60 @@ pub struct Blurred<'a> {
     /// What comes of the smaller one.
     coarser: Option<(&'a Level, f32)>,
     /// Widths of both, then heights; twice the finer one's where there is no other.
-    sides: [f32; 4],
+    sides: [f32; NUMBERS],
+    /// Texels from one number to the next: 1 across, a row down.
+    strides: [u32; NUMBERS],
 }
 
-/// Numbers of two places: of each those across both copies, then those down.
-const NUMBERS: usize = 8;
+/// Numbers of a place: how far across both copies it is, then how far down.
+const NUMBERS: usize = 4;
 
 impl Blurred<'_> {
     /// The texel at a place, 0 to 1 from left to right and from top to bottom: colour, and coverage.
-    #[inline]
-    #[must_use]
-    pub fn at(&self, place: [f32; 2], repeats: bool) -> [f32; 4] {
-        let mut texel = self.finer.at(place, repeats);
-        if let Some((coarser, share)) = self.coarser {
-            texel = mix(texel, coarser.at(place, repeats), share);
-        }
-        let [red, green, blue, alpha] = texel;
-        if alpha <= 0.0 {
-            return [0.0; 4];
-        }
-        [red / alpha, green / alpha, blue / alpha, alpha]
-    }
-
-    /// The texels at two places, where they are wanted, bit for bit as [`Self::at`] has them: where they lie is worked out for both together.
-    ///
-    /// Each place is twice how far across it is, then twice how far down, and at most some thousands of pictures away. Bits 0 and 1 of `wanted` say
-    /// which are wanted; of the other the texel is 0. Of each its colour, behind which is a number without meaning, and coverage.
     #[inline(always)] // into loops that are compiled for other instructions than their crate
     #[must_use]
-    pub fn at_two(
-        &self,
-        places: &[f32; 8],
-        wanted: u32,
-        repeats: bool,
-    ) -> ([[f32; 4]; 2], [f32; 2]) {
-        // Arrays in memory, which are read number by number below: so that they are worked out in vector instructions.
+    pub fn at(&self, [x, y]: [f32; 2], repeats: bool) -> [f32; 4] {
+        // All four at once.
+        let places = [x, x, y, y];
         let mut share = [0.0; NUMBERS];
         let (mut first, mut second) = ([0; NUMBERS], [0; NUMBERS]);
         for k in 0..NUMBERS {
-            let (place, side) = (places[k], self.sides[k % 4]);
-            // As in `nearest`, without a branch.
-            let around = place - place.floor();
-            let within = least(most(place, 0.0), 1.0);
-            let texel = choose(repeats, around, within) * side - 0.5;
+            let (place, side) = (places[k], self.sides[k]);
+            // What is no number is 0.
+            let place = choose(repeats, place - place.floor(), place);
+            let texel = least(most(place, 0.0), 1.0) * side - 0.5;
             let (before, last) = (texel.floor(), side - 1.0);
             share[k] = texel - before;
             let beyond = choose(repeats, last, 0.0);
-            first[k] = index(choose(before < 0.0, beyond, before));
+            let texel = index(choose(before < 0.0, beyond, before));
+            first[k] = texel.wrapping_mul(self.strides[k]);
             let beyond = choose(repeats, 0.0, last);
-            second[k] = index(choose(before + 1.0 > last, beyond, before + 1.0));
+            let texel = index(choose(before + 1.0 > last, beyond, before + 1.0));
+            second[k] = texel.wrapping_mul(self.strides[k]);
         }
-        let (mut colors, mut coverage) = ([[0.0; 4]; 2], [0.0; 2]);
-        let mut left = wanted;
-        while left != 0 {
-            let i = left.trailing_zeros() as usize % 2;
-            left &= left - 1;
-            // Across the finer copy and the coarser one, then down both.
-            let [x, half_x, y, half_y] = [4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3];
-            let mut texel = self.finer.between(
-                [first[x], second[x]],
-                [first[y], second[y]],
-                [share[x], share[y]],
-            );
-            if let Some((coarser, part)) = self.coarser {
-                let other = coarser.between(
-                    [first[half_x], second[half_x]],
-                    [first[half_y], second[half_y]],
-                    [share[half_x], share[half_y]],
-                );
-                for channel in 0..4 {
-                    texel[channel] += (other[channel] - texel[channel]) * part;
-                }
-            }
-            let alpha = texel[3];
-            if alpha > 0.0 {
-                // All four, or they would be worked out as two and two.
-                for channel in 0..4 {
-                    colors[i][channel] = texel[channel] / alpha;
-                }
-                coverage[i] = alpha;
+        // By way of memory: compilers would work out some by themselves where they are needed, in place of all at once.
+        let (share, first, second) = black_box((share, first, second));
+        let [left, half_left, upper, half_upper] = first;
+        let [right, half_right, lower, half_lower] = second;
+        let mut texel = (self.finer).between([left, right], [upper, lower], [share[0], share[2]]);
+        if let Some((coarser, part)) = self.coarser {
+            let (across, down) = ([half_left, half_right], [half_upper, half_lower]);
+            let other = coarser.between(across, down, [share[1], share[3]]);
+            for channel in 0..4 {
+                texel[channel] += (other[channel] - texel[channel]) * part;
             }
         }
-        (colors, coverage)
+        let alpha = texel[3];
+        if alpha <= 0.0 {
+            return [0.0; 4];
+        }
+        // All four, or they would be worked out as two and one.
+        let mut color = [0.0; 4];
+        for channel in 0..4 {
+            color[channel] = texel[channel] / alpha;
+        }
+        let [red, green, blue, _] = color;
+        [red, green, blue, alpha]
     }
 }
 
@@ -288,28 +278,17 @@ impl Level {
         }
     }
 
-    /// Between the middles of the four nearest texels.
-    #[inline]
-    fn at(&self, place: [f32; 2], repeats: bool) -> [f32; 4] {
-        let [across, down] = [0, 1].map(|i| nearest(place[i], self.size[i], repeats));
-        let row = |y: usize| {
-            let texel = |x: usize| self.texels[y * self.size[0] + x].map(number);
-            mix(texel(across.0), texel(across.1), across.2)
-        };
-        mix(row(down.0), row(down.1), down.2)
-    }
-
-    /// The same, of two columns and two rows, and the shares of the second ones.
+    /// Between the middles of the four nearest texels: of two columns, and the numbers of the first texels of two rows. And the shares of the
+    /// second ones.
     #[inline(always)]
     fn between(&self, across: [u32; 2], down: [u32; 2], [share, below]: [f32; 2]) -> [f32; 4] {
-        let width = self.size[0];
-        let [left, right] = across.map(|x| x as usize);
-        let [upper, lower] = down.map(|y| y as usize * width);
+        let [left, right] = across;
+        let [upper, lower] = down;
         let [a, b, c, d] = [
-            numbers(&self.texels[upper + left]),
-            numbers(&self.texels[upper + right]),
-            numbers(&self.texels[lower + left]),
-            numbers(&self.texels[lower + right]),
+            numbers(&self.texels[(upper + left) as usize]),
+            numbers(&self.texels[(upper + right) as usize]),
+            numbers(&self.texels[(lower + left) as usize]),
+            numbers(&self.texels[(lower + right) as usize]),
         ];
         let mut texel = [0.0; 4];
         for i in 0..4 {
@@ -402,15 +381,12 @@ fn mean(shares: &[(usize, f32)], texel: impl Fn(usize) -> [f32; 4]) -> [f32; 4] 
     sum
 }
 
-#[inline]
-fn mix(from: [f32; 4], to: [f32; 4], share: f32) -> [f32; 4] {
-    std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wgsl::log_to_two;
     use proptest::prelude::*;
+    use std::f32::consts::SQRT_2;
 
     #[test]
     fn halves_are_the_numbers_that_they_are() {
@@ -502,6 +478,13 @@ mod tests {
 
     proptest! {
         #[test]
+        fn logarithms_are_those_of_effects(
+            x in prop_oneof![1.0..4.0_f32, 1.0..1e6_f32, 1.0..f32::MAX, prop::sample::select(vec![1.0, 2.0, SQRT_2, 4096.0, SQRT_2.next_down()])],
+        ) {
+            prop_assert_eq!(log_to_two_from_one(x).to_bits(), log_to_two(x).to_bits());
+        }
+
+        #[test]
         fn copies_keep_the_mean(width in 1_usize..12, height in 1_usize..12, seed: u64) {
             let count = width * height;
             let texels: Vec<[f32; 4]> = (0..count).map(|i| {
@@ -524,26 +507,50 @@ mod tests {
         }
 
         #[test]
-        fn two_places_have_the_texels_of_each(
-            places in prop::array::uniform2(prop::array::uniform2(prop_oneof![
+        fn four_numbers_at_once_are_each_by_itself(
+            place in prop::array::uniform2(prop_oneof![
                 -1e4..1e4_f32,
                 -1.5..1.5_f32,
                 prop::sample::select(vec![-1.0, -1e-9, 0.0, 1e-9, 0.5, 1.0, 1.0 - f32::EPSILON / 2.0]),
-            ])),
-            wanted: [bool; 2],
+            ]),
             size in prop_oneof![Just(0.0_f32), 0.0..1.5_f32],
             repeats: bool,
         ) {
             let texels: Vec<[u16; 4]> = (0..35).map(|i| [i * 1800, 60_000 - i * 900, i % 7 * 9000, i % 3 * 32_000]).collect();
             let image = image([7, 5], &texels);
             let blurred = image.blurred(size);
-            let [[x0, y0], [x1, y1]] = places;
-            let bits = wanted.map(u32::from);
-            let (colors, coverage) = blurred.at_two(&[x0, x0, y0, y0, x1, x1, y1, y1], bits[0] + 2 * bits[1], repeats);
-            for i in 0..2 {
-                let expected = if wanted[i] { blurred.at(places[i], repeats) } else { [0.0; 4] };
-                let [red, green, blue, _] = colors[i];
-                prop_assert_eq!([red, green, blue, coverage[i]], expected);
+            let of_level = |level: &Level| {
+                let [across, down] = [0, 1].map(|i| nearest(place[i], level.size[i], repeats));
+                let row = |y: usize| {
+                    let texel = |x: usize| level.texels[y * level.size[0] + x].map(f32::from);
+                    mix(texel(across.0), texel(across.1), across.2)
+                };
+                mix(row(down.0), row(down.1), down.2)
+            };
+            let mut texel = of_level(blurred.finer);
+            if let Some((coarser, share)) = blurred.coarser {
+                texel = mix(texel, of_level(coarser), share);
+            }
+            let [red, green, blue, alpha] = texel;
+            let expected = match alpha > 0.0 {
+                true => [red / alpha, green / alpha, blue / alpha, alpha],
+                false => [0.0; 4],
+            };
+            prop_assert_eq!(blurred.at(place, repeats), expected);
+        }
+    }
+
+    fn mix(from: [f32; 4], to: [f32; 4], share: f32) -> [f32; 4] {
+        std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share)
+    }
+
+    #[test]
+    fn what_is_no_number_has_a_texel() {
+        let image = image([2, 1], &[BLACK, WHITE]);
+        for place in [[f32::NAN, 0.5], [f32::INFINITY, f32::NEG_INFINITY]] {
+            for repeats in [false, true] {
+                let texel = image.at(place, 0.0, repeats);
+                assert!(texel.iter().all(|x| (0.0..=1.0).contains(x)), "{texel:?}");
             }
         }
     }

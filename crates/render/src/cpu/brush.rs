@@ -93,7 +93,7 @@ impl<'a> StrokeBrush<'a> {
 /// The part that a stroke of that seed has in each sample of a cell.
 #[inline(always)]
 fn parts(seed: u32, stack: &Stack) -> Lanes {
-    let together = stack.lanes_of_pixel();
+    let together = stack.of_pixel;
     let mut parts = [0.5; LANES];
     if together > 1 {
         for (k, part) in parts.iter_mut().enumerate() {

@@ -587,7 +587,7 @@ impl Offer<'_> {
 /// How far a decal reaches in the samples of each lane.
 #[inline(always)]
 fn reaches_m(decal: &Decal, stack: &Stack) -> Lanes {
-    let together = stack.lanes_of_pixel();
+    let together = stack.of_pixel;
     let mut reaches = [decal.reach_m; LANES];
     if !decal.is_shadow {
         for (k, reach) in reaches.iter_mut().enumerate() {

@@ -1,7 +1,7 @@
 //! Samples of a tile that layers for meshes paint: those that show a surface, and those whose hair such a surface is seen through.
 
 use super::decals;
-use super::shown::{NOTHING, TRIANGLE};
+use super::shown::{NOTHING, Shown, TRIANGLE};
 use super::surface::Interpolated;
 use super::tile::{
     Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Stack, Target, bits, id_plane, overwrite, plane,
@@ -71,14 +71,14 @@ impl Corners {
     };
 }
 
-impl Worker {
+impl MeshPainter {
     /// Keeps what is seen through hair, once all surfaces are drawn.
     #[inline(always)] // compiled for each set of `Instructions`
-    pub(super) fn keep_under(&mut self, frame: &Frame) {
-        let Some(shown) = self.shown.planes() else {
+    pub(super) fn keep_under(&mut self, frame: &Frame, shown: &Shown, target: &Target) {
+        let Some(shown) = shown.planes() else {
             return;
         };
-        let under = self.meshes.under.get_or_insert_with(|| Under {
+        let under = self.under.get_or_insert_with(|| Under {
             what: id_plane(),
             color: [plane(), plane(), plane()],
         });
@@ -92,12 +92,14 @@ impl Worker {
                 kept[k] = select(last.1, shows[k], NOTHING);
             }
             under.what[cell] = kept;
-            for (under, plane) in under.color.iter_mut().zip(&self.target.color) {
+            for (under, plane) in under.color.iter_mut().zip(&target.color) {
                 under[cell] = plane[cell];
             }
         }
     }
+}
 
+impl Worker {
     /// Gives the samples of painted surfaces the colours that their programs say: of those under hair as much as is seen through it.
     #[inline(always)] // compiled for each set of `Instructions`
     pub(super) fn paint_meshes(&mut self, frame: &Frame, origin: [usize; 2], stack: &Stack) {

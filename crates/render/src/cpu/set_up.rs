@@ -3,7 +3,7 @@
 
 use super::surface::{Interpolated, Triangle};
 use super::tile::{LANES, Lanes, Slope, greater, lesser, select};
-use crate::drawing::Drawing;
+use crate::drawing::Surface;
 
 /// A number of each triangle, in double precision.
 type Doubles = [f64; LANES];
@@ -136,20 +136,19 @@ impl SetUp {
         self.count = 0;
     }
 
-    /// Adds a triangle; there is room. With the picture on it, where there is one.
+    /// Adds a triangle of a surface; there is room. With the picture on it, where there is one.
     #[inline(always)]
-    pub(super) fn push<const TEXTURED: bool>(
+    pub(super) fn push(
         &mut self,
         number: u32,
         triangle: &Triangle,
-        drawing: &Drawing,
+        surface: &Surface,
         origin: [usize; 2],
     ) {
-        let k = self.count;
+        let k = self.count % LANES; // one that compilers know to be there
         self.count += 1;
         self.numbers[k] = number;
         let [left, top] = [origin[0] as f64, origin[1] as f64];
-        let surface = &drawing.surfaces[triangle.surface as usize];
         let corners = &surface.triangles[triangle.number as usize];
         for (corner, index) in corners.iter().enumerate() {
             let vertex = &surface.vertices[*index as usize];
@@ -157,7 +156,9 @@ impl SetUp {
             self.y[corner][k] = f64::from(vertex.position.y) - top;
             self.inv_depth[corner][k] = vertex.inv_depth;
             self.tone[corner][k] = vertex.tone;
-            if TEXTURED && let Some(texture) = &surface.texture {
+        }
+        if let Some(texture) = &surface.texture {
+            for (corner, index) in corners.iter().enumerate() {
                 let place = texture.places[*index as usize];
                 self.places[0][corner][k] = place.x;
                 self.places[1][corner][k] = place.y;
@@ -165,9 +166,9 @@ impl SetUp {
         }
     }
 
-    /// Works out what the triangles need.
+    /// Works out what the triangles need, with a picture on them or without.
     #[inline(always)]
-    pub(super) fn work_out<const TEXTURED: bool>(&mut self) {
+    pub(super) fn work_out(&mut self, is_textured: bool) {
         let ([ax, bx, cx], [ay, by, cy]) = (&self.x, &self.y);
         let mut side = [0.0; LANES];
         for k in 0..LANES {
@@ -190,7 +191,7 @@ impl SetUp {
         let area = &self.twice_area;
         self.depth.interpolate(&self.inv_depth, &edges, area);
         self.tones.interpolate(&self.tone, &edges, area);
-        if TEXTURED {
+        if is_textured {
             for (slopes, places) in self.textured.iter_mut().zip(&self.places) {
                 let mut values = *places;
                 for corner in 0..3 {
@@ -265,7 +266,7 @@ mod tests {
     use super::*;
     use crate::cpu::bin::Bounds;
     use crate::cpu::surface::Edge;
-    use crate::drawing::{Surface, SurfaceVertex};
+    use crate::drawing::SurfaceVertex;
     use glam::{DVec2, Vec2};
     use proptest::prelude::*;
 
@@ -305,14 +306,13 @@ mod tests {
                     tone,
                 }));
             }
-            let drawing = Drawing { surfaces: vec![surface], ..Drawing::default() };
             let mut set_up = SetUp::NOTHING;
             for number in 0..LANES as u32 {
                 let triangle = Triangle { surface: 0, number, bounds: Bounds::default(), nearest: 0.0 };
-                set_up.push::<false>(number, &triangle, &drawing, ORIGIN);
+                set_up.push(number, &triangle, &surface, ORIGIN);
             }
             prop_assert!(set_up.is_full());
-            set_up.work_out::<false>();
+            set_up.work_out(false);
             for (k, corners) in corners.iter().enumerate() {
                 let origin = DVec2::new(ORIGIN[0] as f64, ORIGIN[1] as f64);
                 let [a, b, c] = corners.map(|(x, y, ..)| Vec2::new(x, y).as_dvec2() - origin);

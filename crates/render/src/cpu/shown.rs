@@ -1,7 +1,9 @@
 //! What the samples of a tile show: triangles, and points on the axes of strokes.
 
 use super::stroke::Places;
-use super::tile::{IdPlane, LANES, LaneMask, Lanes, Plane, id_plane, overwrite, plane, select};
+use super::tile::{
+    IdPlane, LANES, LaneMask, Lanes, Plane, id_plane, overwrite, plane, put, select,
+};
 
 /// A sample of nothing, in [`Shown::what`].
 pub(super) const NOTHING: u32 = u32::MAX;
@@ -81,14 +83,4 @@ impl Shown {
             overwrite(&mut planes.w[cell], &places.across(), samples);
         }
     }
-}
-
-/// Takes on the new numbers where `mask` is set.
-#[inline(always)]
-fn put(old: &mut [u32; LANES], new: &[u32; LANES], mask: &LaneMask) {
-    let mut lanes = *old;
-    for k in 0..LANES {
-        lanes[k] = select(mask[k] != 0, new[k], old[k]);
-    }
-    *old = lanes;
 }

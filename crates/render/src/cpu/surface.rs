@@ -2,7 +2,7 @@
 
 use super::bin::{Bounds, MARGIN, clip};
 use super::set_up::SetUp;
-use super::texels::Texels;
+use super::texels::{Pictures, Texels};
 use super::tile::{
     CELL_WIDTH, CELLS_ACROSS, Cell, LANES, LaneMask, Slope, Stack, Target, WIDTH, any, greater,
     least, lesser, overwrite, select,
@@ -30,14 +30,15 @@ pub(super) struct Tile<'a> {
     pub(super) stack: &'a Stack,
 }
 
-/// Draws those of a tile, in the drawing's order, into the target's samples. Gives the cells' samples where each triangle shows.
+/// Draws those of a tile, in the drawing's order, into the target's samples, and notes which pictures these show. Gives the cells' samples
+/// where each triangle shows.
 #[inline(always)]
-pub(super) fn draw_all(
+pub(super) fn draw_all<'a>(
     all: &[Triangle],
     of_tile: &[u32],
-    drawing: &Drawing,
+    drawing: &'a Drawing,
     tile: &Tile,
-    target: &mut Target,
+    (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
     mut shows: impl FnMut(usize, u32, &LaneMask),
 ) {
     let mut set_up = SetUp::NOTHING;
@@ -49,22 +50,25 @@ pub(super) fn draw_all(
         let (own, others) = left.split_at(length);
         left = others;
         let surface = &drawing.surfaces[surface as usize];
+        let to = (&mut *target, &mut *pictures);
         match &surface.texture {
-            None => draw_some::<false>(all, own, drawing, tile, &mut set_up, target, &mut shows),
-            Some(_) => draw_some::<true>(all, own, drawing, tile, &mut set_up, target, &mut shows),
+            Some(texture) if texture.coverage != Coverage::Ignored => {
+                draw_some::<true>(all, own, surface, tile, &mut set_up, to, &mut shows);
+            }
+            _ => draw_some::<false>(all, own, surface, tile, &mut set_up, to, &mut shows),
         }
     }
 }
 
-/// Draws triangles of one surface, eight at a time. Twice, for surfaces with a picture and without, so that these don't pay for the others.
+/// Draws triangles of one surface, eight at a time. Twice, for pictures that leave samples free and for all else, so that this doesn't pay for them.
 #[inline(always)]
-fn draw_some<const TEXTURED: bool>(
+fn draw_some<'a, const CUT: bool>(
     all: &[Triangle],
     some: &[u32],
-    drawing: &Drawing,
+    surface: &'a Surface,
     tile: &Tile,
     set_up: &mut SetUp,
-    target: &mut Target,
+    (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
     shows: &mut impl FnMut(usize, u32, &LaneMask),
 ) {
     // What all of the tile shows is as near as this: most of a head's inside and outline is hidden at once.
@@ -77,19 +81,20 @@ fn draw_some<const TEXTURED: bool>(
         {
             let triangle = &all[number as usize];
             if triangle.nearest > farthest && !triangle.is_hidden(tile, target) {
-                set_up.push::<TEXTURED>(number, triangle, drawing, tile.origin);
+                set_up.push(number, triangle, surface, tile.origin);
             }
         }
         if set_up.numbers().is_empty() {
             return;
         }
-        set_up.work_out::<TEXTURED>();
+        set_up.work_out(surface.texture.is_some());
+        target.has_margins |= surface.margin_m != 0.0;
         for k in 0..set_up.numbers().len() {
             let number = set_up.numbers()[k];
             let triangle = &all[number as usize];
-            let surface = &drawing.surfaces[triangle.surface as usize];
             let shows = |cell, lanes: &LaneMask| shows(cell, number, lanes);
-            triangle.draw::<TEXTURED>(surface, (set_up, k), tile, target, shows);
+            let to = (&mut *target, &mut *pictures);
+            triangle.draw::<CUT>(surface, (set_up, k), tile, to, shows);
         }
     }
 }
@@ -200,12 +205,12 @@ impl Triangle {
 
     /// Draws the triangle's part of a tile into the target's samples, as it is set up. Gives the cells' samples where it shows.
     #[inline(always)]
-    fn draw<const TEXTURED: bool>(
+    fn draw<'a, const CUT: bool>(
         &self,
-        surface: &Surface,
+        surface: &'a Surface,
         (set_up, own): (&SetUp, usize),
         tile: &Tile,
-        target: &mut Target,
+        (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
         mut shows: impl FnMut(usize, &LaneMask),
     ) {
         if set_up.twice_area[own] == 0.0 {
@@ -227,19 +232,23 @@ impl Triangle {
         let is_one_color = (tones.least >= 0.0) | is_dark | (light == shadow);
         let one_color = if is_dark { shadow } else { light };
         let tone_at = tones.slope.at_samples(stack);
-        let texture = surface.texture.as_ref().filter(|_| TEXTURED);
-        let mut texels = None;
+        // Of a picture that is cut its texels, of others their number once any sample shows it.
+        let cut = match &surface.texture {
+            Some(texture) if CUT => Some(Texels::new(texture, (set_up, own))),
+            _ => None,
+        };
+        let mut picture = 0;
         let [rows, across] = self.cells(tile);
         for row in rows {
             for cell in across.clone() {
-                let cell = Cell::new(row, cell * CELL_WIDTH);
+                let cell = Cell::in_row(row, cell);
                 if depths.greatest <= target.farthest_surface[cell.index] {
                     continue; // all of the cell shows what is nearer
                 }
                 let [a, b, c] = [inside[0].of(cell), inside[1].of(cell), inside[2].of(cell)];
                 let mut wins = [0_u32; LANES];
                 for k in 0..LANES {
-                    let is_inside = (a[k] >= 0.0) & (b[k] >= 0.0) & (c[k] >= 0.0);
+                    let is_inside = lesser(lesser(a[k], b[k]), c[k]) >= 0.0;
                     wins[k] = select(is_inside, u32::MAX, 0);
                 }
                 if !any(&wins) {
@@ -255,45 +264,40 @@ impl Triangle {
                     continue;
                 }
                 let mut texel = [[1.0; LANES]; 3];
-                if let Some(texture) = texture {
-                    if texels.is_none() {
-                        texels = Some(Texels::new(texture, (set_up, own)));
-                    }
-                    if let Some(texels) = &texels {
-                        texel = texels.look_up(cell, stack, &depths, self.surface, &mut wins);
-                    }
-                    if texture.coverage != Coverage::Ignored && !any(&wins) {
+                if let Some(texels) = &cut {
+                    texel = texels.cut(cell, stack, self.surface, &mut wins);
+                    if !any(&wins) {
                         continue;
                     }
                 }
                 shows(cell.index, &wins);
+                if !CUT
+                    && picture == 0
+                    && let Some(texture) = &surface.texture
+                {
+                    picture = pictures.push(Texels::new(texture, (set_up, own)));
+                }
+                if !pictures.is_empty() {
+                    pictures.put(cell.index, picture, &wins);
+                }
                 overwrite(&mut nearest, &depth, &wins);
                 target.surface[cell.index] = nearest;
                 target.farthest_surface[cell.index] = least(&nearest);
-                overwrite(
-                    &mut target.margin[cell.index],
-                    &[surface.margin_m; LANES],
-                    &wins,
-                );
-                if is_one_color {
-                    for (channel, plane) in target.color.iter_mut().enumerate() {
-                        let mut color = [one_color[channel]; LANES];
-                        if TEXTURED {
-                            for k in 0..LANES {
-                                color[k] *= texel[channel][k];
-                            }
-                        }
-                        overwrite(&mut plane[cell.index], &color, &wins);
-                    }
-                    continue;
+                if target.has_margins {
+                    let margin = [surface.margin_m; LANES];
+                    overwrite(&mut target.margin[cell.index], &margin, &wins);
                 }
                 let tone = tone_at.of(cell);
                 for (channel, plane) in target.color.iter_mut().enumerate() {
                     let (light, shadow) = (light[channel], shadow[channel]);
-                    let mut color = [0.0; LANES];
-                    for k in 0..LANES {
-                        color[k] = select(tones.clamp(tone[k]) >= 0.0, light, shadow);
-                        if TEXTURED {
+                    let mut color = [one_color[channel]; LANES];
+                    if !is_one_color {
+                        for k in 0..LANES {
+                            color[k] = select(tones.clamp(tone[k]) >= 0.0, light, shadow);
+                        }
+                    }
+                    if CUT {
+                        for k in 0..LANES {
                             color[k] *= texel[channel][k];
                         }
                     }

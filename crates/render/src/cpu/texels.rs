@@ -1,20 +1,28 @@
-//! The picture on one triangle in one tile.
+//! The pictures on the triangles of a tile. Those that cover all of their triangles are looked up once everything is drawn: what is hidden, by hair or
+//! by other triangles, costs nothing.
 
 use super::set_up::SetUp;
-use super::surface::Interpolated;
-use super::tile::{Cell, LANES, LaneMask, Lanes, Slope, Stack, bits, greater, lesser, select};
+use super::tile::{
+    Cell, IdPlane, LANES, LaneMask, NOTHING, Stack, Target, any, greater, lesser, number, put,
+    select,
+};
 use crate::drawing::{Coverage, SurfaceTexture, scatter};
 use effects::Blurred;
 use std::hint::black_box;
 
-/// A texture as a triangle shows it.
+/// Across and down the picture, inverse depth, and a fourth number without meaning: a vector.
+type Place = [f32; 4];
+
+/// A picture as a triangle shows it.
 pub(super) struct Texels<'a> {
     texture: &'a SurfaceTexture,
-    /// Places times inverse depth, which run linearly on the screen, and inverse depth.
-    places: [Slope; 2],
-    inv_depth: Slope,
-    /// The least and the greatest places of the corners, across and down: the middle of some samples may lie outside of the triangle.
-    ends: [[f32; 2]; 2],
+    /// Places times inverse depth, which run linearly on the screen, and inverse depth: as [`Slope`](super::tile::Slope) has them.
+    corner: Place,
+    per_x: Place,
+    per_y: Place,
+    /// The least and the greatest of the corners: the middle of some samples may lie outside of the triangle.
+    least: Place,
+    greatest: Place,
     /// Blurred over what a pixel covers of it, in the mean over the triangle.
     image: Blurred<'a>,
 }
@@ -28,95 +36,165 @@ impl<'a> Texels<'a> {
         let twice_area = set_up.twice_area_of_picture(own).abs() * (height / width);
         let twice_area_px = set_up.twice_area[own].abs() as f32;
         let [(across, across_ends), (down, down_ends)] = set_up.places(own);
+        let depths = set_up.depths(own);
+        let depth = depths.slope;
         Self {
             texture,
-            places: [across, down],
-            inv_depth: set_up.depths(own).slope,
-            ends: [across_ends, down_ends],
+            corner: [across.corner, down.corner, depth.corner, 0.0],
+            per_x: [across.per_x, down.per_x, depth.per_x, 0.0],
+            per_y: [across.per_y, down.per_y, depth.per_y, 0.0],
+            least: [across_ends[0], down_ends[0], depths.least, 0.0],
+            greatest: [across_ends[1], down_ends[1], depths.greatest, 0.0],
             image: texture.image.blurred((twice_area / twice_area_px).sqrt()),
         }
     }
 
+    /// Colour and coverage in the middle of the samples of a cell that are the pixel's of a lane, and no farther than the triangle's corners.
+    #[inline(always)]
+    fn at(&self, cell: Cell, stack: &Stack, lane: usize) -> [f32; 4] {
+        let [x, y] = [stack.middle[0][lane], stack.middle[1][lane]];
+        let (column, row) = (number(cell.column), number(cell.row));
+        let height = number(stack.height);
+        let mut place = self.corner;
+        for i in 0..4 {
+            place[i] += x * self.per_x[i] + y * self.per_y[i];
+            place[i] += column * self.per_x[i] + row * (self.per_y[i] * height);
+        }
+        // By way of memory: compilers would work out two numbers at once, and then another, in place of all.
+        let mut place = black_box(place);
+        let depth_m = 1.0 / lesser(greater(place[2], self.least[2]), self.greatest[2]);
+        for i in 0..4 {
+            place[i] = lesser(greater(place[i] * depth_m, self.least[i]), self.greatest[i]);
+        }
+        let [across, down, ..] = place;
+        self.image.at([across, down], self.texture.repeats)
+    }
+
     /// The picture's colours at some samples of a cell; takes those away that it leaves free, of the surface of that number.
     #[inline(always)]
-    pub(super) fn look_up(
+    pub(super) fn cut(
         &self,
         cell: Cell,
         stack: &Stack,
-        depths: &Interpolated,
         surface: u32,
         samples: &mut LaneMask,
-    ) -> [Lanes; 3] {
-        // In the middle of each pixel's samples; from slopes, which take less room than lanes.
-        let mut across = self.places[0].at_middles(stack).of(cell);
-        let mut down = self.places[1].at_middles(stack).of(cell);
-        let inv_depth = self.inv_depth.at_middles(stack).of(cell);
-        let [[left, right], [top, bottom]] = self.ends;
-        for k in 0..LANES {
-            let depth_m = 1.0 / depths.clamp(inv_depth[k]);
-            across[k] = lesser(greater(across[k] * depth_m, left), right);
-            down[k] = lesser(greater(down[k] * depth_m, top), bottom);
-        }
-        // By way of memory: compilers would work them out once more for each way in which lanes are taken from them.
-        let [across, down] = black_box([across, down]);
-        let together = stack.lanes_of_pixel();
-        let [red, green, blue, coverage] = match together {
-            1 => self.texels::<1>(&across, &down, samples),
-            2 => self.texels::<2>(&across, &down, samples),
-            _ => self.texels::<4>(&across, &down, samples),
-        };
-        match self.texture.coverage {
-            Coverage::Ignored => {}
-            Coverage::Cut(share) => {
-                for k in 0..LANES {
-                    samples[k] &= select(coverage[k] >= share, u32::MAX, 0);
-                }
+    ) -> [[f32; LANES]; 3] {
+        let mut colors = [[0.0; LANES]; 3];
+        let of_pixel = stack.of_pixel;
+        for first in (0..LANES).step_by(of_pixel) {
+            let lanes = first..first + of_pixel;
+            if samples[lanes.clone()].iter().all(|sample| *sample == 0) {
+                continue;
             }
-            Coverage::Share => {
-                for k in 0..LANES {
-                    let part = match together {
-                        1 => 0.5,
-                        _ => scatter(surface, (stack.first + k % together) as u32),
-                    };
-                    samples[k] &= select(coverage[k] > part, u32::MAX, 0);
+            let [red, green, blue, coverage] = self.at(cell, stack, first);
+            for k in lanes {
+                let is_there = match self.texture.coverage {
+                    Coverage::Ignored => true,
+                    Coverage::Cut(share) => coverage >= share,
+                    Coverage::Share if of_pixel == 1 => coverage > 0.5,
+                    Coverage::Share => {
+                        coverage > scatter(surface, (stack.first + k % of_pixel) as u32)
+                    }
+                };
+                samples[k] &= select(is_there, u32::MAX, 0);
+                for (color, texel) in colors.iter_mut().zip([red, green, blue]) {
+                    color[k] = texel;
                 }
             }
         }
-        [red, green, blue]
+        colors
+    }
+}
+
+/// What of the samples of a tile shows which picture.
+pub(super) struct Pictures<'a, 'b> {
+    /// Of each sample the number of its triangle in `texels`, counted from 1; 0 where it shows no picture. Anything while there are none.
+    numbers: &'b mut IdPlane,
+    texels: Vec<Texels<'a>>,
+}
+
+impl<'a, 'b> Pictures<'a, 'b> {
+    /// None yet. `numbers` is working memory.
+    #[inline(always)]
+    pub(super) fn new(numbers: &'b mut IdPlane) -> Self {
+        Self {
+            numbers,
+            texels: Vec::new(),
+        }
     }
 
-    /// Colours and coverage at these places, of which so many lanes one after the other have one; 0 where none of them is wanted.
     #[inline(always)]
-    fn texels<const TOGETHER: usize>(
-        &self,
-        across: &Lanes,
-        down: &Lanes,
-        wanted: &LaneMask,
-    ) -> [Lanes; 4] {
-        let mut texels = [[0.0; LANES]; 4];
-        let wanted = bits(wanted);
-        let of_pixel = (1 << TOGETHER) - 1;
-        for pair in 0..LANES / (2 * TOGETHER) {
-            let first = 2 * TOGETHER * pair;
-            let second = first + TOGETHER;
-            let mut places = [0.0; LANES];
+    pub(super) fn is_empty(&self) -> bool {
+        self.texels.is_empty()
+    }
+
+    /// Adds a triangle's, and gives its number.
+    #[inline(always)]
+    pub(super) fn push(&mut self, texels: Texels<'a>) -> u32 {
+        if self.is_empty() {
+            self.numbers.fill([0; LANES]);
+        }
+        self.texels.push(texels);
+        self.texels.len() as u32
+    }
+
+    /// Some samples of a cell show the picture of that number.
+    #[inline(always)]
+    pub(super) fn put(&mut self, cell: usize, number: u32, samples: &LaneMask) {
+        put(&mut self.numbers[cell], &[number; LANES], samples);
+    }
+
+    /// Looks up those that show, which till then have the colour that their triangles have.
+    #[inline(always)]
+    pub(super) fn look_up(&self, stack: &Stack, target: &mut Target) {
+        if self.is_empty() {
+            return;
+        }
+        let pixels = pixels(stack.of_pixel);
+        for (index, numbers) in self.numbers.iter().enumerate() {
+            let strand = &target.strand[index];
+            let mut left = [0; LANES];
             for k in 0..LANES {
-                // Twice across and twice down; of four lanes that have one place these two as any.
-                let lane = first + k / 4 * TOGETHER + k % 4 % TOGETHER;
-                places[k] = if k % 4 < 2 { across[lane] } else { down[lane] };
+                left[k] = select(strand[k] == NOTHING, numbers[k], 0);
             }
-            let is_wanted = |first: usize| u32::from(wanted >> first & of_pixel != 0);
-            let is_wanted = is_wanted(first) + 2 * is_wanted(second);
-            let (colors, coverage) = self.image.at_two(&places, is_wanted, self.texture.repeats);
-            for k in 0..TOGETHER {
-                for channel in 0..3 {
-                    texels[channel][first + k] = colors[0][channel];
-                    texels[channel][second + k] = colors[1][channel];
+            if !any(&left) {
+                continue;
+            }
+            let cell = Cell::of_index(index);
+            for lane in 0..LANES {
+                let number = left[lane];
+                if number == 0 {
+                    continue;
                 }
-                texels[3][first + k] = coverage[0];
-                texels[3][second + k] = coverage[1];
+                let mut own = pixels[lane];
+                for k in 0..LANES {
+                    own[k] &= select(left[k] == number, u32::MAX, 0);
+                }
+                for k in 0..LANES {
+                    left[k] &= !own[k];
+                }
+                let texel = self.texels[number as usize - 1].at(cell, stack, lane);
+                for (channel, plane) in target.color.iter_mut().enumerate() {
+                    let mut color = plane[index];
+                    for k in 0..LANES {
+                        let shown = color[k] * texel[channel];
+                        color[k] = select(own[k] != 0, shown, color[k]);
+                    }
+                    plane[index] = color;
+                }
             }
         }
-        texels
     }
+}
+
+/// For each lane those of its pixel, which has a power of 2.
+#[inline(always)]
+fn pixels(of_pixel: usize) -> [LaneMask; LANES] {
+    let mut pixels = [[0; LANES]; LANES];
+    for (lane, pixel) in pixels.iter_mut().enumerate() {
+        for k in 0..LANES {
+            pixel[k] = select(k ^ lane < of_pixel, u32::MAX, 0);
+        }
+    }
+    pixels
 }

@@ -97,6 +97,16 @@ pub(super) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
     *old = lanes;
 }
 
+/// The same for numbers that stand for something.
+#[inline(always)]
+pub(super) fn put(old: &mut [u32; LANES], new: &[u32; LANES], mask: &LaneMask) {
+    let mut lanes = *old;
+    for k in 0..LANES {
+        lanes[k] = select(mask[k] != 0, new[k], old[k]);
+    }
+    *old = lanes;
+}
+
 /// Four samples that lie one below the other, in one pixel or in several.
 #[derive(Clone, Debug)]
 pub(super) struct Stack {
@@ -109,6 +119,8 @@ pub(super) struct Stack {
     pub(super) first: usize,
     /// Pixels one below the other that it holds samples of: 1, 2 or 4.
     pub(super) height: usize,
+    /// How many lanes one after the other are a pixel's.
+    pub(super) of_pixel: usize,
     /// How many of its samples count. Those behind are the first one again, so that they hide and are hidden as it is.
     pub(super) samples: usize,
 }
@@ -144,16 +156,11 @@ impl Stack {
                 ],
                 first: number * STACK,
                 height,
+                of_pixel,
                 samples: samples.len(),
             }
         };
         samples.chunks(STACK).enumerate().map(stack).collect()
-    }
-
-    /// How many lanes one after the other are a pixel's.
-    #[inline(always)]
-    pub(super) fn lanes_of_pixel(&self) -> usize {
-        STACK / self.height
     }
 
     /// The rows of stacks that hold some rows of pixels.
@@ -266,7 +273,17 @@ impl Cell {
     /// The cell of that index.
     #[inline(always)]
     pub(super) fn of_index(index: usize) -> Self {
-        Self::new(index / CELLS_ACROSS, index % CELLS_ACROSS * CELL_WIDTH)
+        Self::in_row(index / CELLS_ACROSS, index % CELLS_ACROSS)
+    }
+
+    /// The cell of that number in a row.
+    #[inline(always)]
+    pub(super) fn in_row(row: usize, number: usize) -> Self {
+        Self {
+            index: row * CELLS_ACROSS + number,
+            row,
+            column: number * CELL_WIDTH,
+        }
     }
 
     /// Its columns, a bit for each.
@@ -351,6 +368,8 @@ pub(super) struct Target {
     /// For each cell the farthest of `surface`; once these are finished [`NOTHING`] beside surfaces of their own margin,
     /// which don't count then.
     pub(super) farthest_surface: Box<[f32; CELLS]>,
+    /// Whether any of `margin` may be other than 0.
+    pub(super) has_margins: bool,
 }
 
 impl Target {
@@ -363,15 +382,19 @@ impl Target {
             color: [plane(), plane(), plane()],
             farthest_strand: Box::new([NOTHING; CELLS]),
             farthest_surface: Box::new([NOTHING; CELLS]),
+            has_margins: false,
         }
     }
 
     #[inline(always)]
     pub(super) fn clear(&mut self, background: Option<[f32; 3]>) {
         let background = background.unwrap_or_default();
+        if self.has_margins {
+            self.margin.fill([0.0; LANES]);
+            self.has_margins = false;
+        }
         for cell in 0..CELLS {
             self.surface[cell] = [NOTHING; LANES];
-            self.margin[cell] = [0.0; LANES];
             self.strand[cell] = [NOTHING; LANES];
             self.priority[cell] = [0; LANES];
             for (plane, value) in self.color.iter_mut().zip(background) {
@@ -397,6 +420,9 @@ impl Target {
     /// To be called when all surfaces have been drawn.
     #[inline(always)]
     pub(super) fn finish_surfaces(&mut self) {
+        if !self.has_margins {
+            return; // they are as they shall be
+        }
         for (cell, farthest) in self.farthest_surface.iter_mut().enumerate() {
             let (surface, margin) = (self.surface[cell], self.margin[cell]);
             let mut solid = surface;
@@ -648,17 +674,7 @@ pub(super) struct Samples {
 impl Slope {
     #[inline(always)]
     pub(super) fn at_samples(&self, stack: &Stack) -> Samples {
-        self.at(stack, [&stack.x, &stack.y])
-    }
-
-    /// In the middle of a pixel's samples, for each of them.
-    #[inline(always)]
-    pub(super) fn at_middles(&self, stack: &Stack) -> Samples {
-        self.at(stack, [&stack.middle[0], &stack.middle[1]])
-    }
-
-    #[inline(always)]
-    fn at(&self, stack: &Stack, [x, y]: [&Lanes; 2]) -> Samples {
+        let (x, y) = (&stack.x, &stack.y);
         let mut first = [self.corner; LANES];
         for k in 0..LANES {
             first[k] += x[k] * self.per_x + y[k] * self.per_y;
@@ -686,7 +702,7 @@ impl Samples {
 
 /// A row or a column. By way of small numbers, as those of 64 bits take a branch.
 #[inline(always)]
-fn number(place: usize) -> f32 {
+pub(super) fn number(place: usize) -> f32 {
     f32::from(place as u16)
 }
 

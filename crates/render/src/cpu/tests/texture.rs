@@ -176,3 +176,62 @@ fn what_no_texture_can_be_is_told() {
         }
     );
 }
+
+/// Pictures are looked up when all is drawn: nothing that is drawn over one takes its colours.
+#[test]
+fn of_pictures_surfaces_and_hair_the_nearest_shows() {
+    let plain = |rgb: [u16; 3]| {
+        let [r, g, b] = rgb.map(|on| on * 65535);
+        two_texels([r, g, b, 65535], [r, g, b, 65535])
+    };
+    let at = |image, coverage, inv_depth: f32| {
+        let mut surface = textured(image, coverage);
+        (surface.light, surface.shadow) = ([1.0; 3], [1.0; 3]);
+        for vertex in &mut surface.vertices {
+            vertex.inv_depth = inv_depth;
+        }
+        surface
+    };
+    let mut near = at(plain([1, 0, 1]), Coverage::Ignored, 2.0);
+    for vertex in &mut near.vertices {
+        vertex.position *= Vec2::new(0.5, 0.75);
+    }
+    let mut flat = square(1.5);
+    (flat.light, flat.shadow) = (BLUE, BLUE);
+    for vertex in &mut flat.vertices {
+        vertex.position.y *= 0.5;
+    }
+    let cut = at(two_texels(CLEAR, WHITE), Coverage::Cut(0.5), 1.2);
+    let far = at(plain([0, 1, 0]), Coverage::Ignored, 1.0);
+    let expected = |x: usize, y: usize| match (x < 10, y < 10, y < 15) {
+        (true, _, true) => [1.0, 0.0, 1.0],
+        (true, _, false) => [0.0, 1.0, 0.0],
+        (false, true, _) => BLUE,
+        (false, false, _) => [1.0; 3],
+    };
+    let hair_color = [0.25, 0.5, 0.75];
+    let center = Vec2::new(10.0, 10.0);
+    let discs = [disc(10.0, 9.0, 4.0, 3.0), disc(10.0, 11.0, 4.0, 3.0)];
+    let mut surfaces = vec![near, flat, cut, far];
+    for _ in 0..2 {
+        for _ in 0..4 {
+            surfaces.rotate_left(1);
+            let mut drawing = strands([20, 20], &[(0, hair_color, &discs)]);
+            drawing.surfaces = surfaces.clone();
+            for samples in [1, 2, 4, 16] {
+                let picture = draw(&drawing, samples);
+                for (i, pixel) in picture.pixels.iter().enumerate() {
+                    let (x, y) = (i % 20, i / 20);
+                    let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                    let color = match middle.distance(center) {
+                        inside if inside < 3.0 => hair_color,
+                        outside if outside > 6.0 => expected(x, y),
+                        _ => continue,
+                    };
+                    assert_eq!(*pixel, opaque(color), "pixel {i}, {samples} samples");
+                }
+            }
+        }
+        surfaces.reverse();
+    }
+}
