@@ -15,6 +15,7 @@ mod plot;
 mod shin;
 mod silhouettes;
 mod sizes;
+mod strips;
 mod tones;
 
 use std::fs;
@@ -93,6 +94,7 @@ fn all() -> Vec<&'static Figure> {
         highlights::FIGURES,
         brushes::FIGURES,
         shin::FIGURES,
+        strips::FIGURES,
         tones::FIGURES,
     ];
     subjects.into_iter().flatten().collect()

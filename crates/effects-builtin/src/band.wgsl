@@ -1,4 +1,4 @@
-//! inputs: arc_length, head_height, rest_position, light_direction, view_direction, normal, across, clump_radius, clump_color, unit, seed
+//! inputs: arc_length, head_height, rest_position, light_direction, view_direction, forward, normal, across, clump_radius, clump_color, unit, seed
 
 struct Params {
     /// Where the band lies: at one height around the head, or at one distance from the roots, as on tails from their ties.
@@ -31,9 +31,15 @@ struct Params {
     /// No band nearer to the roots than this: it breaks at partings.
     /// @unit head heights @range 0..4 @default 0.06
     start: f32,
-    /// Where hair is darker than this, it has no band: as much as the shadow's `threshold`. It is whole from 0.4 more on.
-    /// @unit gray, 0 dark to 1 lit @range -1..1 @default 0.2
+    /// Where hair is darker than this, it has no band: a little more than the shadow's `threshold` keeps light out of the shadow.
+    /// @unit gray, 0 dark to 1 lit @range -1..1 @default 0.45
     shade: f32,
+    /// Over how many grays above `shade` a tooth grows to its width. Little makes it end at once.
+    /// @unit gray @range 0.01..2 @default 0.25
+    shade_fade: f32,
+    /// How much a clump is shaded as a round lock: as much as the shadow's, so that both agree on where it is dark.
+    /// @range 0..2 @default 0.4
+    roundness: f32,
     /// Height: how far of the way to where a ball would mirror the light the band goes: 0 stays where it is drawn, 1 follows the light.
     /// @range 0..1 @default 0.15
     slide: f32,
@@ -62,9 +68,6 @@ const BALL: f32 = 0.5;
 
 /// Over how many head heights behind `start` the band comes to its width.
 const ROOT_FADE: f32 = 0.04;
-
-/// How many grays above `shade` the band is whole.
-const FADE: f32 = 0.4;
 
 /// Where a joint lies along the hair: what `place` counts.
 fn measure(joint: Inputs, params: Params) -> f32 {
@@ -102,8 +105,10 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
         return nothing;
     }
 
-    let gray = dot(joint.light_direction, joint.normal);
-    let lit = saturate((gray - params.shade) / FADE);
+    // The gray of the shadow's strokes beside it.
+    let beside = params.roundness * place * cross(joint.forward, joint.view_direction);
+    let gray = dot(joint.light_direction, unit_or(joint.normal + beside, joint.normal));
+    let lit = saturate((gray - params.shade) / params.shade_fade);
     let along = saturate((half - away) / max(params.taper * half, 1e-6));
     let basic = params.spread * joint.clump_radius / f32(params.teeth);
     let size = params.fullness * basic;

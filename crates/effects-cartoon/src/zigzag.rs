@@ -9,6 +9,11 @@ use effects::wgsl::power;
 use effects::{Hair, HairStrand, MadePaths};
 use glam::Vec3;
 
+mod grid;
+mod merge;
+
+use grid::Grid;
+
 effects::effect!("zigzag");
 
 /// `hair.zigzag`: strips of light from strand to strand.
@@ -44,20 +49,28 @@ impl effects::StrokeEffect for Zigzag {
     const OWN_PATHS: bool = true;
     const ON_UNDERCOAT: bool = false;
     const CLIP: Option<&'static str> = Some("hair");
-    const REACH: f32 = 0.1;
+    const REACH: f32 = 0.14;
 
     fn make_paths(params: &Params, hair: &Hair, _seed: u32, paths: &mut MadePaths) {
         let groups = params.groups as usize;
-        let shining: Vec<[Highlight; 2]> = (hair.strands.iter())
-            .map(|strand| [0, 1].map(|group| Highlight::of(params, hair, strand, group, groups)))
-            .collect();
-        let beside: Vec<Beside> = hair.strands.iter().map(Beside::of).collect();
+        let within_m = params.merge * hair.head_height_m;
+        let shining = |group: usize| {
+            let mut shining: Vec<Highlight> = (hair.strands.iter())
+                .map(|strand| Highlight::of(params, hair, strand, group, groups))
+                .collect();
+            if within_m > 0.0 {
+                merge::onto_one_line(hair.strands, &mut shining, within_m);
+            }
+            shining
+        };
+        let shining: Vec<Vec<Highlight>> = (0..groups).map(shining).collect();
+        let neighbors = Neighbors::of(hair);
         for (index, strand) in hair.strands.iter().enumerate() {
-            let Some(other) = next_around(&beside, index, hair.head_center) else {
+            let Some(other) = neighbors.next_around(index) else {
                 continue;
             };
-            for group in 0..groups {
-                let ends = [index, other].map(|strand| shining[strand][group]);
+            for (group, shining) in shining.iter().enumerate() {
+                let ends = [index, other].map(|strand| shining[strand]);
                 let strands = [strand, &hair.strands[other]];
                 paths.push_weighted(index, group as u32, link(params, hair, strands, ends));
             }
@@ -192,31 +205,52 @@ impl Beside {
 /// neighbour, not one of a row under it.
 const OFF_ROW: f32 = 3.0;
 
-/// The strand that is next to strand `index` around the head, counterclockwise from above, at rest: the nearest of those that are more beside it
-/// than above, below or behind it.
-fn next_around(all: &[Beside], index: usize, head_center: Vec3) -> Option<usize> {
-    let own = &all[index];
-    let middle = own.points[1] - head_center;
-    let around = Vec3::Y.cross(middle).normalize_or(Vec3::X);
-    let distance = |other: &Beside| -> f32 {
-        let pairs = own.points.iter().zip(&other.points);
-        let apart = |way: Vec3| {
-            let beside = way.dot(around) * around;
-            (beside + OFF_ROW * (way - beside)).length()
+/// All strands at rest.
+struct Neighbors {
+    all: Vec<Beside>,
+    /// By their middles.
+    grid: Grid,
+    head_center: Vec3,
+}
+
+impl Neighbors {
+    fn of(hair: &Hair) -> Self {
+        let all: Vec<Beside> = hair.strands.iter().map(Beside::of).collect();
+        let middles = all.iter().map(|strand| strand.points[1]).enumerate();
+        // Some strands in each cube: a head's surface has about so many squares of this size.
+        let edge_m = 6.0 * hair.head_height_m / (all.len() as f32).sqrt().max(1.0);
+        Self {
+            grid: Grid::new(middles, edge_m.max(1e-4)),
+            all,
+            head_center: hair.head_center,
+        }
+    }
+
+    /// The strand that is next to strand `index` around the head, counterclockwise from above: the nearest of those that are more beside it
+    /// than above, below or behind it.
+    fn next_around(&self, index: usize) -> Option<usize> {
+        let own = &self.all[index];
+        let middle = own.points[1] - self.head_center;
+        let around = Vec3::Y.cross(middle).normalize_or(Vec3::X);
+        let distance = |other: &Beside| -> f32 {
+            let pairs = own.points.iter().zip(&other.points);
+            let apart = |way: Vec3| {
+                let beside = way.dot(around) * around;
+                (beside + OFF_ROW * (way - beside)).length()
+            };
+            pairs.map(|(a, b)| apart(*b - *a)).sum()
         };
-        pairs.map(|(a, b)| apart(*b - *a)).sum()
-    };
-    let is_beside = |other: &Beside| {
-        let way: Vec3 = (own.points.iter().zip(&other.points))
-            .map(|(a, b)| *b - *a)
-            .sum();
-        2.0 * way.dot(around) > way.length() && way.length() > 0.0
-    };
-    (all.iter().enumerate())
-        .filter(|(other, beside)| *other != index && is_beside(beside))
-        .map(|(other, beside)| (distance(beside), other))
-        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-        .map(|(_, other)| other)
+        let is_beside = |other: &Beside| {
+            let way: Vec3 = (own.points.iter().zip(&other.points))
+                .map(|(a, b)| *b - *a)
+                .sum();
+            2.0 * way.dot(around) > way.length() && way.length() > 0.0
+        };
+        self.grid.nearest(own.points[1], |other| {
+            let beside = &self.all[other];
+            (other != index && is_beside(beside)).then(|| distance(beside))
+        })
+    }
 }
 
 /// 0 to 1 as `t` goes from 0 to 1, without corners.
@@ -380,8 +414,8 @@ mod tests {
             let angle = degrees.to_radians();
             Vec3::new(0.6 * angle.sin(), 0.8, 0.6 * angle.cos())
         };
-        for groups in ["1", "2"] {
-            let at = |degrees: f32| made(&cap(24), light(degrees), &[("groups", groups)]);
+        for set in [("groups", "1"), ("groups", "2"), ("merge", "0.6")] {
+            let at = |degrees: f32| made(&cap(24), light(degrees), &[set]);
             let farthest = |step: f32| {
                 let steps = (360.0 / step) as usize;
                 let mut farthest = (0.0_f32, 0.0_f32);

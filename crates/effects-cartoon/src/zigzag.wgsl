@@ -29,6 +29,9 @@ struct Params {
     /// Strands that shine farther apart than this are not joined: the highlight breaks at partings.
     /// @unit head heights @constant @range 0..4 @default 0.3
     longest: f32,
+    /// Highlights of strands nearer to each other than this are drawn to one line: dense hair shines at many heights. 0 leaves each where it is.
+    /// @unit head heights @constant @range 0..4 @default 0
+    merge: f32,
     /// How wide the highlight is, along the hair.
     /// @unit the layer's unit: 1/300 head height, or pixels @range 0..300 @default 26
     width: f32,

@@ -1,4 +1,5 @@
 //! Highlights don't flash: what shows them on a head that turns is nearly the same from frame to frame, seen by who turns with it.
+//! And bands of light don't lie on shadow.
 
 use effects::Registry;
 use glam::{Mat3, Quat, Vec3};
@@ -20,12 +21,18 @@ fn presets() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets")
 }
 
-fn stage(look: &str) -> Stage {
+fn text(look: &str) -> String {
+    fs::read_to_string(presets().join(look)).unwrap()
+}
+
+fn stage(look: &str, text: &str, set: &[(&str, &str)]) -> Stage {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_cartoon::register(&mut registry).unwrap();
-    let text = fs::read_to_string(presets().join(look)).unwrap();
-    let mut preset = Preset::parse(look, &text, &registry).unwrap();
+    let mut preset = Preset::parse(look, text, &registry).unwrap();
+    for (name, value) in set {
+        preset.set(name, value).unwrap();
+    }
     preset.set("scene.size", "(320, 240)").unwrap();
     // The head fills the picture.
     preset.set("camera.distance", "2.4").unwrap();
@@ -113,7 +120,7 @@ fn showing(frame: &mut Frame, effects: &[&str], rasterizer: &mut Rasterizer) -> 
 
 /// The largest share of samples that show a highlight in one of two frames alone, and how many show one on the mean.
 fn flash(look: &str) -> (f64, f64) {
-    let mut stage = stage(look);
+    let mut stage = stage(look, &text(look), &[]);
     let mut rasterizer = Rasterizer::new(4, Some(2)).unwrap();
     stage.advance_to(0.0).unwrap();
     let frame = stage.frame().unwrap();
@@ -164,4 +171,60 @@ fn what_runs_over_the_hair_is_found() {
         flash > 2.0 * MOST && count > 2000.0,
         "{flash}, {count} samples"
     );
+}
+
+/// How much of the samples that show a band would show shadow without it, and how many show one.
+fn on_shadow(look: &str, light_yaw: &str) -> (f64, usize) {
+    // A preset has each layer in a line of its own. Glows that are made for shadow say so by a `shade` below 0.
+    let is_band = |line: &&str| line.contains("\"hair.band\"") && !line.contains("shade: -");
+    let text = text(look);
+    assert!(text.lines().any(|line| is_band(&line)), "{look}");
+    let without: Vec<&str> = text.lines().filter(|line| !is_band(line)).collect();
+    let mut rasterizer = Rasterizer::new(4, Some(2)).unwrap();
+    let mut showing_in = |text: &str, effects: &[&str]| {
+        let set = [("light.yaw", light_yaw), ("light.pitch", "35")];
+        let mut stage = stage(look, text, &set);
+        stage.advance_to(0.0).unwrap();
+        showing(&mut stage.frame().unwrap(), effects, &mut rasterizer)
+    };
+    let band = showing_in(&text, &["hair.band"]);
+    // What a dim glow shows in both is no band's.
+    let glow = showing_in(&without.join("\n"), &["hair.band"]);
+    let shadow = showing_in(&without.join("\n"), &["hair.cel", "hair.cast"]);
+    let band: Vec<bool> = band
+        .iter()
+        .zip(glow)
+        .map(|(band, glow)| *band && !glow)
+        .collect();
+    let both = band
+        .iter()
+        .zip(&shadow)
+        .filter(|(band, shadow)| **band && **shadow);
+    let count = band.iter().filter(|band| **band).count();
+    (both.count() as f64 / count.max(1) as f64, count)
+}
+
+/// Wherever the light is.
+#[test]
+fn bands_lie_where_hair_is_lit() {
+    for look in [
+        "blond-fantasy",
+        "flat-tails-black",
+        "flat-tails-red",
+        "long-pink",
+        "short-ash",
+        "twin-tails",
+    ] {
+        for light_yaw in ["-40", "10", "60"] {
+            let (share, count) = on_shadow(&format!("{look}.ron"), light_yaw);
+            assert!(
+                count > 200,
+                "{look}, {light_yaw}: {count} samples show a band"
+            );
+            assert!(
+                share < 0.02,
+                "{look}, {light_yaw}: {share} of {count} samples"
+            );
+        }
+    }
 }

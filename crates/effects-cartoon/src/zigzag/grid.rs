@@ -1,0 +1,148 @@
+//! Points by the cubes that they lie in, so that those near a place are found without asking all.
+
+use glam::Vec3;
+use std::ops::RangeInclusive;
+
+/// Points, by cubes of one size.
+pub(super) struct Grid {
+    /// Edge of a cube, metres.
+    edge_m: f32,
+    /// Each point's cube and its index, by these.
+    points: Vec<(Cube, usize)>,
+}
+
+/// A cube's number along each axis.
+type Cube = [i32; 3];
+
+impl Grid {
+    /// Of points with their indices; `edge_m` is above 0.
+    pub(super) fn new(points: impl IntoIterator<Item = (usize, Vec3)>, edge_m: f32) -> Self {
+        let mut grid = Self {
+            edge_m,
+            points: Vec::new(),
+        };
+        grid.points = (points.into_iter())
+            .map(|(index, point)| (grid.cube_of(point), index))
+            .collect();
+        grid.points.sort_unstable();
+        grid
+    }
+
+    fn cube_of(&self, point: Vec3) -> Cube {
+        point.to_array().map(|x| (x / self.edge_m).floor() as i32)
+    }
+
+    /// The points of the cube of `point` and of those around it: all that lie no farther than an edge, and some more. In the same order in each run.
+    pub(super) fn around(&self, point: Vec3) -> impl Iterator<Item = usize> {
+        let center = self.cube_of(point);
+        (0..=1).flat_map(move |ring| self.in_ring(center, ring))
+    }
+
+    /// The index of least `distance`, and of these the least, of points that have one; a distance is at least as large as how far the point is from
+    /// `point`.
+    pub(super) fn nearest(
+        &self,
+        point: Vec3,
+        distance: impl Fn(usize) -> Option<f32>,
+    ) -> Option<usize> {
+        let center = self.cube_of(point);
+        let nearer = |best: Option<(f32, usize)>, index: usize| match distance(index) {
+            Some(own) if best.is_none_or(|found| (own, index) < found) => Some((own, index)),
+            _ => best,
+        };
+        let mut best = None;
+        for ring in 0.. {
+            // A ring of more cubes than there are points takes longer than all points, and may lie beyond them.
+            if 24 * ring as usize * ring as usize > self.points.len() {
+                let all = self.points.iter().map(|(_, index)| *index);
+                best = all.fold(best, nearer);
+                break;
+            }
+            best = self.in_ring(center, ring).fold(best, nearer);
+            // What lies beyond is at least as far as this.
+            if best.is_some_and(|(found, _)| found < ring as f32 * self.edge_m) {
+                break;
+            }
+        }
+        best.map(|(_, index)| index)
+    }
+
+    /// The points of the cubes that are so many away from a cube, along the axis on which they are the farthest.
+    fn in_ring(&self, center: Cube, ring: i32) -> impl Iterator<Item = usize> {
+        let rows = (-ring..=ring).flat_map(move |x| (-ring..=ring).map(move |y| (x, y)));
+        rows.flat_map(move |(x, y)| {
+            let row = [center[0].saturating_add(x), center[1].saturating_add(y)];
+            let z = center[2];
+            let (least, most) = (z.saturating_sub(ring), z.saturating_add(ring));
+            // Inside of the ring's faces only its two ends belong to it.
+            let (some, more) = if x.abs() == ring || y.abs() == ring {
+                (least..=most, None)
+            } else {
+                (least..=least, Some(most..=most))
+            };
+            [Some(some), more]
+                .into_iter()
+                .flatten()
+                .flat_map(move |z| self.in_row(row, z))
+        })
+    }
+
+    /// The points of the cubes that have these numbers along two axes, and along the third one of `z`.
+    fn in_row(&self, [x, y]: [i32; 2], z: RangeInclusive<i32>) -> impl Iterator<Item = usize> {
+        let first = [x, y, *z.start()];
+        let last = [x, y, *z.end()];
+        let begin = self.points.partition_point(|(cube, _)| *cube < first);
+        self.points[begin..]
+            .iter()
+            .take_while(move |(cube, _)| *cube <= last)
+            .map(|(_, index)| *index)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use effects::wgsl::random_signed;
+
+    fn points(count: usize) -> Vec<Vec3> {
+        let number = |i: usize, axis: u32| 0.3 * random_signed(7, 3 * i as u32 + axis);
+        (0..count)
+            .map(|i| Vec3::new(number(i, 0), number(i, 1), number(i, 2)))
+            .collect()
+    }
+
+    #[test]
+    fn the_nearest_is_that_of_all() {
+        let all = points(400);
+        for edge_m in [0.01, 0.07, 3.0] {
+            let grid = Grid::new(all.iter().copied().enumerate(), edge_m);
+            for (k, point) in points(450).into_iter().enumerate() {
+                // Every third has no distance.
+                let distance = |i: usize| (i % 3 != k % 3).then(|| 1.5 * all[i].distance(point));
+                let of_all = (0..all.len())
+                    .filter_map(|i| distance(i).map(|own| (own, i)))
+                    .min_by(|a, b| a.0.total_cmp(&b.0));
+                assert_eq!(grid.nearest(point, distance), of_all.map(|(_, i)| i));
+            }
+        }
+        // Too far apart for any number of cubes.
+        let far = [Vec3::ZERO, Vec3::splat(3e9), Vec3::splat(-1e30)];
+        let grid = Grid::new(far.into_iter().enumerate(), 1e-3);
+        let others = |i: usize| (i != 1).then(|| far[i].distance(far[1]));
+        assert_eq!(grid.nearest(far[1], others), Some(0));
+        let none = Grid::new([], 0.1);
+        assert_eq!(none.nearest(Vec3::ZERO, |_| Some(0.0)), None);
+    }
+
+    #[test]
+    fn all_within_an_edge_are_around() {
+        let all = points(400);
+        let grid = Grid::new(all.iter().copied().enumerate(), 0.1);
+        for point in points(50) {
+            let around: Vec<usize> = grid.around(point).collect();
+            let near = |i: &usize| all[*i].distance(point) <= 0.1;
+            assert!((0..all.len()).filter(near).all(|i| around.contains(&i)));
+            assert!(around.len() < all.len());
+        }
+    }
+}

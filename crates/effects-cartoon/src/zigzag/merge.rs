@@ -1,0 +1,128 @@
+//! What shines on strands near each other lies on one line.
+//!
+//! Where hair is dense, strands of one lock shine at different heights, as they turn away at different places. The source averages what is near
+//! (Shin, Haller, Mukundan, section 3.4.2); here each strand's highlight moves to where the highlights around it lie on average, in each frame anew,
+//! with weights that come and go without a jump.
+
+use super::grid::Grid;
+use super::{FAINT, Highlight, PLACES, smooth};
+use effects::HairStrand;
+use glam::Vec3;
+
+/// How often highlights move to the middle of those around them: each time they draw nearer to one line.
+const ROUNDS: usize = 3;
+
+/// Places of a strand that are farther from the middle than its nearest place hardly count from here on, in parts of the distance of `merge`.
+const SHARP: f32 = 0.2;
+
+/// Moves highlights of strands, as many, nearer than `within_m` to one another along their strands onto one line.
+pub(super) fn onto_one_line(strands: &[HairStrand], shining: &mut [Highlight], within_m: f32) {
+    for _ in 0..ROUNDS {
+        let points: Vec<Vec3> = (strands.iter().zip(&*shining))
+            .map(|(strand, highlight)| strand.point(highlight.place))
+            .collect();
+        let those = (0..shining.len()).filter(|i| shining[*i].amount > 0.0);
+        let grid = Grid::new(those.map(|i| (i, points[i])), within_m);
+        let middle = |i: usize| {
+            // Where nothing shines around it, a highlight stays where it is.
+            let (mut sum, mut weights) = (FAINT * points[i], FAINT);
+            for other in grid.around(points[i]) {
+                let weight = shining[other].amount
+                    * near(points[other].distance_squared(points[i]), within_m);
+                sum += weight * points[other];
+                weights += weight;
+            }
+            sum / weights
+        };
+        let places: Vec<f32> = (strands.iter().zip(&*shining).enumerate())
+            .map(|(i, (strand, highlight))| {
+                place_near(strand, middle(i), highlight.place, within_m)
+            })
+            .collect();
+        for (highlight, place) in shining.iter_mut().zip(places) {
+            highlight.place = place;
+        }
+    }
+}
+
+/// 1 for what is nearer than half of `within_m`, 0 from `within_m` on, without corners.
+fn near(squared_m: f32, within_m: f32) -> f32 {
+    smooth(2.0 - 2.0 * squared_m.sqrt() / within_m)
+}
+
+/// Where a strand passes a point, in the mean over its places near it, as the nearest place would jump where a strand bends back; or its own place,
+/// the more the farther it passes.
+fn place_near(strand: &HairStrand, point: Vec3, own: f32, within_m: f32) -> f32 {
+    let u = |k: usize| k as f32 / PLACES as f32;
+    let squared_m: [f32; PLACES + 1] =
+        std::array::from_fn(|k| strand.point(u(k)).distance_squared(point));
+    let nearest = squared_m.iter().copied().fold(f32::INFINITY, f32::min);
+    let sharp_m = SHARP * within_m;
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for (k, squared_m) in squared_m.into_iter().enumerate() {
+        let farther = (squared_m - nearest) / (sharp_m * sharp_m);
+        let weight = (1.0 / (1.0 + farther)).powi(4);
+        sum += weight * u(k);
+        weights += weight;
+    }
+    own + near(nearest, within_m) * (sum / weights - own)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Upright strands of 0.2 m side by side, with highlights at these places and of these amounts: the places once merged.
+    fn merged(highlights: &[(f32, f32)], apart_m: f32, within_m: f32) -> Vec<f32> {
+        let points: Vec<Vec<Vec3>> = (0..highlights.len())
+            .map(|i| {
+                let point = |k: usize| Vec3::new(i as f32 * apart_m, -0.02 * k as f32, 0.0);
+                (0..=10).map(point).collect()
+            })
+            .collect();
+        let strands: Vec<HairStrand> = (0..)
+            .zip(&points)
+            .map(|(id, particles)| HairStrand {
+                id,
+                particles,
+                at_rest: particles,
+                size: 12.0,
+            })
+            .collect();
+        let mut shining: Vec<Highlight> = (highlights.iter())
+            .map(|&(place, amount)| Highlight { place, amount })
+            .collect();
+        onto_one_line(&strands, &mut shining, within_m);
+        shining.iter().map(|highlight| highlight.place).collect()
+    }
+
+    fn spread(places: &[f32]) -> f32 {
+        let least = places.iter().copied().fold(f32::INFINITY, f32::min);
+        places.iter().copied().fold(0.0, f32::max) - least
+    }
+
+    #[test]
+    fn neighbours_shine_on_one_line() {
+        let uneven: Vec<(f32, f32)> = (0..20).map(|i| (0.4 + 0.1 * (i % 3) as f32, 1.0)).collect();
+        let places = merged(&uneven, 0.005, 0.08);
+        assert!(spread(&places) < 0.04, "{places:?}");
+        assert!(
+            places.iter().all(|place| (place - 0.5).abs() < 0.06),
+            "{places:?}"
+        );
+    }
+
+    #[test]
+    fn what_is_far_or_dark_moves_nothing() {
+        // Two groups, farther from each other than highlights merge.
+        let two: Vec<(f32, f32)> = (0..10)
+            .map(|i| (if i % 2 == 0 { 0.2 } else { 0.8 }, 1.0))
+            .collect();
+        for (place, (own, _)) in merged(&two, 0.005, 0.08).into_iter().zip(two) {
+            assert!((place - own).abs() < 0.02, "{place}, {own}");
+        }
+        // One alone, beside others without light.
+        let dark = [(0.5, 1.0), (0.6, 0.0), (0.6, 0.0)];
+        assert!((merged(&dark, 0.005, 0.08)[0] - 0.5).abs() < 0.01);
+    }
+}
