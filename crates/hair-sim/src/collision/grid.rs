@@ -149,7 +149,7 @@ impl SignedDistance {
         (cells.map(|cell| cell as usize), part, outside)
     }
 
-    #[inline(always)]
+    #[inline]
     fn corners(&self, [x, y, z]: [usize; 3]) -> [f32; 8] {
         let i = self.index(x, y, z);
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
@@ -241,13 +241,6 @@ impl<'a> Placed<'a> {
         }
         let outside = (in_cells - clamped).length() * self.cell;
         outside.max(inner - outside)
-    }
-
-    /// The slope of the distance over a cell at a place, times that.
-    pub(super) fn gradient(&self, at: Vec3) -> Vec3 {
-        let h = self.cell * 0.5;
-        let slope = |d: Vec3| self.distance(at + d) - self.distance(at - d);
-        Vec3::new(slope(Vec3::X * h), slope(Vec3::Y * h), slope(Vec3::Z * h))
     }
 }
 
