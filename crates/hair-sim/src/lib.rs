@@ -93,7 +93,7 @@ mod threads;
 
 pub use collision::{
     grid::{GridError, SignedDistance},
-    shape::{Collider, Shape},
+    shape::{Collider, Placed, Shape},
 };
 pub use error::{DynamicsError, Fault, Reason};
 pub use forces::{

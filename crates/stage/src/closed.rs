@@ -11,8 +11,11 @@ use crate::hand::Driver;
 use crate::object::Object;
 use crate::script::{HeadPose, smooth};
 use glam::Vec3;
+use rayon::prelude::*;
 use std::ops::Range;
 
+/// Points that are worth a task of their own.
+const WORTH_A_TASK: usize = 4096;
 /// Rounds that are simulated at most.
 const MOST_ROUNDS: usize = 12;
 /// A round that is no farther from the one before, in head heights, repeats it: a twentieth of a pixel of a head 1000 high.
@@ -204,9 +207,8 @@ fn on_head(object: &Object, pose: HeadPose) -> Vec<Vec3> {
 /// Moves points with the head, from rest to this pose.
 pub(crate) fn move_by(object: &Object, pose: HeadPose, points: &mut [Vec3]) {
     let (rotation, translation) = object.rigid(pose);
-    for point in points {
-        *point = (rotation * point.as_dvec3() + translation).as_vec3();
-    }
+    let points = points.par_iter_mut().with_min_len(WORTH_A_TASK);
+    points.for_each(|point| *point = (rotation * point.as_dvec3() + translation).as_vec3());
 }
 
 /// Moves points with the head, from this pose to rest.

@@ -13,7 +13,7 @@ use crate::script::{HeadPose, MotionScript};
 use glam::{Vec2, Vec3};
 use groom::{Guides, LowTie, OrnamentMesh};
 use hair_io::{HairFile, HeadFrame, Mesh};
-use hair_sim::{Collider, PointCache, Pose, Strands};
+use hair_sim::{Collider, Placed, PointCache, Pose, Strands};
 use render::{Head, NO_COLOR, NO_TAPER, StrandInfo};
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -197,17 +197,17 @@ impl HairModel {
             }
         };
         let bodies = script.bodies.iter();
-        let colliders: Vec<Collider> = bodies
+        let bodies: Vec<Placed> = bodies
             .map(|body| body.collider([time; 2], [&posture; 2]))
             .map(|collider| Collider::fixed(collider.shape, on_head(collider.now)))
+            .map(|collider| Placed::new(&collider))
             .collect();
-        let unit_m = f64::from(self.head.unit_m());
+        let unit_m = self.head.unit_m();
         for strand in 0..self.infos.len() {
             let (range, held) = (self.file.strands.point_range(strand), self.held(strand));
-            let gap = f64::from(dynamics.distance * self.infos[strand].size) * unit_m;
-            let gap = gap.clamp(1e-4, 0.1);
+            let gap = (dynamics.distance * self.infos[strand].size * unit_m).clamp(1e-4, 0.1);
             let points = &mut self.file.strands.points_mut()[range];
-            clear(points, held, &colliders, gap, |_| [gap as f32; 4]);
+            clear(points, held, &bodies, gap, |_| [gap; 4]);
         }
         self.reach_m = reach_m(&self.file.strands, &self.infos, self.head);
     }

@@ -1,27 +1,37 @@
 //! Where strands are on the screen, to be found again in another picture, whose joints may be others.
 
 use glam::Vec2;
-use stroke_path::Paths;
+use render::Frame;
 
 /// Places along strands on the screen, in pixels.
 pub struct Places {
-    /// The strand's piece and how far along the strand it is, as [`Paths`] has them; in that order.
+    /// The strand's piece and how far along the strand it is, as [`stroke_path::Paths`] has them; in that order.
     along: Vec<(usize, f32)>,
+    /// The strand's id. Lines of meshes have none: they come and go, and another has a line's number then.
+    ids: Vec<Option<u32>>,
     centers: Vec<Vec2>,
 }
 
 impl Places {
     /// Those of a frame's joints, which have these centres.
-    pub fn new(paths: &Paths, centers: Vec<Vec2>) -> Self {
-        let of_run = |run: &stroke_path::PathRun| {
-            let piece = run.piece;
-            run.joints.clone().map(move |joint| (piece, joint))
+    pub fn new(frame: &Frame, centers: Vec<Vec2>) -> Self {
+        let lies_on_mesh = |joint: &usize| {
+            let mut objects = frame.objects.iter();
+            let of = objects.find(|object| object.joints.contains(joint));
+            of.is_some_and(|object| object.surface_bias_m == render::ON_SURFACES)
         };
-        let joints = paths.runs.iter().flat_map(of_run);
+        let (mut along, mut ids) = (Vec::new(), Vec::new());
+        for run in &frame.paths.runs {
+            let is_line = run.joints.clone().next().as_ref().is_some_and(lies_on_mesh);
+            let id = frame.strands[run.strand].id;
+            for joint in run.joints.clone() {
+                along.push((run.piece, frame.paths.u[joint]));
+                ids.push((!is_line).then_some(id));
+            }
+        }
         Self {
-            along: joints
-                .map(|(piece, joint)| (piece, paths.u[joint]))
-                .collect(),
+            along,
+            ids,
             centers,
         }
     }
@@ -33,13 +43,17 @@ impl Places {
 
     /// How far the joint of that number has come since `before`, in pixels; nothing where the strand wasn't seen there.
     pub fn moved_since(&self, before: &Self, joint: usize) -> Option<Vec2> {
-        Some(self.centers[joint] - before.at(self.along[joint])?)
+        let id = self.ids[joint]?;
+        Some(self.centers[joint] - before.at(id, self.along[joint])?)
     }
 
-    /// Where a place along a strand is.
-    fn at(&self, (piece, u): (usize, f32)) -> Option<Vec2> {
+    /// Where a place along the strand of an id is.
+    fn at(&self, id: u32, (piece, u): (usize, f32)) -> Option<Vec2> {
         let after = self.along.partition_point(|other| *other < (piece, u));
         let (to, to_u) = self.along.get(after).copied()?;
+        if self.ids[after] != Some(id) {
+            return None;
+        }
         if (to, to_u) == (piece, u) {
             return Some(self.centers[after]);
         }
@@ -52,12 +66,15 @@ impl Places {
 
 #[cfg(test)]
 mod tests {
+    use super::super::animation::Animation;
+    use super::super::strands::Strands;
     use super::*;
 
     #[test]
     fn a_strand_is_found_again_by_other_joints() {
         let places = |along: &[(usize, f32)], shift: f32| Places {
             along: along.to_vec(),
+            ids: vec![Some(7); along.len()],
             centers: along
                 .iter()
                 .map(|(piece, u)| Vec2::new(10.0 * u + shift, *piece as f32))
@@ -72,6 +89,31 @@ mod tests {
             after.moved_since(&before, 3),
             None,
             "a strand that wasn't seen"
+        );
+        let mut other = before;
+        other.ids.fill(Some(8));
+        assert_eq!(after.moved_since(&other, 0), None, "another strand");
+    }
+
+    /// A line that another one comes before has that one's number: it must not seem to be thrown to where that was.
+    #[test]
+    fn lines_of_meshes_are_not_taken_for_each_other() {
+        let (_, _, open) = Strands::ALL[0];
+        let mut strands = open().unwrap();
+        let mut frame = strands.at(0).unwrap();
+        let places = |frame: &Frame| Places::new(frame, frame.paths.center.clone());
+        let hair = places(&frame);
+        assert!(
+            hair.joints()
+                .all(|i| hair.moved_since(&hair, i) == Some(Vec2::ZERO))
+        );
+        frame.objects[0].surface_bias_m = render::ON_SURFACES;
+        let lines = places(&frame);
+        assert!(!lines.joints().is_empty());
+        assert!(
+            lines
+                .joints()
+                .all(|i| lines.moved_since(&lines, i).is_none())
         );
     }
 }

@@ -218,7 +218,7 @@ impl Moment {
         Ok(Self {
             pictures,
             hair: painters.hair.hair(&mut frame)?,
-            places: Places::new(frame.paths, frame.paths.center.clone()),
+            places: Places::new(&frame, frame.paths.center.clone()),
         })
     }
 }

@@ -77,7 +77,7 @@ impl Shown {
     ) -> Result<Self, BenchError> {
         let drawing = centers.strokes(frame, Order::default())?;
         let centers = drawing.clump.iter().map(|disc| disc.center).collect();
-        let places = Places::new(frame.paths, centers);
+        let places = Places::new(frame, centers);
         let mut pictures = Vec::new();
         for (_, order) in orders {
             let of_order = painters.iter_mut();

@@ -1,8 +1,8 @@
 //! The signed distance of a closed mesh, on a grid.
 
-use glam::{DVec3, Vec3};
+use glam::{Affine3A, DMat3, DVec3, Vec3, Vec3A};
 
-use crate::hash::Hash;
+use crate::{hash::Hash, pose::Pose};
 
 /// The largest number of grid points.
 const MOST_POINTS: usize = 1 << 26;
@@ -19,6 +19,8 @@ pub struct SignedDistance {
     origin: DVec3,
     cell: f64,
     size: [usize; 3],
+    /// The number of cells along each axis.
+    last: DVec3,
     values: Vec<f32>,
     /// A ball around the mesh.
     center: DVec3,
@@ -75,6 +77,7 @@ impl SignedDistance {
                 origin,
                 cell,
                 size,
+                last: DVec3::from_array(size.map(|n| (n - 1) as f64)),
                 values: vec![f32::MAX; size[0] * size[1] * size[2]],
                 center,
                 radius,
@@ -128,38 +131,37 @@ impl SignedDistance {
     #[inline]
     fn locate(&self, at: DVec3) -> ([usize; 3], DVec3, f64) {
         let in_cells = (at - self.origin) / self.cell;
-        let last = DVec3::new(
-            (self.size[0] - 1) as f64,
-            (self.size[1] - 1) as f64,
-            (self.size[2] - 1) as f64,
-        );
-        let clamped = in_cells.max(DVec3::ZERO).min(last);
-        let x = (clamped.x as usize).min(self.size[0] - 2);
-        let y = (clamped.y as usize).min(self.size[1] - 2);
-        let z = (clamped.z as usize).min(self.size[2] - 2);
-        let part = clamped - DVec3::new(x as f64, y as f64, z as f64);
+        let clamped = in_cells.max(DVec3::ZERO).min(self.last);
+        // In 32 bits, which a size fits in: they turn into numbers and back faster.
+        let cell = |place: f64, size: usize| (place as i32).min(size as i32 - 2);
+        let cells = [
+            cell(clamped.x, self.size[0]),
+            cell(clamped.y, self.size[1]),
+            cell(clamped.z, self.size[2]),
+        ];
+        let [x, y, z] = cells.map(f64::from);
         let outside = if clamped == in_cells {
             0.0
         } else {
             (in_cells - clamped).length() * self.cell
         };
-        ([x, y, z], part, outside)
+        let part = clamped - DVec3::new(x, y, z);
+        (cells.map(|cell| cell as usize), part, outside)
     }
 
-    fn corners(&self, [x, y, z]: [usize; 3]) -> [f64; 8] {
+    #[inline]
+    fn corners(&self, [x, y, z]: [usize; 3]) -> [f32; 8] {
         let i = self.index(x, y, z);
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);
-        let at = |i: usize| f64::from(self.values[i]);
-        [
-            at(i),
-            at(i + 1),
-            at(i + row),
-            at(i + row + 1),
-            at(i + layer),
-            at(i + layer + 1),
-            at(i + layer + row),
-            at(i + layer + row + 1),
-        ]
+        let pair = |i: usize| {
+            let pair = &self.values[i..i + 2];
+            [pair[0], pair[1]]
+        };
+        let [a, b] = pair(i);
+        let [c, d] = pair(i + row);
+        let [e, f] = pair(i + layer);
+        let [g, h] = pair(i + layer + row);
+        [a, b, c, d, e, f, g, h]
     }
 
     /// The distance at a place, in m: between grid points by all three coordinates; a lower bound outside of the
@@ -167,7 +169,7 @@ impl SignedDistance {
     #[must_use]
     pub fn distance(&self, at: DVec3) -> f64 {
         let (cell, p, outside) = self.locate(at);
-        let v = self.corners(cell);
+        let v = self.corners(cell).map(f64::from);
         let mix = |a: f64, b: f64, t: f64| a + (b - a) * t;
         let low = mix(mix(v[0], v[1], p.x), mix(v[2], v[3], p.x), p.y);
         let high = mix(mix(v[4], v[5], p.x), mix(v[6], v[7], p.x), p.y);
@@ -188,6 +190,57 @@ impl SignedDistance {
             slope(DVec3::Y * h),
             slope(DVec3::Z * h),
         )
+    }
+}
+
+/// A grid in the world, made ready to be asked often.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed<'a> {
+    grid: &'a SignedDistance,
+    /// From the world to cells of the grid.
+    to_cells: Affine3A,
+    last: Vec3A,
+    cell: f32,
+}
+
+impl<'a> Placed<'a> {
+    pub(super) fn new(grid: &'a SignedDistance, pose: Pose) -> Self {
+        let turn = DMat3::from_quat(pose.rotation.conjugate()) * (1.0 / grid.cell);
+        let shift = turn * -pose.translation - grid.origin / grid.cell;
+        Self {
+            grid,
+            to_cells: Affine3A {
+                matrix3: turn.as_mat3().into(),
+                translation: shift.as_vec3a(),
+            },
+            last: grid.last.as_vec3a(),
+            cell: grid.cell as f32,
+        }
+    }
+
+    /// As [`SignedDistance::distance`], in single precision, of a place in the world.
+    pub(super) fn distance(&self, at: Vec3) -> f32 {
+        let in_cells = self.to_cells.transform_point3a(at.into());
+        let clamped = in_cells.max(Vec3A::ZERO).min(self.last);
+        let size = self.grid.size;
+        let cell = |place: f32, size: usize| (place as i32).min(size as i32 - 2);
+        let cells = [
+            cell(clamped.x, size[0]),
+            cell(clamped.y, size[1]),
+            cell(clamped.z, size[2]),
+        ];
+        let [x, y, z] = cells.map(|cell| cell as f32);
+        let p = clamped - Vec3A::new(x, y, z);
+        let v = self.grid.corners(cells.map(|cell| cell as usize));
+        let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
+        let low = mix(mix(v[0], v[1], p.x), mix(v[2], v[3], p.x), p.y);
+        let high = mix(mix(v[4], v[5], p.x), mix(v[6], v[7], p.x), p.y);
+        let inner = mix(low, high, p.z);
+        if clamped == in_cells {
+            return inner;
+        }
+        let outside = (in_cells - clamped).length() * self.cell;
+        outside.max(inner - outside)
     }
 }
 

@@ -1,10 +1,10 @@
 //! Bodies that hair cannot enter.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use crate::pose::Pose;
 
-use super::grid::SignedDistance;
+use super::grid::{self, SignedDistance};
 
 /// A body in its own space.
 #[derive(Clone, Copy, Debug)]
@@ -121,6 +121,94 @@ impl<'a> Collider<'a> {
     pub(crate) fn is_finite(&self) -> bool {
         let shapes = self.shape.is_finite() && self.at_start().is_finite();
         shapes && self.before.is_finite() && self.now.is_finite()
+    }
+}
+
+/// A body where it is when the step ends, made ready to be asked often and in single precision: for what is drawn.
+///
+/// ```
+/// use glam::{DVec3, Vec3};
+/// use hair_sim::{Collider, Placed, Pose, Shape};
+///
+/// let ball = Shape::Sphere { center: DVec3::X, radius: 0.5 };
+/// let ball = Placed::new(&Collider::fixed(ball, Pose::IDENTITY));
+/// assert_eq!(ball.distance(Vec3::X * 3.0), 1.5);
+/// assert_eq!(ball.outwards(Vec3::X * 3.0), Vec3::X);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    collider: Collider<'a>,
+    asked: Asked<'a>,
+}
+
+/// What tells the distance from a body in single precision.
+#[derive(Clone, Copy, Debug)]
+enum Asked<'a> {
+    /// That from a line in the world, whose way has one over the square of its length beside it, 0 of a point.
+    Line {
+        from: Vec3,
+        along: Vec3,
+        per_square: f32,
+        radius: f32,
+    },
+    Grid(grid::Placed<'a>),
+    /// The body itself, in double precision.
+    Body,
+}
+
+impl<'a> Placed<'a> {
+    /// A body when its step ends.
+    #[must_use]
+    pub fn new(collider: &Collider<'a>) -> Self {
+        let line = |from: DVec3, to: DVec3, radius: f64| {
+            let [from, to] = [from, to].map(|end| collider.now.to_world(end));
+            let square = (to - from).length_squared();
+            Asked::Line {
+                from: from.as_vec3(),
+                along: (to - from).as_vec3(),
+                per_square: if square > 0.0 {
+                    (1.0 / square) as f32
+                } else {
+                    0.0
+                },
+                radius: radius as f32,
+            }
+        };
+        let asked = match collider.shape {
+            Shape::Sphere { center, radius } => line(center, center, radius),
+            Shape::Capsule { from, to, radius } => line(from, to, radius),
+            Shape::Grid(grid) => Asked::Grid(grid::Placed::new(grid, collider.now)),
+            Shape::Form { .. } => Asked::Body,
+        };
+        Self {
+            collider: *collider,
+            asked,
+        }
+    }
+
+    /// As [`Collider::distance`], in m, within a micrometre within metres of the origin.
+    #[must_use]
+    pub fn distance(&self, at: Vec3) -> f32 {
+        match &self.asked {
+            Asked::Line {
+                from,
+                along,
+                per_square,
+                radius,
+            } => {
+                let way = at - *from;
+                let share = (way.dot(*along) * per_square).clamp(0.0, 1.0);
+                (way - *along * share).length() - radius
+            }
+            Asked::Grid(grid) => grid.distance(at),
+            Asked::Body => self.collider.distance(at.as_dvec3()) as f32,
+        }
+    }
+
+    /// As [`Collider::outwards`].
+    #[must_use]
+    pub fn outwards(&self, at: Vec3) -> Vec3 {
+        self.collider.outwards(at.as_dvec3()).as_vec3()
     }
 }
 
@@ -266,5 +354,58 @@ mod tests {
         };
         assert!((capsule.distance(DVec3::new(0.3, 0.5, 0.0)) - 0.2).abs() < 1e-15);
         assert!((capsule.distance(DVec3::new(0.0, 1.5, 0.0)) - 0.4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_placed_body_is_as_far_in_single_precision() {
+        // A tetrahedron.
+        let points = [Vec3::ZERO, Vec3::X * 0.2, Vec3::Y * 0.3, Vec3::Z * 0.2];
+        let triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let [one, two] = [0.01, 0.02].map(|cell| {
+            let grid = SignedDistance::new(&points, &triangles, cell);
+            grid.expect("a mesh")
+        });
+        let (center, radius) = (DVec3::new(0.1, -0.2, 0.05), 0.07);
+        let shapes = [
+            Shape::Sphere { center, radius },
+            Shape::Capsule {
+                from: center,
+                to: DVec3::X,
+                radius,
+            },
+            Shape::Capsule {
+                from: center,
+                to: center,
+                radius,
+            },
+            Shape::Grid(&one),
+            Shape::Form {
+                from: &one,
+                to: &two,
+                share: 0.3,
+                size: 1.1,
+            },
+        ];
+        let pose = Pose {
+            rotation: glam::DQuat::from_rotation_z(0.7) * glam::DQuat::from_rotation_x(-2.0),
+            translation: DVec3::new(-0.3, 1.4, 0.6),
+        };
+        for shape in shapes {
+            let collider = Collider::fixed(shape, pose);
+            let placed = Placed::new(&collider);
+            for i in 0..3000 {
+                let t = f64::from(i);
+                let way = DVec3::new((t * 0.7).sin(), (t * 1.3).cos(), (t * 0.37).sin());
+                let at = (pose.translation + way * (0.5 * (t * 0.011).sin())).as_vec3();
+                let [single, double] = [
+                    f64::from(placed.distance(at)),
+                    collider.distance(at.as_dvec3()),
+                ];
+                assert!(
+                    (single - double).abs() < 1e-6,
+                    "{shape:?} {at}: {single} {double}"
+                );
+            }
+        }
     }
 }

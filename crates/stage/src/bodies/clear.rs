@@ -1,48 +1,53 @@
 //! Hair that is moved out of bodies as a whole: what is styled in them, what guides carry, and what the solver leaves in them between two particles.
 
-use glam::{DVec3, Vec3};
-use hair_sim::Collider;
+use glam::Vec3;
+use hair_sim::Placed;
 
 /// How often points are moved out: each move may push others in.
 const CLEARINGS: u32 = 16;
-/// Where along a link it is looked at: at its end, and on the way there.
-const PLACES: [f64; 4] = [1.0, 0.25, 0.5, 0.75];
+/// Where along a link it is looked at: at its end, and on the way there. What is known of the first two bounds the others.
+const PLACES: [f32; 4] = [1.0, 0.5, 0.25, 0.75];
 /// What part of a point's way the next one goes along, towards the tip and towards the root.
 const BEYOND: f32 = 0.75;
 const BEHIND: f32 = 0.5;
-/// What is as near as this, m, is near enough.
-const NEAR: f64 = 1e-5;
+/// Places may be nearer than they should by this, m.
+const NEAR: f32 = 1e-4;
+/// Moves no longer than this, m, are the last: what they push in is no deeper.
+const ENOUGH: f32 = 5e-5;
+/// The next points aren't taken along by less than this, m.
+const LEAST: f32 = 1e-5;
+/// What single precision may change a distance by, m.
+const ROUNDING: f32 = 1e-6;
 
 /// How far the places of the link that ends at a point are kept from bodies, m; below 0, how deep they may be.
 pub(crate) type Gap = [f32; PLACES.len()];
 
 /// Moves the points of a strand behind the first `held` out of bodies, with the way that is drawn between them, until each place is as far away as
-/// `gap` says of the link that ends at a point, which is `most` m at most. Whether any moved: what is clear stays, to the bit.
+/// `gap` says of the link that ends at a point, which is `most` m at most, but for a tenth of a millimetre. Whether any moved: what is clear stays, to the bit.
 pub(crate) fn clear(
     points: &mut [Vec3],
     held: usize,
-    colliders: &[Collider],
-    most: f64,
+    bodies: &[Placed],
+    most: f32,
     gap: impl Fn(usize) -> Gap,
 ) -> bool {
     let held = held.max(1);
+    let mut near = Near::new(bodies);
     let mut has_moved = false;
     for _ in 0..CLEARINGS {
-        let mut moves = false;
-        let mut near = Near::new(points, held - 1, colliders);
+        let mut farthest = 0.0_f32;
+        near.start(points, held - 1);
         for i in held..points.len() {
             if near.is_clear(points, i, most) {
                 continue;
             }
             let mut moves_here = false;
-            for (t, gap) in PLACES.into_iter().zip(gap(i)) {
-                let place = on_path(points, i, t);
-                // What has been moved may have come near others.
-                let may_meet = |body: &usize| moves_here || near.may_meet(*body);
-                let Some(push) = push(place, colliders, may_meet, f64::from(gap)) else {
+            for (place, gap) in gap(i).into_iter().enumerate() {
+                let Some(push) = near.push(points, i, place, (gap - NEAR, moves_here)) else {
                     continue;
                 };
                 // As little as moves the place by that much; what is held stays.
+                let t = PLACES[place];
                 let (before, here) = match i == held {
                     true => (0.0, 1.0),
                     false => {
@@ -50,7 +55,8 @@ pub(crate) fn clear(
                         ((1.0 - t) / squared, t / squared)
                     }
                 };
-                let (before, here) = ((push * before).as_vec3(), (push * here).as_vec3());
+                farthest = farthest.max(push.length());
+                let (before, here) = (push * before, push * here);
                 points[i - 1] += before;
                 points[i] += here;
                 take_along(&mut points[i + 1..], here, BEYOND);
@@ -59,14 +65,13 @@ pub(crate) fn clear(
                 moves_here = true;
             }
             if moves_here {
-                near = Near::new(points, i, colliders);
-                moves = true;
+                near.start(points, i);
+                has_moved = true;
             }
         }
-        if !moves {
-            return has_moved;
+        if farthest <= ENOUGH {
+            break;
         }
-        has_moved = true;
     }
     has_moved
 }
@@ -76,7 +81,7 @@ fn take_along<'p>(points: impl IntoIterator<Item = &'p mut Vec3>, by: Vec3, shar
     let mut by = by;
     for point in points {
         by *= share;
-        if f64::from(by.length_squared()) < NEAR * NEAR {
+        if by.length_squared() < LEAST * LEAST {
             return;
         }
         *point += by;
@@ -85,18 +90,18 @@ fn take_along<'p>(points: impl IntoIterator<Item = &'p mut Vec3>, by: Vec3, shar
 
 /// How far the places of a strand's links are from bodies, for each point those of the link that ends there: `most` m where they are farther away.
 /// The first point has no link.
-pub(crate) fn gaps(points: &[Vec3], colliders: &[Collider], most: f32) -> Vec<Gap> {
+pub(crate) fn gaps(points: &[Vec3], bodies: &[Placed], most: f32) -> Vec<Gap> {
     let mut gaps = vec![[most; PLACES.len()]; points.len()];
-    let mut near = Near::new(points, 0, colliders);
+    let mut near = Near::new(bodies);
+    near.start(points, 0);
     for i in 1..points.len() {
-        if near.is_clear(points, i, f64::from(most)) {
+        if near.is_clear(points, i, most) {
             continue;
         }
         for (t, gap) in PLACES.into_iter().zip(&mut gaps[i]) {
             let place = on_path(points, i, t);
-            let bodies = colliders.iter().enumerate();
-            for (_, collider) in bodies.filter(|(body, _)| near.may_meet(*body)) {
-                *gap = gap.min(collider.distance(place) as f32);
+            for (body, _) in near.bodies.iter().filter(|(_, known)| known.may_meet) {
+                *gap = gap.min(body.distance(place));
             }
         }
     }
@@ -105,127 +110,160 @@ pub(crate) fn gaps(points: &[Vec3], colliders: &[Collider], most: f32) -> Vec<Ga
 
 /// How far a strand is from each body at the point that it has been followed to.
 struct Near<'a> {
-    colliders: &'a [Collider<'a>],
-    bodies: Vec<Body>,
+    bodies: Vec<(&'a Placed<'a>, Known)>,
+    /// The length of the link to there, and how far the way that is drawn there is from it at most, m.
+    link: f32,
+    bulge: f32,
+    /// How far the links there are from going on straight and even, m.
+    bend: f32,
 }
 
-struct Body {
-    /// No more than the distance there, m.
-    distance: f64,
-    /// Whether the way to there may come nearer than was asked for.
+/// Distances from a body, or less than those, m.
+#[derive(Default)]
+struct Known {
+    /// At the point, at the one before, and half way there.
+    distance: f32,
+    before: f32,
+    middle: f32,
+    /// Whether the way to there may come nearer than was asked for. Then the first is the distance.
     may_meet: bool,
 }
 
 impl<'a> Near<'a> {
-    fn new(points: &[Vec3], at: usize, colliders: &'a [Collider<'a>]) -> Self {
-        let at = points[at].as_dvec3();
-        let body = |collider: &Collider| Body {
-            distance: collider.distance(at),
-            may_meet: false,
-        };
+    fn new(bodies: &'a [Placed<'a>]) -> Self {
         Self {
-            bodies: colliders.iter().map(body).collect(),
-            colliders,
+            bodies: (bodies.iter().map(|body| (body, Known::default()))).collect(),
+            link: 0.0,
+            bulge: 0.0,
+            bend: 0.0,
         }
     }
 
-    /// Whether the way to the point that was gone on to last may meet a body.
-    fn may_meet(&self, body: usize) -> bool {
-        self.bodies[body].may_meet
+    /// Begins at a point.
+    fn start(&mut self, points: &[Vec3], at: usize) {
+        for (body, known) in &mut self.bodies {
+            known.distance = body.distance(points[at]);
+        }
+        self.bend = bend(points, at);
     }
 
     /// Goes on to the next point, `to`. Whether all on the way that is drawn there is farther from bodies than `gap` m.
-    fn is_clear(&mut self, points: &[Vec3], to: usize, gap: f64) -> bool {
-        let link = f64::from(points[to].distance(points[to - 1]));
+    fn is_clear(&mut self, points: &[Vec3], to: usize, gap: f32) -> bool {
+        let (link, bend) = (points[to].distance(points[to - 1]), bend(points, to));
         // No place of the spline is farther than this from the link.
-        let bulge = 0.125 * bend(points, to - 1).max(bend(points, to));
+        let bulge = 0.125 * bend.max(self.bend) + ROUNDING;
+        (self.link, self.bulge, self.bend) = (link, bulge, bend);
         let mut is_clear = true;
-        for (body, collider) in self.bodies.iter_mut().zip(self.colliders) {
-            let before = body.distance;
+        for (body, known) in &mut self.bodies {
+            known.before = known.distance;
             // Nothing on the way is nearer than this: so the distance itself is not asked for.
-            body.distance -= link;
-            body.may_meet = body.distance - bulge <= gap;
-            if body.may_meet {
-                body.distance = collider.distance(points[to].as_dvec3());
+            known.distance -= link;
+            known.may_meet = known.distance - bulge <= gap;
+            if known.may_meet {
+                known.distance = body.distance(points[to]);
                 // A place of the link is no nearer than the mean of its ends less half of it.
-                body.may_meet = 0.5 * (before + body.distance - link) - bulge <= gap;
-                is_clear &= !body.may_meet;
+                known.middle = 0.5 * (known.before + known.distance - link) - bulge;
+                known.may_meet = known.middle <= gap;
+                is_clear &= !known.may_meet;
             }
         }
         is_clear
     }
+
+    /// What takes a place of the link that was gone on to last out of the body that it is deepest in, to `gap` m from it; nothing where it is out of all.
+    /// What `moves` may have come near others than it could meet before.
+    fn push(
+        &mut self,
+        points: &[Vec3],
+        to: usize,
+        place: usize,
+        (gap, moves): (f32, bool),
+    ) -> Option<Vec3> {
+        let (link, bulge) = (self.link, self.bulge);
+        let mut deepest: Option<(f32, &Placed)> = None;
+        let mut at = None;
+        for (body, known) in &mut self.bodies {
+            // No more than the distance.
+            let least = match place {
+                _ if moves => f32::NEG_INFINITY,
+                _ if !known.may_meet => continue,
+                0 => known.distance,
+                1 => known.middle,
+                _ => {
+                    let end = [known.before, known.distance][place - 2];
+                    let from_end = end - 0.25 * link - bulge;
+                    from_end.max(0.5 * (end + known.middle) - 0.25 * link - 1.5 * bulge)
+                }
+            };
+            if least >= gap {
+                continue;
+            }
+            let distance = match place {
+                0 if !moves => least,
+                _ => body.distance(*at.get_or_insert_with(|| on_path(points, to, PLACES[place]))),
+            };
+            if place == 1 {
+                known.middle = distance;
+            }
+            if distance < gap && deepest.is_none_or(|(other, _)| distance < other) {
+                deepest = Some((distance, *body));
+            }
+        }
+        let (distance, body) = deepest?;
+        let at = at.unwrap_or_else(|| on_path(points, to, PLACES[place]));
+        Some(body.outwards(at) * (gap - distance))
+    }
 }
 
 /// How far the links at a point are from going on straight and even, m: their difference.
-fn bend(points: &[Vec3], at: usize) -> f64 {
+fn bend(points: &[Vec3], at: usize) -> f32 {
     match (at.checked_sub(1), points.get(at + 1)) {
-        (Some(before), Some(after)) => {
-            let bend = points[before] + *after - 2.0 * points[at];
-            f64::from(bend.length())
-        }
+        (Some(before), Some(after)) => (points[before] + *after - 2.0 * points[at]).length(),
         _ => 0.0,
     }
 }
 
 /// A place on the way that is drawn through points, Catmull and Rom's spline: at `t`, 0 to 1, of the link that ends at a point.
-fn on_path(points: &[Vec3], to: usize, t: f64) -> DVec3 {
-    let [b, c] = [points[to - 1], points[to]].map(|point| point.as_dvec3());
+fn on_path(points: &[Vec3], to: usize, t: f32) -> Vec3 {
+    let [b, c] = [points[to - 1], points[to]];
     if t == 1.0 {
         return c;
     }
-    let a = (to.checked_sub(2)).map_or(2.0 * b - c, |i| points[i].as_dvec3());
-    let d = (points.get(to + 1)).map_or(2.0 * c - b, |point| point.as_dvec3());
+    let a = to.checked_sub(2).map_or(2.0 * b - c, |i| points[i]);
+    let d = points.get(to + 1).copied().unwrap_or(2.0 * c - b);
     let (from, to, way) = (0.5 * (c - a), 0.5 * (d - b), c - b);
     b + (from + (3.0 * way - 2.0 * from - to + (from + to - 2.0 * way) * t) * t) * t
-}
-
-/// What takes a place out of the body that it is deepest in, of those that it may meet, to `gap` m from it; nothing where it is out of all.
-fn push(
-    at: DVec3,
-    colliders: &[Collider],
-    may_meet: impl Fn(&usize) -> bool,
-    gap: f64,
-) -> Option<DVec3> {
-    let mut deepest: Option<(f64, &Collider)> = None;
-    for (_, collider) in colliders
-        .iter()
-        .enumerate()
-        .filter(|(body, _)| may_meet(body))
-    {
-        let distance = collider.distance(at);
-        if distance < gap - NEAR && deepest.is_none_or(|(other, _)| distance < other) {
-            deepest = Some((distance, collider));
-        }
-    }
-    let (distance, collider) = deepest?;
-    Some(collider.outwards(at) * (gap - distance))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hair_sim::{Pose, Shape};
+    use glam::DVec3;
+    use hair_sim::{Collider, Pose, Shape};
     use proptest::prelude::*;
 
-    fn ball(y: f64, radius: f64) -> Collider<'static> {
+    fn ball(y: f64, radius: f64) -> Placed<'static> {
         let center = DVec3::new(0.0, y, 0.0);
-        Collider::fixed(Shape::Sphere { center, radius }, Pose::IDENTITY)
+        Placed::new(&Collider::fixed(
+            Shape::Sphere { center, radius },
+            Pose::IDENTITY,
+        ))
     }
 
     /// How far a place is from the nearest body, m, negative inside.
-    fn distance(at: DVec3, colliders: &[Collider]) -> f64 {
-        let distances = colliders.iter().map(|collider| collider.distance(at));
-        distances.fold(f64::INFINITY, f64::min)
+    fn distance(at: Vec3, bodies: &[Placed]) -> f32 {
+        let distances = bodies.iter().map(|body| body.distance(at));
+        distances.fold(f32::INFINITY, f32::min)
     }
 
     /// The nearest place to bodies of the way that is drawn through points.
-    fn nearest(points: &[Vec3], colliders: &[Collider]) -> f64 {
+    fn nearest(points: &[Vec3], bodies: &[Placed]) -> f32 {
         let links = 1..points.len();
         let places =
-            links.flat_map(|to| (0..=20).map(move |t| on_path(points, to, f64::from(t) / 20.0)));
+            links.flat_map(|to| (0..=20).map(move |t| on_path(points, to, t as f32 / 20.0)));
         places
-            .map(|at| distance(at, colliders))
-            .fold(f64::INFINITY, f64::min)
+            .map(|at| distance(at, bodies))
+            .fold(f32::INFINITY, f32::min)
     }
 
     #[test]
@@ -253,20 +291,20 @@ mod tests {
             from in prop::array::uniform3(-0.2_f32..0.2),
             radius in 0.01..0.15_f64,
         ) {
-            let colliders = [ball(-0.1, radius), ball(0.3, 0.1)];
+            let bodies = [ball(-0.1, radius), ball(0.3, 0.1)];
             let way = Vec3::from(way).normalize_or(Vec3::X) * 0.02;
             let side = way.any_orthogonal_vector();
             let at = |i: u32| Vec3::from(from) + way * i as f32 + side * (0.6 * i as f32).sin();
             let points: Vec<Vec3> = (0..12).map(at).collect();
-            let own = gaps(&points, &colliders, 1e-3);
+            let own = gaps(&points, &bodies, 1e-3);
             for i in 1..points.len() {
                 for (t, gap) in PLACES.into_iter().zip(own[i]) {
                     let place = on_path(&points, i, t);
-                    prop_assert_eq!(gap, 1e-3_f32.min(distance(place, &colliders) as f32));
+                    prop_assert_eq!(gap, 1e-3_f32.min(distance(place, &bodies)));
                 }
             }
             let mut same = points.clone();
-            prop_assert!(!clear(&mut same, 1, &colliders, 1e-3, |i| own[i]));
+            prop_assert!(!clear(&mut same, 1, &bodies, 1e-3, |i| own[i]));
             prop_assert!(same == points);
         }
     }

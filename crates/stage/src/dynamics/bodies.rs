@@ -15,7 +15,7 @@ pub(super) const SHOULDERS_END: f32 = -0.54;
 const HEAD_CELL: f64 = 1.0 / 40.0;
 const BODY_CELL: f64 = 1.0 / 32.0;
 /// How far from bodies hair is drawn, m, but where it starts nearer: paths bulge between their points.
-pub(super) const GAP_M: f32 = 1.3e-3;
+pub(super) const GAP_M: f32 = 1.4e-3;
 
 /// Distances from head and shoulders.
 pub(crate) struct Bodies {

@@ -20,6 +20,8 @@ pub(crate) struct Carried {
     guides: Vec<Range<usize>>,
     /// All points of the scene's free strands at rest.
     rest: Vec<Vec3>,
+    /// How far each point of each carried strand is at rest from its places on its guides, strand by strand.
+    offsets: Vec<Vec<[Vec3; CARRIERS]>>,
 }
 
 /// Chooses at most `most` of the free strands as guides, by their indices, and what carries the others.
@@ -40,12 +42,22 @@ pub(crate) fn choose(free: &Strands, parts: &[Range<usize>], most: u32) -> (Vec<
         rest[part.clone()].copy_from_slice(points);
     }
     let others: Vec<usize> = (0..free.len()).filter(|i| !is_guide[*i]).collect();
+    let carriers: Vec<[(usize, f32); CARRIERS]> = others
+        .iter()
+        .map(|&i| nearest(&shapes, i, &guides.kept))
+        .collect();
+    let offsets_of = |(&strand, carriers): (&usize, &[(usize, f32); CARRIERS])| {
+        let points = free.strand(strand);
+        let offsets = (0..).zip(points).map(|(i, point)| {
+            let u = share(i, points.len());
+            carriers.map(|(guide, _)| *point - at(free.strand(guides.kept[guide]), u))
+        });
+        offsets.collect()
+    };
     let carried = Carried {
         ranges: others.iter().map(|&i| parts[i].clone()).collect(),
-        carriers: others
-            .iter()
-            .map(|&i| nearest(&shapes, i, &guides.kept))
-            .collect(),
+        offsets: others.iter().zip(&carriers).map(offsets_of).collect(),
+        carriers,
         guides: guides.kept.iter().map(|&i| parts[i].clone()).collect(),
         rest,
     };
@@ -60,8 +72,15 @@ fn shape(points: &[Vec3]) -> [Vec3; 4] {
 /// The point at share `u` of a chain of points, by number.
 fn at(points: &[Vec3], u: f32) -> Vec3 {
     let place = u * (points.len() - 1) as f32;
-    let first = (place as usize).min(points.len() - 2);
-    points[first].lerp(points[first + 1], place - first as f32)
+    let first = (place as i32).min(points.len() as i32 - 2);
+    let (share, first) = (place - first as f32, first as usize);
+    let ends = &points[first..first + 2];
+    ends[0].lerp(ends[1], share)
+}
+
+/// How far along a strand of so many points one of them is, by number: 0 to 1.
+fn share(point: usize, points: usize) -> f32 {
+    point as f32 / (points - 1) as f32
 }
 
 /// The guides nearest to a strand in root and shape, with weights that add up to 1.
@@ -111,31 +130,29 @@ impl Carried {
         keep_out: impl Fn(usize, &mut [Vec3]) + Sync,
     ) {
         let turned = self.turned(turns);
-        let guides: Vec<&[Vec3]> = (self.guides.iter())
-            .map(|own| &self.rest[own.clone()])
-            .collect();
         let now: Vec<Vec<Vec3>> = (self.guides.iter())
             .map(|own| points[own.clone()].to_vec())
             .collect();
         let strands = self.strands_of(points);
-        strands
-            .into_par_iter()
-            .for_each(|(range, carriers, moved)| {
-                let last = (range.len() - 1) as f32;
+        (strands.into_par_iter()).zip(&self.offsets).for_each(
+            |((range, carriers, moved), offsets)| {
+                let count = moved.len();
+                let carriers = carriers.map(|(guide, weight)| {
+                    let (now, turned): (&[Vec3], &[Quat]) = (&now[guide], &turned[guide]);
+                    (now, turned, weight)
+                });
                 // The root stays with the head.
-                for (i, point) in moved.iter_mut().enumerate().skip(1) {
-                    let u = i as f32 / last;
-                    let rest = self.rest[range.start + i];
-                    *point = carriers
-                        .iter()
-                        .map(|&(guide, weight)| {
-                            let offset = rest - at(guides[guide], u);
-                            weight * (at(&now[guide], u) + link_at(&turned[guide], u) * offset)
+                for (i, (point, offsets)) in moved.iter_mut().zip(offsets).enumerate().skip(1) {
+                    let u = share(i, count);
+                    *point = (carriers.iter().zip(offsets))
+                        .map(|(&(now, turned, weight), &offset)| {
+                            weight * (at(now, u) + link_at(turned, u) * offset)
                         })
                         .sum();
                 }
                 keep_out(range.start, moved);
-            });
+            },
+        );
     }
 
     /// Turns the normals of the carried strands as their guides' links have turned.
@@ -204,7 +221,8 @@ pub(super) fn parts_of<'a, 'b>(
 
 /// The turn of the link at share `u` of a guide.
 fn link_at(links: &[Quat], u: f32) -> Quat {
-    links[((u * links.len() as f32) as usize).min(links.len() - 1)]
+    let link = (u * links.len() as f32) as i32;
+    links[link.min(links.len() as i32 - 1) as usize]
 }
 
 #[cfg(test)]

@@ -31,7 +31,7 @@ use hair_io::Mesh;
 #[cfg(feature = "compare")]
 use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
-    Acceleration, Collider, DynamicsError, GRAVITY, Params, PointCache, Pose, Roots, Solver, Stats,
+    Acceleration, DynamicsError, GRAVITY, Params, Placed, PointCache, Pose, Roots, Solver, Stats,
     Strands, Surroundings, Wind,
 };
 use rayon::prelude::*;
@@ -350,10 +350,10 @@ impl Dynamics {
             return;
         }
         let posture = self.posture_at(self.shown, driver);
-        let colliders = self.colliders_at(self.shown, &posture, driver);
+        let bodies = self.bodies_at(self.shown, &posture, driver);
         let keep_out = |first: usize, points: &mut [Vec3]| {
             let gap = |i| self.gaps[first + i];
-            clear(points, 1, &colliders, f64::from(GAP_M), gap);
+            clear(points, 1, &bodies, GAP_M, gap);
         };
         let own = carried::parts_of(points, self.guides.iter().map(|part| &part.points));
         let guides: Vec<(&Part, &mut [Vec3])> = self.guides.iter().zip(own).collect();
@@ -379,7 +379,7 @@ impl Dynamics {
     fn gaps_at_start(&self, driver: Driver) -> Vec<Gap> {
         let start = self.time_of(0);
         let posture = self.posture_at(start, driver);
-        let colliders = self.colliders_at(start, &posture, driver);
+        let bodies = self.bodies_at(start, &posture, driver);
         let mut points = vec![Vec3::ZERO; self.shape.len()];
         for part in &self.guides {
             self.write_guide(part, &mut points[part.points.clone()]);
@@ -388,7 +388,7 @@ impl Dynamics {
         let parts = self.guides.iter().map(|part| &part.points);
         let parts: Vec<&Range<usize>> = parts.chain(self.carried.ranges()).collect();
         let found: Vec<Vec<Gap>> = (parts.par_iter())
-            .map(|range| gaps(&points[(*range).clone()], &colliders, GAP_M))
+            .map(|range| gaps(&points[(*range).clone()], &bodies, GAP_M))
             .collect();
         let mut all = vec![[GAP_M; 4]; points.len()];
         for (range, found) in parts.iter().zip(found) {
@@ -398,14 +398,15 @@ impl Dynamics {
     }
 
     /// All bodies at a time (seconds), at which the figure stands so.
-    fn colliders_at<'a>(
+    fn bodies_at<'a>(
         &'a self,
         time: f64,
         posture: &Posture<'a>,
         driver: Driver<'a>,
-    ) -> Vec<Collider<'a>> {
-        self.bodies
-            .colliders(driver.script, [time; 2], [posture; 2])
+    ) -> Vec<Placed<'a>> {
+        let bodies = &self.bodies;
+        let colliders = bodies.colliders(driver.script, [time; 2], [posture; 2]);
+        colliders.iter().map(Placed::new).collect()
     }
 
     /// Moves what is shown on with the head, to `time` (seconds).

@@ -144,7 +144,7 @@ impl Sweep {
         let ((hx, hy, hz), per_square) = (at(&self.half, link), self.per_square[link]);
         let ((wx, wy, wz), spread) = (at(&self.ways, link), self.spreads[link]);
         let own = self.own + other.own;
-        let mut bits = [0_u32; PIECE];
+        let (mut bits, mut keeps) = ([0_u32; PIECE], [0.0; PIECE]);
         for j in 0..PIECE {
             let (vx, vy, vz) = at(&other.ways, j);
             let against = length_squared(vx - wx, vy - wy, vz - wz).sqrt() * ROUNDED;
@@ -161,6 +161,46 @@ impl Sweep {
             let (reach, its) = (other.reach[j] + keep, long + keep);
             let meets = is_near[j] & (one <= reach * reach) & (two <= its * its);
             bits[j] = u32::from(meets) << j;
+            keeps[j] = keep;
+        }
+        let near = bits[0] | bits[1] | bits[2] | bits[3];
+        if near == 0 {
+            return 0;
+        }
+        near & !self.apart(link, other, &keeps)
+    }
+
+    /// Which of the other's links are farther from a link than `keeps` m half way through the step, as bits: between two planes at a right angle to
+    /// where they seem to be nearest, whatever rounding makes of that.
+    #[inline]
+    fn apart(&self, link: usize, other: &Self, keeps: &[f32; PIECE]) -> u32 {
+        let at = |of: &[[f32; PIECE]; 3], i: usize| (of[0][i], of[1][i], of[2][i]);
+        let dot = |a: (f32, f32, f32), b: (f32, f32, f32)| a.0 * b.0 + a.1 * b.1 + a.2 * b.2;
+        let (center, half) = (at(&self.center, link), at(&self.half, link));
+        let (square, per_square) = (dot(half, half), self.per_square[link]);
+        let mut bits = [0_u32; PIECE];
+        for j in 0..PIECE {
+            let its = at(&other.center, j);
+            let between = (its.0 - center.0, its.1 - center.1, its.2 - center.2);
+            let its = at(&other.half, j);
+            let (both, along, its_along) = (dot(half, its), dot(half, between), dot(its, between));
+            let its_square = dot(its, its);
+            let area = (square * its_square - both * both).max(1e-30);
+            // From the middle of the link to its end is 1.
+            let t = ((along * its_square - both * its_along) / area).clamp(-1.0, 1.0);
+            let its_t = ((t * both - its_along) * other.per_square[j]).clamp(-1.0, 1.0);
+            let t = ((along + its_t * both) * per_square).clamp(-1.0, 1.0);
+            let away = |between: f32, its: f32, half: f32| between + its_t * its - t * half;
+            let way = (
+                away(between.0, its.0, half.0),
+                away(between.1, its.1, half.1),
+                away(between.2, its.2, half.2),
+            );
+            let apart = dot(way, between) - dot(way, half).abs() - dot(way, its).abs();
+            let size = between.0.abs() + between.1.abs() + between.2.abs();
+            let keep = keeps[j] + size * 2e-6;
+            let is_apart = (apart > 0.0) & (apart * apart > keep * keep * dot(way, way) * ROUNDED);
+            bits[j] = u32::from(is_apart) << j;
         }
         bits[0] | bits[1] | bits[2] | bits[3]
     }
