@@ -190,4 +190,53 @@ mod tests {
         assert_eq!(radius(line, &skin[..7]), None);
         assert_eq!(radius([DVec3::ZERO; 2], &skin), None);
     }
+
+    /// Of Godette, whose file has colliders on chest and head alone.
+    #[test]
+    #[allow(clippy::print_stderr, reason = "skipped tests say so")]
+    fn godettes_limbs_are_as_thick_as_her_skin() {
+        let Some(data) = std::env::var_os("INKSTRAND_DATA") else {
+            return eprintln!("SKIPPED 1 test: INKSTRAND_DATA is not set");
+        };
+        let path = std::path::Path::new(&data).join("vrm/Godette_vrm_v4.vrm");
+        let file = hair_io::read_head(&path, None, None).unwrap();
+        let (model, rig) = (&file.model, file.model.rig.as_ref().unwrap());
+        let none: Vec<_> = (model.meshes.iter())
+            .map(|mesh| vec![false; mesh.triangles.len()])
+            .collect();
+        let found = Limbs::new(model, rig, &file.orientation, &none);
+        let body = |wanted: &str| {
+            let mut all = limbs().zip(&found.bodies);
+            let (_, body) = all
+                .find(|([bone, ..], _)| bone.as_deref() == Some(wanted))
+                .unwrap();
+            body.unwrap_or_else(|| panic!("{wanted} has no body"))
+        };
+        // Half of what her sleeves, arms, gloves, shorts and boots measure, m.
+        for (bone, [least, most]) in [
+            ("UpperArm", [0.03, 0.07]),
+            ("LowerArm", [0.025, 0.045]),
+            ("Hand", [0.02, 0.06]),
+            ("UpperLeg", [0.05, 0.13]),
+            ("LowerLeg", [0.04, 0.09]),
+            ("Foot", [0.03, 0.09]),
+        ] {
+            let [left, right] = ["left", "right"].map(|side| body(&format!("{side}{bone}")));
+            assert!((least..most).contains(&left.radius), "{bone}: {left:?}");
+            assert!(
+                (left.radius - right.radius).abs() < 2e-3,
+                "{bone}: {left:?} {right:?}"
+            );
+            // Her left is to +X.
+            assert!(
+                left.ends[1].x > 0.0 && right.ends[1].x < 0.0,
+                "{left:?} {right:?}"
+            );
+        }
+        assert!(
+            (0.08..0.25).contains(&body("hips").radius),
+            "{:?}",
+            body("hips")
+        );
+    }
 }
