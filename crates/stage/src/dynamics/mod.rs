@@ -47,9 +47,6 @@ const XPBD_SUBSTEPS: u32 = 64;
 #[cfg(feature = "compare")]
 const MASS_SPRING_SUBSTEPS: u32 = 4;
 
-/// The longest step of a character's own hair in s: its few thick strands lie on heads with edges, and rocked on these for ever in longer ones.
-const OWN_STEP: f64 = 1.0 / 72.0;
-
 /// The shortest step in s that is worth one of its own.
 const SHORTEST_STEP: f64 = 2e-6;
 /// Parts of a second that times are told in: as fine as needed for the shortest step's accelerations.
@@ -210,10 +207,6 @@ impl Dynamics {
                 let longest = (0..chosen.len())
                     .map(|i| params(i).longest_step(length_m(i).max(1e-4), gravity))
                     .fold(f64::INFINITY, f64::min);
-                let longest = match hair.own_colors.is_empty() {
-                    true => longest,
-                    false => longest.min(OWN_STEP),
-                };
                 part_of_frame(1.0 / f64::from(fps), longest)
             }
             step => step,
