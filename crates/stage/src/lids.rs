@@ -24,22 +24,25 @@ pub(crate) fn lids(
             corners.len() - 1
         })
     };
-    // Of each edge, by its lower and its higher end: how many kept triangles have it, whether one that is gone does, and whether the last kept one goes up it.
-    let mut edges: BTreeMap<(usize, usize), (u32, bool, bool)> = BTreeMap::new();
-    let kept = kept.iter().map(|triangle| (*triangle, true));
-    for (triangle, is_kept) in kept.chain(gone.into_iter().map(|triangle| (triangle, false))) {
-        let own = triangle.map(&mut number);
-        for (from, to) in [(own[0], own[1]), (own[1], own[2]), (own[2], own[0])] {
-            let edge = edges.entry((from.min(to), from.max(to))).or_default();
-            match is_kept {
-                true => (edge.0, edge.2) = (edge.0 + 1, from < to),
-                false => edge.1 = true,
+    // Of each edge of what is gone, by its lower and its higher end: how many kept triangles have it, and whether the last of them goes up it.
+    let mut edges: BTreeMap<[usize; 2], (u32, bool)> = BTreeMap::new();
+    for triangle in gone {
+        for [from, to] in sides(triangle.map(&mut number)) {
+            edges.insert([from.min(to), from.max(to)], (0, false));
+        }
+    }
+    for triangle in kept {
+        for side in sides(triangle.map(|corner| numbers.get(&place(corner)))) {
+            if let [Some(&from), Some(&to)] = side
+                && let Some((count, goes_up)) = edges.get_mut(&[from.min(to), from.max(to)])
+            {
+                (*count, *goes_up) = (*count + 1, from < to);
             }
         }
     }
     let rim: Vec<[usize; 2]> = (edges.into_iter())
-        .filter(|((from, to), (kept, gone, _))| *kept == 1 && *gone && from != to)
-        .map(|((low, high), (_, _, goes_up))| if goes_up { [low, high] } else { [high, low] })
+        .filter(|([low, high], (count, _))| *count == 1 && low != high)
+        .map(|([low, high], (_, goes_up))| if goes_up { [low, high] } else { [high, low] })
         .collect();
 
     let mut first: Vec<usize> = (0..corners.len()).collect();
@@ -66,6 +69,11 @@ pub(crate) fn lids(
         is_ring[ring].then_some([corners[*to], corners[*from], sum / of])
     };
     rim.iter().filter_map(lid).collect()
+}
+
+/// A triangle's sides, by its corners.
+fn sides<T: Copy>([a, b, c]: [T; 3]) -> [[T; 2]; 3] {
+    [[a, b], [b, c], [c, a]]
 }
 
 fn first_of(first: &mut [usize], mut corner: usize) -> usize {

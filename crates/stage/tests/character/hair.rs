@@ -299,7 +299,10 @@ fn godettes_backpack_hangs_on_a_bone() {
     // Her material of that name is the backpack, but for its logo and straps.
     let [material, bone] = ["Backpack", "backpack_Armature"].map(without);
     assert!(triangles(&bone) < triangles(&whole) && triangles(&material) < triangles(&whole));
-    assert_eq!(points(&bone), points(&whole), "her hair stays");
+    // Her hair stays, but for what its size says of a head that is now told from less.
+    let (left, all) = (points(&bone), points(&whole));
+    assert_eq!(left.len(), all.len());
+    assert!(left.iter().zip(&all).all(|(a, b)| a.distance(*b) < 2e-3));
     assert!(without("HairBall*").strand_count() < whole.strand_count());
 }
 
