@@ -91,7 +91,7 @@ mod tests {
 
     /// The walls of a box, without the floor.
     fn walls() -> Vec<[Vec3; 3]> {
-        let corner = |i: u32| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
+        let corner = |i: u32| Vec3::new((i & 1) as f32, ((i >> 1) & 1) as f32, (i >> 2) as f32);
         let quads = [
             [0, 4, 6, 2],
             [1, 3, 7, 5],
