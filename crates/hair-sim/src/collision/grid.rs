@@ -526,7 +526,8 @@ mod tests {
         let mut counts = [0; 2];
         for i in 0..4000 {
             let t = f64::from(i);
-            let at = DVec3::new((t * 0.7).sin(), (t * 1.3).cos(), (t * 0.37).sin()) * 0.24;
+            let at = DVec3::new((t * 0.7).sin(), (t * 1.3).cos(), (t * 0.37).sin())
+                * (0.24 * (t * 0.11).sin().abs());
             let (from_first, from_second) = (at.length(), (at - DVec3::X * 0.1).length());
             let depths = [0.15 - from_first, 0.12 - from_second];
             // Neither near a wall nor beside the hole.
