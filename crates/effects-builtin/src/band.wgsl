@@ -69,6 +69,11 @@ const BALL: f32 = 0.5;
 /// Over how many head heights behind `start` the band comes to its width.
 const ROOT_FADE: f32 = 0.04;
 
+/// How steep hair must be to have a ring at one height, and to have all of it, 0 level to 1 upright: along hair that lies level, as on the side of a bun, a tooth would go on
+/// and on.
+const LEVEL: f32 = 0.2;
+const STEEP: f32 = 0.45;
+
 /// Where a joint lies along the hair: what `place` counts.
 fn measure(joint: Inputs, params: Params) -> f32 {
     if (params.along == 1u) {
@@ -112,7 +117,8 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let along = saturate((half - away) / max(params.taper * half, 1e-6));
     let basic = params.spread * joint.clump_radius / f32(params.teeth);
     let size = params.fullness * basic;
-    let whole = along * lit * saturate(from_root / ROOT_FADE);
+    let steep = select(smoothstep(LEVEL, STEEP, abs(joint.forward.y)), 1.0, params.along == 1u);
+    let whole = along * lit * steep * saturate(from_root / ROOT_FADE);
     let share = without_hairlines(whole, size, 0.5 * params.thinnest * joint.unit);
     // A rim is as wide beside the tooth as before its ends, and gone where that is.
     return Stroke(offset, share * (size + rim), 0.0, color);

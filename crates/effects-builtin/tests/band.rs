@@ -151,6 +151,32 @@ fn it_breaks_at_roots_and_on_some_strands() {
     assert!((560..640).contains(&share), "{share} of 1000, not 0.6");
 }
 
+/// A tooth would go on and on along it; at one distance from the roots it ends all the same.
+#[test]
+fn level_hair_has_none_at_one_height() {
+    let at_height = [("place", "0.3"), ("slide", "0"), ("fullness", "1")];
+    let at_length = [("along", "length"), ("place", "1"), ("fullness", "1")];
+    for (steep, expected) in [
+        (0.0_f32, 0.0),
+        (0.2, 0.0),
+        (0.325, 10.0),
+        (-0.325, 10.0),
+        (0.45, 20.0),
+        (-1.0, 20.0),
+    ] {
+        let joints = Joints {
+            forward: vec![vec3([(1.0 - steep * steep).sqrt(), steep, 0.0])],
+            ..joint_at(0.3, 1.0)
+        };
+        let got = band(&joints, 0, &at_height).radius;
+        assert!(
+            (got - expected).abs() < 1e-3,
+            "{steep}: {got}, not {expected}"
+        );
+        assert!((band(&joints, 0, &at_length).radius - 20.0).abs() < 1e-3);
+    }
+}
+
 /// Where the joint's tooth ends above the band's middle, head heights.
 fn end(instance: u32, set: &[(&str, &str)]) -> f32 {
     let has_size =

@@ -159,6 +159,12 @@ fn is_tuft(sections: &[Section]) -> bool {
 }
 
 impl Lock {
+    /// Whether it was cut off other triangles. Its strands begin a link below these then, and come out at their second point.
+    #[must_use]
+    pub fn is_cut_off(&self) -> bool {
+        !self.is_whole
+    }
+
     /// Whether it is a ball or a tuft, shorter than one and a half of its widths, as buns are; never of what was cut off a cap.
     #[must_use]
     pub fn is_tuft(&self) -> bool {

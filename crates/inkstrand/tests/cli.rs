@@ -108,6 +108,51 @@ fn write_body(folder: &Path, bone: &str) {
     fs::write(folder.join("body.gltf"), text.replace("BONE", bone)).unwrap();
 }
 
+/// Shadows on her own hair are darker shades of it, but for those that `--set` says; on hair of the look they have the look's colour.
+#[cfg(feature = "gltf")]
+#[test]
+fn shadows_on_a_characters_hair_are_hers() {
+    let Some(data) = std::env::var_os("INKSTRAND_DATA") else {
+        return println!("SKIPPED 1 test: INKSTRAND_DATA is not set");
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let preset = concat!(env!("CARGO_MANIFEST_DIR"), "/../../presets/windy-bob.ron");
+    let character = Path::new(&data).join("vrm/Godette_vrm_v4.vrm");
+    let drawn = |more: &[&str]| {
+        let character = character.to_str().unwrap();
+        let start = [
+            "render",
+            preset,
+            "--character",
+            character,
+            "--size",
+            "160x160",
+        ];
+        let end = ["--backend", "cpu", "--quiet", "-o", "her.png"];
+        let arguments = [&start[..], more, &end].concat();
+        inkstrand(folder.path(), &arguments).assert().success();
+        pixels(&folder.path().join("her.png"))
+    };
+    let colors =
+        |color: &str| ["hair.cel", "hair.cast"].map(|layer| format!("{layer}.color={color}"));
+    let with = |color: &str| {
+        let [cel, cast] = colors(color);
+        drawn(&["--set", &cel, "--set", &cast])
+    };
+    let own = drawn(&[]);
+    assert!(own == with("none"));
+    assert!(own != with("8B74C9"));
+    let look = [
+        "--hair",
+        concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../../presets/styles/windy-bob.style.ron"
+        ),
+    ];
+    let [cel, cast] = colors("8B74C9");
+    assert!(drawn(&look) == drawn(&[&look[..], &["--set", &cel, "--set", &cast]].concat()));
+}
+
 #[cfg(feature = "gltf")]
 #[test]
 fn a_character_without_hair_and_head_is_told() {

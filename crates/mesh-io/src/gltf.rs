@@ -3,6 +3,7 @@
 mod bone;
 mod document;
 mod error;
+mod humanoid;
 mod materials;
 mod meshes;
 mod nodes;

@@ -25,7 +25,8 @@ pub struct Rig {
     pub nodes: Vec<Node>,
     /// The animations.
     pub animations: Vec<Animation>,
-    /// Nodes of a humanoid's bones, by the names of VRM: `head`, `leftUpperArm`.
+    /// Nodes of a humanoid's bones, by the names of VRM: `head`, `leftUpperArm`. VRM says them; of other files they are those that are called as Mixamo,
+    /// Unreal or Rigify calls them, where arms and legs are all there.
     pub humanoid: BTreeMap<String, usize>,
     /// What swings, as VRM has it.
     pub springs: Springs,

@@ -55,7 +55,7 @@ pub enum StageError {
     #[error("{}: a style needs a head to grow on: --head FILE, or head: (shape: bust) in the preset", .0.display())]
     NoHead(PathBuf),
     /// A file has no mesh of a name that the preset says.
-    #[error("{}: no mesh or material is called `{name}`{hint}", .path.display())]
+    #[error("{}: no mesh, material or bone is called `{name}`{hint}", .path.display())]
     NoMesh {
         /// The file.
         path: PathBuf,

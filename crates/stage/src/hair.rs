@@ -57,6 +57,12 @@ pub struct HairModel {
 }
 
 impl HairModel {
+    /// Whether its strands have colours of their file's, as a character's own hair has.
+    #[must_use]
+    pub fn has_own_colors(&self) -> bool {
+        self.own_colors.iter().any(|colors| colors[0] != NO_COLOR)
+    }
+
     /// Strands of a program's own, in metres, Y up, the face towards +Z. Sizes that they lack are taken from the spacing of their
     /// roots. Without a head they stand on the sphere that fits their roots.
     ///

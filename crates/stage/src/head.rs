@@ -28,6 +28,8 @@ const FIGURE_FRAME: Head = Head {
 #[derive(Clone)]
 pub struct HeadModel {
     pub(crate) mesh: Mesh,
+    /// What hair is kept out of in its place: without limbs, which move by themselves, and without holes where hair was cut away.
+    pub(crate) body: Option<Arc<Mesh>>,
     /// Which way light takes each position to face; empty where that is its normal.
     pub(crate) facing: Vec<Vec3>,
     /// The outline's width at each position, in parts of its whole width; empty is 1.
@@ -193,6 +195,7 @@ impl From<Bust> for HeadModel {
             ornaments: no_mesh(),
             painted: Vec::new(),
             skeleton: None,
+            body: None,
             is_things: false,
         }
     }
@@ -213,6 +216,7 @@ impl From<Mesh> for HeadModel {
             ornaments: no_mesh(),
             painted: Vec::new(),
             skeleton: None,
+            body: None,
             is_things: false,
         }
     }

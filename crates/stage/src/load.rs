@@ -3,9 +3,11 @@
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
+use crate::lids::lids;
+use crate::meant::meant;
 use crate::mesh_hair;
 use crate::names::Names;
-use crate::painted::{self, MeshNames, PaintedMesh};
+use crate::painted::{self, PaintedMesh};
 use crate::preset::{
     BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HeadColors, HeadSection,
     HeadShape, Preset, UpAxis,
@@ -110,18 +112,22 @@ pub(crate) fn head(
     };
     let HeadFile {
         mesh,
-        model,
+        mut model,
         orientation,
         notes: read,
     } = hair_io::read_head(&path, axes(section.up), scale(section.scale))?;
     notes.extend(read);
+    notes.extend(left_beside(preset, files, &path));
     let orientation = &orientation;
-    let hidden = MeshNames(Names(section.hide.as_deref().unwrap_or_default()));
-    hidden.check(&model, &path)?;
-    let is_there = |mesh: &mesh_io::Mesh| !hidden.have(&model, mesh);
+    let hidden = Names(section.hide.as_deref().unwrap_or_default());
+    let hidden = meant(hidden, &model, &path)?;
     let own_hair = match wants_own_hair(preset, files) {
-        true => mesh_hair::find(&model, &path, orientation, &preset.sections.hair, is_there)?,
+        true => mesh_hair::find(&model, &path, orientation, &preset.sections.hair, &hidden)?,
         false => None,
+    };
+    let is_gone = match &own_hair {
+        Some(own) => either(&hidden, &own.is_hair),
+        None => hidden.clone(),
     };
     if own_hair.is_none() && preset.sections.hair.from == HairFrom::Character && lacks_head(&model)
     {
@@ -131,27 +137,31 @@ pub(crate) fn head(
             path.display()
         ));
     }
-    let mut mesh = match (hidden.is_empty(), &own_hair) {
-        (true, None) => mesh,
-        _ => {
-            let is_hair = own_hair.as_ref().map(|own| &own.is_hair[..]);
+    let mut mesh = match is_gone.iter().flatten().any(|gone| *gone) {
+        false => mesh,
+        true => {
             let nothing_left = match own_hair {
                 Some(_) => StageError::AllHair,
                 None => StageError::AllHidden,
             };
-            shape_of(&model, orientation, is_there, is_hair)
-                .ok_or_else(|| nothing_left(path.clone()))?
+            let shape = shape_of(corners(&model, orientation, &is_gone, false));
+            shape.ok_or_else(|| nothing_left(path.clone()))?
         }
     };
     let mut painted = match section.colors {
         HeadColors::Preset => Vec::new(),
-        HeadColors::File => painted::of_model(&model, &path, orientation, None, is_there, notes)?,
+        HeadColors::File => painted::of_model(&model, &path, orientation, None, &hidden, notes)?,
     };
-    let hair_paint = own_hair.as_ref().map(|own| {
-        let shown = (0..model.meshes.len()).filter(|index| is_there(&model.meshes[*index]));
-        own.take_away(shown, &mut painted)
-    });
-    if is_inside_out(&mesh) {
+    let hair_paint = own_hair
+        .as_ref()
+        .map(|own| own.take_away(&hidden, &mut painted));
+    if own_hair.is_none() {
+        painted
+            .iter_mut()
+            .for_each(|mesh| mesh.take_away(&hidden[mesh.index]));
+    }
+    let is_turned = is_inside_out(&mesh);
+    if is_turned {
         notes.push("head: its triangles face inwards and are turned around".to_owned());
         turn_around(&mut mesh.triangles, &mut mesh.normals);
         for mesh in &mut painted {
@@ -162,17 +172,21 @@ pub(crate) fn head(
     let head = HeadModel::from(mesh);
     let beside = beside(preset, files, orientation, &head, notes)?;
     let mut head = head.painted(painted, beside);
+    let mut no_body = is_gone;
     if preset.sections.motion.character {
         if section.colors != HeadColors::File {
             return Err(StageError::NoCharacter);
         }
         // Its pictures are on the meshes; as the file has them they are of no more use.
-        let model = Model {
-            images: Vec::new(),
-            ..model
-        };
-        let skeleton = Skeleton::new(Arc::new(model), &path, orientation, &preset.sections.motion)?;
+        model.images = Vec::new();
+        let model = Arc::new(model);
+        let motion = &preset.sections.motion;
+        let skeleton = Skeleton::new(model.clone(), &path, orientation, motion, &no_body)?;
+        no_body = either(&no_body, &skeleton.on_limbs());
+        head.body = body_of(&model, orientation, &no_body, is_turned);
         head.skeleton = Some(Arc::new(skeleton));
+    } else {
+        head.body = body_of(&model, orientation, &no_body, is_turned);
     }
     let hair = own_hair.zip(hair_paint).map(|(own, paint)| {
         let hair = own.into_hair(&head, &preset.sections.hair, &paint)?;
@@ -195,6 +209,38 @@ pub(crate) fn head(
     })
 }
 
+/// Of a head that is one of several files, as eyes and lashes are in OBJ, a sentence that names those which aren't drawn.
+fn left_beside(preset: &Preset, files: &Files, path: &Path) -> Option<String> {
+    let stem = path.file_stem()?.to_str()?;
+    let folder = match path.parent()? {
+        here if here.as_os_str().is_empty() => Path::new("."),
+        folder => folder,
+    };
+    let drawn = preset.meshes.iter();
+    let drawn = drawn.filter_map(|mesh| mesh.section.path(&files.preset_folder));
+    let drawn: Vec<_> = drawn.filter_map(|path| path.canonicalize().ok()).collect();
+    let is_part = |own: &PathBuf| {
+        let rest =
+            (own.file_stem().and_then(|own| own.to_str())).and_then(|own| own.strip_prefix(stem));
+        // What only collides is not to be seen.
+        rest.is_some_and(|rest| rest.starts_with(['-', '_', '.']) && !rest.contains("collider"))
+            && own.extension() == path.extension()
+            && own.canonicalize().is_ok_and(|own| !drawn.contains(&own))
+    };
+    let entries = folder.read_dir().ok()?;
+    let parts = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let mut parts: Vec<String> = parts
+        .filter(is_part)
+        .filter_map(|part| Some(part.file_name()?.to_str()?.to_owned()))
+        .collect();
+    parts.sort();
+    let first = parts.first()?;
+    Some(format!(
+        "head: not drawn of what lies beside it: {}. In `meshes: [(file: \"{first}\")]` it is",
+        parts.join(", ")
+    ))
+}
+
 /// Whether a file of nodes has none that is a head by its name. Files of meshes alone don't say what they are.
 fn lacks_head(model: &Model) -> bool {
     let Some(rig) = &model.rig else {
@@ -210,24 +256,50 @@ fn wants_own_hair(preset: &Preset, files: &Files) -> bool {
     files.hair.is_none() && preset.sections.hair.from == HairFrom::Character
 }
 
-/// The meshes that are there as one shape, without the triangles that are hair; nothing where none is.
-fn shape_of(
+/// What one of two says of each triangle of each mesh.
+fn either(one: &[Vec<bool>], other: &[Vec<bool>]) -> Vec<Vec<bool>> {
+    let either = |(one, other): (&Vec<bool>, &Vec<bool>)| {
+        let both = one.iter().zip(other);
+        both.map(|(one, other)| *one || *other).collect()
+    };
+    one.iter().zip(other).map(either).collect()
+}
+
+/// The corners of all triangles of a model of which `is_gone` is `wanted`, in our space.
+fn corners(
     model: &Model,
     orientation: &Orientation,
-    is_there: impl Fn(&mesh_io::Mesh) -> bool,
-    is_hair: Option<&[Vec<bool>]>,
-) -> Option<Mesh> {
-    let meshes = model.meshes.iter().enumerate();
-    let corners = meshes
-        .filter(|(_, mesh)| is_there(mesh))
-        .flat_map(|(index, mesh)| {
-            let is_skin = move |triangle: usize| is_hair.is_none_or(|hair| !hair[index][triangle]);
-            let all = mesh.corners().enumerate();
-            all.filter(move |(triangle, _)| is_skin(*triangle))
-                .map(|(_, corners)| corners)
-        });
-    let shape = Mesh::from_corners(corners.map(|t| t.map(|p| orientation.apply(p))));
+    is_gone: &[Vec<bool>],
+    wanted: bool,
+) -> impl Iterator<Item = [Vec3; 3]> {
+    let meshes = model.meshes.iter().zip(is_gone);
+    let all = meshes.flat_map(|(mesh, is_gone)| mesh.corners().zip(is_gone));
+    let these = all.filter(move |(_, gone)| **gone == wanted);
+    these.map(|(corners, _)| corners.map(|p| orientation.apply(p)))
+}
+
+/// Triangles as one shape; nothing where there is none.
+fn shape_of(corners: impl Iterator<Item = [Vec3; 3]>) -> Option<Mesh> {
+    let shape = Mesh::from_corners(corners);
     (!shape.triangles.is_empty()).then_some(shape)
+}
+
+/// What hair is kept out of: what is left of a model, with lids where something was cut away. `is_turned` tells whether its outside is where the file has the
+/// inside.
+fn body_of(
+    model: &Model,
+    orientation: &Orientation,
+    is_gone: &[Vec<bool>],
+    is_turned: bool,
+) -> Option<Arc<Mesh>> {
+    let [kept, gone] = [false, true].map(|gone| corners(model, orientation, is_gone, gone));
+    let kept: Vec<[Vec3; 3]> = kept.collect();
+    let lids = lids(&kept, gone);
+    let mut body = shape_of(kept.into_iter().chain(lids))?;
+    if is_turned {
+        turn_around(&mut body.triangles, &mut body.normals);
+    }
+    Some(Arc::new(body))
 }
 
 /// Turns the outside of a mesh in.

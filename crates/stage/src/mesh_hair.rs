@@ -4,7 +4,7 @@ use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::head::HeadModel;
 use crate::names::Names;
-use crate::painted::{MeshNames, PaintedMesh};
+use crate::painted::{MeshNames, PaintedMesh, shown};
 use crate::preset::HairSection;
 use effects::preset::suggestion;
 use glam::{Vec2, Vec3};
@@ -69,7 +69,7 @@ struct Way {
 }
 
 /// The hair of a model that lies in our space by `orientation`: what the section names, else the meshes and materials that are called hair, else what
-/// spring bones on the head move. `is_there` tells which meshes are not hidden. Nothing where there is none.
+/// spring bones on the head move. `hidden` tells of each mesh and each of its triangles whether it is hidden. Nothing where there is none.
 ///
 /// # Errors
 ///
@@ -79,7 +79,7 @@ pub(crate) fn find(
     path: &Path,
     orientation: &Orientation,
     section: &HairSection,
-    is_there: impl Fn(&mesh_io::Mesh) -> bool,
+    hidden: &[Vec<bool>],
 ) -> Result<Option<OwnHair>, StageError> {
     let [wanted, kept] =
         [&section.meshes, &section.keep].map(|names| Names(names.as_deref().unwrap_or_default()));
@@ -94,10 +94,9 @@ pub(crate) fn find(
         false => MeshNames(wanted).have(model, mesh),
     };
     let is_kept = |mesh: &mesh_io::Mesh| MeshNames(kept).have(model, mesh);
-    let by_name = model
-        .meshes
-        .iter()
-        .any(|mesh| is_there(mesh) && is_named(mesh) && !is_kept(mesh));
+    let by_name = shown(hidden)
+        .map(|index| &model.meshes[index])
+        .any(|mesh| is_named(mesh) && !is_kept(mesh));
     let mut hair = OwnHair {
         is_hair: model
             .meshes
@@ -108,12 +107,12 @@ pub(crate) fn find(
         locks: Vec::new(),
         notes: Vec::new(),
     };
-    let groups: Vec<Vec<Option<u32>>> = model
+    let mut groups: Vec<Vec<Option<u32>>> = model
         .meshes
         .iter()
         .enumerate()
         .map(|(index, mesh)| match &bones {
-            _ if !is_there(mesh) || is_kept(mesh) => vec![None; mesh.triangles.len()],
+            _ if is_kept(mesh) => vec![None; mesh.triangles.len()],
             Some(Bones {
                 kept: Some(kept), ..
             }) if is_named(mesh) => {
@@ -128,11 +127,16 @@ pub(crate) fn find(
             _ => vec![None; mesh.triangles.len()],
         })
         .collect();
+    for (groups, hidden) in groups.iter_mut().zip(hidden) {
+        for (group, _) in groups.iter_mut().zip(hidden).filter(|(_, hidden)| **hidden) {
+            *group = None;
+        }
+    }
     if groups.iter().flatten().all(Option::is_none) {
         return Ok(None);
     }
 
-    let frame = skull(model, orientation, &groups, is_there);
+    let frame = skull(model, orientation, &groups, hidden);
     let mut shells = 0;
     for (index, (mesh, groups)) in model.meshes.iter().zip(&groups).enumerate() {
         if groups.iter().all(Option::is_none) {
@@ -165,9 +169,12 @@ pub(crate) fn find(
             hair.locks.push(OwnLock { mesh: index, lock });
         }
     }
-    let caps = model.meshes.iter().zip(&groups).zip(&hair.is_hair);
+    let caps = (model.meshes.iter().zip(&groups)).zip(hair.is_hair.iter().zip(hidden));
     hair.is_cap = caps
-        .map(|((mesh, groups), is_hair)| cap_of(mesh, groups, is_hair))
+        .map(|((mesh, groups), (is_hair, hidden))| {
+            let cap = cap_of(mesh, groups, is_hair).into_iter().zip(hidden);
+            cap.map(|(is_cap, hidden)| is_cap && !hidden).collect()
+        })
         .collect();
     if shells > 0 {
         hair.notes
@@ -198,16 +205,12 @@ fn skull(
     model: &Model,
     orientation: &Orientation,
     groups: &[Vec<Option<u32>>],
-    is_there: impl Fn(&mesh_io::Mesh) -> bool,
+    hidden: &[Vec<bool>],
 ) -> HeadFrame {
-    let bare = model
-        .meshes
-        .iter()
-        .zip(groups)
-        .filter(|(mesh, _)| is_there(mesh));
-    let corners = bare.flat_map(|(mesh, groups)| {
-        let all = mesh.corners().zip(groups);
-        all.filter(|(_, group)| group.is_none())
+    let meshes = model.meshes.iter().zip(groups.iter().zip(hidden));
+    let corners = meshes.flat_map(|(mesh, (groups, hidden))| {
+        let all = mesh.corners().zip(groups.iter().zip(hidden));
+        all.filter(|(_, (group, hidden))| group.is_none() && !**hidden)
             .map(|(corners, _)| corners.map(|p| orientation.apply(p)))
     });
     let shape = Mesh::from_corners(corners);
@@ -222,16 +225,16 @@ fn skull(
 }
 
 impl OwnHair {
-    /// Takes the hair's triangles from meshes that are painted, one for each of `shown` of the model's meshes, or none; those that hair is of, as they
-    /// were.
+    /// Takes the hair's triangles and those that are hidden from meshes that are painted, whole ones of the model; those that hair is of, as they were.
     pub(crate) fn take_away(
         &self,
-        shown: impl Iterator<Item = usize>,
+        hidden: &[Vec<bool>],
         painted: &mut Vec<PaintedMesh>,
     ) -> BTreeMap<usize, PaintedMesh> {
         let mut whole = BTreeMap::new();
         let mut caps = Vec::new();
-        for (index, mesh) in shown.zip(painted.iter_mut()) {
+        for mesh in painted.iter_mut() {
+            let index = mesh.index;
             let (is_hair, is_cap) = (&self.is_hair[index], &self.is_cap[index]);
             if is_hair.contains(&true) {
                 whole.insert(index, mesh.clone());
@@ -242,11 +245,11 @@ impl OwnHair {
                 cap.is_cap = true;
                 caps.push(cap);
             }
-            let is_gone = is_hair.iter().zip(is_cap).map(|(hair, cap)| *hair || *cap);
-            let is_gone: Vec<bool> = is_gone.collect();
-            if is_gone.contains(&true) {
-                mesh.take_away(&is_gone);
-            }
+            let is_gone = (is_hair.iter().zip(is_cap)).zip(&hidden[index]);
+            let is_gone: Vec<bool> = is_gone
+                .map(|((hair, cap), hidden)| *hair || *cap || *hidden)
+                .collect();
+            mesh.take_away(&is_gone);
         }
         painted.append(&mut caps);
         painted.retain(|mesh| !mesh.triangles.is_empty());
@@ -274,10 +277,13 @@ impl OwnHair {
                 let id = strands.len() as u32;
                 strands.push(id, &strand.points, Some(half_width_m / frame.unit_m()))?;
                 tapers.push(taper);
-                held.push(if lock.is_tuft() {
-                    strand.points.len() as u32
-                } else {
-                    1
+                let points = strand.points.len() as u32;
+                held.push(match (lock.is_tuft(), lock.is_cut_off()) {
+                    // A bun whose strands swung by themselves would come apart.
+                    (true, _) => points,
+                    // It hangs from the rim of what it was cut off. There that would push it this way and that.
+                    (false, true) => points.min(2),
+                    (false, false) => 1,
                 });
                 colors.push(match painted.get(mesh) {
                     Some(painted) => colors_of(painted, &lock.triangles, &strand),
@@ -293,7 +299,6 @@ impl OwnHair {
         notes.extend(self.notes);
         Ok(HairModel {
             all_roots: strands.roots().collect(),
-            // A bun whose strands swung by themselves would come apart.
             held,
             tapers,
             own_colors: colors,
@@ -519,7 +524,7 @@ impl Bones {
 
 /// The chain that moves each triangle of a mesh: all of an island that chains move for the most part; else the triangles that one moves for the
 /// most part, and those beside them as far as it moves their corners. A vertex that was painted by mistake moves none for the most part.
-fn groups(chains: &[Option<u32>], model: &Model, index: usize) -> Vec<Option<u32>> {
+pub(crate) fn groups(chains: &[Option<u32>], model: &Model, index: usize) -> Vec<Option<u32>> {
     let mesh = &model.meshes[index];
     let vertices = 0..mesh.positions.len();
     let corners: Vec<BTreeMap<u32, f32>> = vertices

@@ -327,7 +327,7 @@ impl ObjectMotion {
         Dynamics::new(
             hair,
             &sizes,
-            object.bare_mesh(),
+            object.body_mesh(),
             &look.sections.dynamics,
             object.script().hold,
             fps,

@@ -1,6 +1,7 @@
 //! An object of a scene: hair on a head, how it moves, how it is drawn, and where it stands.
 
 use crate::bake;
+use crate::dynamics::BodyMesh;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::{self, HeadModel};
@@ -13,7 +14,6 @@ use crate::preset::Preset;
 use crate::script::{self, HeadPose, MotionScript};
 use crate::zones;
 use glam::{DQuat, DVec3, Vec3};
-use hair_io::Mesh;
 use rayon::prelude::*;
 use render::{Head, StrandInfo};
 use std::sync::Arc;
@@ -194,9 +194,13 @@ impl Object {
         rigid(pose, self.hair.head, self.pivot())
     }
 
-    /// The head's mesh as it was given, which hair cannot enter: however it is painted.
-    pub(crate) fn bare_mesh(&self) -> Option<&Mesh> {
-        self.bare_head.as_deref().map(|head| &head.mesh)
+    /// The head's shape as it was given, however it is painted, which hair cannot enter: but for what a skeleton moves by itself.
+    pub(crate) fn body_mesh(&self) -> Option<BodyMesh<'_>> {
+        let head = self.bare_head.as_deref()?;
+        Some(BodyMesh {
+            mesh: head.body.as_deref().unwrap_or(&head.mesh),
+            has_pieces: head.body.is_some(),
+        })
     }
 
     pub(crate) fn neck(&self) -> Option<&Neck> {

@@ -1,12 +1,12 @@
 //! Meshes in colours of their own: a character as its file paints it, and eyes, lashes, clothes or glasses beside a head.
 
 use crate::files::StageError;
+use crate::meant::meant;
 use crate::names::Names;
 use crate::pictures;
 use crate::preset::{AlphaChoice, MeshSection};
 use crate::things::{Moving, Placed, Thing};
 use effects::Image;
-use effects::preset::suggestion;
 use glam::{Vec2, Vec3};
 use hair_io::orient::Orientation;
 use mesh_io::{Alpha, Material, Mesh, Model, Wrap};
@@ -79,6 +79,9 @@ impl PaintedMesh {
 
     /// Takes triangles away; one a triangle tells which.
     pub(crate) fn take_away(&mut self, is_gone: &[bool]) {
+        if !is_gone.contains(&true) {
+            return;
+        }
         let mut numbers = vec![None; self.positions.len()];
         let (mut kept, mut triangles) = (Vec::new(), Vec::new());
         for (triangle, _) in self
@@ -125,29 +128,9 @@ impl MeshPaint {
 pub(crate) struct MeshNames<'a>(pub Names<'a>);
 
 impl MeshNames<'_> {
-    pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// Whether a mesh is named, or its material.
     pub(crate) fn have(&self, model: &Model, mesh: &Mesh) -> bool {
         names_of(model, mesh).any(|own| self.0.have(own))
-    }
-
-    /// That each is there, in this file.
-    pub(crate) fn check(&self, model: &Model, path: &Path) -> Result<(), StageError> {
-        let all = || model.meshes.iter().flat_map(|mesh| names_of(model, mesh));
-        match self.0.unknown(all) {
-            None => Ok(()),
-            Some(name) => Err(StageError::NoMesh {
-                path: path.to_owned(),
-                hint: match all().next() {
-                    None => ", its meshes have no names".to_owned(),
-                    Some(_) => suggestion(name, all()),
-                },
-                name: name.to_owned(),
-            }),
-        }
     }
 }
 
@@ -161,23 +144,19 @@ pub(crate) fn names_of<'m>(model: &'m Model, mesh: &'m Mesh) -> impl Iterator<It
     names.into_iter().flatten().filter(|name| !name.is_empty())
 }
 
-/// The meshes of a model that are meant, as they lie in our space.
+/// The meshes of a model of which anything is left, whole, as they lie in our space: `is_gone` tells of each mesh and each of its triangles whether it is not.
 pub(crate) fn of_model(
     model: &Model,
     path: &Path,
     orientation: &Orientation,
     section: Option<usize>,
-    is_meant: impl Fn(&Mesh) -> bool,
+    is_gone: &[Vec<bool>],
     notes: &mut Vec<String>,
 ) -> Result<Vec<PaintedMesh>, StageError> {
     let mut pictures = Pictures::new(model, path);
     let mut painted = Vec::new();
-    for (index, mesh) in model
-        .meshes
-        .iter()
-        .enumerate()
-        .filter(|(_, mesh)| is_meant(mesh))
-    {
+    for index in shown(is_gone) {
+        let mesh = &model.meshes[index];
         let material = mesh.material.and_then(|index| model.materials.get(index));
         let paint = match material {
             None => MeshPaint::NONE,
@@ -205,6 +184,14 @@ pub(crate) fn of_model(
     }
     notes.append(&mut pictures.notes);
     Ok(painted)
+}
+
+/// Which meshes have a triangle that is not gone.
+pub(crate) fn shown(is_gone: &[Vec<bool>]) -> impl Iterator<Item = usize> {
+    let meshes = is_gone.iter().enumerate();
+    meshes
+        .filter(|(_, gone)| gone.contains(&false))
+        .map(|(index, _)| index)
 }
 
 fn paint_of(
@@ -297,19 +284,22 @@ pub(crate) fn of_sections(
         let model = mesh_io::read_model(&path)?;
         let of_file = |note: &String| format!("{}: {note}", path.display());
         notes.extend(model.notes.iter().map(of_file));
-        let [only, hide] = [&section.only, &section.hide]
-            .map(|names| MeshNames(Names(names.as_deref().unwrap_or_default())));
-        only.check(&model, &path)?;
-        hide.check(&model, &path)?;
-        let is_meant =
-            |mesh: &Mesh| (only.is_empty() || only.have(&model, mesh)) && !hide.have(&model, mesh);
-        let mut meshes = of_model(&model, &path, orientation, Some(number), is_meant, notes)?;
+        let [only, hide] =
+            [&section.only, &section.hide].map(|names| Names(names.as_deref().unwrap_or_default()));
+        let mut is_gone = meant(hide, &model, &path)?;
+        if !only.is_empty() {
+            let wanted = meant(only, &model, &path)?;
+            let triangles = is_gone
+                .iter_mut()
+                .zip(&wanted)
+                .flat_map(|(g, w)| g.iter_mut().zip(w));
+            triangles.for_each(|(is_gone, wanted)| *is_gone |= !wanted);
+        }
+        let mut meshes = of_model(&model, &path, orientation, Some(number), &is_gone, notes)?;
         if let Some(picture_path) = section.texture_path(folder) {
             let image = picture(&picture_path)?;
-            for (mesh, own) in meshes
-                .iter_mut()
-                .zip(model.meshes.iter().filter(|m| is_meant(m)))
-            {
+            for mesh in &mut meshes {
+                let own = &model.meshes[mesh.index];
                 if own.uvs.is_empty() {
                     return Err(StageError::NoPlaces(path.clone()));
                 }
@@ -329,6 +319,7 @@ pub(crate) fn of_sections(
         };
         let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         for mesh in &mut meshes {
+            mesh.take_away(&is_gone[mesh.index]);
             mesh.names.extend(stem.iter().map(|stem| stem.to_string()));
             mesh.names.extend(section.name.clone());
             mesh.put(section, head, &placed);

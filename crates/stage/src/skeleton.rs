@@ -1,5 +1,7 @@
 //! A character that moves by its own skeleton: its file's animation poses bones and meshes.
 
+mod limbs;
+
 use crate::files::StageError;
 use crate::neck::pivot;
 use crate::painted::PaintedMesh;
@@ -8,6 +10,7 @@ use effects::preset::suggestion;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 use hair_io::orient::Orientation;
 use hair_sim::{Collider, Pose, Shape};
+use limbs::Limbs;
 use mesh_io::{Model, Rig};
 use render::Head;
 use std::path::Path;
@@ -17,6 +20,8 @@ use std::sync::Arc;
 const LOOKED_AT: u32 = 64;
 /// Hair that begins so deep in a collider in m, or deeper, is not kept out of it.
 const INSIDE_M: f64 = 0.005;
+/// A limb that hair is in at rest is so much thinner that it no longer is, down to this part of it.
+const THINNEST: f64 = 0.5;
 
 /// A character's model, and the animation that moves it.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,15 +39,34 @@ pub(crate) struct Skeleton {
     chest: Option<usize>,
     /// From each node's space into the world, and back, where nothing moves it.
     rest: Vec<[DAffine3; 2]>,
+    limbs: Limbs,
     bodies: Vec<Body>,
 }
 
-/// A collider of the file's, as it lies at rest, in m.
+/// A collider of the file's or a limb, as it lies at rest, in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Body {
     node: usize,
     ends: [DVec3; 2],
     radius: f64,
+}
+
+impl Body {
+    fn is_whole(&self) -> bool {
+        self.ends.iter().all(|end| end.is_finite()) && self.radius.is_finite()
+    }
+
+    /// How far hair is from its line, in m.
+    fn room(&self, hair: &[Vec3]) -> f64 {
+        let [from, to] = self.ends;
+        let way = to - from;
+        let away = |point: &Vec3| {
+            let point = point.as_dvec3();
+            let along = (point - from).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
+            point.distance(from + way * along.clamp(0.0, 1.0))
+        };
+        hair.iter().map(away).fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// Where bones have come to since rest, in the world.
@@ -53,7 +77,8 @@ pub(crate) struct Bones<'s> {
 }
 
 impl Skeleton {
-    /// The skeleton of a model that lies in our space by `orientation`, and the animation that the section names.
+    /// The skeleton of a model that lies in our space by `orientation`, and the animation that the section names. `is_gone` tells of each mesh and each of
+    /// its triangles whether it is not drawn.
     ///
     /// # Errors
     ///
@@ -63,6 +88,7 @@ impl Skeleton {
         path: &Path,
         orientation: &Orientation,
         section: &MotionSection,
+        is_gone: &[Vec<bool>],
     ) -> Result<Self, StageError> {
         let wrong = |message: String| StageError::Skeleton {
             path: path.to_owned(),
@@ -87,6 +113,7 @@ impl Skeleton {
             head,
             chest,
             rest: rest.into_iter().map(both).collect(),
+            limbs: Limbs::new(&model, rig, orientation, is_gone),
             bodies: Vec::new(),
             model: model.clone(),
         };
@@ -101,7 +128,8 @@ impl Skeleton {
         Ok(skeleton)
     }
 
-    /// The same with the colliders of its spring bones, but for those on the head, whose shape hair is kept out of, and those that hair is in at rest.
+    /// The same with the colliders of its spring bones, but for those on the head, whose shape hair is kept out of, and those that hair is in at rest; and
+    /// with the limbs that have none.
     pub fn with_bodies(mut self, hair: &[Vec3]) -> Self {
         let Some(rig) = &self.model.rig else {
             return self;
@@ -121,29 +149,48 @@ impl Skeleton {
                 radius: own.radius * size,
             }
         };
-        let holds_hair = |body: &Body| {
-            let [from, to] = body.ends;
-            let way = to - from;
-            hair.iter().any(|point| {
-                let point = point.as_dvec3();
-                let along = (point - from).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
-                let away = point.distance(from + way * along.clamp(0.0, 1.0));
-                away < body.radius - INSIDE_M
-            })
-        };
-        let colliders = rig
-            .springs
-            .colliders
-            .iter()
-            .filter(|own| !on_head[own.node]);
-        let is_whole =
-            |body: &Body| body.ends.iter().all(|end| end.is_finite()) && body.radius.is_finite();
-        self.bodies = colliders
+        let colliders = rig.springs.colliders.iter();
+        let mut bodies: Vec<Body> = colliders
+            .filter(|own| !on_head[own.node])
             .map(body)
-            .filter(is_whole)
-            .filter(|body| !holds_hair(body))
+            .filter(|body| body.is_whole() && body.room(hair) >= body.radius - INSIDE_M)
             .collect();
+        let limb_of = |body: &Body| self.limbs.of_nodes[body.node];
+        let covered: Vec<_> = bodies.iter().filter_map(limb_of).collect();
+        let limbs = self.limbs.bodies.iter().enumerate();
+        bodies.extend(limbs.filter_map(|(limb, body)| {
+            let body = (*body).filter(|_| !covered.contains(&limb))?;
+            let radius = body.radius.min(body.room(hair));
+            (radius >= THINNEST * body.radius).then_some(Body { radius, ..body })
+        }));
+        self.bodies = bodies;
         self
+    }
+
+    /// Of each mesh and each of its triangles whether it is on a limb that is a body of its own.
+    pub fn on_limbs(&self) -> Vec<Vec<bool>> {
+        let mut has_body: Vec<bool> = self.limbs.bodies.iter().map(Option::is_some).collect();
+        let rig = self.model.rig.iter();
+        for own in rig.flat_map(|rig| &rig.springs.colliders) {
+            if let Some(limb) = self.limbs.of_nodes[own.node] {
+                has_body[limb] = true;
+            }
+        }
+        let meshes = self.model.meshes.iter().enumerate();
+        let on_limbs = meshes.map(|(index, mesh)| {
+            let is_on = |vertex: usize| {
+                let limb = self.limbs.of_vertex(&self.model, index, vertex);
+                limb.is_some_and(|limb| has_body[limb])
+            };
+            let is_on: Vec<bool> = (0..mesh.positions.len()).map(is_on).collect();
+            let corners = |triangle: &[u32; 3]| triangle.map(|corner| is_on[corner as usize]);
+            let most = |on: [bool; 3]| on.into_iter().filter(|on| *on).count() >= 2;
+            mesh.triangles
+                .iter()
+                .map(|own| most(corners(own)))
+                .collect()
+        });
+        on_limbs.collect()
     }
 
     /// The animation's own time at `time`, seconds: before its start and after its end it stays.

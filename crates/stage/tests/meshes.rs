@@ -232,7 +232,7 @@ fn mistakes_are_told() {
     };
     let message = told("hide: \"Skul\"", "");
     assert!(
-        message.contains("no mesh or material is called `Skul`"),
+        message.contains("no mesh, material or bone is called `Skul`"),
         "{message}"
     );
     assert!(message.contains("did you mean `Skull`?"), "{message}");

@@ -19,6 +19,10 @@ const FRONT: [(f32, f32); 9] = [
     (-104.0, 20.0),
 ];
 
+/// How much lower than at the nose the front begins to turn down at this distance from it, both millimetres: light that leaves the front ends in a round cheek there,
+/// and not in a line from side to side.
+const CHEEK: (f32, f32) = (24.0, 50.0);
+
 /// How wide the edges between planes are, millimetres.
 const EDGE: f32 = 9.0;
 
@@ -31,7 +35,8 @@ pub(crate) fn facing(p: Vec3, normal: Vec3) -> Vec3 {
         * smooth((p.z - 0.015) * 1e3 / 10.0);
     let half = 2.0 * smooth(x / 12.0 + 0.5) - 1.0;
     // Below the eyes the front turns down a little.
-    let down = 0.08 - 0.12 * smooth((-28.0 - y) / 50.0);
+    let cheek = CHEEK.0 * (x / CHEEK.1).powi(2);
+    let down = 0.08 - 0.12 * smooth((-28.0 - cheek - y) / 50.0);
     let front = Vec3::new(0.30 * half, down, 1.0);
     normal.lerp(front.normalize(), within).normalize_or(normal)
 }

@@ -13,7 +13,8 @@ const BAND: f64 = 2.0;
 /// Distances from a mesh at the points of a regular grid, negative inside.
 ///
 /// Near the mesh they are exact; farther away the nearest triangle is passed on from point to point. A point is inside
-/// where rays along two of the three axes cross the mesh an odd number of times, so that a small hole does not matter.
+/// where rays along two of the three axes cross the mesh an odd number of times, so that a small hole does not matter; or, of a mesh
+/// [of pieces](Self::of_pieces), where four of the six rays along them leave more pieces than they enter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignedDistance {
     origin: DVec3,
@@ -64,6 +65,29 @@ impl SignedDistance {
     ///
     /// When the mesh is empty or invalid, or the grid too large.
     pub fn new(points: &[Vec3], triangles: &[[u32; 3]], cell: f64) -> Result<Self, GridError> {
+        Self::by(Inside::Odd, points, triangles, cell)
+    }
+
+    /// The same of a mesh of pieces, of which some may lie within others or cross them, as clothes and caps do, with holes and doubled walls: what is within
+    /// any of them is inside. Triangles face outwards (counter-clockwise seen from outside).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::new`].
+    pub fn of_pieces(
+        points: &[Vec3],
+        triangles: &[[u32; 3]],
+        cell: f64,
+    ) -> Result<Self, GridError> {
+        Self::by(Inside::Wound, points, triangles, cell)
+    }
+
+    fn by(
+        inside: Inside,
+        points: &[Vec3],
+        triangles: &[[u32; 3]],
+        cell: f64,
+    ) -> Result<Self, GridError> {
         let Extent {
             origin,
             size,
@@ -88,7 +112,7 @@ impl SignedDistance {
         };
         build.near();
         build.spread();
-        build.sign();
+        build.sign(inside);
         let mut grid = build.grid;
         grid.print = Hash::of(&grid.values);
         Ok(grid)
@@ -244,6 +268,18 @@ impl<'a> Placed<'a> {
     }
 }
 
+/// How it is told what is inside.
+#[derive(Clone, Copy)]
+enum Inside {
+    /// Rays cross the mesh an odd number of times.
+    Odd,
+    /// Rays leave more than they enter.
+    Wound,
+}
+
+/// Of the six rays from a point along the axes so many say inside where it is.
+const INSIDE: u8 = 4;
+
 /// How far a grid goes.
 struct Extent {
     origin: DVec3,
@@ -377,25 +413,25 @@ impl Build<'_> {
         }
     }
 
-    /// Negative where rays along at least two axes say inside.
-    fn sign(&mut self) {
+    /// Negative where most rays say inside.
+    fn sign(&mut self, inside: Inside) {
         let mut votes = vec![0_u8; self.grid.values.len()];
         for axis in 0..3 {
-            self.vote(axis, &mut votes);
+            self.vote(inside, axis, &mut votes);
         }
         for (value, votes) in self.grid.values.iter_mut().zip(votes) {
-            if votes >= 2 {
+            if votes >= INSIDE {
                 *value = -*value;
             }
         }
     }
 
-    fn vote(&self, axis: usize, votes: &mut [u8]) {
+    fn vote(&self, inside: Inside, axis: usize, votes: &mut [u8]) {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         let size = self.grid.size;
         // Rays a little off the grid, so that they meet no edge of a mesh that lies on it.
         let shift = 1.1e-4 * self.grid.cell;
-        let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); size[u] * size[v]];
+        let mut crossings: Vec<Vec<(f64, i32)>> = vec![Vec::new(); size[u] * size[v]];
         for corners in self.triangles {
             let p = corners.map(|c| c - self.grid.origin);
             let low = |k: usize| p[0][k].min(p[1][k]).min(p[2][k]) / self.grid.cell;
@@ -404,8 +440,8 @@ impl Build<'_> {
                 for i in (low(u).max(0.0) as usize)..=(high(u) as usize).min(size[u] - 1) {
                     let a = i as f64 * self.grid.cell + shift;
                     let b = j as f64 * self.grid.cell + 1.7 * shift;
-                    if let Some(depth) = crossing(p, axis, u, v, a, b) {
-                        crossings[j * size[u] + i].push(depth);
+                    if let Some(crossing) = crossing(p, axis, u, v, a, b) {
+                        crossings[j * size[u] + i].push(crossing);
                     }
                 }
             }
@@ -413,28 +449,39 @@ impl Build<'_> {
         for j in 0..size[v] {
             for i in 0..size[u] {
                 let line = &mut crossings[j * size[u] + i];
-                line.sort_by(f64::total_cmp);
+                line.sort_by(|a, b| a.0.total_cmp(&b.0));
+                let whole: i32 = line.iter().map(|crossing| crossing.1).sum();
+                let (mut passed, mut within) = (0, 0);
                 for k in 0..size[axis] {
                     let at = k as f64 * self.grid.cell;
-                    if line.partition_point(|&d| d < at) % 2 == 1 {
-                        let mut cell = [0; 3];
-                        (cell[axis], cell[u], cell[v]) = (k, i, j);
-                        votes[self.grid.index(cell[0], cell[1], cell[2])] += 1;
+                    while let Some((_, enters)) = line.get(passed).filter(|(d, _)| *d < at) {
+                        passed += 1;
+                        within += enters;
                     }
+                    let own = match inside {
+                        Inside::Odd => 2 * (passed % 2) as u8,
+                        // Those behind it, seen from the other side, it would leave as often as it enters.
+                        Inside::Wound => u8::from(within > 0) + u8::from(within > whole),
+                    };
+                    let mut cell = [0; 3];
+                    (cell[axis], cell[u], cell[v]) = (k, i, j);
+                    votes[self.grid.index(cell[0], cell[1], cell[2])] += own;
                 }
             }
         }
     }
 }
 
-/// Where a line along `axis` through (a, b) of the other two crosses a triangle.
-fn crossing(p: [DVec3; 3], axis: usize, u: usize, v: usize, a: f64, b: f64) -> Option<f64> {
+/// Where a line along `axis` through (a, b) of the other two crosses a triangle, and whether it enters there, 1, or leaves, -1.
+fn crossing(p: [DVec3; 3], axis: usize, u: usize, v: usize, a: f64, b: f64) -> Option<(f64, i32)> {
     let area = |q: DVec3, r: DVec3| (q[u] - a) * (r[v] - b) - (q[v] - b) * (r[u] - a);
     let w = [area(p[1], p[2]), area(p[2], p[0]), area(p[0], p[1])];
-    let inside = w.iter().all(|&w| w > 0.0) || w.iter().all(|&w| w < 0.0);
+    let (enters, leaves) = (w.iter().all(|&w| w < 0.0), w.iter().all(|&w| w > 0.0));
     let sum = w[0] + w[1] + w[2];
-    (inside && sum != 0.0)
-        .then(|| (w[0] * p[0][axis] + w[1] * p[1][axis] + w[2] * p[2][axis]) / sum)
+    ((enters || leaves) && sum != 0.0).then(|| {
+        let depth = (w[0] * p[0][axis] + w[1] * p[1][axis] + w[2] * p[2][axis]) / sum;
+        (depth, if enters { 1 } else { -1 })
+    })
 }
 
 /// The distance from a point to a triangle (Ericson 2005, 5.1.5: by the regions of Voronoi).
@@ -507,6 +554,50 @@ mod tests {
         // Outside of the grid too.
         assert!((grid.distance(DVec3::X * 1.1) - 1.0).abs() < 0.05);
         assert!(grid.distance(DVec3::X * 1.1) <= 1.0 + 1e-3);
+    }
+
+    /// A ball in a larger one, without a lid, that has a wall of its own: all of it is inside, and nothing else.
+    #[test]
+    fn pieces_are_inside_wherever_one_is() {
+        let (points, triangles) = ball();
+        let mut all = (points.clone(), triangles.clone());
+        let mut add = |size: f32, shift: Vec3, turned: bool, lid: f32| {
+            let first = all.0.len() as u32;
+            all.0.extend(points.iter().map(|p| *p * size + shift));
+            let open = |t: &&[u32; 3]| t.iter().all(|i| points[*i as usize].y < lid);
+            all.1.extend(triangles.iter().filter(open).map(|t| {
+                let [a, b, c] = t.map(|i| first + i);
+                if turned { [a, c, b] } else { [a, b, c] }
+            }));
+        };
+        // Around it one with a hole, and an inner wall that is not open; through both a third.
+        add(1.5, Vec3::ZERO, false, 0.09);
+        add(1.2, Vec3::X * 0.1, false, 1.0);
+        add(0.7, Vec3::X * 0.1, true, 1.0);
+        let cell = 0.006;
+        let grid = SignedDistance::of_pieces(&all.0, &all.1, cell).unwrap();
+        let mut counts = [0; 2];
+        for i in 0..4000 {
+            let t = f64::from(i);
+            let at = DVec3::new((t * 0.7).sin(), (t * 1.3).cos(), (t * 0.37).sin())
+                * (0.24 * (t * 0.11).sin().abs());
+            let (from_first, from_second) = (at.length(), (at - DVec3::X * 0.1).length());
+            let depths = [0.15 - from_first, 0.12 - from_second];
+            // Neither near a wall nor beside the hole.
+            let is_clear = depths.iter().all(|depth| depth.abs() > 0.01);
+            if !is_clear || (at.y > 0.12 && from_first < 0.18) {
+                continue;
+            }
+            let is_inside = depths.iter().any(|depth| *depth > 0.0);
+            // Within the wall that faces inwards is one piece less.
+            let is_hollow = from_second < 0.08 && depths[0] < 0.0;
+            if is_hollow {
+                continue;
+            }
+            counts[usize::from(is_inside)] += 1;
+            assert_eq!(grid.distance(at) < 0.0, is_inside, "{at}");
+        }
+        assert!(counts.iter().all(|count| *count > 300), "{counts:?}");
     }
 
     #[test]

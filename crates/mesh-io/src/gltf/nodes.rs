@@ -57,9 +57,12 @@ pub(super) fn read(document: &Document, buffers: &mut Buffers) -> Result<Rig, Gl
     let mut rig = Rig {
         nodes,
         order,
-        humanoid: humanoid(document),
         root: turn(document),
         ..Rig::default()
+    };
+    rig.humanoid = match (&document.extensions.vrm0, &document.extensions.vrm1) {
+        (None, None) => super::humanoid::by_name(&rig.nodes),
+        _ => humanoid(document),
     };
     for (number, skin) in document.skins.iter().enumerate() {
         let skin = read_skin(document, skin, buffers);
@@ -177,7 +180,7 @@ fn order(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, G
     }
 }
 
-/// The nodes of a humanoid's bones.
+/// The nodes of a humanoid's bones, as VRM says them.
 fn humanoid(document: &Document) -> BTreeMap<String, usize> {
     let vrm0 = document
         .extensions

@@ -17,6 +17,14 @@ const BODY_CELL: f64 = 1.0 / 32.0;
 /// How far from bodies hair is drawn, m, but where it starts nearer: paths bulge between their points.
 pub(super) const GAP_M: f32 = 1.4e-3;
 
+/// The shape of a head and what is below.
+#[derive(Clone, Copy)]
+pub(crate) struct BodyMesh<'m> {
+    pub mesh: &'m Mesh,
+    /// Whether it may be of several pieces, as a character's is: hair, skin and clothes.
+    pub has_pieces: bool,
+}
+
 /// Distances from head and shoulders.
 pub(crate) struct Bodies {
     head: Option<SignedDistance>,
@@ -24,16 +32,20 @@ pub(crate) struct Bodies {
 }
 
 impl Bodies {
-    /// The bodies of a head's mesh; none without one.
-    pub fn new(mesh: Option<&Mesh>, head: Head) -> Self {
+    /// The bodies of a head's mesh, which may be one of pieces; none without one.
+    pub fn new(mesh: Option<BodyMesh>, head: Head) -> Self {
         let height_m = f64::from(head.height_m);
         let half = |below: f32, keeps_above: bool, cell: f64| {
-            let mesh = mesh?;
+            let BodyMesh { mesh, has_pieces } = mesh?;
             let level = head.center.y + below * head.height_m;
             let end = Vec3::new(head.center.x, level, head.center.z - 0.12 * head.height_m);
             let (points, triangles) = cut(mesh, |p| (p.y > level) == keeps_above, end);
             // A mesh without a part there, or too large for a grid, has no body there.
-            SignedDistance::new(&points, &triangles, cell * height_m).ok()
+            let distances = match has_pieces {
+                true => SignedDistance::of_pieces,
+                false => SignedDistance::new,
+            };
+            distances(&points, &triangles, cell * height_m).ok()
         };
         Self {
             head: half(HEAD_ENDS, true, HEAD_CELL),

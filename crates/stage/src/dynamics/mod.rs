@@ -22,12 +22,12 @@ use crate::hand::Driver;
 use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
 use crate::posture::Posture;
+pub(crate) use bodies::BodyMesh;
 use bodies::{Bodies, GAP_M};
 use carried::Carried;
 pub(crate) use feel::ZoneDynamics;
 use feel::{Feel, Strand};
 use glam::{DVec3, Vec3};
-use hair_io::Mesh;
 #[cfg(feature = "compare")]
 use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
@@ -164,7 +164,7 @@ impl Dynamics {
     pub fn new(
         hair: &HairModel,
         sizes: &[f32],
-        mesh: Option<&Mesh>,
+        mesh: Option<BodyMesh>,
         section: &DynamicsSection,
         hold: [f64; 3],
         fps: f32,

@@ -35,6 +35,7 @@ pub(crate) fn surfaces(
 ) -> Vec<Surface> {
     let HeadModel {
         mesh,
+        body: _,
         facing,
         outline: _,
         clothes,

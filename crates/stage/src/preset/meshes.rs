@@ -60,9 +60,9 @@ section! {
         size: f32 = number(1.0, 0.001..=1000.0),
         /// How often wings beat.
         beat: f32 = number(1.0, 0.0..=100.0).unit("1/s"),
-        /// Which of its meshes: names of meshes or materials with commas between them, `*` for any end; without it all.
+        /// What of it: names of meshes or materials, or of bones for all that hangs on them, with commas between them, `*` for any end; without it all.
         only: Option<String> = text(),
-        /// Which of them not.
+        /// What of it not.
         hide: Option<String> = text(),
         /// A picture in place of the file's, relative to the preset: .png or .jpg. It lies on the mesh as the file's texture places say.
         texture: Option<String> = text(),

@@ -144,7 +144,7 @@ section! {
         /// Whose colours a head from a file has: this section's, or the file's own with its pictures and cut-outs. Then `light` and `shadow` say
         /// only how much darker the side away from the light is, where the file doesn't say it.
         colors: HeadColors = HeadColors::Preset.or_another(),
-        /// Which of the file's meshes are not there: names of meshes or materials with commas between them, `*` for any end.
+        /// What of the file is not there: names of meshes or materials, or of bones for all that hangs on them, with commas between them, `*` for any end.
         hide: Option<String> = text(),
         /// The file's upward axis.
         up: UpAxis = UpAxis::Guess.or_another(),

@@ -214,6 +214,98 @@ fn mistakes_name_their_place() {
     );
 }
 
+/// Her fringe hangs before a head of skin and cap that it was cut off: after a turn it comes back, and sleeps.
+#[test]
+fn godettes_fringe_rests_after_a_turn() {
+    let Some(data) = std::env::var_os("INKSTRAND_DATA") else {
+        return eprintln!("SKIPPED 1 test: INKSTRAND_DATA is not set");
+    };
+    let path = Path::new(&data).join("vrm/Godette_vrm_v4.vrm");
+    let text = format!(
+        "(version: 1, hair: (from: character), head: (file: {:?}, colors: file), motion: (file: \"head-turn.motion.ron\"), \
+         layers: [(effect: \"hair.base\")])",
+        path.display().to_string()
+    );
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets/motions");
+    let stage = scene_of(&folder, &text, &Files::default()).unwrap();
+    let mut motion = Motion::new();
+    let mut at = |time: f32| {
+        motion.advance_to(&stage, time).unwrap();
+        (motion.points(&stage, 0).to_vec(), motion.simulated())
+    };
+    let (rest, _) = at(0.0);
+    let (turned, _) = at(1.0);
+    let (found, _) = at(19.5);
+    let (later, stats) = at(20.0);
+    let farthest = |a: &[Vec3], b: &[Vec3]| {
+        let moves = a.iter().zip(b).map(|(a, b)| a.distance(*b));
+        moves.fold(0.0, f32::max)
+    };
+    assert!(farthest(&turned, &rest) > 0.05);
+    assert!(found == later, "{}", farthest(&found, &later));
+    assert!(stats.asleep > 0 && stats.strands == 0, "{stats:?}");
+    assert!(
+        farthest(&later, &rest) < 0.01,
+        "{}",
+        farthest(&later, &rest)
+    );
+}
+
+/// What no mesh is called may be what hangs on a bone.
+#[test]
+fn what_hangs_on_bones_may_be_hidden() {
+    let folder = folder(|_| {});
+    let with = |hide: &str| {
+        let text = format!(
+            "(version: 1, hair: (from: character), head: (file: \"girl.gltf\", colors: file, hide: \"{hide}\"), layers: [(effect: \"hair.base\")])"
+        );
+        scene_of(folder.path(), &text, &Files::default())
+    };
+    let whole = triangles(&scene(folder.path(), "from: character").unwrap());
+    assert!(triangles(&with("Bow").unwrap()) < whole);
+    // Of the bone's lock nothing is left that could be hair.
+    let message = with("hairfront").err().unwrap();
+    assert!(
+        message.contains("girl.gltf: no mesh or material is called hair"),
+        "{message}"
+    );
+    let message = with("HairFrnt").err().unwrap();
+    assert!(
+        message
+            .contains("no mesh, material or bone is called `HairFrnt`, did you mean `HairFront`?"),
+        "{message}"
+    );
+    // Below the neck hangs all.
+    let message = with("neck").err().unwrap();
+    assert!(message.contains("hides all of its meshes"), "{message}");
+}
+
+/// Godette's backpack is no mesh of its own.
+#[test]
+fn godettes_backpack_hangs_on_a_bone() {
+    let Some(data) = std::env::var_os("INKSTRAND_DATA") else {
+        return eprintln!("SKIPPED 1 test: INKSTRAND_DATA is not set");
+    };
+    let path = Path::new(&data).join("vrm/Godette_vrm_v4.vrm");
+    let with = |hide: &str| {
+        let text = format!(
+            "(version: 1, hair: (from: character), head: (file: {:?}, colors: file, width: 0 {hide}), layers: [(effect: \"hair.base\")])",
+            path.display().to_string()
+        );
+        scene_of(Path::new(""), &text, &Files::default()).unwrap()
+    };
+    let without = |hide: &str| with(&format!(", hide: \"{hide}\""));
+    let whole = with("");
+    // Her material of that name is the backpack, but for its logo and straps.
+    let [material, bone] = ["Backpack", "backpack_Armature"].map(without);
+    assert!(triangles(&bone) < triangles(&whole) && triangles(&material) < triangles(&whole));
+    // Her hair stays, but for what its size says of a head that is now told from less.
+    let (left, all) = (points(&bone), points(&whole));
+    assert_eq!(left.len(), all.len());
+    assert!(left.iter().zip(&all).all(|(a, b)| a.distance(*b) < 2e-3));
+    assert!(without("HairBall*").strand_count() < whole.strand_count());
+}
+
 #[test]
 fn hair_of_a_head_needs_the_heads_file() {
     let folder = folder(|_| {});

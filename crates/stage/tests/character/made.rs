@@ -30,6 +30,12 @@ impl Character {
         own
     }
 
+    /// The same with an arm of skin along X, in front of it and lower.
+    pub fn with_arm(mut self) -> Self {
+        self.add("Arm", [0.03, 1.2, 0.3], [0.1, 0.03, 0.03], 0);
+        self
+    }
+
     /// The same with its outside where the inside was, as some programs write it.
     pub fn inside_out(mut self) -> Self {
         for (_, triangles) in &mut self.meshes {

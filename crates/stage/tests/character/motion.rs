@@ -246,6 +246,50 @@ fn bodies_follow_the_skeleton() {
     assert!(free < 0.04 && pushed > 0.047, "{free} {pushed}");
 }
 
+/// An arm without a collider of the file's is as thick as its skin, where its bones are a humanoid's.
+#[test]
+fn limbs_push_hair_where_their_bones_take_them() {
+    let arm = Track {
+        node: 8,
+        path: "translation",
+        values: vec![-0.1, 1.2, 0.3, -0.1, 1.56, 0.14],
+    };
+    let nearest = |change: fn(&mut Value)| {
+        let character = Character::new().with_arm();
+        let folder = animated_one(&character, std::slice::from_ref(&arm), |file| {
+            let nodes = file["nodes"].as_array_mut().unwrap();
+            nodes[7]["translation"] = json!([0.1, -1.2, -0.3]);
+            nodes[7].as_object_mut().unwrap().remove("skin");
+            nodes.push(
+                json!({"name": "upper", "translation": [-0.1, 1.2, 0.3], "children": [7, 9]}),
+            );
+            nodes.push(json!({"name": "lower", "translation": [0.26, 0.0, 0.0]}));
+            let bones = json!({"head": {"node": 1}, "leftUpperArm": {"node": 8}, "leftLowerArm": {"node": 9}});
+            file["extensions"]["VRMC_vrm"] =
+                json!({"specVersion": "1.0", "humanoid": {"humanBones": bones}});
+            change(file);
+        });
+        let scene = scene(folder.path(), "character: true", "dynamics: (feel: soft),").unwrap();
+        let away = |p: &Vec3| (p.y - 1.56).hypot(p.z - 0.14);
+        let found = points_at(&scene, 1.2);
+        found.iter().map(away).fold(f32::INFINITY, f32::min)
+    };
+    let free = nearest(|file| {
+        file["extensions"]
+            .as_object_mut()
+            .unwrap()
+            .remove("VRMC_vrm");
+    });
+    let limb = nearest(|_| {});
+    let own = nearest(|file| {
+        let shape = json!({"sphere": {"offset": [0.13, 0.0, 0.0], "radius": 0.02}});
+        file["extensions"]["VRMC_springBone"]["colliders"] = json!([{"node": 8, "shape": shape}]);
+    });
+    assert!(free < 0.032 && own < 0.032, "{free} {own}");
+    // Three quarters of the skin are no farther than this from the bone.
+    assert!(limb > 0.037, "{limb}");
+}
+
 /// What was in the old hair and is not in the new one pushes that, as if it had been there from the beginning.
 #[test]
 fn bodies_are_chosen_anew_for_other_hair() {

@@ -192,14 +192,15 @@ fn of_pictures_surfaces_and_hair_the_nearest_shows() {
         }
         surface
     };
+    // To the left and above of pixels' edges, on which samples may lie.
     let mut near = at(plain([1, 0, 1]), Coverage::Ignored, 2.0);
     for vertex in &mut near.vertices {
-        vertex.position *= Vec2::new(0.5, 0.75);
+        vertex.position *= Vec2::new(0.499, 0.749);
     }
     let mut flat = square(1.5);
     (flat.light, flat.shadow) = (BLUE, BLUE);
     for vertex in &mut flat.vertices {
-        vertex.position.y *= 0.5;
+        vertex.position.y *= 0.499;
     }
     let cut = at(two_texels(CLEAR, WHITE), Coverage::Cut(0.5), 1.2);
     let far = at(plain([0, 1, 0]), Coverage::Ignored, 1.0);
