@@ -35,6 +35,12 @@ impl LineSet {
         self.kinds.crease.then_some(self.section.crease)
     }
 
+    /// Whether contours among them are followed from frame to frame, as something along them is to stay where it is: marks of brushes, or what a hand does.
+    pub fn is_followed(&self) -> bool {
+        let mut layers = self.layers.iter();
+        self.has_marks() || layers.any(|layer| layer.program.follows_lines())
+    }
+
     /// Whether brushes leave marks along them that are to stay on the surface.
     pub fn has_marks(&self) -> bool {
         // Others lie by the line's length: all of a list have the same places.
