@@ -52,7 +52,7 @@ impl Neck {
             true => head.center,
             false => pivot(head),
         };
-        let shares_of = |positions: &[Vec3]| shares(is_things, head, positions);
+        let shares_at = |positions: &[Vec3]| shares_of(is_things, head, positions);
         let patches = model.patches.iter().map(|patch| &patch.positions);
         let meshes = [&model.mesh.positions, &model.ornaments.positions];
         let painted = model.painted.iter().map(|mesh| &mesh.positions);
@@ -67,16 +67,16 @@ impl Neck {
             // A little more, for lines that are drawn around it.
             reach_m: from_pivot.fold(0.0, f32::max) + 0.02 * head.height_m,
             solid: Solid::within(&model.mesh, head),
-            shares: shares_of(&model.mesh.positions),
+            shares: shares_at(&model.mesh.positions),
             patch_shares: model
                 .patches
                 .iter()
-                .map(|patch| shares_of(&patch.positions))
+                .map(|patch| shares_at(&patch.positions))
                 .collect(),
             painted_shares: model
                 .painted
                 .iter()
-                .map(|mesh| shares_of(&mesh.positions))
+                .map(|mesh| shares_at(&mesh.positions))
                 .collect(),
             pivot: pivot(head),
             head,
@@ -188,7 +188,7 @@ impl PosedHead {
                 (Some(Moving::Beating(beating)), Some(time)) => Some(beating.at(time)),
                 (Some(Moving::Numbered(numbered)), time) => {
                     let formed = numbered.at(time.unwrap_or(0.0));
-                    let shares = shares(neck.rest.is_things, neck.head, &formed.positions);
+                    let shares = shares_of(neck.rest.is_things, neck.head, &formed.positions);
                     let rest = [&formed.positions[..], &formed.normals[..]];
                     posed.take_form(&formed);
                     motion.pose(&shares, rest, [&mut posed.positions, &mut posed.normals]);
@@ -213,7 +213,7 @@ impl PosedHead {
 }
 
 /// How much corners follow a head of this middle and height, in [`STEPS`]; things that stand in its place do so whole.
-fn shares(is_things: bool, head: Head, positions: &[Vec3]) -> Vec<u16> {
+fn shares_of(is_things: bool, head: Head, positions: &[Vec3]) -> Vec<u16> {
     let share = |p: &Vec3| {
         if is_things {
             return STEPS as u16;
