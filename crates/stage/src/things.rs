@@ -557,7 +557,7 @@ mod tests {
 
     #[test]
     fn wings_beat_and_come_back() {
-        let moving = Moving {
+        let moving = Beating {
             thing: Arc::new(thing(ThingChoice::Wings)),
             placed: Placed {
                 middle: Vec3::Y,

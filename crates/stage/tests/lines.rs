@@ -730,7 +730,7 @@ fn numbered_files_of_the_same_triangles_are_mixed_between() {
             x + 1.0
         )
     };
-    for (name, x) in [("a1.obj", 0.0), ("a2.obj", 2.0)] {
+    for (name, x) in [("a1.obj", 0.0), ("a2.obj", 0.4)] {
         fs::write(folder.path().join(name), square(x)).unwrap();
     }
     let lines = "(name: \"rim\", kind: \"border\")";
@@ -745,9 +745,9 @@ fn numbered_files_of_the_same_triangles_are_mixed_between() {
     };
     for (repeat, seconds, expected) in [
         (false, 0.0, [0.0, 1.0]),
-        (false, 0.5, [1.0, 2.0]),
-        (false, 9.0, [2.0, 3.0]),
-        (true, 1.5, [1.0, 2.0]),
+        (false, 0.5, [0.2, 1.2]),
+        (false, 9.0, [0.4, 1.4]),
+        (true, 1.5, [0.2, 1.2]),
         (true, 2.0, [0.0, 1.0]),
     ] {
         let found = extent(repeat, seconds);
