@@ -38,7 +38,8 @@ impl LineSet {
     /// Whether contours among them are followed from frame to frame, as something along them is to stay where it is: marks of brushes, or what a hand does.
     pub fn is_followed(&self) -> bool {
         let mut layers = self.layers.iter();
-        self.has_marks() || layers.any(|layer| layer.program.follows_lines())
+        let has_contours = self.kinds.contour;
+        self.has_marks() || has_contours && layers.any(|layer| layer.program.follows_lines())
     }
 
     /// Whether brushes leave marks along them that are to stay on the surface.

@@ -17,6 +17,8 @@ use std::path::{Path, PathBuf};
 
 /// The rows of a run with it, and ours beside them, as `bench lines --peers --store` wrote them.
 const STORED: &str = include_str!("../../stored/line-art.csv");
+/// What of Blender there is to install, as pip reads it.
+const INSTALLED: &str = include_str!("../../peers/line-art-requirements.txt");
 const COLUMNS: &str = "scene,method,knob,seconds,error";
 /// The methods that are stored.
 pub const METHOD: &str = "line-art";
@@ -180,6 +182,10 @@ pub fn file(rows: &[Row], machine: &[String]) -> String {
     let mut comments = vec![
         "Blender's Line Art, and our lines and tracking in the same run: written by `bench lines --peers --store`; seconds of one thread".to_owned(),
     ];
+    comments.push(format!(
+        "of {}",
+        INSTALLED.lines().last().unwrap_or_default()
+    ));
     comments.extend_from_slice(machine);
     let kept = rows
         .iter()

@@ -266,6 +266,9 @@ mod tests {
     #[test]
     fn a_hand_that_does_not_tremble_follows_nothing() {
         assert_eq!(steps("wings", STEADY, &[0, 1, 9]), [0; 3]);
+        // Nor does one that draws edges alone, which have places of their own.
+        let edges = scene("wings", "crease", TREMBLING);
+        assert_eq!(counts(&edges, &[0, 1, 9], HeadLines::steps), [0; 3]);
     }
 
     /// Also of a mesh that bends: creases are those at rest.
