@@ -302,9 +302,7 @@ mod tests {
             let camera = Camera::orbit(view, [960, 720], 0.01).unwrap();
             let pixel = |place: Vec3| camera.project(camera.view_from_world(place));
             let head_px = camera.px_per_metre(camera.depth(head.center)) * head.height_m;
-            let made = maker
-                .frame_seen_by(&scene, &motion, camera.clone())
-                .unwrap();
+            let made = maker.frame_seen_by(&scene, &motion, camera).unwrap();
             let along: Vec<f32> = made.rest_positions.iter().map(|place| place.x).collect();
             let links = || {
                 let runs = made.paths.runs.iter();
