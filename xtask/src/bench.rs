@@ -19,6 +19,8 @@ const SUITES: [&str; 10] = [
     COUNT,
 ];
 const COUNT: &str = "count";
+/// Suites that run other programs.
+const WITH_PEERS: [&str; 2] = ["dynamics", "lines"];
 /// Flags of the program's suites.
 const FLAGS: [&str; 3] = ["quick", "check", "peers"];
 
@@ -38,7 +40,7 @@ pub fn command() -> Command {
         .arg(flag("check").help("Fails if a target is missed"))
         .arg(
             flag("peers")
-                .help("Other programs too, by the Python that INKSTRAND_PYTHON names: dynamics"),
+                .help("Other programs too, by the Python that INKSTRAND_PYTHON names: dynamics, lines"),
         )
         .arg(flag("release").help("Counts the program that users run, in place of the tests' build: count"))
         .arg(flag("bless").help("Stores the counts as those that later ones are held to: count"))
@@ -68,8 +70,9 @@ pub fn run(args: &ArgMatches) -> Outcome {
     if bless {
         return Err(format!("bench {name} stores nothing: --bless is for count alone").into());
     }
-    if args.get_flag("peers") && name != "dynamics" {
-        return Err(format!("bench {name} has no peers to run: those of dynamics alone").into());
+    if args.get_flag("peers") && !WITH_PEERS.contains(&name) {
+        let with_peers = WITH_PEERS.join(" and ");
+        return Err(format!("bench {name} has no peers to run: {with_peers} have").into());
     }
     let mut command = cargo(&[
         "run",

@@ -11,6 +11,7 @@ pub mod frame;
 pub mod lines;
 pub mod page;
 pub mod plot;
+pub mod python;
 pub mod ratios;
 pub mod results;
 pub mod scale;

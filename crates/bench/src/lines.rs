@@ -1,9 +1,10 @@
 //! Suite `lines`: how long it takes to find what an eye sees of a mesh's lines, against how much of their length is found wrong; beside an image of
-//! triangles' numbers, as older systems have it; and the time of lines and tracking on meshes of known size.
+//! triangles' numbers, as older systems have it, and Blender's Line Art; and the time of lines and tracking on meshes of known size.
 //!
 //! What is right is said by a ray for each place. An eye sees each mesh whole within 30 degrees.
 
 pub mod id_image;
+pub mod line_art;
 pub mod subjects;
 
 use crate::BenchError;
@@ -13,14 +14,16 @@ use crate::targets::{Found, Limit, Target};
 use glam::DVec3;
 use id_image::IdImage;
 use indicatif::ProgressBar;
+use line_art::LineArt;
 use mesh_lines::{Bvh, Frame, Line, MeshError, Span, Tracker, View, is_seen, visible};
 use stage::ThingChoice;
 use std::path::PathBuf;
 use std::time::Instant;
 use subjects::{Subject, dented, linked};
 
-/// What the suite can't measure here.
-pub const NOT_MEASURED: &str = "not measured: Blender's Line Art, which needs Blender's own Python module; no row of it is stored";
+/// What is said where Line Art's rows are those that are stored.
+const IS_STORED: &str =
+    "line-art: Blender's, as it is stored, of another run; `--peers` asks Blender's Python module";
 
 /// Lines of pictures, and of images of numbers.
 const SIZES: [usize; 4] = [180, 360, 720, 1440];
@@ -30,6 +33,8 @@ const USUAL: usize = 720;
 const WRONG: f64 = 1e-3;
 /// Places at which a ray is asked are so far apart, of 720 lines, in pixels.
 const APART_PX: f64 = 3.0;
+/// Of Line Art's time lines and tracking may take this share.
+const OF_LINE_ART: f64 = 0.05;
 /// Seconds that lines and tracking may take, by triangles.
 const SPEEDS: [(u32, f64); 2] = [(10_000, 2e-3), (120_000, 12e-3)];
 
@@ -42,6 +47,8 @@ pub struct Options {
     pub quick: bool,
     /// Threads, for the comment: lines are found by one.
     pub threads: usize,
+    /// Blender's Line Art, if it is to be asked.
+    pub line_art: Option<LineArt>,
 }
 
 /// All that was measured.
@@ -50,6 +57,8 @@ pub struct Measured {
     pub rows: Vec<Row>,
     /// Errors and times.
     pub targets: Vec<Target>,
+    /// What is said of the machine.
+    pub machine: Vec<String>,
 }
 
 /// How long a pixel is in the image where a picture has so many lines.
@@ -78,6 +87,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
     let mut measured = Measured {
         rows: Vec::new(),
         targets: Vec::new(),
+        machine: results::machine(options.threads, &["mesh-lines"]),
     };
     for subject in subjects {
         let subject = subject.map_err(fault)?;
@@ -95,6 +105,11 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
             limit: Limit::AtMost(WRONG),
         });
         measured.rows.extend(rows);
+        if let Some(line_art) = &options.line_art {
+            let eyes: Vec<DVec3> = subject.eyes(eyes).collect();
+            let row = line_art.row(&subject, &eyes, true, &options.out)?;
+            measured.rows.push(row);
+        }
         progress.inc(1);
     }
     for (triangles, most) in SPEEDS {
@@ -108,6 +123,17 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
             found: rows.first().map(|row| Found::Is(1e3 * row.seconds)),
             limit: Limit::AtMost(1e3 * most),
         });
+        if let Some(line_art) = &options.line_art {
+            let eyes: Vec<DVec3> = (0..frames).map(|frame| eye_of(&subject, frame)).collect();
+            let row = line_art.row(&subject, &eyes, false, &options.out)?;
+            let own = rows.first().map(|own| own.seconds / row.seconds);
+            measured.targets.push(Target {
+                text: format!("{name}: lines and tracking / Blender's Line Art, seconds"),
+                found: own.map(Found::Is),
+                limit: Limit::AtMost(OF_LINE_ART),
+            });
+            measured.rows.push(row);
+        }
         measured.rows.extend(rows);
         progress.inc(1);
     }
@@ -122,9 +148,15 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         "id-image: the same lines, an image of numbers of triangles with so many lines drawn by one thread without a graphics card, and a \
          look-up each pixel; no tracking"
             .to_owned(),
-        NOT_MEASURED.to_owned(),
+        "line-art: Blender's, whose lines are edges of triangles, and are held against rays from these".to_owned(),
     ];
-    comments.extend(results::machine(options.threads, &["mesh-lines"]));
+    if options.line_art.is_none() {
+        comments.push(IS_STORED.to_owned());
+        let rows = line_art::stored()?.into_iter();
+        let its = rows.filter(|row| row.method == line_art::METHOD);
+        measured.rows.extend(its);
+    }
+    comments.extend(measured.machine.iter().cloned());
     let csv = results::csv("lines", &comments, &measured.rows);
     results::save(&options.out, "lines.csv", &csv)?;
     let svg = plot::time_against_error(&measured.rows, "share of the length that is wrong")?;
@@ -252,6 +284,12 @@ fn errors(subject: &Subject, eyes: usize) -> Result<Vec<Row>, MeshError> {
         .collect())
 }
 
+/// An eye that goes around a mesh.
+fn eye_of(subject: &Subject, frame: usize) -> DVec3 {
+    let (sin, cos) = (0.01 * frame as f64).sin_cos();
+    subject.middle + 4.2 * subject.radius * DVec3::new(sin, 0.2, cos)
+}
+
 /// Lines and tracking while an eye goes around, and the parts of that time.
 fn speeds(subject: &Subject, frames: usize) -> Result<Vec<Row>, MeshError> {
     let surface = subject.surface(&subject.positions)?;
@@ -259,9 +297,7 @@ fn speeds(subject: &Subject, frames: usize) -> Result<Vec<Row>, MeshError> {
     let mut tracker = Tracker::default();
     let mut times = [const { Vec::new() }; 4];
     for frame in 0..frames {
-        let (sin, cos) = (0.01 * frame as f64).sin_cos();
-        let eye = subject.middle + 4.2 * subject.radius * DVec3::new(sin, 0.2, cos);
-        let view = View::perspective(eye.as_vec3())?;
+        let view = View::perspective(eye_of(subject, frame).as_vec3())?;
         let start = Instant::now();
         let (lines, facing) = subject.lines(&surface, &view)?;
         let found = start.elapsed().as_secs_f64();

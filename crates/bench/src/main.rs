@@ -8,6 +8,7 @@
 use bench::BenchError;
 use bench::backends::Card;
 use bench::dynamics::{self, peers::Peers, stored};
+use bench::lines::line_art::LineArt;
 use bench::page::{self, Finished};
 use bench::results::Row;
 use bench::targets::{Target, report};
@@ -95,6 +96,12 @@ struct RatioOptions {
 struct LineOptions {
     #[command(flatten)]
     common: Options,
+    /// Blender's Line Art too, by the Python that INKSTRAND_PYTHON names [default: python3]
+    #[arg(long)]
+    peers: bool,
+    /// Stores Line Art's rows as those that are shown where it isn't asked
+    #[arg(long, requires = "peers", conflicts_with = "quick")]
+    store: bool,
 }
 
 #[derive(clap::Args)]
@@ -216,6 +223,8 @@ fn all(options: &CardOptions) -> Result<ExitCode, BenchError> {
         cartoon(options)?,
         lines(&LineOptions {
             common: options.common.clone(),
+            peers: false,
+            store: false,
         })?,
         skip(&with_ratios())?,
     ];
@@ -321,9 +330,14 @@ fn finished(
     }
 }
 
-fn peers() -> Result<Peers, BenchError> {
+/// The Python that has other programs.
+fn python() -> PathBuf {
     let python = std::env::var_os("INKSTRAND_PYTHON");
-    Peers::new(&root(), python.unwrap_or_else(|| "python3".into()).into())
+    python.unwrap_or_else(|| "python3".into()).into()
+}
+
+fn peers() -> Result<Peers, BenchError> {
+    Peers::new(&root(), python())
 }
 
 fn dynamics(options: &DynamicsOptions) -> Result<Finished, BenchError> {
@@ -386,15 +400,22 @@ fn coherence(options: &CoherenceOptions) -> Result<Finished, BenchError> {
 
 fn lines(options: &LineOptions) -> Result<Finished, BenchError> {
     let common = &options.common;
+    let line_art = || LineArt::new(&root(), python());
     let suite = lines::Options {
         out: common.out.clone(),
         quick: common.quick,
         threads: common.threads(),
+        line_art: options.peers.then(line_art).transpose()?,
     };
     let measured = with_progress(|progress| lines::run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
     println!("{}", report(&measured.targets));
-    println!("{}", lines::NOT_MEASURED);
+    if options.store {
+        let path = root().join("crates/bench/stored/line-art.csv");
+        let file = lines::line_art::file(&measured.rows, &measured.machine);
+        results::write(&path, &file).map_err(|error| format!("{}: {error}", path.display()))?;
+        println!("stored Line Art's rows");
+    }
     let files = ["lines.csv", "lines.svg"];
     Ok(finished(
         "lines",

@@ -113,7 +113,7 @@ pub(crate) const INPUTS: &[Input] = &[
     input("material_normal", Vec3, Both, "unit vector across the strand that turns as it twists, outwards at rest; cross(forward, it) is the binormal")
         // The clump declares it, and reads it where its parameters say so.
         .where_empty(|| quote!(::effects::wgsl::vec3([0.0; 3]))),
-    input("rest_position", Vec3, Both, "where the strand is here at rest, head heights from the head's centre: x to its left, y up, z to the face"),
+    input("rest_position", Vec3, Both, "where the strand is here at rest, head heights from the head's centre: x to its left, y up, z to the face; on a contour of a surface, which is at rest nowhere, a place that stays with it from frame to frame: x is how far along it is"),
     input("from_ends", Vec2, Both, "how far it is, as it is seen, to where the strand begins (x) and where it ends (y), metres at its depth"),
     input("path_weight", F32, Both, "how much of a path that the effect made is there, as its `make_paths` says it; 1 on strands"),
     input("unit", F32, ToEffects, "one unit of the layer's widths in 1/300 of the head's height: 1, or a pixel's size at 720 lines")

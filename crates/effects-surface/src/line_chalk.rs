@@ -13,6 +13,10 @@ impl effects::StrokeEffect for LineChalk {
     const RANK: i32 = -100;
     const IS_FOR_LINES: bool = true;
 
+    fn follows_lines(params: &Params) -> bool {
+        params.wobble > 0.0 || params.pressure > 0.0
+    }
+
     fn reach(params: &Params) -> effects::Reach {
         effects::Reach {
             clumps: 0.0,
@@ -76,6 +80,30 @@ mod tests {
     fn it_conforms() {
         effects_testkit::assert_conforms::<LineChalk>();
         effects_testkit::assert_steady::<LineChalk>(&[]);
+    }
+
+    #[test]
+    fn lines_are_followed_where_the_hand_does_something() {
+        let follows = |set: &[(&str, &str)]| {
+            let mut registry = Registry::new();
+            crate::register(&mut registry).unwrap();
+            let ink = registry.get("line.ink").unwrap();
+            let chalk = registry.get("line.chalk").unwrap();
+            [ink, chalk].map(|effect| {
+                let mut values = Values::defaults(effect.params());
+                for (name, text) in set {
+                    // Ink has no pressure.
+                    if effect.params().iter().any(|param| param.name == *name) {
+                        values.set_text(effect.id(), name, text).unwrap();
+                    }
+                }
+                effect.program(&values).follows_lines()
+            })
+        };
+        assert_eq!(follows(&[]), [true; 2]);
+        assert_eq!(follows(&[("wobble", "0")]), [false, true]);
+        let still = [("wobble", "0"), ("pressure", "0")];
+        assert_eq!(follows(&still), [false; 2]);
     }
 
     #[test]

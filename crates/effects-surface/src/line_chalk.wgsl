@@ -7,7 +7,7 @@ struct Params {
     /// How much the hand's pressure varies along the line: where it presses less the line is narrower, and of the pale colour.
     /// @range 0..1 @default 0.5
     pressure: f32,
-    /// How far it is from where the hand presses to where it presses less. Both are fixed to the surface.
+    /// How far it is from where the hand presses to where it presses less. Both stay where they are: of edges on the surface, of outlines along them.
     /// @unit head heights @range 0.01..10 @default 0.3
     pressure_length: f32,
     /// How much less the hand presses where the surface faces the light.

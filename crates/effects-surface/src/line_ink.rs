@@ -13,6 +13,10 @@ impl effects::StrokeEffect for LineInk {
     const RANK: i32 = -100;
     const IS_FOR_LINES: bool = true;
 
+    fn follows_lines(params: &Params) -> bool {
+        params.wobble > 0.0
+    }
+
     fn reach(params: &Params) -> effects::Reach {
         effects::Reach {
             clumps: 0.0,

@@ -10,7 +10,7 @@ struct Params {
     /// Factor on the width where the surface faces the light: below 1 lines are bold in shadow and thin in light.
     /// @range 0..1.5 @default 0.6
     light_width: f32,
-    /// How much the width trembles, as a hand's does, up or down. Trembles are fixed to the surface.
+    /// How much the width trembles, as a hand's does, up or down. Trembles stay where they are: of edges on the surface, of outlines along them.
     /// @range 0..1 @default 0.25
     wobble: f32,
     /// How far it is from one tremble to the next.

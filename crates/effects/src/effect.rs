@@ -96,6 +96,14 @@ pub trait StrokeEffect: Send + Sync + 'static {
         false
     }
 
+    /// Of an effect for lines ([`Self::IS_FOR_LINES`]) that reads [`Input::RestPosition`]: whether its strokes hang on that. Contours are at rest nowhere, as
+    /// they are elsewhere on the surface in each frame: where they do, contours are followed from frame to frame, and have places of their own there, which stay with them. The
+    /// parameters are the largest that there are along lines and from line to line.
+    fn follows_lines(params: &<Self::Program as Parameters>::Params) -> bool {
+        let _ = params;
+        true
+    }
+
     /// How far strokes reach, where that is less than any may: what is far off the picture, or behind a head, costs less then. The
     /// parameters are the largest that there are along strands and from strand to strand.
     fn reach(params: &<Self::Program as Parameters>::Params) -> Reach {
@@ -225,6 +233,8 @@ pub trait LayerProgram: Send + Sync {
     fn shortest(&self) -> f32;
     /// [`StrokeEffect::needs_point_light`].
     fn needs_point_light(&self) -> bool;
+    /// [`StrokeEffect::follows_lines`] of an effect that is asked for that.
+    fn follows_lines(&self) -> bool;
     /// [`StrokeEffect::OWN_PATHS`].
     fn has_own_paths(&self) -> bool;
     /// [`StrokeEffect::ON_UNDERCOAT`].
@@ -364,6 +374,11 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn needs_point_light(&self) -> bool {
         E::needs_point_light(self.params.base())
+    }
+
+    fn follows_lines(&self) -> bool {
+        let reads_rest = E::Program::INPUTS.contains(&Input::RestPosition);
+        E::IS_FOR_LINES && reads_rest && E::follows_lines(&self.params.greatest())
     }
 
     fn has_own_paths(&self) -> bool {

@@ -83,7 +83,7 @@ pub use error::MeshError;
 pub use line::{Kind, Line, LinePoint, Segment};
 pub use surface::{Place, Surface};
 pub use topology::{Beside, Topology};
-pub use track::{Frame, Path, PathJoint, Tracker};
+pub use track::{Frame, Path, PathJoint, REACH_PX, Tracker};
 pub use view::View;
 pub use visibility::{Cut, Span, is_seen, visible};
 pub use walk::walk_to_zero;

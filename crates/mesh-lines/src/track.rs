@@ -11,8 +11,8 @@ use std::{collections::HashMap, ops::Range};
 const SAMPLE_PX: f64 = 4.0;
 /// More samples no path has: it would be longer than any picture shows.
 const MOST_SAMPLES: f64 = 16_384.0;
-/// How far a sample goes at most to the contour of the next frame.
-const REACH_PX: f64 = 6.0;
+/// How far a sample goes at most to the contour of the next frame, in pixels: a place on a line that is farther from where it was isn't where the line has come to.
+pub const REACH_PX: f64 = 6.0;
 /// How far the knots of T are apart.
 const KNOT_PX: f64 = 48.0;
 /// A group of votes has at least so many, and is so long: in pixels, and as a share of its line.
@@ -374,6 +374,19 @@ impl Tracker {
 }
 
 impl Path {
+    /// How many pixels of it are drawn.
+    #[must_use]
+    pub fn shown_px(&self) -> f64 {
+        let length_at = |along: f64| {
+            let after = self.joints.partition_point(|joint| joint.along < along);
+            let after = after.clamp(1, self.joints.len() - 1);
+            let [a, b] = [self.joints[after - 1], self.joints[after]];
+            let share = (along - a.along) / (b.along - a.along).max(f64::MIN_POSITIVE);
+            a.length_px + (b.length_px - a.length_px) * share.clamp(0.0, 1.0)
+        };
+        length_at(self.shown[1]) - length_at(self.shown[0])
+    }
+
     /// From where to where it goes.
     fn whole(&self) -> [f64; 2] {
         match self.joints[..] {

@@ -2,7 +2,10 @@
 //!
 //! A line goes from seen to hidden, or back, only where it crosses a nearer contour or border in the image, where it meets another line on the surface, where it goes through a surface, and at a contour's cusps (Bénard and Hertzmann, *Line
 //! drawings from 3D models*, 2019, chapter on visibility). Between two such events three rays decide for the whole piece: what single rays get wrong
-//! near the horizon, where triangles stand before and behind the smooth surface, makes no gaps.
+//! near the horizon, where triangles stand before and behind the smooth surface, makes no gaps. Where rays say that it changes once between two events, it is cut there.
+//!
+//! Events are where lines cross, and what hides are triangles, whose own horizon is up to a sagitta beside the smooth contour: at a shallow angle it hides a line many pixels before
+//! or behind the crossing. So borders between what is seen and what isn't are moved to where rays change.
 
 use crate::{
     Bvh, Kind, Line, MeshError, Ray, Surface, View, crossings::crossings, junctions::junctions,
@@ -12,7 +15,17 @@ use glam::DVec3;
 use std::ops::ControlFlow;
 
 /// Where rays are shot in a piece between two events, as shares of its length in the image.
-const RAYS: [f64; 3] = [0.25, 0.5, 0.75];
+const RAYS: [f64; 3] = [0.25, 0.75, 0.5];
+/// Where the first two of them disagree so many are shot, to find whether there is one place from which on the eye sees the rest.
+const MORE_RAYS: usize = 9;
+/// That place is known to the piece's length over 2 to the power of this.
+const HALVINGS: usize = 16;
+/// Rays beside a border begin so near to it: as a share of the shortest piece, or of their own if there is no such.
+const BESIDE_SHORTEST: f64 = 0.05;
+const BESIDE: f64 = 1e-3;
+/// A border is moved through no more than this share of a piece, in steps that double, and then to one of them over 2 to the power of this.
+const MOST_MOVED: f64 = 0.5;
+const SETTLINGS: usize = 8;
 /// By how many sagittas a ray starts before the triangles: the corner of one is up to 4/3 of an edge's below the smooth surface.
 const CLEARANCE: f64 = 2.0;
 /// Within so many of the last digits of f32 two places are one.
@@ -50,7 +63,8 @@ pub enum Cut {
 /// shorter than `shortest` in the image ([`View`]; a pixel, or 0) become as the longer one of their neighbours. Everything counts that lies between a line and
 /// the eye, also near to it; of what is to hide each other, make one mesh.
 ///
-/// The cost is near to `n log n` in the lines' segments and crossings, and three rays for each piece.
+/// The cost is near to `n log n` in the lines' segments and crossings, two rays for each piece, up to 28 where they disagree, and two for each border between what is seen and what isn't,
+/// some 20 where it is moved.
 ///
 /// # Errors
 ///
@@ -80,10 +94,45 @@ pub fn visible(
         }
         let lengths = line.image_lengths(view);
         events.extend(pierced(surface, bvh, line));
-        let mut pieces = pieces(surface, line, &events, &lengths);
-        for piece in &mut pieces {
-            piece.seen = !piece.inside && rays.see_most(line, piece, &lengths);
+        let pieces = pieces(surface, line, &events, &lengths);
+        let is_around = line.closed && pieces.len() == 1;
+        let mut decided = Vec::with_capacity(pieces.len());
+        for piece in pieces {
+            let (seen, change) = match piece.inside {
+                true => (false, None),
+                false => rays.look(line, &piece, &lengths),
+            };
+            let Some(share) = change.filter(|_| !is_around) else {
+                decided.push(Piece { seen, ..piece });
+                continue;
+            };
+            // Most of it is seen, or hidden: the other side of the middle isn't.
+            let place = place_at(&piece, &lengths, share);
+            let is_first = share > 0.5;
+            decided.push(Piece {
+                end: place,
+                length: piece.length * share,
+                seen: seen == is_first,
+                ..piece
+            });
+            let rest = Piece {
+                start: place,
+                length: piece.length * (1.0 - share),
+                seen: seen != is_first,
+                ..piece
+            };
+            let around = line.segments.len() as f64;
+            if place < around {
+                decided.push(rest);
+            } else {
+                // Beyond a closed line's first point: there it comes before all others.
+                let [start, end] = [rest.start, rest.end].map(|at| at - around);
+                decided.insert(0, Piece { start, end, ..rest });
+            }
         }
+        let mut pieces = decided;
+        join(&mut pieces, line);
+        rays.settle(line, &mut pieces, &lengths, shortest);
         join_short(&mut pieces, line, shortest);
         spans.extend(seen_spans(line, number, &pieces));
     }
@@ -304,17 +353,116 @@ impl<'a> Rays<'a> {
         }
     }
 
-    /// True if most rays from a piece reach the eye.
-    fn see_most(&self, line: &Line, piece: &Piece, lengths: &[f64]) -> bool {
-        let mut seen = 0;
-        for (shot, share) in RAYS.into_iter().enumerate() {
-            seen += usize::from(self.see(line, place_at(piece, lengths, share)));
-            // Two that agree need no third.
-            if shot == 1 && seen != 1 {
-                break;
+    /// Whether most of three rays from a piece reach the eye; and where they change from one place on, as a share of the piece's length, unless they agree or
+    /// change more than once.
+    fn look(&self, line: &Line, piece: &Piece, lengths: &[f64]) -> (bool, Option<f64>) {
+        let see = |share: f64| self.see(line, place_at(piece, lengths, share));
+        let [first, last, middle] = RAYS;
+        let seen = see(first);
+        // Two that agree need no third.
+        if seen == see(last) {
+            return (seen, None);
+        }
+        let shares = (0..MORE_RAYS).map(|i| (i as f64 + 0.5) / MORE_RAYS as f64);
+        let answers: Vec<(f64, bool)> = shares.map(|share| (share, see(share))).collect();
+        let mut changes = answers.windows(2).filter(|pair| pair[0].1 != pair[1].1);
+        let (Some(pair), None) = (changes.next(), changes.next()) else {
+            return (see(middle), None);
+        };
+        let (mut before, mut after) = (pair[0].0, pair[1].0);
+        for _ in 0..HALVINGS {
+            let half = 0.5 * (before + after);
+            if see(half) == seen {
+                before = half;
+            } else {
+                after = half;
             }
         }
-        seen >= 2
+        let share = 0.5 * (before + after);
+        (if share > 0.5 { seen } else { !seen }, Some(share))
+    }
+
+    /// Moves the borders between what is seen and what isn't to where rays change.
+    fn settle(&self, line: &Line, pieces: &mut Vec<Piece>, lengths: &[f64], shortest: f64) {
+        let around = line.segments.len() as f64;
+        let moves = |(number, before): (usize, &Piece)| {
+            let next = neighbour(pieces, line, number, true)?;
+            let after = &pieces[next];
+            if before.inside || after.inside || before.seen == after.seen {
+                return None;
+            }
+            let forth = self.other_side(line, after, lengths, shortest, |share| share);
+            if forth > 0.0 {
+                let length = forth * after.length;
+                return Some((number, next, place_at(after, lengths, forth), length));
+            }
+            let back = self.other_side(line, before, lengths, shortest, |share| 1.0 - share);
+            let place = place_at(before, lengths, 1.0 - back);
+            (back > 0.0).then_some((number, next, place, -back * before.length))
+        };
+        // All by the pieces as they were, so that it makes no difference where a closed line begins.
+        let moves: Vec<_> = pieces.iter().enumerate().filter_map(moves).collect();
+        for (before, after, place, length) in moves {
+            pieces[before].length += length;
+            pieces[after].length -= length;
+            // The last piece of a closed line is followed by the first, a turn later.
+            let turn = match after > before {
+                true => 0.0,
+                false if length > 0.0 => around,
+                false => -around,
+            };
+            let (end, start) = match length > 0.0 {
+                true => (place + turn, place),
+                false => (place, place + turn),
+            };
+            (pieces[before].end, pieces[after].start) = (end, start);
+        }
+        // One that begins before a closed line's first point now comes after all others.
+        if let Some(&Piece { start, end, .. }) = pieces.first()
+            && start < 0.0
+        {
+            let first = pieces.remove(0);
+            let [start, end] = [start, end].map(|at| at + around);
+            pieces.push(Piece {
+                start,
+                end,
+                ..first
+            });
+        }
+    }
+
+    /// How far into a piece rays see what they see on the other side of one of its ends, as a share of its length; `from_end` gives the place of
+    /// such a share.
+    fn other_side(
+        &self,
+        line: &Line,
+        piece: &Piece,
+        lengths: &[f64],
+        shortest: f64,
+        from_end: impl Fn(f64) -> f64,
+    ) -> f64 {
+        let agrees = |share: f64| {
+            let place = place_at(piece, lengths, from_end(share));
+            self.see(line, place) == piece.seen
+        };
+        let (mut other, mut own) = (0.0, (BESIDE_SHORTEST * shortest / piece.length).max(BESIDE));
+        // Not so where a piece is a speck, or has no length.
+        while own < MOST_MOVED {
+            if agrees(own) {
+                if other > 0.0 {
+                    for _ in 0..SETTLINGS {
+                        let half = 0.5 * (other + own);
+                        match agrees(half) {
+                            true => own = half,
+                            false => other = half,
+                        }
+                    }
+                }
+                return other;
+            }
+            (other, own) = (own, 2.0 * own);
+        }
+        other
     }
 
     fn see(&self, line: &Line, along: f64) -> bool {

@@ -2,7 +2,7 @@
 
 mod clear;
 mod drawn;
-mod forms;
+pub(crate) mod forms;
 mod load;
 mod section;
 

@@ -90,8 +90,8 @@ impl<'r> Preset<'r> {
         let meshes = self.meshes.iter();
         paths.extend(meshes.flat_map(|mesh| {
             let texture = mesh.section.texture_path(&files.preset_folder);
-            let path = mesh.section.path(&files.preset_folder);
-            path.into_iter().chain(texture)
+            let named = mesh.section.files(&files.preset_folder);
+            named.into_iter().chain(texture)
         }));
         let bodies = self.bodies.iter();
         paths.extend(bodies.flat_map(|body| body.section.files(&files.preset_folder)));
@@ -145,9 +145,7 @@ impl<'r> Preset<'r> {
             }
         }
         for mesh in &self.meshes {
-            let path = mesh.section.path(&files.preset_folder);
-            let path = path.filter(|path| path.is_file());
-            if let Some(Err(error)) = path.map(|path| mesh_io::read_model(&path)) {
+            if let Err(error) = painted::check(&mesh.section, &files.preset_folder) {
                 found.add(Err(PresetErrors(vec![mesh.mistake(error.to_string())])));
             }
             let texture = mesh.section.texture_path(&files.preset_folder);

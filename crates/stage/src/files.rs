@@ -151,6 +151,14 @@ pub enum StageError {
         /// What is wrong.
         message: String,
     },
+    /// Numbered files are no mesh that takes one form after the other.
+    #[error("{}: {message}", .path.display())]
+    Numbered {
+        /// The files, as the preset names them.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
     /// The mesh of a body is none that hair can be kept out of.
     #[error("{}: {message}", .path.display())]
     Body {

@@ -9,7 +9,7 @@ pub(crate) use paint::HeadPaint;
 pub(crate) use seen::{MESHES, painted, surfaces, worn};
 
 use crate::hair::head_of;
-use crate::painted::PaintedMesh;
+use crate::painted::{Moving, PaintedMesh};
 use crate::scalp;
 use crate::skeleton::Skeleton;
 use glam::Vec3;
@@ -123,6 +123,19 @@ impl HeadModel {
     /// Whether anything of it moves by itself.
     pub(crate) fn moves(&self) -> bool {
         self.painted.iter().any(|mesh| mesh.moving.is_some())
+    }
+
+    /// The same at rest, each mesh of numbered files in the form that it has in `posed`.
+    pub(crate) fn in_forms_of(&self, posed: &Self) -> Self {
+        let mut model = self.clone();
+        for (mesh, posed) in model.painted.iter_mut().zip(&posed.painted) {
+            if let (Some(Moving::Numbered(numbered)), true) =
+                (mesh.moving.clone(), mesh.form != posed.form)
+            {
+                mesh.take_form(&numbered.of_kind(posed.form));
+            }
+        }
+        model
     }
 
     /// Whether its own file's colours are in place of the preset's.

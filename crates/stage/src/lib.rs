@@ -23,6 +23,7 @@ mod mesh_hair;
 mod motion;
 mod names;
 mod neck;
+mod numbered;
 mod object;
 mod painted;
 mod part;

@@ -1,7 +1,7 @@
 //! Lines of meshes as strands: which of them the eye sees, and where strokes are drawn along them (W, rows W3, W5, W7 and W8).
 //!
 //! Lines hang on nothing but the meshes and the eye, so that frames may be drawn in any order. A strand of theirs has no clump, and no number of
-//! its own: what varies along it is fixed to the surface. Only where brushes leave marks along contours, which have no fixed place, these are followed
+//! its own: what varies along it is fixed to the surface. Only where something varies along contours, which have no fixed place, as marks of brushes or the trembling of a hand do, these are followed
 //! from frame to frame, at the preset's rate from the start on, as hair is simulated: so a frame is the same whichever frames are asked for. A moment between
 //! two frames follows the one before it, and none follows that moment.
 
@@ -35,11 +35,14 @@ pub(crate) struct HeadLines {
     mesh_of: Vec<usize>,
     /// For each list of the look what is seen of its lines.
     strands: Vec<Vec<LineStrand>>,
-    /// For each mesh its contours from frame to frame, where brushes leave marks along them.
+    /// For each mesh its contours from frame to frame, where something along them is to stay where it is.
     followed: Vec<Option<Followed>>,
     /// The whole frame to which they were followed, and what was seen then.
     at: Option<f64>,
     seen: Option<SeenFrom>,
+    /// How often creases and borders were chained, mesh by mesh.
+    #[cfg(test)]
+    pub chained: usize,
 }
 
 /// What lines hang on: while it stays, there is nothing to follow.
@@ -74,6 +77,8 @@ impl HeadLines {
             followed: Vec::new(),
             at: None,
             seen: None,
+            #[cfg(test)]
+            chained: 0,
         };
         for set in sets {
             let crease = set.crease();
@@ -82,10 +87,14 @@ impl HeadLines {
             if known.is_none() {
                 let mesh = LineMesh::new(neck.rest(), crease, head);
                 lines.meshes.push(mesh.map_err(fault)?);
+                #[cfg(test)]
+                {
+                    lines.chained += 1;
+                }
                 lines.followed.push(None);
             }
             let followed = &mut lines.followed[lines.mesh_of[lines.mesh_of.len() - 1]];
-            if set.has_marks() {
+            if set.is_followed() {
                 followed.get_or_insert_default();
             }
         }
@@ -128,14 +137,28 @@ impl HeadLines {
         self.followed.iter().flatten().any(Followed::is_growing)
     }
 
+    /// Looks for the edges anew where a mesh of numbered files has other triangles in this model.
+    fn take_forms(&mut self, neck: &Neck, model: &HeadModel, head: Head) -> Result<(), StageError> {
+        for mesh in self.meshes.iter_mut().filter(|mesh| !mesh.is_of(model)) {
+            let rest = neck.rest().in_forms_of(model);
+            *mesh = LineMesh::new(&rest, mesh.crease(), head).map_err(fault)?;
+            #[cfg(test)]
+            {
+                self.chained += 1;
+            }
+        }
+        Ok(())
+    }
+
     /// Follows contours to frame `now`, in which the head is in this pose, without a picture.
     pub fn follow(
         &mut self,
-        (model, pose): (&HeadModel, HeadPose),
+        (neck, model, pose): (&Neck, &HeadModel, HeadPose),
         camera: &Camera,
         head: Head,
         now: f64,
     ) -> Result<(), StageError> {
+        self.take_forms(neck, model, head)?;
         let seen_from = SeenFrom::of(camera, pose);
         let view = View::perspective(camera.eye()).map_err(fault)?;
         let pixel = seen_from.pixel;
@@ -162,12 +185,13 @@ impl HeadLines {
     /// Finds what the camera sees of the lines on the head in its pose: those of each list, in the look's order.
     pub fn find(
         &mut self,
-        (model, pose): (&HeadModel, HeadPose),
+        (neck, model, pose): (&Neck, &HeadModel, HeadPose),
         sets: &[LineSet],
         camera: &Camera,
         head: Head,
         now: f64,
     ) -> Result<&[Vec<LineStrand>], StageError> {
+        self.take_forms(neck, model, head)?;
         let unit_m = head.unit_m();
         let seen_from = SeenFrom::of(camera, pose);
         // With another eye at the same time lines have no time to grow.
@@ -202,9 +226,12 @@ impl HeadLines {
                     let [halo_m, shortest_m] = [set.section.halo, set.section.shortest]
                         .map(|units| f64::from(units * unit_m));
                     let is_meant = |triangle| mesh.is_called(triangle, set.section.meshes());
-                    let marks = marks.as_ref().filter(|_| set.has_marks());
-                    self.strands[index] =
-                        seen.strands(set.kinds, &is_meant, halo_m, shortest_m, marks);
+                    let marks = marks.as_ref().filter(|_| set.is_followed());
+                    let mut strands = seen.strands(set.kinds, &is_meant, halo_m, shortest_m, marks);
+                    if !set.has_marks() {
+                        strands.iter_mut().for_each(|strand| strand.marks.clear());
+                    }
+                    self.strands[index] = strands;
                 }
             }
         }

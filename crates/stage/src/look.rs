@@ -35,6 +35,13 @@ impl LineSet {
         self.kinds.crease.then_some(self.section.crease)
     }
 
+    /// Whether contours among them are followed from frame to frame, as something along them is to stay where it is: marks of brushes, or what a hand does.
+    pub fn is_followed(&self) -> bool {
+        let mut layers = self.layers.iter();
+        let has_contours = self.kinds.contour;
+        self.has_marks() || has_contours && layers.any(|layer| layer.program.follows_lines())
+    }
+
     /// Whether brushes leave marks along them that are to stay on the surface.
     pub fn has_marks(&self) -> bool {
         // Others lie by the line's length: all of a list have the same places.

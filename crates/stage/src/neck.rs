@@ -1,7 +1,7 @@
 //! A head that turns on its neck: the head follows its pose whole, the shoulders not at all.
 
 use crate::head::HeadModel;
-use crate::painted::PaintedMesh;
+use crate::painted::{Moving, PaintedMesh};
 use crate::script::HeadPose;
 use crate::skeleton::Skeleton;
 use crate::solid::Solid;
@@ -52,35 +52,31 @@ impl Neck {
             true => head.center,
             false => pivot(head),
         };
-        let share = |p: &Vec3| {
-            if is_things {
-                return STEPS as u16;
-            }
-            let y = (p.y - head.center.y) / head.height_m;
-            let t = ((y - SHOULDERS) / (JAW - SHOULDERS)).clamp(0.0, 1.0);
-            let share = t * t * (3.0 - 2.0 * t);
-            (share * STEPS as f32).round() as u16
-        };
-        let shares_of = |positions: &[Vec3]| positions.iter().map(share).collect();
+        let shares_at = |positions: &[Vec3]| shares_of(is_things, head, positions);
         let patches = model.patches.iter().map(|patch| &patch.positions);
         let meshes = [&model.mesh.positions, &model.ornaments.positions];
         let painted = model.painted.iter().map(|mesh| &mesh.positions);
+        let numbered = model.painted.iter().filter_map(|mesh| match &mesh.moving {
+            Some(Moving::Numbered(numbered)) => Some(numbered.all_positions()),
+            _ => None,
+        });
         let corners = meshes.into_iter().chain(patches).chain(painted).flatten();
+        let corners = corners.chain(numbered.flatten());
         let from_pivot = corners.map(|p| p.distance(pivot(head)));
         Self {
             // A little more, for lines that are drawn around it.
             reach_m: from_pivot.fold(0.0, f32::max) + 0.02 * head.height_m,
             solid: Solid::within(&model.mesh, head),
-            shares: shares_of(&model.mesh.positions),
+            shares: shares_at(&model.mesh.positions),
             patch_shares: model
                 .patches
                 .iter()
-                .map(|patch| shares_of(&patch.positions))
+                .map(|patch| shares_at(&patch.positions))
                 .collect(),
             painted_shares: model
                 .painted
                 .iter()
-                .map(|mesh| shares_of(&mesh.positions))
+                .map(|mesh| shares_at(&mesh.positions))
                 .collect(),
             pivot: pivot(head),
             head,
@@ -189,7 +185,15 @@ impl PosedHead {
             }
             let (rest, posed) = (&neck.rest.painted[index], &mut self.model.painted[index]);
             let moved = match (&rest.moving, self.pose.beaten_s) {
-                (Some(moving), Some(time)) => Some(moving.at(time)),
+                (Some(Moving::Beating(beating)), Some(time)) => Some(beating.at(time)),
+                (Some(Moving::Numbered(numbered)), time) => {
+                    let formed = numbered.at(time.unwrap_or(0.0));
+                    let shares = shares_of(neck.rest.is_things, neck.head, &formed.positions);
+                    let rest = [&formed.positions[..], &formed.normals[..]];
+                    posed.take_form(&formed);
+                    motion.pose(&shares, rest, [&mut posed.positions, &mut posed.normals]);
+                    continue;
+                }
                 _ => None,
             };
             let rest = match &moved {
@@ -206,6 +210,20 @@ impl PosedHead {
             posed.away_from = rest.away_from.map(|away| motion.turn(STEPS as u16) * away);
         }
     }
+}
+
+/// How much corners follow a head of this middle and height, in [`STEPS`]; things that stand in its place do so whole.
+fn shares_of(is_things: bool, head: Head, positions: &[Vec3]) -> Vec<u16> {
+    let share = |p: &Vec3| {
+        if is_things {
+            return STEPS as u16;
+        }
+        let y = (p.y - head.center.y) / head.height_m;
+        let t = ((y - SHOULDERS) / (JAW - SHOULDERS)).clamp(0.0, 1.0);
+        let share = t * t * (3.0 - 2.0 * t);
+        (share * STEPS as f32).round() as u16
+    };
+    positions.iter().map(share).collect()
 }
 
 /// How corners move that follow the head by so many of [`STEPS`].

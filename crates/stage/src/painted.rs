@@ -3,13 +3,14 @@
 use crate::files::StageError;
 use crate::meant::meant;
 use crate::names::Names;
+use crate::numbered::{Formed, MOST_CORNERS, MOST_FILES, Numbered};
 use crate::pictures;
 use crate::preset::{AlphaChoice, MeshSection};
-use crate::things::{Moving, Placed, Thing};
+use crate::things::{Beating, Placed, Thing};
 use effects::Image;
 use glam::{Vec2, Vec3};
 use hair_io::orient::Orientation;
-use mesh_io::{Alpha, Material, Mesh, Model, Wrap};
+use mesh_io::{Alpha, Material, Mesh, Model, Sequence, Wrap};
 use render::{Coverage, Head};
 use std::path::Path;
 use std::sync::Arc;
@@ -36,6 +37,17 @@ pub(crate) struct PaintedMesh {
     pub is_cap: bool,
     /// What it is, where it moves by itself.
     pub moving: Option<Moving>,
+    /// Which of the meshes of its numbered files it is: as long as that stays its triangles do.
+    pub form: usize,
+}
+
+/// What moves a mesh by itself.
+#[derive(Clone)]
+pub(crate) enum Moving {
+    /// A thing.
+    Beating(Beating),
+    /// Numbered files.
+    Numbered(Arc<Numbered>),
 }
 
 /// How a file paints a mesh.
@@ -69,6 +81,19 @@ impl PaintedMesh {
         }
         for normal in &mut self.normals {
             *normal = placed.turn * *normal;
+        }
+    }
+
+    /// Has the triangles of a form of its numbered files, and its corners, where the file has them.
+    pub(crate) fn take_form(&mut self, formed: &Formed) {
+        self.positions.clone_from(&formed.positions);
+        self.normals.clone_from(&formed.normals);
+        if self.form != formed.kind {
+            self.triangles.clear();
+            self.triangles.extend_from_slice(formed.triangles);
+            self.places.clear();
+            self.places.extend_from_slice(formed.places);
+            self.form = formed.kind;
         }
     }
 
@@ -180,6 +205,7 @@ pub(crate) fn of_model(
             is_turned: false,
             is_cap: false,
             moving: None,
+            form: 0,
         });
     }
     notes.append(&mut pictures.notes);
@@ -281,27 +307,74 @@ pub(crate) fn of_sections(
             continue;
         }
         let path = section.path(folder).unwrap_or_default();
-        let model = mesh_io::read_model(&path)?;
+        let of_file = OfFile {
+            section,
+            number,
+            folder,
+            path: &path,
+            name: &name_of(section, &path),
+            orientation,
+            placed: &placed,
+            head,
+        };
+        painted.extend(match section.is_sequence() {
+            true => of_file.numbered(notes)?,
+            false => of_file.read(&mesh_io::read_model(&path)?, notes)?,
+        });
+    }
+    Ok(painted)
+}
+
+/// What layers may call the meshes of a file: its name without the ending, of numbered files without the number.
+fn name_of(section: &MeshSection, path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    match section.is_sequence() {
+        true => {
+            let before = stem.split('#').next().unwrap_or_default();
+            before.trim_end_matches(['.', '_', '-']).to_owned()
+        }
+        false => stem.into_owned(),
+    }
+}
+
+/// A file, or numbered files, that a preset lists, and where they are to lie.
+struct OfFile<'f> {
+    section: &'f MeshSection,
+    number: usize,
+    folder: &'f Path,
+    path: &'f Path,
+    /// What layers may call its meshes.
+    name: &'f str,
+    orientation: &'f Orientation,
+    placed: &'f Placed,
+    head: Head,
+}
+
+impl OfFile<'_> {
+    /// The meshes of one file.
+    fn read(&self, model: &Model, notes: &mut Vec<String>) -> Result<Vec<PaintedMesh>, StageError> {
+        let (section, path) = (self.section, self.path);
         let of_file = |note: &String| format!("{}: {note}", path.display());
         notes.extend(model.notes.iter().map(of_file));
         let [only, hide] =
             [&section.only, &section.hide].map(|names| Names(names.as_deref().unwrap_or_default()));
-        let mut is_gone = meant(hide, &model, &path)?;
+        let mut is_gone = meant(hide, model, path)?;
         if !only.is_empty() {
-            let wanted = meant(only, &model, &path)?;
+            let wanted = meant(only, model, path)?;
             let triangles = is_gone
                 .iter_mut()
                 .zip(&wanted)
                 .flat_map(|(g, w)| g.iter_mut().zip(w));
             triangles.for_each(|(is_gone, wanted)| *is_gone |= !wanted);
         }
-        let mut meshes = of_model(&model, &path, orientation, Some(number), &is_gone, notes)?;
-        if let Some(picture_path) = section.texture_path(folder) {
+        let (orientation, number) = (self.orientation, Some(self.number));
+        let mut meshes = of_model(model, path, orientation, number, &is_gone, notes)?;
+        if let Some(picture_path) = section.texture_path(self.folder) {
             let image = picture(&picture_path)?;
             for mesh in &mut meshes {
                 let own = &model.meshes[mesh.index];
                 if own.uvs.is_empty() {
-                    return Err(StageError::NoPlaces(path.clone()));
+                    return Err(StageError::NoPlaces(path.to_owned()));
                 }
                 mesh.places.clone_from(&own.uvs);
                 mesh.paint.picture = Some(MeshPicture {
@@ -317,19 +390,108 @@ pub(crate) fn of_sections(
             AlphaChoice::Cut => Some(Coverage::Cut(0.5)),
             AlphaChoice::Blend => Some(Coverage::Share),
         };
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         for mesh in &mut meshes {
             mesh.take_away(&is_gone[mesh.index]);
-            mesh.names.extend(stem.iter().map(|stem| stem.to_string()));
+            mesh.names.push(self.name.to_owned());
             mesh.names.extend(section.name.clone());
-            mesh.put(section, head, &placed);
+            mesh.put(section, self.head, self.placed);
             if let (Some(picture), Some(coverage)) = (&mut mesh.paint.picture, coverage) {
                 picture.coverage = coverage;
             }
         }
-        painted.extend(meshes);
+        Ok(meshes)
     }
-    Ok(painted)
+
+    /// The meshes of numbered files, in their first forms; colours and names are those of the first file.
+    fn numbered(&self, notes: &mut Vec<String>) -> Result<Vec<PaintedMesh>, StageError> {
+        let wrong = |message: String| StageError::Numbered {
+            path: self.path.to_owned(),
+            message,
+        };
+        let sequence = Sequence::find(self.path).map_err(|error| wrong(error.to_string()))?;
+        let files = sequence.files().len();
+        if files > MOST_FILES {
+            return Err(wrong(format!(
+                "there are {files} numbered files, and a mesh takes {MOST_FILES} at most"
+            )));
+        }
+        // For each mesh what it is in each file.
+        let mut forms: Vec<Vec<PaintedMesh>> = Vec::new();
+        let mut size = 0;
+        for (index, (&frame, file)) in sequence.files().iter().enumerate() {
+            let model = sequence
+                .read(frame)
+                .map_err(|error| wrong(error.to_string()))?;
+            let mut of_this = Vec::new();
+            let of_file = OfFile {
+                path: file,
+                ..*self
+            };
+            let meshes = of_file.read(&model, &mut of_this)?;
+            if index == 0 {
+                notes.append(&mut of_this);
+                forms.resize_with(meshes.len(), Vec::new);
+            }
+            if meshes.len() != forms.len() {
+                return Err(wrong(format!(
+                    "file {frame} has {} meshes, and the first one has {}: they are one mesh each in time",
+                    meshes.len(),
+                    forms.len()
+                )));
+            }
+            for (mesh, forms) in meshes.into_iter().zip(&mut forms) {
+                size += mesh.positions.len() + mesh.triangles.len();
+                forms.push(mesh);
+            }
+            if size > MOST_CORNERS {
+                return Err(wrong(format!(
+                    "up to file {frame} there are more than {MOST_CORNERS} vertices and triangles: all files are held in memory"
+                )));
+            }
+        }
+        let (rate, repeat) = (self.section.rate, self.section.repeat);
+        let meshes = forms.into_iter().filter_map(|forms| {
+            let first = forms.first()?.clone();
+            let numbered = Numbered::new(forms.into_iter(), rate, repeat)?;
+            Some(PaintedMesh {
+                moving: Some(Moving::Numbered(Arc::new(numbered))),
+                ..first
+            })
+        });
+        Ok(meshes.collect())
+    }
+}
+
+/// What is wrong with the files of a mesh that a preset in `folder` lists, if it has any.
+pub(crate) fn check(section: &MeshSection, folder: &Path) -> Result<(), StageError> {
+    let Some(path) = section.path(folder) else {
+        return Ok(());
+    };
+    if !section.is_sequence() {
+        return match path.is_file() {
+            true => Ok(mesh_io::read_model(&path).map(drop)?),
+            false => Ok(()),
+        };
+    }
+    let head = Head {
+        center: Vec3::ZERO,
+        height_m: 1.0,
+    };
+    let of_file = OfFile {
+        // A picture that isn't there is told at its place.
+        section: &MeshSection {
+            texture: None,
+            ..section.clone()
+        },
+        number: 0,
+        folder,
+        path: &path,
+        name: "",
+        orientation: &Orientation::OURS,
+        placed: &Placed::new(head, section.at, section.turn, section.size),
+        head,
+    };
+    of_file.numbered(&mut Vec::new()).map(drop)
 }
 
 /// A thing that a preset lists.
@@ -348,11 +510,14 @@ fn of_thing(thing: Thing, section: &MeshSection, number: usize, placed: Placed) 
         kept: Vec::new(),
         is_turned: false,
         is_cap: false,
-        moving: (thing.moves() && section.beat > 0.0).then(|| Moving {
-            thing: Arc::new(thing),
-            placed,
-            beat: section.beat,
+        moving: (thing.moves() && section.beat > 0.0).then(|| {
+            Moving::Beating(Beating {
+                thing: Arc::new(thing),
+                placed,
+                beat: section.beat,
+            })
         }),
+        form: 0,
     }
 }
 

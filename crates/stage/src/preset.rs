@@ -10,6 +10,7 @@ mod sections;
 pub(crate) use base::Origin;
 pub(crate) use lines::LineKinds;
 pub use lines::{LINES, LineSection, NamedLines};
+pub(crate) use meshes::is_sequence;
 pub use meshes::{AlphaChoice, MESHES, MeshSection, NamedMesh, ThingChoice};
 pub use objects::{NamedObject, ObjectSection};
 pub use passes::{EdgesChoice, PASSES, PassSection};

@@ -37,7 +37,7 @@ pub(crate) struct Placed {
 
 /// A thing that moves by itself.
 #[derive(Clone, Debug)]
-pub(crate) struct Moving {
+pub(crate) struct Beating {
     pub thing: Arc<Thing>,
     pub placed: Placed,
     /// How often it beats in a second.
@@ -67,7 +67,7 @@ impl Placed {
     }
 }
 
-impl Moving {
+impl Beating {
     /// Where its corners are at a time (seconds), and their normals.
     pub fn at(&self, time: f64) -> [Vec<Vec3>; 2] {
         let beats = time * f64::from(self.beat);
@@ -557,7 +557,7 @@ mod tests {
 
     #[test]
     fn wings_beat_and_come_back() {
-        let moving = Moving {
+        let moving = Beating {
             thing: Arc::new(thing(ThingChoice::Wings)),
             placed: Placed {
                 middle: Vec3::Y,

@@ -7,8 +7,8 @@ use crate::results::Row;
 use crate::targets::{Found, Limit, Target};
 use glam::{DVec3, Quat, Vec3};
 use mesh_lines::{
-    Bvh, Frame, Line, MeshError, Path, Place, Ray, Surface, Tracker, View, facing, visible,
-    walk_to_zero,
+    Bvh, Frame, Line, MeshError, Path, Place, REACH_PX, Ray, Surface, Tracker, View, facing,
+    visible, walk_to_zero,
 };
 use stage::{ThingChoice, thing_mesh};
 use std::fmt::Write as _;
@@ -17,9 +17,6 @@ const FPS: f64 = 24.0;
 const LINES: usize = 720;
 /// Pixels a period.
 const PERIOD_PX: f64 = 100.0;
-/// A sample is matched with the line of the next frame no farther away than this, as far as the tracker's samples walk: the nearest place of what is farther
-/// off, where a line turns as it moves, isn't where the sample comes to.
-const REACH_PX: f64 = 6.0;
 /// What is drawn longer than this in its first frame is seen to come from nowhere, unless something uncovered it.
 const BORN_PX: f64 = 4.0;
 /// Of a line that something uncovered at least this share was there in the frame before, hidden.
@@ -208,7 +205,7 @@ impl Scene {
                     bvh: &bvh_before,
                     view: View::perspective((self.eye)(&self.subject, earlier).as_vec3())?,
                 };
-                let is_long = |path: &&Path| path.is_new && shown_px(path) > BORN_PX;
+                let is_long = |path: &&Path| path.is_new && path.shown_px() > BORN_PX;
                 for path in paths.iter().filter(is_long) {
                     let line = &lines[spans[path.span].line];
                     births[usize::from(seen.hid(path, line, &surface))] += 1;
@@ -265,18 +262,6 @@ impl Scene {
             matched: drift.len(),
         })
     }
-}
-
-/// How long the part of a path is that is drawn.
-fn shown_px(path: &Path) -> f64 {
-    let length_at = |along: f64| {
-        let after = path.joints.partition_point(|joint| joint.along < along);
-        let after = after.clamp(1, path.joints.len() - 1);
-        let [a, b] = [path.joints[after - 1], path.joints[after]];
-        let share = (along - a.along) / (b.along - a.along).max(f64::MIN_POSITIVE);
-        a.length_px + (b.length_px - a.length_px) * share.clamp(0.0, 1.0)
-    };
-    length_at(path.shown[1]) - length_at(path.shown[0])
 }
 
 fn stroke(path: &Path, place: impl Fn(f64) -> Place) -> Stroke {

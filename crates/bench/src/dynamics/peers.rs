@@ -3,11 +3,11 @@
 use super::falls::{self, Truth};
 use super::names::MANY;
 use crate::BenchError;
+use crate::python::Python;
 use crate::results::Row;
 use glam::DVec3;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// Weight against stiffness of the strand that they are given, and its elements.
 pub const GAMMA: f64 = 10.0;
@@ -22,29 +22,26 @@ const MANY_STEPS: &[usize] = &[1, 4];
 /// A program, as its script names it.
 struct Peer {
     name: &'static str,
-    module: &'static str,
+    modules: &'static str,
     script: &'static str,
 }
 
 const PEERS: [Peer; 2] = [
     Peer {
         name: "MuJoCo",
-        module: "mujoco",
+        modules: "numpy, mujoco",
         script: "mujoco_strands.py",
     },
     Peer {
         name: "pyPBD",
-        module: "pypbd",
+        modules: "numpy, pypbd",
         script: "pypbd_strands.py",
     },
 ];
 
-/// Where the scripts are and what runs them.
+/// Runs the programs.
 #[derive(Clone, Debug)]
-pub struct Peers {
-    scripts: PathBuf,
-    python: PathBuf,
-}
+pub struct Peers(Python);
 
 impl Peers {
     /// Those of the project in `root`, run by `python`.
@@ -53,29 +50,8 @@ impl Peers {
     ///
     /// When there is no such Python, or it lacks one of the programs: how to install them.
     pub fn new(root: &Path, python: PathBuf) -> Result<Self, BenchError> {
-        let peers = Self {
-            scripts: root.join("crates/bench/peers"),
-            python,
-        };
-        for peer in &PEERS {
-            peers
-                .run(&["-c", &format!("import numpy, {}", peer.module)])
-                .map_err(|error| {
-                    // A traceback ends with its reason.
-                    let error = error.to_string();
-                    let reason = error.lines().last().unwrap_or_default();
-                    format!("{} can't be run: {reason}\n{}", peer.name, peers.install())
-                })?;
-        }
-        Ok(peers)
-    }
-
-    fn install(&self) -> String {
-        format!(
-            "to install the other programs: python3 -m venv venv && venv/bin/pip install -r {}, then \
-             INKSTRAND_PYTHON=venv/bin/python",
-            self.scripts.join("requirements.txt").display()
-        )
+        let programs = PEERS.map(|peer| [peer.name, peer.modules]);
+        Python::new(root, python, &programs, "requirements.txt").map(Self)
     }
 
     /// Rows of one strand and of many, held against the truth of [`GAMMA`].
@@ -103,7 +79,7 @@ impl Peers {
         steps: &[usize],
         truth: &Truth,
     ) -> Result<Vec<Row>, BenchError> {
-        let script = self.scripts.join(peer.script).display().to_string();
+        let script = self.0.script(peer.script);
         let numbers = [
             ("--elements", ELEMENTS.to_string()),
             ("--gamma", GAMMA.to_string()),
@@ -114,26 +90,11 @@ impl Peers {
         arguments.extend(numbers.iter().flat_map(|(name, value)| [*name, value]));
         arguments.push("--steps");
         arguments.extend(steps.iter().map(String::as_str));
-        let output = self.run(&arguments)?;
+        let output = self.0.run(&arguments)?;
         let rows = output.lines().map(|line| row(scene, line, truth));
         let rows = rows.collect::<Result<Vec<_>, _>>();
         let rows = rows.map_err(|error| format!("{script}: {error}"))?;
         Ok(rows.into_iter().flatten().collect())
-    }
-
-    /// What Python printed.
-    fn run(&self, arguments: &[&str]) -> Result<String, BenchError> {
-        let python = self.python.display();
-        let output = Command::new(&self.python)
-            .args(arguments)
-            .env("PYTHONDONTWRITEBYTECODE", "1")
-            .output()
-            .map_err(|error| format!("{python}: {error}"))?;
-        if output.status.success() {
-            return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
-        }
-        let text = String::from_utf8_lossy(&output.stderr);
-        Err(format!("{python}: {}: {}", output.status, text.trim_end()).into())
     }
 }
 

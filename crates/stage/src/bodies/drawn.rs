@@ -68,6 +68,7 @@ pub(super) fn painted(
         is_turned: false,
         is_cap: false,
         moving: None,
+        form: 0,
     }
 }
 

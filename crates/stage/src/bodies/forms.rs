@@ -102,18 +102,7 @@ impl Forms {
 
     /// The forms before and after a time (seconds), by their numbers, and the share of the way between them.
     pub fn between(&self, time: f64) -> (usize, usize, f64) {
-        let count = self.forms.len() as f64;
-        let place = time * self.rate;
-        let place = match self.repeats {
-            true => place.rem_euclid(count),
-            false => place.clamp(0.0, count - 1.0),
-        };
-        let from = place.floor().min(count - 1.0);
-        let next = match self.repeats {
-            true => (from + 1.0) % count,
-            false => (from + 1.0).min(count - 1.0),
-        };
-        (from as usize, next as usize, (place - from).clamp(0.0, 1.0))
+        between(self.forms.len(), self.rate, self.repeats, time)
     }
 
     /// The surface that is drawn at a time (seconds): between two forms of one mesh it is in between, else the form before.
@@ -124,19 +113,41 @@ impl Forms {
         if share == 0.0 || from.triangles != to.triangles {
             return surface(from.positions.clone(), from.normals.clone());
         }
-        let mixed = |from: &[Vec3], to: &[Vec3]| -> Vec<Vec3> {
-            let pairs = from.iter().zip(to);
-            pairs
-                .map(|(from, to)| from.lerp(*to, share as f32))
-                .collect()
-        };
-        let normals = mixed(&from.normals, &to.normals);
-        let unit = |normal: Vec3| normal.normalize_or(Vec3::Y);
         surface(
-            mixed(&from.positions, &to.positions),
-            normals.into_iter().map(unit).collect(),
+            mixed(&from.positions, &to.positions, share),
+            mixed_normals(&from.normals, &to.normals, share),
         )
     }
+}
+
+/// Of so many forms, `rate` a second, those before and after a time (seconds), by their numbers, and the share of the way between them.
+pub(crate) fn between(count: usize, rate: f64, repeats: bool, time: f64) -> (usize, usize, f64) {
+    let count = count as f64;
+    let place = time * rate;
+    let place = match repeats {
+        true => place.rem_euclid(count),
+        false => place.clamp(0.0, count - 1.0),
+    };
+    let from = place.floor().min(count - 1.0);
+    let next = match repeats {
+        true => (from + 1.0) % count,
+        false => (from + 1.0).min(count - 1.0),
+    };
+    (from as usize, next as usize, (place - from).clamp(0.0, 1.0))
+}
+
+/// Places a share of the way from one form to the next.
+pub(crate) fn mixed(from: &[Vec3], to: &[Vec3], share: f64) -> Vec<Vec3> {
+    let pairs = from.iter().zip(to);
+    pairs
+        .map(|(from, to)| from.lerp(*to, share as f32))
+        .collect()
+}
+
+/// The same of unit normals.
+pub(crate) fn mixed_normals(from: &[Vec3], to: &[Vec3], share: f64) -> Vec<Vec3> {
+    let normals = mixed(from, to, share).into_iter();
+    normals.map(|normal| normal.normalize_or(Vec3::Y)).collect()
 }
 
 #[cfg(test)]

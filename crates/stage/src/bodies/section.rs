@@ -1,7 +1,7 @@
 //! Bodies as presets and motion scripts write them.
 
 use crate::part::FilePart;
-use crate::preset::missing;
+use crate::preset::{is_sequence, missing};
 use effects::preset::{Field, Place, PresetError, Reader, suggestion};
 use effects::section::Section as _;
 use effects::{choices, section};
@@ -205,9 +205,7 @@ impl BodySection {
 
     /// Whether it has numbered files.
     pub(crate) fn is_sequence(&self) -> bool {
-        let name = self.file.as_deref().map(|file| Path::new(file).file_name());
-        name.flatten()
-            .is_some_and(|name| name.to_string_lossy().contains('#'))
+        self.file.as_deref().is_some_and(is_sequence)
     }
 }
 

@@ -15,6 +15,8 @@ const SPREAD: f64 = 16.0;
 #[derive(Clone, Default)]
 pub(super) struct Followed {
     tracker: Tracker,
+    /// Which form each mesh of numbered files had.
+    forms: Vec<usize>,
     /// How many frames it has gone through.
     #[cfg(test)]
     pub steps: usize,
@@ -43,6 +45,11 @@ impl Followed {
         #[cfg(test)]
         {
             self.steps += 1;
+        }
+        if self.forms != seen.forms {
+            // Another mesh: places on the one before say nothing of it.
+            self.tracker = Tracker::default();
+            self.forms = seen.forms.to_vec();
         }
         let frame = Frame {
             surface: &seen.surface,

@@ -31,6 +31,8 @@ pub(super) struct LineMesh {
     rest: Vec<Vec3>,
     /// Its creases and borders, chained once, as they turn at rest: so they are the same lines in each pose.
     fixed: Vec<Line>,
+    /// Which form of its numbered files each painted mesh of the head has.
+    forms: Vec<usize>,
     /// The part of each triangle, and what the parts are called.
     part_of: Vec<u16>,
     parts: Vec<Vec<String>>,
@@ -110,6 +112,11 @@ impl Source {
     }
 }
 
+/// Which form of its numbered files each painted mesh of a head has.
+fn forms(head: &HeadModel) -> impl Iterator<Item = usize> {
+    head.painted.iter().map(|mesh| mesh.form)
+}
+
 impl LineMesh {
     /// Of a head at rest: vertices at one place are one.
     pub fn new(rest: &HeadModel, crease: Option<f32>, head: Head) -> Result<Self, MeshError> {
@@ -156,9 +163,15 @@ impl LineMesh {
             fixed,
             positions,
             normals,
+            forms: forms(rest).collect(),
             part_of,
             parts: part_names,
         })
+    }
+
+    /// Whether a head still has these meshes: of numbered files others may have come.
+    pub fn is_of(&self, head: &HeadModel) -> bool {
+        forms(head).eq(self.forms.iter().copied())
     }
 
     /// The angle of its creases, degrees.
@@ -202,6 +215,7 @@ impl LineMesh {
         let spans = visible(&surface, &self.bvh, view, &lines, pixel)?;
         Ok(Seen {
             surface,
+            forms: &self.forms,
             rest: &self.rest,
             facing,
             lines,

@@ -19,6 +19,8 @@ const OVERLAP_SHARE: f64 = 0.5;
 /// Lines of a mesh that an eye sees.
 pub(super) struct Seen<'m> {
     pub surface: Surface<'m>,
+    /// Which form each mesh of numbered files has: with others it is another mesh.
+    pub forms: &'m [usize],
     /// Where its vertices are at rest.
     pub rest: &'m [Vec3],
     /// How far it faces the eye.
@@ -37,7 +39,7 @@ pub(crate) struct LineStrand {
     pub points: Vec<Vec3>,
     /// The surface's unit normals there.
     pub normals: Vec<Vec3>,
-    /// Where the surface is there at rest, head heights from the head's centre.
+    /// Where the surface is there at rest, head heights from the head's centre; of a contour that is followed, which is at rest nowhere, how far along it it is in x.
     pub rest: Vec<Vec3>,
     /// How far along a brush's marks it is there, head heights; empty where no brush leaves any.
     pub marks: Vec<f32>,
@@ -97,6 +99,10 @@ impl Seen<'_> {
                     if let Some(of_span) = &of_span {
                         let at = piece.along.iter().map(|along| of_span.at(*along));
                         strand.marks = at.collect();
+                        if line.kind == Kind::Contour {
+                            let places = strand.marks.iter().map(|mark| Vec3::X * *mark);
+                            strand.rest = places.collect();
+                        }
                     }
                     strands.push(strand);
                 }

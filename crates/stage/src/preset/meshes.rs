@@ -4,6 +4,7 @@ use super::missing;
 use crate::part::FilePart;
 use effects::preset::{Place, PresetError, Reader};
 use effects::{choices, section};
+use mesh_io::Sequence;
 use std::path::{Path, PathBuf};
 
 /// The most meshes that a preset lists.
@@ -46,8 +47,12 @@ section! {
     /// Meshes of files, in their own colours: eyes, lashes, clothes, glasses; and things that need no file. They lie as the head's file does, and move
     /// with the head. A list.
     pub struct MeshSection {
-        /// The meshes, relative to the preset: .obj, .ply, .gltf, .glb or .vrm.
+        /// The meshes, relative to the preset: .obj, .ply, .gltf, .glb or .vrm. Of numbered files, `splash.####.ply`, they take one form after the other.
         file: Option<String> = text(),
+        /// Numbered files a second.
+        rate: f32 = number(24.0, 0.01..=1000.0).unit("1/s"),
+        /// Whether numbered files start again at their end.
+        repeat: bool = flag(false),
         /// A thing in place of a file, one head height large; its file's name is then `cup`, `cube`, `gear` or `wings`.
         shape: ThingChoice = ThingChoice::None.or_another(),
         /// Another name by which layers and lines mean it.
@@ -151,7 +156,9 @@ impl NamedMesh {
     pub(super) fn missing(&self, folder: &Path) -> Vec<PresetError> {
         let MeshSection { file, texture, .. } = &self.section;
         let wrong = |name: &Option<String>, param| missing(folder, param, name.as_ref()?);
-        let file = wrong(file, "file").map(|message| self.mistake(message));
+        // Of numbered files those that are there are found when they are read.
+        let file = wrong(file, "file").filter(|_| !self.section.is_sequence());
+        let file = file.map(|message| self.mistake(message));
         let texture = wrong(texture, "texture").map(|message| self.mistake_of_texture(message));
         file.into_iter().chain(texture).collect()
     }
@@ -169,10 +176,32 @@ impl NamedMesh {
     }
 }
 
+/// Whether a file's name is that of numbered files.
+pub(crate) fn is_sequence(file: &str) -> bool {
+    let name = Path::new(file).file_name();
+    name.is_some_and(|name| name.to_string_lossy().contains('#'))
+}
+
 impl MeshSection {
     /// Its file, of a preset in `folder`, if it has one.
     pub(crate) fn path(&self, folder: &Path) -> Option<PathBuf> {
         Some(folder.join(self.file.as_deref()?))
+    }
+
+    /// All files that it is read from, but its picture.
+    pub(crate) fn files(&self, folder: &Path) -> Vec<PathBuf> {
+        let Some(path) = self.path(folder) else {
+            return Vec::new();
+        };
+        match (self.is_sequence(), Sequence::find(&path)) {
+            (true, Ok(sequence)) => sequence.files().values().cloned().collect(),
+            _ => vec![path],
+        }
+    }
+
+    /// Whether it has numbered files.
+    pub(crate) fn is_sequence(&self) -> bool {
+        self.file.as_deref().is_some_and(is_sequence)
     }
 
     /// Its picture, of a preset in `folder`.

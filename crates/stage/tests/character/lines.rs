@@ -3,18 +3,15 @@
 use glam::{DQuat, DVec3, Vec3};
 use mesh_io::{Model, Pose, read_model};
 use mesh_lines::{
-    Bvh, CREASE_COSINE, Frame, Kind, Line, Path, Place, Surface, TURN_COSINE, Topology, Tracker,
-    View, borders, contours, creases, facing, visible,
+    Bvh, CREASE_COSINE, Frame, Kind, Line, Path, Place, REACH_PX, Surface, TURN_COSINE, Topology,
+    Tracker, View, borders, contours, creases, facing, visible,
 };
 use std::collections::HashMap;
+use stroke_path::{Camera, OrbitView};
 
 const FRAMES: u32 = 96;
 const FPS: f64 = 24.0;
-/// Of 720 lines that see 30 degrees.
-const PIXEL: f64 = 1.0 / 1344.0;
 const PERIOD_PX: f64 = 100.0;
-/// A place is matched with the line of the next frame no farther away than this.
-const REACH_PX: f64 = 6.0;
 
 /// Walking at rest: legs, arms, chest and head swing, and the pelvis goes up and down.
 fn walking(model: &Model, time: f64) -> Pose {
@@ -88,22 +85,25 @@ impl Character {
     }
 }
 
-/// How long what is drawn of a path is, pixels.
-fn shown_px(path: &Path) -> f64 {
-    let length_at = |along: f64| {
-        let after = path.joints.partition_point(|joint| joint.along < along);
-        let after = after.clamp(1, path.joints.len() - 1);
-        let [a, b] = [path.joints[after - 1], path.joints[after]];
-        a.length_px + (b.length_px - a.length_px) * (along - a.along) / (b.along - a.along)
+/// How long a pixel is in the image, of 720 lines that see 30 degrees.
+fn pixel() -> f64 {
+    let view = OrbitView {
+        target: Vec3::ZERO,
+        yaw_degrees: 0.0,
+        pitch_degrees: 0.0,
+        distance_m: 1.0,
+        vertical_fov_degrees: 30.0,
     };
-    length_at(path.shown[1]) - length_at(path.shown[0])
+    let camera = Camera::orbit(view, [720, 720], 0.01).unwrap();
+    f64::from(camera.focal_px()).recip()
 }
 
-/// How far off the nearest place of paths is, in the image, and T there.
+/// How many pixels off the nearest place of paths is, and T there.
 fn nearest<'p>(
     paths: impl Iterator<Item = &'p Path>,
     point: DVec3,
     view: &View,
+    pixel: f64,
 ) -> Option<(f64, f64)> {
     let pairs = paths.flat_map(|path| path.joints.windows(2));
     let found = pairs.map(|pair| {
@@ -115,7 +115,7 @@ fn nearest<'p>(
             .lerp(pair[1].position, share)
             .distance(point);
         (
-            off * view.image_scale(point) / PIXEL,
+            off * view.image_scale(point) / pixel,
             pair[0].t + (pair[1].t - pair[0].t) * share,
         )
     });
@@ -138,6 +138,7 @@ fn godettes_outline_keeps_its_marks_while_she_walks() {
     let view = View::perspective(middle + 4.2 * radius * Vec3::new(0.45, 0.25, 0.85)).unwrap();
     let mut bvh = Bvh::new(&Surface::new(&character.topology, &rest).unwrap());
     let mut tracker = Tracker::default();
+    let pixel = pixel();
     let (mut drift, mut stretch) = (Vec::new(), Vec::new());
     let (mut born, mut uncovered) = (0, 0);
     let mut before: Vec<(u64, Place, f64)> = Vec::new();
@@ -150,25 +151,25 @@ fn godettes_outline_keeps_its_marks_while_she_walks() {
         let mut lines = contours(&surface, &view, &facing).unwrap();
         lines.extend(creases(&surface, TURN_COSINE));
         lines.extend(borders(&surface, TURN_COSINE));
-        let spans = visible(&surface, &bvh, &view, &lines, PIXEL).unwrap();
+        let spans = visible(&surface, &bvh, &view, &lines, pixel).unwrap();
         let step = Frame {
             surface: &surface,
             view: &view,
             facing: &facing,
             lines: &lines,
             spans: &spans,
-            pixel: PIXEL,
+            pixel,
             period_px: PERIOD_PX,
         };
         let paths = tracker.step(&step).unwrap();
         for path in paths.iter().filter(|path| frame > 0 && path.is_new) {
-            let is_born = !path.is_revealed && shown_px(path) > 4.0;
+            let is_born = !path.is_revealed && path.shown_px() > 4.0;
             born += usize::from(is_born);
             uncovered += usize::from(path.is_revealed);
         }
         for &(id, place, t) in &before {
             let own = paths.iter().filter(|path| path.id == id);
-            if let Some((off, now)) = nearest(own, surface.point(place), &view)
+            if let Some((off, now)) = nearest(own, surface.point(place), &view, pixel)
                 && off < REACH_PX
             {
                 drift.push((now - t).abs() * PERIOD_PX);
