@@ -132,9 +132,9 @@ impl Evaluator {
     /// Those at their sides, where clumps are flat.
     fn fill_sides(&self, frame: &Frame, drawing: &mut Drawing) {
         let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
-        drawing.sides.clear();
         drawing.side_stretches = Stretches::default();
         if shifts.iter().all(|&shift| shift == vec2([0.0; 2])) {
+            drawing.sides.clear();
             return;
         }
         let mut parts = Vec::new();
@@ -172,9 +172,7 @@ impl Evaluator {
         );
         let made: Vec<Made> = made.collect();
         let mut stretches = vec![Vec::new(); CLUMP_DISCS as usize - 1];
-        for made in made {
-            made.append(&mut stretches, &mut drawing.sides, &mut Vec::new());
-        }
+        put_together(made, &mut stretches, &mut drawing.sides, &mut Vec::new());
         drawing.side_stretches = Stretches::Within(stretches);
     }
 
@@ -227,15 +225,7 @@ impl Evaluator {
             });
         let made: Vec<Made> = made.collect();
         let mut stretches = vec![Vec::new(); instances as usize];
-        discs.clear();
-        colors.clear();
-        // Dense hair has many: they don't grow by doubling.
-        let count = made.iter().map(|made| made.discs.len()).sum();
-        discs.reserve_exact(count);
-        colors.reserve_exact(count);
-        for made in made {
-            made.append(&mut stretches, &mut discs, &mut colors);
-        }
+        put_together(made, &mut stretches, &mut discs, &mut colors);
         LayerStrokes {
             name: layer.name.clone(),
             joints: drawn.clone(),
@@ -540,29 +530,58 @@ impl Made {
         }
     }
 
-    /// Puts it behind what the lists of its layer have.
-    fn append(
-        mut self,
-        stretches: &mut [Vec<Stretch>],
-        discs: &mut Vec<Disc>,
-        colors: &mut Vec<[f32; 3]>,
-    ) {
-        let list = &mut stretches[self.number];
-        for mut stretch in self.stretches {
-            stretch.first += discs.len();
-            match list.last_mut() {
+    /// Adds where it is drawn to what its stroke has on the joints before; its discs lie from place `first` on.
+    fn add_stretches(&self, first: usize, all: &mut Vec<Stretch>) {
+        for stretch in &self.stretches {
+            let first = first + stretch.first;
+            match all.last_mut() {
                 Some(last)
-                    if last.joints.end == stretch.joints.start
-                        && last.places().end == stretch.first =>
+                    if last.joints.end == stretch.joints.start && last.places().end == first =>
                 {
                     last.joints.end = stretch.joints.end;
                 }
-                _ => list.push(stretch),
+                _ => all.push(Stretch {
+                    joints: stretch.joints.clone(),
+                    first,
+                }),
             }
         }
-        discs.append(&mut self.discs);
-        colors.append(&mut self.colors);
     }
+}
+
+/// Puts strokes one behind the other, in all threads, in place of what the lists had: these are megabytes.
+fn put_together(
+    made: Vec<Made>,
+    stretches: &mut [Vec<Stretch>],
+    discs: &mut Vec<Disc>,
+    colors: &mut Vec<[f32; 3]>,
+) {
+    let count = |of: fn(&Made) -> usize| -> usize { made.iter().map(of).sum() };
+    set_length(discs, count(|made| made.discs.len()), NO_DISC);
+    set_length(colors, count(|made| made.colors.len()), [0.0; 3]);
+    let (mut discs, mut colors) = (&mut discs[..], &mut colors[..]);
+    let mut first = 0;
+    let with_places = made.into_iter().map(|made| {
+        made.add_stretches(first, &mut stretches[made.number]);
+        first += made.discs.len();
+        let (own_discs, own_colors);
+        (own_discs, discs) = std::mem::take(&mut discs).split_at_mut(made.discs.len());
+        (own_colors, colors) = std::mem::take(&mut colors).split_at_mut(made.colors.len());
+        (made, own_discs, own_colors)
+    });
+    let with_places: Vec<_> = with_places.collect();
+    with_places
+        .into_par_iter()
+        .for_each(|(made, discs, colors)| {
+            discs.copy_from_slice(&made.discs);
+            colors.copy_from_slice(&made.colors);
+        });
+}
+
+/// Gives a list a length without looking at what it has, which is to be written over. Dense hair has long ones: they don't grow by doubling.
+fn set_length<T: Copy>(list: &mut Vec<T>, length: usize, anything: T) {
+    list.reserve_exact(length.saturating_sub(list.len()));
+    list.resize(length, anything);
 }
 
 /// Some neighbouring joints of a layer.
