@@ -45,7 +45,7 @@ use crate::drawing::Drawing;
 use crate::picture::Picture;
 use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
-use bin::{Bins, cells};
+use bin::{Bins, Lists, cells};
 use decals::{DecalParts, Decals};
 use instructions::Instructions;
 use mixed::JointRows;
@@ -333,9 +333,8 @@ enum Output<'a> {
 
 /// A thread's own memory.
 struct Worker {
-    /// A band's segments and the tiles that each reaches.
-    columns: Vec<(u32, Range<usize>)>,
-    segments_of_tiles: Bins,
+    /// The segments that reach each of a band's tiles.
+    segments_of_tiles: Lists,
     target: Target,
     parts: Vec<Part>,
     strand: StrandMasks,
@@ -352,8 +351,7 @@ struct Worker {
 impl Worker {
     fn new() -> Self {
         Self {
-            columns: Vec::new(),
-            segments_of_tiles: Bins::default(),
+            segments_of_tiles: Lists::default(),
             target: Target::new(),
             parts: Vec::new(),
             strand: StrandMasks::new(),
@@ -380,14 +378,10 @@ impl Worker {
     #[inline(always)]
     fn sort_into_tiles(&mut self, frame: &Frame, band: usize) {
         let segments = &frame.parts.segments;
-        self.columns.clear();
-        segments.of_band(band).for_each(|i| {
-            let columns = segments.list()[i as usize].bounds.x;
-            self.columns.push((i, cells(columns, tile::WIDTH)));
-        });
+        let columns = |i: u32| cells(segments.list()[i as usize].bounds.x, tile::WIDTH);
         let tiles = (frame.drawing.size[0] as usize).div_ceil(tile::WIDTH);
-        self.segments_of_tiles
-            .fill(tiles, self.columns.iter().cloned());
+        let of_band = segments.of_band(band).map(|i| (i, columns(i)));
+        self.segments_of_tiles.fill(tiles, of_band);
         if !frame.parts.decals.is_empty() {
             self.sort_decals_into_tiles(frame, band);
         }

@@ -32,8 +32,8 @@ use stroke_path::{Camera, PathError, Paths};
 
 /// How many strands a thread makes the paths of at a time, and how many such parts there are before they are put together, which
 /// keeps the parts of dense hair small.
-const PART: usize = 32;
-const PARTS: usize = 32;
+const PART: usize = 16;
+const PARTS: usize = 64;
 
 /// Makes frames of scenes.
 #[derive(Default)]
@@ -596,6 +596,7 @@ fn push_beside(
         let made: Result<(), PathError> = parts[..used]
             .par_iter_mut()
             .enumerate()
+            .with_max_len(1)
             .map(|(number, part)| {
                 part.clear();
                 part.set_along_tangents(along_tangents);

@@ -13,6 +13,7 @@ use effects::{
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Mutex;
 use stroke_path::{PathRun, Paths};
 
 /// Turns frames into drawings, on the threads of the rayon pool that it is called in. Keeps its lists
@@ -29,6 +30,8 @@ pub struct Evaluator {
     /// How much nearer each joint is ordered among strands, head heights; empty where none is.
     lift: Vec<f32>,
     is_everywhere: bool,
+    /// One for each thread.
+    scratches: Vec<Mutex<Scratch>>,
 }
 
 impl Evaluator {
@@ -49,6 +52,8 @@ impl Evaluator {
     #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn evaluate(&mut self, frame: &Frame, drawing: &mut Drawing) -> Result<(), FrameError> {
         frame.check()?;
+        let threads = rayon::current_num_threads();
+        self.scratches.resize_with(threads, Mutex::default);
         let read = inputs(frame);
         self.fill_inputs(frame, read);
         self.fill_clumps(frame, read);
@@ -146,34 +151,45 @@ impl Evaluator {
                 }
             }
         }
-        let made = parts.into_par_iter().map_init(
-            Scratch::default,
-            |scratch, (object, number, joints)| {
-                let size = |i| clump_disc(number, radii[i], shifts[i]).z;
-                let strand = StrandJoints {
-                    joints: &self.joints,
-                    range: joints.clone(),
-                    instance: number,
-                    seed: 0,
-                };
-                let extent = strand.clump_disc_extent();
-                scratch.radii.clear();
-                scratch.radii.resize(extent.start - joints.start, 0.0);
-                scratch.radii.extend(extent.map(size));
-                scratch.radii.resize(joints.len(), 0.0);
-                leave_out_unneeded(&self.needed.all, &joints, &mut scratch.radii);
-                let mut made = Made::new(number - 1);
-                made.find_stretches(frame.paths, &joints, &scratch.radii);
-                let drawn = made.stretches.iter().flat_map(|s| s.joints.clone());
-                let discs = drawn.map(|i| self.clump_disc_at(frame, object, i, number));
-                made.discs.extend(discs);
-                made
-            },
-        );
+        let sides = |(object, number, joints): (&Object, u32, Range<usize>)| {
+            let size = |i| clump_disc(number, radii[i], shifts[i]).z;
+            let strand = StrandJoints {
+                joints: &self.joints,
+                range: joints.clone(),
+                instance: number,
+                seed: 0,
+            };
+            let extent = strand.clump_disc_extent();
+            let mut made = Made::new(number - 1);
+            self.with_scratch(|Scratch { radii, .. }| {
+                radii.clear();
+                radii.resize(extent.start - joints.start, 0.0);
+                radii.extend(extent.map(size));
+                radii.resize(joints.len(), 0.0);
+                leave_out_unneeded(&self.needed.all, &joints, radii);
+                made.find_stretches(frame.paths, &joints, radii);
+            });
+            let drawn = made.stretches.iter().flat_map(|s| s.joints.clone());
+            let discs = drawn.map(|i| self.clump_disc_at(frame, object, i, number));
+            made.discs.extend(discs);
+            made
+        };
+        // One by one, so that all threads end at one time; as those of layers.
+        let made = parts.into_par_iter().with_max_len(1).map(sides);
         let made: Vec<Made> = made.collect();
         let mut stretches = vec![Vec::new(); CLUMP_DISCS as usize - 1];
         put_together(made, &mut stretches, &mut drawing.sides, &mut Vec::new());
         drawing.side_stretches = Stretches::Within(stretches);
+    }
+
+    /// Calls `work` with this thread's working memory.
+    fn with_scratch<R>(&self, work: impl FnOnce(&mut Scratch) -> R) -> R {
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        match self.scratches[thread].try_lock() {
+            Ok(mut scratch) => work(&mut scratch),
+            // An effect that waits for other threads may be called in the midst of itself, and one may have panicked.
+            Err(_) => work(&mut Scratch::default()),
+        }
     }
 
     fn is_needed(&self, joint: usize) -> bool {
@@ -220,8 +236,9 @@ impl Evaluator {
         let parts: Vec<(u32, Range<usize>)> = (0..instances).flat_map(of_stroke).collect();
         let made = parts
             .into_par_iter()
-            .map_init(Scratch::default, |scratch, (number, joints)| {
-                part(joints).evaluate(number, scratch)
+            .with_max_len(1)
+            .map(|(number, joints)| {
+                self.with_scratch(|scratch| part(joints).evaluate(number, scratch))
             });
         let made: Vec<Made> = made.collect();
         let mut stretches = vec![Vec::new(); instances as usize];
