@@ -16,7 +16,7 @@ pub enum Card {
     Any,
 }
 
-/// The CPU's rasteriser and a graphics card, kept from frame to frame.
+/// The CPU's rasteriser, which draws on the threads of the pool that it is called in, and a graphics card, kept from frame to frame.
 pub struct Backends {
     samples: u32,
     evaluator: Evaluator,
@@ -49,7 +49,7 @@ impl Backends {
     /// # Errors
     ///
     /// When a card is there and can't be used, or there is no such number of samples.
-    pub fn new(samples: u32, threads: usize, card: Card) -> Result<Self, BenchError> {
+    pub fn new(samples: u32, card: Card) -> Result<Self, BenchError> {
         let kind = match card {
             Card::Hardware => AdapterKind::Hardware,
             Card::Any => AdapterKind::Any,
@@ -61,7 +61,7 @@ impl Backends {
         };
         Ok(Self {
             card,
-            ..Self::without_card(samples, threads)?
+            ..Self::without_card(samples)?
         })
     }
 
@@ -70,11 +70,11 @@ impl Backends {
     /// # Errors
     ///
     /// When there is no such number of samples.
-    pub fn without_card(samples: u32, threads: usize) -> Result<Self, BenchError> {
+    pub fn without_card(samples: u32) -> Result<Self, BenchError> {
         Ok(Self {
             samples,
             evaluator: Evaluator::default(),
-            rasterizer: Rasterizer::new(samples, Some(threads)).map_err(|e| e.to_string())?,
+            rasterizer: Rasterizer::new(samples, None).map_err(|e| e.to_string())?,
             drawing: Drawing::default(),
             card: None,
         })
@@ -107,6 +107,11 @@ impl Backends {
             .map_err(|e| e.to_string())?;
         let raster = start.elapsed().as_secs_f64() - effects;
         Ok((picture, CpuTimes { effects, raster }))
+    }
+
+    /// Takes a picture of the CPU's back: the next one is drawn in its memory, as those of a program that shows them would be.
+    pub fn give_back(&mut self, picture: Picture) {
+        self.rasterizer.give_back(picture);
     }
 
     /// Draws on the card, where there is one.

@@ -117,7 +117,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
             let name = format!("{}: {look}", subject.name);
             progress.set_message(name.clone());
             let mut stage = subject.open(&options.root, look, &registry)?;
-            let mut backends = Backends::new(SAMPLES, options.threads, options.card)?;
+            let mut backends = Backends::new(SAMPLES, options.card)?;
             let rows =
                 pool.install(|| frame::look(&name, SAMPLES, &mut stage, &mut backends, frames))?;
             for method in ["cpu", "gpu"] {

@@ -82,7 +82,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
             .into_owned();
         progress.set_message(name.clone());
         let mut stage = open(preset, &options.root, None)?;
-        let mut backends = Backends::new(SAMPLES, options.threads, options.card)?;
+        let mut backends = Backends::new(SAMPLES, options.card)?;
         let rows = pool.install(|| look(&name, SAMPLES, &mut stage, &mut backends, frames))?;
         let simulate = rows.iter().find(|row| row.method == BEFORE[0]);
         measured.targets.extend(simulate.map(|row| Target {
@@ -178,7 +178,7 @@ fn sizes(options: &Options, frames: u32) -> Result<Measured, BenchError> {
     // What rasterising takes for each pixel, and for each sample of one.
     let mut raster = |size: [u32; 2], samples: u32| -> Result<f64, BenchError> {
         let mut stage = open(&path, &options.root, Some(size))?;
-        let mut backends = Backends::without_card(samples, options.threads)?;
+        let mut backends = Backends::without_card(samples)?;
         let [width, height] = size;
         let name = format!("{SIZED}, {width} x {height}");
         let rows = look(&name, samples, &mut stage, &mut backends, frames)?;
@@ -259,13 +259,16 @@ pub(crate) fn look(
         let paths = start.elapsed().as_secs_f64() - simulate;
         let (picture, cpu) = backends.on_cpu(&frame)?;
         let card = backends.on_card(&frame)?;
+        if number >= WARM_UP
+            && let Some((by_card, _)) = &card
+        {
+            error = Some(share_that_differs(&picture, by_card));
+        }
+        backends.give_back(picture);
         if number < WARM_UP {
             continue;
         }
         let before = simulate + paths;
-        if let Some((by_card, _)) = &card {
-            error = Some(share_that_differs(&picture, by_card));
-        }
         let mut found = vec![simulate, paths];
         found.extend(of_stages(before, cpu, card.map(|(_, times)| times)));
         for (times, seconds) in times.iter_mut().zip(found) {
@@ -288,7 +291,7 @@ mod tests {
     fn a_look_has_all_its_stages() {
         let path = root().join(YARDSTICKS).join("short-ash.ron");
         let mut stage = open(&path, &root(), None).unwrap();
-        let mut backends = Backends::new(1, 1, Card::Hardware).unwrap();
+        let mut backends = Backends::new(1, Card::Hardware).unwrap();
         let rows = look("short-ash", 1, &mut stage, &mut backends, 2).unwrap();
         let of = |method: &str| {
             rows.iter()

@@ -67,7 +67,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         .num_threads(options.threads)
         .build();
     let pool = pool.map_err(|error| error.to_string())?;
-    let mut backends = Backends::new(SAMPLES, options.threads, options.card)?;
+    let mut backends = Backends::new(SAMPLES, options.card)?;
     let mut measured = Measured {
         rows: Vec::new(),
         targets: Vec::new(),
@@ -319,7 +319,7 @@ mod tests {
 
     #[test]
     fn few_strands_are_drawn_and_timed() {
-        let mut backends = Backends::new(1, 1, Card::Hardware).unwrap();
+        let mut backends = Backends::new(1, Card::Hardware).unwrap();
         let rows = strands(20, &mut backends, 2).unwrap();
         assert!(
             rows.iter()

@@ -312,7 +312,9 @@ impl Drawer {
         evaluated.map_err(|error| error.to_string())?;
         self.discs = discs(&self.drawing);
         let picture = self.rasterizer.draw(&self.drawing);
-        picture.map(drop).map_err(|error| error.to_string().into())
+        let picture = picture.map_err(|error| error.to_string())?;
+        self.rasterizer.give_back(picture);
+        Ok(())
     }
 }
 

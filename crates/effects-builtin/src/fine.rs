@@ -31,6 +31,8 @@ impl effects::StrokeEffect for Fine {
     const OWN_PATHS: bool = true;
 
     fn make_paths(params: &Params, hair: &Hair, seed: u32, paths: &mut MadePaths) {
+        // Once: each is held against all others.
+        let places: Vec<AtRest> = hair.strands.iter().map(at_rest).collect();
         for (index, strand) in hair.strands.iter().enumerate() {
             let strand_seed = strand_seed(seed, strand.id);
             // A half hair is there for every other strand.
@@ -38,7 +40,7 @@ impl effects::StrokeEffect for Fine {
             if number == 0 || strand.particles.len() < 2 {
                 continue;
             }
-            let neighbours = nearest(hair, index, params.neighbours as usize);
+            let neighbours = nearest(&places, index, params.neighbours as usize);
             for hair_number in 0..number.min(MOST_PATHS) {
                 let line = FineHair::new(params, hash(strand_seed ^ hash(hair_number)));
                 let choice = (line.choice * neighbours.len() as f32) as usize;
@@ -58,17 +60,23 @@ impl effects::StrokeEffect for Fine {
     }
 }
 
+/// A strand's root, middle and tip at rest.
+type AtRest = [Vec3; 3];
+
+fn at_rest(strand: &HairStrand) -> AtRest {
+    [0.0, 0.5, 1.0].map(|u| strand.point_at_rest(u))
+}
+
 /// The `number` strands that run beside strand `index` at rest, the nearest first: their roots, middles
 /// and tips are near.
-fn nearest(hair: &Hair, index: usize, number: usize) -> Vec<usize> {
-    let ends = |strand: &HairStrand| [0.0, 0.5, 1.0].map(|u| strand.point_at_rest(u));
-    let own = ends(&hair.strands[index]);
-    let distance = |strand: &HairStrand| -> f32 {
-        let pairs = own.into_iter().zip(ends(strand));
-        pairs.map(|(a, b)| a.distance(b)).sum()
+fn nearest(places: &[AtRest], index: usize, number: usize) -> Vec<usize> {
+    let own = places[index];
+    let distance = |place: &AtRest| -> f32 {
+        let pairs = own.iter().zip(place);
+        pairs.map(|(a, b)| a.distance(*b)).sum()
     };
-    let others = (0..hair.strands.len()).filter(|&i| i != index);
-    let mut nearest: Vec<(f32, usize)> = others.map(|i| (distance(&hair.strands[i]), i)).collect();
+    let others = (0..places.len()).filter(|&i| i != index);
+    let mut nearest: Vec<(f32, usize)> = others.map(|i| (distance(&places[i]), i)).collect();
     let by_distance = |a: &(f32, usize), b: &(f32, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
     if nearest.len() > number {
         nearest.select_nth_unstable_by(number - 1, by_distance);

@@ -89,7 +89,8 @@ impl Painter {
                 stats.reused = true;
                 last
             }
-            _ => {
+            last => {
+                self.reuse(last);
                 let picture = self.draw(stage, &mut stats, &mut lap)?;
                 Drawn {
                     picture: Arc::new(picture),
@@ -224,6 +225,14 @@ impl Painter {
             buffers: buffer_bytes(&cpu.drawing),
         };
         Ok(picture)
+    }
+
+    /// Lets the CPU draw in the memory of a picture that is written already.
+    fn reuse(&mut self, last: Option<Drawn>) {
+        let last = last.and_then(|last| Arc::into_inner(last.picture));
+        if let (Some(cpu), Some(picture)) = (&mut self.cpu, last) {
+            cpu.rasterizer.give_back(picture);
+        }
     }
 
     fn cpu(&mut self) -> Result<&mut Cpu, Failure> {

@@ -317,6 +317,21 @@ const DISC_RULE: &str =
 /// Looks at every number of the drawing, so that drawing itself can't fail.
 pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     check_picture(drawing.size, drawing.background, drawing.edge_depth_m)?;
+    let mesh_layers = drawing.mesh_painting.layers.len();
+    let (strokes, surfaces) = rayon::join(
+        || check_strokes(drawing),
+        || check_surfaces(&drawing.surfaces, mesh_layers),
+    );
+    strokes?;
+    check_features(drawing)?;
+    check_painting(drawing)?;
+    check_decals(drawing)?;
+    check_brushwork(drawing)?;
+    check_mesh_painting(drawing)?;
+    surfaces
+}
+
+fn check_strokes(drawing: &Drawing) -> Result<(), DrawError> {
     check_runs(drawing)?;
     if let Some(joint) = first_that_is_not(&drawing.clump, is_disc) {
         let disc = drawing.clump[joint];
@@ -326,12 +341,7 @@ pub(crate) fn check(drawing: &Drawing) -> Result<(), DrawError> {
     for layer in &drawing.layers {
         check_layer(layer, drawing)?;
     }
-    check_features(drawing)?;
-    check_painting(drawing)?;
-    check_decals(drawing)?;
-    check_brushwork(drawing)?;
-    check_mesh_painting(drawing)?;
-    check_surfaces(&drawing.surfaces, drawing.mesh_painting.layers.len())
+    Ok(())
 }
 
 fn check_features(drawing: &Drawing) -> Result<(), DrawError> {

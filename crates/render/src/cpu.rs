@@ -45,7 +45,7 @@ use crate::drawing::Drawing;
 use crate::picture::Picture;
 use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
-use bin::{Bins, cells};
+use bin::{Bins, Lists, cells};
 use decals::{DecalParts, Decals};
 use instructions::Instructions;
 use mixed::JointRows;
@@ -92,6 +92,8 @@ pub struct Rasterizer {
     workers: Vec<Mutex<Worker>>,
     /// Samples of the last picture with passes.
     planes: SamplePlanes,
+    /// The memory of a picture that was given back; else empty.
+    spare: Vec<[f32; 4]>,
 }
 
 /// What the drawing is taken apart into.
@@ -132,6 +134,7 @@ impl Rasterizer {
             parts: Parts::default(),
             workers: Vec::new(),
             planes: SamplePlanes::default(),
+            spare: Vec::new(),
         })
     }
 
@@ -150,6 +153,12 @@ impl Rasterizer {
         }
     }
 
+    /// Takes a picture that nobody needs any more: the next one of its size, without passes, is drawn in its memory. To get new memory and to fill it takes
+    /// longer than many a picture's strokes.
+    pub fn give_back(&mut self, picture: Picture) {
+        self.spare = picture.pixels;
+    }
+
     fn draw_means(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
         let Self {
             pool,
@@ -159,10 +168,20 @@ impl Rasterizer {
             instructions,
             workers,
             planes: _,
+            spare,
         } = self;
         let mut draw = || {
             check::check(drawing)?;
-            let mut picture = empty_picture(drawing, *samples)?;
+            let [width, height] = drawing.size;
+            let is_spare = spare.len() == width as usize * height as usize;
+            let mut picture = match is_spare {
+                true => Picture {
+                    width,
+                    height,
+                    pixels: std::mem::take(spare),
+                },
+                false => empty_picture(drawing, *samples)?,
+            };
             let strokes = segment::strokes_in_order(drawing, Kind::Ordered);
             let tile_height = tile::height(stacks);
             parts.collect(drawing, &strokes, stacks);
@@ -173,6 +192,7 @@ impl Rasterizer {
                 samples: *samples,
                 stacks,
                 runs_of_joints: &[],
+                to_fill: is_spare.then(|| tile::empty_pixel(drawing.background, *samples)),
             };
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
@@ -285,6 +305,8 @@ struct Frame<'a> {
     stacks: &'a [Stack],
     /// For each joint its run, where samples tell what they show.
     runs_of_joints: &'a [u32],
+    /// What pixels that nothing covers are to be, where they aren't.
+    to_fill: Option<[f32; 4]>,
 }
 
 impl Frame<'_> {
@@ -311,9 +333,8 @@ enum Output<'a> {
 
 /// A thread's own memory.
 struct Worker {
-    /// A band's segments and the tiles that each reaches.
-    columns: Vec<(u32, Range<usize>)>,
-    segments_of_tiles: Bins,
+    /// The segments that reach each of a band's tiles.
+    segments_of_tiles: Lists,
     target: Target,
     parts: Vec<Part>,
     strand: StrandMasks,
@@ -330,8 +351,7 @@ struct Worker {
 impl Worker {
     fn new() -> Self {
         Self {
-            columns: Vec::new(),
-            segments_of_tiles: Bins::default(),
+            segments_of_tiles: Lists::default(),
             target: Target::new(),
             parts: Vec::new(),
             strand: StrandMasks::new(),
@@ -358,14 +378,10 @@ impl Worker {
     #[inline(always)]
     fn sort_into_tiles(&mut self, frame: &Frame, band: usize) {
         let segments = &frame.parts.segments;
-        self.columns.clear();
-        segments.of_band(band).for_each(|i| {
-            let columns = segments.list()[i as usize].bounds.x;
-            self.columns.push((i, cells(columns, tile::WIDTH)));
-        });
+        let columns = |i: u32| cells(segments.list()[i as usize].bounds.x, tile::WIDTH);
         let tiles = (frame.drawing.size[0] as usize).div_ceil(tile::WIDTH);
-        self.segments_of_tiles
-            .fill(tiles, self.columns.iter().cloned());
+        let of_band = segments.of_band(band).map(|i| (i, columns(i)));
+        self.segments_of_tiles.fill(tiles, of_band);
         if !frame.parts.decals.is_empty() {
             self.sort_decals_into_tiles(frame, band);
         }
@@ -377,8 +393,14 @@ impl Worker {
         let tiles = width.div_ceil(tile::WIDTH);
         for tile in 0..tiles {
             let x = tile * tile::WIDTH;
+            let end = (x + tile::WIDTH).min(width);
             let triangles = frame.parts.triangles_of_tiles.bin(band * tiles + tile);
             if triangles.is_empty() && self.segments_of_tiles.bin(tile).is_empty() {
+                if let Some(empty) = frame.to_fill {
+                    for pixels in pixels.chunks_mut(width) {
+                        pixels[x..end].fill(empty);
+                    }
+                }
                 continue;
             }
             self.draw_tile(
@@ -387,7 +409,6 @@ impl Worker {
                 triangles,
                 [x, band * tile::height(frame.stacks)],
             );
-            let end = (x + tile::WIDTH).min(width);
             for (row, pixels) in pixels.chunks_mut(width).enumerate() {
                 self.sums.write(row, frame.samples, &mut pixels[x..end]);
             }

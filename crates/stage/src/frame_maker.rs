@@ -2,12 +2,12 @@
 
 mod lines;
 mod made;
+mod meshes;
 #[cfg(test)]
 mod tests;
 
 use crate::bodies::Body;
 use crate::files::StageError;
-use crate::head;
 use crate::head::layers::{Clips, MeshLayers};
 use crate::levels::levels;
 use crate::look::{LineSet, Look};
@@ -15,7 +15,6 @@ use crate::material::Material;
 use crate::motion::{Motion, ObjectMotion};
 use crate::neck::PosedHead;
 use crate::object::{Object, PathShape};
-use crate::posture::Posture;
 use crate::reach::Sight;
 use crate::scene::Scene;
 use crate::script::HeadPose;
@@ -24,16 +23,17 @@ use effects::{Input, Layer};
 use glam::{Vec2, Vec3};
 use lines::{LineLists, LineTime, NO_MARK, ObjectLines};
 use made::ObjectPaths;
+use meshes::ObjectMeshes;
 use rayon::prelude::*;
-use render::{Ball, Frame, Light, MeshLayer, StrandInfo, Surface};
+use render::{Ball, Frame, MeshLayer, StrandInfo};
 use std::ops::Range;
 use std::sync::Arc;
 use stroke_path::{Camera, PathError, Paths};
 
 /// How many strands a thread makes the paths of at a time, and how many such parts there are before they are put together, which
 /// keeps the parts of dense hair small.
-const PART: usize = 32;
-const PARTS: usize = 32;
+const PART: usize = 16;
+const PARTS: usize = 64;
 
 /// Makes frames of scenes.
 #[derive(Default)]
@@ -172,9 +172,29 @@ impl FrameMaker {
             let own_camera = object.placement().own_camera(&camera);
             let sight = Sight::new(&own_camera, object, section.detail, shows_all);
             frame.keep(motion);
-            frame.push_strands(motion, &sight, strands, paths)?;
+            let first_layer = mesh_layers.len();
+            let names = MeshLayers::new(&object.look().mesh_layers, first_layer, &clips);
+            let meshes = ObjectMeshes {
+                object,
+                index,
+                motion,
+                sight: &sight,
+                light: object.placement().own_light(light),
+                layers: &names,
+            };
+            let mut posed = frame.head.take();
             let weights = reads_weights.then_some(&mut *path_weights);
-            frame.push_made_paths(motion, &sight, light, strands, paths, weights)?;
+            let (pushed, seen) = rayon::join(
+                || {
+                    frame.push_strands(motion, &sight, strands, paths)?;
+                    frame.push_made_paths(motion, &sight, light, strands, paths, weights)
+                },
+                || meshes.seen(&mut posed),
+            );
+            frame.head = posed;
+            pushed?;
+            frame.solid = seen.solid;
+            surfaces.extend(seen.surfaces);
             if reads_material {
                 frame.push_material_normals(motion, paths, normals);
             }
@@ -185,9 +205,6 @@ impl FrameMaker {
             object
                 .placement()
                 .joints(paths, frame.joints.clone(), own_normals.unwrap_or_default());
-            let first_layer = mesh_layers.len();
-            let names = MeshLayers::new(&object.look().mesh_layers, first_layer, &clips);
-            surfaces.extend(frame.surfaces(index, motion, &sight, light, &names));
             let look = object.look();
             let head = object.placement().head(motion.head(object));
             mesh_layers.extend(look.mesh_layers.iter().map(|layer| MeshLayer {
@@ -492,32 +509,18 @@ impl ObjectFrame {
             });
         }
         let is_merged = |i: usize| sizes[i] == 0.0 && hair.infos[i].size > 0.0;
-        let all: Vec<usize> = (0..hair.infos.len()).collect();
-        self.merged = all.iter().filter(|i| is_merged(**i)).count();
-        self.parts.resize_with(PARTS, Paths::new);
-        for part in &mut self.parts {
-            part.set_along_tangents(self.of.look().paints());
-        }
-        for some in all.chunks(PARTS * PART) {
-            let parts = self.parts.par_iter_mut().zip(some.par_chunks(PART));
-            let made: Result<(), PathError> = parts
-                .map(|(part, of_part)| {
-                    part.clear();
-                    (of_part.iter()).try_for_each(|&i| {
-                        let PathShape { cuts, detail } = &self.of.shapes()[i];
-                        if is_merged(i) || !sight.may_see(particles(i), sizes[i]) {
-                            part.leave_out(cuts);
-                            return Ok(());
-                        }
-                        let (strand, detail) = (first + i, Some(detail));
-                        part.push_pieces(strand, particles(i), cuts, detail, path, sight.camera())
-                    })
-                })
-                .collect();
-            made?;
-            let made = self.parts.iter().take(some.len().div_ceil(PART));
-            made.for_each(|part| paths.append(part));
-        }
+        self.merged = (0..sizes.len()).filter(|i| is_merged(*i)).count();
+        let push = |part: &mut Paths, i: usize| {
+            let PathShape { cuts, detail } = &self.of.shapes()[i];
+            if is_merged(i) || !sight.may_see(particles(i), sizes[i]) {
+                part.leave_out(cuts);
+                return Ok(());
+            }
+            let (strand, detail) = (first + i, Some(detail));
+            part.push_pieces(strand, particles(i), cuts, detail, path, sight.camera())
+        };
+        let along_tangents = self.of.look().paints();
+        push_beside(&mut self.parts, sizes.len(), along_tangents, paths, push)?;
         self.joints.end = paths.len();
         Ok(())
     }
@@ -574,106 +577,38 @@ impl ObjectFrame {
             positions.extend(run.joints.clone().map(at_rest));
         }
     }
+}
 
-    /// The surfaces of the head on the screen, and of bodies.
-    fn surfaces(
-        &mut self,
-        index: usize,
-        motion: &ObjectMotion,
-        sight: &Sight,
-        light: Light,
-        layers: &MeshLayers,
-    ) -> Vec<Surface> {
-        let placement = self.of.placement();
-        let light = placement.own_light(light);
-        let mut surfaces = self.head_surfaces(motion, sight, light, layers);
-        surfaces.extend(self.body_surfaces(motion, sight, light, layers));
-        let ties = self
-            .of
-            .hair()
-            .low_ties_at(motion.points(&self.of), motion.head_pose());
-        if !ties.triangles.is_empty() {
-            let paint = self.of.look().paint(self.of.hair().head);
-            surfaces.extend(head::worn(&ties, &paint, layers, sight.camera(), &light));
-        }
-        let first_mesh = head::MESHES * index as u32;
-        for surface in &mut surfaces {
-            surface.mesh += first_mesh;
-            if let Some(paint) = &mut surface.paint {
-                placement.turn(&mut paint.normals);
-            }
-        }
-        surfaces
+/// Appends the paths of so many strands: `push` appends one's, by its number among them. They are made beside each other in `parts`, which
+/// are kept from frame to frame; as [`Paths::set_along_tangents`] has it.
+fn push_beside(
+    parts: &mut Vec<Paths>,
+    count: usize,
+    along_tangents: bool,
+    paths: &mut Paths,
+    push: impl Fn(&mut Paths, usize) -> Result<(), PathError> + Sync,
+) -> Result<(), PathError> {
+    parts.resize_with(PARTS, Paths::new);
+    let mut rest = 0..count;
+    while !rest.is_empty() {
+        let some = rest.start..rest.end.min(rest.start + PARTS * PART);
+        let used = some.len().div_ceil(PART);
+        let made: Result<(), PathError> = parts[..used]
+            .par_iter_mut()
+            .enumerate()
+            .with_max_len(1)
+            .map(|(number, part)| {
+                part.clear();
+                part.set_along_tangents(along_tangents);
+                let start = some.start + number * PART;
+                (start..some.end.min(start + PART)).try_for_each(|i| push(part, i))
+            })
+            .collect();
+        made?;
+        parts[..used].iter().for_each(|part| paths.append(part));
+        rest.start = some.end;
     }
-
-    /// The surfaces of bodies that are drawn.
-    fn body_surfaces(
-        &self,
-        motion: &ObjectMotion,
-        sight: &Sight,
-        light: Light,
-        layers: &MeshLayers,
-    ) -> Vec<Surface> {
-        let script = self.of.script();
-        if script
-            .bodies
-            .iter()
-            .all(|body| body.section.color.is_none())
-        {
-            return Vec::new();
-        }
-        let head = self.of.hair().head;
-        let paint = self.of.look().paint(head);
-        let posture = Posture::of(
-            motion.head_pose(),
-            (head, self.of.pivot()),
-            script,
-            motion.posed_s(),
-        );
-        let drawn = script.bodies.iter().filter_map(|body| {
-            let mesh = body.drawn(motion.posed_s(), &posture)?;
-            let (center, radius_m) = ball_around(&mesh.positions);
-            let is_seen = sight.may_see_ball(center, radius_m + paint.width_m);
-            is_seen.then(|| head::painted(&mesh, &paint, layers, sight.camera(), &light))
-        });
-        drawn.flatten().collect()
-    }
-
-    /// The head's surfaces on the screen; none where nothing of the head can be seen.
-    fn head_surfaces(
-        &mut self,
-        motion: &ObjectMotion,
-        sight: &Sight,
-        light: Light,
-        layers: &MeshLayers,
-    ) -> Vec<Surface> {
-        self.solid = None;
-        let Some(neck) = self.of.neck() else {
-            return Vec::new();
-        };
-        let paint = self.of.look().paint(self.of.hair().head);
-        let (pose, placement) = (motion.head_pose(), self.of.placement());
-        let camera = sight.camera();
-        let (center, radius) = neck.ball(pose);
-        if !sight.may_see_ball(center, radius + paint.width_m) {
-            return Vec::new();
-        }
-        let solid = match sight.shows_all() {
-            true => None,
-            false => neck.solid(pose, self.of.hair().head, camera.eye(), camera.near_m()),
-        };
-        self.solid = solid.map(|ball| placement.ball(ball));
-        let posed = self.head.get_or_insert_with(|| PosedHead::new(neck));
-        let model = posed.in_pose(neck, pose);
-        head::surfaces(
-            model,
-            &paint,
-            self.of.look().meshes(),
-            layers,
-            sight.camera(),
-            &light,
-        )
-    }
+    Ok(())
 }
 
 /// The script's own time in seconds where bodies are drawn that move by themselves; else 0.

@@ -125,23 +125,47 @@ impl Bins {
     }
 }
 
+/// The same where a thread sorts few items into few bins again and again: lists of their own, which are filled in one go.
+#[derive(Debug, Default)]
+pub(super) struct Lists(Vec<Vec<u32>>);
+
+impl Lists {
+    /// As [`Bins::fill`].
+    pub(super) fn fill(&mut self, bins: usize, items: impl Iterator<Item = (u32, Range<usize>)>) {
+        self.0.resize_with(bins, Vec::new);
+        self.0.iter_mut().for_each(Vec::clear);
+        items.for_each(|(item, range)| {
+            let lists = self.0[range].iter_mut();
+            lists.for_each(|list| list.push(item));
+        });
+    }
+
+    /// The items of a bin.
+    pub(super) fn bin(&self, bin: usize) -> &[u32] {
+        &self.0[bin]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn bins_keep_the_order_of_items() {
-        let mut bins = Bins::default();
+        let (mut bins, mut lists) = (Bins::default(), Lists::default());
         for _ in 0..2 {
             let items = [(7, 0..2), (3, 1..4), (5, 1..2), (9, 3..4)];
-            bins.fill(4, items.into_iter());
-            assert_eq!(bins.bin(0), [7]);
-            assert_eq!(bins.bin(1), [7, 3, 5]);
-            assert_eq!(bins.bin(2), [3]);
-            assert_eq!(bins.bin(3), [3, 9]);
+            bins.fill(4, items.clone().into_iter());
+            lists.fill(4, items.into_iter());
+            for (bin, expected) in [&[7][..], &[7, 3, 5], &[3], &[3, 9]].iter().enumerate() {
+                assert_eq!(bins.bin(bin), *expected);
+                assert_eq!(lists.bin(bin), *expected);
+            }
         }
         bins.fill(1, std::iter::empty());
+        lists.fill(1, std::iter::empty());
         assert!(bins.bin(0).is_empty());
+        assert!(lists.bin(0).is_empty());
     }
 
     #[test]

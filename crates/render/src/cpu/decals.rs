@@ -1,7 +1,7 @@
 //! Decals of a tile ([`Decal`]): strokes that are drawn on what is seen without them. Once all else is there, each sample keeps the highest one
 //! that fits it; no decal hides another's way, so that they come in any order and none pops.
 
-use super::bin::{Bins, cells as cells_across};
+use super::bin::{Lists, cells as cells_across};
 use super::brush::StrokeBrush;
 use super::segment::{Kind, Segment, Segments, Stroke, strokes_in_order};
 use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
@@ -15,7 +15,6 @@ use super::tile::{
 use super::{Frame, Worker};
 use crate::drawing::{Decal, Drawing, Order, shown_reach};
 use std::cmp::Reverse;
-use std::ops::Range;
 
 /// What a surface in the shadow of hair is told as how much it lies in shadow: whatever the light, and wherever it turns to shade.
 const IN_SHADOW: f32 = 3.0;
@@ -54,8 +53,7 @@ impl DecalParts {
 /// A thread's memory.
 #[derive(Default)]
 pub(super) struct Decals {
-    columns: Vec<(u32, Range<usize>)>,
-    of_tiles: Bins,
+    of_tiles: Lists,
     /// A tile's segments, those of the highest stroke first, then of the lowest strand.
     order: Vec<u32>,
     planes: Option<Planes>,
@@ -115,16 +113,10 @@ impl Worker {
     #[inline(always)]
     pub(super) fn sort_decals_into_tiles(&mut self, frame: &Frame, band: usize) {
         let segments = &frame.parts.decals.segments;
-        let Decals {
-            columns, of_tiles, ..
-        } = &mut self.decals;
-        columns.clear();
-        segments.of_band(band).for_each(|i| {
-            let own = segments.list()[i as usize].bounds.x;
-            columns.push((i, cells_across(own, WIDTH)));
-        });
+        let columns = |i: u32| cells_across(segments.list()[i as usize].bounds.x, WIDTH);
         let tiles = (frame.drawing.size[0] as usize).div_ceil(WIDTH);
-        of_tiles.fill(tiles, columns.iter().cloned());
+        let of_band = segments.of_band(band).map(|i| (i, columns(i)));
+        self.decals.of_tiles.fill(tiles, of_band);
     }
 
     /// Finds which decals the samples of a tile show, once all else is drawn there.

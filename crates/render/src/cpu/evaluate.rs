@@ -13,6 +13,7 @@ use effects::{
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Mutex;
 use stroke_path::{PathRun, Paths};
 
 /// Turns frames into drawings, on the threads of the rayon pool that it is called in. Keeps its lists
@@ -29,6 +30,8 @@ pub struct Evaluator {
     /// How much nearer each joint is ordered among strands, head heights; empty where none is.
     lift: Vec<f32>,
     is_everywhere: bool,
+    /// One for each thread.
+    scratches: Vec<Mutex<Scratch>>,
 }
 
 impl Evaluator {
@@ -49,6 +52,8 @@ impl Evaluator {
     #[inline(never)] // a stage of a frame, which `cargo xtask bench count` finds by its name
     pub fn evaluate(&mut self, frame: &Frame, drawing: &mut Drawing) -> Result<(), FrameError> {
         frame.check()?;
+        let threads = rayon::current_num_threads();
+        self.scratches.resize_with(threads, Mutex::default);
         let read = inputs(frame);
         self.fill_inputs(frame, read);
         self.fill_clumps(frame, read);
@@ -132,9 +137,9 @@ impl Evaluator {
     /// Those at their sides, where clumps are flat.
     fn fill_sides(&self, frame: &Frame, drawing: &mut Drawing) {
         let (radii, shifts) = (&self.joints.clump_radius, &self.joints.clump_shift);
-        drawing.sides.clear();
         drawing.side_stretches = Stretches::default();
         if shifts.iter().all(|&shift| shift == vec2([0.0; 2])) {
+            drawing.sides.clear();
             return;
         }
         let mut parts = Vec::new();
@@ -146,36 +151,45 @@ impl Evaluator {
                 }
             }
         }
-        let made = parts.into_par_iter().map_init(
-            Scratch::default,
-            |scratch, (object, number, joints)| {
-                let size = |i| clump_disc(number, radii[i], shifts[i]).z;
-                let strand = StrandJoints {
-                    joints: &self.joints,
-                    range: joints.clone(),
-                    instance: number,
-                    seed: 0,
-                };
-                let extent = strand.clump_disc_extent();
-                scratch.radii.clear();
-                scratch.radii.resize(extent.start - joints.start, 0.0);
-                scratch.radii.extend(extent.map(size));
-                scratch.radii.resize(joints.len(), 0.0);
-                leave_out_unneeded(&self.needed.all, &joints, &mut scratch.radii);
-                let mut made = Made::new(number - 1);
-                made.find_stretches(frame.paths, &joints, &scratch.radii);
-                let drawn = made.stretches.iter().flat_map(|s| s.joints.clone());
-                let discs = drawn.map(|i| self.clump_disc_at(frame, object, i, number));
-                made.discs.extend(discs);
-                made
-            },
-        );
+        let sides = |(object, number, joints): (&Object, u32, Range<usize>)| {
+            let size = |i| clump_disc(number, radii[i], shifts[i]).z;
+            let strand = StrandJoints {
+                joints: &self.joints,
+                range: joints.clone(),
+                instance: number,
+                seed: 0,
+            };
+            let extent = strand.clump_disc_extent();
+            let mut made = Made::new(number - 1);
+            self.with_scratch(|Scratch { radii, .. }| {
+                radii.clear();
+                radii.resize(extent.start - joints.start, 0.0);
+                radii.extend(extent.map(size));
+                radii.resize(joints.len(), 0.0);
+                leave_out_unneeded(&self.needed.all, &joints, radii);
+                made.find_stretches(frame.paths, &joints, radii);
+            });
+            let drawn = made.stretches.iter().flat_map(|s| s.joints.clone());
+            let discs = drawn.map(|i| self.clump_disc_at(frame, object, i, number));
+            made.discs.extend(discs);
+            made
+        };
+        // One by one, so that all threads end at one time; as those of layers.
+        let made = parts.into_par_iter().with_max_len(1).map(sides);
         let made: Vec<Made> = made.collect();
         let mut stretches = vec![Vec::new(); CLUMP_DISCS as usize - 1];
-        for made in made {
-            made.append(&mut stretches, &mut drawing.sides, &mut Vec::new());
-        }
+        put_together(made, &mut stretches, &mut drawing.sides, &mut Vec::new());
         drawing.side_stretches = Stretches::Within(stretches);
+    }
+
+    /// Calls `work` with this thread's working memory.
+    fn with_scratch<R>(&self, work: impl FnOnce(&mut Scratch) -> R) -> R {
+        let thread = rayon::current_thread_index().unwrap_or(0);
+        match self.scratches[thread].try_lock() {
+            Ok(mut scratch) => work(&mut scratch),
+            // An effect that waits for other threads may be called in the midst of itself, and one may have panicked.
+            Err(_) => work(&mut Scratch::default()),
+        }
     }
 
     fn is_needed(&self, joint: usize) -> bool {
@@ -222,20 +236,13 @@ impl Evaluator {
         let parts: Vec<(u32, Range<usize>)> = (0..instances).flat_map(of_stroke).collect();
         let made = parts
             .into_par_iter()
-            .map_init(Scratch::default, |scratch, (number, joints)| {
-                part(joints).evaluate(number, scratch)
+            .with_max_len(1)
+            .map(|(number, joints)| {
+                self.with_scratch(|scratch| part(joints).evaluate(number, scratch))
             });
         let made: Vec<Made> = made.collect();
         let mut stretches = vec![Vec::new(); instances as usize];
-        discs.clear();
-        colors.clear();
-        // Dense hair has many: they don't grow by doubling.
-        let count = made.iter().map(|made| made.discs.len()).sum();
-        discs.reserve_exact(count);
-        colors.reserve_exact(count);
-        for made in made {
-            made.append(&mut stretches, &mut discs, &mut colors);
-        }
+        put_together(made, &mut stretches, &mut discs, &mut colors);
         LayerStrokes {
             name: layer.name.clone(),
             joints: drawn.clone(),
@@ -540,29 +547,58 @@ impl Made {
         }
     }
 
-    /// Puts it behind what the lists of its layer have.
-    fn append(
-        mut self,
-        stretches: &mut [Vec<Stretch>],
-        discs: &mut Vec<Disc>,
-        colors: &mut Vec<[f32; 3]>,
-    ) {
-        let list = &mut stretches[self.number];
-        for mut stretch in self.stretches {
-            stretch.first += discs.len();
-            match list.last_mut() {
+    /// Adds where it is drawn to what its stroke has on the joints before; its discs lie from place `first` on.
+    fn add_stretches(&self, first: usize, all: &mut Vec<Stretch>) {
+        for stretch in &self.stretches {
+            let first = first + stretch.first;
+            match all.last_mut() {
                 Some(last)
-                    if last.joints.end == stretch.joints.start
-                        && last.places().end == stretch.first =>
+                    if last.joints.end == stretch.joints.start && last.places().end == first =>
                 {
                     last.joints.end = stretch.joints.end;
                 }
-                _ => list.push(stretch),
+                _ => all.push(Stretch {
+                    joints: stretch.joints.clone(),
+                    first,
+                }),
             }
         }
-        discs.append(&mut self.discs);
-        colors.append(&mut self.colors);
     }
+}
+
+/// Puts strokes one behind the other, in all threads, in place of what the lists had: these are megabytes.
+fn put_together(
+    made: Vec<Made>,
+    stretches: &mut [Vec<Stretch>],
+    discs: &mut Vec<Disc>,
+    colors: &mut Vec<[f32; 3]>,
+) {
+    let count = |of: fn(&Made) -> usize| -> usize { made.iter().map(of).sum() };
+    set_length(discs, count(|made| made.discs.len()), NO_DISC);
+    set_length(colors, count(|made| made.colors.len()), [0.0; 3]);
+    let (mut discs, mut colors) = (&mut discs[..], &mut colors[..]);
+    let mut first = 0;
+    let with_places = made.into_iter().map(|made| {
+        made.add_stretches(first, &mut stretches[made.number]);
+        first += made.discs.len();
+        let (own_discs, own_colors);
+        (own_discs, discs) = std::mem::take(&mut discs).split_at_mut(made.discs.len());
+        (own_colors, colors) = std::mem::take(&mut colors).split_at_mut(made.colors.len());
+        (made, own_discs, own_colors)
+    });
+    let with_places: Vec<_> = with_places.collect();
+    with_places
+        .into_par_iter()
+        .for_each(|(made, discs, colors)| {
+            discs.copy_from_slice(&made.discs);
+            colors.copy_from_slice(&made.colors);
+        });
+}
+
+/// Gives a list a length without looking at what it has, which is to be written over. Dense hair has long ones: they don't grow by doubling.
+fn set_length<T: Copy>(list: &mut Vec<T>, length: usize, anything: T) {
+    list.reserve_exact(length.saturating_sub(list.len()));
+    list.resize(length, anything);
 }
 
 /// Some neighbouring joints of a layer.

@@ -33,6 +33,7 @@ impl Rasterizer {
             instructions,
             workers,
             planes: _,
+            spare: _,
         } = self;
         let mut draw = || {
             check::check(drawing)?;
@@ -58,6 +59,7 @@ impl Rasterizer {
                     samples: *samples,
                     stacks: std::slice::from_ref(stack),
                     runs_of_joints: &runs_of_joints,
+                    to_fill: None,
                 };
                 let layout = planes.layout;
                 let [ids, numbers] = planes.of_band();

@@ -181,7 +181,8 @@ impl Segments {
             rest = behind;
         }
         let groups = groups.par_iter_mut().zip(lists).zip(of_groups);
-        groups.for_each(|((group, list), strands)| {
+        // One by one, as another thread that has surfaces to sort comes later.
+        groups.with_max_len(1).for_each(|((group, list), strands)| {
             let mut number = 0;
             for strand in strands {
                 strand.for_each(|segment| {

@@ -8,7 +8,7 @@
 
 use super::stroke::Depths;
 use glam::Vec2;
-use std::ops::Range;
+use std::ops::{Deref, DerefMut, Range};
 
 /// Width of a tile in pixels.
 pub(super) const WIDTH: usize = 32;
@@ -80,11 +80,33 @@ impl Iterator for OneByOne {
     }
 }
 
+/// What begins with a line of the cache. Lists of cells that lie anywhere have half of these in two lines; and processors take what two such
+/// lists have at one place for the same memory, where these begin a multiple of 4096 bytes apart but for less than a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+pub(super) struct Aligned<T>(pub(super) T);
+
+impl<T> Deref for Aligned<T> {
+    type Target = T;
+
+    #[inline(always)]
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
+impl<T> DerefMut for Aligned<T> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut T {
+        &mut self.0
+    }
+}
+
 /// A number for each sample of a tile that stands for something.
-pub(super) type IdPlane = Box<[[u32; LANES]; CELLS]>;
+pub(super) type IdPlane = Box<Aligned<[[u32; LANES]; CELLS]>>;
 
 pub(super) fn id_plane() -> IdPlane {
-    Box::new([[0; LANES]; CELLS])
+    Box::new(Aligned([[0; LANES]; CELLS]))
 }
 
 /// Takes on the new values where `mask` is set.
@@ -177,22 +199,22 @@ pub(super) fn height(stacks: &[Stack]) -> usize {
 }
 
 /// One number of each sample. Of fixed length, so that a cell's index is checked once for all planes.
-pub(super) type Plane = Box<[Lanes; CELLS]>;
+pub(super) type Plane = Box<Aligned<[Lanes; CELLS]>>;
 
 pub(super) fn plane() -> Plane {
-    Box::new([[0.0; LANES]; CELLS])
+    Box::new(Aligned([[0.0; LANES]; CELLS]))
 }
 
 /// Rows of samples in a tile: for each row of stacks those of its four samples.
 const SAMPLE_ROWS: usize = ROWS * STACK;
 
 /// Some of a tile's samples: a word for each row of samples, in it a bit for each column.
-pub(super) type Mask = [u32; SAMPLE_ROWS];
+pub(super) type Mask = Aligned<[u32; SAMPLE_ROWS]>;
 
 const _: () = assert!(WIDTH == u32::BITS as usize);
 
 /// No samples at all.
-pub(super) const NO_SAMPLES: Mask = [0; SAMPLE_ROWS];
+pub(super) const NO_SAMPLES: Mask = Aligned([0; SAMPLE_ROWS]);
 
 /// The bits of a row's first cell.
 const CELL_BITS: u32 = (1 << CELL_WIDTH) - 1;
@@ -361,13 +383,13 @@ pub(super) struct Target {
     /// Nearest strand that no surface hides, 1/m.
     pub(super) strand: Plane,
     /// What decides there among equals: the higher one lies on top.
-    priority: Box<[[u32; LANES]; CELLS]>,
+    priority: IdPlane,
     pub(super) color: [Plane; 3],
     /// For each cell the farthest of `strand`.
-    farthest_strand: Box<[f32; CELLS]>,
+    farthest_strand: Box<Aligned<[f32; CELLS]>>,
     /// For each cell the farthest of `surface`; once these are finished [`NOTHING`] beside surfaces of their own margin,
     /// which don't count then.
-    pub(super) farthest_surface: Box<[f32; CELLS]>,
+    pub(super) farthest_surface: Box<Aligned<[f32; CELLS]>>,
     /// Whether any of `margin` may be other than 0.
     pub(super) has_margins: bool,
 }
@@ -378,10 +400,10 @@ impl Target {
             surface: plane(),
             margin: plane(),
             strand: plane(),
-            priority: Box::new([[0; LANES]; CELLS]),
+            priority: id_plane(),
             color: [plane(), plane(), plane()],
-            farthest_strand: Box::new([NOTHING; CELLS]),
-            farthest_surface: Box::new([NOTHING; CELLS]),
+            farthest_strand: Box::new(Aligned([NOTHING; CELLS])),
+            farthest_surface: Box::new(Aligned([NOTHING; CELLS])),
             has_margins: false,
         }
     }
@@ -664,6 +686,7 @@ pub(super) struct Slope {
 
 /// A [`Slope`] at a tile's samples.
 #[derive(Clone, Copy)]
+#[repr(align(32))] // as [`Aligned`] cells are
 pub(super) struct Samples {
     /// At the lanes of the tile's first cell.
     first: Lanes,

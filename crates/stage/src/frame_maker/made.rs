@@ -1,6 +1,6 @@
 //! What frames have of the paths that effects make of hair: strands after those of the hair, each of one of them.
 
-use super::ObjectFrame;
+use super::{ObjectFrame, push_beside};
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::motion::ObjectMotion;
@@ -107,35 +107,42 @@ impl ObjectFrame {
             if let Some(what) = self.made.paths.fault() {
                 return Err(fault(what.to_owned()));
             }
-            let start = paths.len();
-            paths.set_along_tangents(look.paints());
-            for (i, made) in self.made.paths.iter().enumerate() {
-                let (strand, number, points) = (made.strand, made.number, made.points);
+            let all: Vec<MadePath> = self.made.paths.iter().collect();
+            let first = strands.len();
+            for made in &all {
+                let (strand, number) = (made.strand, made.number);
                 if strand >= above.len() {
                     let what = format!("a path of strand {strand}, and there are {}", above.len());
                     return Err(fault(what));
                 }
-                // As large as it is where nothing is merged: the hair that came loose of it isn't.
-                let parent = StrandInfo {
-                    size: hair.infos[hair.undercoat + strand].size,
-                    ..strands[first_above + strand]
-                };
-                let index = strands.len();
+                let parent = strands[first_above + strand];
                 self.made.strands.push(hair.undercoat + strand);
                 strands.push(StrandInfo {
                     id: made_id(parent.id, number),
+                    // As large as it is where nothing is merged: the hair that came loose of it isn't.
+                    size: hair.infos[hair.undercoat + strand].size,
                     ..parent
                 });
-                if sight.may_see(points, parent.size) && !parent.is_left_out_by(layer_number) {
-                    let name = (strand, number, points.len());
-                    let detail = at_rest.get(i).filter(|path| path.name == name);
-                    let detail = detail.map(|path| &path.detail);
-                    let (kind, camera, before) = (look.path(), sight.camera(), paths.len());
-                    paths.push_pieces(index, points, &[], detail, kind, camera)?;
-                    if let Some(weights) = &mut weights {
-                        weights.resize(before, 1.0);
-                        weights.extend(paths.u[before..].iter().map(|u| made.weight(*u)));
-                    }
+            }
+            let push = |part: &mut Paths, i: usize| {
+                let (made, info) = (&all[i], &strands[first + i]);
+                if !sight.may_see(made.points, info.size) || info.is_left_out_by(layer_number) {
+                    return Ok(());
+                }
+                let name = (made.strand, made.number, made.points.len());
+                let detail = at_rest.get(i).filter(|path| path.name == name);
+                let detail = detail.map(|path| &path.detail);
+                let (index, kind) = (first + i, look.path());
+                part.push_pieces(index, made.points, &[], detail, kind, sight.camera())
+            };
+            let (start, first_run) = (paths.len(), paths.runs.len());
+            push_beside(&mut self.parts, all.len(), look.paints(), paths, push)?;
+            if let Some(weights) = &mut weights {
+                weights.resize(start, 1.0);
+                for run in &paths.runs[first_run..] {
+                    let made = &all[run.strand - first];
+                    let along = paths.u[run.joints.clone()].iter();
+                    weights.extend(along.map(|u| made.weight(*u)));
                 }
             }
             self.layer_joints.push(start..paths.len());

@@ -149,6 +149,13 @@ impl Painter {
             backend: "CPU".to_owned(),
         })
     }
+
+    /// Lets the CPU draw in the memory of a picture that nobody needs any more.
+    pub(super) fn give_back(&mut self, picture: Picture) {
+        if let Some((_, rasterizer)) = &mut self.rasterizer {
+            rasterizer.give_back(picture);
+        }
+    }
 }
 
 fn falls_back(error: &GpuError) -> Problem {

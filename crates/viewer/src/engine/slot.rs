@@ -191,8 +191,10 @@ impl<'r> Slot<'r> {
             .sum();
         let painted = painter.paint(&frame, wish.backend, samples)?;
         times.painted(&painted);
+        let pixels = painted.picture.to_srgb8();
+        painter.give_back(painted.picture);
         let drawn = Drawn {
-            pixels: painted.picture.to_srgb8(),
+            pixels,
             size_px,
             samples,
             times,
