@@ -185,7 +185,8 @@ mod tests {
         let numbers: Vec<&str> = all().iter().map(|figure| figure.number).collect();
         let expected = [
             "5.2", "5.3", "5.4", "5.5", "5.6", "5.7", "5.9", "5.10", "5.11", "5.12", "5.13", "7.1",
-            "7.2", "S 8", "S 9", "S 12", "D 4.8", "D 4.9", "D 4.10", "D 4.11", "D 4.12", "D 4.13",
+            "7.2", "S 8", "S 9", "S 12", "S 14", "D 4.17", "D 4.19", "D 4.8", "D 4.9", "D 4.10",
+            "D 4.11", "D 4.12", "D 4.13",
         ];
         assert_eq!(numbers, expected);
     }

@@ -32,10 +32,10 @@ struct Params {
     /// @unit head heights @range 0..4 @default 0.06
     start: f32,
     /// Where hair is darker than this, it has no band: a little more than the shadow's `threshold` keeps light out of the shadow.
-    /// @unit gray, 0 dark to 1 lit @range -1..1 @default 0.45
+    /// @unit gray, 0 dark to 1 lit @range -1..1 @default 0.4
     shade: f32,
     /// Over how many grays above `shade` a tooth grows to its width. Little makes it end at once.
-    /// @unit gray @range 0.01..2 @default 0.25
+    /// @unit gray @range 0.01..2 @default 0.4
     shade_fade: f32,
     /// How much a clump is shaded as a round lock: as much as the shadow's, so that both agree on where it is dark.
     /// @range 0..2 @default 0.4

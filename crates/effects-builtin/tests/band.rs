@@ -112,6 +112,8 @@ fn hair_in_shadow_has_none_and_it_narrows_towards_it() {
     let set = [
         ("place", "0.3"),
         ("shade", "0.4"),
+        ("shade_fade", "0.4"),
+        ("roundness", "0"),
         ("slide", "0"),
         ("fullness", "1"),
     ];
