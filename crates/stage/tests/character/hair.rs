@@ -299,8 +299,8 @@ fn godettes_backpack_hangs_on_a_bone() {
     // Her material of that name is the backpack, but for its logo and straps.
     let [material, bone] = ["Backpack", "backpack_Armature"].map(without);
     assert!(triangles(&bone) < triangles(&whole) && triangles(&material) < triangles(&whole));
-    // Her hair stays, each of its strands.
-    assert_eq!(bone.strand_count(), whole.strand_count());
+    // Her hair stays, but for what her size makes of it: that is told from what is left of her.
+    assert!(bone.strand_count().abs_diff(whole.strand_count()) <= 2);
     assert!(without("HairBall*").strand_count() < whole.strand_count());
 }
 
