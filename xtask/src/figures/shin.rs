@@ -1,6 +1,7 @@
 //! Levels, lines that fade, and highlights that move: Figures 8, 9 and 12 of Shin, Haller and Mukundan.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::measure::{count, is, rgb};
 use super::{Figure, Finding, Shot, claim};
@@ -128,19 +129,21 @@ fn along(pixel: [u16; 4]) -> Option<f64> {
     (pixel[3] > 0).then(|| f64::from(pixel[0]) / f64::from(u16::MAX))
 }
 
+/// How many pixels of lines of that colour show hair from one part of its lock to another, 0 root to 1 tip, as a picture of `--pass u` has it.
+pub(super) fn lines_along(picture: &Picture, line: u32, places: &Picture, part: Range<f64>) -> f64 {
+    let pairs = picture.pixels.iter().zip(&places.pixels);
+    let on = pairs.filter(|(color, place)| {
+        along(**place).is_some_and(|u| part.contains(&u)) && is(**color, rgb(line))
+    });
+    on.count() as f64
+}
+
 fn fades(pictures: &[Picture]) -> Outcome<Finding> {
-    let lines = |picture: &Picture, from: f64, to: f64| {
-        let pairs = picture.pixels.iter().zip(&pictures[2].pixels);
-        let on = pairs.filter(|(color, place)| {
-            let is_there = along(**place).is_some_and(|u| (from..to).contains(&u));
-            is_there && is(**color, rgb(LINE))
-        });
-        on.count() as f64
-    };
-    let [roots, tips] = [(0.0, 0.3), (0.7, 1.1)]
-        .map(|(from, to)| lines(&pictures[1], from, to) / lines(&pictures[0], from, to).max(1.0));
+    let lines = |i: usize, part: Range<f64>| lines_along(&pictures[i], LINE, &pictures[2], part);
+    let [roots, tips] =
+        [0.0..0.3, 0.7..1.1].map(|part| lines(1, part.clone()) / lines(0, part).max(1.0));
     claim(
-        lines(&pictures[0], 0.0, 0.3) > 300.0 && roots < 0.4 && tips > 0.95,
+        lines(0, 0.0..0.3) > 300.0 && roots < 0.4 && tips > 0.95,
         format!(
             "{:.0} % of the lines are left up to 0.3 of a lock, {:.0} % beyond 0.7",
             100.0 * roots,

@@ -1,7 +1,10 @@
 //! Strips: of light from lock to lock, Figure 14 of Shin, Haller and Mukundan, and of lines, Figures 4.15 to 4.19 of a dissertation that
 //! builds on them.
 
+use std::ops::Range;
+
 use super::measure::{WHITE, border, count, is, rgb};
+use super::shin::lines_along;
 use super::{Figure, Finding, Shot, claim};
 use crate::Outcome;
 use crate::picture::Picture;
@@ -124,18 +127,11 @@ fn widens(pictures: &[Picture]) -> Outcome<Finding> {
 }
 
 fn fades(pictures: &[Picture]) -> Outcome<Finding> {
-    let lines = |picture: &Picture, from: f64, to: f64| {
-        let pairs = picture.pixels.iter().zip(&pictures[2].pixels);
-        let on = pairs.filter(|(color, place)| {
-            let u = f64::from(place[0]) / f64::from(u16::MAX);
-            place[3] > 0 && (from..to).contains(&u) && is(**color, rgb(LINE))
-        });
-        on.count() as f64
-    };
-    let [roots, tips] = [(0.0, 0.3), (0.8, 1.1)]
-        .map(|(from, to)| lines(&pictures[1], from, to) / lines(&pictures[0], from, to).max(1.0));
+    let lines = |i: usize, part: Range<f64>| lines_along(&pictures[i], LINE, &pictures[2], part);
+    let [roots, tips] =
+        [0.0..0.3, 0.8..1.1].map(|part| lines(1, part.clone()) / lines(0, part).max(1.0));
     claim(
-        lines(&pictures[0], 0.0, 0.3) > 200.0 && roots < 0.4 && tips > 0.8,
+        lines(0, 0.0..0.3) > 200.0 && roots < 0.4 && tips > 0.8,
         format!(
             "{:.0} % of the lines are left up to 0.3 of a lock, {:.0} % beyond 0.8",
             100.0 * roots,
