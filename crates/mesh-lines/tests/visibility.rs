@@ -260,3 +260,41 @@ fn pieces_agree_with_a_ray_for_each_place() {
 fn turned(p: Vec3) -> Vec3 {
     glam::Quat::from_rotation_y(0.7) * glam::Quat::from_rotation_x(0.3) * p
 }
+
+/// Where lines cross is where a coarse mesh's triangles hide only about: what is seen ends where rays change, to a quarter of a segment.
+#[test]
+fn what_is_seen_ends_where_rays_change() {
+    let linked = torus([32, 20], 0.8, 0.25)
+        .and(torus([32, 20], 0.8, 0.25).moved(|p| Vec3::new(p.x + 0.8, p.z, p.y)));
+    for (name, shape) in [
+        ("cup", cup(40, 20)),
+        ("bumpy", bumpy(16)),
+        ("linked", linked),
+    ] {
+        let (surface, bvh) = (shape.surface(), shape.bvh());
+        let (mut ends, mut wrong) = (0, 0);
+        for eye in eyes(64, 3.0, 8.0) {
+            let view = View::perspective(eye.as_vec3()).unwrap();
+            let lines = shape.lines(&view);
+            for span in visible(&surface, &bvh, &view, &lines, 0.0).unwrap() {
+                let line = &lines[span.line];
+                let sees = |along: f64| is_seen(&surface, &bvh, &view, line, along);
+                let sides = [(span.start, -0.25), (span.end, 0.25)];
+                for ((end, out), cut) in sides.into_iter().zip(span.cuts) {
+                    let is_within = line.closed || end + out < line.segments.len() as f64;
+                    if cut == Cut::Hidden && is_within && span.end - span.start > 2.0 {
+                        ends += 1;
+                        let around = if line.closed {
+                            line.segments.len() as f64
+                        } else {
+                            0.0
+                        };
+                        wrong += usize::from(!sees(end - out) || sees(end + out + around));
+                    }
+                }
+            }
+        }
+        assert!(ends > 50, "{name}: {ends}");
+        assert_eq!(wrong, 0, "{name}: of {ends}");
+    }
+}
