@@ -18,6 +18,10 @@ impl effects::StrokeEffect for Cast {
     const REACH: f32 = 0.05;
     const CASTS: bool = true;
 
+    fn shadow_colors(_: &Params) -> &'static [&'static str] {
+        &["color"]
+    }
+
     fn instances(params: &Params) -> u32 {
         params.feathers
     }

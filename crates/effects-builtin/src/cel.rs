@@ -18,6 +18,13 @@ impl effects::StrokeEffect for Cel {
     const DOC: &'static str = "feathered shadow or light, by the gray of the clump";
     const RANK: i32 = 100;
 
+    fn shadow_colors(params: &Params) -> &'static [&'static str] {
+        match params.region {
+            Params::REGION_LIGHTER => &[],
+            _ => &["color"],
+        }
+    }
+
     fn instances(params: &Params) -> u32 {
         params.feathers
     }

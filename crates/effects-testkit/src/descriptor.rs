@@ -40,6 +40,14 @@ pub(crate) fn order(effect: &dyn AnyEffect) -> Result<(), String> {
     if casts && effect.clip().is_none() {
         return Err("it CASTS, and it has no CLIP: say what its shadows fall on".to_owned());
     }
+    for name in effect.program(&defaults(effect).values).shadow_colors() {
+        let param = effect.params().iter().find(|p| p.name == *name);
+        if !param.is_some_and(|p| matches!(p.kind, ParamKind::OptionalColor { .. })) {
+            return Err(format!(
+                "shadow_colors names `{name}`: it is no parameter that is a colour or none"
+            ));
+        }
+    }
     if effect.clip().is_some() && effect.paints().is_some() {
         return Err(
             "it has a CLIP and paints samples: decals have their strokes' colours".to_owned(),

@@ -32,6 +32,9 @@ trait Spoil: Send + Sync + 'static {
     fn shortest() -> f32 {
         0.0
     }
+    fn shadow_colors() -> &'static [&'static str] {
+        &[]
+    }
     fn extent(strand: &StrandJoints) -> Range<usize> {
         strand.range.clone()
     }
@@ -74,6 +77,9 @@ impl<S: Spoil> StrokeEffect for Spoilt<S> {
     }
     fn shortest(_: &Params) -> f32 {
         S::shortest()
+    }
+    fn shadow_colors(_: &Params) -> &'static [&'static str] {
+        S::shadow_colors()
     }
     fn extent(_: &Params, strand: &StrandJoints) -> Range<usize> {
         S::extent(strand)
@@ -305,6 +311,19 @@ fn it_is_the_clump_where_it_says_so() {
 fn a_shadow_falls_on_something() {
     spoil!(Nowhere { const CASTS: bool = true; });
     assert_fails::<Nowhere>("its rank and depth offset are a layer's", "it has no CLIP");
+}
+
+#[test]
+fn shadows_have_their_colors_by_parameters() {
+    spoil!(Tinted {
+        fn shadow_colors() -> &'static [&'static str] {
+            &["tint"]
+        }
+    });
+    assert_fails::<Tinted>(
+        "its rank and depth offset are a layer's",
+        "shadow_colors names `tint`",
+    );
 }
 
 #[test]

@@ -63,6 +63,13 @@ pub trait StrokeEffect: Send + Sync + 'static {
     /// what lies behind them by more than the layer's reach, never their own strand. Of effects with a [`Self::CLIP`].
     const CASTS: bool = false;
 
+    /// Parameters (colour or none) that shadows on hair have their colour by: on hair that has colours of its file's, as a character's has, they are none,
+    /// so that the effect draws a shade of these, where the look's colour was made for the look's hair.
+    fn shadow_colors(params: &<Self::Program as Parameters>::Params) -> &'static [&'static str] {
+        let _ = params;
+        &[]
+    }
+
     /// How many strokes there are for each strand (feathers). At least 1.
     fn instances(params: &<Self::Program as Parameters>::Params) -> u32 {
         let _ = params;
@@ -243,6 +250,8 @@ pub trait LayerProgram: Send + Sync {
     fn is_clump(&self) -> bool;
     /// [`StrokeEffect::CASTS`].
     fn casts(&self) -> bool;
+    /// [`StrokeEffect::shadow_colors`].
+    fn shadow_colors(&self) -> &'static [&'static str];
     /// [`Program::MAY_BE_NEARER`].
     fn may_be_nearer(&self) -> bool;
     /// [`StrokeEffect::reach`].
@@ -395,6 +404,10 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn casts(&self) -> bool {
         E::CASTS
+    }
+
+    fn shadow_colors(&self) -> &'static [&'static str] {
+        E::shadow_colors(self.params.base())
     }
 
     fn may_be_nearer(&self) -> bool {

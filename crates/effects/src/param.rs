@@ -278,6 +278,15 @@ impl Values {
         }
     }
 
+    /// Has an optional colour be none.
+    pub fn take_color(&mut self, name: &str) {
+        let index = self.table.iter().position(|p| p.name == name);
+        match index.map(|index| &mut self.values[index]) {
+            Some(Value::Color(color)) => *color = None,
+            other => panic!("`{name}` is {other:?}, not a colour"),
+        }
+    }
+
     /// Puts the picture of each file in place of its name.
     ///
     /// # Errors

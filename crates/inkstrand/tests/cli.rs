@@ -108,7 +108,7 @@ fn write_body(folder: &Path, bone: &str) {
     fs::write(folder.join("body.gltf"), text.replace("BONE", bone)).unwrap();
 }
 
-/// Shadows on her own hair are darker shades of it, but for those that `--set` says; on hair of the look they have the look's colour.
+/// Shadows on her own hair are darker shades of it, unless the look's are asked for; on hair of the look they have the look's colour.
 #[cfg(feature = "gltf")]
 #[test]
 fn shadows_on_a_characters_hair_are_hers() {
@@ -141,7 +141,10 @@ fn shadows_on_a_characters_hair_are_hers() {
     };
     let own = drawn(&[]);
     assert!(own == with("none"));
-    assert!(own != with("8B74C9"));
+    let looks = drawn(&["--set", "hair.shadows=look"]);
+    assert!(own != looks);
+    // Of her hair no colour of the look's is asked, so another makes no difference.
+    assert!(own == with("FF0000"));
     let look = [
         "--hair",
         concat!(

@@ -5,9 +5,10 @@ use crate::head::HeadPaint;
 use crate::names::Names;
 use crate::preset::{
     BrushChoice, EdgesChoice, FixedTo, LightKind, LineKinds, LineSection, MeshSection, OrderChoice,
-    PassSection, PathChoice, Preset, Sections,
+    PassSection, PathChoice, Preset, Sections, ShadowColors,
 };
 use crate::textures::with_textures;
+use effects::preset::LayerSpec;
 use effects::section::Section;
 use effects::{Input, Layer, Parameters, SampleInput, Values, Varied, clump, layer_seed};
 use glam::Vec3;
@@ -23,6 +24,7 @@ const INSIDE_MARGIN: f32 = 0.6;
 const OUTLINE_MARGIN: f32 = 0.04;
 
 /// Lines of meshes, and the layers that draw them.
+#[derive(Clone)]
 pub(crate) struct LineSet {
     pub section: LineSection,
     pub kinds: LineKinds,
@@ -51,12 +53,23 @@ impl LineSet {
     }
 }
 
+/// A layer that draws shadows in a colour of the look's, and its number among the layers of strokes.
+#[derive(Clone)]
+struct Shadow {
+    layer: usize,
+    /// The same in shades of the hair's own colour.
+    in_shades: Layer,
+}
+
 /// What a preset says of strokes, colours, light, picture and dynamics, ready to be used.
+#[derive(Clone)]
 pub struct Look {
     pub(crate) seed: u32,
     pub(crate) sections: Sections,
     pub(crate) clump: Varied<clump::Program>,
     pub(crate) layers: Vec<Layer>,
+    /// Of these shadows, as they are on hair that has colours of its file's.
+    shadows: Vec<Shadow>,
     /// Those that paint meshes.
     pub(crate) mesh_layers: Vec<Layer>,
     /// The lines that are drawn.
@@ -99,15 +112,24 @@ impl Look {
         let light = &sections.light;
         let light_direction = direction_from_angles(light.yaw, light.pitch)?;
         let layers = preset.layers.iter();
-        let layers = layers.map(|layer| with_textures(layer, files));
+        let layers = layers.map(|layer| with_textures(layer, &layer.values, files));
         let layers = layers.collect::<Result<Vec<_>, StageError>>()?;
         let (mut strokes, mut mesh_layers, mut line_layers) = (Vec::new(), Vec::new(), Vec::new());
+        let mut shadows = Vec::new();
         for (layer, spec) in layers.into_iter().zip(&preset.layers) {
             if spec.effect.is_for_meshes() {
                 mesh_layers.push(layer);
             } else if spec.effect.is_for_lines() {
                 line_layers.push(layer);
             } else {
+                if sections.hair.shadows == ShadowColors::Own
+                    && let Some(values) = in_shades(spec, &layer)
+                {
+                    shadows.push(Shadow {
+                        layer: strokes.len(),
+                        in_shades: with_textures(spec, &values, files)?,
+                    });
+                }
                 strokes.push(layer);
             }
         }
@@ -116,6 +138,7 @@ impl Look {
             clump: Varied::new(&sections.clump.0),
             sections,
             layers: strokes,
+            shadows,
             mesh_layers,
             lines: line_sets(preset, &line_layers)?,
             line_clump: Varied::new(&Values::defaults(clump::Program::PARAMS)),
@@ -129,6 +152,30 @@ impl Look {
         };
         look.lights(&look)?;
         Ok(look)
+    }
+
+    /// The same for hair that has colours of its file's: shadows on it are shades of these. Nothing where that makes no difference.
+    pub(crate) fn in_shades_of_hair(&self) -> Option<Self> {
+        if self.shadows.is_empty() {
+            return None;
+        }
+        let mut look = self.clone();
+        for shadow in std::mem::take(&mut look.shadows) {
+            look.layers[shadow.layer] = shadow.in_shades;
+        }
+        Some(look)
+    }
+
+    /// A sentence for the user that [`Self::in_shades_of_hair`] makes a difference.
+    pub(crate) fn shades_note(&self) -> Option<String> {
+        let names = (self.shadows.iter()).map(|shadow| &self.layers[shadow.layer].name[..]);
+        let names: Vec<&str> = names.collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "hair: shadows on the character's own hair are darker shades of it; with `hair: (shadows: look)` they have the look's colour ({})",
+                names.join(", ")
+            )
+        })
     }
 
     /// Whether the light of this look is one that the layers of another can be drawn in.
@@ -295,6 +342,15 @@ impl Look {
             threshold: section.threshold,
         }
     }
+}
+
+/// A layer's values where its shadows are shades of the hair's own colour; nothing where that changes none.
+fn in_shades(spec: &LayerSpec, layer: &Layer) -> Option<Values> {
+    let mut values = spec.values.clone();
+    for name in layer.program.shadow_colors() {
+        values.take_color(name);
+    }
+    (values != spec.values).then_some(values)
 }
 
 /// The lines that layers draw, each with its layers.

@@ -3,12 +3,22 @@
 use crate::bodies::forms::{between, mixed, mixed_normals};
 use crate::painted::PaintedMesh;
 use glam::{Vec2, Vec3};
+use mesh_io::Sequence;
+use std::path::PathBuf;
 
 /// More files than this are no sequence that is read whole: so long do two minutes of 24 frames a second last.
 pub(crate) const MOST_FILES: usize = 2880;
 
 /// More vertices and triangles than this are too many, in all files together: somewhat more than a gigabyte.
 pub(crate) const MOST_CORNERS: usize = 60_000_000;
+
+/// All files that are read where this one is named: those of a sequence, where the name is one's.
+pub(crate) fn all_files(path: PathBuf, is_sequence: bool) -> Vec<PathBuf> {
+    match is_sequence.then(|| Sequence::find(&path)) {
+        Some(Ok(sequence)) => sequence.files().values().cloned().collect(),
+        _ => vec![path],
+    }
+}
 
 /// The forms that a mesh takes in time.
 pub(crate) struct Numbered {

@@ -31,6 +31,8 @@ pub struct Object {
     bare_head: Option<Arc<HeadModel>>,
     neck: Option<Arc<Neck>>,
     script: Arc<MotionScript>,
+    /// The look as it was given, and as it is on this hair.
+    given_look: Arc<Look>,
     look: Arc<Look>,
     /// What each strand's path is like.
     shapes: Arc<Vec<PathShape>>,
@@ -76,6 +78,9 @@ impl Object {
         hair.choose_guides(&preset.sections.hair);
         hair.move_out_of_bodies(&script, &preset.sections.dynamics);
         bake::load(preset, files, &mut hair, notes)?;
+        if hair.has_own_colors() {
+            notes.extend(look.shades_note());
+        }
         zones::check(&preset.layers, &hair, files.hair.is_some(), notes)?;
         let (wears_ties, is_given) = (!hair.ornaments.is_empty(), files.head.is_some());
         head::layers::check(&preset.layers, head.as_ref(), wears_ties, is_given, notes)?;
@@ -91,6 +96,8 @@ impl Object {
         script: MotionScript,
     ) -> Result<Self, StageError> {
         let head = head.map(Arc::new);
+        let given_look = look;
+        let look = on_hair(&given_look, &hair);
         Ok(Self {
             neck: head
                 .as_deref()
@@ -99,6 +106,7 @@ impl Object {
             bare_head: head,
             hair: Arc::new(hair),
             script: Arc::new(script),
+            given_look,
             look,
             placement: Placement::default(),
         })
@@ -114,6 +122,8 @@ impl Object {
     }
 
     pub(crate) fn in_look(&self, look: Arc<Look>) -> Result<Self, StageError> {
+        let given_look = look;
+        let look = on_hair(&given_look, &self.hair);
         let mut object = self.clone();
         if look.path() != self.look.path() {
             object.shapes = Arc::new(shapes(&self.hair, &look)?);
@@ -122,6 +132,7 @@ impl Object {
             let bare = self.bare_head.as_deref();
             object.neck = bare.map(|head| Arc::new(neck(head, &self.hair, &look)));
         }
+        object.given_look = given_look;
         object.look = look;
         Ok(object)
     }
@@ -133,9 +144,11 @@ impl Object {
     /// When no path can be made of the strands.
     pub fn with_hair(&self, hair: HairModel) -> Result<Self, StageError> {
         let bare = self.bare_head.as_deref();
+        let look = on_hair(&self.given_look, &hair);
         Ok(Self {
-            shapes: Arc::new(shapes(&hair, &self.look)?),
-            neck: bare.map(|head| Arc::new(neck(head, &hair, &self.look))),
+            shapes: Arc::new(shapes(&hair, &look)?),
+            neck: bare.map(|head| Arc::new(neck(head, &hair, &look))),
+            look,
             script: match self.script.skeleton() {
                 Some(_) => Arc::new(self.script.with_hair(&hair)),
                 None => self.script.clone(),
@@ -252,6 +265,15 @@ fn neck(head: &HeadModel, hair: &HairModel, look: &Look) -> Neck {
         model.find_scalp(&hair.all_roots, reach * hair.head.height_m);
     }
     Neck::new(model, hair.head)
+}
+
+/// A look as it is on this hair.
+fn on_hair(look: &Arc<Look>, hair: &HairModel) -> Arc<Look> {
+    let in_shades = match hair.has_own_colors() {
+        true => look.in_shades_of_hair(),
+        false => None,
+    };
+    in_shades.map_or_else(|| look.clone(), Arc::new)
 }
 
 fn shapes(hair: &HairModel, look: &Look) -> Result<Vec<PathShape>, StageError> {

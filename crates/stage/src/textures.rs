@@ -2,7 +2,7 @@
 
 use crate::files::{Files, StageError};
 use effects::preset::{LayerSpec, Place};
-use effects::{BrushSection, BrushTexture, Image, Layer, Texture};
+use effects::{BrushSection, BrushTexture, Image, Layer, Texture, Values};
 use hair_io::read_bytes;
 use std::collections::HashMap;
 use std::fmt;
@@ -86,9 +86,13 @@ impl Textures {
     }
 }
 
-/// A layer with pictures in place of their files' names.
-pub(crate) fn with_textures(layer: &LayerSpec, files: &Files) -> Result<Layer, StageError> {
-    let mut values = layer.values.clone();
+/// A layer with these values, and pictures in place of their files' names.
+pub(crate) fn with_textures(
+    layer: &LayerSpec,
+    values: &Values,
+    files: &Files,
+) -> Result<Layer, StageError> {
+    let mut values = values.clone();
     let read = values.read_textures(|file| files.textures.read(&files.preset_folder.join(file)));
     read.and_then(|()| files.textures.brush(&layer.brush, files))
         .map(|brush| layer.build_with(&values, brush))

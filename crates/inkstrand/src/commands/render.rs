@@ -61,7 +61,6 @@ fn draw(
     check_outputs(options, &output, &preset, &files)?;
 
     let mut stage = source.open(&preset, &files, options.quiet)?;
-    (options.scene).shade_own_hair(&mut preset, &files, &mut stage)?;
     let (first, last) = options.frames.unwrap_or((0, 0));
     let time_of = |frame: u32| options.time.unwrap_or(frame as f32 / fps);
     for time in [first, last].map(time_of) {

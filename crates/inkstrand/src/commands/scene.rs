@@ -6,7 +6,7 @@ use crate::cli::SceneOptions;
 use crate::say::say;
 use effects::Registry;
 use effects::preset::PresetErrors;
-use stage::{Files, HairFrom, HeadColors, Look, Preset, Stage};
+use stage::{Files, HairFrom, HeadColors, Preset, Stage};
 use std::path::Path;
 
 /// A preset's text, and what messages call it.
@@ -81,43 +81,6 @@ impl SceneOptions {
                 .set(name.trim(), value.trim())
                 .map_err(|e| format!("--set {assignment}: {e}"))?;
         }
-        Ok(())
-    }
-}
-
-impl SceneOptions {
-    /// Has shadows on a character's own hair be darker shades of it, where the look has a colour for them that was made for its own hair; what `--set` says stays.
-    ///
-    /// # Errors
-    ///
-    /// Those of a look.
-    pub fn shade_own_hair(
-        &self,
-        preset: &mut Preset,
-        files: &Files,
-        stage: &mut Stage,
-    ) -> Result<(), Failure> {
-        let mut objects = stage.scene.objects().iter();
-        if self.character.is_none() || !objects.any(|object| object.hair().has_own_colors()) {
-            return Ok(());
-        }
-        for layer in &mut preset.layers {
-            let is_shadow = match layer.effect.id() {
-                "hair.cast" => true,
-                "hair.cel" => layer.values.choice("region") == 0,
-                _ => false,
-            };
-            let param = format!("{}.color", layer.name);
-            let is_said = |set: &String| {
-                set.split('=')
-                    .next()
-                    .is_some_and(|name| name.trim() == param)
-            };
-            if is_shadow && !self.set.iter().any(is_said) {
-                layer.set("color", "none")?;
-            }
-        }
-        stage.scene = stage.scene.with_look(Look::new(preset, files)?)?;
         Ok(())
     }
 }

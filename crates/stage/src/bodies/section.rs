@@ -1,11 +1,11 @@
 //! Bodies as presets and motion scripts write them.
 
+use crate::numbered::all_files;
 use crate::part::FilePart;
 use crate::preset::{is_sequence, missing};
 use effects::preset::{Field, Place, PresetError, Reader, suggestion};
 use effects::section::Section as _;
 use effects::{choices, section};
-use mesh_io::Sequence;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -194,13 +194,8 @@ impl BodySection {
 
     /// All files that it is read from.
     pub(crate) fn files(&self, folder: &Path) -> Vec<PathBuf> {
-        let Some(path) = self.path(folder) else {
-            return Vec::new();
-        };
-        match (self.is_sequence(), Sequence::find(&path)) {
-            (true, Ok(sequence)) => sequence.files().values().cloned().collect(),
-            _ => vec![path],
-        }
+        let path = self.path(folder);
+        path.map_or_else(Vec::new, |path| all_files(path, self.is_sequence()))
     }
 
     /// Whether it has numbered files.

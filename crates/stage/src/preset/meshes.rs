@@ -1,10 +1,10 @@
 //! The meshes of a preset: what is seen beside head and hair.
 
 use super::missing;
+use crate::numbered::all_files;
 use crate::part::FilePart;
 use effects::preset::{Place, PresetError, Reader};
 use effects::{choices, section};
-use mesh_io::Sequence;
 use std::path::{Path, PathBuf};
 
 /// The most meshes that a preset lists.
@@ -190,13 +190,8 @@ impl MeshSection {
 
     /// All files that it is read from, but its picture.
     pub(crate) fn files(&self, folder: &Path) -> Vec<PathBuf> {
-        let Some(path) = self.path(folder) else {
-            return Vec::new();
-        };
-        match (self.is_sequence(), Sequence::find(&path)) {
-            (true, Ok(sequence)) => sequence.files().values().cloned().collect(),
-            _ => vec![path],
-        }
+        let path = self.path(folder);
+        path.map_or_else(Vec::new, |path| all_files(path, self.is_sequence()))
     }
 
     /// Whether it has numbered files.

@@ -27,6 +27,16 @@ choices! {
     }
 }
 
+choices! {
+    /// Whose colour shadows have on hair that has colours of its file's.
+    pub enum ShadowColors {
+        /// The hair's: darker shades of it.
+        Own = "own",
+        /// The look's.
+        Look = "look",
+    }
+}
+
 section! {
     /// Which strands are drawn.
     pub struct HairSection {
@@ -40,6 +50,9 @@ section! {
         meshes: Option<String> = text(),
         /// Which of these stay meshes, as ribbons do: names as in `meshes`.
         keep: Option<String> = text(),
+        /// What shadows on hair that has colours of its file's, as a character's own has, are: darker shades of these, or in the look's colour for shadows, which
+        /// was made for the look's hair.
+        shadows: ShadowColors = ShadowColors::Own.or_another(),
         /// How many strands to keep, those that stand best for all; 0 keeps all.
         guides: u32 = whole(0, 0..=1_000_000),
         /// Motion of this hair that `inkstrand simulate` has written, relative to the preset.
