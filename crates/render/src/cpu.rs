@@ -6,8 +6,8 @@
 //! strand after strand from the nearest on. Where a strand may show, its segments get their shapes (`segment`) and what they
 //! cover (`rows`); then comes the strand's own order (`strand`), and cell by cell, eight samples at once, its depth
 //! (`stroke`) against what is there, and the colour of what shows.
-//! All of a band is compiled for several instruction sets (`instructions`); what is called there is
-//! `inline(always)`, or it would be compiled without them.
+//! Each stage of a tile is compiled for several instruction sets (`instructions`); what is called there is
+//! `inline(always)`, or it would be compiled without them. Stage by stage, as one function of all takes a compiler twice as long.
 
 mod bin;
 mod brush;
@@ -191,6 +191,7 @@ impl Rasterizer {
                 parts,
                 samples: *samples,
                 stacks,
+                instructions: *instructions,
                 runs_of_joints: &[],
                 to_fill: is_spare.then(|| tile::empty_pixel(drawing.background, *samples)),
             };
@@ -208,10 +209,7 @@ impl Rasterizer {
                     let mut worker = workers[thread]
                         .lock()
                         .unwrap_or_else(PoisonError::into_inner);
-                    instructions.run(
-                        #[inline(always)]
-                        || worker.draw_band(&frame, band, Output::Pixels(pixels)),
-                    );
+                    worker.draw_band(&frame, band, Output::Pixels(pixels));
                 });
             Ok(picture)
         };
@@ -303,6 +301,8 @@ struct Frame<'a> {
     /// In a pixel.
     samples: usize,
     stacks: &'a [Stack],
+    /// What its stages are compiled for.
+    instructions: Instructions,
     /// For each joint its run, where samples tell what they show.
     runs_of_joints: &'a [u32],
     /// What pixels that nothing covers are to be, where they aren't.
@@ -365,9 +365,11 @@ impl Worker {
     }
 
     /// Draws a row of tiles into its pixels, or into planes of its samples.
-    #[inline(always)] // compiled for each set of `Instructions`
     fn draw_band(&mut self, frame: &Frame, band: usize, output: Output) {
-        self.sort_into_tiles(frame, band);
+        frame.instructions.run(
+            #[inline(always)]
+            || self.sort_into_tiles(frame, band),
+        );
         match output {
             Output::Pixels(pixels) => self.draw_pixels(frame, band, pixels),
             Output::Samples(planes) => self.draw_samples(frame, band, planes),
@@ -387,7 +389,6 @@ impl Worker {
         }
     }
 
-    #[inline(always)]
     fn draw_pixels(&mut self, frame: &Frame, band: usize, pixels: &mut [[f32; 4]]) {
         let width = frame.drawing.size[0] as usize;
         let tiles = width.div_ceil(tile::WIDTH);
@@ -409,19 +410,23 @@ impl Worker {
                 triangles,
                 [x, band * tile::height(frame.stacks)],
             );
-            for (row, pixels) in pixels.chunks_mut(width).enumerate() {
-                self.sums.write(row, frame.samples, &mut pixels[x..end]);
-            }
+            frame.instructions.run(
+                #[inline(always)]
+                || {
+                    for (row, pixels) in pixels.chunks_mut(width).enumerate() {
+                        self.sums.write(row, frame.samples, &mut pixels[x..end]);
+                    }
+                },
+            );
         }
     }
 
     /// Sums up the samples of the tile at `origin`.
-    #[inline(always)]
     fn draw_tile(&mut self, frame: &Frame, tile: usize, triangles: &[u32], origin: [usize; 2]) {
         self.sums.clear(tile::height(frame.stacks));
         let background = frame.drawing.background;
         let mut scene = frame.tile_at(origin);
-        scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts);
+        self.find_strands(frame, &scene, tile);
         for stack in frame.stacks {
             scene.stack = stack;
             if paint_mesh::tells(frame) {
@@ -430,30 +435,52 @@ impl Worker {
                 self.draw_stack::<false>(frame, &scene, tile, triangles);
             }
             self.color_stack(frame, &scene, tile);
-            self.sums.add(&mut self.target, stack, background.is_some());
+            frame.instructions.run(
+                #[inline(always)]
+                || self.sums.add(&mut self.target, stack, background.is_some()),
+            );
         }
     }
 
+    /// Finds the strands of a tile.
+    fn find_strands(&mut self, frame: &Frame, scene: &TileContext, tile: usize) {
+        frame.instructions.run(
+            #[inline(always)]
+            || scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts),
+        );
+    }
+
     /// Gives samples that are drawn the colours that are painted, or are those of decals.
-    #[inline(always)]
     fn color_stack(&mut self, frame: &Frame, scene: &TileContext, tile: usize) {
         let has_decals = !frame.parts.decals.is_empty();
+        let instructions = frame.instructions;
         if has_decals {
-            self.decide_decals(frame, scene, tile);
+            instructions.run(
+                #[inline(always)]
+                || self.decide_decals(frame, scene, tile),
+            );
         }
         if paint_mesh::tells(frame) {
-            self.paint(frame);
+            instructions.run(
+                #[inline(always)]
+                || self.paint(frame),
+            );
         }
         if has_decals {
-            self.apply_decals(frame, scene.origin, scene.stack);
+            instructions.run(
+                #[inline(always)]
+                || self.apply_decals(frame, scene.origin, scene.stack),
+            );
         }
         if paint_mesh::tells(frame) {
-            self.paint_meshes(frame, scene.origin, scene.stack);
+            instructions.run(
+                #[inline(always)]
+                || self.paint_meshes(frame, scene.origin, scene.stack),
+            );
         }
     }
 
     /// Draws four samples of all pixels of a tile into the target. Where it `TELLS`, what they show is noted.
-    #[inline(always)]
     fn draw_stack<const TELLS: bool>(
         &mut self,
         frame: &Frame,
@@ -461,49 +488,74 @@ impl Worker {
         tile: usize,
         triangles: &[u32],
     ) {
-        self.target.clear(frame.drawing.background);
+        let instructions = frame.instructions;
         let keeps_triangles = TELLS || frame.parts.decals.on_surfaces;
-        if keeps_triangles {
-            self.shown.clear();
-        }
+        instructions.run(
+            #[inline(always)]
+            || {
+                self.target.clear(frame.drawing.background);
+                if keeps_triangles {
+                    self.shown.clear();
+                }
+            },
+        );
         let mut pictures = Pictures::new(&mut self.pictures);
         if !triangles.is_empty() {
-            let shown = &mut self.shown;
-            let shows = |cell, index, lanes: &LaneMask| {
-                if keeps_triangles {
-                    shown.put_triangle(cell, index, lanes);
-                }
-            };
-            surface::draw_all(
-                &frame.parts.triangles,
-                triangles,
-                frame.drawing,
-                &surface::Tile {
-                    origin: scene.origin,
-                    stack: scene.stack,
+            let (target, shown) = (&mut self.target, &mut self.shown);
+            let pictures = &mut pictures;
+            instructions.run(
+                #[inline(always)]
+                || {
+                    let shows = |cell, index, lanes: &LaneMask| {
+                        if keeps_triangles {
+                            shown.put_triangle(cell, index, lanes);
+                        }
+                    };
+                    surface::draw_all(
+                        &frame.parts.triangles,
+                        triangles,
+                        frame.drawing,
+                        &surface::Tile {
+                            origin: scene.origin,
+                            stack: scene.stack,
+                        },
+                        (target, pictures),
+                        shows,
+                    );
+                    target.finish_surfaces();
                 },
-                (&mut self.target, &mut pictures),
-                shows,
             );
-            self.target.finish_surfaces();
         }
         let sees_through = TELLS && frame.drawing.mesh_painting.sees_through();
         if sees_through {
-            pictures.look_up(scene.stack, &mut self.target);
-            self.meshes.keep_under(frame, &self.shown, &self.target);
-        }
-        let segments_of_tile = self.segments_of_tiles.bin(tile);
-        for part in &self.parts {
-            self.strand.draw::<TELLS>(
-                scene,
-                segments_of_tile,
-                part,
-                &mut self.target,
-                &mut self.shown,
+            instructions.run(
+                #[inline(always)]
+                || {
+                    pictures.look_up(scene.stack, &mut self.target);
+                    self.meshes.keep_under(frame, &self.shown, &self.target);
+                },
             );
         }
+        let segments_of_tile = self.segments_of_tiles.bin(tile);
+        instructions.run(
+            #[inline(always)]
+            || {
+                for part in &self.parts {
+                    self.strand.draw::<TELLS>(
+                        scene,
+                        segments_of_tile,
+                        part,
+                        &mut self.target,
+                        &mut self.shown,
+                    );
+                }
+            },
+        );
         if !sees_through {
-            pictures.look_up(scene.stack, &mut self.target);
+            instructions.run(
+                #[inline(always)]
+                || pictures.look_up(scene.stack, &mut self.target),
+            );
         }
     }
 }

@@ -25,6 +25,17 @@ impl Rasterizer {
         planes: &mut SamplePlanes,
         mut take: impl FnMut(&mut SamplePlanes) + Send,
     ) -> Result<(), DrawError> {
+        self.give_samples(drawing, planes, &mut take)
+    }
+
+    /// [`Self::draw_samples`]. It is compiled once, with this crate: else the whole rasteriser would be in each crate that calls it, and as slow there as
+    /// that one is built.
+    fn give_samples(
+        &mut self,
+        drawing: &Drawing,
+        planes: &mut SamplePlanes,
+        take: &mut (dyn FnMut(&mut SamplePlanes) + Send),
+    ) -> Result<(), DrawError> {
         let Self {
             pool,
             samples,
@@ -58,6 +69,7 @@ impl Rasterizer {
                     parts,
                     samples: *samples,
                     stacks: std::slice::from_ref(stack),
+                    instructions: *instructions,
                     runs_of_joints: &runs_of_joints,
                     to_fill: None,
                 };
@@ -81,10 +93,7 @@ impl Rasterizer {
                             ids,
                             numbers,
                         };
-                        instructions.run(
-                            #[inline(always)]
-                            || worker.draw_band(&frame, band, Output::Samples(planes)),
-                        );
+                        worker.draw_band(&frame, band, Output::Samples(planes));
                     });
                 take(planes);
             }
@@ -127,7 +136,6 @@ fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
 
 impl Worker {
     /// Draws the samples of a band.
-    #[inline(always)] // compiled for each set of `Instructions`
     pub(super) fn draw_samples(&mut self, frame: &Frame, band: usize, mut planes: BandPlanes) {
         let [width, height] = frame.drawing.size.map(|side| side as usize);
         let tiles = width.div_ceil(tile::WIDTH);
@@ -146,10 +154,13 @@ impl Worker {
             planes.clear(nothing, height - top, frame.drawing.background);
             nothing = left + size[0]..left + size[0];
             let scene = frame.tile_at([left, top]);
-            scene.strands(segments, &mut self.parts);
+            self.find_strands(frame, &scene, tile);
             self.draw_stack::<true>(frame, &scene, tile, triangles);
             self.color_stack(frame, &scene, tile);
-            self.tell(frame, size, left, &mut planes);
+            frame.instructions.run(
+                #[inline(always)]
+                || self.tell(frame, size, left, &mut planes),
+            );
         }
         planes.clear(nothing, height - top, frame.drawing.background);
     }
