@@ -353,7 +353,10 @@ impl Solver {
                 ..Stats::default()
             });
         }
-        let gusts = [GAMMA, 1.0].map(|share| surroundings.air_at(share, state.time + share * dt));
+        let gusts = [
+            surroundings.air_at(GAMMA, state.time + GAMMA * dt),
+            surroundings.air_at(1.0, state.time + dt),
+        ];
         self.guards.clear();
         self.guards
             .extend(surroundings.colliders.iter().map(Guard::new));

@@ -189,10 +189,12 @@ impl Surroundings<'_> {
     }
 
     /// The motion of the air at `share` of the step, 0 to 1, which is at `time` seconds.
+    #[inline(always)]
     pub(crate) fn air_at(&self, share: f64, time: f64) -> Gusts<'_> {
-        self.wind_at(share).at(time).with(self.streams, share)
+        self.wind_at(share).air(time, self.streams, share)
     }
 
+    #[inline(always)]
     fn wind_at(&self, share: f64) -> Wind {
         let now = self.wind;
         let Some(before) = self.wind_before else {

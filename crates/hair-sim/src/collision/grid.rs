@@ -173,7 +173,7 @@ impl SignedDistance {
         (cells.map(|cell| cell as usize), part, outside)
     }
 
-    #[inline]
+    #[inline(always)]
     fn corners(&self, [x, y, z]: [usize; 3]) -> [f32; 8] {
         let i = self.index(x, y, z);
         let (row, layer) = (self.size[0], self.size[0] * self.size[1]);

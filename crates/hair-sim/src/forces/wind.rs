@@ -73,8 +73,10 @@ impl Wind {
             && self.period.is_finite()
     }
 
-    /// The field at `time` seconds.
-    pub(crate) fn at(&self, time: f64) -> Gusts<'static> {
+    /// The air at `time` seconds with these streams, at `share` of the step.
+    #[inline(always)] // made where it is kept: it is large
+    pub(crate) fn air<'a>(&self, time: f64, streams: &'a [Stream], share: f64) -> Gusts<'a> {
+        let blows = |stream: &Stream| stream.speed != [0.0; 2];
         let mut waves = [Wave {
             number: DVec3::ZERO,
             phase: 0.0,
@@ -106,27 +108,16 @@ impl Wind {
         Gusts {
             steady: self.steady,
             waves,
-            blows: gusts || self.steady != DVec3::ZERO,
+            blows: gusts || self.steady != DVec3::ZERO || streams.iter().any(blows),
             gusts,
-            streams: &[],
-            share: 1.0,
+            streams,
+            share,
             time,
         }
     }
 }
 
-impl<'a> Gusts<'a> {
-    /// The same with these streams, at `share` of the step.
-    pub(crate) fn with(self, streams: &'a [Stream], share: f64) -> Self {
-        let blows = |stream: &Stream| stream.speed != [0.0; 2];
-        Self {
-            blows: self.blows || streams.iter().any(blows),
-            streams,
-            share,
-            ..self
-        }
-    }
-
+impl Gusts<'_> {
     /// The air's velocity at a place in the world.
     #[inline(always)]
     pub(crate) fn velocity<T: Number>(&self, at: Vec3<T>) -> Vec3<T> {
@@ -191,7 +182,8 @@ mod tests {
         for i in 0..2000 {
             let t = f64::from(i) * 0.37;
             let at = DVec3::new(t, -0.2 * t, 0.6 * t) * 0.1;
-            let velocity = |t: f64, at: DVec3| wind.at(t).velocity(Vec3::splat(at)).get(0);
+            let velocity =
+                |t: f64, at: DVec3| wind.air(t, &[], 1.0).velocity(Vec3::splat(at)).get(0);
             let now = velocity(t, at);
             assert!((velocity(t + 1e-5, at) - now).length() < 1e-2);
             assert!((velocity(t, at + DVec3::splat(1e-5)) - now).length() < 1e-2);
@@ -206,7 +198,7 @@ mod tests {
         for i in 0..count {
             let at = DVec3::new(unit(1, i) * 50.0, unit(2, i) * 50.0, unit(3, i) * 50.0);
             let gust = wind
-                .at(unit(4, i) * 1000.0)
+                .air(unit(4, i) * 1000.0, &[], 1.0)
                 .velocity(Vec3::splat(at))
                 .get(3)
                 - wind.steady;
@@ -220,9 +212,15 @@ mod tests {
 
     #[test]
     fn the_same_seed_blows_the_same() {
-        let a = wind().at(5.0).velocity(Vec3::splat(DVec3::ONE));
-        assert_eq!(a, wind().at(5.0).velocity(Vec3::splat(DVec3::ONE)));
+        let a = wind().air(5.0, &[], 1.0).velocity(Vec3::splat(DVec3::ONE));
+        assert_eq!(
+            a,
+            wind().air(5.0, &[], 1.0).velocity(Vec3::splat(DVec3::ONE))
+        );
         let other = Wind { seed: 8, ..wind() };
-        assert_ne!(a, other.at(5.0).velocity(Vec3::splat(DVec3::ONE)));
+        assert_ne!(
+            a,
+            other.air(5.0, &[], 1.0).velocity(Vec3::splat(DVec3::ONE))
+        );
     }
 }

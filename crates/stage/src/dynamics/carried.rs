@@ -1,6 +1,6 @@
 //! Strands that guides carry.
 
-use glam::{DQuat, Quat, Vec3};
+use glam::{DQuat, Quat, Vec3, Vec3A};
 use groom::Guides;
 use hair_sim::{Pose, Strands};
 use rayon::prelude::*;
@@ -14,14 +14,50 @@ const CARRIERS: usize = 3;
 pub(crate) struct Carried {
     /// Points of each carried strand.
     ranges: Vec<Range<usize>>,
-    /// Guides of each: strand of the solver, points of the scene, weight.
-    carriers: Vec<[(usize, f32); CARRIERS]>,
+    /// Guides of each.
+    carriers: Vec<[Carrier; CARRIERS]>,
+    /// Where points of a strand of so many points are on guides of so many.
+    places: Vec<((usize, usize), Vec<Place>)>,
     /// Points of the scene of each guide.
     guides: Vec<Range<usize>>,
     /// All points of the scene's free strands at rest.
     rest: Vec<Vec3>,
     /// How far each point of each carried strand is at rest from its places on its guides, strand by strand.
     offsets: Vec<Vec<[Vec3; CARRIERS]>>,
+}
+
+/// A guide of a carried strand: its number, how much it counts, and which of [`Carried`]'s places its points have there.
+#[derive(Clone, Copy, Debug)]
+struct Carrier {
+    guide: usize,
+    weight: f32,
+    places: usize,
+}
+
+/// A place on a guide: the link, by number, and how far along it.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    link: usize,
+    share: f32,
+}
+
+impl Place {
+    /// At share `u` of a chain of so many points, by number.
+    fn new(u: f32, points: usize) -> Self {
+        let place = u * (points - 1) as f32;
+        let link = (place as i32).min(points as i32 - 2);
+        Self {
+            link: link as usize,
+            share: place - link as f32,
+        }
+    }
+}
+
+/// A link of a guide: its ends, and how it has turned.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    ends: [Vec3A; 2],
+    turn: Quat,
 }
 
 /// Chooses at most `most` of the free strands as guides, by their indices, and what carries the others.
@@ -42,15 +78,30 @@ pub(crate) fn choose(free: &Strands, parts: &[Range<usize>], most: u32) -> (Vec<
         rest[part.clone()].copy_from_slice(points);
     }
     let others: Vec<usize> = (0..free.len()).filter(|i| !is_guide[*i]).collect();
-    let carriers: Vec<[(usize, f32); CARRIERS]> = others
+    let mut places = Vec::new();
+    let mut carrier = |strand: usize, (guide, weight): (usize, f32)| {
+        let counts = (parts[strand].len(), parts[guides.kept[guide]].len());
+        let known = places.iter().position(|(of, _)| *of == counts);
+        let places = known.unwrap_or_else(|| {
+            let of = |i| Place::new(share(i, counts.0), counts.1);
+            places.push((counts, (0..counts.0).map(of).collect()));
+            places.len() - 1
+        });
+        Carrier {
+            guide,
+            weight,
+            places,
+        }
+    };
+    let carriers: Vec<[Carrier; CARRIERS]> = others
         .iter()
-        .map(|&i| nearest(&shapes, i, &guides.kept))
+        .map(|&i| nearest(&shapes, i, &guides.kept).map(|own| carrier(i, own)))
         .collect();
-    let offsets_of = |(&strand, carriers): (&usize, &[(usize, f32); CARRIERS])| {
+    let offsets_of = |(&strand, carriers): (&usize, &[Carrier; CARRIERS])| {
         let points = free.strand(strand);
         let offsets = (0..).zip(points).map(|(i, point)| {
             let u = share(i, points.len());
-            carriers.map(|(guide, _)| *point - at(free.strand(guides.kept[guide]), u))
+            carriers.map(|own| *point - at(free.strand(guides.kept[own.guide]), u))
         });
         offsets.collect()
     };
@@ -58,6 +109,7 @@ pub(crate) fn choose(free: &Strands, parts: &[Range<usize>], most: u32) -> (Vec<
         ranges: others.iter().map(|&i| parts[i].clone()).collect(),
         offsets: others.iter().zip(&carriers).map(offsets_of).collect(),
         carriers,
+        places,
         guides: guides.kept.iter().map(|&i| parts[i].clone()).collect(),
         rest,
     };
@@ -71,11 +123,8 @@ fn shape(points: &[Vec3]) -> [Vec3; 4] {
 
 /// The point at share `u` of a chain of points, by number.
 fn at(points: &[Vec3], u: f32) -> Vec3 {
-    let place = u * (points.len() - 1) as f32;
-    let first = (place as i32).min(points.len() as i32 - 2);
-    let (share, first) = (place - first as f32, first as usize);
-    let ends = &points[first..first + 2];
-    ends[0].lerp(ends[1], share)
+    let Place { link, share } = Place::new(u, points.len());
+    points[link].lerp(points[link + 1], share)
 }
 
 /// How far along a strand of so many points one of them is, by number: 0 to 1.
@@ -129,26 +178,24 @@ impl Carried {
         turns: impl Fn(usize) -> Vec<DQuat> + Sync,
         keep_out: impl Fn(usize, &mut [Vec3]) + Sync,
     ) {
-        let turned = self.turned(turns);
-        let now: Vec<Vec<Vec3>> = (self.guides.iter())
-            .map(|own| points[own.clone()].to_vec())
-            .collect();
+        let guides = self.guides_now(points, &turns);
         let strands = self.strands_of(points);
         (strands.into_par_iter()).zip(&self.offsets).for_each(
             |((range, carriers, moved), offsets)| {
-                let count = moved.len();
-                let carriers = carriers.map(|(guide, weight)| {
-                    let (now, turned): (&[Vec3], &[Quat]) = (&now[guide], &turned[guide]);
-                    (now, turned, weight)
+                let carriers = carriers.map(|own| {
+                    let (links, places) = (&guides[own.guide], &self.places[own.places].1);
+                    (&links[..], &places[..], own.weight)
                 });
                 // The root stays with the head.
                 for (i, (point, offsets)) in moved.iter_mut().zip(offsets).enumerate().skip(1) {
-                    let u = share(i, count);
-                    *point = (carriers.iter().zip(offsets))
-                        .map(|(&(now, turned, weight), &offset)| {
-                            weight * (at(now, u) + link_at(turned, u) * offset)
-                        })
-                        .sum();
+                    let mut sum = Vec3A::ZERO;
+                    for (&(links, places, weight), offset) in carriers.iter().zip(offsets) {
+                        let Place { link, share } = places[i];
+                        let Link { ends, turn } = &links[link];
+                        let guide = ends[0].lerp(ends[1], share);
+                        sum += weight * (guide + *turn * Vec3A::from(*offset));
+                    }
+                    *point = sum.into();
                 }
                 keep_out(range.start, moved);
             },
@@ -167,11 +214,10 @@ impl Carried {
         strands
             .into_par_iter()
             .for_each(|(range, carriers, normals)| {
-                let last = (range.len() - 1) as f32;
                 for (i, normal) in normals.iter_mut().enumerate() {
-                    let u = i as f32 / last;
-                    let turn = |&(guide, weight): &(usize, f32)| {
-                        weight * (link_at(&turned[guide], u) * rest[range.start + i])
+                    let turn = |own: &Carrier| {
+                        let place = self.places[own.places].1[i];
+                        own.weight * (turned[own.guide][place.link] * rest[range.start + i])
                     };
                     let sum: Vec3 = carriers.iter().map(turn).sum();
                     *normal = sum.normalize_or(*normal);
@@ -195,14 +241,28 @@ impl Carried {
             .map(|guide| turns(guide).iter().map(|turn| turn.as_quat()).collect())
             .collect()
     }
+
+    /// The links of each guide as they stand in a list of all points, and have turned.
+    fn guides_now(
+        &self,
+        points: &[Vec3],
+        turns: &(impl Fn(usize) -> Vec<DQuat> + Sync),
+    ) -> Vec<Vec<Link>> {
+        let guides = self.guides.par_iter().enumerate();
+        let links_of = |(guide, own): (usize, &Range<usize>)| {
+            let links = points[own.clone()].windows(2).zip(turns(guide));
+            let link = |(ends, turn): (&[Vec3], DQuat)| Link {
+                ends: [ends[0].into(), ends[1].into()],
+                turn: turn.as_quat(),
+            };
+            links.map(link).collect()
+        };
+        guides.map(links_of).collect()
+    }
 }
 
 /// The places of a carried strand in the list of all points, what carries it, and its part of a list.
-type Strand<'a, 'b> = (
-    &'a Range<usize>,
-    &'a [(usize, f32); CARRIERS],
-    &'b mut [Vec3],
-);
+type Strand<'a, 'b> = (&'a Range<usize>, &'a [Carrier; CARRIERS], &'b mut [Vec3]);
 
 /// The parts of a list in these ranges, which ascend.
 pub(super) fn parts_of<'a, 'b>(
@@ -217,12 +277,6 @@ pub(super) fn parts_of<'a, 'b>(
         left = (rest, range.end);
         own
     })
-}
-
-/// The turn of the link at share `u` of a guide.
-fn link_at(links: &[Quat], u: f32) -> Quat {
-    let link = (u * links.len() as f32) as i32;
-    links[link.min(links.len() as i32 - 1) as usize]
 }
 
 #[cfg(test)]
@@ -267,5 +321,54 @@ mod tests {
         let moved = one.iter().filter(|point| **point != Vec3::ZERO).count();
         assert!(moved > 60 * 4, "{moved}");
         assert_eq!(one.iter().filter(|point| point.y < -0.036).count(), guides);
+    }
+
+    /// Each point is where its guides have it, to the bit, also where they have another number of points.
+    #[test]
+    fn carried_points_keep_their_places_on_their_guides() {
+        let (mut free, mut parts) = (Strands::new(), Vec::new());
+        for strand in 0..30_u32 {
+            let count = 5 + strand as usize % 3;
+            let points: Vec<Vec3> = (0..count)
+                .map(|i| Vec3::new(strand as f32, -(i as f32), (strand * i as u32 % 7) as f32))
+                .collect();
+            let first = parts.last().map_or(0, |part: &Range<usize>| part.end);
+            parts.push(first..first + count);
+            free.push(strand, &points, None).unwrap();
+        }
+        let (guides, carried) = choose(&free, &parts, 8);
+        let shift = |strand: usize| Vec3::new(0.1, 0.03 * strand as f32, -0.2);
+        let mut points = vec![Vec3::ZERO; parts[29].end];
+        for &guide in &guides {
+            for (i, point) in parts[guide].clone().enumerate() {
+                points[point] = free.strand(guide)[i] + shift(guide);
+            }
+        }
+        let turns = |guide: usize| {
+            let links = parts[guides[guide]].len() - 1;
+            let turn = |link: usize| DQuat::from_rotation_z(0.1 * (guide + link) as f64);
+            (0..links).map(turn).collect::<Vec<_>>()
+        };
+        let before = points.clone();
+        carried.carry(&mut points, turns, |_, _| {});
+        let mut counts = (0, 0);
+        for (strand, range) in carried.ranges.iter().enumerate() {
+            for i in 1..range.len() {
+                let u = share(i, range.len());
+                let of = |(own, offset): (&Carrier, &Vec3)| {
+                    let now = &before[parts[guides[own.guide]].clone()];
+                    counts.0 += usize::from(now.len() != range.len());
+                    let turns = turns(own.guide);
+                    let link = (u * turns.len() as f32) as usize;
+                    let turn = turns[link.min(turns.len() - 1)].as_quat();
+                    own.weight * (at(now, u) + turn * *offset)
+                };
+                let carriers = carried.carriers[strand].iter();
+                let there: Vec3 = carriers.zip(&carried.offsets[strand][i]).map(of).sum();
+                assert_eq!(points[range.start + i], there);
+                counts.1 += 1;
+            }
+        }
+        assert!(counts.0 > 20 && counts.1 > 80, "{counts:?}");
     }
 }

@@ -60,7 +60,9 @@ impl Path {
         let start = was.distance(from) - self.keep;
         if start <= TOUCH {
             // It touches already. The surface near the end, where that is the same side.
-            let (first, last) = (was.normal(from), self.surface(shape, to, end));
+            let first = was.normal(from);
+            let (place, end) = self.slide(shape, (from, first), (to, end));
+            let last = self.surface(shape, place, end);
             let (at, normal) = if first.dot(last.1) > 0.5 {
                 last
             } else {
@@ -94,6 +96,22 @@ impl Path {
         // Not met by the free motion: what the strand does may still bring it there.
         let (at, normal) = self.surface(shape, to, end);
         Some(self.plane(at, normal, to))
+    }
+
+    /// Where what touches a body at `from` goes when it is held there, and its distance: `to` as far as it doesn't go in. Deep in a body that is known by a
+    /// grid its distances say little of the surface there: what rests would be held now by one plane, now by another, and never come to rest.
+    fn slide(
+        &self,
+        shape: &Shape,
+        (from, normal): (DVec3, DVec3),
+        (to, end): (DVec3, f64),
+    ) -> (DVec3, f64) {
+        let out = normal.dot(to - from);
+        if out >= 0.0 || !shape.is_sampled() {
+            return (to, end);
+        }
+        let place = to - normal * out;
+        (place, shape.distance(place) - self.keep)
     }
 
     /// The surface nearest to a place at this distance from it: a point of it, and its normal there.
