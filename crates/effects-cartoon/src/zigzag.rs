@@ -59,7 +59,7 @@ impl effects::StrokeEffect for Zigzag {
                 .map(|strand| Highlight::of(params, hair, strand, group, groups))
                 .collect();
             if within_m > 0.0 {
-                merge::onto_one_line(hair.strands, &mut shining, within_m);
+                merge::onto_one_line(hair.strands, &mut shining, within_m, hair.head_center);
             }
             shining
         };
