@@ -40,6 +40,9 @@ struct Params {
     /// How much a clump is shaded as a round lock: as much as the shadow's, so that both agree on where it is dark.
     /// @range 0..2 @default 0.4
     roundness: f32,
+    /// Whose shadow that is: `strokes` of `hair.cel`, or that of hair that is painted by `hair.toon`, whose round locks face the eye in their middle.
+    /// @choices strokes toon @default strokes
+    shadow: u32,
     /// Height: how far of the way to where a ball would mirror the light the band goes: 0 stays where it is drawn, 1 follows the light.
     /// @range 0..1 @default 0.15
     slide: f32,
@@ -110,9 +113,16 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
         return nothing;
     }
 
-    // The gray of the shadow's strokes beside it.
-    let beside = params.roundness * place * cross(joint.forward, joint.view_direction);
-    let gray = dot(joint.light_direction, unit_or(joint.normal + beside, joint.normal));
+    // The gray of the shadow's strokes beside it, or of what is painted there.
+    let side = cross(joint.forward, joint.view_direction);
+    let beside = params.roundness * place * side;
+    var normal = unit_or(joint.normal + beside, joint.normal);
+    if (params.shadow == 1u) {
+        let to_eye = joint.view_direction - dot(joint.view_direction, joint.forward) * joint.forward;
+        let tube = place * side + sqrt(max(1.0 - place * place, 0.0)) * to_eye;
+        normal = rounded(joint.normal, unit_or(tube, joint.normal), params.roundness);
+    }
+    let gray = dot(joint.light_direction, normal);
     let lit = saturate((gray - params.shade) / params.shade_fade);
     let along = saturate((half - away) / max(params.taper * half, 1e-6));
     let basic = params.spread * joint.clump_radius / f32(params.teeth);

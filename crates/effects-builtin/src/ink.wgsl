@@ -38,7 +38,8 @@ struct Params {
     /// Colour of the line, or none for a dark shade of the hair's own.
     /// @default none
     color: vec4<f32>,
-    /// Its colour where the hair is in shadow, or none for the same: lines within a shadow are lighter or coloured.
+    /// Its colour where the hair is in shadow, or none for the same: lines within a shadow are lighter or coloured. Where one is light and the other
+    /// dark, as white and black are, the line doesn't fade from one to the other: it ends in a point, and begins again.
     /// @default none
     shadow_color: vec4<f32>,
     /// How dark hair is where lines have the shadow's colour: as the shadow's `threshold`.
@@ -55,6 +56,12 @@ const WIDEST: f32 = 150.0;
 /// Over how many grays one colour becomes the other.
 const BLEND: f32 = 0.1;
 
+/// Over how many grays, to each side, a line thins out to where it takes a colour far lighter or darker than its own.
+const THINNED: f32 = 0.15;
+
+/// How much faster its colour changes there, where it is thin.
+const STEEPER: f32 = 4.0;
+
 /// How bright a line is against the hair whose colour it takes.
 const DARK: f32 = 0.13;
 
@@ -65,6 +72,11 @@ fn tremble(place: f32, seed: u32) -> f32 {
     let index = u32(before);
     let smooth_way = way * way * (3.0 - 2.0 * way);
     return mix(random_signed(seed, index), random_signed(seed, index + 1u), smooth_way);
+}
+
+/// How far apart two colours are for ink, which can't fade from light to dark: 0 for shades of one and for hues as light, 1 for black and white.
+fn unlike(a: vec3<f32>, b: vec3<f32>) -> f32 {
+    return smoothstep(0.3, 0.7, abs(dot(a - b, vec3<f32>(0.2126, 0.7152, 0.0722))));
 }
 
 /// At each end of a stretch of the line that share of the shortest one is its point.
@@ -102,7 +114,11 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let disc = clump_disc(instance % 3u, joint.clump_radius, joint.clump_shift);
     let gray = saturate(dot(joint.light_direction, joint.normal));
     let own = color_or(params.color, DARK * joint.clump_color);
-    let color = mix(color_or(params.shadow_color, own), own, vec3<f32>(saturate((gray - params.shade) / BLEND + 0.5)));
+    let in_shadow = color_or(params.shadow_color, own);
+    let apart = unlike(own, in_shadow);
+    let lighter = gray - params.shade;
+    let color = mix(in_shadow, own, vec3<f32>(saturate(lighter / BLEND * mix(1.0, STEEPER, apart) + 0.5)));
+    let by_color = mix(1.0, min(abs(lighter) / THINNED, 1.0), apart);
 
     // A strand 1000 km long trembles no more.
     let along = min(joint.arc_length / (joint.head_height * params.wobble_length), 1e6);
@@ -113,7 +129,7 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let by_light = mix(1.0, params.light_width, gray);
     let from_root = select(1.0, smoothstep(0.0, params.root_fade, joint.u), joint.u < params.root_fade);
     let to_tip = select(1.0, smoothstep(0.0, params.tip_fade, 1.0 - joint.u), 1.0 - joint.u < params.tip_fade);
-    let share = by_hand * by_light * from_root * to_tip * on;
+    let share = by_hand * by_light * from_root * to_tip * on * by_color;
     let by_gap = 1.0 + (params.gap_width - 1.0) * step;
     let whole = min(min(params.width * joint.unit * share * by_gap, WIDEST * joint.unit), params.ratio * joint.clump_radius);
     // A side that is not there has no line.

@@ -130,6 +130,32 @@ fn hair_in_shadow_has_none_and_it_narrows_towards_it() {
     }
 }
 
+/// As `hair.toon` paints a round lock: in its middle it faces the eye, wherever the clump's normal points.
+#[test]
+fn painted_locks_have_it_where_they_are_painted_light() {
+    let joints = Joints {
+        normal: vec![vec3([1.0, 0.0, 0.0])],
+        light_direction: vec![vec3([0.0, 0.0, 1.0])],
+        ..joint_at(0.3, 1.0)
+    };
+    let with = |shadow: &str, roundness: &str| {
+        let set = [
+            ("place", "0.3"),
+            ("shade", "0.5"),
+            ("shade_fade", "0.01"),
+            ("slide", "0"),
+            ("shadow", shadow),
+            ("roundness", roundness),
+        ];
+        band(&joints, 0, &set).radius
+    };
+    assert_eq!(with("strokes", "1"), 0.0);
+    assert_eq!(with("toon", "0"), 0.0);
+    assert!(with("toon", "1") > 10.0);
+    // Half way between both normals the gray is 0.7.
+    assert!(with("toon", "0.5") > 10.0 && with("toon", "0.3") == 0.0);
+}
+
 #[test]
 fn it_breaks_at_roots_and_on_some_strands() {
     let set = [

@@ -137,6 +137,43 @@ fn within_a_shadow_it_has_the_shadows_line() {
     assert!((between - 0.5).abs() < 1e-3, "{between}");
 }
 
+/// Ink can't fade from black to white: where the line changes its colour it has no width, and it gets its width back steadily on both sides. Shades of one
+/// colour blend without that.
+#[test]
+fn a_line_is_no_gradient() {
+    let at = |shadow: &'static str, gray: f32| {
+        let set = [("color", "000000"), ("shadow_color", shadow)];
+        let set: Vec<_> = EVEN.iter().chain(&set).copied().collect();
+        let joint = joint_at(0.5, 1.0, 3, gray);
+        (
+            width(&joint, &set),
+            stroke::<Ink>(&joint, 0, 1, &set).color.x,
+        )
+    };
+    let whole = at("FFFFFF", 0.9).0;
+    assert!(whole > 3.9, "{whole}");
+    let (mut before, mut gray) = (at("FFFFFF", 0.2).0, 0.2);
+    while gray < 0.6 {
+        let (width, color) = at("FFFFFF", gray);
+        assert!(
+            (width - before).abs() < 0.05,
+            "{gray}: {width} after {before}"
+        );
+        assert!(
+            color == 0.0 || color == 1.0 || width < 0.1 * whole,
+            "{gray}: {color}, {width} wide"
+        );
+        assert!((at("303030", gray).0 - whole).abs() < 1e-4);
+        (before, gray) = (width, gray + 0.001);
+    }
+    assert!(at("FFFFFF", 0.4).0 < 0.01);
+    assert!(
+        [0.2, 0.6]
+            .iter()
+            .all(|gray| (at("FFFFFF", *gray).0 - whole).abs() < 1e-4)
+    );
+}
+
 proptest! {
     /// However it swells, it is no wider than its share of the clump, and never narrower than the clump.
     #[test]

@@ -59,7 +59,7 @@ impl effects::StrokeEffect for Zigzag {
                 .map(|strand| Highlight::of(params, hair, strand, group, groups))
                 .collect();
             if within_m > 0.0 {
-                merge::onto_one_line(hair.strands, &mut shining, within_m);
+                merge::onto_one_line(hair.strands, &mut shining, within_m, hair.head_center);
             }
             shining
         };
@@ -173,7 +173,12 @@ fn link(
     let length = from.distance(to) / hair.head_height_m;
     let near = ((params.longest - length) / (FADE * params.longest).max(1e-6)).clamp(0.0, 1.0);
     let lesser = ends[0].amount.min(ends[1].amount);
-    let whole = smooth(near) * smooth(lesser / WHOLE);
+    let within_m = params.merge * hair.head_height_m;
+    let on_one_line = match within_m > 0.0 {
+        true => merge::on_one_line(from, to, within_m, hair.head_center),
+        false => 1.0,
+    };
+    let whole = smooth(near) * smooth(lesser / WHOLE) * on_one_line;
     (0..POINTS)
         .map(move |i| {
             let t = i as f32 / (POINTS - 1) as f32;

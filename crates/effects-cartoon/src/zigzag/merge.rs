@@ -2,7 +2,8 @@
 //!
 //! Where hair is dense, strands of one lock shine at different heights, as they turn away at different places. The source averages what is near
 //! (Shin, Haller, Mukundan, section 3.4.2); here each strand's highlight moves to where the highlights around it lie on average, in each frame anew,
-//! with weights that come and go without a jump.
+//! with weights that come and go without a jump. A strand that runs along the line, as hair swept to one side does, can't be moved onto it: where it shines
+//! away from the line it is left out, the more the farther.
 
 use super::grid::Grid;
 use super::{FAINT, Highlight, PLACES, smooth};
@@ -15,34 +16,92 @@ const ROUNDS: usize = 3;
 /// Places of a strand that are farther from the middle than its nearest place hardly count from here on, in parts of the distance of `merge`.
 const SHARP: f32 = 0.2;
 
-/// Moves highlights of strands, as many, nearer than `within_m` to one another along their strands onto one line.
-pub(super) fn onto_one_line(strands: &[HairStrand], shining: &mut [Highlight], within_m: f32) {
+/// What is farther than this above or below the line is left out, in parts of the distance of `merge`.
+const OFF_LINE: f32 = 0.35;
+
+/// Moves highlights of strands, as many, nearer than `within_m` to one another along their strands onto one line around the head, and leaves out those
+/// that stay away from it.
+pub(super) fn onto_one_line(
+    strands: &[HairStrand],
+    shining: &mut [Highlight],
+    within_m: f32,
+    head_center: Vec3,
+) {
     for _ in 0..ROUNDS {
-        let points: Vec<Vec3> = (strands.iter().zip(&*shining))
-            .map(|(strand, highlight)| strand.point(highlight.place))
-            .collect();
-        let those = (0..shining.len()).filter(|i| shining[*i].amount > 0.0);
-        let grid = Grid::new(those.map(|i| (i, points[i])), within_m);
-        let middle = |i: usize| {
-            // Where nothing shines around it, a highlight stays where it is.
-            let (mut sum, mut weights) = (FAINT * points[i], FAINT);
-            for other in grid.around(points[i]) {
-                let weight = shining[other].amount
-                    * near(points[other].distance_squared(points[i]), within_m);
-                sum += weight * points[other];
-                weights += weight;
-            }
-            sum / weights
-        };
+        let around = Around::of(strands, shining, within_m);
         let places: Vec<f32> = (strands.iter().zip(&*shining).enumerate())
             .map(|(i, (strand, highlight))| {
-                place_near(strand, middle(i), highlight.place, within_m)
+                place_near(strand, around.middle(i), highlight.place, within_m)
             })
             .collect();
         for (highlight, place) in shining.iter_mut().zip(places) {
             highlight.place = place;
         }
     }
+    let around = Around::of(strands, shining, within_m);
+    let shares: Vec<f32> = (0..shining.len())
+        .map(|i| 1.0 - smooth(around.off_line_m(i, head_center) / (OFF_LINE * within_m)))
+        .collect();
+    for (highlight, share) in shining.iter_mut().zip(shares) {
+        highlight.amount *= share;
+    }
+}
+
+/// Where highlights lie, and what shines around each.
+struct Around<'a> {
+    shining: &'a [Highlight],
+    points: Vec<Vec3>,
+    grid: Grid,
+    within_m: f32,
+}
+
+impl<'a> Around<'a> {
+    fn of(strands: &[HairStrand], shining: &'a [Highlight], within_m: f32) -> Self {
+        let points: Vec<Vec3> = (strands.iter().zip(shining))
+            .map(|(strand, highlight)| strand.point(highlight.place))
+            .collect();
+        let those = (0..shining.len()).filter(|i| shining[*i].amount > 0.0);
+        let grid = Grid::new(those.map(|i| (i, points[i])), within_m);
+        Self {
+            shining,
+            points,
+            grid,
+            within_m,
+        }
+    }
+
+    /// The middle of what shines around highlight `i`; where nothing does, that is where it is itself.
+    fn middle(&self, i: usize) -> Vec3 {
+        let own = self.points[i];
+        let (mut sum, mut weights) = (FAINT * own, FAINT);
+        for other in self.grid.around(own) {
+            let squared_m = self.points[other].distance_squared(own);
+            let weight = self.shining[other].amount * near(squared_m, self.within_m);
+            sum += weight * self.points[other];
+            weights += weight;
+        }
+        sum / weights
+    }
+
+    /// How far highlight `i` is above or below the line of those around it, metres, along the head. On top of the head, where no line around it is above
+    /// another, that is nothing.
+    fn off_line_m(&self, i: usize, head_center: Vec3) -> f32 {
+        if self.shining[i].amount <= 0.0 {
+            return 0.0;
+        }
+        above_m(self.points[i], self.middle(i), head_center).abs()
+    }
+}
+
+/// How far one point is above another along the head, metres.
+fn above_m(point: Vec3, other: Vec3, head_center: Vec3) -> f32 {
+    let out = (0.5 * (point + other) - head_center).normalize_or_zero();
+    (point - other).dot(out.cross(Vec3::Y.cross(out)))
+}
+
+/// How much there is of a link between highlights of two lines, of which one runs above the other: the less the farther they are apart.
+pub(super) fn on_one_line(from: Vec3, to: Vec3, within_m: f32, head_center: Vec3) -> f32 {
+    1.0 - smooth(above_m(from, to, head_center).abs() / (2.0 * OFF_LINE * within_m))
 }
 
 /// 1 for what is nearer than half of `within_m`, 0 from `within_m` on, without corners.
@@ -72,6 +131,75 @@ fn place_near(strand: &HairStrand, point: Vec3, own: f32, within_m: f32) -> f32 
 mod tests {
     use super::*;
 
+    /// Strands above one another run sideways along the front of a head, from 0.1 m below its middle to 0.1 m above, and all shine in their middle: what is
+    /// left of each.
+    fn left_of_sideways(within_m: f32) -> Vec<f32> {
+        let points: Vec<Vec<Vec3>> = (0..=40)
+            .map(|i| {
+                let y = 0.005 * i as f32 - 0.1;
+                let point = |k: usize| Vec3::new(0.01 * k as f32 - 0.05, y, 0.12);
+                (0..=10).map(point).collect()
+            })
+            .collect();
+        let strands = strands_of(&points);
+        let whole = Highlight {
+            place: 0.5,
+            amount: 1.0,
+        };
+        let mut shining = vec![whole; strands.len()];
+        onto_one_line(&strands, &mut shining, within_m, Vec3::ZERO);
+        shining.iter().map(|highlight| highlight.amount).collect()
+    }
+
+    /// They can't come together, so that those near their middle are the strip, and the others fade away from it.
+    #[test]
+    fn strands_along_the_line_shine_near_it_alone() {
+        let left = left_of_sideways(0.2);
+        assert!(left[20] > 0.99, "{left:?}");
+        assert!((left[10] - left[30]).abs() < 1e-3);
+        assert!(
+            left[..4]
+                .iter()
+                .chain(&left[37..])
+                .all(|amount| *amount < 0.1),
+            "{left:?}"
+        );
+        assert!(
+            left[..21].is_sorted() && left[20..].is_sorted_by(|a, b| a >= b),
+            "{left:?}"
+        );
+        let largest_step = left
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).abs())
+            .fold(0.0, f32::max);
+        assert!(largest_step < 0.2, "a hard edge: {largest_step}");
+    }
+
+    #[test]
+    fn what_lies_above_is_another_line() {
+        let at = |x: f32, y: f32| Vec3::new(x, y, 0.12);
+        let share = |to: Vec3| on_one_line(at(0.0, 0.0), to, 0.1, Vec3::ZERO);
+        assert!((above_m(at(0.02, 0.03), at(0.0, 0.0), Vec3::ZERO) - 0.03).abs() < 1e-3);
+        assert_eq!(share(at(0.0, 0.0)), 1.0);
+        assert!(share(at(0.06, 0.0)) > 0.999);
+        assert!(share(at(0.01, 0.08)) == 0.0 && share(at(0.01, -0.08)) == 0.0);
+        let half = share(at(0.0, 0.035));
+        assert!((0.4..0.6).contains(&half), "{half}");
+    }
+
+    fn strands_of(points: &[Vec<Vec3>]) -> Vec<HairStrand<'_>> {
+        let strand = |(id, particles)| HairStrand {
+            id,
+            particles,
+            at_rest: particles,
+            size: 12.0,
+        };
+        (0..)
+            .zip(points.iter().map(Vec::as_slice))
+            .map(strand)
+            .collect()
+    }
+
     /// Upright strands of 0.2 m side by side, with highlights at these places and of these amounts: the places once merged.
     fn merged(highlights: &[(f32, f32)], apart_m: f32, within_m: f32) -> Vec<f32> {
         let points: Vec<Vec<Vec3>> = (0..highlights.len())
@@ -80,19 +208,11 @@ mod tests {
                 (0..=10).map(point).collect()
             })
             .collect();
-        let strands: Vec<HairStrand> = (0..)
-            .zip(&points)
-            .map(|(id, particles)| HairStrand {
-                id,
-                particles,
-                at_rest: particles,
-                size: 12.0,
-            })
-            .collect();
+        let strands = strands_of(&points);
         let mut shining: Vec<Highlight> = (highlights.iter())
             .map(|&(place, amount)| Highlight { place, amount })
             .collect();
-        onto_one_line(&strands, &mut shining, within_m);
+        onto_one_line(&strands, &mut shining, within_m, 0.1 * Vec3::NEG_Z);
         shining.iter().map(|highlight| highlight.place).collect()
     }
 
