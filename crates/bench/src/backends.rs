@@ -73,7 +73,7 @@ impl Backends {
     pub fn without_card(samples: u32) -> Result<Self, BenchError> {
         Ok(Self {
             samples,
-            evaluator: Evaluator::default(),
+            evaluator: Evaluator::of_samples(samples),
             rasterizer: Rasterizer::new(samples, None).map_err(|e| e.to_string())?,
             drawing: Drawing::default(),
             card: None,

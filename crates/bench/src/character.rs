@@ -97,7 +97,7 @@ impl Frames {
     fn new(stage: Stage) -> Self {
         Self {
             stage,
-            evaluator: Evaluator::default(),
+            evaluator: Evaluator::of_samples(SAMPLES),
             drawing: Drawing::default(),
             rasterizer: None,
             yaw: 0.0,

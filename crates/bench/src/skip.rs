@@ -295,7 +295,7 @@ impl Drawer {
             scene: scene.clone(),
             motion: Motion::new(),
             frames: FrameMaker::new(),
-            evaluator: Evaluator::default(),
+            evaluator: Evaluator::of_samples(SAMPLES),
             rasterizer: Rasterizer::new(SAMPLES, None).map_err(|error| error.to_string())?,
             drawing: Drawing::default(),
             discs: 0,

@@ -26,12 +26,17 @@ impl effects::StrokeEffect for Ink {
     }
 
     fn reach(params: &Params) -> effects::Reach {
-        let by_light = params.light_width.max(1.0);
-        let widest = params.width * params.gap_width.max(1.0) * by_light * (1.0 + params.wobble);
         effects::Reach {
             clumps: 2.0,
-            units: widest.min(WIDEST),
+            units: widest(params),
         }
+    }
+
+    fn beyond(params: &Params) -> Option<effects::Reach> {
+        Some(effects::Reach {
+            clumps: params.ratio,
+            units: widest(params),
+        })
     }
 
     fn extent(_: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
@@ -42,4 +47,11 @@ impl effects::StrokeEffect for Ink {
         }
         .clump_disc_extent()
     }
+}
+
+/// How wide a line may be, in the layer's unit.
+fn widest(params: &Params) -> f32 {
+    let by_light = params.light_width.max(1.0);
+    let widest = params.width * params.gap_width.max(1.0) * by_light * (1.0 + params.wobble);
+    widest.min(WIDEST)
 }

@@ -24,6 +24,13 @@ impl effects::StrokeEffect for Silhouette {
         }
     }
 
+    fn beyond(params: &Params) -> Option<effects::Reach> {
+        Some(effects::Reach {
+            clumps: params.ratio,
+            units: params.width,
+        })
+    }
+
     fn extent(_: &Params, strand: &effects::StrandJoints) -> std::ops::Range<usize> {
         strand.clump_disc_extent()
     }

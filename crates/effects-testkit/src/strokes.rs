@@ -3,7 +3,7 @@
 use crate::hair;
 use crate::joint::{Joint, list};
 use crate::values::{Case, defaults, extremes, some_instances};
-use effects::wgsl::{Stroke, clump_disc};
+use effects::wgsl::{Stroke, clump_disc, vec2};
 use effects::{AnyEffect, CLUMP_DISCS, Input, LayerProgram, Reach};
 
 /// Strokes side by side, at most: no clump is so wide that more would be seen.
@@ -64,6 +64,24 @@ pub(crate) fn near(effect: &dyn AnyEffect) -> Result<(), String> {
                 if stroke.radius > 0.0 && reach > 1.0001 * most {
                     return Err(format!(
                         "{}: stroke {instance} reaches {reach} from its clump's middle, and by its `reach` {most} is the most",
+                        case.name
+                    ));
+                }
+                let Some(beyond) = program.beyond() else {
+                    continue;
+                };
+                let clump = (0..CLUMP_DISCS).map(|disc| {
+                    let [x, y, size] =
+                        clump_disc(disc, joint.clump_radius, joint.clump_shift).to_array();
+                    (joint.clump_shift + vec2([x, y])).length().0 + size
+                });
+                let reach = (joint.clump_shift + stroke.offset).length().0 + stroke.radius;
+                let unit = if has_unit { joint.unit } else { 1.0 };
+                let most = clump.fold(0.0, f32::max)
+                    + (beyond.clumps * joint.clump_radius).min(beyond.units * unit);
+                if stroke.radius > 0.0 && reach > 1.0001 * most {
+                    return Err(format!(
+                        "{}: stroke {instance} reaches {reach} from its strand, and by its `beyond` {most} is the most",
                         case.name
                     ));
                 }

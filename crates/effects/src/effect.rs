@@ -118,6 +118,13 @@ pub trait StrokeEffect: Send + Sync + 'static {
         Reach::FARTHEST
     }
 
+    /// How far strokes reach beyond the clump's own discs, where that is known: by the lesser of the two. Hair behind other hair costs less then. It is
+    /// asked as [`Self::reach`] is.
+    fn beyond(params: &<Self::Program as Parameters>::Params) -> Option<Reach> {
+        let _ = params;
+        None
+    }
+
     /// Whether painting with these parameters makes use of something of a sample that the WGSL declares, so that it need not be worked
     /// out else. Of effects with a parameter that varies all is.
     fn reads(params: &<Self::Program as Parameters>::Params, input: SampleInput) -> bool {
@@ -256,6 +263,8 @@ pub trait LayerProgram: Send + Sync {
     fn may_be_nearer(&self) -> bool;
     /// [`StrokeEffect::reach`].
     fn reach(&self) -> Reach;
+    /// [`StrokeEffect::beyond`].
+    fn beyond(&self) -> Option<Reach>;
     /// [`StrokeEffect::make_paths`].
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths);
     /// What is read of a joint.
@@ -416,6 +425,10 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
 
     fn reach(&self) -> Reach {
         E::reach(&self.params.greatest())
+    }
+
+    fn beyond(&self) -> Option<Reach> {
+        E::beyond(&self.params.greatest())
     }
 
     fn make_paths(&self, hair: &Hair, seed: u32, paths: &mut MadePaths) {

@@ -239,7 +239,7 @@ impl Painter {
         let cpu = match self.cpu.take() {
             Some(cpu) => cpu,
             None => Cpu {
-                evaluator: Evaluator::default(),
+                evaluator: Evaluator::of_samples(self.samples),
                 rasterizer: Rasterizer::new(self.samples, None)?,
                 drawing: Drawing::default(),
                 planes: SamplePlanes::default(),

@@ -17,7 +17,7 @@ use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
 use render::{Head, StrandInfo};
 use std::sync::Arc;
-use stroke_path::{Cut, Detail};
+use stroke_path::{Coarseness, Cut, Detail};
 
 /// How far the pieces of a strand that curls go on beyond where they meet, in parts of its full radius.
 const OVERLAP: f32 = 3.0;
@@ -277,12 +277,12 @@ fn on_hair(look: &Arc<Look>, hair: &HairModel) -> Arc<Look> {
 }
 
 fn shapes(hair: &HairModel, look: &Look) -> Result<Vec<PathShape>, StageError> {
-    let apart = joints_apart(hair);
+    let coarseness = coarseness(hair);
     let shape = |(i, info): (usize, &StrandInfo)| {
         let overlap_m = OVERLAP * info.size * hair.head.unit_m();
         let rest = hair.file.strands.strand(i);
         let cuts = stroke_path::cuts(rest, look.path(), overlap_m)?;
-        let detail = Detail::of(rest, look.path(), &cuts, apart)?;
+        let detail = Detail::of(rest, look.path(), &cuts, coarseness)?;
         Ok(PathShape { cuts, detail })
     };
     hair.infos.par_iter().enumerate().map(shape).collect()
@@ -291,12 +291,15 @@ fn shapes(hair: &HairModel, look: &Look) -> Result<Vec<PathShape>, StageError> {
 /// From how many clumps over each other on, spread on the head, hair is dense.
 const DENSE: f32 = 11.0;
 
-/// How many times as far apart joints of dense hair may be, at most.
-const MOST_APART: f32 = 2.0;
+/// From so many strands on nobody tells one from the other.
+const MANY: f32 = 4000.0;
 
-/// How many times as far apart as else neighbouring joints of hair may be: where many strands lie over each other what one's strokes do
-/// between them makes less of a difference.
-fn joints_apart(hair: &HairModel) -> f32 {
+/// How many times as far apart joints of dense hair may be, and how many times as wrong the paths of many strands, at most.
+const COARSEST: f32 = 2.0;
+
+/// How coarse the paths of hair may be: where many strands lie over each other what one's strokes do between joints makes less of a
+/// difference, and where there are thousands so does where one of them is.
+fn coarseness(hair: &HairModel) -> Coarseness {
     let strands = hair.file.strands.iter().zip(&hair.infos);
     let areas = strands.map(|(points, info)| {
         let links = points.windows(2).map(|link| link[0].distance(link[1]));
@@ -304,5 +307,9 @@ fn joints_apart(hair: &HairModel) -> f32 {
     });
     let head = std::f32::consts::PI * hair.head.height_m.powi(2);
     let layers = areas.sum::<f32>() / head;
-    (layers / DENSE).clamp(1.0, MOST_APART)
+    let many = hair.infos.len() as f32 / MANY;
+    Coarseness {
+        apart: (layers / DENSE).max(many).clamp(1.0, COARSEST),
+        error: many.clamp(1.0, COARSEST),
+    }
 }

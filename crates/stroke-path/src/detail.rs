@@ -29,7 +29,7 @@ pub struct Detail {
 /// A joint between two others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct JointDetail {
-    /// How wrong the path would be without it, metres. That of no joint between it and the two is more.
+    /// How wrong the path would be without it, metres, in parts of how wrong it may be. That of no joint between it and the two is more.
     error_m: f32,
     /// The two, and how far it is on the way from the first to the second, 0 to 1.
     between: [u32; 2],
@@ -37,13 +37,18 @@ struct JointDetail {
 }
 
 impl Detail {
-    /// That of a strand that is cut there ([`cuts`](crate::cuts())), by its particles at rest, in metres. Neighbouring joints may be
-    /// `apart` times as far apart as else, 1 or more: of dense hair no strand is looked at by itself.
+    /// That of a strand that is cut there ([`cuts`](crate::cuts())), by its particles at rest, in metres. Of dense hair no strand is looked at by
+    /// itself: its joints may be farther apart, and less exact.
     ///
     /// # Errors
     ///
     /// When the subdivision is not within 1 to 64.
-    pub fn of(rest: &[Vec3], kind: PathKind, cuts: &[Cut], apart: f32) -> Result<Self, PathError> {
+    pub fn of(
+        rest: &[Vec3],
+        kind: PathKind,
+        cuts: &[Cut],
+        coarseness: Coarseness,
+    ) -> Result<Self, PathError> {
         let places: Vec<Vec3> = kind.joints(rest)?.collect();
         let always = JointDetail {
             error_m: f32::INFINITY,
@@ -58,13 +63,7 @@ impl Detail {
         ends.sort_unstable();
         for pair in ends.windows(2) {
             let levels = 2 * (pair[1] - pair[0]).max(1).ilog2() + LEVELS;
-            divide(
-                &places,
-                &mut joints,
-                [pair[0], pair[1]],
-                levels,
-                WIDEST * apart,
-            );
+            divide(&places, &mut joints, [pair[0], pair[1]], levels, coarseness);
         }
         Ok(Self { joints })
     }
@@ -104,13 +103,30 @@ impl Detail {
     }
 }
 
+/// How much coarser than else paths may be, each 1 or more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coarseness {
+    /// How many times as far apart neighbouring joints may be.
+    pub apart: f32,
+    /// How many times as wrong paths may be.
+    pub error: f32,
+}
+
+impl Coarseness {
+    /// As paths are that are looked at one by one.
+    pub const FINE: Self = Self {
+        apart: 1.0,
+        error: 1.0,
+    };
+}
+
 /// Finds what the joints between two lie between, and returns the greatest error of any.
 fn divide(
     places: &[Vec3],
     joints: &mut [JointDetail],
     [start, end]: [usize; 2],
     levels: u32,
-    widest: f32,
+    coarseness: Coarseness,
 ) -> f32 {
     if end - start < 2 {
         return 0.0;
@@ -134,11 +150,12 @@ fn divide(
         _ => farthest,
     };
     let length = |links: &[Vec3]| -> f32 { links.windows(2).map(|l| l[0].distance(l[1])).sum() };
-    let too_wide = length(&places[start..=end]) / widest;
+    let too_wide = length(&places[start..=end]) / (WIDEST * coarseness.apart);
     let levels = levels.saturating_sub(1);
     let [before, after] =
-        [[start, i], [i, end]].map(|part| divide(places, joints, part, levels, widest));
-    let error_m = error(farthest).max(too_wide).max(before).max(after);
+        [[start, i], [i, end]].map(|part| divide(places, joints, part, levels, coarseness));
+    let own = error(farthest) / coarseness.error;
+    let error_m = own.max(too_wide).max(before).max(after);
     joints[i] = JointDetail {
         error_m,
         between: [start as u32, end as u32],
@@ -168,7 +185,7 @@ mod tests {
     /// The joints that are there, where they are.
     fn path(px_per_metre: f32) -> Vec<(usize, Vec3)> {
         let all: Vec<Vec3> = SPLINE.joints(&arc()).unwrap().collect();
-        let detail = Detail::of(&arc(), SPLINE, &[], 1.0).unwrap();
+        let detail = Detail::of(&arc(), SPLINE, &[], Coarseness::FINE).unwrap();
         let kept = kept(&detail, px_per_metre);
         let mut places: Vec<Vec3> = kept.iter().map(|(i, _)| all[*i]).collect();
         detail.blend(&kept, &mut places);
@@ -233,7 +250,13 @@ mod tests {
             Vec3::new(side * (COUNT - i) as f32, 0.0, 0.0)
         };
         let strand: Vec<Vec3> = (0..COUNT).map(to_and_fro).collect();
-        let detail = Detail::of(&strand, PathKind::Linear { subdivision: 1 }, &[], 1.0).unwrap();
+        let detail = Detail::of(
+            &strand,
+            PathKind::Linear { subdivision: 1 },
+            &[],
+            Coarseness::FINE,
+        )
+        .unwrap();
         assert!(kept(&detail, 1.0).len() > COUNT / 2);
     }
 
@@ -242,7 +265,8 @@ mod tests {
         let longest = |apart: f32| {
             let straight = [Vec3::ZERO, Vec3::X];
             let kind = PathKind::Linear { subdivision: 64 };
-            let detail = Detail::of(&straight, kind, &[], apart).unwrap();
+            let coarseness = Coarseness { apart, error: 1.0 };
+            let detail = Detail::of(&straight, kind, &[], coarseness).unwrap();
             let kept = kept(&detail, 200.0);
             let steps = kept.windows(2).map(|pair| pair[1].0 - pair[0].0);
             steps.max().unwrap() as f32 * 200.0 / 64.0
@@ -260,12 +284,41 @@ mod tests {
     }
 
     #[test]
+    fn coarser_paths_are_as_wrong_as_they_may_be() {
+        let coarse = Coarseness {
+            apart: 100.0,
+            error: 2.0,
+        };
+        let places: Vec<Vec3> = SPLINE.joints(&arc()).unwrap().collect();
+        let error_px = |coarseness: Coarseness| {
+            let detail = Detail::of(&arc(), SPLINE, &[], coarseness).unwrap();
+            let kept = kept(&detail, 100.0);
+            let mut path: Vec<Vec3> = kept.iter().map(|(i, _)| places[*i]).collect();
+            detail.blend(&kept, &mut path);
+            let path: Vec<(usize, Vec3)> = kept.iter().map(|(i, _)| *i).zip(path).collect();
+            (100.0 * error_m(&path), path.len())
+        };
+        let fine = error_px(Coarseness {
+            error: 1.0,
+            ..coarse
+        });
+        let coarse = error_px(coarse);
+        assert!(coarse.1 < fine.1, "{} joints of {}", coarse.1, fine.1);
+        assert!(fine.0 < 1.2 * TOLERANCE_PX, "{}", fine.0);
+        assert!(
+            coarse.0 > TOLERANCE_PX && coarse.0 < 2.4 * TOLERANCE_PX,
+            "{}",
+            coarse.0
+        );
+    }
+
+    #[test]
     fn ends_and_cuts_stay() {
         let cut = Cut {
             at: 20,
             overlap: 17..=23,
         };
-        let detail = Detail::of(&arc(), SPLINE, &[cut], 1.0).unwrap();
+        let detail = Detail::of(&arc(), SPLINE, &[cut], Coarseness::FINE).unwrap();
         let joints: Vec<usize> = kept(&detail, 1e-6).iter().map(|(i, _)| *i).collect();
         assert_eq!(joints, [0, 17, 20, 23, 64]);
         for count in 0..3 {
@@ -273,7 +326,7 @@ mod tests {
                 &arc()[..count],
                 PathKind::Linear { subdivision: 1 },
                 &[],
-                1.0,
+                Coarseness::FINE,
             );
             assert_eq!(kept(&detail.unwrap(), 1.0).len(), count);
         }

@@ -38,7 +38,7 @@ pub mod sweep;
 
 pub use camera::{Camera, CameraError, OrbitView, direction_from_angles};
 pub use cuts::{Cut, cuts};
-pub use detail::Detail;
+pub use detail::{Coarseness, Detail};
 pub use path::{PathRun, Paths};
 pub use portable_math::sin_cos_degrees;
 pub use resample::{MAX_SUBDIVISION, PathError, PathKind};

@@ -26,7 +26,7 @@ impl Painter {
     pub fn new(samples: u32, threads: usize) -> Result<Self, BenchError> {
         let rasterizer = Rasterizer::new(samples, Some(threads));
         Ok(Self {
-            evaluator: Evaluator::default(),
+            evaluator: Evaluator::of_samples(samples),
             rasterizer: rasterizer.map_err(|error| error.to_string())?,
             drawing: Drawing::default(),
             part: Drawing::default(),

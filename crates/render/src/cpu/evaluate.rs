@@ -5,6 +5,7 @@ use crate::drawing::{Brush, Disc, Drawing, LayerStrokes, Run, Stretch, Stretches
 use crate::features::{DrawnFeatures, Feature};
 use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_COLOR, NO_TAPER, Object, seen_lengths};
 use crate::painting;
+use crate::samples::sample_positions;
 use effects::smooth::{self, Smoother};
 use effects::wgsl::{Clump, Stroke, clump_disc, hash, vec2, vec3};
 use effects::{
@@ -30,6 +31,8 @@ pub struct Evaluator {
     /// How much nearer each joint is ordered among strands, head heights; empty where none is.
     lift: Vec<f32>,
     is_everywhere: bool,
+    /// Those of each pixel, where they are known.
+    samples: Vec<Vec2>,
     /// One for each thread.
     scratches: Vec<Mutex<Scratch>>,
 }
@@ -42,6 +45,20 @@ impl Evaluator {
             is_everywhere: true,
             ..Self::default()
         }
+    }
+
+    /// One that works out what pictures with so many samples in each pixel show, and no others: of dense hair that is less than
+    /// what any picture may show.
+    #[must_use]
+    pub fn of_samples(samples: u32) -> Self {
+        let mut evaluator = Self::default();
+        evaluator.set_samples(samples);
+        evaluator
+    }
+
+    /// From now on it is as [`Self::of_samples`] has it; of a number of samples that there isn't, as at first.
+    pub fn set_samples(&mut self, samples: u32) {
+        self.samples = sample_positions(samples).unwrap_or_default();
     }
 
     /// Makes all strokes of `frame`. Only what the active layers declare is worked out.
@@ -62,8 +79,13 @@ impl Evaluator {
         self.needed.clear();
         self.fill_clump_discs(frame, &mut drawing.clump);
         if !self.is_everywhere {
-            let Self { seen, needed, .. } = self;
-            seen.find(frame, &self.joints, &drawing.clump, needed);
+            let Self {
+                seen,
+                needed,
+                samples,
+                ..
+            } = self;
+            seen.find(frame, &self.joints, (&drawing.clump, samples), needed);
             leave_out(&needed.all, &mut drawing.clump);
         }
 
@@ -167,7 +189,9 @@ impl Evaluator {
                 radii.extend(extent.map(size));
                 radii.resize(joints.len(), 0.0);
                 leave_out_unneeded(&self.needed.all, &joints, radii);
-                made.find_stretches(frame.paths, &joints, radii);
+                let runs = runs_of(frame.paths, &joints);
+                find_stretches(runs, joints.start, radii, &mut made.stretches);
+                made.number_discs();
             });
             let drawn = made.stretches.iter().flat_map(|s| s.joints.clone());
             let discs = drawn.map(|i| self.clump_disc_at(frame, object, i, number));
@@ -493,9 +517,11 @@ fn inputs(frame: &Frame) -> InputSet {
 #[derive(Default)]
 struct Scratch {
     strokes: Vec<Stroke>,
-    /// Of all joints of a part.
+    /// Of a strand's joints.
     radii: Vec<f32>,
-    /// Those of a whole strand, and where they are.
+    /// Where its stroke is drawn.
+    drawn: Vec<Stretch>,
+    /// The radii of the strand without what its pieces share, and where they are.
     whole: Vec<f32>,
     places: Vec<f32>,
     smoother: Smoother,
@@ -520,30 +546,24 @@ impl Made {
         }
     }
 
-    /// Finds where a stroke with these radii at `joints`, which are whole runs, is drawn: where it has a size, and at the joints
-    /// beside, to which it tapers.
-    fn find_stretches(&mut self, paths: &Paths, joints: &Range<usize>, radii: &[f32]) {
-        for run in runs_of(paths, joints) {
-            let has_size = |&joint: &usize| radii[joint - joints.start] > 0.0;
-            let mut rest = run.joints.clone();
-            while let Some(start) = rest.find(has_size) {
-                let end = rest.find(|joint| !has_size(joint));
-                let end = end.map_or(run.joints.end, |end| end + 1);
-                let start = start.saturating_sub(1).max(run.joints.start);
-                match self.stretches.last_mut() {
-                    // There is no gap but what tapers.
-                    Some(last) if last.joints.end >= start => last.joints.end = end,
-                    _ => self.stretches.push(Stretch {
-                        joints: start..end,
-                        first: 0,
-                    }),
-                }
-            }
-        }
+    /// Numbers the discs of all stretches one behind the other.
+    fn number_discs(&mut self) {
         let mut first = 0;
         for stretch in &mut self.stretches {
             stretch.first = first;
             first += stretch.joints.len();
+        }
+    }
+
+    /// Adds where a strand's stroke is drawn, whose discs lie behind those so far.
+    fn push_stretches(&mut self, drawn: &[Stretch]) {
+        for stretch in drawn {
+            match self.stretches.last_mut() {
+                Some(last) if last.joints.end == stretch.joints.start => {
+                    last.joints.end = stretch.joints.end;
+                }
+                _ => self.stretches.push(stretch.clone()),
+            }
         }
     }
 
@@ -618,44 +638,63 @@ struct Part<'a> {
 impl Part<'_> {
     /// Makes stroke `number` of each run where it has a size.
     fn evaluate(&self, number: u32, scratch: &mut Scratch) -> Made {
-        let (frame, layer, inputs) = (self.frame, self.layer, self.inputs);
-        let program = &layer.program;
-        if self
-            .needed
-            .get(self.joints.clone())
-            .is_some_and(|needed| !needed.contains(&true))
-        {
-            return Made::new(number);
+        let mut made = Made::new(number);
+        let is_unneeded = |joints: &Range<usize>| {
+            let needed = self.needed.get(joints.clone());
+            needed.is_some_and(|needed| !needed.contains(&true))
+        };
+        if is_unneeded(&self.joints) {
+            return made;
         }
         let is_direct = self.is_mostly_there(number, scratch);
+        for pieces in self.strands() {
+            let joints = pieces[0].joints.start..pieces[pieces.len() - 1].joints.end;
+            let strand = &self.frame.strands[pieces[0].strand];
+            if !is_unneeded(&joints) && !strand.is_left_out_by(self.layer_number) {
+                self.evaluate_strand(pieces, &joints, is_direct, scratch, &mut made);
+            }
+        }
+        made.number_discs();
+        made
+    }
+
+    /// Adds what the stroke has on a strand, of these pieces and joints.
+    fn evaluate_strand(
+        &self,
+        pieces: &[PathRun],
+        joints: &Range<usize>,
+        is_direct: bool,
+        scratch: &mut Scratch,
+        made: &mut Made,
+    ) {
+        let (frame, layer, inputs) = (self.frame, self.layer, self.inputs);
+        let program = &layer.program;
+        let number = made.number as u32;
         let Scratch { radii, strokes, .. } = scratch;
         radii.clear();
         strokes.clear();
-        for pieces in self.strands() {
-            for (i, run) in pieces.iter().enumerate() {
-                let part = self.counted(pieces, i);
-                let is_left_out = frame.strands[run.strand].is_left_out_by(self.layer_number);
-                if part.is_empty() || is_left_out {
-                    continue;
-                }
-                let start = self.joints.start;
-                if is_direct {
-                    // Those beside, to which strokes taper, too.
-                    let part = part.start.saturating_sub(1).max(run.joints.start)
-                        ..(part.end + 1).min(run.joints.end);
-                    strokes.resize(part.start - start, NO_STROKE);
-                    program.evaluate(inputs, part.clone(), number, self.seed, strokes);
-                    let own = &strokes[part.start - start..];
-                    radii.resize(part.start - start, 0.0);
-                    radii.extend(own.iter().map(|stroke| stroke.radius));
-                    continue;
-                }
-                let extent = program.extent(inputs, part, number, self.seed);
-                radii.resize(extent.start - start, 0.0);
-                program.radii(inputs, extent, number, self.seed, radii);
+        let start = joints.start;
+        for (i, run) in pieces.iter().enumerate() {
+            let part = self.counted(pieces, i);
+            if part.is_empty() {
+                continue;
             }
+            if is_direct {
+                // Those beside, to which strokes taper, too.
+                let part = part.start.saturating_sub(1).max(run.joints.start)
+                    ..(part.end + 1).min(run.joints.end);
+                strokes.resize(part.start - start, NO_STROKE);
+                program.evaluate(inputs, part.clone(), number, self.seed, strokes);
+                let own = &strokes[part.start - start..];
+                radii.resize(part.start - start, 0.0);
+                radii.extend(own.iter().map(|stroke| stroke.radius));
+                continue;
+            }
+            let extent = program.extent(inputs, part, number, self.seed);
+            radii.resize(extent.start - start, 0.0);
+            program.radii(inputs, extent, number, self.seed, radii);
         }
-        radii.resize(self.joints.len(), 0.0);
+        radii.resize(joints.len(), 0.0);
         // A stroke that an effect failed to work out is not drawn.
         let size = |radius: f32| {
             if radius.is_finite() {
@@ -665,18 +704,21 @@ impl Part<'_> {
             }
         };
         radii.iter_mut().for_each(|radius| *radius = size(*radius));
-        self.smooth(scratch);
+        self.smooth(pieces, start, scratch);
 
-        let Scratch { strokes, radii, .. } = scratch;
-        leave_out_unneeded(self.needed, &self.joints, radii);
-        let mut made = Made::new(number);
-        made.find_stretches(frame.paths, &self.joints, radii);
-        let count = made.stretches.iter().map(|s| s.joints.len()).sum();
-        made.discs.reserve_exact(count);
-        made.colors.reserve_exact(count);
-        for stretch in &made.stretches {
+        let Scratch {
+            strokes,
+            radii,
+            drawn,
+            ..
+        } = scratch;
+        leave_out_unneeded(self.needed, joints, radii);
+        drawn.clear();
+        find_stretches(pieces, start, radii, drawn);
+        for stretch in drawn.iter_mut() {
+            stretch.first = made.discs.len();
             let joints = stretch.joints.clone();
-            let places = joints.start - self.joints.start..joints.end - self.joints.start;
+            let places = joints.start - start..joints.end - start;
             let strokes = match is_direct {
                 true => &mut strokes[places.clone()],
                 false => {
@@ -710,28 +752,32 @@ impl Part<'_> {
             made.colors.extend(colors);
         }
         if frame.brush == Brush::Semicircle {
-            self.go_around_flat_ends(radii, &mut made);
+            self.go_around_flat_ends(pieces, &radii[..], drawn, &mut made.discs);
         }
-        made
+        made.push_stretches(drawn);
     }
 
     /// Moves the tips of strokes that are wider than their clump on by what they are wider, or an outline
-    /// would end where its clump does.
-    fn go_around_flat_ends(&self, radii: &[f32], made: &mut Made) {
+    /// would end where its clump does. `drawn` are those of a strand of these pieces and radii.
+    fn go_around_flat_ends(
+        &self,
+        pieces: &[PathRun],
+        radii: &[f32],
+        drawn: &[Stretch],
+        discs: &mut [Disc],
+    ) {
         let paths = self.frame.paths;
-        let mut stretches = made.stretches.iter().peekable();
-        let tips = self.runs().iter().map(|run| run.joints.end - 1);
+        let tips = pieces.iter().map(|run| run.joints.end - 1);
         for tip in tips.filter(|&tip| paths.u[tip] == 1.0) {
-            while stretches.next_if(|s| s.joints.end <= tip).is_some() {}
-            let Some(stretch) = stretches.peek().filter(|s| s.joints.start <= tip) else {
+            let Some(stretch) = drawn.iter().find(|s| s.joints.contains(&tip)) else {
                 continue;
             };
-            let radius = radii[tip - self.joints.start];
+            let radius = radii[tip - pieces[0].joints.start];
             let wider = (radius - self.inputs.clump_radius[tip]).max(0.0);
             let unit_px = self.object.head.unit_m() * paths.px_per_metre[tip];
             // The path on the screen, of which `across` is a right angle to the right.
             let ahead = -paths.across[tip].perp();
-            let disc = &mut made.discs[stretch.first + tip - stretch.joints.start];
+            let disc = &mut discs[stretch.first + tip - stretch.joints.start];
             disc.center += ahead * (wider * unit_px).min(LARGEST_PX);
         }
     }
@@ -803,9 +849,9 @@ impl Part<'_> {
         runs_of(self.frame.paths, &self.joints)
     }
 
-    /// Takes stretches and gaps of the strokes that are too short away, as they are seen: hair that
-    /// points at the eye would show long ones as dots.
-    fn smooth(&self, scratch: &mut Scratch) {
+    /// Takes stretches and gaps of a strand's stroke that are too short away, as they are seen: hair that
+    /// points at the eye would show long ones as dots. Its joints begin at `start`.
+    fn smooth(&self, pieces: &[PathRun], start: usize, scratch: &mut Scratch) {
         let length_m = self.layer.program.shortest() * self.object.head.height_m;
         if length_m <= 0.0 {
             return;
@@ -817,29 +863,48 @@ impl Part<'_> {
             smoother,
             ..
         } = scratch;
-        let start = self.joints.start;
-        // Pieces of one strand together, and what they share once.
-        for pieces in self.strands() {
-            let joints = || {
-                let own = |run: &PathRun| run.joints.start + run.overlap..run.joints.end;
-                pieces.iter().flat_map(own)
-            };
-            whole.clear();
-            whole.extend(joints().map(|i| radii[i - start]));
-            if whole.iter().all(|radius| *radius == 0.0) {
-                continue;
+        // Pieces together, and what they share once.
+        let joints = || {
+            let own = |run: &PathRun| run.joints.start + run.overlap..run.joints.end;
+            pieces.iter().flat_map(own)
+        };
+        whole.clear();
+        whole.extend(joints().map(|i| radii[i - start]));
+        if whole.iter().all(|radius| *radius == 0.0) {
+            return;
+        }
+        places.clear();
+        places.extend(joints().map(|i| self.seen_length[i]));
+        smoother.smooth(places, whole, length_m);
+        for (i, radius) in joints().zip(whole.iter()) {
+            radii[i - start] = *radius;
+        }
+        for piece in pieces {
+            let shared = piece.joints.start..piece.joints.start + piece.overlap;
+            for i in shared {
+                radii[i - start] = radii[i - piece.overlap - start];
             }
-            places.clear();
-            places.extend(joints().map(|i| self.seen_length[i]));
-            smoother.smooth(places, whole, length_m);
-            for (i, radius) in joints().zip(whole.iter()) {
-                radii[i - start] = *radius;
-            }
-            for piece in pieces {
-                let shared = piece.joints.start..piece.joints.start + piece.overlap;
-                for i in shared {
-                    radii[i - start] = radii[i - piece.overlap - start];
-                }
+        }
+    }
+}
+
+/// Adds where a stroke with these radii on neighbouring runs, from joint `start` on, is drawn: where it has a size, and at the joints beside, to
+/// which it tapers.
+fn find_stretches(runs: &[PathRun], start: usize, radii: &[f32], stretches: &mut Vec<Stretch>) {
+    for run in runs {
+        let has_size = |&joint: &usize| radii[joint - start] > 0.0;
+        let mut rest = run.joints.clone();
+        while let Some(first) = rest.find(has_size) {
+            let end = rest.find(|joint| !has_size(joint));
+            let end = end.map_or(run.joints.end, |end| end + 1);
+            let first = first.saturating_sub(1).max(run.joints.start);
+            match stretches.last_mut() {
+                // There is no gap but what tapers.
+                Some(last) if last.joints.end >= first => last.joints.end = end,
+                _ => stretches.push(Stretch {
+                    joints: first..end,
+                    first: 0,
+                }),
             }
         }
     }

@@ -1,10 +1,10 @@
 //! Where along a path strokes are needed: not where no picture can show them, not behind a head, and not behind other hair.
 
-use super::cover::{Area, Cover, Link};
+use super::cover::{Area, Clump, Cover, Link, Scene, Swath};
 use super::tile::lesser;
 use crate::drawing::{Brush, Disc, Order};
 use crate::frame::{Ball, CLUMP_REACH, Frame, Object, reach_of};
-use effects::{Joints, Layer};
+use effects::{Joints, Layer, Reach};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -66,6 +66,8 @@ fn is_within(order: Order, layer: &Layer) -> bool {
 pub(super) struct Seen {
     cover: Cover,
     rooms: Vec<Room>,
+    /// For each joint whether other hair hides all between it and the next one; empty where nothing is known.
+    hidden: Vec<bool>,
 }
 
 /// The number of a run, and whether its joints make a difference.
@@ -85,12 +87,13 @@ struct Segments {
 }
 
 impl Seen {
-    /// Finds where a frame's strokes are needed. `clumps` are the discs of all clumps but made paths'.
+    /// Finds where a frame's strokes are needed. `clumps` are the discs of all clumps but made paths'; `samples` are those of each pixel, where
+    /// they are known.
     pub(super) fn find(
         &mut self,
         frame: &Frame,
         joints: &Joints,
-        clumps: &[Disc],
+        (clumps, samples): (&[Disc], &[Vec2]),
         needed: &mut Needed,
     ) {
         let Needed { all, within } = needed;
@@ -99,12 +102,18 @@ impl Seen {
         self.rooms.clear();
         let rooms = (frame.objects.iter()).flat_map(|object| Room::all_of(frame, object));
         self.rooms.extend(rooms);
-        let has_cover = covers(frame, &mut self.cover, clumps);
         let view = View {
             frame,
             joints,
             clumps,
+            cover: None,
+        };
+        let hidden = &mut self.hidden;
+        hidden.clear();
+        let has_cover = covers(&view, samples, &self.rooms, &mut self.cover, hidden);
+        let view = View {
             cover: has_cover.then_some(&self.cover),
+            ..view
         };
         all.resize(frame.paths.len(), false);
         within.resize(frame.paths.len(), false);
@@ -123,6 +132,7 @@ impl Seen {
             Segments::default,
             |segments, (number, all, within)| {
                 let run = &runs[number];
+                let hidden = hidden.get(run.joints.clone()).unwrap_or_default();
                 let room = rooms.partition_point(|room| room.joints.end <= run.joints.start);
                 let is_of_piece =
                     |other: Option<&PathRun>| other.is_some_and(|other| other.piece == run.piece);
@@ -135,7 +145,11 @@ impl Seen {
                 };
                 // Each as if it were seen by itself: no head hides one of several.
                 let hides = if is_whole { HIDDEN } else { 0 };
-                segments.find(&view, &rooms[room], (run, hides), all, within);
+                let links = &hidden[..hidden.len().saturating_sub(1)];
+                if is_whole && !links.is_empty() && !links.contains(&false) {
+                    return; // nothing of it is seen
+                }
+                segments.find(&view, &rooms[room], (run, hides, hidden), all, within);
             },
         );
         if !within.contains(&false) {
@@ -150,7 +164,7 @@ impl Segments {
         &mut self,
         view: &View,
         room: &Room,
-        (run, hides): (&PathRun, u8),
+        (run, hides, hidden): (&PathRun, u8, &[bool]),
         all: &mut [bool],
         within: &mut [bool],
     ) {
@@ -191,11 +205,15 @@ impl Segments {
                 seen.push(may_be);
                 continue;
             };
-            let nearness = room.nearness(view, ends.map(|k| run.joints.start + k));
+            let swath = |reach: fn(&ReachPx) -> f32| {
+                let reach_px = ends.map(|k| reach(&reaches[k]));
+                room.swath(view, ends.map(|k| run.joints.start + k), reach_px)
+            };
+            let is_hidden = hidden.get(ends[0]).copied().unwrap_or(false);
+            let is_seen = may_be && !is_hidden && !cover.hides(&swath(|reach| reach.all));
+            let shows = is_seen && !cover.hides(&swath(|reach| reach.clump));
             let clump = area(ends, |reach| reach.clump);
-            let shows = may_be && !cover.hides(clump, nearness);
             let strokes = area(ends, |reach| reach.all);
-            let is_seen = shows || may_be && !cover.hides(strokes, nearness);
             seen.push(is_seen);
             clumps.push(shows.then_some(clump));
             areas.push(on_picture(ends).then_some(strokes));
@@ -302,8 +320,18 @@ fn is_cover(layer: &Layer) -> bool {
     layer.program.is_clump() && layer.rank >= 0 && layer.brush.is_none()
 }
 
-/// Fills the cover by hair, where a frame's hair may hide much of itself.
-fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
+/// Clumps that are as wide as this on average, px, are looked at by cells: they cover many wholly.
+const WIDE_PX: f32 = 4.0;
+
+/// Fills the cover by hair, where a frame's hair may hide much of itself; and says what is hidden for sure already.
+fn covers(
+    view: &View,
+    samples: &[Vec2],
+    rooms: &[Room],
+    cover: &mut Cover,
+    hidden: &mut Vec<bool>,
+) -> bool {
+    let View { frame, clumps, .. } = *view;
     let covers = |object: &Object| {
         let mut layers = object.layers.iter().zip(object.layer_joints);
         layers.any(|(layer, drawn)| is_cover(layer) && !drawn.is_empty())
@@ -350,11 +378,24 @@ fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
             draws && !strand.is_left_out_by(number)
         })
     };
+    let radius_px = radii / count as f32;
     let mut parts = Vec::new();
+    let mut of_runs = Vec::new();
     for object in &frame.objects {
         let start = runs.partition_point(|run| run.joints.start < object.joints.start);
         let end = runs.partition_point(|run| run.joints.end <= object.joints.end);
         let own = &runs[start..end.max(start)];
+        if radius_px < WIDE_PX && !samples.is_empty() {
+            let own = own.iter().filter(|run| is_covered(object, run));
+            of_runs.extend(own.map(|run| {
+                let ends = usize::from(frame.brush == Brush::Semicircle);
+                Clump {
+                    first: run.joints.start,
+                    discs: &clumps[run.joints.clone()],
+                    covering: run.joints.len().saturating_sub(1 + ends),
+                }
+            }));
+        }
         let length = own.len().div_ceil(rayon::current_num_threads());
         for runs in own.chunks(length.max(SOME_RUNS)) {
             let runs = runs.iter().filter(move |run| is_covered(object, run));
@@ -368,7 +409,39 @@ fn covers(frame: &Frame, cover: &mut Cover, clumps: &[Disc]) -> bool {
             }));
         }
     }
-    let radius_px = radii / count as f32;
+    if !of_runs.is_empty() {
+        let middle = |clump: &Clump| clump.discs[clump.discs.len() / 2].inv_depth;
+        of_runs.sort_by(|a, b| middle(b).total_cmp(&middle(a)));
+        let around_px = Vec2::splat(2.0 * WIDE_PX);
+        let low = (low - around_px).max(Vec2::ZERO).floor();
+        let high = (high + around_px).min(size).ceil();
+        let scene = Scene {
+            size: frame.camera.size_px(),
+            part: [
+                low.x as usize..high.x as usize,
+                low.y as usize..high.y as usize,
+            ],
+            surfaces: &frame.surfaces,
+            brush: frame.brush,
+            edge_depth_m,
+            clumps: &of_runs,
+        };
+        let reaches: Vec<f32> = (rooms.iter())
+            .flat_map(|room| room.joints.clone().map(|i| room.reach_px(view, i).all))
+            .collect();
+        let swath = |i: usize| {
+            let room = match rooms {
+                [room] => room,
+                _ => &rooms[rooms.partition_point(|room| room.joints.end <= i)],
+            };
+            room.swath(view, [i, i + 1], [reaches[i], reaches[i + 1]])
+        };
+        hidden.resize(clumps.len(), false);
+        if cover.fill_by_samples(samples, &scene, &swath, hidden) {
+            return true;
+        }
+        hidden.clear();
+    }
     cover.fill(
         frame.camera.size_px(),
         frame.brush,
@@ -386,6 +459,8 @@ struct Room {
     reach: RoomAround,
     /// The same of strokes that show within their clump alone, and aren't it.
     within: RoomAround,
+    /// How far strokes of which no more is known reach beyond their clump.
+    beyond: Vec<Beyond>,
     unit_m: f32,
     /// How much nearer than their clumps strokes may lie among strands, metres.
     nearer_m: f32,
@@ -403,6 +478,12 @@ struct RoomAround {
     pixels_px: f32,
 }
 
+const NOTHING_AROUND: RoomAround = RoomAround {
+    clumps: 0.0,
+    units: 0.0,
+    pixels_px: 0.0,
+};
+
 impl RoomAround {
     fn add(&mut self, frame: &Frame, layer: &Layer) {
         let reach = reach_of(layer, frame.brush);
@@ -413,6 +494,40 @@ impl RoomAround {
         } else {
             self.units = self.units.max(reach.units);
         }
+    }
+}
+
+/// The lesser of both: a part of the clump's radius, and a width in 1/300 of the head's height and in pixels.
+struct Beyond {
+    clumps: f32,
+    units: f32,
+    pixels_px: f32,
+}
+
+impl Beyond {
+    /// That of a layer's strokes, where it says it.
+    fn of(frame: &Frame, layer: &Layer) -> Option<Self> {
+        let Reach { clumps, units } = layer.program.beyond()?;
+        // Tips of half discs are moved on by what they are wider.
+        let times = match frame.brush {
+            Brush::Circle => 1.0,
+            Brush::Semicircle => 2.0,
+        };
+        let (units, pixels) = match layer.is_in_pixels() {
+            true => (0.0, units),
+            false => (units, 0.0),
+        };
+        Some(Self {
+            clumps: times * clumps,
+            units: times * units,
+            pixels_px: times * pixels * frame.camera.size_px()[1] as f32 / 720.0,
+        })
+    }
+
+    /// Pixels, of a clump of this radius where a unit is so large.
+    fn px(&self, radius: f32, unit_px: f32) -> f32 {
+        let width_px = self.units * unit_px + self.pixels_px;
+        lesser(self.clumps * radius * unit_px, width_px)
     }
 }
 
@@ -454,7 +569,7 @@ impl Room {
             units: CLUMP_REACH.units,
             pixels_px: 0.0,
         };
-        let (mut reach, mut within) = (clump, clump);
+        let (mut reach, mut within, mut beyond) = (NOTHING_AROUND, clump, Vec::new());
         let (mut nearer, mut decals) = (0.0_f32, 0.0_f32);
         for layer in layers {
             if layer.is_decal() {
@@ -470,12 +585,16 @@ impl Room {
                 true => f32::INFINITY,
                 false => -layer.depth_offset,
             });
-            reach.add(frame, layer);
+            match Beyond::of(frame, layer).filter(|_| !layer.is_decal()) {
+                Some(own) => beyond.push(own),
+                None => reach.add(frame, layer),
+            }
         }
         Self {
             joints,
             reach,
             within,
+            beyond,
             unit_m: object.head.unit_m(),
             nearer_m: nearer * object.head.height_m,
             decals_m: decals * object.head.height_m,
@@ -494,10 +613,12 @@ impl Room {
             true => 1.0,
             false => CLUMP_REACH.clumps,
         };
+        let clump_px = (shift + clumps * radius) * unit_px;
+        let beyond = self.beyond.iter().map(|beyond| beyond.px(radius, unit_px));
         ReachPx {
-            all: reach(&self.reach),
+            all: reach(&self.reach).max(clump_px + beyond.fold(0.0, f32::max)),
             within: reach(&self.within),
-            clump: (shift + clumps * radius) * unit_px,
+            clump: clump_px,
         }
     }
 
@@ -521,15 +642,26 @@ impl Room {
             | side(self.shadow.as_ref().is_some_and(is_deep), DEEP)
     }
 
-    /// No disc between two neighbouring joints is nearer, 1/m.
-    fn nearness(&self, View { frame, clumps, .. }: &View, ends: [usize; 2]) -> f32 {
-        let [a, b] = ends.map(|i| clumps[i].inv_depth.max(clumps[i].inv_depth_biased));
-        let nearness = a.max(b);
+    /// What all strokes between two joints may reach that reach so far, px.
+    fn swath(&self, view: &View, ends: [usize; 2], reach_px: [f32; 2]) -> Swath {
+        let centers = ends.map(|i| view.frame.paths.center[i]);
+        let reach_px = reach_px[0].max(reach_px[1]) + COVER_MARGIN_PX;
+        Swath::new(centers, reach_px, self.nearness(view, ends))
+    }
+
+    /// No disc at two neighbouring joints is nearer, 1/m, and none between them than what runs linearly.
+    fn nearness(&self, View { frame, clumps, .. }: &View, ends: [usize; 2]) -> [f32; 2] {
+        let nearness = ends.map(|i| clumps[i].inv_depth.max(clumps[i].inv_depth_biased));
         if self.nearer_m <= 0.0 {
             return nearness;
         }
-        let nearest_m = (1.0 / nearness - self.nearer_m).max(frame.camera.near_m());
-        1.0 / nearest_m
+        let nearest_m = nearness.map(|nearness| 1.0 / nearness - self.nearer_m);
+        let near_m = frame.camera.near_m();
+        // It bulges towards the linear one, but for what is cut off.
+        match nearest_m.iter().all(|depth_m| *depth_m >= near_m) {
+            true => nearest_m.map(|depth_m| 1.0 / depth_m),
+            false => [1.0 / nearest_m[0].min(nearest_m[1]).max(near_m); 2],
+        }
     }
 }
 

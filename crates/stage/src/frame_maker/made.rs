@@ -9,7 +9,7 @@ use effects::wgsl::hash;
 use effects::{HairStrand, Layer, MadePath, MadePaths, layer_seed};
 use glam::Vec3;
 use render::{Light, StrandInfo};
-use stroke_path::{Detail, PathKind, Paths};
+use stroke_path::{Coarseness, Detail, PathKind, Paths};
 
 /// The paths that an object's layers make.
 #[derive(Default)]
@@ -183,7 +183,7 @@ fn made_at_rest(
     let with_detail = |made: MadePath| {
         Ok(MadeAtRest {
             name: (made.strand, made.number, made.points.len()),
-            detail: Detail::of(made.points, path, &[], 1.0)?,
+            detail: Detail::of(made.points, path, &[], Coarseness::FINE)?,
         })
     };
     made.iter().map(with_detail).collect()

@@ -131,6 +131,7 @@ impl Painter {
     fn paint_on_cpu(&mut self, frame: &Frame, samples: u32) -> Result<Painted, Problem> {
         let failed = |error: &dyn std::fmt::Display| Problem::Failed(error.to_string());
         let started = Instant::now();
+        self.evaluator.set_samples(samples);
         let evaluated = self.evaluator.evaluate(frame, &mut self.drawing);
         evaluated.map_err(|error| failed(&error))?;
         let effects_ms = started.elapsed().as_secs_f64() * 1e3;
