@@ -15,6 +15,7 @@ mod cover;
 mod decals;
 mod evaluate;
 pub(crate) mod instructions;
+mod light;
 mod mixed;
 mod paint;
 mod paint_mesh;
@@ -48,6 +49,7 @@ use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, Lists, cells};
 use decals::{DecalParts, Decals};
 use instructions::Instructions;
+use light::{BandLight, Light};
 use mixed::JointRows;
 use paint::Painter;
 use paint_mesh::MeshPainter;
@@ -90,8 +92,9 @@ pub struct Rasterizer {
     instructions: Instructions,
     /// One for each thread, once it has drawn.
     workers: Vec<Mutex<Worker>>,
-    /// Samples of the last picture with passes.
+    /// Samples of the last picture with passes, and their colours where these are not among them.
     planes: SamplePlanes,
+    light: Light,
     /// The memory of a picture that was given back; else empty.
     spare: Vec<[f32; 4]>,
 }
@@ -134,6 +137,7 @@ impl Rasterizer {
             parts: Parts::default(),
             workers: Vec::new(),
             planes: SamplePlanes::default(),
+            light: Light::default(),
             spare: Vec::new(),
         })
     }
@@ -153,7 +157,7 @@ impl Rasterizer {
         }
     }
 
-    /// Takes a picture that nobody needs any more: the next one of its size, without passes, is drawn in its memory. To get new memory and to fill it takes
+    /// Takes a picture that nobody needs any more: the next one of its size is drawn in its memory, but where passes ask for colours. To get new memory and to fill it takes
     /// longer than many a picture's strokes.
     pub fn give_back(&mut self, picture: Picture) {
         self.spare = picture.pixels;
@@ -168,20 +172,12 @@ impl Rasterizer {
             instructions,
             workers,
             planes: _,
+            light: _,
             spare,
         } = self;
         let mut draw = || {
             check::check(drawing)?;
-            let [width, height] = drawing.size;
-            let is_spare = spare.len() == width as usize * height as usize;
-            let mut picture = match is_spare {
-                true => Picture {
-                    width,
-                    height,
-                    pixels: std::mem::take(spare),
-                },
-                false => empty_picture(drawing, *samples)?,
-            };
+            let (mut picture, to_fill) = picture_for(drawing, *samples, spare)?;
             let strokes = segment::strokes_in_order(drawing, Kind::Ordered);
             let tile_height = tile::height(stacks);
             parts.collect(drawing, &strokes, stacks);
@@ -193,7 +189,7 @@ impl Rasterizer {
                 stacks,
                 instructions: *instructions,
                 runs_of_joints: &[],
-                to_fill: is_spare.then(|| tile::empty_pixel(drawing.background, *samples)),
+                to_fill,
             };
             let threads = rayon::current_num_threads();
             workers.resize_with(threads, || Mutex::new(Worker::new()));
@@ -218,6 +214,25 @@ impl Rasterizer {
             None => draw(),
         }
     }
+}
+
+/// A picture to draw in, and what pixels that nothing covers are to be, where they aren't: it takes the spare pixels, where there are as many.
+fn picture_for(
+    drawing: &Drawing,
+    samples: usize,
+    spare: &mut Vec<[f32; 4]>,
+) -> Result<(Picture, Option<[f32; 4]>), DrawError> {
+    let [width, height] = drawing.size;
+    if spare.len() != width as usize * height as usize {
+        return Ok((empty_picture(drawing, samples)?, None));
+    }
+    let picture = Picture {
+        width,
+        height,
+        pixels: std::mem::take(spare),
+    };
+    let to_fill = tile::empty_pixel(drawing.background, samples);
+    Ok((picture, Some(to_fill)))
 }
 
 /// A picture in which nothing has been drawn.
@@ -310,6 +325,15 @@ struct Frame<'a> {
 }
 
 impl Frame<'_> {
+    /// Makes of some columns of a band what pixels are that nothing covers.
+    fn fill(&self, pixels: &mut [[f32; 4]], columns: Range<usize>) {
+        if let Some(empty) = self.to_fill {
+            for pixels in pixels.chunks_mut(self.drawing.size[0] as usize) {
+                pixels[columns.clone()].fill(empty);
+            }
+        }
+    }
+
     /// What strands of the tile at `origin` are drawn in.
     #[inline(always)]
     fn tile_at(&self, origin: [usize; 2]) -> TileContext<'_> {
@@ -327,8 +351,8 @@ impl Frame<'_> {
 enum Output<'a> {
     /// Their means, as the band's pixels.
     Pixels(&'a mut [[f32; 4]]),
-    /// What the samples of one stack tell.
-    Samples(BandPlanes<'a>),
+    /// What the samples of one stack tell; with their means and colours, where these are asked for.
+    Samples(BandPlanes<'a>, Option<BandLight<'a>>),
 }
 
 /// A thread's own memory.
@@ -372,7 +396,7 @@ impl Worker {
         );
         match output {
             Output::Pixels(pixels) => self.draw_pixels(frame, band, pixels),
-            Output::Samples(planes) => self.draw_samples(frame, band, planes),
+            Output::Samples(planes, light) => self.draw_samples(frame, band, planes, light),
         }
     }
 
@@ -397,11 +421,7 @@ impl Worker {
             let end = (x + tile::WIDTH).min(width);
             let triangles = frame.parts.triangles_of_tiles.bin(band * tiles + tile);
             if triangles.is_empty() && self.segments_of_tiles.bin(tile).is_empty() {
-                if let Some(empty) = frame.to_fill {
-                    for pixels in pixels.chunks_mut(width) {
-                        pixels[x..end].fill(empty);
-                    }
-                }
+                frame.fill(pixels, x..end);
                 continue;
             }
             self.draw_tile(
@@ -410,21 +430,27 @@ impl Worker {
                 triangles,
                 [x, band * tile::height(frame.stacks)],
             );
-            frame.instructions.run(
-                #[inline(always)]
-                || {
-                    for (row, pixels) in pixels.chunks_mut(width).enumerate() {
-                        self.sums.write(row, frame.samples, &mut pixels[x..end]);
-                    }
-                },
-            );
+            self.write_means(frame, pixels, x..end);
         }
+    }
+
+    /// Writes the means of a tile's samples into some columns of its band.
+    fn write_means(&self, frame: &Frame, pixels: &mut [[f32; 4]], columns: Range<usize>) {
+        let width = frame.drawing.size[0] as usize;
+        frame.instructions.run(
+            #[inline(always)]
+            || {
+                for (row, pixels) in pixels.chunks_mut(width).enumerate() {
+                    let pixels = &mut pixels[columns.start..columns.end];
+                    self.sums.write(row, frame.samples, pixels);
+                }
+            },
+        );
     }
 
     /// Sums up the samples of the tile at `origin`.
     fn draw_tile(&mut self, frame: &Frame, tile: usize, triangles: &[u32], origin: [usize; 2]) {
         self.sums.clear(tile::height(frame.stacks));
-        let background = frame.drawing.background;
         let mut scene = frame.tile_at(origin);
         self.find_strands(frame, &scene, tile);
         for stack in frame.stacks {
@@ -435,11 +461,17 @@ impl Worker {
                 self.draw_stack::<false>(frame, &scene, tile, triangles);
             }
             self.color_stack(frame, &scene, tile);
-            frame.instructions.run(
-                #[inline(always)]
-                || self.sums.add(&mut self.target, stack, background.is_some()),
-            );
+            self.add_up(frame, stack);
         }
+    }
+
+    /// Adds the samples that are drawn, of such a stack, to the sums of their pixels.
+    fn add_up(&mut self, frame: &Frame, stack: &Stack) {
+        let is_opaque = frame.drawing.background.is_some();
+        frame.instructions.run(
+            #[inline(always)]
+            || self.sums.add(&mut self.target, stack, is_opaque),
+        );
     }
 
     /// Finds the strands of a tile.

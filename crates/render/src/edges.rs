@@ -55,7 +55,7 @@ const LARGEST: f32 = 1024.0;
 const STEPS: f32 = 4.0;
 
 /// Some pixels of a row, 64 in a word.
-type Bits = Vec<u64>;
+pub(crate) type Bits = Vec<u64>;
 
 impl Edges {
     /// What samples must tell for it.
@@ -88,16 +88,21 @@ impl Edges {
 
     /// Draws the lines into samples of a picture that has so many a pixel.
     pub(crate) fn draw(&self, planes: &mut SamplePlanes, samples: usize) {
+        let masks = self.covered(planes, samples);
+        planes.set_color(&masks, self.color);
+    }
+
+    /// The pixels that lines cover, for each row of each of the samples, of which a picture has so many a pixel.
+    pub(crate) fn covered(&self, planes: &SamplePlanes, samples: usize) -> Vec<Vec<Bits>> {
         let first = planes.samples().start;
-        let masks: Vec<Vec<Bits>> = (0..planes.samples().len())
+        (0..planes.samples().len())
             .into_par_iter()
             .map(|picture| {
                 // A little less than the middle, so that half a pixel is none where there is one sample.
                 let share = ((first + picture) as f32 + 0.499) / samples as f32;
                 self.lines(planes, picture, share)
             })
-            .collect();
-        planes.set_color(&masks, self.color);
+            .collect()
     }
 
     /// The pixels of one sample that lines cover; `share` is the sample's place among all, 0 to 1.
@@ -150,7 +155,7 @@ impl Edges {
             let random = random_signed(strand_seed(self.seed, strand), 0);
             width *= 1.0 + self.width_px.vary * random;
         }
-        if self.fade_to > 0.0 {
+        if u < self.fade_to {
             let t = (u / self.fade_to).clamp(0.0, 1.0);
             let (_, cos) = sin_cos_degrees_f32(180.0 * t);
             width *= 0.5 * (1.0 - cos);

@@ -5,8 +5,8 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
 use render::{
-    Brush, Drawing, Feature, Features, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order,
-    Picture, Sample, SamplePlanes, StrandInfo,
+    Brush, Drawing, EdgeChannel, Edges, Feature, Features, Frame, Head, Light, NO_COLOR, NO_TAPER,
+    Object, Order, Picture, Sample, SamplePlanes, StrandInfo,
 };
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
 
@@ -228,4 +228,53 @@ fn lists_that_do_not_fit_are_refused() {
     drawing.painting.layers[0].layer = 2;
     let error = rasterizer.draw(&drawing).unwrap_err().to_string();
     assert!(error.contains("layer 2 is not there"), "{error}");
+}
+
+/// Lines of that width in a colour between strands.
+fn lines(width_px: f32, color: [f32; 3]) -> Edges {
+    Edges {
+        channel: EdgeChannel::Strand,
+        threshold: 0.5,
+        step_m: 0.01,
+        width_px: effects::Variation::constant(width_px),
+        seed: 1,
+        fade_to: 0.4,
+        color,
+    }
+}
+
+#[test]
+fn lines_are_the_same_whether_or_not_a_pass_asks_for_colours() {
+    let thick = lines(9.5, [0.0, 0.5, 1.0]);
+    let thin = lines(1.5, [1.0, 0.25, 0.0]);
+    // Lines of colours, of which there are none: for them all samples tell their colours.
+    let none = Edges {
+        channel: EdgeChannel::Color,
+        threshold: 1e9,
+        ..thin.clone()
+    };
+    let features = thick.features().union(none.features());
+    for background in [None, Some([0.5, 0.25, 2.0])] {
+        let list = format!("[{LINE}, {}]", toon(""));
+        let (mut drawing, mut other) = (drawing(&list, features), drawing_of(3, &list, features));
+        drawing.background = background;
+        other.background = background;
+        let plain = draw(&drawing, 4, 1);
+        for samples in [1, 2, 3, 4, 5] {
+            drawing.passes = vec![thick.clone(), thin.clone(), none.clone()];
+            let expected = draw(&drawing, samples, 1);
+            assert_ne!(expected, plain);
+            drawing.passes.pop();
+            let mut rasterizer = Rasterizer::new(samples, Some(2)).unwrap();
+            let found = rasterizer.draw(&drawing).unwrap();
+            assert_eq!(found, expected, "{samples} samples on {background:?}");
+            // In the memory of a picture of less.
+            other.passes = drawing.passes.clone();
+            rasterizer.give_back(found);
+            let found = rasterizer.draw(&other).unwrap();
+            rasterizer.give_back(found);
+            let found = rasterizer.draw(&drawing).unwrap();
+            assert_eq!(found, expected, "{samples} samples on {background:?}");
+        }
+    }
 }

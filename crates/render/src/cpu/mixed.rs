@@ -22,10 +22,10 @@ const VECTORS: [SampleInput; 5] = [
     SampleInput::ViewDirection,
 ];
 
-/// Most numbers of a joint.
-const WIDTH: usize = NUMBERS.len() + 3 * VECTORS.len();
+/// Room for the numbers of a joint, as many as [`OneByOne`] has: so no place is checked.
+const WIDTH: usize = u32::BITS as usize;
 
-const _: () = assert!(WIDTH < u32::BITS as usize);
+const _: () = assert!(NUMBERS.len() + 3 * VECTORS.len() < WIDTH);
 
 /// What samples are mixed of, a row of numbers for each joint: so that all of a joint lies together.
 #[derive(Default)]
@@ -33,7 +33,7 @@ pub(super) struct JointRows {
     /// What is in a row, in order: first the numbers, then the vectors.
     numbers: Vec<SampleInput>,
     vectors: Vec<SampleInput>,
-    /// All rows, one behind the other.
+    /// All rows, one behind the other, and then [`WIDTH`] numbers of no row, so that as many can be read from where any row begins.
     rows: Vec<f32>,
 }
 
@@ -49,10 +49,11 @@ impl JointRows {
             list.extend(all.iter().filter(|input| read.has(**input)));
         }
         let width = self.width();
-        self.rows.resize(width * joints, 0.0);
         if width == 0 {
+            self.rows.clear();
             return;
         }
+        self.rows.resize(width * joints + WIDTH, 0.0);
         for (place, input) in self.numbers.iter().enumerate() {
             let numbers = numbers(&painting.joints, *input);
             for (row, number) in self.rows.chunks_exact_mut(width).zip(numbers) {
@@ -74,11 +75,11 @@ impl JointRows {
         self.numbers.len() + 3 * self.vectors.len()
     }
 
-    /// That of a joint.
+    /// That of a joint, and what is behind it.
     #[inline(always)]
-    fn of(&self, joint: usize) -> &[f32] {
-        let width = self.width();
-        &self.rows[joint * width..][..width]
+    fn of(&self, joint: usize) -> &[f32; WIDTH] {
+        let row = self.rows[joint * self.width()..].first_chunk();
+        row.unwrap_or_else(|| unreachable!("there is room behind the last row"))
     }
 }
 
@@ -164,6 +165,7 @@ impl Mixed {
         let (from, to) = (rows.of(joint), rows.of(next));
         let (numbers, width) = (rows.numbers.len(), rows.width());
         for i in OneByOne::of(&(0..numbers)) {
+            let i = i % WIDTH; // one that compilers know to be there
             let mut mixed = *way;
             for k in 0..LANES {
                 mixed[k] = from[i] + way[k] * (to[i] - from[i]);
@@ -171,6 +173,7 @@ impl Mixed {
             overwrite(&mut self.planes[i][slot], &mixed, lanes);
         }
         for i in OneByOne::of(&(numbers..width)) {
+            let i = i % WIDTH;
             let mut mixed = *way;
             for k in 0..LANES {
                 mixed[k] = from[i] * rest[k] + to[i] * way[k];

@@ -1,10 +1,13 @@
 //! Pictures of which each sample tells what it shows: four samples of each pixel at a time.
 
+use super::light::{BandLight, Light, Lines};
 use super::segment::{Kind, strokes_in_order};
 use super::tile;
-use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture};
+use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture, picture_for};
 use crate::check;
 use crate::drawing::Drawing;
+use crate::edges::{EdgeChannel, Edges};
+use crate::features::{Feature, Features};
 use crate::picture::Picture;
 use crate::planes::{BandPlanes, SamplePlanes};
 use rayon::prelude::*;
@@ -43,26 +46,15 @@ impl Rasterizer {
             parts,
             instructions,
             workers,
-            planes: _,
-            spare: _,
+            ..
         } = self;
         let mut draw = || {
             check::check(drawing)?;
             let strokes = strokes_in_order(drawing, Kind::Ordered);
-            let tile_height = tile::height(stacks);
             parts.collect(drawing, &strokes, stacks);
-            let threads = rayon::current_num_threads();
-            workers.resize_with(threads, || Mutex::new(Worker::new()));
             let runs_of_joints = runs_of_joints(drawing);
             let mut first = 0;
             for stack in stacks.iter() {
-                let count = stack.samples / stack.height;
-                let [width, height] = drawing.size;
-                let declared = drawing.features.declared;
-                planes
-                    .make_room(drawing.size, declared, [first, count], tile_height)
-                    .ok_or(DrawError::Memory(width, height))?;
-                first += count;
                 let frame = Frame {
                     drawing,
                     strokes: &strokes,
@@ -73,28 +65,9 @@ impl Rasterizer {
                     runs_of_joints: &runs_of_joints,
                     to_fill: None,
                 };
-                let layout = planes.layout;
-                let [ids, numbers] = planes.of_band();
-                let ids = planes.ids.par_chunks_mut(ids);
-                let numbers = planes.numbers.par_chunks_mut(numbers);
-                ids.zip(numbers)
-                    .enumerate()
-                    .with_max_len(1)
-                    .for_each(|(band, (ids, numbers))| {
-                        let thread = rayon::current_thread_index().unwrap_or(0);
-                        let mut worker = workers[thread]
-                            .lock()
-                            .unwrap_or_else(PoisonError::into_inner);
-                        let planes = BandPlanes {
-                            width: width as usize,
-                            layout,
-                            band: tile_height,
-                            count,
-                            ids,
-                            numbers,
-                        };
-                        worker.draw_band(&frame, band, Output::Samples(planes));
-                    });
+                frame.make_room(planes, drawing.features.declared, first)?;
+                first += planes.samples().len();
+                frame.draw_bands(workers, planes, None);
                 take(planes);
             }
             Ok(())
@@ -109,6 +82,10 @@ impl Rasterizer {
 impl Rasterizer {
     /// Draws a picture whose passes go over all its samples before their means are taken.
     pub(super) fn draw_with_passes(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
+        let reads_colors = |pass: &Edges| pass.channel == EdgeChannel::Color;
+        if self.stacks.len() == 1 && !drawing.passes.iter().any(reads_colors) {
+            return self.draw_under_lines(drawing);
+        }
         check::check(drawing)?;
         let samples = self.samples;
         let mut picture = empty_picture(drawing, samples)?;
@@ -123,6 +100,114 @@ impl Rasterizer {
         drawn?;
         Ok(picture)
     }
+
+    /// The same where no pass asks for colours, and all samples of a pixel are drawn at once: means are taken as of any picture, and then once more
+    /// of the pixels that lines are on. So colours need not be among the planes, which all passes would go over.
+    fn draw_under_lines(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
+        let Self {
+            pool,
+            samples,
+            stacks,
+            parts,
+            instructions,
+            workers,
+            planes,
+            light,
+            spare,
+        } = self;
+        let mut draw = || {
+            check::check(drawing)?;
+            let (mut picture, to_fill) = picture_for(drawing, *samples, spare)?;
+            let strokes = strokes_in_order(drawing, Kind::Ordered);
+            parts.collect(drawing, &strokes, stacks);
+            let frame = Frame {
+                drawing,
+                strokes: &strokes,
+                parts,
+                samples: *samples,
+                stacks,
+                instructions: *instructions,
+                runs_of_joints: &runs_of_joints(drawing),
+                to_fill,
+            };
+            let declared = drawing.features.declared;
+            let declared = declared.without(Features::of(&[Feature::Color]));
+            frame.make_room(planes, declared, 0)?;
+            light.make_room(drawing, &stacks[0])?;
+            let bands = Some((&mut picture.pixels[..], &mut *light));
+            frame.draw_bands(workers, planes, bands);
+            let lines = drawing.passes.iter().map(|pass| Lines {
+                set: pass.covered(planes, *samples),
+                color: pass.color,
+            });
+            let lines: Vec<Lines> = lines.collect();
+            light.draw_lines(&lines, planes, drawing.background, &mut picture);
+            Ok(picture)
+        };
+        match pool {
+            Some(pool) => pool.install(draw),
+            None => draw(),
+        }
+    }
+}
+
+impl Frame<'_> {
+    /// Makes room for what the samples of its stack tell, before which a pixel has so many.
+    fn make_room(
+        &self,
+        planes: &mut SamplePlanes,
+        declared: Features,
+        first: usize,
+    ) -> Result<(), DrawError> {
+        let stack = &self.stacks[0];
+        let (count, band) = (stack.samples / stack.height, tile::height(self.stacks));
+        let size = self.drawing.size;
+        let room = planes.make_room(size, declared, [first, count], band);
+        room.ok_or(DrawError::Memory(size[0], size[1]))
+    }
+
+    /// Draws the samples of its stack into planes with room for them; means and colours beside, where these are asked for.
+    fn draw_bands(
+        &self,
+        workers: &mut Vec<Mutex<Worker>>,
+        planes: &mut SamplePlanes,
+        beside: Option<(&mut [[f32; 4]], &mut Light)>,
+    ) {
+        workers.resize_with(rayon::current_num_threads(), || Mutex::new(Worker::new()));
+        let (layout, count) = (planes.layout, planes.samples().len());
+        let (width, band) = (self.drawing.size[0] as usize, tile::height(self.stacks));
+        let [of_ids, of_numbers] = planes.of_band();
+        let ids = planes.ids.chunks_mut(of_ids);
+        let bands = ids.zip(planes.numbers.chunks_mut(of_numbers));
+        let bands = bands.map(|(ids, numbers)| BandPlanes {
+            width,
+            layout,
+            band,
+            count,
+            ids,
+            numbers,
+        });
+        let mut lights: Vec<Option<BandLight>> = Vec::new();
+        if let Some((pixels, light)) = beside {
+            let pixels = pixels.chunks_mut(width * band);
+            lights.extend(
+                light
+                    .bands()
+                    .zip(pixels)
+                    .map(|(tiles, pixels)| Some(BandLight { pixels, tiles })),
+            );
+        }
+        let lights = lights.into_iter().chain(std::iter::repeat_with(|| None));
+        let bands: Vec<(BandPlanes, Option<BandLight>)> = bands.zip(lights).collect();
+        let bands = bands.into_par_iter().enumerate().with_max_len(1);
+        bands.for_each(|(band, (planes, light))| {
+            let thread = rayon::current_thread_index().unwrap_or(0);
+            let mut worker = workers[thread]
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
+            worker.draw_band(self, band, Output::Samples(planes, light));
+        });
+    }
 }
 
 /// For each joint of a checked drawing its run.
@@ -136,7 +221,13 @@ fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
 
 impl Worker {
     /// Draws the samples of a band.
-    pub(super) fn draw_samples(&mut self, frame: &Frame, band: usize, mut planes: BandPlanes) {
+    pub(super) fn draw_samples(
+        &mut self,
+        frame: &Frame,
+        band: usize,
+        mut planes: BandPlanes,
+        mut light: Option<BandLight>,
+    ) {
         let [width, height] = frame.drawing.size.map(|side| side as usize);
         let tiles = width.div_ceil(tile::WIDTH);
         let top = band * tile::height(frame.stacks);
@@ -151,7 +242,10 @@ impl Worker {
                 nothing.end = left + size[0];
                 continue;
             }
-            planes.clear(nothing, height - top, frame.drawing.background);
+            planes.clear(nothing.clone(), height - top, frame.drawing.background);
+            if let Some(light) = &mut light {
+                frame.fill(light.pixels, nothing);
+            }
             nothing = left + size[0]..left + size[0];
             let scene = frame.tile_at([left, top]);
             self.find_strands(frame, &scene, tile);
@@ -161,7 +255,16 @@ impl Worker {
                 #[inline(always)]
                 || self.tell(frame, size, left, &mut planes),
             );
+            if let Some(light) = &mut light {
+                self.sums.clear(tile::height(frame.stacks));
+                self.add_up(frame, &frame.stacks[0]);
+                self.write_means(frame, light.pixels, left..left + size[0]);
+                light.tiles[tile].keep(&self.target);
+            }
         }
-        planes.clear(nothing, height - top, frame.drawing.background);
+        planes.clear(nothing.clone(), height - top, frame.drawing.background);
+        if let Some(light) = &mut light {
+            frame.fill(light.pixels, nothing);
+        }
     }
 }

@@ -29,6 +29,12 @@ pub(super) const CELL_WIDTH: usize = LANES / STACK;
 /// One number of each sample of a cell: of the left stack from its first sample on, then of the right one.
 pub(super) type Lanes = [f32; LANES];
 
+/// Colours of all samples of a tile, channel by channel.
+pub(super) type Colors = [[Lanes; CELLS]; 3];
+
+/// Black ones.
+pub(super) const NO_COLORS: Colors = [[[0.0; LANES]; CELLS]; 3];
+
 /// Some of a cell's samples: all bits or none.
 pub(super) type LaneMask = [u32; LANES];
 
@@ -487,6 +493,13 @@ impl Target {
                     }
                 }
             }
+        }
+    }
+
+    /// Copies what its samples add to light, once they are [summed up](Sums::add).
+    pub(super) fn copy_colors(&self, colors: &mut Colors) {
+        for (copy, plane) in colors.iter_mut().zip(&self.color) {
+            copy.copy_from_slice(&plane[..]);
         }
     }
 
