@@ -13,7 +13,7 @@ pub(super) const HEAD_ENDS: f32 = -0.62;
 pub(super) const SHOULDERS_END: f32 = -0.54;
 /// Cells of the distances, in head heights: ears show, arms need not.
 const HEAD_CELL: f64 = 1.0 / 40.0;
-const BODY_CELL: f64 = 1.0 / 32.0;
+const BODY_CELL: f64 = 1.0 / 44.0;
 /// How far from bodies hair is drawn, m, but where it starts nearer: paths bulge between their points.
 pub(super) const GAP_M: f32 = 1.4e-3;
 
