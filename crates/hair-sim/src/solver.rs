@@ -40,6 +40,7 @@ mod tr_bdf2;
 use glam::{DQuat, DVec3, Vec3};
 
 use crate::{
+    collision::shape::Collider,
     error::{DynamicsError, Fault},
     forces::mutual::{Course, Mutual, Pair},
     lanes::{LANES, Lane, Vec3 as LaneVec3, instructions::Instructions},
@@ -54,7 +55,7 @@ use crate::{
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::avx2::Avx2;
 use batch::{Batch, BatchState};
-use contact::find::Guard;
+use contact::find::{Guard, settle_in};
 use drive::{Anchored, Drive, Others, roots, whole_poses};
 use energy::whole_energy;
 use locks::Locks;
@@ -453,6 +454,15 @@ impl Solver {
             .sort_unstable_by_key(|own| (own.batch, own.lane, own.particle, own.order));
     }
 
+    /// Takes note of how deep strands are in bodies as they lie in `state`: so deep they may stay there. Where it isn't asked for, that is as deep
+    /// as they are when the first step with bodies begins, wherever roots and bodies have gone until then.
+    pub fn settle(&self, state: &mut State, colliders: &[Collider]) {
+        for (batch, state) in self.batches.iter().zip(&mut state.batches) {
+            settle_in(batch, state, colliders);
+            state.skin_known = true;
+        }
+    }
+
     /// Puts the roots elsewhere at once: shape and motion are carried along, as if nothing had happened.
     ///
     /// # Errors
@@ -623,7 +633,7 @@ fn accelerations(batch: &Batch, surroundings: &Surroundings) -> Option<[LaneVec3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Collider, GRAVITY, Material, Natural, Pose, Profile, Shape, Wind};
+    use crate::{GRAVITY, Material, Natural, Pose, Profile, Shape, Wind};
     use std::time::{Duration, Instant};
 
     /// 72 strands on a ball, of different lengths, so that batches mix them.

@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use crate::{
+    collision::shape::Collider,
     error::DynamicsError,
     solver::{Solver, State},
     stats::Stats,
@@ -36,6 +37,9 @@ pub trait StrandSolver {
     /// When the poses or the state are invalid. The state is unchanged then.
     fn teleport(&self, state: &mut Self::State, to: Roots) -> Result<(), DynamicsError>;
 
+    /// Takes note of how deep strands are in bodies as they lie in `state`: so deep they may stay there. Solvers that let none stay don't.
+    fn settle(&self, _state: &mut Self::State, _colliders: &[Collider]) {}
+
     /// The points of a strand in the world, root first, in m.
     ///
     /// # Panics
@@ -65,6 +69,10 @@ impl StrandSolver for Solver {
 
     fn teleport(&self, state: &mut State, to: Roots) -> Result<(), DynamicsError> {
         Self::teleport(self, state, to)
+    }
+
+    fn settle(&self, state: &mut State, colliders: &[Collider]) {
+        Self::settle(self, state, colliders);
     }
 
     fn points(&self, state: &State, strand: usize) -> impl ExactSizeIterator<Item = DVec3> {

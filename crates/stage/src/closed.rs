@@ -3,7 +3,7 @@
 //! Head and wind are the same in every period, so hair that is simulated comes to repeat itself, but for what still swings, and for what
 //! sticks and slips. It is simulated until it does, or for [`MOST_ROUNDS`]. What is left is blended: at the loop's start it is where the
 //! last round began, at its end where that ended, which is where the loop starts; in between it goes over from the one
-//! round to the other without a jump of speed or acceleration.
+//! round to the other without a jump of speed or acceleration; and hair that came into bodies by that is moved out of them.
 
 use crate::dynamics::{Dynamics, Seen};
 use crate::files::StageError;
@@ -135,7 +135,7 @@ impl Closed {
             self.mean_left_m = (sum / f64::from(count.max(1))).sqrt() as f32;
             if self.left_m <= ALIKE * height_m || self.rounds == MOST_ROUNDS {
                 self.blend();
-                self.dynamics = None;
+                self.keep_out(object, driver);
             } else {
                 self.shapes.drain(..self.frames);
             }
@@ -151,6 +151,24 @@ impl Closed {
             let share = smooth(frame as f64 / frames) as f32;
             for strand in &self.strands {
                 blend_strand(&last[strand.clone()], &mut shape[strand.clone()], share);
+            }
+        }
+    }
+
+    /// Moves hair of the loop out of bodies, into which it may have been blended, and is done with what simulates. What is out of them keeps its bits.
+    fn keep_out(&mut self, object: &Object, driver: Driver) {
+        let Some(dynamics) = self.dynamics.take() else {
+            return;
+        };
+        for (frame, shape) in self.shapes.iter_mut().enumerate() {
+            let time = self.period * frame as f64 / self.frames as f64;
+            let pose = driver.head_at(time);
+            let mut points = shape.clone();
+            move_by(object, pose, &mut points);
+            for moved in dynamics.keep_out(driver, time, &mut points) {
+                let points = &mut points[moved.clone()];
+                off_head(object, pose, points);
+                shape[moved].copy_from_slice(points);
             }
         }
     }
@@ -209,6 +227,15 @@ pub(crate) fn move_by(object: &Object, pose: HeadPose, points: &mut [Vec3]) {
     let (rotation, translation) = object.rigid(pose);
     let points = points.par_iter_mut().with_min_len(WORTH_A_TASK);
     points.for_each(|point| *point = (rotation * point.as_dvec3() + translation).as_vec3());
+}
+
+/// Puts those points where a head in this pose has them.
+pub(crate) fn put_on_head(object: &Object, pose: HeadPose, which: &[usize], points: &mut [Vec3]) {
+    let (rotation, translation) = object.rigid(pose);
+    let rest = object.hair().file.strands.points();
+    for &i in which {
+        points[i] = (rotation * rest[i].as_dvec3() + translation).as_vec3();
+    }
 }
 
 /// Moves points with the head, from this pose to rest.

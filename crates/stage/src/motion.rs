@@ -1,7 +1,7 @@
 //! The motion of a scene: where its heads are, and their hair.
 
 use crate::bake::Bake;
-use crate::closed::{Closed, Return, move_by, off_head};
+use crate::closed::{Closed, Return, move_by, off_head, put_on_head};
 use crate::dynamics::{Dynamics, Seen};
 use crate::files::StageError;
 use crate::hand::{Driver, Hand};
@@ -315,7 +315,13 @@ impl ObjectMotion {
         };
         dynamics.stand(object.placement());
         let reached = dynamics.advance_to(time, driver, seen, goes_on)?;
-        self.place(object, driver, reached);
+        match dynamics.on_head() {
+            None => self.place(object, driver, reached),
+            Some(points) => {
+                self.pose(driver, reached);
+                put_on_head(object, self.pose, points, &mut self.points);
+            }
+        }
         dynamics.write(driver, reached, &mut self.points);
         self.dynamics = Some(dynamics);
         Ok(reached)

@@ -11,9 +11,9 @@ use render::Head;
 /// shoulders' at the other, inside the neck and below the chin, which is at a half.
 pub(super) const HEAD_ENDS: f32 = -0.62;
 pub(super) const SHOULDERS_END: f32 = -0.54;
-/// Cells of the distances, in head heights: ears show, arms need not.
+/// Cells of the distances, in head heights: ears show, and where a neck goes over into shoulders.
 const HEAD_CELL: f64 = 1.0 / 40.0;
-const BODY_CELL: f64 = 1.0 / 32.0;
+const BODY_CELL: f64 = 1.0 / 42.0;
 /// How far from bodies hair is drawn, m, but where it starts nearer: paths bulge between their points.
 pub(super) const GAP_M: f32 = 1.4e-3;
 

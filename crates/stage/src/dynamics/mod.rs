@@ -22,6 +22,7 @@ use crate::hand::Driver;
 use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
 use crate::posture::Posture;
+use crate::script::HeadPose;
 pub(crate) use bodies::BodyMesh;
 use bodies::{Bodies, GAP_M};
 use carried::Carried;
@@ -31,8 +32,8 @@ use glam::{DVec3, Vec3};
 #[cfg(feature = "compare")]
 use hair_sim::compare::{MassSpring, Xpbd};
 use hair_sim::{
-    Acceleration, DynamicsError, GRAVITY, Params, Placed, PointCache, Pose, Roots, Solver, Stats,
-    Strands, Surroundings, Wind,
+    Acceleration, Collider, DynamicsError, GRAVITY, Params, Placed, PointCache, Pose, Roots,
+    Solver, Stats, Strands, Surroundings, Wind,
 };
 use rayon::prelude::*;
 use render::Head;
@@ -92,6 +93,8 @@ pub(crate) struct Dynamics {
     shape: Vec<Vec3>,
     goal: Vec<Vec3>,
     carried: Carried,
+    /// The points of the scene that stay with the head: those of no guide, and of carried strands but their roots.
+    on_head: Vec<usize>,
     /// How far the links of the scene's points are kept from bodies: no farther than they were at the start.
     gaps: Vec<Gap>,
     ties: Ties,
@@ -128,15 +131,13 @@ fn simulated(
     match section.solver {
         SolverChoice::Xpbd => {
             let substeps = section.substeps_or(XPBD_SUBSTEPS);
-            return Ok(Box::new(Run::new(Xpbd::with(
-                strands, params, substeps, 1,
-            )?)));
+            let xpbd = Xpbd::with(strands, params, substeps, 1)?;
+            return Ok(Box::new(Run::new(xpbd, strands.len())));
         }
         SolverChoice::MassSpring => {
             let substeps = section.substeps_or(MASS_SPRING_SUBSTEPS);
-            return Ok(Box::new(Run::new(MassSpring::with(
-                strands, params, substeps,
-            )?)));
+            let springs = MassSpring::with(strands, params, substeps)?;
+            return Ok(Box::new(Run::new(springs, strands.len())));
         }
         SolverChoice::Rods | SolverChoice::None => {}
     }
@@ -144,7 +145,7 @@ fn simulated(
     if let Some(mutual) = feel::mutual(section, head) {
         solver.interact(&mut state, &mutual)?;
     }
-    Ok(Box::new(Run::new((solver, state))))
+    Ok(Box::new(Run::new((solver, state), strands.len())))
 }
 
 /// The time of a frame, or a part of it that is at most `longest` s.
@@ -220,6 +221,11 @@ impl Dynamics {
             let strand = chosen.id(part.strand) as usize;
             (strand, part.points.start - all.point_range(strand).start)
         };
+        let mut moves = vec![false; all.points().len()];
+        let own = guides.iter().map(|part| part.points.clone());
+        for range in own.chain(carried.ranges().iter().map(|r| r.start + 1..r.end)) {
+            moves[range].fill(true);
+        }
         let ties = Ties::new(hair, &guides.iter().map(first_of).collect::<Vec<_>>());
         if !ties.are_none() && section.solver != SolverChoice::Rods {
             let solver = section.solver.name();
@@ -230,6 +236,7 @@ impl Dynamics {
             return Err(StageError::Unsupported { section, message });
         }
         Ok(Self {
+            on_head: (0..moves.len()).filter(|&point| !moves[point]).collect(),
             gaps: Vec::new(),
             bodies: Bodies::new(mesh, hair.head),
             ties,
@@ -297,11 +304,14 @@ impl Dynamics {
         if wanted < self.done || self.done == 0 {
             self.done = 0;
             self.owed = 0;
-            let first = Roots::Head(self.pose_at(self.time_of(0), driver));
-            self.strands.restart(first)?;
+            let start = self.time_of(0);
+            let first = self.pose_at(start, driver);
+            let styled = self.styled(driver);
+            let colliders = (self.bodies).colliders(driver.script, [start; 2], [&styled; 2]);
+            self.strands.restart((styled.head, &colliders), first)?;
             self.ties.restart();
             self.is_asleep = false;
-            self.gaps = self.gaps_at_start(driver);
+            self.gaps = self.gaps_at_start((styled.head, first), &colliders);
         }
         let mut goes_on_to = |done: i64| done < wanted && goes_on();
         let is_seen = seen == Seen::Well;
@@ -342,6 +352,11 @@ impl Dynamics {
         Ok(if is_there { time } else { shown })
     }
 
+    /// The points that [`Self::write`] leaves where the head has them; None at the start: all of them.
+    pub fn on_head(&self) -> Option<&[usize]> {
+        (!self.is_at_start()).then_some(&self.on_head[..])
+    }
+
     /// Writes where it came to into the points of what moves; those of the others are where the head has them. Hair that comes after is on the head
     /// where that is at `time` (seconds).
     pub fn write(&self, driver: Driver, time: f64, points: &mut [Vec3]) {
@@ -368,6 +383,18 @@ impl Dynamics {
         }
     }
 
+    /// Moves strands out of bodies as these are at `time` (seconds), as [`Self::write`] does. The points of those that were moved.
+    pub fn keep_out(&self, driver: Driver, time: f64, points: &mut [Vec3]) -> Vec<Range<usize>> {
+        let posture = self.posture_at(time, driver);
+        let bodies = self.bodies_at(time, &posture, driver);
+        let parts = self.guides.iter().map(|part| &part.points);
+        let parts = parts.chain(self.carried.ranges()).filter(|range| {
+            let gap = |i| self.gaps[range.start + i];
+            clear(&mut points[(*range).clone()], 1, &bodies, GAP_M, gap)
+        });
+        parts.cloned().collect()
+    }
+
     /// Writes the points of a guide as its solver has them.
     fn write_guide(&self, part: &Part, points: &mut [Vec3]) {
         for (point, moved) in points.iter_mut().zip(self.strands.points(part.strand)) {
@@ -375,16 +402,29 @@ impl Dynamics {
         }
     }
 
-    /// How near to bodies hair is at the start.
-    fn gaps_at_start(&self, driver: Driver) -> Vec<Gap> {
-        let start = self.time_of(0);
-        let posture = self.posture_at(start, driver);
-        let bodies = self.bodies_at(start, &posture, driver);
+    /// How the figure stands where hair is as it is styled: at rest, or where a skeleton has it at the start.
+    fn styled<'s>(&self, driver: Driver<'s>) -> Posture<'s> {
+        let (start, script) = (self.time_of(0), driver.script);
+        if script.skeleton().is_some() {
+            return self.posture_at(start, driver);
+        }
+        let head = (self.head, pivot(self.head));
+        Posture::of(HeadPose::REST, head, script, script.within(start))
+    }
+
+    /// How near to bodies hair is at the start, but on a head as it is styled there.
+    fn gaps_at_start(&self, (styled, first): (Pose, Pose), colliders: &[Collider]) -> Vec<Gap> {
+        let bodies: Vec<Placed> = colliders.iter().map(Placed::new).collect();
+        let turn = styled.rotation * first.rotation.inverse();
+        let shift = styled.translation - turn * first.translation;
         let mut points = vec![Vec3::ZERO; self.shape.len()];
         for part in &self.guides {
-            self.write_guide(part, &mut points[part.points.clone()]);
+            let own = &mut points[part.points.clone()];
+            for (point, at) in own.iter_mut().zip(self.strands.points(part.strand)) {
+                *point = (turn * at + shift).as_vec3();
+            }
         }
-        self.carried.at_rest(posture.head, &mut points);
+        self.carried.at_rest(styled, &mut points);
         let parts = self.guides.iter().map(|part| &part.points);
         let parts: Vec<&Range<usize>> = parts.chain(self.carried.ranges()).collect();
         let found: Vec<Vec<Gap>> = (parts.par_iter())

@@ -1,12 +1,13 @@
 //! A solver with its strands, whichever it is.
 
 use glam::{DQuat, DVec3};
-use hair_sim::{DynamicsError, Roots, Stats, StrandSolver, Surroundings};
+use hair_sim::{Collider, DynamicsError, Pose, Roots, Stats, StrandSolver, Surroundings};
+use std::sync::OnceLock;
 
 /// Strands in motion.
 pub(super) trait Running: Send + Sync {
-    /// Puts all back to the start, on roots there.
-    fn restart(&mut self, roots: Roots) -> Result<(), DynamicsError>;
+    /// Puts all back to the start, on a head in the pose `first`. As deep as hair is in bodies where the head and these are as it is `styled`, it may stay.
+    fn restart(&mut self, styled: (Pose, &[Collider]), first: Pose) -> Result<(), DynamicsError>;
     /// Advances by `dt` seconds.
     fn step(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError>;
     /// Shows where a step of `dt` seconds would bring the strands, until the next step goes on from where they are.
@@ -24,16 +25,20 @@ pub(super) struct Run<S: StrandSolver> {
     solver: S,
     state: S::State,
     start: S::State,
+    /// The inverse frames of each strand's links at the start, where they were asked for.
+    back: Vec<OnceLock<Vec<DQuat>>>,
     /// A state ahead of `state`, and whether it is what is shown.
     ahead: S::State,
     is_ahead: bool,
 }
 
 impl<S: StrandSolver> Run<S> {
-    pub fn new((solver, state): (S, S::State)) -> Self {
+    /// Of so many strands.
+    pub fn new((solver, state): (S, S::State), count: usize) -> Self {
         Self {
             solver,
             start: state.clone(),
+            back: vec![OnceLock::new(); count],
             ahead: state.clone(),
             is_ahead: false,
             state,
@@ -53,10 +58,19 @@ impl<S: StrandSolver + Send + Sync> Running for Run<S>
 where
     S::State: Send + Sync,
 {
-    fn restart(&mut self, roots: Roots) -> Result<(), DynamicsError> {
+    fn restart(
+        &mut self,
+        (styled, colliders): (Pose, &[Collider]),
+        first: Pose,
+    ) -> Result<(), DynamicsError> {
         self.is_ahead = false;
         self.state.clone_from(&self.start);
-        self.solver.teleport(&mut self.state, roots)
+        (self.solver).teleport(&mut self.state, Roots::Head(styled))?;
+        self.solver.settle(&mut self.state, colliders);
+        if first == styled {
+            return Ok(());
+        }
+        self.solver.teleport(&mut self.state, Roots::Head(first))
     }
 
     fn step(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError> {
@@ -79,10 +93,11 @@ where
     }
 
     fn turns(&self, strand: usize) -> Vec<DQuat> {
-        let rest = self.solver.frames(&self.start, strand);
+        let back = self.back[strand].get_or_init(|| {
+            let rest = self.solver.frames(&self.start, strand);
+            rest.map(|frame| frame.inverse()).collect()
+        });
         let now = self.solver.frames(self.shown(), strand);
-        now.zip(rest)
-            .map(|(now, rest)| now * rest.inverse())
-            .collect()
+        now.zip(back).map(|(now, back)| now * *back).collect()
     }
 }
