@@ -61,7 +61,7 @@ impl Light {
         let room = self.tiles.try_reserve_exact(more);
         room.map_err(|_| DrawError::Memory(width, height))?;
         let nothing = TileLight {
-            color: tile::NO_COLORS,
+            color: tile::no_colors(),
             is_drawn: false,
         };
         self.tiles.resize(tiles, nothing);

@@ -33,7 +33,10 @@ pub(super) type Lanes = [f32; LANES];
 pub(super) type Colors = [[Lanes; CELLS]; 3];
 
 /// Black ones.
-pub(super) const NO_COLORS: Colors = [[[0.0; LANES]; CELLS]; 3];
+#[inline]
+pub(super) fn no_colors() -> Colors {
+    [[[0.0; LANES]; CELLS]; 3]
+}
 
 /// Some of a cell's samples: all bits or none.
 pub(super) type LaneMask = [u32; LANES];

@@ -9,6 +9,8 @@ mod carried;
 mod feel;
 #[cfg(test)]
 mod kept_out;
+#[cfg(test)]
+mod ponytail;
 mod running;
 mod section;
 mod ties;

@@ -229,7 +229,6 @@ fn thin_hair_behind_hair_and_heads_is_not_worked_out() {
         });
         assert!(some.0 == all.0, "{look}, {size}, {dive}, {yaw}");
         assert!(some.1 < all.1, "{look}: {} of {}", some.1, all.1);
-        println!("{look}, {size}, {dive}, {yaw}: {} of {}", some.1, all.1);
     }
 }
 
