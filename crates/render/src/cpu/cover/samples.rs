@@ -102,6 +102,12 @@ impl Cover {
             return false;
         }
         let mut nearness = vec![[0.0; N]; across * down];
+        let grid = |top: usize, down: usize| Grid {
+            origin: Vec2::new(columns.start as f32, top as f32),
+            cell_px: 1.0,
+            across,
+            down,
+        };
         // What is hidden changes nothing, so that all is the same by any number of threads.
         let rows_of_band = down.div_ceil(rayon::current_num_threads());
         let bands = nearness.par_chunks_mut(across * rows_of_band).enumerate();
@@ -109,12 +115,7 @@ impl Cover {
             let down = nearness.len() / across;
             let top = rows.start + number * rows_of_band;
             let mut band = Band {
-                grid: Grid {
-                    origin: Vec2::new(columns.start as f32, top as f32),
-                    cell_px: 1.0,
-                    across,
-                    down,
-                },
+                grid: grid(top, down),
                 x: std::array::from_fn(|k| samples[k].x),
                 y: std::array::from_fn(|k| samples[k].y),
                 nearness,
@@ -147,12 +148,7 @@ impl Cover {
             }
         }
         let first = Level {
-            grid: Grid {
-                origin: Vec2::new(columns.start as f32, rows.start as f32),
-                cell_px: 1.0,
-                across,
-                down,
-            },
+            grid: grid(rows.start, down),
             nearness: nearness
                 .iter()
                 .map(|samples| samples.iter().copied().fold(f32::INFINITY, lesser))
