@@ -202,8 +202,13 @@ fn around(out: f32, y: f32, ahead: f32) -> Vec3 {
 }
 
 /// A collar from where it leaves the dress over its fold to its edge, with a line along both.
-fn collar(base: [Vec3; 5], fold: [Vec3; 5], edge: [Vec3; 5], dress: Dress) -> Piece {
-    let towards = |from: [Vec3; 5], to: [Vec3; 5]| -> Vec<Vec3> {
+fn collar<const N: usize>(
+    base: [Vec3; N],
+    fold: [Vec3; N],
+    edge: [Vec3; N],
+    dress: Dress,
+) -> Piece {
+    let towards = |from: [Vec3; N], to: [Vec3; N]| -> Vec<Vec3> {
         let pairs = from.into_iter().zip(to);
         let aside = pairs.map(|(from, to)| from + (to - from).normalize_or_zero() * HEM);
         aside.collect()
@@ -212,11 +217,11 @@ fn collar(base: [Vec3; 5], fold: [Vec3; 5], edge: [Vec3; 5], dress: Dress) -> Pi
     let (cloth, line) = (Cloth::Dress, Cloth::Line);
     band(
         &[
-            (&base, Lie::At(-0.002)),
-            (&fold, Lie::Over(0.005)),
-            (&below_fold, Lie::Over(0.005)),
-            (&above_edge, Lie::At(0.005)),
-            (&edge, Lie::At(0.005)),
+            (&base, Lie::At(-0.003)),
+            (&fold, Lie::Over(0.008)),
+            (&below_fold, Lie::Over(0.008)),
+            (&above_edge, Lie::At(0.006)),
+            (&edge, Lie::At(0.006)),
         ],
         &[cloth, line, cloth, line, cloth],
         |p| dress.distance(p),
@@ -226,25 +231,28 @@ fn collar(base: [Vec3; 5], fold: [Vec3; 5], edge: [Vec3; 5], dress: Dress) -> Pi
 fn folded_collar() -> Piece {
     // From the back to the tips of the wings in front: where it leaves the neck, its fold, its edge.
     let base = [
-        around(0.0, 1.325, -0.036),
-        around(0.026, 1.322, -0.028),
-        around(0.038, 1.312, 0.000),
-        around(0.024, 1.296, 0.030),
-        around(0.005, 1.285, 0.034),
+        around(0.0, 1.332, -0.034),
+        around(0.020, 1.331, -0.030),
+        around(0.036, 1.322, -0.014),
+        around(0.040, 1.313, 0.006),
+        around(0.027, 1.293, 0.040),
+        around(0.004, 1.282, 0.060),
     ];
     let fold = [
-        around(0.0, 1.350, -0.043),
-        around(0.031, 1.347, -0.032),
-        around(0.045, 1.334, 0.002),
-        around(0.029, 1.309, 0.037),
-        around(0.004, 1.289, 0.041),
+        around(0.0, 1.350, -0.042),
+        around(0.022, 1.349, -0.037),
+        around(0.041, 1.341, -0.019),
+        around(0.046, 1.330, 0.006),
+        around(0.030, 1.308, 0.040),
+        around(0.004, 1.297, 0.055),
     ];
     let edge = [
-        around(0.0, 1.313, -0.055),
-        around(0.044, 1.313, -0.042),
-        around(0.064, 1.309, 0.002),
-        around(0.052, 1.268, 0.047),
-        around(0.026, 1.252, 0.058),
+        around(0.0, 1.318, -0.045),
+        around(0.030, 1.321, -0.042),
+        around(0.056, 1.331, -0.026),
+        around(0.066, 1.322, 0.001),
+        around(0.055, 1.281, 0.053),
+        around(0.025, 1.256, 0.076),
     ];
     collar(base, fold, edge, Dress::Collar)
 }
@@ -299,13 +307,26 @@ fn sailor_collar() -> Piece {
         points.collect()
     };
     // Down on the blouse to its edge, a stripe before it, and back under itself.
-    let rows = [0.0, 0.0, 0.25, 0.5, 0.80, 0.86, 1.0, 0.98].map(row);
-    let lies = [-0.002, 0.004, 0.005, 0.005, 0.005, 0.005, 0.005, -0.002].map(Lie::At);
+    const ROWS: [(f32, f32); 12] = [
+        (0.0, -0.002),
+        (0.0, 0.004),
+        (0.1, 0.005),
+        (0.2, 0.005),
+        (0.35, 0.005),
+        (0.5, 0.005),
+        (0.65, 0.005),
+        (0.80, 0.005),
+        (0.86, 0.005),
+        (0.93, 0.005),
+        (1.0, 0.005),
+        (0.98, -0.002),
+    ];
+    let rows = ROWS.map(|(share, _)| row(share));
+    let lies = ROWS.map(|(_, gap_m)| Lie::At(gap_m));
     let rows: Vec<(&[Vec3], Lie)> = rows.iter().map(Vec::as_slice).zip(lies).collect();
-    let a = Cloth::Accent;
-    band(&rows, &[a, a, a, a, Cloth::Dress, a, a, a], |p| {
-        Dress::Sailor.distance(p)
-    })
+    let mut cloth = [Cloth::Accent; ROWS.len()];
+    cloth[7] = Cloth::Dress; // the stripe
+    band(&rows, &cloth, |p| Dress::Sailor.distance(p))
 }
 
 fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
@@ -321,8 +342,9 @@ fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
     ];
     let at = Vec2::new(0.0, 1.292);
     vec![
-        slab(at, &blade, 0.0045, Cloth::Accent, &on),
-        slab(at, &knot, 0.0085, Cloth::Accent, &on),
+        // Under the collar's wings.
+        slab(at, &blade, 0.0025, Cloth::Accent, &on),
+        slab(at, &knot, 0.0045, Cloth::Accent, &on),
     ]
 }
 
@@ -408,6 +430,27 @@ mod tests {
                     "{dress:?}: {outside} of {}",
                     gaps.len()
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn collars_have_no_kinks() {
+        for (dress, rows) in [(Dress::Collar, 5), (Dress::Jacket, 5), (Dress::Sailor, 12)] {
+            for piece in dress.pieces() {
+                // Each that runs around the neck outside of the cloth.
+                for row in 0..rows {
+                    let points = piece.positions.iter().skip(row).step_by(rows).copied();
+                    let points: Vec<Vec3> = points.collect();
+                    if points.iter().any(|p| dress.distance(*p) < 0.0) {
+                        continue;
+                    }
+                    let ways = points.windows(2).map(|p| p[1] - p[0]);
+                    let ways: Vec<Vec3> = ways.collect();
+                    let turns = ways.windows(2).map(|way| way[0].angle_between(way[1]));
+                    let most = turns.fold(0.0, f32::max).to_degrees();
+                    assert!(most < 42.0, "{dress:?}, row {row}: {most} degrees");
+                }
             }
         }
     }

@@ -24,9 +24,20 @@ fn curve_in_space(points: &[Vec3]) -> Vec<Vec3> {
             .map(|p| Vec2::new(p.z, 0.0))
             .collect::<Vec<_>>(),
     );
-    // Half as many joints do.
-    let joints = along.iter().zip(&depths).map(|(p, z)| p.extend(z.x));
-    joints.step_by(2).collect()
+    let joints = along.iter().zip(&depths);
+    joints.map(|(p, z)| p.extend(z.x)).collect()
+}
+
+/// Without the small waves of what a row lies on; its ends stay.
+fn smoothed(mut row: Vec<Vec3>) -> Vec<Vec3> {
+    const ROUNDS: usize = 12;
+    for _ in 0..ROUNDS {
+        let means = row.windows(3).map(|p| (p[0] + 2.0 * p[1] + p[2]) / 4.0);
+        let means: Vec<Vec3> = means.collect();
+        let last = row.len() - 1;
+        row[1..last].copy_from_slice(&means);
+    }
+    row
 }
 
 /// How a row of a band lies to the surface below, metres.
@@ -46,7 +57,7 @@ fn laid(mut p: Vec3, lie: Lie, on: &impl Fn(Vec3) -> f32) -> Vec3 {
             Lie::Over(gap) => (gap - on(p)).max(0.0),
         };
         if missing != 0.0 {
-            let along = gradient(on, p, 0.002).normalize_or(Vec3::Y);
+            let along = gradient(on, p, 0.004).normalize_or(Vec3::Y);
             // In the middle of the back it stays there.
             let along = if p.x == 0.0 { along.with_x(0.0) } else { along };
             p += along * (missing * 0.8);
@@ -60,7 +71,15 @@ fn laid(mut p: Vec3, lie: Lie, on: &impl Fn(Vec3) -> f32) -> Vec3 {
 pub(crate) fn band(rows: &[(&[Vec3], Lie)], cloth: &[Cloth], on: impl Fn(Vec3) -> f32) -> Piece {
     let on_body = |(row, lie): &(&[Vec3], Lie)| -> Vec<Vec3> {
         let points = curve_in_space(row).into_iter();
-        points.map(|p| laid(p, *lie, &on)).collect()
+        let row = points.map(|p| laid(p, *lie, &on)).collect();
+        let (Lie::At(gap) | Lie::Over(gap)) = *lie;
+        match gap > 0.0 {
+            true => {
+                let smooth = smoothed(row).into_iter();
+                smooth.map(|p| laid(p, Lie::Over(gap), &on)).collect()
+            }
+            false => row, // nobody sees it
+        }
     };
     let rows: Vec<Vec<Vec3>> = rows.iter().map(on_body).collect();
     let (around, along) = (rows.len() as u32, rows[0].len() as u32);
