@@ -253,6 +253,16 @@ fn place_at(piece: &Piece, lengths: &[f64], share: f64) -> f64 {
     piece.start + (piece.end - piece.start) * share
 }
 
+/// Has the pieces of a closed line of that many segments begin on it again, the first of them first: their borders may have moved over its first point.
+fn begin_on_line(pieces: &mut [Piece], around: f64) {
+    for piece in &mut *pieces {
+        let turns = (piece.start / around).floor() * around;
+        piece.start -= turns;
+        piece.end -= turns;
+    }
+    pieces.sort_by(|a, b| a.start.total_cmp(&b.start));
+}
+
 /// The index of the piece before or after one, if it isn't the same: of a closed line the first comes after the last.
 fn neighbour(pieces: &[Piece], line: &Line, at: usize, forward: bool) -> Option<usize> {
     let count = pieces.len();
@@ -383,7 +393,7 @@ impl<'a> Rays<'a> {
     }
 
     /// Moves the borders between what is seen and what isn't to where rays change.
-    fn settle(&self, line: &Line, pieces: &mut Vec<Piece>, lengths: &[f64], shortest: f64) {
+    fn settle(&self, line: &Line, pieces: &mut [Piece], lengths: &[f64], shortest: f64) {
         let around = line.segments.len() as f64;
         let moves = |(number, before): (usize, &Piece)| {
             let next = neighbour(pieces, line, number, true)?;
@@ -417,17 +427,8 @@ impl<'a> Rays<'a> {
             };
             (pieces[before].end, pieces[after].start) = (end, start);
         }
-        // One that begins before a closed line's first point now comes after all others.
-        if let Some(&Piece { start, end, .. }) = pieces.first()
-            && start < 0.0
-        {
-            let first = pieces.remove(0);
-            let [start, end] = [start, end].map(|at| at + around);
-            pieces.push(Piece {
-                start,
-                end,
-                ..first
-            });
+        if line.closed {
+            begin_on_line(pieces, around);
         }
     }
 

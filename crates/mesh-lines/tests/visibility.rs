@@ -210,6 +210,41 @@ fn what_is_seen_of_a_closed_line_is_the_same_wherever_it_begins() {
     assert!(ends > 500, "{ends}");
 }
 
+/// Also where what is seen of a closed line begins or ends beside its first point: borders that are moved to where rays change go over it.
+#[test]
+fn what_is_seen_of_a_closed_line_begins_on_it() {
+    let linked = torus([64, 40], 0.8, 0.25)
+        .and(torus([64, 40], 0.8, 0.25).moved(|p| Vec3::new(p.x + 0.8, p.z, p.y)));
+    let (surface, bvh) = (linked.surface(), linked.bvh());
+    let mut borders = 0;
+    for eye in eyes(24, 3.0, 8.0) {
+        let view = View::perspective(eye.as_vec3()).unwrap();
+        let lines = linked.lines(&view);
+        for seen in visible(&surface, &bvh, &view, &lines, 0.0).unwrap() {
+            let line = &lines[seen.line];
+            let count = line.segments.len();
+            if !line.closed || seen.cuts == [Cut::None; 2] {
+                continue;
+            }
+            for border in [seen.start, seen.end] {
+                borders += 1;
+                for before in 0..4 {
+                    let first = (border as usize + count - before + 2) % count;
+                    let begun = [begun_at(line, first)];
+                    let spans = visible(&surface, &bvh, &view, &begun, 0.0).unwrap();
+                    let mut last = 0.0;
+                    for span in spans {
+                        assert!(span.start >= last && span.start <= count as f64, "{span:?}");
+                        assert!(span.end <= span.start + count as f64, "{span:?} of {count}");
+                        last = span.start;
+                    }
+                }
+            }
+        }
+    }
+    assert!(borders > 100, "{borders}");
+}
+
 #[test]
 fn pieces_agree_with_a_ray_for_each_place() {
     let cubes = cube(Vec3::new(-1.0, -1.0, -1.0), Vec3::new(0.5, -0.2, 0.7))
