@@ -213,3 +213,23 @@ fn it_is_bolder_before_what_is_far_behind() {
     assert_eq!(Ink::instances(&params), effects::CLUMP_DISCS);
     assert_eq!(width_before(0.0, &[]), 4.0);
 }
+
+/// Within a strand strokes lie on each other in their order, whatever their depths: a wide one on a fine one would hide it, and lose against the clump beside
+/// it, so that there would be no line between locks.
+#[test]
+fn its_finest_line_lies_on_top() {
+    let set: Vec<_> = EVEN.iter().chain(&[("gap_width", "2")]).copied().collect();
+    let params = One::<Ink>::params(&set);
+    let joint = joint_at(0.5, 1.0, 3, 0.5);
+    let strokes = (0..Ink::instances(&params))
+        .step_by(effects::CLUMP_DISCS as usize)
+        .map(|instance| stroke::<Ink>(&joint, instance, 1, &set));
+    let strokes: Vec<_> = strokes.collect();
+    assert!(strokes.len() > 2);
+    for pair in strokes.windows(2) {
+        assert!(pair[1].radius < pair[0].radius);
+        assert!(pair[1].depth_offset < pair[0].depth_offset);
+    }
+    let top = strokes.last().unwrap();
+    assert_eq!((top.radius, top.depth_offset), (24.0, 0.0));
+}

@@ -29,10 +29,14 @@ pub(super) fn place(
     let surface = Surface::new(head);
     let scalp = f64::from(frame.height) / RADII_IN_HEIGHT;
     let fitting = as_scale(scalp / sphere.radius);
+    let unit = scale_to(sphere.radius, scalp, 1.0);
+    // Heads and scalps differ by so much; what a usual unit makes as large as that isn't stretched to fit.
+    let fits = (0.7..1.4).contains(&(unit / fitting));
 
     // Where the file has it, in any unit.
     let ups = given.up.map_or(vec![Axes::Y, Axes::Z], |up| vec![up]);
-    let units = UNITS.iter().map(|unit| unit.1 as f32).chain([fitting]);
+    let units = UNITS.iter().map(|unit| unit.1 as f32);
+    let units = units.chain((!fits).then_some(fitting));
     let scales = given.scale.map_or(units.collect(), |scale| vec![scale]);
     let offset = given.offset.unwrap_or(Vec3::ZERO);
     let tries = ups.iter().flat_map(|&up| {
@@ -64,14 +68,9 @@ pub(super) fn place(
 
     // Beside the head: the unit by size, then moved onto it.
     let up = given.up.unwrap_or(Axes::liked(likes_y));
-    let scale = given.scale.unwrap_or_else(|| {
-        let unit = scale_to(sphere.radius, scalp, 1.0);
-        let fits = (0.7..1.4).contains(&(unit / fitting));
-        if fits || !cloud.is_scalp {
-            unit
-        } else {
-            fitting
-        }
+    let scale = given.scale.unwrap_or(match fits || !cloud.is_scalp {
+        true => unit,
+        false => fitting,
     });
     let mut orientation = Orientation { up, scale, offset };
     orientation.offset = settle(cloud, sphere, &orientation, &frame, &surface);

@@ -117,6 +117,23 @@ fn hair_beside_the_head_is_moved_onto_it() {
     }
 }
 
+/// Hair of a larger head, in metres: a unit that nobody uses would have it as large as this one, and lower, over the eyes.
+#[test]
+fn hair_of_another_head_is_not_stretched() {
+    let center = Vec3::new(0.0, 1.56, 0.0);
+    let head = bust(center);
+    for larger in [1.06, 1.1] {
+        for lift in [0.0, 0.03] {
+            let mut hair_of_another = groom(Vec3::ZERO);
+            for p in hair_of_another.points_mut() {
+                *p = *p * larger + center + Vec3::Y * lift;
+            }
+            let (found, note) = hair(&hair_of_another, Some(&head), &Given::default());
+            assert_eq!(found.scale, 1.0, "{larger} {lift}: {note}");
+        }
+    }
+}
+
 #[test]
 fn what_is_given_is_not_guessed() {
     let strands = groom(Vec3::Y);
