@@ -9,8 +9,10 @@
 //!
 //! No strand's answer hangs on the order in which others are found: of all planes the deepest holds.
 //!
-//! Its parts, of which each imports those above it alone: `meeting`, two links; `ways`, where strands go; `pairs`, which come near each other.
+//! Its parts, of which each imports those above it alone: `keeps`, how far what is near at rest keeps apart; `meeting`, two links; `ways`, where
+//! strands go; `pairs`, which come near each other.
 
+mod keeps;
 mod meeting;
 mod pairs;
 mod ways;
@@ -28,6 +30,7 @@ use super::{
     contact::{Contact, Surface},
     stage::GAMMA,
 };
+use keeps::Keeps;
 use meeting::{Meeting, closest};
 use pairs::Pairs;
 use ways::{PIECE, Ways};
@@ -71,10 +74,7 @@ pub(super) struct Locks {
     pieces: Vec<Piece>,
     /// The first piece of every strand; one more at the end.
     strands: Vec<usize>,
-    /// Of every piece: those of later strands that it was near at rest, in order, and how far it keeps from them, in m; 0: not at all.
-    near: Vec<(u32, f32)>,
-    /// Where those of every piece begin; one more at the end.
-    near_from: Vec<usize>,
+    keeps: Keeps,
     /// The first particle of every batch in the list of all: particle by particle, lane by lane.
     particles: Vec<usize>,
     /// Of the step at hand.
@@ -139,11 +139,10 @@ impl Locks {
             particles.push(particles[particles.len() - 1] + batch.count() * LANES);
         }
         let mut locks = Self {
-            near: Vec::new(),
-            near_from: vec![0; pieces.len() + 1],
+            keeps: Keeps::default(),
             dt: 0.0,
             ways: Ways::new(batches, pieces.len()),
-            pairs: Pairs::new(strands.len() - 1),
+            pairs: Pairs::new(&strands),
             found: vec![Vec::new(); TASKS],
             holds: vec![None; particles[batches.len()]],
             pieces,
@@ -159,34 +158,30 @@ impl Locks {
         let still = Surroundings::default();
         self.ways
             .follow::<Lane>(&self.pieces, batches, states, (&still, 0.0));
-        let mut near = Vec::new();
         // As far as a share of the distance is less than both radii.
         let more = 1.0 / OF_REST - 1.0;
         for (sweep, piece) in self.ways.sweeps.iter_mut().zip(&self.pieces) {
             sweep.bounds = sweep.bounds.larger_by((piece.radius * more + NEAR) as f32);
         }
         self.pairs.find(&self.ways.sweeps, &self.strands);
+        let mut keeps = Keeps::default();
         for pair in self.pairs.all() {
+            let mut near = Vec::new();
             self.pairs
                 .pieces(pair, &self.ways.sweeps, &self.strands, |own, other| {
                     let [one, two] = [own, other].map(|i| &self.pieces[i]);
                     let radii = one.radius + two.radius;
                     let apart = self.apart_at_rest(one, two);
                     if apart < radii + NEAR {
-                        near.push((own, other as u32, 0.0));
+                        near.push(([own, other], 0.0));
                     } else if apart * OF_REST < radii {
-                        near.push((own, other as u32, (apart * OF_REST) as f32));
+                        near.push(([own, other], (apart * OF_REST) as f32));
                     }
                 });
+            keeps.add(*pair, &near, &self.strands);
         }
-        near.sort_unstable_by_key(|&(own, other, _)| (own, other));
-        for &(own, ..) in &near {
-            self.near_from[own + 1] += 1;
-        }
-        for piece in 0..self.pieces.len() {
-            self.near_from[piece + 1] += self.near_from[piece];
-        }
-        self.near = near.iter().map(|&(_, other, keep)| (other, keep)).collect();
+        keeps.sort(self.strands.len() as u32 - 1);
+        self.keeps = keeps;
     }
 
     /// How far two pieces are from each other at the start.
@@ -219,7 +214,7 @@ impl Locks {
         for planes in &mut found {
             planes.clear();
         }
-        self.find_all(self.pairs.all(), &mut found[..tasks]);
+        self.find_all::<T>(self.pairs.all(), &mut found[..tasks]);
         self.holds.fill(None);
         for (task, planes) in found.iter().enumerate() {
             for (index, plane) in planes.iter().enumerate() {
@@ -236,42 +231,35 @@ impl Locks {
     }
 
     /// Finds the planes of pairs of strands, in as many tasks as there are lists for what is found.
-    fn find_all(&self, pairs: &[[u32; 2]], found: &mut [Vec<Plane>]) {
+    fn find_all<T: Number>(&self, pairs: &[[u32; 2]], found: &mut [Vec<Plane>]) {
         if let [planes] = found {
-            for pair in pairs {
-                self.find_between(pair, planes);
-            }
+            T::run(
+                #[inline(always)]
+                || {
+                    for pair in pairs {
+                        self.find_between(pair, planes);
+                    }
+                },
+            );
             return;
         }
         let half = found.len() / 2;
         let (pair, later_pairs) = pairs.split_at(pairs.len() * half / found.len());
         let (planes, later_planes) = found.split_at_mut(half);
         join(
-            || self.find_all(pair, planes),
-            || self.find_all(later_pairs, later_planes),
+            || self.find_all::<T>(pair, planes),
+            || self.find_all::<T>(later_pairs, later_planes),
         );
     }
 
+    #[inline(always)]
     fn find_between(&self, pair: &[u32; 2], planes: &mut Vec<Plane>) {
         let sweeps = &self.ways.sweeps;
-        let mut at_rest = (usize::MAX, &[][..]);
+        let keeps = self.keeps.between(pair, &self.strands);
         self.pairs
             .pieces(pair, sweeps, &self.strands, |own, other| {
-                if at_rest.0 != own {
-                    let near = &self.near[self.near_from[own]..self.near_from[own + 1]];
-                    let passed = near.partition_point(|&(piece, _)| (piece as usize) < other);
-                    at_rest = (own, &near[passed..]);
-                }
-                while let [(piece, _), later @ ..] = at_rest.1
-                    && (*piece as usize) < other
-                {
-                    at_rest.1 = later;
-                }
                 let radii = self.pieces[own].radius + self.pieces[other].radius;
-                let keep = match at_rest.1 {
-                    [(piece, keep), ..] if *piece as usize == other => f64::from(*keep),
-                    _ => radii,
-                };
+                let keep = keeps.of(own, other).min(radii);
                 if keep == 0.0 {
                     return;
                 }
@@ -280,19 +268,18 @@ impl Locks {
                 let Some(farther) = sweep.farther(its, more) else {
                     return;
                 };
-                for i in 0..self.pieces[own].links {
-                    let mut near = sweep.near(i, its, (more, farther));
-                    while near != 0 {
-                        let j = near.trailing_zeros() as usize;
-                        near &= near - 1;
-                        self.meet((own, i), (other, j), keep, planes);
-                    }
+                let mut near = sweep.near(its, (more, farther));
+                while near != 0 {
+                    let link = near.trailing_zeros() as usize;
+                    near &= near - 1;
+                    let (i, j) = (link / PIECE, link % PIECE);
+                    self.meet((own, i), (other, j), keep, planes);
                 }
             });
     }
 
     /// Two links with the numbers of their strands, in an order that hangs on nothing but these.
-    #[inline]
+    #[inline(always)]
     fn facing<'a>(
         &self,
         one: (&'a Piece, usize),
@@ -306,6 +293,7 @@ impl Locks {
     }
 
     /// Adds the planes before the particles of two links that meet.
+    #[inline(always)]
     fn meet(
         &self,
         (own, i): (usize, usize),
@@ -423,10 +411,11 @@ mod tests {
         let mut all = Vec::new();
         for (one, two) in (0..locks.pieces.len()).flat_map(|i| (0..i).map(move |j| (j, i))) {
             let [own, other] = [one, two].map(|i| &locks.pieces[i]);
-            let near = &locks.near[locks.near_from[one]..locks.near_from[one + 1]];
-            let at_rest = near.iter().find(|near| near.0 as usize == two);
-            let keep = at_rest.map_or(own.radius + other.radius, |near| f64::from(near.1));
-            if (own.batch, own.lane) == (other.batch, other.lane) || keep == 0.0 {
+            let strand = |piece| locks.strands.partition_point(|&first| first <= piece) - 1;
+            let pair = [strand(one), strand(two)];
+            let keeps = (locks.keeps).between(&pair.map(|strand| strand as u32), &locks.strands);
+            let keep = keeps.of(one, two).min(own.radius + other.radius);
+            if pair[0] == pair[1] || keep == 0.0 {
                 continue;
             }
             for (i, j) in (0..own.links).flat_map(|i| (0..other.links).map(move |j| (i, j))) {

@@ -42,6 +42,7 @@ impl Meeting {
     /// None unless two links that keep `keep` metres from each other come as near as that by their own motion in a step of `dt` seconds, or so near
     /// that what acts in the step may bring them together: by as much again as they move against each other, or go against their roots (`own`,
     /// in m, of both together), whichever is less, and by [`NEAR`]. `shift` is the mean way of both roots.
+    #[inline(always)]
     pub(super) fn of(
         link: &Link,
         other: &Link,
@@ -121,7 +122,7 @@ fn shared_way(one: f64, other: f64) -> f64 {
 }
 
 /// The ends of a link at a share of the step.
-#[inline]
+#[inline(always)]
 fn at_time(link: &Link, t: f64) -> [DVec3; 2] {
     let at = |end: &Course| end.before + (end.now - end.before) * t;
     [at(&link[0]), at(&link[1])]
@@ -136,6 +137,7 @@ pub(super) struct Closest {
 }
 
 /// After Ericson 2005, *Real-time collision detection*, 5.1.9.
+#[inline(always)]
 pub(super) fn closest([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> Closest {
     const LEAST: f64 = 1e-24;
     let (along, other, between) = (b - a, d - c, a - c);

@@ -2,7 +2,7 @@
 //!
 //! Boxes and balls are in single precision, and larger by what that leaves out: they tell what is far off.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3A, Vec4};
 
 use crate::{
     forces::mutual::Course,
@@ -34,43 +34,77 @@ const ROUNDED: f32 = 1.0 + 1e-6;
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
-    pub low: [f32; 3],
-    pub high: [f32; 3],
+    pub low: Vec3A,
+    pub high: Vec3A,
 }
 
 impl Bounds {
     /// Around nothing: it meets no other.
     pub(super) const NONE: Self = Self {
-        low: [f32::INFINITY; 3],
-        high: [f32::NEG_INFINITY; 3],
+        low: Vec3A::INFINITY,
+        high: Vec3A::NEG_INFINITY,
     };
 
     pub(super) fn and(&self, other: &Self) -> Self {
         Self {
-            low: std::array::from_fn(|axis| self.low[axis].min(other.low[axis])),
-            high: std::array::from_fn(|axis| self.high[axis].max(other.high[axis])),
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn meets(&self, other: &Self) -> bool {
         self.meets_within(other, 0.0)
     }
 
     /// Whether they meet where one is larger by so much on all sides.
-    #[inline]
+    #[inline(always)]
     fn meets_within(&self, other: &Self, by: f32) -> bool {
-        let meets = |axis: usize| {
-            (self.low[axis] - other.high[axis] <= by) & (other.low[axis] - self.high[axis] <= by)
-        };
-        meets(0) && meets(1) && meets(2)
+        let gaps = (self.low - other.high).max(other.low - self.high);
+        gaps.cmple(Vec3A::splat(by)).all()
     }
 
     pub(super) fn larger_by(&self, by: f32) -> Self {
         Self {
-            low: self.low.map(|low| low - by),
-            high: self.high.map(|high| high + by),
+            low: self.low - by,
+            high: self.high + by,
         }
+    }
+}
+
+/// A vector of each link of a piece, coordinate by coordinate.
+#[derive(Clone, Copy, Debug)]
+struct OfLinks([Vec4; 3]);
+
+impl OfLinks {
+    const ZERO: Self = Self([Vec4::ZERO; 3]);
+
+    /// That of one link, four times.
+    #[inline(always)]
+    fn of(&self, link: usize) -> Self {
+        Self(self.0.map(|axis| Vec4::splat(axis[link])))
+    }
+
+    #[inline(always)]
+    fn minus(&self, other: &Self) -> Self {
+        let ([x, y, z], [ox, oy, oz]) = (self.0, other.0);
+        Self([x - ox, y - oy, z - oz])
+    }
+
+    #[inline(always)]
+    fn times(&self, by: Vec4) -> Self {
+        Self(self.0.map(|axis| axis * by))
+    }
+
+    #[inline(always)]
+    fn dot(&self, other: &Self) -> Vec4 {
+        let ([x, y, z], [ox, oy, oz]) = (self.0, other.0);
+        x * ox + y * oy + z * oz
+    }
+
+    #[inline(always)]
+    fn length_squared(&self) -> Vec4 {
+        self.dot(self)
     }
 }
 
@@ -81,18 +115,25 @@ impl Bounds {
 pub(super) struct Sweep {
     pub bounds: Bounds,
     mid: Bounds,
-    /// Coordinate by coordinate; of links that the piece has not NaN, which is near nothing.
-    center: [[f32; PIECE]; 3],
+    /// Bits of [`Sweep::near`] for links that the piece has, as the first and as the other. What it lacks of four is as its last.
+    rows: u32,
+    columns: u32,
+    /// The middle of the piece, the way from its start to its end, and what rounding may make of a coordinate.
+    middle: Vec3A,
+    along: Vec3A,
+    rounding: f32,
+    /// The links' middles.
+    center: OfLinks,
     /// From there to the links' ends, half their lengths, and one over the squares of those.
-    half: [[f32; PIECE]; 3],
-    reach: [f32; PIECE],
-    per_square: [f32; PIECE],
+    half: OfLinks,
+    reach: Vec4,
+    per_square: Vec4,
     /// The mean ways of the links, and how far those of their ends are from that.
-    ways: [[f32; PIECE]; 3],
-    spreads: [f32; PIECE],
+    ways: OfLinks,
+    spreads: Vec4,
     /// The lock's radius, and what comes to it.
     keep: f32,
-    way: [f32; 3],
+    way: Vec3A,
     spread: f32,
     /// How far it goes against its root, in m.
     pub own: f32,
@@ -102,113 +143,116 @@ impl Sweep {
     pub(super) const NONE: Self = Self {
         bounds: Bounds::NONE,
         mid: Bounds::NONE,
-        center: [[f32::NAN; PIECE]; 3],
-        half: [[0.0; PIECE]; 3],
-        reach: [0.0; PIECE],
-        per_square: [0.0; PIECE],
-        ways: [[0.0; PIECE]; 3],
-        spreads: [0.0; PIECE],
+        rows: 0,
+        columns: 0,
+        middle: Vec3A::ZERO,
+        along: Vec3A::ZERO,
+        rounding: 0.0,
+        center: OfLinks::ZERO,
+        half: OfLinks::ZERO,
+        reach: Vec4::ZERO,
+        per_square: Vec4::ZERO,
+        ways: OfLinks::ZERO,
+        spreads: Vec4::ZERO,
         keep: 0.0,
-        way: [0.0; 3],
+        way: Vec3A::ZERO,
         spread: 0.0,
         own: 0.0,
     };
 
     /// How much farther than half way through the step two pieces may meet that keep `more` metres besides their radii (less, where it is below
     /// 0); None where they are too far from each other for that.
-    #[inline]
+    #[inline(always)]
     pub(super) fn farther(&self, other: &Self, more: f32) -> Option<f32> {
-        let ([x, y, z], [ox, oy, oz]) = (self.way, other.way);
-        let square = length_squared(x - ox, y - oy, z - oz);
+        let square = (self.way - other.way).length_squared();
         let against = square.sqrt() * ROUNDED + self.spread + other.spread;
         let farther = more + 0.5 * against + against.min(self.own + other.own);
         (self.mid.meets_within(&other.mid, farther)).then_some(farther)
     }
 
-    /// Which of the other's links may meet a link, as bits, where both pieces keep `more` metres besides their radii, and may meet so much `farther`
-    /// than half way through the step. It looks at balls around them first, then at each link and the balls of the other's.
-    #[inline]
-    pub(super) fn near(&self, link: usize, other: &Self, (more, farther): (f32, f32)) -> u32 {
-        let at = |of: &[[f32; PIECE]; 3], i: usize| (of[0][i], of[1][i], of[2][i]);
-        let keep = self.keep + other.keep;
-        let ((x, y, z), long) = (at(&self.center, link), self.reach[link]);
-        let mut is_near = [false; PIECE];
-        for j in 0..PIECE {
-            let (cx, cy, cz) = at(&other.center, j);
-            let reach = other.reach[j] + long + (keep + farther);
-            is_near[j] = length_squared(cx - x, cy - y, cz - z) <= reach * reach;
-        }
-        if is_near == [false; PIECE] {
+    /// Which links of two pieces may meet, as bits, those of the other for every link of the first, where both keep `more` metres besides their radii
+    /// and may meet so much `farther` than half way through the step. It looks at both pieces as wholes first, then at balls around links.
+    #[inline(always)]
+    pub(super) fn near(&self, other: &Self, (more, farther): (f32, f32)) -> u32 {
+        let keep = Vec4::splat(self.keep + other.keep + farther);
+        let around = other.reach + keep;
+        if self.is_apart(other, keep[0]) {
             return 0;
         }
-        let ((hx, hy, hz), per_square) = (at(&self.half, link), self.per_square[link]);
-        let ((wx, wy, wz), spread) = (at(&self.ways, link), self.spreads[link]);
-        let own = self.own + other.own;
-        let (mut bits, mut keeps) = ([0_u32; PIECE], [0.0; PIECE]);
-        for j in 0..PIECE {
-            let (vx, vy, vz) = at(&other.ways, j);
-            let against = length_squared(vx - wx, vy - wy, vz - wz).sqrt() * ROUNDED;
-            let against = against + spread + other.spreads[j];
-            let slower = if own < against { own } else { against };
-            let keep = keep + more + 0.5 * against + slower;
-            let (cx, cy, cz) = at(&other.center, j);
-            let (x, y, z) = (cx - x, cy - y, cz - z);
-            let along = ((x * hx + y * hy + z * hz) * per_square).clamp(-1.0, 1.0);
-            let one = length_squared(x - hx * along, y - hy * along, z - hz * along);
-            let (ix, iy, iz) = at(&other.half, j);
-            let along = ((x * ix + y * iy + z * iz) * other.per_square[j]).clamp(-1.0, 1.0);
-            let two = length_squared(x - ix * along, y - iy * along, z - iz * along);
-            let (reach, its) = (other.reach[j] + keep, long + keep);
-            let meets = is_near[j] & (one <= reach * reach) & (two <= its * its);
-            bits[j] = u32::from(meets) << j;
-            keeps[j] = keep;
+        let mut near = 0;
+        for link in 0..PIECE {
+            let between = other.center.minus(&self.center.of(link));
+            let reach = around + Vec4::splat(self.reach[link]);
+            let meets = between.length_squared().cmple(reach * reach);
+            near |= meets.bitmask() << (PIECE * link);
         }
-        let near = bits[0] | bits[1] | bits[2] | bits[3];
-        if near == 0 {
+        near &= self.rows & other.columns;
+        let mut found = 0;
+        while near != 0 {
+            let link = near.trailing_zeros() as usize / PIECE;
+            let at = PIECE * link;
+            let its = near & (((1 << PIECE) - 1) << at);
+            near &= !its;
+            found |= its & (self.near_link(link, other, more) << at);
+        }
+        found
+    }
+
+    /// Whether pieces are farther from each other than `keep` m half way through the step: between two planes at a right angle to where strands that hang
+    /// side by side are nearest, whatever rounding makes of that.
+    #[inline(always)]
+    fn is_apart(&self, other: &Self, keep: f32) -> bool {
+        let between = other.middle - self.middle;
+        let along = self.along * self.along.dot(other.along).signum();
+        let along = along + other.along;
+        let way = between - along * (between.dot(along) / along.length_squared().max(1e-20));
+        let toward = OfLinks([Vec4::splat(way.x), Vec4::splat(way.y), Vec4::splat(way.z)]);
+        let far = toward.dot(&self.center) + toward.dot(&self.half).abs();
+        let its = toward.dot(&other.center) - toward.dot(&other.half).abs();
+        let apart = its.min_element() - far.max_element();
+        let keep = keep + self.rounding + other.rounding;
+        apart > 0.0 && apart * apart > keep * keep * way.length_squared() * ROUNDED
+    }
+
+    /// Which of the other's links may meet a link, as bits: of each link and the ball around the other, and between two planes at a right angle to where
+    /// they seem to be nearest half way through the step, whatever rounding makes of that.
+    #[inline(always)]
+    fn near_link(&self, link: usize, other: &Self, more: f32) -> u32 {
+        let own = Vec4::splat(self.own + other.own);
+        let against = other.ways.minus(&self.ways.of(link)).length_squared();
+        let against = against.sqrt() * ROUNDED + Vec4::splat(self.spreads[link]) + other.spreads;
+        let keep = Vec4::splat(self.keep + other.keep + more) + 0.5 * against + own.min(against);
+
+        let (half, its_half) = (self.half.of(link), &other.half);
+        let (per_square, its_per_square) = (Vec4::splat(self.per_square[link]), other.per_square);
+        let between = other.center.minus(&self.center.of(link));
+        let (along, its_along) = (half.dot(&between), its_half.dot(&between));
+        // From the middle of a link to its end is 1.
+        let on_link = |t: Vec4| t.clamp(Vec4::NEG_ONE, Vec4::ONE);
+        let one = between.minus(&half.times(on_link(along * per_square)));
+        let two = between.minus(&its_half.times(on_link(its_along * its_per_square)));
+        let (reach, its_reach) = (other.reach + keep, Vec4::splat(self.reach[link]) + keep);
+        let meets = (one.length_squared().cmple(reach * reach))
+            & two.length_squared().cmple(its_reach * its_reach);
+        if !meets.any() {
             return 0;
         }
-        near & !self.apart(link, other, &keeps)
-    }
 
-    /// Which of the other's links are farther from a link than `keeps` m half way through the step, as bits: between two planes at a right angle to
-    /// where they seem to be nearest, whatever rounding makes of that.
-    #[inline]
-    fn apart(&self, link: usize, other: &Self, keeps: &[f32; PIECE]) -> u32 {
-        let at = |of: &[[f32; PIECE]; 3], i: usize| (of[0][i], of[1][i], of[2][i]);
-        let dot = |a: (f32, f32, f32), b: (f32, f32, f32)| a.0 * b.0 + a.1 * b.1 + a.2 * b.2;
-        let (center, half) = (at(&self.center, link), at(&self.half, link));
-        let (square, per_square) = (dot(half, half), self.per_square[link]);
-        let mut bits = [0_u32; PIECE];
-        for j in 0..PIECE {
-            let its = at(&other.center, j);
-            let between = (its.0 - center.0, its.1 - center.1, its.2 - center.2);
-            let its = at(&other.half, j);
-            let (both, along, its_along) = (dot(half, its), dot(half, between), dot(its, between));
-            let its_square = dot(its, its);
-            let area = (square * its_square - both * both).max(1e-30);
-            // From the middle of the link to its end is 1.
-            let t = ((along * its_square - both * its_along) / area).clamp(-1.0, 1.0);
-            let its_t = ((t * both - its_along) * other.per_square[j]).clamp(-1.0, 1.0);
-            let t = ((along + its_t * both) * per_square).clamp(-1.0, 1.0);
-            let away = |between: f32, its: f32, half: f32| between + its_t * its - t * half;
-            let way = (
-                away(between.0, its.0, half.0),
-                away(between.1, its.1, half.1),
-                away(between.2, its.2, half.2),
-            );
-            let apart = dot(way, between) - dot(way, half).abs() - dot(way, its).abs();
-            let size = between.0.abs() + between.1.abs() + between.2.abs();
-            let keep = keeps[j] + size * 2e-6;
-            let is_apart = (apart > 0.0) & (apart * apart > keep * keep * dot(way, way) * ROUNDED);
-            bits[j] = u32::from(is_apart) << j;
-        }
-        bits[0] | bits[1] | bits[2] | bits[3]
+        let both = half.dot(its_half);
+        let (square, its_square) = (half.length_squared(), its_half.length_squared());
+        let area = (square * its_square - both * both).max(Vec4::splat(1e-30));
+        let t = on_link((along * its_square - both * its_along) / area);
+        let its_t = on_link((t * both - its_along) * its_per_square);
+        let t = on_link((along + its_t * both) * per_square);
+        let [x, y, z] = between.0;
+        let ([hx, hy, hz], [ix, iy, iz]) = (half.times(t).0, its_half.times(its_t).0);
+        let way = OfLinks([x + ix - hx, y + iy - hy, z + iz - hz]);
+        let apart = way.dot(&between) - way.dot(&half).abs() - way.dot(its_half).abs();
+        let keep = keep + (x.abs() + y.abs() + z.abs()) * 2e-6;
+        let is_apart = (apart.cmpgt(Vec4::ZERO))
+            & (apart * apart).cmpgt(keep * keep * way.length_squared() * ROUNDED);
+        meets.bitmask() & !is_apart.bitmask()
     }
-}
-
-#[inline]
-fn length_squared(x: f32, y: f32, z: f32) -> f32 {
-    x * x + y * y + z * z
 }
 
 /// Where the strands of some batches go in a step.
@@ -261,7 +305,7 @@ impl Ways {
     }
 
     /// A particle's way, by its number on the strand; the root's is 0.
-    #[inline]
+    #[inline(always)]
     pub(super) fn point(&self, piece: &Piece, k: usize) -> Course {
         let [before, now] = &self.points[self.first[piece.batch] + k];
         Course {
@@ -271,14 +315,14 @@ impl Ways {
     }
 
     /// The ways of a link's ends, by its number on the piece.
-    #[inline]
+    #[inline(always)]
     pub(super) fn link(&self, piece: &Piece, link: usize) -> [Course; 2] {
         let start = piece.first + link;
         [self.point(piece, start), self.point(piece, start + 1)]
     }
 
     /// The way of a piece's root.
-    #[inline]
+    #[inline(always)]
     pub(super) fn shift(&self, piece: &Piece) -> DVec3 {
         let root = self.point(piece, 0);
         root.now - root.before
@@ -453,32 +497,43 @@ impl Swept {
         let keep = piece.radius * (1.0 + TOUCH) + 0.5 * NEAR;
         let rounding = (largest + keep + own + spread) * ROUNDING;
         let around = |low: DVec3, high: DVec3, more: f64| Bounds {
-            low: (low - more).as_vec3().to_array(),
-            high: (high + more).as_vec3().to_array(),
+            low: (low - more).as_vec3a(),
+            high: (high + more).as_vec3a(),
         };
         let (mid_low, mid_high) = (self.mid_low.get(lane), self.mid_high.get(lane));
         let mut sweep = Sweep {
             bounds: around(low, high, keep + own + rounding),
             mid: around(mid_low, mid_high, keep + rounding),
             keep: (keep + rounding) as f32,
-            way: self.way.get(lane).as_vec3().to_array(),
+            way: self.way.get(lane).as_vec3a(),
             spread: (spread + rounding) as f32,
             own: (own + rounding) as f32,
             ..Sweep::NONE
         };
-        for i in 0..piece.links {
-            let center = self.centers[i].get(lane).as_vec3();
-            let half = self.halves[i].get(lane).as_vec3();
-            let way = self.ways[i].get(lane).as_vec3();
+        let links = piece.links as u32;
+        sweep.rows = (1 << (PIECE as u32 * links)) - 1;
+        sweep.columns = ((1 << links) - 1) * 0x1111;
+        sweep.rounding = (largest * 2e-6) as f32;
+        for i in 0..PIECE {
+            let link = i.min(piece.links - 1);
+            let center = self.centers[link].get(lane).as_vec3();
+            let half = self.halves[link].get(lane).as_vec3();
+            let way = self.ways[link].get(lane).as_vec3();
             for axis in 0..3 {
-                sweep.center[axis][i] = center[axis];
-                sweep.half[axis][i] = half[axis];
-                sweep.ways[axis][i] = way[axis];
+                sweep.center.0[axis][i] = center[axis];
+                sweep.half.0[axis][i] = half[axis];
+                sweep.ways.0[axis][i] = way[axis];
             }
-            sweep.spreads[i] = (self.spreads[i][lane] + rounding) as f32;
-            sweep.reach[i] = (self.reaches[i][lane] + rounding) as f32;
+            sweep.spreads[i] = (self.spreads[link][lane] + rounding) as f32;
+            sweep.reach[i] = (self.reaches[link][lane] + rounding) as f32;
             sweep.per_square[i] = 1.0 / half.length_squared().max(1e-20);
         }
+        let end = |i: usize, side: f32| {
+            let axis = |axis: usize| sweep.center.0[axis][i] + sweep.half.0[axis][i] * side;
+            Vec3A::new(axis(0), axis(1), axis(2))
+        };
+        let (start, end) = (end(0, -1.0), end(PIECE - 1, 1.0));
+        (sweep.middle, sweep.along) = ((start + end) * 0.5, end - start);
         sweep
     }
 }
