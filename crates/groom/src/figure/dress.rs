@@ -2,7 +2,7 @@
 
 use super::body::{neck_axis, skin};
 use super::planes::smooth;
-use super::sewn::{Lie, Piece, band, slab};
+use super::sewn::{Lie, Piece, Rows, band, slab};
 use crate::solid::melt;
 use glam::{Vec2, Vec3};
 
@@ -218,12 +218,13 @@ fn collar<const N: usize>(
     band(
         &[
             (&base, Lie::At(-0.003)),
-            (&fold, Lie::Over(0.008)),
-            (&below_fold, Lie::Over(0.008)),
-            (&above_edge, Lie::At(0.006)),
-            (&edge, Lie::At(0.006)),
+            (&fold, Lie::Over(0.006)),
+            (&below_fold, Lie::Over(0.006)),
+            (&above_edge, Lie::At(0.005)),
+            (&edge, Lie::At(0.005)),
         ],
         &[cloth, line, cloth, line, cloth],
+        Rows::Smooth,
         |p| dress.distance(p),
     )
 }
@@ -307,26 +308,16 @@ fn sailor_collar() -> Piece {
         points.collect()
     };
     // Down on the blouse to its edge, a stripe before it, and back under itself.
-    const ROWS: [(f32, f32); 12] = [
-        (0.0, -0.002),
-        (0.0, 0.004),
-        (0.1, 0.005),
-        (0.2, 0.005),
-        (0.35, 0.005),
-        (0.5, 0.005),
-        (0.65, 0.005),
-        (0.80, 0.005),
-        (0.86, 0.005),
-        (0.93, 0.005),
-        (1.0, 0.005),
-        (0.98, -0.002),
-    ];
-    let rows = ROWS.map(|(share, _)| row(share));
-    let lies = ROWS.map(|(_, gap_m)| Lie::At(gap_m));
+    let rows = [0.0, 0.0, 0.25, 0.5, 0.80, 0.86, 1.0, 0.98].map(row);
+    let lies = [-0.002, 0.004, 0.005, 0.005, 0.005, 0.005, 0.005, -0.002].map(Lie::At);
     let rows: Vec<(&[Vec3], Lie)> = rows.iter().map(Vec::as_slice).zip(lies).collect();
-    let mut cloth = [Cloth::Accent; ROWS.len()];
-    cloth[7] = Cloth::Dress; // the stripe
-    band(&rows, &cloth, |p| Dress::Sailor.distance(p))
+    let a = Cloth::Accent;
+    band(
+        &rows,
+        &[a, a, a, a, Cloth::Dress, a, a, a],
+        Rows::Cornered,
+        |p| Dress::Sailor.distance(p),
+    )
 }
 
 fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
@@ -436,7 +427,7 @@ mod tests {
 
     #[test]
     fn collars_have_no_kinks() {
-        for (dress, rows) in [(Dress::Collar, 5), (Dress::Jacket, 5), (Dress::Sailor, 12)] {
+        for (dress, rows) in [(Dress::Collar, 5), (Dress::Jacket, 5), (Dress::Sailor, 8)] {
             for piece in dress.pieces() {
                 // Each that runs around the neck outside of the cloth.
                 for row in 0..rows {

@@ -49,6 +49,15 @@ pub(crate) enum Lie {
     Over(f32),
 }
 
+/// How a band's rows run.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Rows {
+    /// Without kinks.
+    Smooth,
+    /// With the corners that they are given.
+    Cornered,
+}
+
 /// `p`, moved to lie so on the surface of `on`.
 fn laid(mut p: Vec3, lie: Lie, on: &impl Fn(Vec3) -> f32) -> Vec3 {
     for _ in 0..12 {
@@ -57,7 +66,7 @@ fn laid(mut p: Vec3, lie: Lie, on: &impl Fn(Vec3) -> f32) -> Vec3 {
             Lie::Over(gap) => (gap - on(p)).max(0.0),
         };
         if missing != 0.0 {
-            let along = gradient(on, p, 0.004).normalize_or(Vec3::Y);
+            let along = gradient(on, p, 0.002).normalize_or(Vec3::Y);
             // In the middle of the back it stays there.
             let along = if p.x == 0.0 { along.with_x(0.0) } else { along };
             p += along * (missing * 0.8);
@@ -68,9 +77,18 @@ fn laid(mut p: Vec3, lie: Lie, on: &impl Fn(Vec3) -> f32) -> Vec3 {
 
 /// A band from the middle of the back, at x = 0, to its end on one side. `rows` run along it, around its
 /// section, and lie on the surface of `on`; `cloth` is between each row and the next.
-pub(crate) fn band(rows: &[(&[Vec3], Lie)], cloth: &[Cloth], on: impl Fn(Vec3) -> f32) -> Piece {
+pub(crate) fn band(
+    rows: &[(&[Vec3], Lie)],
+    cloth: &[Cloth],
+    run: Rows,
+    on: impl Fn(Vec3) -> f32,
+) -> Piece {
     let on_body = |(row, lie): &(&[Vec3], Lie)| -> Vec<Vec3> {
         let points = curve_in_space(row).into_iter();
+        if run == Rows::Cornered {
+            let some = points.step_by(2);
+            return some.map(|p| laid(p, *lie, &on)).collect();
+        }
         let row = points.map(|p| laid(p, *lie, &on)).collect();
         let (Lie::At(gap) | Lie::Over(gap)) = *lie;
         match gap > 0.0 {
