@@ -12,6 +12,8 @@ const HEIGHT_IN_RADII: f64 = 2.5;
 /// How far from the middle of the roots' sphere a head may reach, in its radii: the mesh beyond is
 /// neck, shoulders and arms.
 const REACH: f64 = 2.3;
+/// A sphere is determined by four points: fewer roots don't tell a head beside a mesh.
+const ENOUGH_ROOTS: usize = 4;
 /// Horizontal sections of the mesh that are looked at for its neck.
 const SECTIONS: usize = 160;
 
@@ -28,15 +30,16 @@ impl HeadFrame {
     /// The head of a mesh (a head, bust or body, Y up), of some roots, or of both.
     ///
     /// A mesh's head is what lies above its chin, found where the mesh narrows to a neck (the whole
-    /// mesh where it has none); with roots only the mesh around them counts. Without a mesh, or
+    /// mesh where it has none); with four roots or more only the mesh around them counts. Without a mesh, or
     /// where its head does not match the roots, it is the sphere through the roots, whose radius is
     /// taken as 1/2.5 of the height. Without two different roots it is 0.24 m high.
     #[must_use]
     pub fn find(mesh: Option<&Mesh>, roots: &[Vec3]) -> Self {
         let scalp = sphere::fit(roots);
-        let around = scalp.map(|s| (s.center, REACH * s.radius));
+        let told = scalp.filter(|_| roots.len() >= ENOUGH_ROOTS);
+        let around = told.map(|s| (s.center, REACH * s.radius));
         let matches_scalp =
-            |height: f64| scalp.is_none_or(|s| (1.5..4.5).contains(&(height / s.radius)));
+            |height: f64| told.is_none_or(|s| (1.5..4.5).contains(&(height / s.radius)));
         if let Some((center, height)) = mesh.and_then(|mesh| head_of_mesh(mesh, around))
             && matches_scalp(height)
         {
@@ -243,6 +246,15 @@ mod tests {
         // Roots elsewhere do not belong to this mesh: the head is theirs.
         let frame = HeadFrame::find(Some(&body), &scalp(Vec3::X * 5.0));
         assert!(frame.center.distance(Vec3::X * 5.0) < 1e-3 && (frame.height - 0.225).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_few_roots_are_no_scalp() {
+        let body = turned(&[&HEAD[..], &NECK_AND_BODY].concat());
+        let pair = [Vec3::new(0.02, 1.62, 0.0), Vec3::new(-0.02, 1.62, 0.0)];
+        let frame = HeadFrame::find(Some(&body), &pair);
+        assert_eq!(frame, HeadFrame::find(Some(&body), &[]));
+        assert!((frame.height - 0.24).abs() < 0.012, "{frame:?}");
     }
 
     #[test]

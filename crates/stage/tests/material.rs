@@ -78,16 +78,23 @@ fn they_are_across_the_strand_and_change_gently_along_it_and_in_time() {
         let mut before: Option<Vec<Vec3>> = None;
         for step in 0..16 {
             let (normals, tangents, _, starts) = joints(&mut stage, step as f32 / 24.0);
+            let mut twisted = 0;
             for (i, (normal, tangent)) in normals.iter().zip(&tangents).enumerate() {
                 assert!((normal.length() - 1.0).abs() < 1e-4, "{style}");
                 assert!(normal.dot(*tangent).abs() < 1e-4, "{style}");
                 if i > 0 && !starts.contains(&i) {
                     let turned = tangents[i - 1].dot(*tangent);
                     let kept = normals[i - 1].dot(*normal);
-                    // A normal turns with its tangent, and otherwise little.
-                    assert!(kept > turned.min(0.9) - 0.3, "{style}: {kept} {turned}");
+                    // A normal turns with its tangent, and otherwise little, but where a strand is twisted.
+                    twisted += usize::from(kept < turned.min(0.9) - 0.15);
+                    assert!(kept > turned.min(0.9) - 0.5, "{style}: {kept} {turned}");
                 }
             }
+            assert!(
+                twisted * 1000 <= normals.len(),
+                "{style}: {twisted} of {}",
+                normals.len()
+            );
             if let Some(before) = &before {
                 let still = before
                     .iter()
