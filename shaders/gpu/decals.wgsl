@@ -198,7 +198,7 @@ fn add_decal(
     if (is_shadow) {
         let own = whole_strand(s.strand);
         for (var k = 0u; k < 4u; k++) {
-            fits[k] = fits[k] && !(is_hair[k] && whole_strand(samples.owner[k]) == own);
+            fits[k] = fits[k] && !(is_hair[k] && (samples.is_outline[k] || whole_strand(samples.owner[k]) == own));
         }
     }
     let number = vec4<u32>(s.number);

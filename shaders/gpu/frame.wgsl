@@ -37,6 +37,8 @@ struct GpuFrame {
     time_s: f32,
     /// Where the tables say which pieces are one strand: how many pieces, then a number for each; 0 where each is its own.
     same_strands_at: u32,
+    /// The strokes with numbers from 1 to this have a negative rank.
+    outlines: u32,
 }
 
 /// One disc of a stroke on the screen.

@@ -232,6 +232,8 @@ fn compose(samples: ptr<function, Samples>, strand: Strand, number: u32) {
     (*samples).stroke = select((*samples).stroke, stroke, wins);
     (*samples).owner = select((*samples).owner, vec4<u32>(number), wins);
     (*samples).strand = select((*samples).strand, depth, wins);
+    let shown = select(strand.outer.number, strand.inner.number, is_inner);
+    (*samples).is_outline = select((*samples).is_outline, shown <= vec4<u32>(gpu_frame.outlines), wins);
     let disc = select(strand.outer.disc, strand.inner.disc, is_inner);
     let way = select(strand.outer.way, strand.inner.way, is_inner);
     set_colors(samples, disc, way, wins);

@@ -351,8 +351,9 @@ impl DecalStroke {
         let (depth, shadow) = match shown {
             Shown::Nothing => return None,
             Shown::Hair(hair) => {
-                let is_own = self.decal.is_shadow && hair.strand == self.strand;
-                if is_own || !self.decal.on_hair {
+                let is_outline = hair.stroke.precedence.rank < 0;
+                let is_no_shadow = hair.strand == self.strand || is_outline;
+                if !self.decal.on_hair || self.decal.is_shadow && is_no_shadow {
                     return None;
                 }
                 (hair.depth.inv_depth, None)

@@ -525,6 +525,8 @@ impl Worker {
         instructions.run(
             #[inline(always)]
             || {
+                self.target
+                    .keep_outlines(frame.parts.decals.asks_for_outlines);
                 self.target.clear(frame.drawing.background);
                 if keeps_triangles {
                     self.shown.clear();

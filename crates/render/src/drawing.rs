@@ -168,7 +168,7 @@ pub struct Decal {
     /// Metres, 0 or more. Half as far and nearer every sample shows it, beyond none.
     pub reach_m: f32,
     /// Whether its strokes are shadows. All of `reach_m` counts in every sample of these: they fit surfaces that are at most `reach_m` before them, or any way behind, and hair of other strands
-    /// that is more than `reach_m` behind them. A surface shows its own colour in shadow there; a painted one lies in shadow whatever the
+    /// that is more than `reach_m` behind them, but not its outlines (strokes of negative rank), which keep their ink. A surface shows its own colour in shadow there; a painted one lies in shadow whatever the
     /// light.
     pub is_shadow: bool,
 }

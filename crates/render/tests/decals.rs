@@ -314,6 +314,20 @@ fn a_shadow_falls_on_what_is_behind_it_in_that_ones_own_shadow_colour() {
 }
 
 #[test]
+fn outlines_keep_their_ink_in_the_shadow() {
+    let places = [18, 22, 28];
+    let mut drawing = drawing(25.0, 1.6, &SHADOW);
+    let filled = columns(&drawing, places);
+    drawing.layers[0].rank = -4; // below the decal all the same
+    let outlined = columns(&drawing, places);
+    for (filled, outlined) in filled.iter().zip(&outlined) {
+        assert_eq!([filled[0], filled[1]], [RED, GREEN]);
+        assert_eq!([outlined[0], outlined[1]], [RED, RED]);
+        assert_eq!(filled[2], outlined[2]);
+    }
+}
+
+#[test]
 fn no_strand_casts_a_shadow_on_itself_whatever_its_pieces() {
     let mut drawing = drawing(25.0, 1.0, &SHADOW);
     drawing.same_strands = vec![0, 1];

@@ -13,7 +13,7 @@ use super::tile::{
     plane, select, without,
 };
 use super::{Frame, Worker};
-use crate::drawing::{Decal, Drawing, Order, shown_reach};
+use crate::drawing::{Decal, Drawing, LayerStrokes, Order, shown_reach};
 use std::cmp::Reverse;
 
 /// What a surface in the shadow of hair is told as how much it lies in shadow: whatever the light, and wherever it turns to shade.
@@ -28,6 +28,8 @@ pub(super) struct DecalParts {
     pub(super) on_surfaces: bool,
     /// Whether hair must tell which strand it is by more than its order.
     pub(super) asks_for_strands: bool,
+    /// Whether hair must tell where it is an outline, on which no shadows fall.
+    pub(super) asks_for_outlines: bool,
 }
 
 impl DecalParts {
@@ -40,7 +42,10 @@ impl DecalParts {
         let decals = &drawing.decals;
         self.on_surfaces = decals.iter().any(|decal| decal.marks != 0);
         let is_on_strands = |decal: &Decal| decal.is_shadow && decal.on_hair;
-        self.asks_for_strands = drawing.order == Order::Shifted && decals.iter().any(is_on_strands);
+        let on_strands = decals.iter().any(is_on_strands);
+        self.asks_for_strands = on_strands && drawing.order == Order::Shifted;
+        let is_outline = |layer: &LayerStrokes| layer.rank < 0;
+        self.asks_for_outlines = on_strands && drawing.layers.iter().any(is_outline);
         self.strokes.clear();
         if !decals.is_empty() {
             self.strokes = strokes_in_order(drawing, Kind::Decals);
@@ -166,6 +171,9 @@ impl Worker {
             if layer != of_layer {
                 of_layer = layer;
                 open = without(&planes.targets(decal, &seen), &closed);
+                if let Some(outlines) = target.outlines.as_deref().filter(|_| decal.is_shadow) {
+                    open = without(&open, outlines);
+                }
             }
             if is_empty(&open) {
                 continue;

@@ -271,6 +271,7 @@ impl StrandMasks {
         for stroke in strokes {
             let placed = &self.placed[stroke.segments.clone()];
             let samples = both(&stroke.samples, &shown);
+            target.show_stroke(&samples, rank(stroke) < 0);
             if !TELLS {
                 shade(placed, &samples, &mut self.row, target);
                 continue;
@@ -339,6 +340,9 @@ impl StrandMasks {
                 offer.make::<false>(&stroke.samples, &mut self.row, target, &mut shown, unasked);
                 shade(placed, &shown, &mut self.row, target);
             }
+            let place = stroke.number.checked_sub(1);
+            let is_outline = place.is_some_and(|place| scene.strokes[place as usize].rank < 0);
+            target.show_stroke(&shown, is_outline);
         }
     }
 }

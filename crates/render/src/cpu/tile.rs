@@ -401,6 +401,8 @@ pub(super) struct Target {
     pub(super) farthest_surface: Box<Aligned<[f32; CELLS]>>,
     /// Whether any of `margin` may be other than 0.
     pub(super) has_margins: bool,
+    /// The samples that show outlines, strokes of negative rank, where somebody asks.
+    pub(super) outlines: Option<Box<Mask>>,
 }
 
 impl Target {
@@ -414,6 +416,14 @@ impl Target {
             farthest_strand: Box::new(Aligned([NOTHING; CELLS])),
             farthest_surface: Box::new(Aligned([NOTHING; CELLS])),
             has_margins: false,
+            outlines: None,
+        }
+    }
+
+    /// Keeps from now on which samples show outlines, or no more.
+    pub(super) fn keep_outlines(&mut self, keeps: bool) {
+        if keeps != self.outlines.is_some() {
+            self.outlines = keeps.then(|| Box::new(NO_SAMPLES));
         }
     }
 
@@ -434,6 +444,21 @@ impl Target {
         }
         self.farthest_strand.fill(NOTHING);
         self.farthest_surface.fill(NOTHING);
+        if let Some(outlines) = &mut self.outlines {
+            **outlines = NO_SAMPLES;
+        }
+    }
+
+    /// Some samples show a stroke: an outline or another. Nobody may ask.
+    #[inline(always)]
+    pub(super) fn show_stroke(&mut self, samples: &Mask, is_outline: bool) {
+        if let Some(outlines) = &mut self.outlines {
+            if is_outline {
+                add(outlines, samples);
+            } else {
+                **outlines = without(outlines, samples);
+            }
+        }
     }
 
     /// The farthest surface that any sample shows, 1/m, while surfaces are drawn.

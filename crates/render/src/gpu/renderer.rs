@@ -324,6 +324,7 @@ impl Renderer {
             triangle_capacity,
             surfaces_at: self.scene.surfaces_at,
             same_strands_at: self.scene.same_strands_at,
+            outlines: self.scene.outlines,
             writes_samples: u32::from(has_samples),
             ..settings
         };

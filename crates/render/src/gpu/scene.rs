@@ -37,6 +37,8 @@ pub(super) struct SceneWords {
     strokes_at: usize,
     /// Where the tables tell which pieces are one strand, 0 where they don't.
     pub(super) same_strands_at: u32,
+    /// How many strokes have a negative rank: they come first.
+    pub(super) outlines: u32,
     pub(super) corners: Vec<u32>,
     pub(super) triangles: Vec<u32>,
     pub(super) clumps: Vec<ClumpScene>,
@@ -391,6 +393,8 @@ impl SceneWords {
         }
         let strokes: usize = placed.iter().map(|p| p.instances as usize).sum();
         self.strokes_at = record(clump_discs) as usize;
+        let outlines = placed.iter().filter(|p| p.rank < 0);
+        self.outlines = outlines.map(|p| p.instances).sum();
         let decals_at = record(clump_discs + strokes);
         let mut number = 0;
         for p in placed {
