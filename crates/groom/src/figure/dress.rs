@@ -284,6 +284,9 @@ fn jacket_collar() -> Piece {
     collar(base, fold, edge, Dress::Jacket)
 }
 
+/// The row of a sailor's collar from which its stripe goes to the next.
+const STRIPE: usize = 7;
+
 /// Over the shoulders, square on the back, its points at the bow.
 fn sailor_collar() -> Piece {
     let inner = [
@@ -307,17 +310,15 @@ fn sailor_collar() -> Piece {
         let points = pairs.map(|(a, b)| Vec3::from(*a).lerp(Vec3::from(*b), share));
         points.collect()
     };
-    // Down on the blouse to its edge, a stripe before it, and back under itself.
-    let rows = [0.0, 0.0, 0.25, 0.5, 0.80, 0.86, 1.0, 0.98].map(row);
-    let lies = [-0.002, 0.004, 0.005, 0.005, 0.005, 0.005, 0.005, -0.002].map(Lie::At);
-    let rows: Vec<(&[Vec3], Lie)> = rows.iter().map(Vec::as_slice).zip(lies).collect();
-    let a = Cloth::Accent;
-    band(
-        &rows,
-        &[a, a, a, a, Cloth::Dress, a, a, a],
-        Rows::Cornered,
-        |p| Dress::Sailor.distance(p),
-    )
+    // Down on the blouse to its edge, a stripe before it, and back under itself; so many rows that no shoulder comes through between two.
+    let mut rows = vec![(row(0.0), Lie::At(-0.002)), (row(0.0), Lie::At(0.004))];
+    let shares = [0.125, 0.25, 0.375, 0.5, 0.65, 0.80, 0.86, 1.0];
+    rows.extend(shares.map(|share| (row(share), Lie::At(0.005))));
+    rows.push((row(0.98), Lie::At(-0.002)));
+    let mut cloth = vec![Cloth::Accent; rows.len()];
+    cloth[STRIPE] = Cloth::Dress;
+    let rows: Vec<(&[Vec3], Lie)> = rows.iter().map(|(row, lie)| (&row[..], *lie)).collect();
+    band(&rows, &cloth, Rows::Cornered, |p| Dress::Sailor.distance(p))
 }
 
 fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
@@ -400,6 +401,30 @@ mod tests {
                 );
                 // Nothing is worn on the head.
                 assert!(p.y < 1.41 || cloth == skin, "{dress:?} at {p}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_shoulder_comes_through_a_sailors_collar() {
+        let dress = Dress::Sailor;
+        for piece in dress.pieces() {
+            for triangle in &piece.triangles {
+                let corners = triangle.map(|i| piece.positions[i as usize]);
+                // Those on its underside lie in the cloth below.
+                if corners.iter().any(|p| dress.distance(*p) < 0.003) {
+                    continue;
+                }
+                let [a, b, c] = corners;
+                for p in [
+                    (a + b + c) / 3.0,
+                    (a + b) / 2.0,
+                    (b + c) / 2.0,
+                    (c + a) / 2.0,
+                ] {
+                    let gap = dress.distance(p);
+                    assert!(gap > 0.0, "at {p}: {gap}");
+                }
             }
         }
     }

@@ -86,8 +86,7 @@ pub(crate) fn band(
     let on_body = |(row, lie): &(&[Vec3], Lie)| -> Vec<Vec3> {
         let points = curve_in_space(row).into_iter();
         if run == Rows::Cornered {
-            let some = points.step_by(2);
-            return some.map(|p| laid(p, *lie, &on)).collect();
+            return points.map(|p| laid(p, *lie, &on)).collect();
         }
         let row = points.map(|p| laid(p, *lie, &on)).collect();
         let (Lie::At(gap) | Lie::Over(gap)) = *lie;
