@@ -61,6 +61,24 @@ fn files(folder: &Path) -> Vec<String> {
 }
 
 #[test]
+fn files_of_other_kinds_are_no_presets_and_say_how_they_are_drawn() {
+    let folder = folder();
+    for (file, option) in [
+        ("bob.style.ron", "--hair"),
+        ("small.strands.ron", "--hair"),
+        ("hair.tfx", "--hair"),
+        ("turn.motion.ron", "--motion"),
+        ("me.vrm", "--character"),
+        ("bust.obj", "--head"),
+    ] {
+        inkstrand(folder.path(), &["render", file])
+            .assert()
+            .failure()
+            .stderr(contains(format!("{option} {file}")).and(contains("no preset")));
+    }
+}
+
+#[test]
 fn a_preset_becomes_a_picture_named_after_it_in_the_current_folder() {
     let folder = folder();
     let here = tempfile::tempdir().unwrap();

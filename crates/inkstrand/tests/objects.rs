@@ -126,12 +126,16 @@ fn mistakes_of_their_presets_have_their_places() {
 #[test]
 fn what_is_for_one_head_is_refused() {
     let folder = folder(BOTH);
-    for arguments in [
-        &["render", "pair.ron", "--hair", "bob.style.ron"][..],
-        &["render", "pair.ron", "--guides", "9"],
+    for (option, value) in [
+        ("--hair", "bob.style.ron"),
+        ("--head", "x.obj"),
+        ("--character", "x.vrm"),
+        ("--motion", "x.motion.ron"),
+        ("--guides", "9"),
     ] {
-        let text = error(inkstrand(&folder, arguments));
-        assert!(text.contains("the preset names objects"), "{text}");
+        let text = error(inkstrand(&folder, &["render", "pair.ron", option, value]));
+        let names = format!("{option}: this preset draws objects");
+        assert!(text.contains(&names) && text.contains("a.ron"), "{text}");
     }
     let text = error(inkstrand(
         &folder,

@@ -3,10 +3,11 @@
 use super::{mistakes, preset_folder, read_text};
 use crate::Failure;
 use crate::cli::SceneOptions;
+use crate::paths::file_name;
 use crate::say::say;
 use effects::Registry;
 use effects::preset::PresetErrors;
-use stage::{Files, HairFrom, HeadColors, Preset, Stage};
+use stage::{Files, HairFrom, HeadColors, Preset, Stage, is_mesh_file};
 use std::path::Path;
 
 /// A preset's text, and what messages call it.
@@ -17,6 +18,9 @@ pub(super) struct Source {
 
 impl Source {
     pub fn read(path: &Path) -> Result<Self, Failure> {
+        if let Some(hint) = is_no_preset(path) {
+            return Err(Failure::Failed(hint));
+        }
         Ok(Self {
             name: path.display().to_string(),
             text: read_text(path).map_err(Failure::Failed)?,
@@ -46,6 +50,28 @@ impl Source {
     }
 }
 
+/// What a file is instead of a preset, by its name, and how it is drawn.
+fn is_no_preset(path: &Path) -> Option<String> {
+    let name = file_name(path);
+    let (what, option) = if name.ends_with(".style.ron") {
+        ("a hair style", "--hair")
+    } else if name.ends_with(".strands.ron") || name.ends_with(".tfx") {
+        ("hair", "--hair")
+    } else if name.ends_with(".motion.ron") {
+        ("a motion script", "--motion")
+    } else if name.ends_with(".vrm") {
+        ("a character", "--character")
+    } else if is_mesh_file(path) {
+        ("a mesh", "--head")
+    } else {
+        return None;
+    };
+    let path = path.display();
+    Some(format!(
+        "{path}: this is {what}, and no preset, which says how to draw it: `inkstrand render PRESET.ron {option} {path}`"
+    ))
+}
+
 fn failure(errors: PresetErrors) -> Failure {
     Failure::Mistakes(mistakes(&errors).collect())
 }
@@ -65,6 +91,7 @@ impl SceneOptions {
 
     /// Sets what is given in place of the preset's numbers.
     pub fn apply(&self, preset: &mut Preset) -> Result<(), String> {
+        self.check_objects(preset)?;
         let hair = &mut preset.sections.hair;
         hair.guides = self.guides.unwrap_or(hair.guides);
         if self.character.is_some() {
@@ -82,6 +109,27 @@ impl SceneOptions {
                 .map_err(|e| format!("--set {assignment}: {e}"))?;
         }
         Ok(())
+    }
+
+    /// Objects have what these options give in presets of their own.
+    fn check_objects(&self, preset: &Preset) -> Result<(), String> {
+        let Some(object) = preset.objects.first() else {
+            return Ok(());
+        };
+        let given = [
+            ("--hair", self.hair.is_some()),
+            ("--head", self.head.is_some()),
+            ("--character", self.character.is_some()),
+            ("--motion", self.motion.is_some()),
+            ("--guides", self.guides.is_some()),
+        ];
+        let given = given.iter().find(|(_, is_given)| *is_given);
+        let own = object.section.preset.as_deref().unwrap_or("its own.ron");
+        given.map_or(Ok(()), |(option, _)| {
+            Err(format!(
+                "{option}: this preset draws objects, and each has that in a preset of its own, such as {own}"
+            ))
+        })
     }
 }
 
