@@ -30,16 +30,23 @@ impl HeadFrame {
     /// The head of a mesh (a head, bust or body, Y up), of some roots, or of both.
     ///
     /// A mesh's head is what lies above its chin, found where the mesh narrows to a neck (the whole
-    /// mesh where it has none); with four roots or more only the mesh around them counts. Without a mesh, or
+    /// mesh where it has none); with four roots or more, or with some that are elsewhere, only the mesh around them counts. Without a mesh, or
     /// where its head does not match the roots, it is the sphere through the roots, whose radius is
     /// taken as 1/2.5 of the height. Without two different roots it is 0.24 m high.
     #[must_use]
     pub fn find(mesh: Option<&Mesh>, roots: &[Vec3]) -> Self {
         let scalp = sphere::fit(roots);
-        let told = scalp.filter(|_| roots.len() >= ENOUGH_ROOTS);
-        let around = told.map(|s| (s.center, REACH * s.radius));
+        let around = scalp.map(|s| (s.center, REACH * s.radius));
         let matches_scalp =
-            |height: f64| told.is_none_or(|s| (1.5..4.5).contains(&(height / s.radius)));
+            |height: f64| scalp.is_none_or(|s| (1.5..4.5).contains(&(height / s.radius)));
+        if roots.len() < ENOUGH_ROOTS
+            && let Some((center, height)) = mesh.and_then(|mesh| head_of_mesh(mesh, None))
+            && roots
+                .iter()
+                .all(|root| root.as_dvec3().distance(center) < height)
+        {
+            return Self::new(center, height);
+        }
         if let Some((center, height)) = mesh.and_then(|mesh| head_of_mesh(mesh, around))
             && matches_scalp(height)
         {
@@ -255,6 +262,12 @@ mod tests {
         let frame = HeadFrame::find(Some(&body), &pair);
         assert_eq!(frame, HeadFrame::find(Some(&body), &[]));
         assert!((frame.height - 0.24).abs() < 0.012, "{frame:?}");
+        // But elsewhere the head is theirs.
+        let frame = HeadFrame::find(Some(&body), &pair.map(|root| root + Vec3::X));
+        assert!(
+            frame.center.distance(Vec3::new(1.0, 1.62, 0.0)) < 1e-3,
+            "{frame:?}"
+        );
     }
 
     #[test]

@@ -353,7 +353,12 @@ impl Renderer {
     fn capacities(&self, tiles: u64) -> [u32; 2] {
         let chunks = self.scene.chunks.len() as u64 / 4;
         let triangles = self.scene.triangles.len() as u64 / 4;
-        let guess = [chunks * (8 + tiles / 128), triangles * 4 + 4 * tiles];
+        // Few chunks may each reach many tiles: a wide lock, and one seen from near.
+        let of_chunks = (chunks * (32 + tiles / 32)).min(1 << 20);
+        let guess = [
+            of_chunks.max(chunks * (8 + tiles / 128)),
+            triangles * 4 + 4 * tiles,
+        ];
         let limits = self.device.limits();
         let most = limits
             .max_storage_buffer_binding_size
