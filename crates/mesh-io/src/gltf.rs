@@ -63,6 +63,7 @@ pub fn from_bytes(bytes: &[u8], folder: &Path) -> Result<Model, GltfError> {
     let (meshes, deforms) = meshes::read(&document, &rig, &materials, &mut buffers, &mut notes)?;
     rig.deforms = deforms;
     rig.springs = springs::read(&document, &rig, &mut notes);
+    notes.extend(nodes::missing_bones(&document).take(MOST_NOTES));
 
     notes.append(&mut materials.notes);
     notes.truncate(MOST_NOTES);

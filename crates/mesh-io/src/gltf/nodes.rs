@@ -182,6 +182,23 @@ fn order(document: &Document, parents: &[Option<usize>]) -> Result<Vec<usize>, G
 
 /// The nodes of a humanoid's bones, as VRM says them.
 fn humanoid(document: &Document) -> BTreeMap<String, usize> {
+    let is_there = |(_, node): &(String, usize)| *node < document.nodes.len();
+    bones(document).filter(is_there).collect()
+}
+
+/// What to tell of a humanoid's bones whose nodes the file hasn't.
+pub(super) fn missing_bones(document: &Document) -> impl Iterator<Item = String> {
+    let nodes = document.nodes.len();
+    bones(document)
+        .filter(move |(_, node)| *node >= nodes)
+        .map(move |(bone, node)| {
+            let bone = shown(&bone);
+            format!("humanoid: `{bone}` is node {node}, and the file has {nodes}: the character has no such bone")
+        })
+}
+
+/// Bones and the numbers that VRM says are those of their nodes.
+fn bones(document: &Document) -> impl Iterator<Item = (String, usize)> {
     let vrm0 = document
         .extensions
         .vrm0
@@ -194,8 +211,7 @@ fn humanoid(document: &Document) -> BTreeMap<String, usize> {
         .iter()
         .flat_map(|vrm| &vrm.humanoid.human_bones);
     let vrm1 = vrm1.map(|(bone, own)| (bone.clone(), own.node));
-    let is_there = |(_, node): &(String, usize)| *node < document.nodes.len();
-    vrm0.chain(vrm1).filter(is_there).collect()
+    vrm0.chain(vrm1)
 }
 
 /// Characters of VRM 0.x face -Z.

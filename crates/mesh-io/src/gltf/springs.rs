@@ -16,16 +16,19 @@ pub(super) fn read(document: &Document, rig: &Rig, notes: &mut Vec<String>) -> S
     let mut roots = BTreeSet::new();
     let mut joints = BTreeSet::new();
     let mut colliders = Vec::new();
-    let (mut broken, mut other) = (0, 0);
+    let (mut broken, mut other, mut missing) = (0, 0, 0);
 
     if let Some(vrm) = &document.extensions.vrm0 {
         let groups = vrm.secondary_animation.bone_groups.iter();
-        roots.extend(
-            groups
-                .flat_map(|group| &group.bones)
-                .filter_map(|&bone| usize::try_from(bone).ok())
-                .filter(is_node),
-        );
+        let bones = groups.flat_map(|group| &group.bones);
+        // Below 0 there is none.
+        for node in bones.filter_map(|&bone| usize::try_from(bone).ok()) {
+            if is_node(&node) {
+                roots.insert(node);
+            } else {
+                missing += 1;
+            }
+        }
         for group in &vrm.secondary_animation.collider_groups {
             let node = usize::try_from(group.node).ok().filter(is_node);
             for ball in &group.colliders {
@@ -39,7 +42,13 @@ pub(super) fn read(document: &Document, rig: &Rig, notes: &mut Vec<String>) -> S
     }
     if let Some(own) = &document.extensions.spring_bone {
         let of_springs = own.springs.iter().flat_map(|spring| &spring.joints);
-        joints.extend(of_springs.map(|joint| joint.node).filter(is_node));
+        for joint in of_springs {
+            if is_node(&joint.node) {
+                joints.insert(joint.node);
+            } else {
+                missing += 1;
+            }
+        }
         for own in &own.colliders {
             if own.extensions.contains_key(EXTENDED) {
                 other += 1;
@@ -66,6 +75,11 @@ pub(super) fn read(document: &Document, rig: &Rig, notes: &mut Vec<String>) -> S
             roots.insert(node);
             joints.insert(node);
         }
+    }
+    if missing > 0 {
+        notes.push(format!(
+            "spring bones: {missing} of their joints are no nodes of the file: what hangs on them doesn't swing"
+        ));
     }
     if broken > 0 {
         notes.push(format!(
@@ -99,6 +113,8 @@ mod tests {
         (model.rig.unwrap().springs, model.notes)
     }
 
+    const MISSING: &str = "spring bones: 1 of their joints are no nodes of the file: what hangs on them doesn't swing";
+
     #[test]
     fn vrm_0_swings_with_all_that_is_below() {
         let (springs, notes) = springs(json!({"VRM": {"secondaryAnimation": {
@@ -114,7 +130,10 @@ mod tests {
         assert_eq!(springs.colliders, Vec::from_iter(ball));
         assert_eq!(
             notes,
-            ["spring bones: 2 colliders are left out, which have no node or no radius"]
+            [
+                MISSING,
+                "spring bones: 2 colliders are left out, which have no node or no radius"
+            ]
         );
     }
 
@@ -138,7 +157,10 @@ mod tests {
         assert_eq!(springs.colliders, expected.map(Option::unwrap));
         assert_eq!(
             notes,
-            ["spring bones: 2 colliders are left out, which are neither balls nor capsules"]
+            [
+                MISSING,
+                "spring bones: 2 colliders are left out, which are neither balls nor capsules"
+            ]
         );
     }
 }

@@ -192,6 +192,18 @@ fn meshes_lie_where_their_nodes_are() {
     assert_eq!(model.meshes[0].positions[1], Vec3::new(-2.0, 2.0, 0.0));
     assert_eq!(model.meshes[0].normals[0], -Vec3::Z);
     assert_eq!(model.rig.unwrap().node("head"), Some(1));
+    // A bone that isn't there is told.
+    file.json["extensions"] =
+        json!({"VRM": {"humanoid": {"humanBones": [{"bone": "head", "node": 99}]}}});
+    let model = file.read().unwrap();
+    assert!(
+        model
+            .notes
+            .iter()
+            .any(|note| note.contains("`head` is node 99")),
+        "{:?}",
+        model.notes
+    );
 }
 
 #[test]
