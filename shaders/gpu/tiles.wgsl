@@ -52,6 +52,7 @@ struct Samples {
     /// lower strand.
     stroke: vec4<u32>,
     owner: vec4<u32>,
+    /// Whether that stroke is an outline, of negative rank, on which no shadows fall.
     is_outline: vec4<bool>,
     red: vec4<f32>,
     green: vec4<f32>,

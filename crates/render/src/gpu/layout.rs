@@ -35,6 +35,7 @@ pub(super) struct GpuFrame {
     pub(super) writes_samples: u32,
     pub(super) time_s: f32,
     pub(super) same_strands_at: u32,
+    /// The shader's struct ends at a multiple of 16 bytes, as it does here.
     pub(super) outlines: u32,
 }
 

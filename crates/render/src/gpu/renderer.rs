@@ -349,7 +349,8 @@ impl Renderer {
     }
 
     /// Capacities of the tiles' lists, in entries: what the last frame needed and half as much, or a
-    /// guess. A tile whose list is full looks at everything, so that a guess that is too low costs time alone.
+    /// guess. A tile whose list is full looks at everything, so that a guess that is too low costs time alone,
+    /// but for drivers in software that break off loops which go on for too long: tiles are spoilt then.
     fn capacities(&self, tiles: u64) -> [u32; 2] {
         let chunks = self.scene.chunks.len() as u64 / 4;
         let triangles = self.scene.triangles.len() as u64 / 4;

@@ -11,8 +11,6 @@ use std::sync::Arc;
 use stroke_path::{Camera, OrbitView};
 
 const SAMPLES: u32 = 4;
-/// One of so many samples of hair may be another by rounding: drivers fuse multiplications and additions as they like, and a card did so four times as often as one in software.
-const OF: usize = 250;
 
 /// Adds all samples of some planes.
 fn add(planes: &SamplePlanes, told: &mut Vec<Sample>) {
@@ -84,13 +82,13 @@ fn every_feature_agrees() {
         let ids: Vec<Feature> = Feature::ALL.iter().copied().filter(|f| f.is_id()).collect();
         let is_other = |(a, b): &(&Sample, &Sample)| ids.iter().any(|id| differs(a, b, *id));
         let others = pairs().filter(is_other).count();
-        assert!(others * OF <= hair, "seed {seed}: {others} ids");
+        assert!(others <= 2, "seed {seed}: {others} ids");
         for &feature in Feature::ALL.iter().filter(|feature| !feature.is_id()) {
             let is_off =
                 |pair: &(&Sample, &Sample)| !is_other(pair) && differs(pair.0, pair.1, feature);
             let off: Vec<_> = pairs().filter(is_off).collect();
             assert!(
-                off.len() * OF <= hair,
+                off.len() <= 2,
                 "seed {seed}, {:?}: {feature:?} of {} samples, such as {:?}",
                 scene.order,
                 off.len(),

@@ -34,7 +34,7 @@ pub const SCRIPT: &str =
     "(version: 1, moves: [(move: turn, start: 0.1, length: 0.5, angle: 40)])\n";
 
 /// How long anything may take on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(240);
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A folder with the look, its style and its script.
 pub struct Looks {
@@ -101,7 +101,7 @@ pub fn recovering(
 ///
 /// # Panics
 ///
-/// When it isn't within four minutes.
+/// When it isn't within a minute.
 #[track_caller]
 pub fn wait_for(harness: &mut Harness<App>, what: &str, is_so: impl Fn(&App) -> bool) {
     let started = Instant::now();
