@@ -18,6 +18,8 @@ use std::path::Path;
 use crate::model::Model;
 use crate::read::shown;
 use document::Document;
+use error::MOST_M;
+use glam::Vec3;
 use materials::Materials;
 use numbers::Buffers;
 
@@ -76,7 +78,15 @@ pub fn from_bytes(bytes: &[u8], folder: &Path) -> Result<Model, GltfError> {
         notes,
     };
     model.put_to_rest();
-    Ok(model)
+    let is_near = |place: &Vec3| place.abs().cmple(Vec3::splat(MOST_M)).all();
+    match model
+        .meshes
+        .iter()
+        .find(|mesh| !mesh.positions.iter().all(is_near))
+    {
+        Some(mesh) => Err(GltfError::Far(shown(&mesh.name))),
+        None => Ok(model),
+    }
 }
 
 impl Model {

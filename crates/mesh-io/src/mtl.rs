@@ -72,12 +72,8 @@ impl Library {
         let folder = path.parent().unwrap_or(folder).to_owned();
         let mut alpha_map = false;
         let mut current = None;
-        for line in String::from_utf8_lossy(&bytes).lines() {
-            let (key, rest) = line
-                .trim()
-                .split_once(char::is_whitespace)
-                .unwrap_or_default();
-            let rest = rest.trim();
+        for (line, number) in String::from_utf8_lossy(&bytes).lines().zip(1..) {
+            let (key, rest) = word(line.trim());
             if key == "newmtl" {
                 self.materials.push(Material {
                     name: rest.to_owned(),
@@ -89,24 +85,24 @@ impl Library {
                 continue;
             }
             let Some(index) = current else { continue };
-            let numbers: Vec<f32> = rest
-                .split_whitespace()
-                .map_while(|word| word.parse().ok())
-                .collect();
-            let share = |number: f32| {
-                if number.is_finite() {
-                    number.clamp(0.0, 1.0)
-                } else {
-                    1.0
+            let material = &mut self.materials[index];
+            match (key, shares(rest.trim_start_matches("-halo")).as_deref()) {
+                ("Kd", Some(&[red, green, blue])) => {
+                    material.base_color[..3].copy_from_slice(&[red, green, blue]);
                 }
-            };
-            match (key, numbers.as_slice()) {
-                ("Kd", &[red, green, blue, ..]) => {
-                    let color = &mut self.materials[index].base_color;
-                    [color[0], color[1], color[2]] = [red, green, blue].map(share);
-                }
-                ("d", &[alpha, ..]) => self.materials[index].set_alpha(share(alpha)),
-                ("Tr", &[clear, ..]) => self.materials[index].set_alpha(1.0 - share(clear)),
+                ("Kd", Some(&[gray])) => material.base_color[..3].fill(gray),
+                ("d", Some(&[alpha])) => material.set_alpha(alpha),
+                ("Tr", Some(&[clear])) => material.set_alpha(1.0 - clear),
+                // Spectra and other coordinates too, which nothing here reads.
+                ("Kd" | "d" | "Tr", _) => self.note(format!(
+                    "{}:{number}: `{}` is left out: {} can be read",
+                    shown(name),
+                    shown(line.trim()),
+                    match key {
+                        "Kd" => "one or three numbers from 0 to 1",
+                        _ => "a number from 0 to 1",
+                    }
+                )),
                 ("map_Kd", _) => self.materials[index].texture = self.texture(&folder, rest),
                 ("map_d", _) => alpha_map = true,
                 _ => {}
@@ -173,6 +169,15 @@ fn is_there(folder: &Path, name: &str) -> bool {
 /// Programs on Windows separate folders their way.
 fn slashes(name: &str) -> String {
     name.replace('\\', "/")
+}
+
+/// All numbers of a line, from 0 to 1; `None` where a word is no finite number.
+fn shares(line: &str) -> Option<Vec<f32>> {
+    let words = line.split_whitespace().map(|word| {
+        let number: f32 = word.parse().ok()?;
+        number.is_finite().then(|| number.clamp(0.0, 1.0))
+    });
+    words.collect()
 }
 
 /// The name after a texture's options, and whether it is clamped.

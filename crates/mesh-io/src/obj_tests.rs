@@ -165,3 +165,23 @@ fn materials_make_meshes_and_come_from_their_libraries() {
     );
     assert!(notes.contains("there is no material `none`"), "{notes}");
 }
+
+#[test]
+fn numbers_of_materials_that_cannot_be_are_told_at_their_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let library =
+        "newmtl a\nKd 0.5\nd -halo 0.25\nnewmtl b\nKd 0.1 nan 0.3\n Kd spectral a.rfl\nd\nTr 7\n";
+    std::fs::write(folder.path().join("a.mtl"), library).unwrap();
+    let text = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n";
+    let model = from_text(text, folder.path()).unwrap();
+    let colors: Vec<_> = model.materials.iter().map(|it| it.base_color).collect();
+    assert_eq!(colors, [[0.5, 0.5, 0.5, 0.25], [1.0, 1.0, 1.0, 0.0]]);
+    assert_eq!(
+        model.notes,
+        [
+            "a.mtl:5: `Kd 0.1 nan 0.3` is left out: one or three numbers from 0 to 1 can be read",
+            "a.mtl:6: `Kd spectral a.rfl` is left out: one or three numbers from 0 to 1 can be read",
+            "a.mtl:7: `d` is left out: a number from 0 to 1 can be read",
+        ]
+    );
+}

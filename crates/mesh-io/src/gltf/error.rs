@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use crate::read::ReadError;
 
+/// Meshes lie no farther from the origin, m: single precision knows metres there no more.
+pub(super) const MOST_M: f32 = 1e8;
+
 /// Why a glTF file gives no meshes, or no motion.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -73,6 +76,12 @@ pub enum GltfError {
         /// Its number.
         usize,
     ),
+    /// A mesh whose nodes or joints put it out of the world.
+    #[error("mesh{} lies farther than {MOST_M} m away where its nodes and joints put it at rest", in_quotes(.0))]
+    Far(
+        /// Its name; may be empty.
+        String,
+    ),
     /// Something names a part that is not there, or another of a kind that it can't be.
     #[error("{of} {index}: {source}")]
     Part {
@@ -107,7 +116,7 @@ pub enum GltfError {
     },
 }
 
-fn in_quotes(name: &str) -> String {
+pub(super) fn in_quotes(name: &str) -> String {
     match name {
         "" => String::new(),
         name => format!(" `{name}`"),

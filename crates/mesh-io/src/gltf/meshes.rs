@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use glam::{Vec2, Vec3};
 
 use super::document::{Document, Primitive};
-use super::error::{GltfError, PartError};
+use super::error::{GltfError, PartError, in_quotes};
 use super::materials::Materials;
 use super::numbers::{Buffers, part};
 use crate::model::{Attribute, Mesh};
@@ -56,7 +56,13 @@ pub(super) fn read(
                     source,
                 })?;
             match read {
-                Some((mesh, deform)) => {
+                Some((mesh, deform, free)) => {
+                    if free > 0 {
+                        notes.push(format!(
+                            "mesh {number}{}, primitive {index}: {free} vertices have no weight, and go with the skin's first joint",
+                            in_quotes(&shown(&name))
+                        ));
+                    }
                     meshes.push(Mesh {
                         name: name.clone(),
                         ..mesh
@@ -122,12 +128,12 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The mesh and what moves it; `None` where there is no triangle.
+    /// The mesh, what moves it, and how many of its vertices no joint does although it has a skin; `None` where there is no triangle.
     fn read(
         &self,
         materials: &Materials,
         buffers: &mut Buffers,
-    ) -> Result<Option<(Mesh, Deform)>, PartError> {
+    ) -> Result<Option<(Mesh, Deform, usize)>, PartError> {
         let primitive = self.primitive;
         let mode = primitive.mode.unwrap_or(4);
         if !(4..=6).contains(&mode) {
@@ -197,17 +203,18 @@ impl Reader<'_> {
         }
         mesh.mend_normals();
 
+        let (influences, free) = match self.joints {
+            Some(joints) => self.influences(joints, count, &kept, buffers)?,
+            None => Default::default(),
+        };
         let deform = Deform {
             positions: mesh.positions.clone(),
             normals: mesh.normals.clone(),
-            influences: match self.joints {
-                Some(joints) => kept.pick(&self.influences(joints, count, buffers)?),
-                None => Vec::new(),
-            },
+            influences,
             morphs: self.morphs(count, &kept, buffers)?,
             ..Deform::default()
         };
-        Ok(Some((mesh, deform)))
+        Ok(Some((mesh, deform, free)))
     }
 
     /// A list with an element a vertex.
@@ -260,13 +267,14 @@ impl Reader<'_> {
         })
     }
 
-    /// The eight joints that move each vertex most, with weights whose sum is 1.
+    /// The eight joints that move each vertex most, with weights whose sum is 1, and how many vertices have none.
     fn influences(
         &self,
         joints: usize,
         count: usize,
+        kept: &Kept,
         buffers: &mut Buffers,
-    ) -> Result<Vec<[(u16, f32); 8]>, PartError> {
+    ) -> Result<(Vec<[(u16, f32); 8]>, usize), PartError> {
         let mut all: Vec<Vec<(u16, f32)>> = vec![Vec::new(); count];
         for set in 0.. {
             let names = [format!("JOINTS_{set}"), format!("WEIGHTS_{set}")];
@@ -304,7 +312,9 @@ impl Reader<'_> {
             }
             influences
         };
-        Ok(all.into_iter().map(most).collect())
+        let all = kept.pick(&all);
+        let free = all.iter().filter(|own| own.is_empty()).count();
+        Ok((all.into_iter().map(most).collect(), free))
     }
 
     fn morphs(

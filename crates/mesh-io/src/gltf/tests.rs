@@ -306,6 +306,26 @@ fn skinned(weights: [f32; 4], animation: Value, more: impl FnOnce(&mut File) -> 
     file
 }
 
+#[test]
+fn vertices_without_weights_are_told() {
+    let mut file = skinned([0.5; 4], json!({"channels": []}), |_| json!([]));
+    assert_eq!(file.read().unwrap().notes, [""; 0]);
+    let weights = file.floats("VEC4", 4, &[0.0; 16]);
+    file.attribute("WEIGHTS_0", weights);
+    let told = "mesh 0, primitive 0: 4 vertices have no weight, and go with the skin's first joint";
+    assert_eq!(file.read().unwrap().notes, [told]);
+}
+
+#[test]
+fn meshes_out_of_the_world_are_refused() {
+    let mut file = File::triangle();
+    file.json["nodes"][0]["translation"] = json!([0.0, 1e7, 0.0]);
+    file.read().unwrap();
+    file.json["meshes"][0]["name"] = json!("hat");
+    file.json["nodes"][0]["translation"] = json!([0.0, 1e30, 0.0]);
+    file.refused("mesh `hat` lies farther than 100000000 m away");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
