@@ -1,7 +1,7 @@
 //! The preset's files: hair and head in, strands with their sizes out.
 
 use crate::files::{Files, StageError};
-use crate::hair::HairModel;
+use crate::hair::{HairModel, head_of};
 use crate::head::HeadModel;
 use crate::lids::lids;
 use crate::meant::meant;
@@ -9,8 +9,8 @@ use crate::mesh_hair;
 use crate::names::Names;
 use crate::painted::{self, PaintedMesh};
 use crate::preset::{
-    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HeadColors, HeadSection,
-    HeadShape, Preset, UpAxis,
+    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HairSection, HeadColors,
+    HeadSection, HeadShape, Preset, UpAxis,
 };
 use crate::skeleton::Skeleton;
 use crate::style;
@@ -137,6 +137,10 @@ pub(crate) fn head(
             path.display()
         ));
     }
+    let frame = match &own_hair {
+        Some(_) => without_kept(&model, &path, orientation, &preset.sections.hair, &hidden),
+        None => None,
+    };
     let mut mesh = match is_gone.iter().flatten().any(|gone| *gone) {
         false => mesh,
         true => {
@@ -169,7 +173,8 @@ pub(crate) fn head(
             mesh.is_turned = true;
         }
     }
-    let head = HeadModel::from(mesh);
+    let mut head = HeadModel::from(mesh);
+    head.frame = frame.map(head_of);
     let beside = beside(preset, files, orientation, &head, notes)?;
     let mut head = head.painted(painted, beside);
     let mut no_body = is_gone;
@@ -207,6 +212,25 @@ pub(crate) fn head(
         hair,
         orientation: *orientation,
     })
+}
+
+/// Where the head is of a character some of whose hair stays a mesh: a ribbon makes it no larger. Nothing where none stays.
+fn without_kept(
+    model: &Model,
+    path: &Path,
+    orientation: &Orientation,
+    section: &HairSection,
+    hidden: &[Vec<bool>],
+) -> Option<HeadFrame> {
+    section.keep.as_ref()?;
+    let all = HairSection {
+        keep: None,
+        ..section.clone()
+    };
+    let all = mesh_hair::find(model, path, orientation, &all, hidden).ok()??;
+    let is_gone = either(hidden, &all.is_hair);
+    let bare = shape_of(corners(model, orientation, &is_gone, false))?;
+    Some(HeadFrame::find(Some(&bare), &[]))
 }
 
 /// Of a head that is one of several files, as eyes and lashes are in OBJ, a sentence that names those which aren't drawn.

@@ -44,6 +44,9 @@ fn what_is_called_hair_becomes_strands_and_is_hidden() {
     )
     .unwrap();
     assert_eq!(triangles(&kept), with_bow);
+    // It reaches over the head, which is as high as without it.
+    assert_eq!(kept.head(), both.head());
+    assert!(own.head().height_m > both.head().height_m);
     // By its material, and by its bone.
     assert_eq!(
         scene(folder.path(), "from: character, meshes: \"Threads\"")
