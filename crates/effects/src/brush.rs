@@ -10,7 +10,7 @@ use crate::choices;
 use crate::param::{ParamKind, Value};
 use crate::section;
 use crate::section::ParamType;
-use crate::texture::{Image, ImageError};
+use crate::texture::{Image, ImageError, choose, least, most};
 use crate::wgsl::hash;
 use mark::Mark;
 use std::sync::Arc;
@@ -256,20 +256,57 @@ pub struct BrushPlace {
     pub radius_px: f32,
 }
 
-impl BrushPlace {
-    /// The same place across an outline, whose stroke shows outside of a clump of this radius (px) alone: between the clump's edge and its own.
+/// `N` places beside strokes of a strand, number by number as [`BrushPlace`] has them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BrushPlaces<const N: usize> {
+    /// Length of the strand up to there, head heights.
+    pub s: [f32; N],
+    /// Length of the whole strand, head heights.
+    pub whole: [f32; N],
+    /// Place across the stroke, -1 to 1.
+    pub v: [f32; N],
+    /// Pixels that a head's height takes there.
+    pub pixels: [f32; N],
+    /// Radius of the stroke there, pixels.
+    pub radius_px: [f32; N],
+}
+
+impl<const N: usize> BrushPlaces<N> {
+    /// Numbers that are all 0.
+    pub const ZERO: Self = Self {
+        s: [0.0; N],
+        whole: [0.0; N],
+        v: [0.0; N],
+        pixels: [0.0; N],
+        radius_px: [0.0; N],
+    };
+
+    /// The same places across outlines, whose strokes show outside of clumps of these radii (px) alone: between the clump's edge and their own.
+    #[inline(always)] // into loops that are compiled for other instructions than their crate
     #[must_use]
-    pub fn on_outline(self, clump_px: f32) -> Self {
-        let width = self.radius_px - clump_px;
-        if clump_px <= 0.0 || width <= 0.0 {
-            return self; // all of the stroke shows
+    pub fn on_outline(mut self, clump_px: &[f32; N]) -> Self {
+        for k in 0..N {
+            let (v, radius, clump) = (self.v[k], self.radius_px[k], clump_px[k]);
+            let width = radius - clump;
+            let side = choose(v < 0.0, -1.0, 1.0);
+            let from_middle = 2.0 * (v.abs() * radius - clump) / width - 1.0;
+            // Where there is no clump all of the stroke shows.
+            let is_beside = (clump > 0.0) & (width > 0.0);
+            self.v[k] = choose(is_beside, side * least(most(from_middle, -1.0), 1.0), v);
+            self.radius_px[k] = choose(is_beside, 0.5 * width, radius);
         }
-        let side = if self.v < 0.0 { -1.0 } else { 1.0 };
-        let from_middle = 2.0 * (self.v.abs() * self.radius_px - clump_px) / width - 1.0;
+        self
+    }
+}
+
+impl From<BrushPlace> for BrushPlaces<1> {
+    fn from(place: BrushPlace) -> Self {
         Self {
-            v: side * from_middle.clamp(-1.0, 1.0),
-            radius_px: 0.5 * width,
-            ..self
+            s: [place.s],
+            whole: [place.whole],
+            v: [place.v],
+            pixels: [place.pixels],
+            radius_px: [place.radius_px],
         }
     }
 }
@@ -278,11 +315,12 @@ impl BrushPlace {
 const TINY: f32 = 1e-6;
 
 /// How many whole marks there are where that many would fit, and how much of one more: the one number goes over into the other where both are as near.
+#[inline(always)]
 fn whole_marks(fitting: f32) -> (f32, f32) {
     // No more than can be told apart.
-    let fitting = fitting.clamp(1.0, 1e6);
+    let fitting = least(most(fitting, 1.0), 1e6);
     let count = fitting.floor();
-    let more = ((fitting - count - 0.4) / 0.2).clamp(0.0, 1.0);
+    let more = least(most((fitting - count - 0.4) / 0.2, 0.0), 1.0);
     (count, more * more * (3.0 - 2.0 * more))
 }
 
@@ -293,55 +331,116 @@ impl StrandBrush<'_> {
     /// How much of a pixel at a place is covered, 0 to 1. `shaders/gpu/brushed.wgsl` does the same.
     #[must_use]
     pub fn coverage(&self, at: &BrushPlace) -> f32 {
+        let [coverage] = self.coverages(&BrushPlaces::from(*at));
+        coverage
+    }
+
+    /// The same at `N` places, by loops that compile to vector instructions.
+    #[inline(always)] // into loops that are compiled for other instructions than their crate
+    #[must_use]
+    pub fn coverages<const N: usize>(&self, at: &BrushPlaces<N>) -> [f32; N] {
+        let (mut x, mut length) = ([0.0; N], [0.0; N]);
         match self.lie {
-            Lie::Repeated { length } => self.laid(at, at.s / length + self.start, length, true),
-            Lie::Stretched => {
-                let length = at.whole.max(TINY);
-                self.laid(at, at.s / length, length, false)
-            }
-            Lie::Whole { length, parts } => {
-                let parts = parts as f32;
-                let first = (self.start * parts).floor();
-                let with = |count: f32| {
-                    let mark = at.whole.max(TINY) / count;
-                    self.laid(at, (first + at.s / mark) / parts, mark * parts, true)
-                };
-                let (count, more) = whole_marks(at.whole / length);
-                match more {
-                    0.0 => with(count),
-                    1.0 => with(count + 1.0),
-                    _ => with(count) * (1.0 - more) + with(count + 1.0) * more,
+            Lie::Repeated { length: copy } => {
+                for k in 0..N {
+                    length[k] = copy;
+                    x[k] = at.s[k] / copy + self.start;
                 }
+                self.laid(at, &x, &length, true)
+            }
+            Lie::Stretched => {
+                for k in 0..N {
+                    length[k] = most(at.whole[k], TINY);
+                    x[k] = at.s[k] / length[k];
+                }
+                self.laid(at, &x, &length, false)
+            }
+            Lie::Whole {
+                length: own,
+                parts: own_parts,
+            } => {
+                let parts = own_parts as f32;
+                let first = (self.start * parts).floor();
+                let (mut count, mut more) = ([0.0; N], [0.0; N]);
+                let mut is_mixed = false;
+                for k in 0..N {
+                    (count[k], more[k]) = whole_marks(at.whole[k] / own);
+                    is_mixed |= more[k] > 0.0;
+                }
+                let mut with = |count: &[f32; N]| {
+                    for k in 0..N {
+                        let mark = most(at.whole[k], TINY) / count[k];
+                        length[k] = mark * parts;
+                        x[k] = (first + at.s[k] / mark) / parts;
+                    }
+                    self.laid(at, &x, &length, true)
+                };
+                let mut coverage = with(&count);
+                if is_mixed {
+                    for count in &mut count {
+                        *count += 1.0;
+                    }
+                    let one_more = with(&count);
+                    for k in 0..N {
+                        coverage[k] = coverage[k] * (1.0 - more[k]) + one_more[k] * more[k];
+                    }
+                }
+                coverage
             }
         }
     }
 
-    /// How much of a pixel is covered where the texture lies so that the place is at `x` of it, and a copy is `length` long (head heights).
+    /// How much of a pixel is covered where the texture lies so that the places are at `x` of it, and a copy is `length` long (head heights).
     ///
     /// A pixel covers a box of the picture, which is long and thin where the stroke is: it is looked up at several places along its longer side,
     /// in copies whose texels are as large as the shorter one.
-    fn laid(&self, at: &BrushPlace, x: f32, length: f32, repeats: bool) -> f32 {
+    #[inline(always)]
+    fn laid<const N: usize>(
+        &self,
+        at: &BrushPlaces<N>,
+        x: &[f32; N],
+        length: &[f32; N],
+        repeats: bool,
+    ) -> [f32; N] {
         let [width, height] = self.mark.size();
-        let y = 0.5 + 0.5 * self.side * at.v;
-        // Texels of a pixel along the stroke and across it.
-        let along = (width / (at.pixels * length).max(TINY)).min(width);
-        let across = (height / (2.0 * at.radius_px).max(TINY)).min(height);
-        let longer = along.max(across);
-        let texels = along.min(across).max(longer / MOST_LOOKUPS).max(1.0);
-        // Not a whole number, as the last lookup counts for its part of the box alone: their number changes without a jump.
-        let parts = (longer / texels).clamp(1.0, MOST_LOOKUPS);
-        let blurred = self.mark.blurred(texels);
-        let (mut sum, mut from) = (0.0, 0.0);
-        while from < parts {
-            let part = (parts - from).min(1.0);
-            let shift = (from + 0.5 * part - 0.5 * parts) * texels;
-            let place = match along > across {
-                true => [x + shift / width, y],
-                false => [x, y + shift / height],
-            };
-            sum += part * blurred.at(place, repeats);
+        let (mut y, mut texels, mut parts) = ([0.0; N], [0.0; N], [0.0; N]);
+        // Texels of the side of the picture along which the box is longer, and 1 for that one.
+        let (mut side, mut is_longer) = ([0.0; N], [[0.0; N]; 2]);
+        let mut lookups = 0.0;
+        for k in 0..N {
+            y[k] = 0.5 + 0.5 * self.side * at.v[k];
+            // Texels of a pixel along the stroke and across it.
+            let along = least(width / most(at.pixels[k] * length[k], TINY), width);
+            let across = least(height / most(2.0 * at.radius_px[k], TINY), height);
+            let longer = most(along, across);
+            texels[k] = most(most(least(along, across), longer / MOST_LOOKUPS), 1.0);
+            // Not a whole number, as the last lookup counts for its part of the box alone: their number changes without a jump.
+            parts[k] = least(most(longer / texels[k], 1.0), MOST_LOOKUPS);
+            lookups = most(parts[k], lookups);
+            side[k] = choose(along > across, width, height);
+            is_longer[0][k] = choose(along > across, 1.0, 0.0);
+            is_longer[1][k] = 1.0 - is_longer[0][k];
+        }
+        let blurred = self.mark.blurred(&texels);
+        let (mut sum, mut from) = ([0.0; N], 0.0);
+        while from < lookups {
+            let (mut part, mut place) = ([0.0; N], [*x, y]);
+            for k in 0..N {
+                // Nothing of what has had all its lookups.
+                part[k] = most(least(parts[k] - from, 1.0), 0.0);
+                let shift = (from + 0.5 * part[k] - 0.5 * parts[k]) * texels[k];
+                place[0][k] += shift / side[k] * is_longer[0][k];
+                place[1][k] += shift / side[k] * is_longer[1][k];
+            }
+            let coverage = blurred.at([&place[0], &place[1]], repeats);
+            for k in 0..N {
+                sum[k] += part[k] * coverage[k];
+            }
             from += 1.0;
         }
-        sum / parts
+        for k in 0..N {
+            sum[k] /= parts[k];
+        }
+        sum
     }
 }

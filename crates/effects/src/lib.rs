@@ -64,7 +64,7 @@ mod variation;
 mod varied;
 pub mod wgsl;
 
-pub use brush::{BrushPlace, BrushSection, BrushTexture, Fit, StrandBrush, Tool};
+pub use brush::{BrushPlace, BrushPlaces, BrushSection, BrushTexture, Fit, StrandBrush, Tool};
 pub use color::{linear_from_srgb, parse_hex, to_hex};
 pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Reach, StrandJoints, StrokeEffect};
 pub use joints::{Input, InputSet, Joints};

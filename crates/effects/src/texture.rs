@@ -3,8 +3,8 @@
 mod image;
 mod ramp;
 
-pub(crate) use image::nearest;
 pub use image::{Blurred, Image, ImageError};
+pub(crate) use image::{choose, index, least, log_to_two_from_one, most, nearest};
 pub use ramp::{Ramp, Row};
 
 use crate::lanes::widest;

@@ -1,7 +1,7 @@
 //! Layers whose strokes leave some of what they reach bare: their brushes, and where along its strand each joint is.
 
 use crate::frame::{Frame, Object};
-use effects::{BrushPlace, BrushTexture, StrandBrush, layer_seed, strand_seed};
+use effects::{BrushTexture, StrandBrush, layer_seed, strand_seed};
 use std::sync::Arc;
 
 /// What brushes leave of strokes. By default there are none, and strokes are whole.
@@ -47,19 +47,6 @@ impl AlongStrand {
     pub(crate) fn is_valid(&self) -> bool {
         let is_length = |number: f32| (0.0..=f32::MAX).contains(&number);
         is_length(self.s) && is_length(self.whole) && is_length(self.pixels)
-    }
-
-    /// The place on the way to another joint, beside a stroke with these radii (px) at both.
-    #[inline]
-    pub(crate) fn between(&self, next: &Self, way: f32, v: f32, radii: [f32; 2]) -> BrushPlace {
-        let mix = |from: f32, to: f32| from + way * (to - from);
-        BrushPlace {
-            s: mix(self.s, next.s),
-            whole: mix(self.whole, next.whole),
-            v,
-            pixels: mix(self.pixels, next.pixels),
-            radius_px: mix(radii[0], radii[1]),
-        }
     }
 }
 

@@ -343,6 +343,7 @@ impl Frame<'_> {
             segments: self.parts.segments.list(),
             origin,
             stack: &self.stacks[0],
+            instructions: self.instructions,
         }
     }
 }

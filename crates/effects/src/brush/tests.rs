@@ -1,5 +1,6 @@
 use super::*;
 use crate::preset::Reader;
+use proptest::prelude::*;
 
 const TOOLS: [Tool; 6] = [
     Tool::Pencil,
@@ -344,6 +345,41 @@ fn nothing_jumps_as_strokes_grow() {
                     assert!(jump < 0.004, "{kind:?}, {seed}, {v}, {pixels}: {jump}");
                 }
             }
+        }
+    }
+}
+
+proptest! {
+    /// What the others ask for, which copies and how many lookups, makes no difference.
+    #[test]
+    fn eight_places_at_once_are_each_by_itself(
+        kind in prop::sample::select(TOOLS.to_vec()),
+        fit in prop::option::of(prop::sample::select(vec![Fit::Repeat, Fit::Stretch, Fit::Whole])),
+        seed: u32,
+        places in prop::collection::vec((-0.5..3.0_f32, 0.0..2.0_f32, -1.2..1.2_f32, 0.0..900.0_f32, prop_oneof![Just(0.0), 0.05..60.0_f32], 0.0..30.0_f32), 8),
+    ) {
+        let brush = BrushTexture::of_tool(&BrushSection { fit, ..section(kind) }).unwrap();
+        let strand = brush.of_strand(seed);
+        let mut all = BrushPlaces::<8>::ZERO;
+        let mut clump_px = [0.0; 8];
+        for (k, &(s, whole, v, pixels, radius_px, clump)) in places.iter().enumerate() {
+            (all.s[k], all.whole[k], all.v[k], all.pixels[k], all.radius_px[k]) = (s, whole, v, pixels, radius_px);
+            clump_px[k] = clump;
+        }
+        let (coverages, of_outlines) = (strand.coverages(&all), strand.coverages(&all.on_outline(&clump_px)));
+        for (k, &(s, whole, v, pixels, radius_px, clump)) in places.iter().enumerate() {
+            let own = BrushPlace { s, whole, v, pixels, radius_px };
+            prop_assert_eq!(coverages[k].to_bits(), strand.coverage(&own).to_bits());
+            let outline = BrushPlaces::from(own).on_outline(&[clump]);
+            let width = radius_px - clump;
+            if clump > 0.0 && width > 0.0 {
+                let from_middle = 2.0 * (v.abs() * radius_px - clump) / width - 1.0;
+                prop_assert_eq!(outline.v[0].abs(), from_middle.clamp(-1.0, 1.0).abs());
+                prop_assert_eq!(outline.radius_px[0], 0.5 * width);
+            } else {
+                prop_assert_eq!(outline, BrushPlaces::from(own));
+            }
+            prop_assert_eq!(of_outlines[k].to_bits(), strand.coverages(&outline)[0].to_bits());
         }
     }
 }

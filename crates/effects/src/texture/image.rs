@@ -153,14 +153,15 @@ impl Image {
 
 /// WGSL's `log_to_two` of 1 or more, which triangle by triangle would take longer than all else that is worked out for a picture: the same bits, as the
 /// exponent is taken off exactly.
-#[inline]
-fn log_to_two_from_one(x: f32) -> f32 {
+#[inline(always)]
+pub(crate) fn log_to_two_from_one(x: f32) -> f32 {
     const FRACTION: u32 = (1 << 23) - 1;
     let bits = x.to_bits();
     let one_to_two = f32::from_bits(bits & FRACTION | 1.0_f32.to_bits());
     let is_above = one_to_two >= std::f32::consts::SQRT_2;
     let m = choose(is_above, 0.5 * one_to_two, one_to_two);
-    let e = (bits >> 23) as f32 - 127.0 + choose(is_above, 1.0, 0.0);
+    // By way of a signed number, which is one instruction.
+    let e = (bits >> 23) as i32 as f32 - 127.0 + choose(is_above, 1.0, 0.0);
     let z = (m - 1.0) / (m + 1.0);
     let w = z * z;
     e + z
@@ -205,18 +206,10 @@ impl Blurred<'_> {
         let mut share = [0.0; NUMBERS];
         let (mut first, mut second) = ([0; NUMBERS], [0; NUMBERS]);
         for k in 0..NUMBERS {
-            let (place, side) = (places[k], self.sides[k]);
-            // What is no number is 0.
-            let place = choose(repeats, place - place.floor(), place);
-            let texel = least(most(place, 0.0), 1.0) * side - 0.5;
-            let (before, last) = (texel.floor(), side - 1.0);
-            share[k] = texel - before;
-            let beyond = choose(repeats, last, 0.0);
-            let texel = index(choose(before < 0.0, beyond, before));
-            first[k] = texel.wrapping_mul(self.strides[k]);
-            let beyond = choose(repeats, 0.0, last);
-            let texel = index(choose(before + 1.0 > last, beyond, before + 1.0));
-            second[k] = texel.wrapping_mul(self.strides[k]);
+            let [before, after, part] = nearest(places[k], self.sides[k], repeats);
+            share[k] = part;
+            first[k] = index(before).wrapping_mul(self.strides[k]);
+            second[k] = index(after).wrapping_mul(self.strides[k]);
         }
         // By way of memory: compilers would work out some by themselves where they are needed, in place of all at once.
         let (share, first, second) = black_box((share, first, second));
@@ -246,25 +239,25 @@ impl Blurred<'_> {
 
 /// The one or the other, both worked out: a branch would keep a loop from compiling to vector instructions.
 #[inline(always)]
-fn choose(condition: bool, then: f32, otherwise: f32) -> f32 {
+pub(crate) fn choose(condition: bool, then: f32, otherwise: f32) -> f32 {
     std::hint::select_unpredictable(condition, then, otherwise)
 }
 
 /// The lesser of two numbers.
 #[inline(always)]
-fn least(a: f32, b: f32) -> f32 {
+pub(crate) fn least(a: f32, b: f32) -> f32 {
     choose(a < b, a, b)
 }
 
 /// The greater of two numbers.
 #[inline(always)]
-fn most(a: f32, b: f32) -> f32 {
+pub(crate) fn most(a: f32, b: f32) -> f32 {
     choose(a > b, a, b)
 }
 
 /// A whole number from 0 to some millions. By the sum with a number whose last bit is 1, as a cast is no vector instruction.
 #[inline(always)]
-fn index(whole: f32) -> u32 {
+pub(crate) fn index(whole: f32) -> u32 {
     const WHOLE: f32 = 8_388_608.0;
     (whole + WHOLE).to_bits() - WHOLE.to_bits()
 }
@@ -316,24 +309,19 @@ fn numbers(halves: &[f16; 4]) -> [f32; 4] {
     numbers
 }
 
-/// The two texels nearest to a place along a side, and how far it is from the first's middle to the second's.
-#[inline]
-pub(crate) fn nearest(place: f32, side: usize, repeats: bool) -> (usize, usize, f32) {
-    let place = if repeats {
-        place - place.floor()
-    } else {
-        place.clamp(0.0, 1.0)
-    };
-    let texel = place * side as f32 - 0.5;
-    let first = texel.floor();
-    let share = texel - first;
-    let last = side as i32 - 1;
-    let index = |i: i32| match i {
-        _ if (0..=last).contains(&i) => i as usize,
-        _ if repeats => i.rem_euclid(side as i32) as usize,
-        _ => i.clamp(0, last) as usize,
-    };
-    (index(first as i32), index(first as i32 + 1), share)
+/// The two texels nearest to a place along a side, and how far it is from the first's middle to the second's. A place that is no number is 0.
+#[inline(always)]
+pub(crate) fn nearest(place: f32, side: f32, repeats: bool) -> [f32; 3] {
+    let place = choose(repeats, place - place.floor(), place);
+    let texel = least(most(place, 0.0), 1.0) * side - 0.5;
+    let (before, last) = (texel.floor(), side - 1.0);
+    let first = choose(before < 0.0, choose(repeats, last, 0.0), before);
+    let second = choose(
+        before + 1.0 > last,
+        choose(repeats, 0.0, last),
+        before + 1.0,
+    );
+    [first, second, texel - before]
 }
 
 /// A copy of another size: each texel is the mean of what it covers.
@@ -520,7 +508,7 @@ mod tests {
             let image = image([7, 5], &texels);
             let blurred = image.blurred(size);
             let of_level = |level: &Level| {
-                let [across, down] = [0, 1].map(|i| nearest(place[i], level.size[i], repeats));
+                let [across, down] = [0, 1].map(|i| one_by_one(place[i], level.size[i], repeats));
                 let row = |y: usize| {
                     let texel = |x: usize| level.texels[y * level.size[0] + x].map(f32::from);
                     mix(texel(across.0), texel(across.1), across.2)
@@ -538,6 +526,25 @@ mod tests {
             };
             prop_assert_eq!(blurred.at(place, repeats), expected);
         }
+    }
+
+    /// As [`nearest`] has them, by whole numbers.
+    fn one_by_one(place: f32, side: usize, repeats: bool) -> (usize, usize, f32) {
+        let place = if repeats {
+            place - place.floor()
+        } else {
+            place.clamp(0.0, 1.0)
+        };
+        let texel = place * side as f32 - 0.5;
+        let first = texel.floor();
+        let share = texel - first;
+        let last = side as i32 - 1;
+        let index = |i: i32| match i {
+            _ if (0..=last).contains(&i) => i as usize,
+            _ if repeats => i.rem_euclid(side as i32) as usize,
+            _ => i.clamp(0, last) as usize,
+        };
+        (index(first as i32), index(first as i32 + 1), share)
     }
 
     fn mix(from: [f32; 4], to: [f32; 4], share: f32) -> [f32; 4] {

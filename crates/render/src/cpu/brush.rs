@@ -4,10 +4,10 @@ use super::reached::Reached;
 use super::segment::Stroke;
 use super::strand::TileContext;
 use super::stroke::{Placed, Places};
-use super::tile::{LANES, LaneMask, Lanes, Mask, ROWS, Stack, cells, columns};
+use super::tile::{LANES, LaneMask, Lanes, Mask, ROWS, Stack, cells, columns, select};
 use crate::brushwork::BrushedLayer;
 use crate::drawing::scatter;
-use effects::StrandBrush;
+use effects::{BrushPlaces, StrandBrush};
 
 /// A stroke's brush.
 pub(super) struct StrokeBrush<'a> {
@@ -67,26 +67,99 @@ impl<'a> StrokeBrush<'a> {
         way: &Lanes,
         across: &Lanes,
     ) -> LaneMask {
-        let drawing = self.scene.drawing;
-        let mut bare = [0; LANES];
+        let (mut from, mut to) = (Ends::ZERO, Ends::ZERO);
+        let mut before = None;
         for k in 0..LANES {
             if samples[k] == 0 {
                 continue;
             }
-            let segment = &self.scene.segments[segments[k] as usize];
-            let joints = segment.joints();
-            let [from, to] = joints.map(|joint| &drawing.brushwork.joints[joint]);
-            let radii = segment.radii(drawing, self.scene.strokes);
-            let mut place = from.between(to, way[k], across[k], radii);
-            if self.is_outline {
-                let [from, to] = joints.map(|joint| drawing.clump[joint].radius);
-                place = place.on_outline(from + way[k] * (to - from));
+            // Most samples of a cell are of one segment.
+            match before {
+                Some(other) if segments[other] == segments[k] => {
+                    from.copy(other, k);
+                    to.copy(other, k);
+                }
+                _ => self.load(segments[k], k, &mut from, &mut to),
             }
-            if self.brush.coverage(&place) <= self.parts[k] {
-                bare[k] = u32::MAX;
-            }
+            before = Some(k);
+        }
+        let mut places = BrushPlaces {
+            s: between(way, &from.s, &to.s),
+            whole: between(way, &from.whole, &to.whole),
+            v: *across,
+            pixels: between(way, &from.pixels, &to.pixels),
+            radius_px: between(way, &from.radius_px, &to.radius_px),
+        };
+        if self.is_outline {
+            places = places.on_outline(&between(way, &from.clump_px, &to.clump_px));
+        }
+        let coverage = self.brush.coverages(&places);
+        let mut bare = *samples;
+        for k in 0..LANES {
+            bare[k] &= select(coverage[k] <= self.parts[k], u32::MAX, 0);
         }
         bare
+    }
+
+    /// What the joints of a segment have, for one lane.
+    #[inline(always)]
+    fn load(&self, segment: u32, lane: usize, from: &mut Ends, to: &mut Ends) {
+        let drawing = self.scene.drawing;
+        let segment = &self.scene.segments[segment as usize];
+        let (joints, radii) = (segment.joints(), segment.radii(drawing, self.scene.strokes));
+        for (end, i) in [from, to].into_iter().zip(0..) {
+            let along = &drawing.brushwork.joints[joints[i]];
+            end.s[lane] = along.s;
+            end.whole[lane] = along.whole;
+            end.pixels[lane] = along.pixels;
+            end.radius_px[lane] = radii[i];
+            if self.is_outline {
+                end.clump_px[lane] = drawing.clump[joints[i]].radius;
+            }
+        }
+    }
+}
+
+/// Numbers on the way from those of first joints to those of second ones.
+#[inline(always)]
+fn between(way: &Lanes, from: &Lanes, to: &Lanes) -> Lanes {
+    let mut between = *from;
+    for k in 0..LANES {
+        between[k] += way[k] * (to[k] - from[k]);
+    }
+    between
+}
+
+/// What the first joints of segments have, or the second ones, as [`BrushPlaces`] has it; and the radius of the clump.
+struct Ends {
+    s: Lanes,
+    whole: Lanes,
+    pixels: Lanes,
+    radius_px: Lanes,
+    clump_px: Lanes,
+}
+
+impl Ends {
+    const ZERO: Self = Self {
+        s: [0.0; LANES],
+        whole: [0.0; LANES],
+        pixels: [0.0; LANES],
+        radius_px: [0.0; LANES],
+        clump_px: [0.0; LANES],
+    };
+
+    /// Makes a lane's the same as another's.
+    #[inline(always)]
+    fn copy(&mut self, from: usize, to: usize) {
+        for lanes in [
+            &mut self.s,
+            &mut self.whole,
+            &mut self.pixels,
+            &mut self.radius_px,
+            &mut self.clump_px,
+        ] {
+            lanes[to] = lanes[from];
+        }
     }
 }
 

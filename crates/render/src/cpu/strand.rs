@@ -6,6 +6,7 @@
 //! goes there; only that gets a colour.
 
 use super::brush::StrokeBrush;
+use super::instructions::Instructions;
 use super::reached::Reached;
 use super::segment::{Segment, Stroke};
 use super::shown::Shown;
@@ -26,6 +27,8 @@ pub(super) struct TileContext<'a> {
     pub(super) origin: [usize; 2],
     /// The samples that are worked on.
     pub(super) stack: &'a Stack,
+    /// What all of it is compiled for.
+    pub(super) instructions: Instructions,
 }
 
 /// The working memory of one strand.
@@ -132,6 +135,14 @@ impl StrandMasks {
     /// one, samples that a higher stroke takes are not looked at.
     #[inline(never)] // drawings without brushes have none of it in their loops
     fn thin(&mut self, scene: &TileContext) {
+        scene.instructions.run(
+            #[inline(always)]
+            || self.thin_all(scene),
+        );
+    }
+
+    #[inline(always)]
+    fn thin_all(&mut self, scene: &TileContext) {
         self.bare = NO_SAMPLES;
         let is_one = scene.drawing.order != Order::Shifted;
         let clump = match self.strokes.first() {
