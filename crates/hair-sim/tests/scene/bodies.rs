@@ -1,7 +1,5 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{
-    Collider, Params, Pose, Shape, SignedDistance, Solver, State, Surroundings, Wind,
-};
+use hair_sim::{Collider, Params, Pose, Shape, SignedDistance, Solver, State, Surroundings, Wind};
 
 use crate::{after, among, farthest, in_wind, params, run, shape, straight};
 
