@@ -151,7 +151,7 @@ impl SignedDistance {
         self.origin + DVec3::new(x as f64, y as f64, z as f64) * self.cell
     }
 
-    /// The cell that holds `at`, the place in it from 0 to 1, and how far outside of the grid `at` is.
+    /// The cell that holds `at`, the place in it from 0 to 1, and the square of how far outside of the grid `at` is.
     #[inline]
     fn locate(&self, at: DVec3) -> ([usize; 3], DVec3, f64) {
         let in_cells = (at - self.origin) / self.cell;
@@ -167,7 +167,7 @@ impl SignedDistance {
         let outside = if clamped == in_cells {
             0.0
         } else {
-            (in_cells - clamped).length() * self.cell
+            (in_cells - clamped).length_squared() * (self.cell * self.cell)
         };
         let part = clamped - DVec3::new(x, y, z);
         (cells.map(|cell| cell as usize), part, outside)
@@ -201,7 +201,9 @@ impl SignedDistance {
         if outside == 0.0 {
             inner
         } else {
-            outside.max(inner - outside)
+            // The mesh is in the box, whose nearest place lies at a right angle or more from all of it: no distance is less. What falls off outwards would
+            // be a surface in the air.
+            (inner * inner + outside).sqrt()
         }
     }
 
@@ -263,8 +265,8 @@ impl<'a> Placed<'a> {
         if clamped == in_cells {
             return inner;
         }
-        let outside = (in_cells - clamped).length() * self.cell;
-        outside.max(inner - outside)
+        let outside = (in_cells - clamped).length_squared() * (self.cell * self.cell);
+        (inner * inner + outside).sqrt()
     }
 }
 

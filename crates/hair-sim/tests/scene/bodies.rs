@@ -1,7 +1,7 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Collider, Params, Pose, Shape, SignedDistance, Solver, State, Surroundings};
+use hair_sim::{Collider, Params, Pose, Shape, SignedDistance, Solver, State, Surroundings, Wind};
 
-use crate::{after, among, farthest, params, run, shape, straight};
+use crate::{after, among, farthest, in_wind, params, run, shape, straight};
 
 const BALL: Shape = Shape::Sphere {
     center: DVec3::ZERO,
@@ -92,6 +92,48 @@ fn a_mesh_is_as_the_ball_that_it_shows() {
     });
     let error = farthest(&ball, &mesh);
     assert!(error < 3e-3, "{error}");
+}
+
+/// A grid ends three cells from its mesh. Hair that keeps about as far away goes by there as it does in the open.
+#[test]
+fn nothing_holds_hair_where_a_grid_ends() {
+    // A board of which the far end is as far away as hair reaches.
+    let corner = |i: u32| {
+        let side = |bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
+        Vec3::new(0.06 * side(1), 0.15 * side(2), 0.15 * side(4))
+    };
+    let points: Vec<Vec3> = (0..8).map(corner).collect();
+    let walls = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+    let triangles: Vec<[u32; 3]> = walls.into_iter().flat_map(halves).collect();
+    let grid = SignedDistance::new(&points, &triangles, 0.004).unwrap();
+    let rest = straight(Vec3::new(-0.0715, 0.1, 0.0), Vec3::NEG_Y);
+    let strand = Params {
+        thickness: 0.01,
+        ..params(30.0)
+    };
+    let gale = in_wind(Wind {
+        steady: DVec3::NEG_X * 4.0,
+        ..Wind::default()
+    });
+    let beside = [Collider::fixed(Shape::Grid(&grid), Pose::IDENTITY)];
+    for steps in [6, 12, 24] {
+        let [open, beside] = [&[][..], &beside].map(|colliders| {
+            let surroundings = Surroundings { colliders, ..gale };
+            after(&rest, &strand, &surroundings, 1.0 / 60.0, steps)
+        });
+        let way = farthest(&open, &after(&rest, &strand, &gale, 1.0 / 60.0, 1));
+        let apart = farthest(&open, &beside);
+        println!("blown {way:.3} m away from a mesh: {apart:.1e} m from where it is without");
+        assert!(way > 0.005 && apart < 1e-4, "{way} {apart}");
+    }
 }
 
 fn mesh() -> (Vec<Vec3>, Vec<[u32; 3]>) {

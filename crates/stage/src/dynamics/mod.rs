@@ -14,6 +14,8 @@ mod ponytail;
 mod running;
 mod section;
 mod ties;
+#[cfg(test)]
+mod together;
 
 pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 
