@@ -6,12 +6,13 @@ use crate::program::{cargo, succeed};
 use crate::{Outcome, count};
 
 /// Suites of the program, and our own.
-const SUITES: [&str; 10] = [
+const SUITES: [&str; 11] = [
     "all",
     "strokes",
     "dynamics",
     "coherence",
     "frame",
+    "looks",
     "scale",
     "cartoon",
     "lines",

@@ -1,4 +1,5 @@
 //! Suite `frame`: what a whole frame of each yardstick takes, by stages, on both backends; and what one takes in other sizes and with more samples.
+//! Suite `looks`: the same of the looks that come with inkstrand.
 //! Camera and hair move, so that nothing can be reused.
 
 use crate::BenchError;
@@ -59,30 +60,95 @@ pub struct Measured {
 ///
 /// When a preset cannot be read, nothing can be drawn, or a file cannot be written.
 pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchError> {
-    let mut presets = presets(&options.root)?;
+    let mut presets = presets(&options.root.join(YARDSTICKS))?;
     if options.quick {
         presets.truncate(3);
     }
-    let frames: u32 = if options.quick { 12 } else { 60 };
     progress.set_length(presets.len() as u64 + 1);
+    let mut measured = whole_frames(&presets, None, options, progress)?;
+    let frames = options.frames();
+    let pool = options.pool()?;
+    progress.set_message("other sizes and samples");
+    let sized = pool.install(|| sizes(options, if options.quick { 4 } else { 24 }))?;
+    measured.rows.extend(sized.rows);
+    measured.targets.extend(sized.targets);
+    progress.inc(1);
+    progress.set_message("character");
+    let effort = Effort {
+        rounds: frames as usize,
+        each: Duration::from_secs(if options.quick { 5 } else { 20 }),
+    };
+    let (rows, targets) =
+        pool.install(|| character::measure(&options.root, &options.out, effort))?;
+    measured.rows.extend(rows);
+    measured.targets.extend(targets);
+    let mut comments = options.comments(&measured);
+    comments.push(
+        "character: what its meshes add to a frame on the CPU, flat and painted by a layer: the shortest of frames with them less that without"
+            .to_owned(),
+    );
+    comments.extend(results::machine(options.threads, &["wgpu"]));
+    results::save(
+        &options.out,
+        "frame.csv",
+        &results::csv("frame", &comments, &measured.rows),
+    )?;
+    Ok(measured)
+}
+
+/// The looks that come with inkstrand, and `looks.csv`: what a frame of each takes, as of the yardsticks.
+///
+/// # Errors
+///
+/// As of [`run`].
+pub fn run_looks(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchError> {
+    let mut presets = presets(&options.root.join(LOOKS))?;
+    let registry = registry()?;
+    // What is drawn together is measured alone.
+    let mut is_alone = Vec::new();
+    for path in &presets {
+        is_alone.push(preset(path, &registry)?.objects.is_empty());
+    }
+    let mut is_alone = is_alone.into_iter();
+    presets.retain(|_| is_alone.next() == Some(true));
+    if options.quick {
+        presets.truncate(3);
+    }
+    progress.set_length(presets.len() as u64);
+    let measured = whole_frames(&presets, Some(SIZES[1]), options, progress)?;
+    let mut comments = options.comments(&measured);
+    comments.extend(results::machine(options.threads, &["wgpu"]));
+    results::save(
+        &options.out,
+        "looks.csv",
+        &results::csv("looks", &comments, &measured.rows),
+    )?;
+    Ok(measured)
+}
+
+/// Whole frames of some presets, in their own sizes or another, held to 60 a second.
+fn whole_frames(
+    presets: &[PathBuf],
+    size: Option<[u32; 2]>,
+    options: &Options,
+    progress: &ProgressBar,
+) -> Result<Measured, BenchError> {
     let mut measured = Measured {
         rows: Vec::new(),
         targets: Vec::new(),
         card: None,
     };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.threads)
-        .build();
-    let pool = pool.map_err(|error| error.to_string())?;
-    for preset in &presets {
+    let pool = options.pool()?;
+    for preset in presets {
         let name = preset
             .file_stem()
             .unwrap_or_default()
             .to_string_lossy()
             .into_owned();
         progress.set_message(name.clone());
-        let mut stage = open(preset, &options.root, None)?;
+        let mut stage = open(preset, &options.root, size)?;
         let mut backends = Backends::new(SAMPLES, options.card)?;
+        let frames = options.frames();
         let rows = pool.install(|| look(&name, SAMPLES, &mut stage, &mut backends, frames))?;
         let simulate = rows.iter().find(|row| row.method == BEFORE[0]);
         measured.targets.extend(simulate.map(|row| Target {
@@ -102,49 +168,49 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         measured.card = backends.card_name();
         progress.inc(1);
     }
-    progress.set_message("other sizes and samples");
-    let sized = pool.install(|| sizes(options, if options.quick { 4 } else { 24 }))?;
-    measured.rows.extend(sized.rows);
-    measured.targets.extend(sized.targets);
-    progress.inc(1);
-    progress.set_message("character");
-    let effort = Effort {
-        rounds: frames as usize,
-        each: Duration::from_secs(if options.quick { 5 } else { 20 }),
-    };
-    let (rows, targets) =
-        pool.install(|| character::measure(&options.root, &options.out, effort))?;
-    measured.rows.extend(rows);
-    measured.targets.extend(targets);
-    let mut comments = vec![
-        format!(
-            "whole frames and their stages, {SAMPLES} samples a pixel, medians of {frames} frames 1/{FPS} s apart"
-        ),
-        "method: a backend and its stage; simulate and paths are of both; knob: samples".to_owned(),
-        "character: what its meshes add to a frame on the CPU, flat and painted by a layer: the shortest of frames with them less that without"
-            .to_owned(),
-        "error of gpu: share of pixels that differ from the CPU's by more than 2/255".to_owned(),
-        format!(
-            "graphics card: {}",
-            measured.card.as_deref().unwrap_or("none")
-        ),
-    ];
-    comments.extend(results::machine(options.threads, &["wgpu"]));
-    results::save(
-        &options.out,
-        "frame.csv",
-        &results::csv("frame", &comments, &measured.rows),
-    )?;
     Ok(measured)
 }
 
+impl Options {
+    /// Frames of each look that are counted.
+    fn frames(&self) -> u32 {
+        if self.quick { 12 } else { 60 }
+    }
+
+    fn pool(&self) -> Result<rayon::ThreadPool, BenchError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build();
+        pool.map_err(|error| error.to_string().into())
+    }
+
+    /// What the rows of whole frames are.
+    fn comments(&self, measured: &Measured) -> Vec<String> {
+        let frames = self.frames();
+        vec![
+            format!(
+                "whole frames and their stages, {SAMPLES} samples a pixel, medians of {frames} frames 1/{FPS} s apart"
+            ),
+            "method: a backend and its stage; simulate and paths are of both; knob: samples"
+                .to_owned(),
+            "error of gpu: share of pixels that differ from the CPU's by more than 2/255"
+                .to_owned(),
+            format!(
+                "graphics card: {}",
+                measured.card.as_deref().unwrap_or("none")
+            ),
+        ]
+    }
+}
+
+/// Where the looks are that come with inkstrand.
+const LOOKS: &str = "presets";
 /// Where the looks are that don't change.
 pub(crate) const YARDSTICKS: &str = "tests/yardsticks";
 
-/// Their presets, by name.
-fn presets(root: &Path) -> Result<Vec<PathBuf>, BenchError> {
-    let folder = root.join(YARDSTICKS);
-    let entries = std::fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+/// The presets of a folder, by name.
+fn presets(folder: &Path) -> Result<Vec<PathBuf>, BenchError> {
+    let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "ron"));
     paths.sort();
@@ -229,7 +295,7 @@ fn open(path: &Path, root: &Path, size: Option<[u32; 2]>) -> Result<Stage, Bench
             root.join(YARDSTICKS)
                 .join("motions/nod-and-shake.motion.ron"),
         ),
-        preset_folder: root.join(YARDSTICKS),
+        preset_folder: path.parent().unwrap_or(root).to_owned(),
         ..Files::default()
     };
     Stage::new(&preset, &files).map_err(|error| error.to_string().into())

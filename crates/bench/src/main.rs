@@ -42,6 +42,8 @@ enum Suite {
     Coherence(CoherenceOptions),
     /// Frame: what a whole frame of each look takes, by stages, on both backends
     Frame(CardOptions),
+    /// Looks: the same of each look that comes with inkstrand
+    Looks(CardOptions),
     /// Scale: 72 to 100,000 strands, by stages, on both backends
     Scale(CardOptions),
     /// Cartoon: painted looks and lines of the whole picture, on scenes of two older systems
@@ -190,6 +192,7 @@ fn main() -> ExitCode {
             coherence(options).map(|it| exit_code(&it, options.common.check))
         }
         Suite::Frame(options) => frame(options).map(|it| exit_code(&it, options.common.check)),
+        Suite::Looks(options) => looks(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Scale(options) => scale(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Cartoon(options) => cartoon(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Lines(options) => lines(options).map(|it| exit_code(&it, options.common.check)),
@@ -219,6 +222,7 @@ fn all(options: &CardOptions) -> Result<ExitCode, BenchError> {
             only: String::new(),
         })?,
         frame(options)?,
+        looks(options)?,
         scale(options)?,
         cartoon(options)?,
         lines(&LineOptions {
@@ -427,6 +431,20 @@ fn lines(options: &LineOptions) -> Result<Finished, BenchError> {
 }
 
 fn frame(options: &CardOptions) -> Result<Finished, BenchError> {
+    frames("frame", "frame.csv", frame::run, options)
+}
+
+fn looks(options: &CardOptions) -> Result<Finished, BenchError> {
+    frames("looks", "looks.csv", frame::run_looks, options)
+}
+
+/// One of the suites of whole frames.
+fn frames(
+    name: &'static str,
+    file: &'static str,
+    run: impl FnOnce(&frame::Options, &ProgressBar) -> Result<frame::Measured, BenchError>,
+    options: &CardOptions,
+) -> Result<Finished, BenchError> {
     let common = &options.common;
     let suite = frame::Options {
         root: root(),
@@ -435,7 +453,7 @@ fn frame(options: &CardOptions) -> Result<Finished, BenchError> {
         threads: common.threads(),
         card: options.card(),
     };
-    let measured = with_progress(|progress| frame::run(&suite, progress))?;
+    let measured = with_progress(|progress| run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
     println!("{}", report(&measured.targets));
     println!(
@@ -443,9 +461,9 @@ fn frame(options: &CardOptions) -> Result<Finished, BenchError> {
         measured.card.as_deref().unwrap_or("none")
     );
     Ok(finished(
-        "frame",
+        name,
         common,
-        &["frame.csv"],
+        &[file],
         measured.rows,
         measured.targets,
     ))
