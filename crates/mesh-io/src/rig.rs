@@ -110,6 +110,9 @@ pub(crate) struct Skin {
     pub inverse: Vec<DAffine3>,
 }
 
+/// The joints that move a vertex, of its skin's list, with weights whose sum is 1.
+pub(crate) type Influences = [(u16, f32); 8];
+
 /// What moves a mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Deform {
@@ -118,8 +121,8 @@ pub(crate) struct Deform {
     /// In the mesh's own space.
     pub positions: Vec<Vec3>,
     pub normals: Vec<Vec3>,
-    /// The joints that move each vertex, of the skin's list, with weights whose sum is 1.
-    pub influences: Vec<[(u16, f32); 8]>,
+    /// Of each vertex.
+    pub influences: Vec<Influences>,
     pub morphs: Vec<Morph>,
 }
 
@@ -296,7 +299,7 @@ impl Rig {
 }
 
 /// The mean of what the joints do to a vertex.
-fn blend(moves: &[Affine3A], influences: &[(u16, f32); 8]) -> Affine3A {
+fn blend(moves: &[Affine3A], influences: &Influences) -> Affine3A {
     let mut sum = Affine3A::ZERO;
     // Those without a weight come last.
     for (joint, weight) in influences.iter().take_while(|(_, weight)| *weight > 0.0) {

@@ -10,7 +10,7 @@ use super::materials::Materials;
 use super::numbers::{Buffers, part};
 use crate::model::{Attribute, Mesh};
 use crate::read::shown;
-use crate::rig::{Deform, Morph, Rig};
+use crate::rig::{Deform, Influences, Morph, Rig};
 
 /// Primitives in fewer bytes. Files that don't require it have them a second time as they are.
 const DRACO: &str = "KHR_draco_mesh_compression";
@@ -274,7 +274,7 @@ impl Reader<'_> {
         count: usize,
         kept: &Kept,
         buffers: &mut Buffers,
-    ) -> Result<(Vec<[(u16, f32); 8]>, usize), PartError> {
+    ) -> Result<(Vec<Influences>, usize), PartError> {
         let mut all: Vec<Vec<(u16, f32)>> = vec![Vec::new(); count];
         for set in 0.. {
             let names = [format!("JOINTS_{set}"), format!("WEIGHTS_{set}")];
