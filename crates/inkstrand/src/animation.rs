@@ -5,10 +5,9 @@ use png::{
     BitDepth, BlendOp, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer,
 };
 use render::Picture;
-use std::cell::RefCell;
 use std::io::{self, Write};
 use std::path::Path;
-use std::rc::Rc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// An animated PNG that grows frame by frame. It repeats for ever.
 pub(crate) struct Animation {
@@ -74,7 +73,7 @@ impl Animation {
     /// Writes the file, whole or not at all. All frames must be there.
     pub fn write(self, path: &Path) -> io::Result<()> {
         self.writer.finish()?;
-        write_whole(path, &self.bytes.0.borrow())
+        write_whole(path, &self.bytes.all())
     }
 
     fn channels(&self) -> usize {
@@ -128,11 +127,17 @@ pub(crate) fn pixels(picture: &Picture, transparent: bool) -> Vec<u8> {
 
 /// Bytes that the encoder writes and their owner reads afterwards.
 #[derive(Clone, Default)]
-struct Shared(Rc<RefCell<Vec<u8>>>);
+struct Shared(Arc<Mutex<Vec<u8>>>);
+
+impl Shared {
+    fn all(&self) -> MutexGuard<'_, Vec<u8>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
 
 impl Write for Shared {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.borrow_mut().write(bytes)
+        self.all().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {

@@ -23,20 +23,24 @@ impl Picture {
         let encoder = &*ENCODER;
         let mut bytes = vec![[0; 4]; self.pixels.len()];
         bytes
-            .par_iter_mut()
-            .with_min_len(1024)
-            .zip(&self.pixels)
-            .for_each(|(bytes, &[red, green, blue, alpha])| {
-                // Also 0 for NaN, which no rasteriser makes.
-                let alpha8 = (alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-                if alpha8 > 0 {
-                    let [red, green, blue] = [red, green, blue].map(|c| encoder.encode(c / alpha));
-                    *bytes = [red, green, blue, alpha8];
+            .par_chunks_mut(CHUNK)
+            .zip(self.pixels.par_chunks(CHUNK))
+            .for_each(|(bytes, pixels)| {
+                // Flat colour comes many times in a row.
+                let mut last = ([0.0; 4], [0; 4]);
+                for (bytes, &pixel) in bytes.iter_mut().zip(pixels) {
+                    if pixel != last.0 {
+                        last = (pixel, encoder.encode_pixel(pixel));
+                    }
+                    *bytes = last.1;
                 }
             });
         bytes.into_flattened()
     }
 }
+
+/// Pixels that one thread turns into bytes at a time.
+const CHUNK: usize = 1024;
 
 /// Buckets of the table that the search for a code starts from.
 const BUCKETS: usize = 4096;
@@ -64,6 +68,17 @@ impl SrgbEncoder {
             *code = thresholds.partition_point(|&t| t <= least) as u8;
         }
         Self { thresholds, first }
+    }
+
+    /// Straight alpha of premultiplied.
+    fn encode_pixel(&self, [red, green, blue, alpha]: [f32; 4]) -> [u8; 4] {
+        // Also 0 for NaN, which no rasteriser makes.
+        let alpha8 = (alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+        if alpha8 == 0 {
+            return [0; 4];
+        }
+        let [red, green, blue] = [red, green, blue].map(|c| self.encode(c / alpha));
+        [red, green, blue, alpha8]
     }
 
     fn encode(&self, linear: f32) -> u8 {

@@ -564,6 +564,7 @@ fn the_rate_of_frames_does_not_show() {
 fn hair_that_has_come_to_rest_sleeps() {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let turn = folder.path().join("turn.motion.ron");
     fs::write(&turn, TURN).unwrap();

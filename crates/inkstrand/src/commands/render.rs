@@ -6,13 +6,17 @@ use crate::Failure;
 use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
 use crate::painter::Painter;
+use crate::pass::PassPicture;
 use crate::paths::is_same;
 use crate::say::say;
-use crate::stats::Lines;
+use crate::stats::{FrameStats, Lines};
 use effects::Registry;
 use hair_io::try_to_write;
+use render::Picture;
 use stage::{Files, Preset, SceneSection, Sections, Stage};
+use std::io;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Draws, and tells what was written. Who watches is told of each frame, and may end it.
 pub(crate) fn render(
@@ -25,6 +29,20 @@ pub(crate) fn render(
         .num_threads(options.threads.unwrap_or(0) as usize) // 0 is rayon's own choice
         .build()?;
     pool.install(|| draw(options, registry, watch))
+}
+
+/// A frame that is drawn, and not written yet.
+enum Drawn {
+    Picture(Arc<Picture>),
+    Pass(PassPicture),
+}
+
+fn write(drawn: Option<(Drawn, u32)>, output: &mut Output) -> io::Result<()> {
+    match drawn {
+        Some((Drawn::Picture(picture), frame)) => output.write(&picture, frame),
+        Some((Drawn::Pass(picture), frame)) => output.write_pass(&picture, frame),
+        None => Ok(()),
+    }
 }
 
 fn draw(
@@ -78,26 +96,33 @@ fn draw(
         watch,
     )?;
     let mut stats = options.stats.as_deref().map(Lines::create).transpose()?;
-    for frame in first..=last {
-        let line = match options.pass {
-            Some(pass) => {
-                let distance = preset.sections.camera.distance;
-                let (picture, line) =
-                    painter.paint_pass(&mut stage, frame, time_of(frame), pass, distance)?;
-                output.write_pass(&picture, frame)?;
-                line
-            }
-            None => {
-                let (picture, line) = painter.paint(&mut stage, frame, time_of(frame))?;
-                output.write(&picture, frame)?;
-                line
-            }
+    let mut paint = |frame: u32| -> Result<(Drawn, FrameStats), Failure> {
+        let time = time_of(frame);
+        let Some(pass) = options.pass else {
+            let (picture, line) = painter.paint(&mut stage, frame, time)?;
+            return Ok((Drawn::Picture(picture), line));
         };
+        let distance = preset.sections.camera.distance;
+        let (picture, line) = painter.paint_pass(&mut stage, frame, time, pass, distance)?;
+        Ok((Drawn::Pass(picture), line))
+    };
+    let mut drawn = None;
+    for frame in first..=last {
+        // Times are told of frames that nothing else goes on beside.
+        if stats.is_some() {
+            write(drawn.take(), &mut output)?;
+        }
+        let waiting = drawn.take();
+        let (written, painted) = rayon::join(|| write(waiting, &mut output), || paint(frame));
+        written?;
+        let (picture, line) = painted?;
+        drawn = Some((picture, frame));
         if let Some(stats) = &mut stats {
             stats.push(&line)?;
         }
         bar.inc()?;
     }
+    write(drawn, &mut output)?;
     output.finish()?;
     bar.finish();
     if !options.quiet {
