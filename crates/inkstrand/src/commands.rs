@@ -23,7 +23,16 @@ use std::path::{Path, PathBuf};
 
 /// A text file's whole text.
 fn read_text(path: &Path) -> Result<String, String> {
+    check_there(path)?;
     hair_io::read_text(path, hair_io::MOST_OF_TEXT).map_err(|error| error.to_string())
+}
+
+/// Refuses a path where nothing is.
+fn check_there(path: &Path) -> Result<(), String> {
+    match path.exists() {
+        true => Ok(()),
+        false => stage::no_file(path, "").map_or(Ok(()), Err),
+    }
 }
 
 /// The folder that a preset's file names are relative to.

@@ -183,7 +183,7 @@ impl Edges {
             EdgeChannel::Level => find_ids(planes, picture, Feature::Level, y, differ, found),
             EdgeChannel::Strand => find_ids(planes, picture, Feature::Strand, y, differ, found),
             EdgeChannel::Object => find_ids(planes, picture, Feature::Object, y, differ, found),
-            EdgeChannel::Depth => self.find_steps(planes, picture, y, &mut differ.all, found),
+            EdgeChannel::Depth => self.find_steps(planes, picture, y, differ, found),
             EdgeChannel::Normal => self.find_sobel(planes, picture, Feature::Normal, y, found),
             EdgeChannel::Color => self.find_sobel(planes, picture, Feature::Color, y, found),
         }
@@ -194,22 +194,17 @@ impl Edges {
         planes: &SamplePlanes,
         picture: usize,
         y: usize,
-        differ: &mut [u32],
+        differ: &mut Differences,
         found: &mut Vec<usize>,
     ) {
+        let last = planes.size()[1] as usize - 1;
         let row = |y: usize| planes.numbers(picture, Feature::InvDepth, 0, y);
-        let own = row(y);
-        differ.fill(0);
-        for y in around(y, planes) {
-            let other = row(y);
-            for step in [-1, 0, 1] {
-                for_pairs(differ, own, other, step, |own, other| {
-                    // Farther than own / (1 + own * step), in inverse depths; nothing is infinitely far.
-                    u32::from(other * (1.0 + own * self.step_m) < own)
-                });
-            }
-        }
-        found.extend(nonzero(differ));
+        let rows = [row(y.saturating_sub(1)), row(y), row((y + 1).min(last))];
+        differ.instructions.run(
+            #[inline(always)]
+            || fill_steps(rows, self.step_m, &mut differ.farthest, &mut differ.all),
+        );
+        found.extend(nonzero(&differ.all));
     }
 
     fn find_sobel(
@@ -252,24 +247,34 @@ fn around(y: usize, planes: &SamplePlanes) -> std::ops::Range<usize> {
     y.saturating_sub(1)..(y + 2).min(planes.size()[1] as usize)
 }
 
-/// Adds what the pixels of a row give with those of a row beside it, `step` to the right: a bit that is set is a difference.
-fn for_pairs<T: Copy>(
+/// Marks the pixels of the middle one of three rows of inverse depths that have one around them which is farther by more than a step. `farthest` is
+/// scratch, as long as they are.
+#[inline(always)] // compiled for the best instructions
+fn fill_steps(
+    [above, own, below]: [&[f32]; 3],
+    step_m: f32,
+    farthest: &mut [f32],
     differ: &mut [u32],
-    own: &[T],
-    other: &[T],
-    step: isize,
-    difference: impl Fn(T, T) -> u32,
 ) {
+    let lesser = |a: f32, b: f32| if b < a { b } else { a };
     let width = differ.len();
-    let (own_columns, other_columns) = match step {
-        ..0 => (1..width, 0..width - 1),
-        0 => (0..width, 0..width),
-        _ => (0..width - 1, 1..width),
-    };
-    let pairs = own[own_columns.clone()].iter().zip(&other[other_columns]);
-    for (differ, (own, other)) in differ[own_columns].iter_mut().zip(pairs) {
-        *differ |= difference(*own, *other);
+    // Of one length, so that no place is checked.
+    let (above, own, below) = (&above[..width], &own[..width], &below[..width]);
+    let (farthest, differ) = (&mut farthest[..width], &mut differ[..width]);
+    for x in 0..width {
+        farthest[x] = lesser(lesser(above[x], own[x]), below[x]);
     }
+    // Farther than own / (1 + own * step), in inverse depths; nothing is infinitely far. What is grows with the other's inverse depth, also
+    // in single precision, so that it is enough to ask of the farthest of nine.
+    let mark = |x: usize, farthest: f32| u32::from(farthest * (1.0 + own[x] * step_m) < own[x]);
+    let last = width - 1;
+    for x in 1..last {
+        let of_nine = lesser(lesser(farthest[x - 1], farthest[x]), farthest[x + 1]);
+        differ[x] = mark(x, of_nine);
+    }
+    let next = |x: usize, other: usize| lesser(farthest[x], farthest[other]);
+    differ[0] = mark(0, next(0, 1.min(last)));
+    differ[last] = mark(last, next(last, last.saturating_sub(1)));
 }
 
 /// Numbers that are looked at at once.
@@ -310,6 +315,8 @@ struct Differences {
     down: [Vec<u32>; 2],
     /// In the nine pixels around one.
     all: Vec<u32>,
+    /// Of depths: the farthest of each pixel and those above and below it.
+    farthest: Vec<f32>,
     instructions: Instructions,
 }
 
@@ -319,6 +326,7 @@ impl Differences {
             across: [0; 3].map(|_| vec![0; width]),
             down: [0; 2].map(|_| vec![0; width]),
             all: vec![0; width],
+            farthest: vec![0.0; width],
             instructions: Instructions::best(),
         }
     }

@@ -1,6 +1,7 @@
 //! What the caller gives a scene beside the preset, and why there is none.
 
 use crate::textures::Textures;
+use effects::preset::nearest;
 use hair_io::{MOST_OF_TEXT, ReadError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -34,6 +35,37 @@ impl Files {
             None => Ok(hair_io::read_text(path, MOST_OF_TEXT)?.into()),
         }
     }
+}
+
+/// What is wrong with a path where no file is: with the name of its folder that is most like it, or else with `hint` at the end.
+pub fn no_file(path: &Path, hint: &str) -> Option<String> {
+    if path.is_file() {
+        return None;
+    }
+    let shown = path.display();
+    if path.is_dir() {
+        return Some(format!("`{shown}` is a folder, not a file"));
+    }
+    let folder = hair_io::folder_of(path);
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        let folder = folder.display();
+        return Some(format!(
+            "there is no `{shown}`, nor a folder `{folder}`{hint}"
+        ));
+    };
+    let mut names: Vec<String> = entries
+        .flatten()
+        .filter(|entry| entry.path().is_file())
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let wrong = path.file_name().unwrap_or_default().to_string_lossy();
+    let near = nearest(&wrong, names.iter().map(String::as_str));
+    let hint = near.map_or_else(
+        || hint.to_owned(),
+        |near| format!(", did you mean `{near}`?"),
+    );
+    Some(format!("there is no `{shown}`{hint}"))
 }
 
 /// Why there is no frame.

@@ -49,7 +49,7 @@ pub use bodies::{BODIES, BodyKeySection, BodyOn, BodySection, BodyShape, NamedBo
 pub use check::{check_hair, check_mesh, check_motion, check_style, is_mesh_file};
 pub use closed::Return;
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
-pub use files::{Files, StageError};
+pub use files::{Files, StageError, no_file};
 pub use frame_maker::FrameMaker;
 pub use groom::{Blush, Dress, Expression, Eyes, Face, Figure};
 pub use hair::HairModel;

@@ -17,7 +17,7 @@ pub use passes::{EdgesChoice, PASSES, PassSection};
 pub use sections::*;
 
 use crate::bodies::NamedBody;
-use crate::files::Files;
+use crate::files::{Files, no_file};
 use crate::textures::textures_of;
 use effects::preset::{
     Field, LayerSpec, Place, PresetError, PresetErrors, Reader, SetError, nearest, set_text,
@@ -347,7 +347,7 @@ impl<'r> Preset<'r> {
             return set_text(&mut body.section, owner, param, text);
         }
         let Some(section) = self.sections.by_name(owner) else {
-            return Err(SetError::Unknown(self.no_layer(owner)));
+            return Err(SetError::Unknown(self.no_owner(owner)));
         };
         if !self.objects.is_empty() && objects::is_of_objects(owner) {
             return Err(SetError::Unknown(objects::said_elsewhere(owner)));
@@ -389,6 +389,16 @@ impl<'r> Preset<'r> {
         }
         self.layers.retain(|layer| names.contains(&layer.name));
         Ok(())
+    }
+
+    /// Of a name that is to be a layer's or a section's.
+    fn no_owner(&self, name: &str) -> String {
+        let sections = Sections::ALL.iter().map(|(name, ..)| *name);
+        let layers = self.layers.iter().map(|layer| layer.name.as_str());
+        match nearest(name, layers.chain(sections)) {
+            Some(near) => format!("there is no layer or section `{name}`, did you mean `{near}`?"),
+            None => self.no_layer(name),
+        }
     }
 
     fn no_layer(&self, name: &str) -> String {
@@ -433,37 +443,6 @@ fn newer_version(reader: &Reader, fields: &[Field]) -> Option<PresetError> {
 
 /// What is wrong with the file name that `param` gives, where there is no such file.
 pub(crate) fn missing(folder: &Path, param: &str, name: &str) -> Option<String> {
-    let path = folder.join(name);
-    if path.is_file() {
-        return None;
-    }
-    let shown = path.display();
-    if path.is_dir() {
-        return Some(format!("{param}: `{shown}` is a folder, not a file"));
-    }
-    let parent = path.parent().unwrap_or(Path::new(""));
-    let parent = if parent.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        parent
-    };
-    let Ok(entries) = std::fs::read_dir(parent) else {
-        return Some(format!(
-            "{param}: there is no `{shown}`, nor a folder `{}`; file names are relative to the file that they stand in",
-            parent.display()
-        ));
-    };
-    let mut names: Vec<String> = entries
-        .flatten()
-        .filter(|entry| entry.path().is_file())
-        .map(|entry| entry.file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
-    let wrong = path.file_name().unwrap_or_default().to_string_lossy();
-    Some(match nearest(&wrong, names.iter().map(String::as_str)) {
-        Some(near) => format!("{param}: there is no `{shown}`, did you mean `{near}`?"),
-        None => format!(
-            "{param}: there is no `{shown}`; file names are relative to the file that they stand in"
-        ),
-    })
+    let hint = "; file names are relative to the file that they stand in";
+    Some(format!("{param}: {}", no_file(&folder.join(name), hint)?))
 }

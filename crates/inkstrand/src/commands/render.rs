@@ -1,7 +1,7 @@
 //! `inkstrand render`: a preset to pictures.
 
 use super::progress::{Bar, Watch};
-use super::scene::{Source, check};
+use super::scene::{Source, check, there};
 use crate::Failure;
 use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
@@ -54,7 +54,8 @@ fn draw(
     let mut preset = source.parse(registry)?;
     options.scene.apply(&mut preset).map_err(Failure::Usage)?;
     apply(options, &mut preset).map_err(Failure::Usage)?;
-    let mut files = options.scene.files(&options.preset);
+    let mut files = options.scene.files(&options.preset)?;
+    there("--bake", options.bake.as_deref())?;
     files.bake.clone_from(&options.bake);
 
     let SceneSection {

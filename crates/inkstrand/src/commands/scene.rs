@@ -1,6 +1,6 @@
 //! What `render` and `simulate` share: a preset, changed by options, as a scene.
 
-use super::{mistakes, preset_folder, read_text};
+use super::{check_there, mistakes, preset_folder, read_text};
 use crate::Failure;
 use crate::cli::SceneOptions;
 use crate::paths::file_name;
@@ -76,17 +76,32 @@ fn failure(errors: PresetErrors) -> Failure {
     Failure::Mistakes(mistakes(&errors).collect())
 }
 
+/// Refuses the file that an option names, where it isn't there.
+pub(super) fn there(option: &str, path: Option<&Path>) -> Result<(), Failure> {
+    let checked = path.map_or(Ok(()), check_there);
+    checked.map_err(|message| Failure::Failed(format!("{option}: {message}")))
+}
+
 impl SceneOptions {
-    /// The files that are given in place of the preset's.
-    pub fn files(&self, preset: &Path) -> Files {
-        Files {
+    /// The files that are given in place of the preset's. Those that are named must be there.
+    pub fn files(&self, preset: &Path) -> Result<Files, Failure> {
+        let named = [
+            ("--hair", &self.hair),
+            ("--head", &self.head),
+            ("--character", &self.character),
+            ("--motion", &self.motion),
+        ];
+        for (option, path) in named {
+            there(option, path.as_deref())?;
+        }
+        Ok(Files {
             preset_folder: preset_folder(preset),
             hair: self.hair.clone(),
             head: self.character.clone().or_else(|| self.head.clone()),
             motion: self.motion.clone(),
             bake: None,
             ..Files::default()
-        }
+        })
     }
 
     /// Sets what is given in place of the preset's numbers.

@@ -20,7 +20,7 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
     preset.sections.hair.bake = None;
     // Poses are held when they are drawn.
     preset.sections.motion.on = 1;
-    let files = options.scene.files(&options.preset);
+    let files = options.scene.files(&options.preset)?;
     check_output(&options.output, &options.preset, &preset, &files)?;
     // From now on its folder takes it.
     let mut file = WholeFile::create(&options.output)?;

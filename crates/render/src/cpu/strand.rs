@@ -87,7 +87,7 @@ impl StrandMasks {
         if open == [0; ROWS] {
             return;
         }
-        self.place(scene, strand, &open);
+        self.place(scene, strand, &open, target);
         match scene.drawing.order {
             Order::Rounded | Order::StrandFirst => {
                 let id = scene.segments[strand[0] as usize].strand;
@@ -99,15 +99,29 @@ impl StrandMasks {
 
     /// Finds which of the open samples each stroke covers, and leaves out those that cover none.
     #[inline(always)]
-    fn place(&mut self, scene: &TileContext, strand: &[u32], open: &[u32; ROWS]) {
+    fn place(&mut self, scene: &TileContext, strand: &[u32], open: &[u32; ROWS], target: &Target) {
         self.placed.clear();
         self.strokes.clear();
         let number = |i: u32| scene.segments[i as usize].stroke;
+        // Of the outlines so far.
+        let (mut inv_depth, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
         for stroke in strand.chunk_by(|&a, &b| number(a) == number(b)) {
+            let mut open = *open;
+            if self.shows_outlines_beside(scene, number(stroke[0])) {
+                for &index in stroke {
+                    let segment = &scene.segments[index as usize];
+                    inv_depth = greater(segment.inv_depth, inv_depth);
+                    biased = greater(segment.biased, biased);
+                }
+                target.close(&mut open, inv_depth, biased);
+                if open == [0; ROWS] {
+                    continue;
+                }
+            }
             let first = self.placed.len();
             let mut samples = NO_SAMPLES;
             for &index in stroke {
-                let placed = Placed::new(scene, index, open);
+                let placed = Placed::new(scene, index, &open);
                 if let Some(placed) = placed {
                     add(&mut samples, &placed.covered);
                     self.placed.push(placed);
@@ -129,6 +143,22 @@ impl StrandMasks {
         if !scene.drawing.brushwork.is_empty() {
             self.thin(scene);
         }
+    }
+
+    /// Whether a stroke is an outline, whose samples within the clump don't show, as the clump is drawn as strokes above it. Where it
+    /// and all lower ones are hidden it makes no difference then, and an outline often lies deeper than its strand.
+    #[inline(always)]
+    fn shows_outlines_beside(&self, scene: &TileContext, number: u32) -> bool {
+        let is_outline = number > 0 && scene.strokes[number as usize - 1].rank < 0;
+        let is_one = scene.drawing.order != Order::Shifted;
+        if !is_outline || !is_one || !scene.drawing.brushwork.is_empty() {
+            return false;
+        }
+        let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) else {
+            return true;
+        };
+        let placed = &self.placed[clump.segments.clone()];
+        placed.iter().all(|placed| placed.drawn_as > 0)
     }
 
     /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it. Where the strand is drawn as

@@ -550,6 +550,16 @@ impl Target {
         columns
     }
 
+    /// Takes from the open columns of all rows those whose cells hide all that is as far as the given inverse depths.
+    #[inline(always)]
+    pub(super) fn close(&self, open: &mut [u32; ROWS], inv_depth: f32, biased: f32) {
+        for row in 0..ROWS {
+            if open[row] != 0 {
+                open[row] &= self.open(row, inv_depth, biased);
+            }
+        }
+    }
+
     /// Those of the samples of a cell where a strand may show that is no nearer than this.
     #[inline(always)]
     pub(super) fn may_show(
