@@ -584,6 +584,12 @@ impl Worker {
                         &mut self.shown,
                     );
                 }
+                self.strand.draw_outlines::<TELLS>(
+                    scene,
+                    segments_of_tile,
+                    &mut self.target,
+                    &mut self.shown,
+                );
             },
         );
         if !sees_through {

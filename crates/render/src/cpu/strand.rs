@@ -40,6 +40,20 @@ pub(super) struct StrandMasks {
     /// Where brushes left bare what strokes that are clipped to the clump reach; of drawings without brushes anything.
     bare: Mask,
     row: Reached,
+    /// Strands whose outlines are left for [`StrandMasks::draw_outlines`].
+    outlined: Vec<Outlined>,
+    /// Of a strand's outlines from the lowest to the highest: how near any is up to there.
+    nearest: Vec<[f32; 2]>,
+}
+
+/// A strand whose outlines are still to be drawn.
+struct Outlined {
+    /// Their segments in drawing order, among the tile's.
+    segments: Range<usize>,
+    /// The columns of each row of stacks that the strand may reach.
+    reach: [u32; ROWS],
+    /// The samples that the clump covers: it is drawn as strokes that lie higher.
+    clump: Mask,
 }
 
 /// A stroke in the tile.
@@ -69,6 +83,8 @@ impl StrandMasks {
             strokes: Vec::new(),
             bare: NO_SAMPLES,
             row: Reached::default(),
+            outlined: Vec::new(),
+            nearest: Vec::new(),
         }
     }
 
@@ -87,7 +103,7 @@ impl StrandMasks {
         if open == [0; ROWS] {
             return;
         }
-        self.place(scene, strand, &open, target);
+        self.place(scene, strand, part.segments.start, &open);
         match scene.drawing.order {
             Order::Rounded | Order::StrandFirst => {
                 let id = scene.segments[strand[0] as usize].strand;
@@ -97,45 +113,37 @@ impl StrandMasks {
         }
     }
 
-    /// Finds which of the open samples each stroke covers, and leaves out those that cover none.
+    /// Finds which of the open samples each stroke covers, and leaves out those that cover none. Outlines are left for later where that makes no
+    /// difference.
     #[inline(always)]
-    fn place(&mut self, scene: &TileContext, strand: &[u32], open: &[u32; ROWS], target: &Target) {
+    fn place(&mut self, scene: &TileContext, strand: &[u32], start: usize, open: &[u32; ROWS]) {
         self.placed.clear();
         self.strokes.clear();
         let number = |i: u32| scene.segments[i as usize].stroke;
-        // Of the outlines so far.
-        let (mut inv_depth, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
-        for stroke in strand.chunk_by(|&a, &b| number(a) == number(b)) {
-            let mut open = *open;
-            if self.shows_outlines_beside(scene, number(stroke[0])) {
-                for &index in stroke {
-                    let segment = &scene.segments[index as usize];
-                    inv_depth = greater(segment.inv_depth, inv_depth);
-                    biased = greater(segment.biased, biased);
-                }
-                target.close(&mut open, inv_depth, biased);
-                if open == [0; ROWS] {
-                    continue;
-                }
+        let is_outline =
+            |i: &u32| number(*i) > 0 && scene.strokes[number(*i) as usize - 1].rank < 0;
+        let mut rest = strand;
+        let clump = strand.partition_point(|i| number(*i) == 0);
+        self.place_stroke(scene, &strand[..clump], open);
+        if self.are_outlines_beside(scene) {
+            let outlines = strand[clump..].partition_point(is_outline);
+            if outlines > 0 {
+                let from = start + clump;
+                self.outlined.push(Outlined {
+                    segments: from..from + outlines,
+                    reach: *open,
+                    clump: self
+                        .strokes
+                        .first()
+                        .map_or(NO_SAMPLES, |clump| clump.samples),
+                });
             }
-            let first = self.placed.len();
-            let mut samples = NO_SAMPLES;
-            for &index in stroke {
-                let placed = Placed::new(scene, index, &open);
-                if let Some(placed) = placed {
-                    add(&mut samples, &placed.covered);
-                    self.placed.push(placed);
-                }
-            }
-            if is_empty(&samples) {
-                self.placed.truncate(first);
-                continue;
-            }
-            self.strokes.push(Covered {
-                number: number(stroke[0]),
-                segments: first..self.placed.len(),
-                samples,
-            });
+            rest = &strand[clump + outlines..];
+        } else {
+            rest = &rest[clump..];
+        }
+        for stroke in rest.chunk_by(|&a, &b| number(a) == number(b)) {
+            self.place_stroke(scene, stroke, open);
         }
         if let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) {
             self.place_base(clump.segments.clone());
@@ -145,20 +153,130 @@ impl StrandMasks {
         }
     }
 
-    /// Whether a stroke is an outline, whose samples within the clump don't show, as the clump is drawn as strokes above it. Where it
-    /// and all lower ones are hidden it makes no difference then, and an outline often lies deeper than its strand.
+    /// Adds a stroke of such segments, where it covers any open samples.
     #[inline(always)]
-    fn shows_outlines_beside(&self, scene: &TileContext, number: u32) -> bool {
-        let is_outline = number > 0 && scene.strokes[number as usize - 1].rank < 0;
-        let is_one = scene.drawing.order != Order::Shifted;
-        if !is_outline || !is_one || !scene.drawing.brushwork.is_empty() {
+    fn place_stroke(&mut self, scene: &TileContext, stroke: &[u32], open: &[u32; ROWS]) {
+        let first = self.placed.len();
+        let mut samples = NO_SAMPLES;
+        for &index in stroke {
+            if let Some(placed) = Placed::new(scene, index, open) {
+                add(&mut samples, &placed.covered);
+                self.placed.push(placed);
+            }
+        }
+        if is_empty(&samples) {
+            self.placed.truncate(first);
+            return;
+        }
+        self.strokes.push(Covered {
+            number: scene.segments[stroke[0] as usize].stroke,
+            segments: first..self.placed.len(),
+            samples,
+        });
+    }
+
+    /// Whether a strand's outlines show beside its clump alone, as that is drawn as strokes above them; the clump is placed. What is nearest is
+    /// the same in any order: so they can be drawn when all clumps are, which hide most of what lies deeper.
+    #[inline(always)]
+    fn are_outlines_beside(&self, scene: &TileContext) -> bool {
+        if scene.drawing.order == Order::Shifted || !scene.drawing.brushwork.is_empty() {
             return false;
         }
-        let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) else {
-            return true;
+        self.placed.iter().all(|placed| placed.drawn_as > 0)
+    }
+
+    /// Draws the outlines of the strands that were drawn, to be called after the last of a tile.
+    #[inline(always)]
+    pub(super) fn draw_outlines<const TELLS: bool>(
+        &mut self,
+        scene: &TileContext,
+        tile: &[u32],
+        target: &mut Target,
+        told: &mut Shown,
+    ) {
+        let outlined = std::mem::take(&mut self.outlined);
+        for strand in &outlined {
+            self.outline::<TELLS>(scene, &tile[strand.segments.clone()], strand, target, told);
+        }
+        self.outlined = outlined;
+        self.outlined.clear();
+    }
+
+    /// Draws the outlines of a strand, the highest first: where one and all lower ones are hidden it hides none of them.
+    #[inline(always)]
+    fn outline<const TELLS: bool>(
+        &mut self,
+        scene: &TileContext,
+        segments: &[u32],
+        strand: &Outlined,
+        target: &mut Target,
+        told: &mut Shown,
+    ) {
+        let segment = |i: u32| &scene.segments[i as usize];
+        let strokes = || segments.chunk_by(|&a, &b| segment(a).stroke == segment(b).stroke);
+        self.nearest.clear();
+        let mut nearest = [f32::NEG_INFINITY; 2];
+        for stroke in strokes() {
+            for &index in stroke {
+                let Segment {
+                    inv_depth, biased, ..
+                } = segment(index);
+                nearest = [
+                    greater(*inv_depth, nearest[0]),
+                    greater(*biased, nearest[1]),
+                ];
+            }
+            self.nearest.push(nearest);
+        }
+        let of_outline = match scene.drawing.order {
+            Order::Rounded => Roundness::Outline,
+            _ => Roundness::Flat,
         };
-        let placed = &self.placed[clump.segments.clone()];
-        placed.iter().all(|placed| placed.drawn_as > 0)
+        let priority = u32::MAX - segment(segments[0]).strand;
+        let mut drawn = strand.clump;
+        for (stroke, nearest) in strokes().rev().zip(self.nearest.iter().rev()) {
+            let mut open = strand.reach;
+            target.close(&mut open, *nearest);
+            if open == [0; ROWS] {
+                continue;
+            }
+            self.placed.clear();
+            let mut samples = NO_SAMPLES;
+            for &index in stroke {
+                if let Some(placed) = Placed::new(scene, index, &open) {
+                    add(&mut samples, &placed.covered);
+                    self.placed.push(placed);
+                }
+            }
+            let samples = without(&samples, &drawn);
+            if is_empty(&samples) {
+                continue;
+            }
+            add(&mut drawn, &samples);
+            let mut shown = NO_SAMPLES;
+            let offer = Offer {
+                scene,
+                placed: &self.placed,
+                roundness: of_outline,
+                priority,
+            };
+            offer.make::<false>(&samples, &mut self.row, target, &mut shown, unasked);
+            target.show_stroke(&shown, true);
+            if !TELLS {
+                shade(&self.placed, &shown, &mut self.row, target);
+                continue;
+            }
+            tell::<true>(
+                &self.placed,
+                &shown,
+                &mut self.row,
+                #[inline(always)]
+                |cell, places, lanes| {
+                    paint(target, cell, &places.color, lanes);
+                    told.put_stroke(cell, places, lanes);
+                },
+            );
+        }
     }
 
     /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it. Where the strand is drawn as

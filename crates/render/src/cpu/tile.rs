@@ -552,7 +552,7 @@ impl Target {
 
     /// Takes from the open columns of all rows those whose cells hide all that is as far as the given inverse depths.
     #[inline(always)]
-    pub(super) fn close(&self, open: &mut [u32; ROWS], inv_depth: f32, biased: f32) {
+    pub(super) fn close(&self, open: &mut [u32; ROWS], [inv_depth, biased]: [f32; 2]) {
         for row in 0..ROWS {
             if open[row] != 0 {
                 open[row] &= self.open(row, inv_depth, biased);
