@@ -4,10 +4,20 @@ use super::reached::Reached;
 use super::segment::Stroke;
 use super::strand::TileContext;
 use super::stroke::{Placed, Places};
-use super::tile::{LANES, LaneMask, Lanes, Mask, ROWS, Stack, cells, columns, select};
+use super::tile::{Cell, LANES, LaneMask, Lanes, Mask, ROWS, Stack, cells, columns, select};
 use crate::brushwork::BrushedLayer;
 use crate::drawing::scatter;
 use effects::{BrushPlaces, StrandBrush};
+
+/// A sample of a stroke, and the axis point that is the nearest to it.
+pub(super) struct Beside {
+    cell: Cell,
+    lane: usize,
+    segment: u32,
+    /// From the segment's first joint to the next.
+    way: f32,
+    across: f32,
+}
 
 /// A stroke's brush.
 pub(super) struct StrokeBrush<'a> {
@@ -41,7 +51,13 @@ impl<'a> StrokeBrush<'a> {
 
     /// Takes from the samples, which the segments of the stroke cover, those that it leaves bare.
     #[inline(always)]
-    pub(super) fn thin(&self, placed: &[Placed], segments: &mut Reached, samples: &mut Mask) {
+    pub(super) fn thin(
+        &self,
+        placed: &[Placed],
+        (segments, beside): (&mut Reached, &mut Vec<Beside>),
+        samples: &mut Mask,
+    ) {
+        beside.clear();
         for row in 0..ROWS {
             let wanted = columns(samples, row);
             if wanted == 0 {
@@ -52,13 +68,39 @@ impl<'a> StrokeBrush<'a> {
                 let (mut places, lanes) = (Places::<false>::new(), cell.lanes(samples));
                 segments.find_nearest(placed, cell, &lanes, &mut places);
                 let across = places.across();
-                let bare = self.bare(&lanes, &places.index, &places.way, &across);
-                cell.take_from(samples, &bare);
+                for lane in (0..LANES).filter(|&lane| lanes[lane] != 0) {
+                    beside.push(Beside {
+                        cell,
+                        lane,
+                        segment: places.index[lane],
+                        way: places.way[lane],
+                        across: across[lane],
+                    });
+                }
+            }
+        }
+        // Most cells have few samples of a thin stroke: those of several are looked up together.
+        for some in beside.chunks(LANES) {
+            let mut wanted = [0; LANES];
+            let mut segments = [0; LANES];
+            let (mut way, mut across, mut parts) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+            for (k, sample) in some.iter().enumerate() {
+                wanted[k] = u32::MAX;
+                segments[k] = sample.segment;
+                way[k] = sample.way;
+                across[k] = sample.across;
+                parts[k] = self.parts[sample.lane];
+            }
+            let bare = self.bare_of(&wanted, &segments, (&way, &across), &parts);
+            for (k, sample) in some.iter().enumerate() {
+                if bare[k] != 0 {
+                    sample.cell.take_lane_from(samples, sample.lane);
+                }
             }
         }
     }
 
-    /// Those of some samples that it leaves bare, by their places: segments, the way from their first joints to the next, and across.
+    /// Those of some samples of a cell that it leaves bare, by their places: segments, the way from their first joints to the next, and across.
     #[inline(always)]
     pub(super) fn bare(
         &self,
@@ -66,6 +108,18 @@ impl<'a> StrokeBrush<'a> {
         segments: &[u32; LANES],
         way: &Lanes,
         across: &Lanes,
+    ) -> LaneMask {
+        self.bare_of(samples, segments, (way, across), &self.parts)
+    }
+
+    /// The same of samples whose coverage must exceed so much.
+    #[inline(always)]
+    fn bare_of(
+        &self,
+        samples: &LaneMask,
+        segments: &[u32; LANES],
+        (way, across): (&Lanes, &Lanes),
+        parts: &Lanes,
     ) -> LaneMask {
         let (mut from, mut to) = (Ends::ZERO, Ends::ZERO);
         let mut before = None;
@@ -96,7 +150,7 @@ impl<'a> StrokeBrush<'a> {
         let coverage = self.brush.coverages(&places);
         let mut bare = *samples;
         for k in 0..LANES {
-            bare[k] &= select(coverage[k] <= self.parts[k], u32::MAX, 0);
+            bare[k] &= select(coverage[k] <= parts[k], u32::MAX, 0);
         }
         bare
     }

@@ -5,7 +5,7 @@
 //! stroke's nearest disc in the tile would show, its segments give depth and roundness, and what of that shows in the picture
 //! goes there; only that gets a colour.
 
-use super::brush::StrokeBrush;
+use super::brush::{Beside, StrokeBrush};
 use super::instructions::Instructions;
 use super::reached::Reached;
 use super::segment::{Segment, Stroke};
@@ -40,6 +40,8 @@ pub(super) struct StrandMasks {
     /// Where brushes left bare what strokes that are clipped to the clump reach; of drawings without brushes anything.
     bare: Mask,
     row: Reached,
+    /// Of strokes with brushes: their samples.
+    beside: Vec<Beside>,
     /// Strands whose outlines are left for [`StrandMasks::draw_outlines`].
     outlined: Vec<Outlined>,
     /// Of a strand's outlines from the lowest to the highest: how near any is up to there.
@@ -83,6 +85,7 @@ impl StrandMasks {
             strokes: Vec::new(),
             bare: NO_SAMPLES,
             row: Reached::default(),
+            beside: Vec::new(),
             outlined: Vec::new(),
             nearest: Vec::new(),
         }
@@ -314,7 +317,7 @@ impl StrandMasks {
                 let brush = StrokeBrush::new(scene, layer, stroke, placed[0].index);
                 let wanted = without(&covered.samples, &taken);
                 let mut left = wanted;
-                brush.thin(placed, &mut self.row, &mut left);
+                brush.thin(placed, (&mut self.row, &mut self.beside), &mut left);
                 let bare = without(&wanted, &left);
                 covered.samples = without(&covered.samples, &bare);
                 if stroke.rank >= 0 {

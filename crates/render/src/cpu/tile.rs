@@ -345,6 +345,13 @@ impl Cell {
         }
     }
 
+    /// Takes one of its samples from a mask.
+    #[inline(always)]
+    pub(super) fn take_lane_from(&self, mask: &mut Mask, lane: usize) {
+        let column = self.column + lane / STACK;
+        mask[self.row * STACK + lane % STACK] &= !(1 << column);
+    }
+
     /// Adds some of its samples to a mask.
     #[inline(always)]
     pub(super) fn add_to(&self, mask: &mut Mask, lanes: &LaneMask) {
