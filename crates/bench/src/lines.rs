@@ -112,12 +112,14 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         }
         progress.inc(1);
     }
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let alone = alone.map_err(|error| error.to_string())?;
     for (triangles, most) in SPEEDS {
         let name = format!("dented-{}k", triangles / 1000);
         progress.set_message(name.clone());
         let subject = Subject::new(&name, dented(triangles), false).map_err(fault)?;
         let frames = if options.quick { 15 } else { 61 };
-        let rows = speeds(&subject, frames).map_err(fault)?;
+        let rows = alone.install(|| speeds(&subject, frames)).map_err(fault)?;
         measured.targets.push(Target {
             text: format!("{name}: ms for lines and tracking"),
             found: rows.first().map(|row| Found::Is(1e3 * row.seconds)),

@@ -53,7 +53,7 @@
 //!
 //! # Exactness and cost
 //!
-//! Positions and normals are f32, all that is worked out is f64. Results hang on nothing but the input: no random numbers, no threads, and no functions but roots. Of a
+//! Positions and normals are f32, all that is worked out is f64. Results hang on nothing but the input: no random numbers, the same bits with any number of threads, and no functions but roots. Of a
 //! frame all but the sign of f at each vertex, which is one pass over them, is near to linear in the lines' lengths; `cargo run --release -p mesh-lines --example throughput` says how long
 //! each part takes, and `--example drawing` draws.
 
@@ -68,6 +68,7 @@ mod junctions;
 mod line;
 mod ruler;
 mod surface;
+mod threads;
 mod topology;
 mod track;
 mod tree;

@@ -9,7 +9,7 @@
 
 use crate::{
     Bvh, Kind, Line, MeshError, Ray, Surface, View, crossings::crossings, junctions::junctions,
-    line::check_lines,
+    line::check_lines, threads::map,
 };
 use glam::DVec3;
 use std::ops::ControlFlow;
@@ -82,61 +82,26 @@ pub fn visible(
         });
     }
     check_lines(surface, lines)?;
-    let rays = Rays::new(surface, bvh, view);
-    let mut spans = Vec::new();
     let mut events = crossings(surface, lines, view);
     for (events, junctions) in events.iter_mut().zip(junctions(surface, lines)) {
         events.extend(junctions);
     }
-    for (number, (line, mut events)) in lines.iter().zip(events).enumerate() {
+    let rays = Rays::new(surface, bvh, view);
+    let of_lines = map(lines, |number, line| {
         if line.segments.is_empty() {
-            continue;
+            return Vec::new();
         }
         let lengths = line.image_lengths(view);
+        let mut events = events[number].clone();
         events.extend(pierced(surface, bvh, line));
         let pieces = pieces(surface, line, &events, &lengths);
-        let is_around = line.closed && pieces.len() == 1;
-        let mut decided = Vec::with_capacity(pieces.len());
-        for piece in pieces {
-            let (seen, change) = match piece.inside {
-                true => (false, None),
-                false => rays.look(line, &piece, &lengths),
-            };
-            let Some(share) = change.filter(|_| !is_around) else {
-                decided.push(Piece { seen, ..piece });
-                continue;
-            };
-            // Most of it is seen, or hidden: the other side of the middle isn't.
-            let place = place_at(&piece, &lengths, share);
-            let is_first = share > 0.5;
-            decided.push(Piece {
-                end: place,
-                length: piece.length * share,
-                seen: seen == is_first,
-                ..piece
-            });
-            let rest = Piece {
-                start: place,
-                length: piece.length * (1.0 - share),
-                seen: seen != is_first,
-                ..piece
-            };
-            let around = line.segments.len() as f64;
-            if place < around {
-                decided.push(rest);
-            } else {
-                // Beyond a closed line's first point: there it comes before all others.
-                let [start, end] = [rest.start, rest.end].map(|at| at - around);
-                decided.insert(0, Piece { start, end, ..rest });
-            }
-        }
-        let mut pieces = decided;
+        let mut pieces = rays.decide(line, pieces, &lengths);
         join(&mut pieces, line);
         rays.settle(line, &mut pieces, &lengths, shortest);
         join_short(&mut pieces, line, shortest);
-        spans.extend(seen_spans(line, number, &pieces));
-    }
-    Ok(spans)
+        seen_spans(line, number, &pieces)
+    });
+    Ok(of_lines.concat())
 }
 
 /// True if nothing lies between the eye and a place along a line: one ray, as [`visible`] shoots three for each piece. The inside of what is closed is never seen.
@@ -361,6 +326,46 @@ impl<'a> Rays<'a> {
             view,
             same_place: farthest * SAME_PLACE,
         }
+    }
+
+    /// Finds which pieces of a line are seen, and cuts those that are in part.
+    fn decide(&self, line: &Line, pieces: Vec<Piece>, lengths: &[f64]) -> Vec<Piece> {
+        let is_around = line.closed && pieces.len() == 1;
+        let mut decided = Vec::with_capacity(pieces.len());
+        for piece in pieces {
+            let (seen, change) = match piece.inside {
+                true => (false, None),
+                false => self.look(line, &piece, lengths),
+            };
+            let Some(share) = change.filter(|_| !is_around) else {
+                decided.push(Piece { seen, ..piece });
+                continue;
+            };
+            // Most of it is seen, or hidden: the other side of the middle isn't.
+            let place = place_at(&piece, lengths, share);
+            let is_first = share > 0.5;
+            decided.push(Piece {
+                end: place,
+                length: piece.length * share,
+                seen: seen == is_first,
+                ..piece
+            });
+            let rest = Piece {
+                start: place,
+                length: piece.length * (1.0 - share),
+                seen: seen != is_first,
+                ..piece
+            };
+            let around = line.segments.len() as f64;
+            if place < around {
+                decided.push(rest);
+            } else {
+                // Beyond a closed line's first point: there it comes before all others.
+                let [start, end] = [rest.start, rest.end].map(|at| at - around);
+                decided.insert(0, Piece { start, end, ..rest });
+            }
+        }
+        decided
     }
 
     /// Whether most of three rays from a piece reach the eye; and where they change from one place on, as a share of the piece's length, unless they agree or
