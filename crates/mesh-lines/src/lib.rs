@@ -56,6 +56,10 @@
 //! Positions and normals are f32, all that is worked out is f64. Results hang on nothing but the input: no random numbers, the same bits with any number of threads, and no functions but roots. Of a
 //! frame all but the sign of f at each vertex, which is one pass over them, is near to linear in the lines' lengths; `cargo run --release -p mesh-lines --example throughput` says how long
 //! each part takes, and `--example drawing` draws.
+//!
+//! # Features
+//!
+//! - `threads`, not on by default: what is seen of lines is found line by line in the threads of the rayon pool that it is asked for in. Without it, in the caller's thread.
 
 mod bvh;
 mod contour;

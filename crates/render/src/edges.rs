@@ -659,6 +659,43 @@ mod tests {
     }
 
     #[test]
+    fn steps_are_those_of_pairs() {
+        let step_m = 0.1;
+        for [width, height] in [[1, 1], [1, 9], [9, 1], [2, 3], [17, 9], [70, 20]] {
+            let depth = |x: usize, y: usize| match (x * 7919 + y * 104_729) % 13 {
+                0 => 0.0, // nothing there
+                n => 1.0 + 0.04 * n as f32,
+            };
+            let rows: Vec<Vec<f32>> = (0..height)
+                .map(|y| (0..width).map(|x| depth(x, y)).collect())
+                .collect();
+            let (mut farthest, mut differ) = (vec![0.0; width], vec![7; width]);
+            let mut marked = 0;
+            for y in 0..height {
+                let around = [y.saturating_sub(1), y, (y + 1).min(height - 1)];
+                let some = around.map(|y| &rows[y][..]);
+                fill_steps(some, step_m, &mut farthest, &mut differ);
+                for x in 0..width {
+                    let own = rows[y][x];
+                    let columns = x.saturating_sub(1)..(x + 2).min(width);
+                    let is_farther = |other: f32| other * (1.0 + own * step_m) < own;
+                    let is_marked = some
+                        .iter()
+                        .any(|row| row[columns.clone()].iter().any(|&d| is_farther(d)));
+                    assert_eq!(
+                        differ[x],
+                        u32::from(is_marked),
+                        "{width} x {height}: {x}, {y}"
+                    );
+                    marked += usize::from(is_marked);
+                }
+            }
+            // Neither none nor all, where there is room for both.
+            assert!(width * height < 20 || (1..width * height).contains(&marked));
+        }
+    }
+
+    #[test]
     fn lines_fade_towards_the_root() {
         let along = |u| {
             planes([8, 8], move |x, _| Sample {

@@ -119,6 +119,21 @@ mod tests {
     }
 
     #[test]
+    fn pixels_are_each_by_itself() {
+        let gray = |i: usize| (i / 3 % 7) as f32 / 7.0;
+        let pixels: Vec<[f32; 4]> = (0..3000)
+            .map(|i| [gray(i), 0.5 * gray(i), 0.0, gray(i + 5)])
+            .collect();
+        let each: Vec<u8> = pixels.iter().flat_map(|pixel| encode(*pixel)).collect();
+        let picture = Picture {
+            width: 3000,
+            height: 1,
+            pixels,
+        };
+        assert_eq!(picture.to_srgb8(), each);
+    }
+
+    #[test]
     fn alpha_is_linear_and_divided_out() {
         // Half covered by white is white at half alpha, not gray.
         assert_eq!(encode([0.5, 0.5, 0.5, 0.5]), [255, 255, 255, 128]);
