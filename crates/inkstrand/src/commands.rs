@@ -29,7 +29,7 @@ fn read_text(path: &Path) -> Result<String, String> {
 
 /// Refuses a path where nothing is.
 fn check_there(path: &Path) -> Result<(), String> {
-    match path.exists() {
+    match path.exists() && !path.is_dir() {
         true => Ok(()),
         false => stage::no_file(path, "").map_or(Ok(()), Err),
     }

@@ -417,3 +417,42 @@ fn what_makes_no_sense_is_refused() {
             .stderr(contains(message));
     }
 }
+
+#[test]
+fn a_misspelt_name_is_told_with_the_nearest() {
+    let folder = folder();
+    for (arguments, message) in [
+        (
+            "render smal.ron",
+            "there is no `smal.ron`, did you mean `small.ron`?",
+        ),
+        (
+            "check smal.ron",
+            "there is no `smal.ron`, did you mean `small.ron`?",
+        ),
+        (
+            "render small.ron --motion nods.motion.ron",
+            "--motion: there is no `nods.motion.ron`, did you mean `nod.motion.ron`?",
+        ),
+        (
+            "simulate small.ron --hair smal.strands.ron -o bake.strands.ron --frames 0-1",
+            "--hair: there is no `smal.strands.ron`, did you mean `small.strands.ron`?",
+        ),
+        (
+            "render small.ron --bake there/bake.strands.ron",
+            "nor a folder `there`",
+        ),
+        (
+            "render small.ron --head .",
+            "--head: `.` is a folder, not a file",
+        ),
+        (
+            "render small.ron --set clmp.size=1",
+            "there is no layer or section `clmp`, did you mean `clump`?",
+        ),
+    ] {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        let run = inkstrand(&folder, &arguments).assert().failure();
+        run.stderr(contains(message));
+    }
+}
