@@ -5,7 +5,7 @@ const BRUSHED: bool = true;
 
 /// A brush's record in the tables: the layer's seed; its first disc, the first joint that it draws on, and how many; where the joints' records
 /// begin; head heights along the strand of a copy or a whole mark, 0 where a copy is stretched; how many whole marks a copy is made of, 0 where they may be cut; whether
-/// it shows outside of its clump alone; then how many pictures there are, and where each one's record begins.
+/// it shows outside of its clump alone; whether its pictures tell how far within a shape a place lies; then how many pictures there are, and where each one's record begins.
 const BRUSH_SEED: u32 = 0u;
 const BRUSH_FIRST_DISC: u32 = 1u;
 const BRUSH_FIRST_JOINT: u32 = 2u;
@@ -14,7 +14,8 @@ const BRUSH_ALONG: u32 = 4u;
 const BRUSH_LENGTH: u32 = 5u;
 const BRUSH_PARTS: u32 = 6u;
 const BRUSH_IS_OUTLINE: u32 = 7u;
-const BRUSH_MARKS: u32 = 8u;
+const BRUSH_IS_SHAPE: u32 = 8u;
+const BRUSH_MARKS: u32 = 9u;
 
 /// Where along its strand a joint is: the length up to there and the whole length (head heights), pixels of a head's height, the strand's id.
 const ALONG_WORDS: u32 = 4u;
@@ -57,6 +58,16 @@ fn on_outline(v: f32, radius: f32, clump: f32) -> vec2<f32> {
 
 /// How much of a pixel a brush covers there, 0 to 1.
 fn brush_coverage(brush: u32, seed: u32, along_strand: vec3<f32>, v: f32, radius: f32) -> f32 {
+    let told = marked(brush, seed, along_strand, v, radius);
+    if (tables[brush + BRUSH_IS_SHAPE] == 0u) {
+        return told;
+    }
+    // The edge is a pixel broad.
+    return saturate(0.5 + (told - 0.5) * 2.0 * radius);
+}
+
+/// What a brush's marks tell of the place.
+fn marked(brush: u32, seed: u32, along_strand: vec3<f32>, v: f32, radius: f32) -> f32 {
     let mixed = hash(seed);
     let mark = tables[brush + BRUSH_MARKS + 1u + mixed % tables[brush + BRUSH_MARKS]];
     let y = 0.5 + 0.5 * select(-1.0, 1.0, (mixed & 0x100u) == 0u) * v;

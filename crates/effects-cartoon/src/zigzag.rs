@@ -3,16 +3,19 @@
 //!
 //! There, particles brighter than a threshold are averaged in groups, and the means of neighbours are linked: groups come and go from frame to
 //! frame, and the strip jumps. Here each strand is linked to the same neighbour in every frame, means are weighted by how far the brightness is
-//! above the threshold, and so is the strip's width: it grows from nothing.
+//! above the threshold, and so is the strip's width: it grows from nothing. Where hair is dense the strands that are linked are means of those around
+//! them, which are chosen once, by the hair at rest; and where a strip ends it runs out in a point.
 
 use effects::wgsl::power;
 use effects::{Hair, HairStrand, MadePaths};
 use glam::Vec3;
 
 mod grid;
+mod locks;
 mod merge;
 
 use grid::Grid;
+use locks::Lock;
 
 effects::effect!("zigzag");
 
@@ -63,16 +66,22 @@ impl effects::StrokeEffect for Zigzag {
             }
             shining
         };
-        let shining: Vec<Vec<Highlight>> = (0..groups).map(shining).collect();
-        let neighbors = Neighbors::of(hair);
-        for (index, strand) in hair.strands.iter().enumerate() {
-            let Some(other) = neighbors.next_around(index) else {
+        let locks = locks::of(hair, within_m);
+        let neighbors = Neighbors::of(hair, &locks);
+        let next: Vec<Option<usize>> = (0..locks.len()).map(|i| neighbors.next_around(i)).collect();
+        let strips: Vec<Strip> = (0..groups)
+            .map(|group| Strip::of(params, hair, &locks, &next, &shining(group)))
+            .collect();
+        for (lock, next) in next.iter().enumerate() {
+            let Some(next) = *next else {
                 continue;
             };
-            for (group, shining) in shining.iter().enumerate() {
-                let ends = [index, other].map(|strand| shining[strand]);
-                let strands = [strand, &hair.strands[other]];
-                paths.push_weighted(index, group as u32, link(params, hair, strands, ends));
+            let index = locks[lock].strand;
+            let strands = [lock, next].map(|lock| &hair.strands[locks[lock].strand]);
+            for (group, strip) in strips.iter().enumerate() {
+                let ends = [lock, next].map(|lock| strip.shining[lock]);
+                let link = link(params, hair, strands, ends, strip.shares[lock]);
+                paths.push_weighted(index, group as u32, link);
             }
         }
     }
@@ -127,6 +136,46 @@ impl Highlight {
     }
 }
 
+/// The highlights of locks, and how they are linked.
+struct Strip {
+    shining: Vec<Highlight>,
+    /// How much there is of the link from each lock to the next.
+    shares: Vec<f32>,
+}
+
+impl Strip {
+    /// Of locks with the next one of each around the head, by the highlights of all strands.
+    fn of(
+        params: &Params,
+        hair: &Hair,
+        locks: &[Lock],
+        next: &[Option<usize>],
+        of_strands: &[Highlight],
+    ) -> Self {
+        let mut shining: Vec<Highlight> = locks.iter().map(|lock| lock.mean(of_strands)).collect();
+        let share = |(lock, next): (usize, &Option<usize>)| {
+            let Some(next) = *next else {
+                return 0.0;
+            };
+            let ends = [lock, next].map(|lock| shining[lock]);
+            let strands = [lock, next].map(|lock| &hair.strands[locks[lock].strand]);
+            share_of_link(params, hair, strands, ends)
+        };
+        let shares: Vec<f32> = next.iter().enumerate().map(share).collect();
+        // A strip runs out where it comes from none before or goes on to none.
+        let mut from_before = vec![0.0_f32; locks.len()];
+        for (next, share) in next.iter().zip(&shares) {
+            if let Some(next) = *next {
+                from_before[next] = from_before[next].max(*share);
+            }
+        }
+        for (i, highlight) in shining.iter_mut().enumerate() {
+            highlight.amount *= from_before[i].min(shares[i]);
+        }
+        Self { shining, shares }
+    }
+}
+
 /// How brightly a strand shines at `u` of its way.
 fn brightness(params: &Params, hair: &Hair, strand: &HairStrand, u: f32) -> f32 {
     let point = strand.point(u);
@@ -157,19 +206,21 @@ fn along_and_normal(hair: &Hair, strand: &HairStrand, u: f32) -> (Vec3, Vec3) {
     (along, out.normalize_or(along.any_orthonormal_vector()))
 }
 
-/// A link from one strand's highlight to another's: its points, and how much of it is there at each.
-fn link(
+/// Where a highlight on a strand is laid, at `place` of its way.
+fn laid_on(params: &Params, hair: &Hair, strand: &HairStrand, place: f32) -> Vec3 {
+    let (_, normal) = along_and_normal(hair, strand, place);
+    let lift_m = params.lift * 0.5 * strand.size / 300.0 * hair.head_height_m;
+    strand.point(place) + lift_m * normal
+}
+
+/// How much there is of a link from one strand's highlight to another's.
+fn share_of_link(
     params: &Params,
     hair: &Hair,
     strands: [&HairStrand; 2],
     ends: [Highlight; 2],
-) -> impl Iterator<Item = (Vec3, f32)> {
-    let at = |end: usize, place: f32| {
-        let (_, normal) = along_and_normal(hair, strands[end], place);
-        let lift_m = params.lift * 0.5 * strands[end].size / 300.0 * hair.head_height_m;
-        strands[end].point(place) + lift_m * normal
-    };
-    let [from, to] = [0, 1].map(|end| at(end, ends[end].place));
+) -> f32 {
+    let [from, to] = [0, 1].map(|end| laid_on(params, hair, strands[end], ends[end].place));
     let length = from.distance(to) / hair.head_height_m;
     let near = ((params.longest - length) / (FADE * params.longest).max(1e-6)).clamp(0.0, 1.0);
     let lesser = ends[0].amount.min(ends[1].amount);
@@ -178,7 +229,18 @@ fn link(
         true => merge::on_one_line(from, to, within_m, hair.head_center),
         false => 1.0,
     };
-    let whole = smooth(near) * smooth(lesser / WHOLE) * on_one_line;
+    smooth(near) * smooth(lesser / WHOLE) * on_one_line
+}
+
+/// A link from one strand's highlight to another's of which there is so much: its points, and how much of it is there at each.
+fn link(
+    params: &Params,
+    hair: &Hair,
+    strands: [&HairStrand; 2],
+    ends: [Highlight; 2],
+    share: f32,
+) -> impl Iterator<Item = (Vec3, f32)> {
+    let at = |end: usize, place: f32| laid_on(params, hair, strands[end], place);
     (0..POINTS)
         .map(move |i| {
             let t = i as f32 / (POINTS - 1) as f32;
@@ -186,13 +248,14 @@ fn link(
             // Beside both strands all the way, so that it follows the hair's shape between them.
             let place = a.place + (b.place - a.place) * t;
             let point = at(0, place).lerp(at(1, place), t);
-            (point, whole * (a.amount + (b.amount - a.amount) * t))
+            (point, share * (a.amount + (b.amount - a.amount) * t))
         })
         .collect::<Vec<_>>()
         .into_iter()
 }
 
 /// Where a strand is at rest.
+#[derive(Clone, Copy)]
 struct Beside {
     /// At its root, and a third and two thirds of its way.
     points: [Vec3; 3],
@@ -204,13 +267,19 @@ impl Beside {
             points: [0.0, 0.35, 0.7].map(|u| strand.point_at_rest(u)),
         }
     }
+
+    /// How far the other strand is from it where they are farthest apart, metres.
+    fn farthest_m(&self, other: &Self) -> f32 {
+        let pairs = self.points.iter().zip(&other.points);
+        pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
+    }
 }
 
 /// How much farther what lies before, behind, above or below a strand counts as its distance than what lies beside it: the next of its own row is its
 /// neighbour, not one of a row under it.
 const OFF_ROW: f32 = 3.0;
 
-/// All strands at rest.
+/// The strands that are linked, at rest.
 struct Neighbors {
     all: Vec<Beside>,
     /// By their middles.
@@ -219,8 +288,9 @@ struct Neighbors {
 }
 
 impl Neighbors {
-    fn of(hair: &Hair) -> Self {
-        let all: Vec<Beside> = hair.strands.iter().map(Beside::of).collect();
+    fn of(hair: &Hair, locks: &[Lock]) -> Self {
+        let strands = locks.iter().map(|lock| &hair.strands[lock.strand]);
+        let all: Vec<Beside> = strands.map(Beside::of).collect();
         let middles = all.iter().map(|strand| strand.points[1]).enumerate();
         // Some strands in each cube: a head's surface has about so many squares of this size.
         let edge_m = 6.0 * hair.head_height_m / (all.len() as f32).sqrt().max(1.0);
@@ -386,15 +456,29 @@ mod tests {
         };
         let across: Vec<_> = parted.iter().filter(crosses).collect();
         assert!(whole > 0 && !across.is_empty());
-        // Beside the parting the strip goes on from strand to strand.
-        let is_whole = |path: &&Vec<(Vec3, f32)>| path.iter().all(|(_, weight)| *weight > 0.0);
-        let linked = parted.iter().filter(is_whole).count();
-        assert!(linked > 3, "{linked}");
+        // Beside the parting the strip goes on from strand to strand, and runs out in points.
+        let is_there =
+            |path: &&Vec<(Vec3, f32)>| path[1..POINTS - 1].iter().all(|(_, weight)| *weight > 0.0);
+        let ends = |path: &Vec<(Vec3, f32)>| [0, POINTS - 1].map(|end| path[end].1);
+        let linked: Vec<_> = parted.iter().filter(is_there).map(ends).collect();
+        let points = linked.iter().flatten().filter(|weight| **weight == 0.0);
+        assert!(linked.len() > 3 && points.count() == 4, "{linked:?}");
         assert!(
             across
                 .iter()
                 .all(|path| path.iter().all(|(_, weight)| *weight == 0.0))
         );
+    }
+
+    /// Eight strands for each one: means of those beside each other are linked, as few as without them.
+    #[test]
+    fn strands_of_dense_hair_stand_for_those_around_them() {
+        let dense = made(&cap(240), FROM_ABOVE, &[("merge", "0.4")]);
+        let shortest = (dense.iter())
+            .map(|path| path[0].0.distance(path[POINTS - 1].0))
+            .fold(f32::INFINITY, f32::min);
+        assert!((12..40).contains(&dense.len()), "{}", dense.len());
+        assert!(shortest > 0.01, "{shortest}");
     }
 
     /// A row under another one, nearer than the row's own neighbours: links stay within their rows.

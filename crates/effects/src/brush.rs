@@ -155,6 +155,8 @@ pub struct BrushTexture {
     /// All of one size: a strand has one of them.
     marks: Vec<Mark>,
     lie: Lie,
+    /// Whether they tell how far within a shape a place lies, in place of coverage: see [`Self::is_shape`].
+    is_shape: bool,
 }
 
 impl BrushTexture {
@@ -167,6 +169,7 @@ impl BrushTexture {
         Some(Self {
             marks: tools::marks(section).map(Mark::new).collect(),
             lie: section.lie(),
+            is_shape: section.kind == Tool::Zigzag,
         })
     }
 
@@ -191,6 +194,7 @@ impl BrushTexture {
         Ok(Self {
             marks: vec![Mark::new(image)],
             lie: section.lie(),
+            is_shape: false,
         })
     }
 
@@ -217,6 +221,13 @@ impl BrushTexture {
         }
     }
 
+    /// Whether the pictures tell how far within a shape a place lies, in widths of the stroke and from 0.5 at the shape's edge on, so that the edge
+    /// is sharp however large it is drawn, and one shape goes over into another without showing both.
+    #[must_use]
+    pub fn is_shape(&self) -> bool {
+        self.is_shape
+    }
+
     /// What of it a strand of that seed has.
     #[must_use]
     pub fn of_strand(&self, seed: u32) -> StrandBrush<'_> {
@@ -224,6 +235,7 @@ impl BrushTexture {
         StrandBrush {
             mark: &self.marks[mixed as usize % self.marks.len()],
             lie: self.lie,
+            is_shape: self.is_shape,
             side: if mixed & 0x100 == 0 { 1.0 } else { -1.0 },
             start: (mixed >> 9) as f32 / (1 << 23) as f32,
         }
@@ -235,6 +247,7 @@ impl BrushTexture {
 pub struct StrandBrush<'a> {
     mark: &'a Mark,
     lie: Lie,
+    is_shape: bool,
     /// 1, or -1 where it is turned over.
     side: f32,
     /// The part of a copy at which it begins.
@@ -339,6 +352,20 @@ impl StrandBrush<'_> {
     #[inline(always)] // into loops that are compiled for other instructions than their crate
     #[must_use]
     pub fn coverages<const N: usize>(&self, at: &BrushPlaces<N>) -> [f32; N] {
+        let mut coverage = self.marked(at);
+        if self.is_shape {
+            for k in 0..N {
+                // The edge is a pixel broad.
+                let within_px = (coverage[k] - 0.5) * 2.0 * at.radius_px[k];
+                coverage[k] = least(most(0.5 + within_px, 0.0), 1.0);
+            }
+        }
+        coverage
+    }
+
+    /// What the marks tell of the places.
+    #[inline(always)]
+    fn marked<const N: usize>(&self, at: &BrushPlaces<N>) -> [f32; N] {
         let (mut x, mut length) = ([0.0; N], [0.0; N]);
         match self.lie {
             Lie::Repeated { length: copy } => {

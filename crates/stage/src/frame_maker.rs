@@ -9,6 +9,7 @@ mod tests;
 use crate::bodies::Body;
 use crate::files::StageError;
 use crate::head::layers::{Clips, MeshLayers};
+use crate::hem;
 use crate::levels::levels;
 use crate::look::{LineSet, Look};
 use crate::material::Material;
@@ -511,13 +512,20 @@ impl ObjectFrame {
         let is_merged = |i: usize| sizes[i] == 0.0 && hair.infos[i].size > 0.0;
         self.merged = (0..sizes.len()).filter(|i| is_merged(*i)).count();
         let push = |part: &mut Paths, i: usize| {
-            let PathShape { cuts, detail } = &self.of.shapes()[i];
+            let PathShape { cuts, detail, hem } = &self.of.shapes()[i];
             if is_merged(i) || !sight.may_see(particles(i), sizes[i]) {
                 part.leave_out(cuts);
                 return Ok(());
             }
             let (strand, detail) = (first + i, Some(detail));
-            part.push_pieces(strand, particles(i), cuts, detail, path, sight.camera())
+            part.push_pieces(strand, particles(i), cuts, detail, path, sight.camera())?;
+            if let Some(beside) = hem {
+                let (camera, radius_m) = (sight.camera(), sizes[i] * hair.head.unit_m());
+                let tip = |other: usize| particles(other).last().copied().unwrap_or_default();
+                let tips = beside.map(tip);
+                hem::end_along_hem(part, strand, tips, radius_m, camera);
+            }
+            Ok(())
         };
         let along_tangents = self.of.look().paints();
         push_beside(&mut self.parts, sizes.len(), along_tangents, paths, push)?;

@@ -36,6 +36,8 @@ pub struct HairModel {
     pub(crate) bake: Option<PathBuf>,
     /// The names of its style's zones; none where it doesn't come from one.
     pub(crate) zone_names: Vec<String>,
+    /// Which zones of its style are cut straight.
+    pub(crate) zone_cuts: Vec<bool>,
     /// How the hair of each zone of its style moves, where the style says so.
     pub(crate) zone_dynamics: Vec<Option<ZoneDynamics>>,
     /// The colours of each zone of its style at root and tip: see [`StrandInfo`].
@@ -102,6 +104,7 @@ impl HairModel {
             shapes: None,
             bake: None,
             zone_names: Vec::new(),
+            zone_cuts: Vec::new(),
             zone_dynamics: Vec::new(),
             zone_colors: Vec::new(),
             own_colors: Vec::new(),
@@ -269,6 +272,12 @@ impl HairModel {
     pub(crate) fn zone_name(&self, id: u32) -> Option<&str> {
         let name = self.zone_names.get(groom::zone_of(id)?)?;
         Some(name)
+    }
+
+    /// Whether the strand of this index is of a zone that is cut straight.
+    pub(crate) fn is_cut(&self, strand: usize) -> bool {
+        let zone = groom::zone_of(self.infos[strand].id);
+        zone.and_then(|zone| self.zone_cuts.get(zone)) == Some(&true)
     }
 
     /// How the strand of this id moves by its zone, where that says so.

@@ -11,6 +11,7 @@ mod frame_maker;
 mod hair;
 mod hand;
 mod head;
+mod hem;
 mod levels;
 mod lids;
 mod lines;

@@ -568,6 +568,7 @@ fn grow(files: &Files, path: &Path, head: Option<&HeadModel>) -> Result<HairMode
         ornaments: grown.ornaments,
         low_ties: grown.low_ties,
         zone_names: style.zones.iter().map(|zone| zone.name.clone()).collect(),
+        zone_cuts: style.zones.iter().map(|zone| zone.cut.is_some()).collect(),
         zone_dynamics: dynamics,
         zone_colors: colors,
         head,

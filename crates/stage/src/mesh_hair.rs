@@ -307,6 +307,7 @@ impl OwnHair {
             shapes: None,
             bake: None,
             zone_names: Vec::new(),
+            zone_cuts: Vec::new(),
             zone_dynamics: Vec::new(),
             zone_colors: Vec::new(),
             ornaments: Vec::new(),

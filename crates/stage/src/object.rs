@@ -5,6 +5,7 @@ use crate::dynamics::BodyMesh;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::{self, HeadModel};
+use crate::hem::{self, Beside};
 use crate::lines;
 use crate::load::{self, ReadHead};
 use crate::look::Look;
@@ -15,7 +16,7 @@ use crate::script::{self, HeadPose, MotionScript};
 use crate::zones;
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
-use render::{Head, StrandInfo};
+use render::{Brush, Head, StrandInfo};
 use std::sync::Arc;
 use stroke_path::{Coarseness, Cut, Detail};
 
@@ -45,6 +46,8 @@ pub(crate) struct PathShape {
     pub cuts: Vec<Cut>,
     /// Which of its joints a picture needs.
     pub detail: Detail,
+    /// The strands beside it along the hem that it ends at, where its brush ends flat.
+    pub hem: Option<Beside>,
 }
 
 impl Object {
@@ -125,7 +128,7 @@ impl Object {
         let given_look = look;
         let look = on_hair(&given_look, &self.hair);
         let mut object = self.clone();
-        if look.path() != self.look.path() {
+        if look.path() != self.look.path() || look.brush() != self.look.brush() {
             object.shapes = Arc::new(shapes(&self.hair, &look)?);
         }
         if look.sections.head.scalp != self.look.sections.head.scalp {
@@ -282,8 +285,15 @@ fn shapes(hair: &HairModel, look: &Look) -> Result<Vec<PathShape>, StageError> {
         let overlap_m = OVERLAP * info.size * hair.head.unit_m();
         let rest = hair.file.strands.strand(i);
         let cuts = stroke_path::cuts(rest, look.path(), overlap_m)?;
-        let detail = Detail::of(rest, look.path(), &cuts, coarseness)?;
-        Ok(PathShape { cuts, detail })
+        let hem = match look.brush() {
+            Brush::Circle => None,
+            Brush::Semicircle => hem::beside(hair, i),
+        };
+        let detail = match hem {
+            None => Detail::of(rest, look.path(), &cuts, coarseness)?,
+            Some(_) => Detail::of(&hem::bent(rest), look.path(), &cuts, coarseness)?,
+        };
+        Ok(PathShape { cuts, detail, hem })
     };
     hair.infos.par_iter().enumerate().map(shape).collect()
 }

@@ -185,7 +185,7 @@ impl Paper {
     }
 
     /// Teeth along both edges, no two alike; those of the lower one lean. Both edges lie in a valley where teeth begin and end, so that strokes of whole
-    /// teeth which meet there go on in one another, however they are turned.
+    /// teeth which meet there go on in one another, however they are turned. As a shape: how far within the edge a place lies.
     fn zigzag(self) -> impl Fn([f32; 2]) -> f32 {
         let teeth = TEETH as f32;
         let reach = Noise::new(self.seed, 1, [0.5 / teeth, 4.0]);
@@ -204,7 +204,7 @@ impl Paper {
             let own = 1.0 - 0.45 * reach.at([(tooth + 0.5) / teeth, row]);
             let height = (way / point).min((1.0 - way) / (1.0 - point));
             let edge = 1.0 - depth + depth * own * height;
-            smooth(-0.04, 0.04, edge - from_middle.abs())
+            0.5 + 0.5 * (edge - from_middle.abs())
         }
     }
 }

@@ -447,8 +447,9 @@ impl SceneWords {
                     .extend([layer.seed, p.first_disc as u32, first, count]);
                 let is_outline = p.rank < 0 && p.decal.is_none();
                 self.tables.extend([along, length, parts]);
+                let is_shape = u32::from(layer.brush.is_shape());
                 self.tables
-                    .extend([u32::from(is_outline), marks.len() as u32]);
+                    .extend([u32::from(is_outline), is_shape, marks.len() as u32]);
                 let place = |mark: &Arc<Image>| {
                     let image = images.iter().find(|(image, _)| Arc::ptr_eq(image, mark));
                     image.map_or(0, |(_, at)| *at)

@@ -15,7 +15,7 @@ mod running;
 mod section;
 mod ties;
 #[cfg(test)]
-mod together;
+pub(crate) mod together;
 
 pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 

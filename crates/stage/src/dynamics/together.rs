@@ -19,7 +19,7 @@ const FPS: f32 = 24.0;
 const FRAMES: u32 = 72;
 
 /// A look of the presets in one of their motions.
-fn scene(look: &str, motion: &str) -> Scene {
+pub(crate) fn scene(look: &str, motion: &str) -> Scene {
     let presets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets");
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
