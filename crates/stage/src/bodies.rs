@@ -6,7 +6,7 @@ pub(crate) mod forms;
 mod load;
 mod section;
 
-pub(crate) use clear::{Gap, clear, gaps};
+pub(crate) use clear::{Followed, Gap, clear, followed, gaps};
 pub(crate) use load::{check, load};
 pub(crate) use section::NamedKey;
 pub use section::{BODIES, BodyKeySection, BodyOn, BodySection, BodyShape, NamedBody};

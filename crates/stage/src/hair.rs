@@ -1,6 +1,6 @@
 //! Hair as a scene has it: strands with their sizes, what the head holds of them, and the shapes that are wanted of them.
 
-use crate::bodies::clear;
+use crate::bodies::{clear, followed};
 use crate::dynamics::{DynamicsSection, ZoneDynamics, turn_of};
 use crate::files::StageError;
 use crate::head::HeadModel;
@@ -211,12 +211,13 @@ impl HairModel {
             .map(|collider| Collider::fixed(collider.shape, on_head(collider.now)))
             .map(|collider| Placed::new(&collider))
             .collect();
+        let mut bodies = followed(&bodies);
         let unit_m = self.head.unit_m();
         for strand in 0..self.infos.len() {
             let (range, held) = (self.file.strands.point_range(strand), self.held(strand));
             let gap = (dynamics.distance * self.infos[strand].size * unit_m).clamp(1e-4, 0.1);
             let points = &mut self.file.strands.points_mut()[range];
-            clear(points, held, &bodies, gap, |_| [gap; 4]);
+            clear(points, held, &mut bodies, gap, |_| [gap; 4]);
         }
         self.reach_m = reach_m(&self.file.strands, &self.infos, self.head);
     }

@@ -2,7 +2,11 @@
 
 use glam::{Affine3A, DMat3, DVec3, Vec3, Vec3A};
 
-use crate::{hash::Hash, pose::Pose};
+use crate::{
+    hash::Hash,
+    lanes::{LANES, Lane, Number, Vec3 as LaneVec3},
+    pose::Pose,
+};
 
 /// The largest number of grid points.
 const MOST_POINTS: usize = 1 << 26;
@@ -207,6 +211,46 @@ impl SignedDistance {
         }
     }
 
+    /// As [`Self::distance`], to the bit, at a place in each lane.
+    #[inline(always)]
+    pub(crate) fn distances<T: Number>(&self, at: LaneVec3<T>) -> T {
+        let (from, cell) = (at - LaneVec3::all(self.origin), T::splat(self.cell));
+        let in_cells = LaneVec3::new(from.x / cell, from.y / cell, from.z / cell);
+        let within = |place: T, last: f64| {
+            let (zero, last) = (T::splat(0.0), T::splat(last));
+            // NaN is the first.
+            let place = T::choose(zero.less(place), place, zero);
+            T::choose(place.less(last), place, last)
+        };
+        let clamped = LaneVec3::new(
+            within(in_cells.x, self.last.x),
+            within(in_cells.y, self.last.y),
+            within(in_cells.z, self.last.z),
+        );
+        let places = [clamped.x, clamped.y, clamped.z].map(T::store);
+        let (mut cells, mut corners) = ([Lane::ZERO; 3], [Lane::ZERO; 8]);
+        for lane in 0..LANES {
+            let cell: [usize; 3] =
+                std::array::from_fn(|axis| (places[axis][lane] as usize).min(self.size[axis] - 2));
+            for axis in 0..3 {
+                cells[axis][lane] = cell[axis] as f64;
+            }
+            for (corner, value) in corners.iter_mut().zip(self.corners(cell)) {
+                corner[lane] = f64::from(value);
+            }
+        }
+        let [x, y, z] = cells.map(|cell| cell.load::<T>());
+        let p = clamped - LaneVec3::new(x, y, z);
+        let v = corners.map(|corner| corner.load::<T>());
+        let mix = |a: T, b: T, t: T| a + (b - a) * t;
+        let low = mix(mix(v[0], v[1], p.x), mix(v[2], v[3], p.x), p.y);
+        let high = mix(mix(v[4], v[5], p.x), mix(v[6], v[7], p.x), p.y);
+        let inner = mix(low, high, p.z);
+        let outside = (in_cells - clamped).length_squared() * T::splat(self.cell * self.cell);
+        let outer = (inner * inner + outside).sqrt();
+        T::choose(T::splat(0.0).less(outside), outer, inner)
+    }
+
     /// The gradient of the distance at a place.
     pub(crate) fn gradient(&self, at: DVec3) -> DVec3 {
         let h = self.cell * 0.5;
@@ -248,16 +292,16 @@ impl<'a> Placed<'a> {
     pub(super) fn distance(&self, at: Vec3) -> f32 {
         let in_cells = self.to_cells.transform_point3a(at.into());
         let clamped = in_cells.max(Vec3A::ZERO).min(self.last);
-        let size = self.grid.size;
-        let cell = |place: f32, size: usize| (place as i32).min(size as i32 - 2);
-        let cells = [
-            cell(clamped.x, size[0]),
-            cell(clamped.y, size[1]),
-            cell(clamped.z, size[2]),
-        ];
-        let [x, y, z] = cells.map(|cell| cell as f32);
-        let p = clamped - Vec3A::new(x, y, z);
-        let v = self.grid.corners(cells.map(|cell| cell as usize));
+        // A number that this is added to has no fraction left, and its last bits are those of a whole number: three coordinates at once. A grid has far
+        // fewer cells along an axis.
+        const WHOLE: f32 = (1 << 23) as f32;
+        let near = (clamped + WHOLE) - WHOLE;
+        let cell = near - Vec3A::select(near.cmpgt(clamped), Vec3A::ONE, Vec3A::ZERO);
+        let cell = cell.min(self.last - 1.0);
+        let p = clamped - cell;
+        let cells = (cell + WHOLE).to_array().map(f32::to_bits);
+        let cells = cells.map(|bits| (bits - WHOLE.to_bits()) as usize);
+        let v = self.grid.corners(cells);
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
         let low = mix(mix(v[0], v[1], p.x), mix(v[2], v[3], p.x), p.y);
         let high = mix(mix(v[4], v[5], p.x), mix(v[6], v[7], p.x), p.y);

@@ -1,4 +1,5 @@
 use super::{grid::SignedDistance, shape::Shape};
+use crate::lanes::{Lane, Vec3 as LaneVec3};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 
@@ -58,6 +59,17 @@ proptest! {
                 prop_assert!((slope(&shape, at) - shape.normal(at)).length() < 1e-5);
             }
         }
+    }
+
+    #[test]
+    fn distances_side_by_side_are_those_one_by_one(at in prop::array::uniform4(vector(0.2))) {
+        let grid = grid(0.02);
+        let mut places = LaneVec3::ZERO;
+        for (lane, at) in at.into_iter().enumerate() {
+            places.set(lane, at);
+        }
+        let distances: Lane = grid.distances(places);
+        prop_assert_eq!(distances, Lane(at.map(|at| grid.distance(at))));
     }
 
     #[test]

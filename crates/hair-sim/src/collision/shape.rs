@@ -188,6 +188,7 @@ impl<'a> Placed<'a> {
 
     /// As [`Collider::distance`], in m, within a micrometre within metres of the origin.
     #[must_use]
+    #[inline]
     pub fn distance(&self, at: Vec3) -> f32 {
         match &self.asked {
             Asked::Line {

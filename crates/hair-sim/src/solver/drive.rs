@@ -1,6 +1,6 @@
 //! What drives a batch in a step: roots, air, bodies and goals, made ready for the stages.
 
-use glam::{DVec3, Vec3 as Point};
+use glam::Vec3 as Point;
 
 use crate::{
     error::Reason,
@@ -10,6 +10,7 @@ use crate::{
         wind::Gusts,
     },
     lanes::{LANES, Lane, Mask, Number, Quat, Vec3},
+    pose::Pose,
     stats::Stats,
     surroundings::{Anchor, Surroundings},
 };
@@ -199,7 +200,7 @@ pub(crate) fn prepare<T: Number>(
         loads.springs.fill(Spring::NONE);
     }
     if batch.has_goal.any() {
-        pull_to_goals(batch, state, loads, drive);
+        pull_to_goals::<T>(batch, state, loads, drive);
     }
     for own in drive.anchors {
         pull_to_anchor(own, state, root.root, loads, drive.dt);
@@ -260,44 +261,94 @@ fn pull_to_anchor(own: &Anchored, state: &BatchState, root: Vec3, loads: &mut Lo
     spring.pull(stiffness, before, now, Vec3::ZERO, GAMMA, dt);
 }
 
-fn pull_to_goals(batch: &Batch, state: &mut BatchState, loads: &mut Loads, drive: &Drive) {
+/// The rotations of a batch's roots: they turn vectors to the bits that [`DQuat`](glam::DQuat) turns them to.
+struct Turned<T> {
+    axis: Vec3<T>,
+    w: T,
+}
+
+impl<T: Number> Turned<T> {
+    #[inline(always)]
+    fn by(poses: &[Pose; LANES]) -> Self {
+        let mut turned = Quat::IDENTITY;
+        for (lane, pose) in poses.iter().enumerate() {
+            turned.set(lane, pose.rotation);
+        }
+        Self {
+            axis: turned.v.load(),
+            w: turned.w.load(),
+        }
+    }
+
+    #[inline(always)]
+    fn of(&self, v: Vec3<T>) -> Vec3<T> {
+        let Self { axis, w } = *self;
+        v.scale(w * w - axis.dot(axis))
+            + axis.scale(v.dot(axis) * T::splat(2.0))
+            + axis.cross(v).scale(w * T::splat(2.0))
+    }
+}
+
+#[inline(always)]
+fn pull_to_goals<T: Number>(
+    batch: &Batch,
+    state: &mut BatchState,
+    loads: &mut Loads,
+    drive: &Drive,
+) {
     let known = !state.goal.is_empty();
-    let turn = drive
-        .surroundings
-        .acceleration
-        .map(|ends| (ends[0].turn + ends[1].turn) * 0.5);
+    let turn = (drive.surroundings.acceleration)
+        .map(|ends| (ends[0].turn + ends[1].turn) * 0.5)
+        .filter(|_| known);
     if !known {
         state.goal.resize(batch.count(), Vec3::ZERO);
     }
+    let pose = |strand: Option<usize>| {
+        strand.map_or(Pose::IDENTITY, |strand| drive.surroundings.roots.of(strand))
+    };
+    let poses = batch.strands.map(pose);
+    let turned = Turned::<T>::by(&poses);
+    let has_strand = Mask::new(batch.strands.map(|strand| strand.is_some()));
+    let here = T::condition(&has_strand);
     for k in 0..batch.count() {
-        let (mut now, mut acceleration) = (batch.styled[k], Vec3::ZERO);
-        for lane in 0..LANES {
-            let Some(strand) = batch.strands[lane] else {
-                continue;
-            };
-            let pose = drive.surroundings.roots.of(strand);
-            let goal = match drive.surroundings.goal {
-                Some(goal) if k < batch.counts[lane] => {
-                    let at: Point = goal[drive.first_points[strand] + k + 1];
-                    at.as_dvec3() - batch.root.get(lane)
+        let styled = batch.styled[k];
+        let mut goal = styled;
+        if let Some(goals) = drive.surroundings.goal {
+            for lane in (0..LANES).filter(|&lane| k < batch.counts[lane]) {
+                if let Some(strand) = batch.strands[lane] {
+                    let at: Point = goals[drive.first_points[strand] + k + 1];
+                    goal.set(lane, at.as_dvec3() - batch.root.get(lane));
                 }
-                _ => now.get(lane),
-            };
-            if let (Some(turn), true) = (turn, known) {
-                acceleration.set(lane, turn * goal);
-            }
-            let goal: DVec3 = pose.rotation * goal;
-            if goal.is_finite() {
-                now.set(lane, goal);
-            } else if pose.is_finite() && batch.particles[k].goal[lane] > 0.0 {
-                // Where nothing pulls, an invalid goal changes nothing.
-                state.set_aside[lane].get_or_insert(Reason::Goal);
             }
         }
-        let before = if known { state.goal[k] } else { now };
+        let there = turned.of(goal.load());
+        let [x, y, z] = [there.x.store(), there.y.store(), there.z.store()];
+        let is_there = x.is_finite().and(y.is_finite()).and(z.is_finite());
+        if is_there != Mask::NONE.not() {
+            // Where nothing pulls, an invalid goal changes nothing.
+            let pulls = batch.particles[k].goal.gt(Lane::ZERO);
+            for lane in 0..LANES {
+                if poses[lane].is_finite() && pulls.get(lane) && !is_there.get(lane) {
+                    state.set_aside[lane].get_or_insert(Reason::Goal);
+                }
+            }
+        }
+        let now = Vec3::choose(
+            T::condition(&is_there.and(has_strand)),
+            there,
+            styled.load(),
+        );
+        let acceleration = turn.map_or(Vec3::zero(), |turn| {
+            let goal = goal.load::<T>();
+            let all = Vec3::all(turn.x_axis).scale(goal.x)
+                + Vec3::all(turn.y_axis).scale(goal.y)
+                + Vec3::all(turn.z_axis).scale(goal.z);
+            Vec3::choose(here, all, Vec3::zero())
+        });
+        let before = if known { state.goal[k].load() } else { now };
         let spring = &mut loads.springs[k];
-        let stiffness = batch.particles[k].goal;
+        let stiffness = batch.particles[k].goal.load::<T>();
         spring.pull(stiffness, before, now, acceleration, GAMMA, drive.dt);
-        state.goal[k] = now;
+        state.goal[k] = now.store();
     }
 }

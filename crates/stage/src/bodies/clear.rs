@@ -27,7 +27,7 @@ pub(crate) type Gap = [f32; PLACES.len()];
 pub(crate) fn clear(
     points: &mut [Vec3],
     held: usize,
-    bodies: &[Placed],
+    bodies: &mut [Followed],
     most: f32,
     gap: impl Fn(usize) -> Gap,
 ) -> bool {
@@ -92,7 +92,8 @@ fn take_along<'p>(points: impl IntoIterator<Item = &'p mut Vec3>, by: Vec3, shar
 /// The first point has no link.
 pub(crate) fn gaps(points: &[Vec3], bodies: &[Placed], most: f32) -> Vec<Gap> {
     let mut gaps = vec![[most; PLACES.len()]; points.len()];
-    let mut near = Near::new(bodies);
+    let mut followed = followed(bodies);
+    let mut near = Near::new(&mut followed);
     near.start(points, 0);
     for i in 1..points.len() {
         if near.is_clear(points, i, most) {
@@ -108,9 +109,17 @@ pub(crate) fn gaps(points: &[Vec3], bodies: &[Placed], most: f32) -> Vec<Gap> {
     gaps
 }
 
+/// A body, and what is known of its distance from the strand that is followed.
+pub(crate) type Followed<'a> = (&'a Placed<'a>, Known);
+
+/// Bodies that strands are followed along, one strand after the other.
+pub(crate) fn followed<'a>(bodies: &'a [Placed<'a>]) -> Vec<Followed<'a>> {
+    (bodies.iter().map(|body| (body, Known::default()))).collect()
+}
+
 /// How far a strand is from each body at the point that it has been followed to.
-struct Near<'a> {
-    bodies: Vec<(&'a Placed<'a>, Known)>,
+struct Near<'a, 'b> {
+    bodies: &'b mut [Followed<'a>],
     /// The length of the link to there, and how far the way that is drawn there is from it at most, m.
     link: f32,
     bulge: f32,
@@ -120,7 +129,7 @@ struct Near<'a> {
 
 /// Distances from a body, or less than those, m.
 #[derive(Default)]
-struct Known {
+pub(crate) struct Known {
     /// At the point, at the one before, and half way there.
     distance: f32,
     before: f32,
@@ -129,10 +138,10 @@ struct Known {
     may_meet: bool,
 }
 
-impl<'a> Near<'a> {
-    fn new(bodies: &'a [Placed<'a>]) -> Self {
+impl<'a, 'b> Near<'a, 'b> {
+    fn new(bodies: &'b mut [Followed<'a>]) -> Self {
         Self {
-            bodies: (bodies.iter().map(|body| (body, Known::default()))).collect(),
+            bodies,
             link: 0.0,
             bulge: 0.0,
             bend: 0.0,
@@ -141,20 +150,21 @@ impl<'a> Near<'a> {
 
     /// Begins at a point.
     fn start(&mut self, points: &[Vec3], at: usize) {
-        for (body, known) in &mut self.bodies {
+        for (body, known) in &mut *self.bodies {
             known.distance = body.distance(points[at]);
         }
         self.bend = bend(points, at);
     }
 
     /// Goes on to the next point, `to`. Whether all on the way that is drawn there is farther from bodies than `gap` m.
+    #[inline(always)] // a call for each link would cost as much as what is done there
     fn is_clear(&mut self, points: &[Vec3], to: usize, gap: f32) -> bool {
         let (link, bend) = (points[to].distance(points[to - 1]), bend(points, to));
         // No place of the spline is farther than this from the link.
         let bulge = 0.125 * bend.max(self.bend) + ROUNDING;
         (self.link, self.bulge, self.bend) = (link, bulge, bend);
         let mut is_clear = true;
-        for (body, known) in &mut self.bodies {
+        for (body, known) in &mut *self.bodies {
             known.before = known.distance;
             // Nothing on the way is nearer than this: so the distance itself is not asked for.
             known.distance -= link;
@@ -182,7 +192,7 @@ impl<'a> Near<'a> {
         let (link, bulge) = (self.link, self.bulge);
         let mut deepest: Option<(f32, &Placed)> = None;
         let mut at = None;
-        for (body, known) in &mut self.bodies {
+        for (body, known) in &mut *self.bodies {
             // No more than the distance.
             let least = match place {
                 _ if moves => f32::NEG_INFINITY,
@@ -273,13 +283,25 @@ mod tests {
             .map(|i| Vec3::new(0.004, -0.025 * i as f32, 0.0))
             .collect();
         let mut moved = straight.clone();
-        assert!(clear(&mut moved, 1, &[ball], 1e-3, |_| [1e-3; 4]));
+        assert!(clear(
+            &mut moved,
+            1,
+            &mut followed(&[ball]),
+            1e-3,
+            |_| [1e-3; 4]
+        ));
         assert_eq!(moved[0], straight[0]);
         let depth = -nearest(&moved, &[ball]);
         assert!(depth < 5e-4, "{depth}");
         // What may be inside stays.
         let mut same = straight.clone();
-        assert!(!clear(&mut same, 1, &[ball], -0.06, |_| [-0.06; 4]));
+        assert!(!clear(
+            &mut same,
+            1,
+            &mut followed(&[ball]),
+            -0.06,
+            |_| [-0.06; 4]
+        ));
         assert_eq!(same, straight);
     }
 
@@ -304,7 +326,7 @@ mod tests {
                 }
             }
             let mut same = points.clone();
-            prop_assert!(!clear(&mut same, 1, &bodies, 1e-3, |i| own[i]));
+            prop_assert!(!clear(&mut same, 1, &mut followed(&bodies), 1e-3, |i| own[i]));
             prop_assert!(same == points);
         }
     }

@@ -57,7 +57,33 @@ impl Place {
 #[derive(Clone, Copy, Debug)]
 struct Link {
     ends: [Vec3A; 2],
-    turn: Quat,
+    turn: Turn,
+}
+
+/// A rotation, made ready to turn vectors to the bits that a [`Quat`] turns them to.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    axis: Vec3A,
+    /// Of the vector itself, and of its cross product with the axis.
+    shares: [f32; 2],
+}
+
+impl From<Quat> for Turn {
+    fn from(turn: Quat) -> Self {
+        let (axis, w) = (Vec3A::new(turn.x, turn.y, turn.z), turn.w);
+        Self {
+            axis,
+            shares: [w * w - axis.dot(axis), w * 2.0],
+        }
+    }
+}
+
+impl Turn {
+    #[inline(always)]
+    fn of(&self, v: Vec3A) -> Vec3A {
+        let Self { axis, shares } = *self;
+        v * shares[0] + axis * (v.dot_into_vec(axis) * 2.0) + axis.cross(v) * shares[1]
+    }
 }
 
 /// Chooses at most `most` of the free strands as guides, by their indices, and what carries the others.
@@ -171,20 +197,24 @@ impl Carried {
 
     /// Moves the carried strands: each keeps its place in the frames of its guides, whose links have turned
     /// as `turns` says (one rotation a link). `keep_out` may then move the points of each, of which it is told the
-    /// first one's place in the scene; that is the root.
-    pub fn carry(
+    /// first one's place in the scene; that is the root. It works with what `start` makes for each task.
+    pub fn carry<T>(
         &self,
         points: &mut [Vec3],
         turns: impl Fn(usize) -> Vec<DQuat> + Sync,
-        keep_out: impl Fn(usize, &mut [Vec3]) + Sync,
+        (start, keep_out): (
+            impl Fn() -> T + Sync + Send,
+            impl Fn(&mut T, usize, &mut [Vec3]) + Sync,
+        ),
     ) {
         let guides = self.guides_now(points, &turns);
         let strands = self.strands_of(points);
-        (strands.into_par_iter()).zip(&self.offsets).for_each(
-            |((range, carriers, moved), offsets)| {
+        (strands.into_par_iter()).zip(&self.offsets).for_each_init(
+            start,
+            |work, ((range, carriers, moved), offsets)| {
                 let carriers = carriers.map(|own| {
                     let (links, places) = (&guides[own.guide], &self.places[own.places].1);
-                    (&links[..], &places[..], own.weight)
+                    (&links[..], &places[..moved.len()], own.weight)
                 });
                 // The root stays with the head.
                 for (i, (point, offsets)) in moved.iter_mut().zip(offsets).enumerate().skip(1) {
@@ -193,11 +223,11 @@ impl Carried {
                         let Place { link, share } = places[i];
                         let Link { ends, turn } = &links[link];
                         let guide = ends[0].lerp(ends[1], share);
-                        sum += weight * (guide + *turn * Vec3A::from(*offset));
+                        sum += weight * (guide + turn.of(Vec3A::from(*offset)));
                     }
                     *point = sum.into();
                 }
-                keep_out(range.start, moved);
+                keep_out(work, range.start, moved);
             },
         );
     }
@@ -253,7 +283,7 @@ impl Carried {
             let links = points[own.clone()].windows(2).zip(turns(guide));
             let link = |(ends, turn): (&[Vec3], DQuat)| Link {
                 ends: [ends[0].into(), ends[1].into()],
-                turn: turn.as_quat(),
+                turn: turn.as_quat().into(),
             };
             links.map(link).collect()
         };
@@ -302,14 +332,14 @@ mod tests {
             }
         }
         let turns = |guide: usize| vec![DQuat::from_rotation_z(0.1 * guide as f64); 4];
-        let floor = |_, points: &mut [Vec3]| {
+        let floor = |_: &mut (), _, points: &mut [Vec3]| {
             for point in &mut points[1..] {
                 point.y = point.y.max(-0.035);
             }
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
-        pool.install(|| carried.carry(&mut points, turns, floor));
+        pool.install(|| carried.carry(&mut points, turns, (|| (), floor)));
         (guides.len(), points)
     }
 
@@ -350,7 +380,7 @@ mod tests {
             (0..links).map(turn).collect::<Vec<_>>()
         };
         let before = points.clone();
-        carried.carry(&mut points, turns, |_, _| {});
+        carried.carry(&mut points, turns, (|| (), |_, _, _| {}));
         let mut counts = (0, 0);
         for (strand, range) in carried.ranges.iter().enumerate() {
             for i in 1..range.len() {

@@ -19,7 +19,7 @@ pub(crate) mod together;
 
 pub use section::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 
-use crate::bodies::{Gap, clear, gaps};
+use crate::bodies::{Followed, Gap, clear, followed, gaps};
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::hand::Driver;
@@ -370,18 +370,19 @@ impl Dynamics {
         }
         let posture = self.posture_at(self.shown, driver);
         let bodies = self.bodies_at(self.shown, &posture, driver);
-        let keep_out = |first: usize, points: &mut [Vec3]| {
+        let start = || followed(&bodies);
+        let keep_out = |bodies: &mut Vec<Followed>, first: usize, points: &mut [Vec3]| {
             let gap = |i| self.gaps[first + i];
-            clear(points, 1, &bodies, GAP_M, gap);
+            clear(points, 1, bodies, GAP_M, gap);
         };
         let own = carried::parts_of(points, self.guides.iter().map(|part| &part.points));
         let guides: Vec<(&Part, &mut [Vec3])> = self.guides.iter().zip(own).collect();
-        guides.into_par_iter().for_each(|(part, points)| {
+        (guides.into_par_iter()).for_each_init(start, |bodies, (part, points)| {
             self.write_guide(part, points);
-            keep_out(part.points.start, points);
+            keep_out(bodies, part.points.start, points);
         });
         let turns = |strand| self.strands.turns(strand);
-        self.carried.carry(points, turns, keep_out);
+        self.carried.carry(points, turns, (start, keep_out));
         if self.owed > 0 {
             self.carry_on(driver, time, points);
         }
@@ -391,10 +392,11 @@ impl Dynamics {
     pub fn keep_out(&self, driver: Driver, time: f64, points: &mut [Vec3]) -> Vec<Range<usize>> {
         let posture = self.posture_at(time, driver);
         let bodies = self.bodies_at(time, &posture, driver);
+        let mut bodies = followed(&bodies);
         let parts = self.guides.iter().map(|part| &part.points);
         let parts = parts.chain(self.carried.ranges()).filter(|range| {
             let gap = |i| self.gaps[range.start + i];
-            clear(&mut points[(*range).clone()], 1, &bodies, GAP_M, gap)
+            clear(&mut points[(*range).clone()], 1, &mut bodies, GAP_M, gap)
         });
         parts.cloned().collect()
     }

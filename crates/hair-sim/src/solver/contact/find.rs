@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::{
-    collision::shape::Collider,
+    collision::shape::{Collider, Shape},
     lanes::{LANES, Lane, Mask, Number, Vec3},
 };
 
@@ -30,6 +30,9 @@ pub(crate) struct Guard {
     /// From where something was, as the body carries it along: `carry` times the place, and `shift`.
     carry: DMat3,
     shift: DVec3,
+    /// From the world to the body's own space when the step ends.
+    back: DMat3,
+    origin: DVec3,
     /// Whether links between particles count.
     has_links: bool,
 }
@@ -44,6 +47,8 @@ impl Guard {
             radius,
             carry,
             shift: now.translation - carry * before.translation,
+            back: DMat3::from_quat(now.rotation).transpose(),
+            origin: now.translation,
             has_links: !collider.shape.is_sampled(),
         }
     }
@@ -52,18 +57,42 @@ impl Guard {
     /// [`Path::against`] asks for, which has the last word.
     #[inline(always)]
     fn is_near<T: Number>(&self, from: Vec3<T>, to: Vec3<T>, keep: T) -> Mask {
-        const MARGIN: f64 = 1e-6;
-        let carried = Vec3::all(self.shift)
-            + Vec3::all(self.carry.x_axis).scale(from.x)
-            + Vec3::all(self.carry.y_axis).scale(from.y)
-            + Vec3::all(self.carry.z_axis).scale(from.z);
-        let way = (to - carried).length_squared().sqrt();
-        let reach = way + keep + T::splat(self.radius + NEAR + MARGIN);
+        let reach = self.reach(from, to, keep) + T::splat(self.radius);
         let apart = (to - Vec3::all(self.center)).length_squared().sqrt();
-        let (apart, reach) = (apart.store(), reach.store());
         // NaN is near.
-        reach.lt(apart).not()
+        reach.store().lt(apart.store()).not()
     }
+
+    /// The same by the distances of a body that has them on a grid, too: `shape` is its shape when the step ends.
+    #[inline(always)]
+    fn is_near_to<T: Number>(&self, shape: &Shape, from: Vec3<T>, to: Vec3<T>, keep: T) -> Mask {
+        let near = self.is_near(from, to, keep);
+        let Shape::Grid(grid) = shape else {
+            return near;
+        };
+        if !near.any() {
+            return near;
+        }
+        let at = turned(&self.back, to - Vec3::all(self.origin));
+        let apart = grid.distances(at).store();
+        near.and(self.reach(from, to, keep).store().lt(apart).not())
+    }
+
+    /// How far from where it ends a particle may meet the body's surface.
+    #[inline(always)]
+    fn reach<T: Number>(&self, from: Vec3<T>, to: Vec3<T>, keep: T) -> T {
+        const MARGIN: f64 = 1e-6;
+        let carried = Vec3::all(self.shift) + turned(&self.carry, from);
+        let way = (to - carried).length_squared().sqrt();
+        way + keep + T::splat(NEAR + MARGIN)
+    }
+}
+
+#[inline(always)]
+fn turned<T: Number>(by: &DMat3, v: Vec3<T>) -> Vec3<T> {
+    Vec3::all(by.x_axis).scale(v.x)
+        + Vec3::all(by.y_axis).scale(v.y)
+        + Vec3::all(by.z_axis).scale(v.z)
 }
 
 /// The ways of a batch's particles through the world in a step, as far as planes were found by them.
@@ -227,8 +256,8 @@ fn detect_alone<T: Number>(
                 let [from, to] = way::<T>(k, state, bodies, known);
                 let keep = batch.thickness.load::<T>() + state.skin[k].load();
                 let mut near = Mask::NONE;
-                for guard in bodies.guards {
-                    near = near.or(guard.is_near(from, to, keep));
+                for (guard, collider) in bodies.guards.iter().zip(bodies.colliders) {
+                    near = near.or(guard.is_near_to(&collider.shape, from, to, keep));
                 }
                 let near = near.and(active);
                 if !near.any() {
@@ -437,26 +466,65 @@ impl Looked<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{collision::shape::Shape, pose::Pose};
+    use crate::{SignedDistance, pose::Pose};
     use glam::DQuat;
+
+    const NOW: Pose = Pose {
+        rotation: DQuat::from_xyzw(0.0, 0.6, 0.0, 0.8),
+        translation: DVec3::new(0.02, 0.25, 0.01),
+    };
+    const FAR: Pose = Pose {
+        rotation: DQuat::from_xyzw(0.28, 0.0, 0.0, 0.96),
+        translation: DVec3::new(0.0, 0.3, 0.0),
+    };
 
     #[test]
     fn a_ball_around_a_body_hides_nothing_that_the_body_meets() {
-        let shape = Shape::Capsule {
+        let capsule = Shape::Capsule {
             from: DVec3::new(-0.1, 0.0, 0.05),
             to: DVec3::new(0.2, 0.1, 0.0),
             radius: 0.05,
         };
+        let (met, hidden) = met_and_hidden((capsule, FAR), |guard, [from, to], keep| {
+            guard.is_near(from, to, keep).get(0)
+        });
+        assert!(met > 1000 && hidden > 1000, "{met} {hidden}");
+    }
+
+    #[test]
+    fn a_grid_hides_nothing_that_its_body_meets() {
+        // A tetrahedron.
+        let points = [
+            glam::Vec3::ZERO,
+            glam::Vec3::X,
+            glam::Vec3::Y,
+            glam::Vec3::Z,
+        ];
+        let points = points.map(|point| point * 0.8 - 0.3);
+        let triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let grid = SignedDistance::new(&points, &triangles, 0.02).unwrap();
+        let shape = Shape::Grid(&grid);
+        let near = Pose {
+            translation: NOW.translation + DVec3::new(0.005, 0.0, 0.01),
+            ..NOW
+        };
+        let (met, hidden) = met_and_hidden((shape, near), |guard, [from, to], keep| {
+            // Far away a grid says less than it could, and the ball around it more.
+            let is_in_ball = guard.is_near(from, to, keep).get(0);
+            !is_in_ball || guard.is_near_to(&shape, from, to, keep).get(0)
+        });
+        assert!(met > 500 && hidden > 1000, "{met} {hidden}");
+    }
+
+    /// How many of some paths meet a body that comes from a pose, and how many `is_near` hides, of which none may meet it.
+    fn met_and_hidden(
+        (shape, before): (Shape, Pose),
+        is_near: impl Fn(&Guard, [Vec3; 2], Lane) -> bool,
+    ) -> (usize, usize) {
         let collider = Collider {
             shape,
-            before: Pose {
-                rotation: DQuat::from_rotation_x(0.4),
-                translation: DVec3::new(0.0, 0.3, 0.0),
-            },
-            now: Pose {
-                rotation: DQuat::from_rotation_y(1.1),
-                translation: DVec3::new(0.02, 0.25, 0.01),
-            },
+            before,
+            now: NOW,
             was: None,
         };
         let guard = Guard::new(&collider);
@@ -472,12 +540,12 @@ mod tests {
                 dt: 0.01,
             };
             let keep = Lane::splat(path.keep);
-            let near = guard.is_near(Vec3::splat(from), Vec3::splat(to), keep);
+            let near = is_near(&guard, [from, to].map(Vec3::splat), keep);
             let meets = path.against(&collider).is_some();
-            assert!(near.get(0) || !meets, "{from} {to}");
+            assert!(near || !meets, "{from} {to}");
             met += usize::from(meets);
-            hidden += usize::from(!near.get(0));
+            hidden += usize::from(!near);
         }
-        assert!(met > 1000 && hidden > 1000, "{met} {hidden}");
+        (met, hidden)
     }
 }
