@@ -393,11 +393,13 @@ impl<'r> Preset<'r> {
 
     /// Of a name that is to be a layer's or a section's.
     fn no_owner(&self, name: &str) -> String {
-        let sections = Sections::ALL.iter().map(|(name, ..)| *name);
+        let sections = || Sections::ALL.iter().map(|(name, ..)| *name);
         let layers = self.layers.iter().map(|layer| layer.name.as_str());
-        match nearest(name, layers.chain(sections)) {
-            Some(near) => format!("there is no layer or section `{name}`, did you mean `{near}`?"),
-            None => self.no_layer(name),
+        match nearest(name, layers.chain(sections())) {
+            Some(near) if sections().any(|section| section == near) => {
+                format!("there is no layer or section `{name}`, did you mean `{near}`?")
+            }
+            _ => self.no_layer(name),
         }
     }
 
