@@ -48,6 +48,10 @@ pub(super) struct StrandMasks {
     nearest: Vec<[f32; 2]>,
 }
 
+/// Outlines that lie deeper than their clump by so many times the way from its middle to its edge are drawn after all clumps. Others would have them draw
+/// what they hide.
+const DEEP: f32 = 4.0;
+
 /// A strand whose outlines are still to be drawn.
 struct Outlined {
     /// Their segments in drawing order, among the tile's.
@@ -125,27 +129,23 @@ impl StrandMasks {
         let number = |i: u32| scene.segments[i as usize].stroke;
         let is_outline =
             |i: &u32| number(*i) > 0 && scene.strokes[number(*i) as usize - 1].rank < 0;
-        let mut rest = strand;
-        let clump = strand.partition_point(|i| number(*i) == 0);
-        self.place_stroke(scene, &strand[..clump], open);
-        if self.are_outlines_beside(scene) {
-            let outlines = strand[clump..].partition_point(is_outline);
-            if outlines > 0 {
-                let from = start + clump;
-                self.outlined.push(Outlined {
-                    segments: from..from + outlines,
-                    reach: *open,
-                    clump: self
-                        .strokes
-                        .first()
-                        .map_or(NO_SAMPLES, |clump| clump.samples),
-                });
-            }
-            rest = &strand[clump + outlines..];
-        } else {
-            rest = &rest[clump..];
+        let (clump, rest) = strand.split_at(strand.partition_point(|i| number(*i) == 0));
+        let (outlines, above) = rest.split_at(rest.partition_point(is_outline));
+        self.place_stroke(scene, clump, open);
+        let is_left = scene.are_deep(outlines, clump) && self.are_outlines_beside(scene);
+        if is_left {
+            let from = start + clump.len();
+            self.outlined.push(Outlined {
+                segments: from..from + outlines.len(),
+                reach: *open,
+                clump: self
+                    .strokes
+                    .first()
+                    .map_or(NO_SAMPLES, |clump| clump.samples),
+            });
         }
-        for stroke in rest.chunk_by(|&a, &b| number(a) == number(b)) {
+        let placed = if is_left { above } else { rest };
+        for stroke in placed.chunk_by(|&a, &b| number(a) == number(b)) {
             self.place_stroke(scene, stroke, open);
         }
         if let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) {
@@ -708,6 +708,26 @@ impl TileContext<'_> {
         if self.drawing.order != Order::Shifted {
             parts.sort_by(|a, b| b.inv_depth.total_cmp(&a.inv_depth));
         }
+    }
+
+    /// Whether the lowest outline of a strand lies so much deeper than its clump that other strands hide most of it.
+    #[inline(always)]
+    fn are_deep(&self, outlines: &[u32], clump: &[u32]) -> bool {
+        let segment = |i: u32| &self.segments[i as usize];
+        let Some(&lowest) = outlines.first() else {
+            return false;
+        };
+        let (mut outline, mut nearest) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
+        for &i in outlines {
+            if segment(i).stroke != segment(lowest).stroke {
+                break;
+            }
+            outline = greater(segment(i).inv_depth, outline);
+        }
+        for &i in clump {
+            nearest = greater(segment(i).inv_depth, nearest);
+        }
+        outline < deeper(nearest, DEEP * self.drawing.edge_depth_m)
     }
 
     /// The columns of each row of stacks that the strand may reach where it is not sure, for a whole cell, to be hidden.
