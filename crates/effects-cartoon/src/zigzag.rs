@@ -79,7 +79,7 @@ impl effects::StrokeEffect for Zigzag {
             let index = locks[lock].strand;
             let strands = [lock, next].map(|lock| &hair.strands[locks[lock].strand]);
             for (group, strip) in strips.iter().enumerate() {
-                let ends = [lock, next].map(|lock| strip.shining[lock]);
+                let ends = [lock, next].map(|lock| (strip.shining[lock], strip.tapers[lock]));
                 let link = link(params, hair, strands, ends, strip.shares[lock]);
                 paths.push_weighted(index, group as u32, link);
             }
@@ -139,6 +139,8 @@ impl Highlight {
 /// The highlights of locks, and how they are linked.
 struct Strip {
     shining: Vec<Highlight>,
+    /// How much is left of each where the strip runs out: 1 within it, 0 where it ends.
+    tapers: Vec<f32>,
     /// How much there is of the link from each lock to the next.
     shares: Vec<f32>,
 }
@@ -152,7 +154,7 @@ impl Strip {
         next: &[Option<usize>],
         of_strands: &[Highlight],
     ) -> Self {
-        let mut shining: Vec<Highlight> = locks.iter().map(|lock| lock.mean(of_strands)).collect();
+        let shining: Vec<Highlight> = locks.iter().map(|lock| lock.mean(of_strands)).collect();
         let share = |(lock, next): (usize, &Option<usize>)| {
             let Some(next) = *next else {
                 return 0.0;
@@ -169,10 +171,12 @@ impl Strip {
                 from_before[next] = from_before[next].max(*share);
             }
         }
-        for (i, highlight) in shining.iter_mut().enumerate() {
-            highlight.amount *= from_before[i].min(shares[i]);
+        let ends = from_before.iter().zip(&shares);
+        Self {
+            tapers: ends.map(|(before, after)| before.min(*after)).collect(),
+            shining,
+            shares,
         }
-        Self { shining, shares }
     }
 }
 
@@ -232,23 +236,26 @@ fn share_of_link(
     smooth(near) * smooth(lesser / WHOLE) * on_one_line
 }
 
-/// A link from one strand's highlight to another's of which there is so much: its points, and how much of it is there at each.
+/// A link from one strand's highlight to another's of which there is so much, and of the two so much where the strip runs out: its points, and how much
+/// of it is there at each. Where it is all of its strip it is a point at both ends, and whole in its middle.
 fn link(
     params: &Params,
     hair: &Hair,
     strands: [&HairStrand; 2],
-    ends: [Highlight; 2],
+    [(a, taper_a), (b, taper_b)]: [(Highlight, f32); 2],
     share: f32,
 ) -> impl Iterator<Item = (Vec3, f32)> {
     let at = |end: usize, place: f32| laid_on(params, hair, strands[end], place);
     (0..POINTS)
         .map(move |i| {
             let t = i as f32 / (POINTS - 1) as f32;
-            let [a, b] = ends;
             // Beside both strands all the way, so that it follows the hair's shape between them.
             let place = a.place + (b.place - a.place) * t;
             let point = at(0, place).lerp(at(1, place), t);
-            (point, share * (a.amount + (b.amount - a.amount) * t))
+            let (from, to) = (a.amount * taper_a, b.amount * taper_b);
+            let alone = (1.0 - taper_a) * (1.0 - taper_b) * 4.0 * t * (1.0 - t);
+            let whole = a.amount + (b.amount - a.amount) * t;
+            (point, share * (from + (to - from) * t + whole * alone))
         })
         .collect::<Vec<_>>()
         .into_iter()
@@ -468,6 +475,18 @@ mod tests {
                 .iter()
                 .all(|path| path.iter().all(|(_, weight)| *weight == 0.0))
         );
+    }
+
+    /// Where light falls on two locks alone, they have a strip: a point at both ends, and whole between.
+    #[test]
+    fn a_strip_of_one_link_is_there() {
+        let made = made(&cap(24)[..2], FROM_ABOVE, &[]);
+        let [link] = &made[..] else {
+            panic!("{made:?}");
+        };
+        assert_eq!([link[0].1, link[POINTS - 1].1], [0.0; 2]);
+        let widest = link.iter().map(|(_, weight)| *weight).fold(0.0, f32::max);
+        assert!((0.3..=1.0).contains(&widest), "{widest}");
     }
 
     /// Eight strands for each one: means of those beside each other are linked, as few as without them.

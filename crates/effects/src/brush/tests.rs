@@ -331,16 +331,16 @@ fn teeth_come_and_go_without_a_jump() {
         let strand = brush.of_strand(seed);
         for share in [0.11, 0.43, 0.8] {
             let at = |i: usize| {
-                let whole = 0.05 + 0.0001 * i as f32;
+                // In steps in which no edge, which is a pixel broad, goes far.
+                let whole = 0.05 + 0.00001 * i as f32;
                 strand.coverage(&BrushPlace {
                     whole,
                     ..place(share * whole, 0.5, 12.0)
                 })
             };
-            let jump = (1..8000).map(|i| (at(i) - at(i - 1)).abs());
+            let jump = (1..80_000).map(|i| (at(i) - at(i - 1)).abs());
             let jump = jump.fold(0.0, f32::max);
-            // The edge moves by less than a tenth of a pixel.
-            assert!(jump < 0.1, "{seed}, {share}: {jump}");
+            assert!(jump < 0.02, "{seed}, {share}: {jump}");
         }
     }
 }
