@@ -1,7 +1,7 @@
 //! `inkstrand render`: a preset to pictures.
 
 use super::progress::{Bar, Watch};
-use super::scene::{Source, check, there};
+use super::scene::{Source, check, check_named};
 use crate::Failure;
 use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
@@ -55,7 +55,7 @@ fn draw(
     options.scene.apply(&mut preset).map_err(Failure::Usage)?;
     apply(options, &mut preset).map_err(Failure::Usage)?;
     let mut files = options.scene.files(&options.preset)?;
-    there("--bake", options.bake.as_deref())?;
+    check_named("--bake", options.bake.as_deref())?;
     files.bake.clone_from(&options.bake);
 
     let SceneSection {

@@ -77,7 +77,7 @@ fn failure(errors: PresetErrors) -> Failure {
 }
 
 /// Refuses the file that an option names, where it isn't there.
-pub(super) fn there(option: &str, path: Option<&Path>) -> Result<(), Failure> {
+pub(super) fn check_named(option: &str, path: Option<&Path>) -> Result<(), Failure> {
     let checked = path.map_or(Ok(()), check_there);
     checked.map_err(|message| Failure::Failed(format!("{option}: {message}")))
 }
@@ -92,7 +92,7 @@ impl SceneOptions {
             ("--motion", &self.motion),
         ];
         for (option, path) in named {
-            there(option, path.as_deref())?;
+            check_named(option, path.as_deref())?;
         }
         Ok(Files {
             preset_folder: preset_folder(preset),
