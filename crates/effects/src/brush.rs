@@ -149,6 +149,13 @@ enum Lie {
     Whole { length: f32, parts: u32 },
 }
 
+impl Lie {
+    /// Whether a copy follows another.
+    fn repeats(self) -> bool {
+        self != Self::Stretched
+    }
+}
+
 /// The coverage of strokes that a tool draws. Each strand has it from another place on, on one side or the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BrushTexture {
@@ -166,9 +173,11 @@ impl BrushTexture {
         if section.is_solid() || section.texture.is_some() {
             return None;
         }
+        let lie = section.lie();
+        let marks = tools::marks(section).map(|image| Mark::new(image, lie.repeats()));
         Some(Self {
-            marks: tools::marks(section).map(Mark::new).collect(),
-            lie: section.lie(),
+            marks: marks.collect(),
+            lie,
             is_shape: section.kind == Tool::Zigzag,
         })
     }
@@ -191,9 +200,10 @@ impl BrushTexture {
             false => alpha(texel),
         });
         let image = Image::of_coverage(size, &coverage.collect::<Vec<_>>())?;
+        let lie = section.lie();
         Ok(Self {
-            marks: vec![Mark::new(image)],
-            lie: section.lie(),
+            marks: vec![Mark::new(image, lie.repeats())],
+            lie,
             is_shape: false,
         })
     }
@@ -373,14 +383,14 @@ impl StrandBrush<'_> {
                     length[k] = copy;
                     x[k] = at.s[k] / copy + self.start;
                 }
-                self.laid(at, &x, &length, true)
+                self.laid(at, &x, &length)
             }
             Lie::Stretched => {
                 for k in 0..N {
                     length[k] = most(at.whole[k], TINY);
                     x[k] = at.s[k] / length[k];
                 }
-                self.laid(at, &x, &length, false)
+                self.laid(at, &x, &length)
             }
             Lie::Whole {
                 length: own,
@@ -400,7 +410,7 @@ impl StrandBrush<'_> {
                         length[k] = mark * parts;
                         x[k] = (first + at.s[k] / mark) / parts;
                     }
-                    self.laid(at, &x, &length, true)
+                    self.laid(at, &x, &length)
                 };
                 let mut coverage = with(&count);
                 if is_mixed {
@@ -427,7 +437,6 @@ impl StrandBrush<'_> {
         at: &BrushPlaces<N>,
         x: &[f32; N],
         length: &[f32; N],
-        repeats: bool,
     ) -> [f32; N] {
         let [width, height] = self.mark.size();
         let (mut y, mut texels, mut parts) = ([0.0; N], [0.0; N], [0.0; N]);
@@ -459,7 +468,7 @@ impl StrandBrush<'_> {
                 place[0][k] += shift / side[k] * is_longer[0][k];
                 place[1][k] += shift / side[k] * is_longer[1][k];
             }
-            let coverage = blurred.at([&place[0], &place[1]], repeats);
+            let coverage = blurred.at([&place[0], &place[1]]);
             for k in 0..N {
                 sum[k] += part[k] * coverage[k];
             }

@@ -1,6 +1,6 @@
 //! A picture whose coverage alone counts, as numbers that are quick to look up at several places at once.
 
-use crate::texture::{Image, index, least, log_to_two_from_one, nearest};
+use crate::texture::{Image, choose, index, least, log_to_two_from_one, most, of_half};
 use std::sync::Arc;
 
 /// What a tool leaves.
@@ -8,17 +8,22 @@ use std::sync::Arc;
 pub(super) struct Mark {
     /// As graphics cards have it.
     pub(super) image: Arc<Image>,
+    /// Whether its right edge goes on at its left one; else, and at the other edges, it goes on as it is there.
+    repeats: bool,
     copies: Vec<Copy>,
-    /// That of all copies' texels, one copy behind the other, row by row from the top.
-    coverage: Vec<f32>,
+    /// Between which texels places lie: those of all copies, one copy behind the other, row by row from above the upper edge, each from left of the left one.
+    quads: Vec<Quad>,
 }
+
+/// Four texels around a corner: two of a row, and those below them. Of each two, the left one's half lies in the lower bits.
+type Quad = [u32; 2];
 
 /// One of the picture's copies.
 #[derive(Clone, Debug, PartialEq)]
 struct Copy {
-    /// Where its texels begin.
+    /// Where its quads begin.
     first: u32,
-    /// Texels of a row.
+    /// Quads of a row.
     stride: u32,
     /// Width and height in texels.
     size: [f32; 2],
@@ -41,21 +46,37 @@ struct Copies<const N: usize> {
 }
 
 impl Mark {
-    pub(super) fn new(image: Image) -> Self {
-        let (mut copies, mut coverage) = (Vec::new(), Vec::new());
+    /// That of a picture, which repeats along the stroke or not.
+    pub(super) fn new(image: Image, repeats: bool) -> Self {
+        let (mut copies, mut quads) = (Vec::new(), Vec::new());
         for level in 0..image.levels() {
-            let (size, texels) = image.level(level);
+            let ([width, height], texels) = image.level(level);
             copies.push(Copy {
                 // An image has less than 2^25 texels with all copies.
-                first: coverage.len() as u32,
-                stride: size[0] as u32,
-                size: size.map(|side| side as f32),
+                first: quads.len() as u32,
+                stride: width as u32 + 1,
+                size: [width, height].map(|side| side as f32),
             });
-            coverage.extend(texels.iter().map(|texel| texel[3].to_f32()));
+            let half = |column: usize, row: usize| {
+                u32::from(texels[row * width + column][3].to_bits())
+            };
+            let (before, behind) = match repeats {
+                true => (width - 1, 0),
+                false => (0, width - 1),
+            };
+            for below in 0..=height {
+                let rows = [below.saturating_sub(1), below.min(height - 1)];
+                quads.extend((0..=width).map(|right| {
+                    let left = right.checked_sub(1).unwrap_or(before);
+                    let right = if right < width { right } else { behind };
+                    rows.map(|row| half(left, row) | half(right, row) << 16)
+                }));
+            }
         }
         Self {
+            repeats,
             copies,
-            coverage,
+            quads,
             image: Arc::new(image),
         }
     }
@@ -104,55 +125,48 @@ impl Mark {
         copies
     }
 
-    /// Between the middles of the four nearest texels of each copy. What repeats does so along the stroke alone.
+    /// Between the middles of the four nearest texels of each copy.
     #[inline(always)]
-    fn between<const N: usize>(
-        &self,
-        copies: &Copies<N>,
-        [x, y]: [&[f32; N]; 2],
-        repeats: bool,
-    ) -> [f32; N] {
-        let (mut across, mut down) = ([0.0; N], [0.0; N]);
-        let mut places = [[0; N]; 4];
+    fn between<const N: usize>(&self, copies: &Copies<N>, [x, y]: [&[f32; N]; 2]) -> [f32; N] {
+        let (mut across, mut down, mut places) = ([0.0; N], [0.0; N], [0; N]);
         for k in 0..N {
-            let [left, right, share] = nearest(x[k], copies.width[k], repeats);
-            let [upper, lower, below] = nearest(y[k], copies.height[k], false);
+            let x = choose(self.repeats, x[k] - x[k].floor(), x[k]);
+            let (column, share) = nearest(x, copies.width[k]);
+            let (row, below) = nearest(y[k], copies.height[k]);
             across[k] = share;
             down[k] = below;
-            let row = |row: f32| {
-                let texels = index(row).wrapping_mul(copies.stride[k]);
-                copies.first[k].wrapping_add(texels)
-            };
-            let (upper, lower) = (row(upper), row(lower));
-            let (left, right) = (index(left), index(right));
-            places[0][k] = upper.wrapping_add(left);
-            places[1][k] = upper.wrapping_add(right);
-            places[2][k] = lower.wrapping_add(left);
-            places[3][k] = lower.wrapping_add(right);
+            let first = index(row).wrapping_mul(copies.stride[k]);
+            places[k] = copies.first[k].wrapping_add(first).wrapping_add(index(column));
         }
-        let mut texels = [[0.0; N]; 4];
-        for (texels, places) in texels.iter_mut().zip(&places) {
-            for k in 0..N {
-                texels[k] = self.coverage[places[k] as usize];
-            }
+        let (mut upper, mut lower) = ([0; N], [0; N]);
+        for k in 0..N {
+            [upper[k], lower[k]] = self.quads[places[k] as usize];
         }
         let mut coverage = [0.0; N];
         for k in 0..N {
-            let upper = mix(texels[0][k], texels[1][k], across[k]);
-            let lower = mix(texels[2][k], texels[3][k], across[k]);
-            coverage[k] = mix(upper, lower, down[k]);
+            let of = |pair: u32| mix(of_half(pair & 0xffff), of_half(pair >> 16), across[k]);
+            coverage[k] = mix(of(upper[k]), of(lower[k]), down[k]);
         }
         coverage
     }
 }
 
+/// Which quad of a row a place along a side of so many texels lies in, or which row of quads, and how far it is from the first texels' middles to the
+/// second ones'. A place that is NaN is 0.
+#[inline(always)]
+fn nearest(place: f32, side: f32) -> (f32, f32) {
+    let texel = least(most(place, 0.0), 1.0) * side - 0.5;
+    let before = texel.floor();
+    (before + 1.0, texel - before)
+}
+
 impl<const N: usize> Blurred<'_, N> {
     /// The coverage at each place, 0 to 1 from left to right and from top to bottom.
     #[inline(always)]
-    pub(super) fn at(&self, places: [&[f32; N]; 2], repeats: bool) -> [f32; N] {
-        let mut coverage = self.mark.between(&self.finer, places, repeats);
+    pub(super) fn at(&self, places: [&[f32; N]; 2]) -> [f32; N] {
+        let mut coverage = self.mark.between(&self.finer, places);
         if let Some((coarser, share)) = &self.coarser {
-            let other = self.mark.between(coarser, places, repeats);
+            let other = self.mark.between(coarser, places);
             for k in 0..N {
                 coverage[k] = mix(coverage[k], other[k], share[k]);
             }

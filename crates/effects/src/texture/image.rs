@@ -292,11 +292,11 @@ impl Level {
     }
 }
 
-/// The number that a texel's is, exactly: none is below 0, above 1 or no number, so that a shift and a product do.
+/// The number that the half of these bits is, exactly, as a texel has it: none is below 0, above 1 or NaN, so that a shift and a product do.
 #[inline(always)]
-fn number(half: f16) -> f32 {
+pub(crate) fn of_half(bits: u32) -> f32 {
     const SCALE: f32 = f32::from_bits((127 + 112) << 23);
-    f32::from_bits(u32::from(half.to_bits()) << 13) * SCALE
+    f32::from_bits(bits << 13) * SCALE
 }
 
 /// Those of a texel.
@@ -304,14 +304,14 @@ fn number(half: f16) -> f32 {
 fn numbers(halves: &[f16; 4]) -> [f32; 4] {
     let mut numbers = [0.0; 4];
     for i in 0..4 {
-        numbers[i] = number(halves[i]);
+        numbers[i] = of_half(u32::from(halves[i].to_bits()));
     }
     numbers
 }
 
 /// The two texels nearest to a place along a side, and how far it is from the first's middle to the second's. A place that is no number is 0.
 #[inline(always)]
-pub(crate) fn nearest(place: f32, side: f32, repeats: bool) -> [f32; 3] {
+fn nearest(place: f32, side: f32, repeats: bool) -> [f32; 3] {
     let place = choose(repeats, place - place.floor(), place);
     let texel = least(most(place, 0.0), 1.0) * side - 0.5;
     let (before, last) = (texel.floor(), side - 1.0);

@@ -4,19 +4,91 @@ use super::reached::Reached;
 use super::segment::Stroke;
 use super::strand::TileContext;
 use super::stroke::{Placed, Places};
-use super::tile::{Cell, LANES, LaneMask, Lanes, Mask, ROWS, Stack, cells, columns, select};
+use super::tile::{
+    Cell, LANES, LaneMask, Lanes, Mask, OneByOne, ROWS, SAMPLES, Stack, bits, cells, columns,
+    select,
+};
 use crate::brushwork::BrushedLayer;
 use crate::drawing::scatter;
 use effects::{BrushPlaces, StrandBrush};
 
-/// A sample of a stroke, and the axis point that is the nearest to it.
+/// Samples of a stroke and where they lie beside it. Most cells have few of a thin stroke: those of several are looked up together.
 pub(super) struct Beside {
-    cell: Cell,
-    lane: usize,
-    segment: u32,
-    /// From the segment's first joint to the next.
-    way: f32,
-    across: f32,
+    /// Each one's cell and lane.
+    samples: Vec<(Cell, usize)>,
+    /// Numbers of each, in the order of [`BesideCell::numbers`].
+    numbers: Box<[[f32; SAMPLES]; NUMBERS]>,
+}
+
+/// How many numbers say where a sample lies.
+const NUMBERS: usize = 6;
+
+impl Beside {
+    pub(super) fn new() -> Self {
+        Self {
+            samples: Vec::with_capacity(SAMPLES),
+            numbers: Box::new([[0.0; SAMPLES]; NUMBERS]),
+        }
+    }
+
+    /// Adds samples of a cell.
+    #[inline(always)]
+    fn add(&mut self, cell: Cell, samples: &LaneMask, places: &BesideCell) {
+        let numbers = places.numbers();
+        for lane in OneByOne::of_bits(bits(samples)) {
+            let place = self.samples.len() % SAMPLES;
+            for (list, lanes) in self.numbers.iter_mut().zip(numbers) {
+                list[place] = lanes[lane];
+            }
+            self.samples.push((cell, lane));
+        }
+    }
+
+    /// Eight of them from that one on; of those behind the last anything.
+    #[inline(always)]
+    fn eight(&self, first: usize) -> BesideCell {
+        let mut numbers = [[0.0; LANES]; NUMBERS];
+        for (lanes, list) in numbers.iter_mut().zip(self.numbers.iter()) {
+            let (eights, _) = list.as_chunks::<LANES>();
+            *lanes = eights[first / LANES];
+        }
+        BesideCell::of_numbers(numbers)
+    }
+}
+
+/// Where samples of a cell lie beside a stroke.
+struct BesideCell {
+    places: BrushPlaces<LANES>,
+    /// Radius of the clump there, where it matters.
+    clump_px: Lanes,
+}
+
+impl BesideCell {
+    #[inline(always)]
+    fn numbers(&self) -> [&Lanes; NUMBERS] {
+        let BrushPlaces {
+            s,
+            whole,
+            v,
+            pixels,
+            radius_px,
+        } = &self.places;
+        [s, whole, v, pixels, radius_px, &self.clump_px]
+    }
+
+    #[inline(always)]
+    fn of_numbers([s, whole, v, pixels, radius_px, clump_px]: [Lanes; NUMBERS]) -> Self {
+        Self {
+            places: BrushPlaces {
+                s,
+                whole,
+                v,
+                pixels,
+                radius_px,
+            },
+            clump_px,
+        }
+    }
 }
 
 /// A stroke's brush.
@@ -54,10 +126,10 @@ impl<'a> StrokeBrush<'a> {
     pub(super) fn thin(
         &self,
         placed: &[Placed],
-        (segments, beside): (&mut Reached, &mut Vec<Beside>),
+        (segments, beside): (&mut Reached, &mut Beside),
         samples: &mut Mask,
     ) {
-        beside.clear();
+        beside.samples.clear();
         for row in 0..ROWS {
             let wanted = columns(samples, row);
             if wanted == 0 {
@@ -68,33 +140,18 @@ impl<'a> StrokeBrush<'a> {
                 let (mut places, lanes) = (Places::<false>::new(), cell.lanes(samples));
                 segments.find_nearest(placed, cell, &lanes, &mut places);
                 let across = places.across();
-                for lane in (0..LANES).filter(|&lane| lanes[lane] != 0) {
-                    beside.push(Beside {
-                        cell,
-                        lane,
-                        segment: places.index[lane],
-                        way: places.way[lane],
-                        across: across[lane],
-                    });
-                }
+                beside.add(
+                    cell,
+                    &lanes,
+                    &self.places(&lanes, &places.index, &places.way, &across),
+                );
             }
         }
-        // Most cells have few samples of a thin stroke: those of several are looked up together.
-        for some in beside.chunks(LANES) {
-            let mut wanted = [0; LANES];
-            let mut segments = [0; LANES];
-            let (mut way, mut across, mut parts) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-            for (k, sample) in some.iter().enumerate() {
-                wanted[k] = u32::MAX;
-                segments[k] = sample.segment;
-                way[k] = sample.way;
-                across[k] = sample.across;
-                parts[k] = self.parts[sample.lane];
-            }
-            let bare = self.bare_of(&wanted, &segments, (&way, &across), &parts);
-            for (k, sample) in some.iter().enumerate() {
-                if bare[k] != 0 {
-                    sample.cell.take_lane_from(samples, sample.lane);
+        for first in (0..beside.samples.len()).step_by(LANES) {
+            let coverage = self.coverage(&beside.eight(first));
+            for (k, &(cell, lane)) in beside.samples[first..].iter().take(LANES).enumerate() {
+                if coverage[k] <= self.parts[lane] {
+                    cell.take_lane_from(samples, lane);
                 }
             }
         }
@@ -109,111 +166,72 @@ impl<'a> StrokeBrush<'a> {
         way: &Lanes,
         across: &Lanes,
     ) -> LaneMask {
-        self.bare_of(samples, segments, (way, across), &self.parts)
-    }
-
-    /// The same of samples whose coverage must exceed so much.
-    #[inline(always)]
-    fn bare_of(
-        &self,
-        samples: &LaneMask,
-        segments: &[u32; LANES],
-        (way, across): (&Lanes, &Lanes),
-        parts: &Lanes,
-    ) -> LaneMask {
-        let (mut from, mut to) = (Ends::ZERO, Ends::ZERO);
-        let mut before = None;
-        for k in 0..LANES {
-            if samples[k] == 0 {
-                continue;
-            }
-            // Most samples of a cell are of one segment.
-            match before {
-                Some(other) if segments[other] == segments[k] => {
-                    from.copy(other, k);
-                    to.copy(other, k);
-                }
-                _ => self.load(segments[k], k, &mut from, &mut to),
-            }
-            before = Some(k);
-        }
-        let mut places = BrushPlaces {
-            s: between(way, &from.s, &to.s),
-            whole: between(way, &from.whole, &to.whole),
-            v: *across,
-            pixels: between(way, &from.pixels, &to.pixels),
-            radius_px: between(way, &from.radius_px, &to.radius_px),
-        };
-        if self.is_outline {
-            places = places.on_outline(&between(way, &from.clump_px, &to.clump_px));
-        }
-        let coverage = self.brush.coverages(&places);
+        let coverage = self.coverage(&self.places(samples, segments, way, across));
         let mut bare = *samples;
         for k in 0..LANES {
-            bare[k] &= select(coverage[k] <= parts[k], u32::MAX, 0);
+            bare[k] &= select(coverage[k] <= self.parts[k], u32::MAX, 0);
         }
         bare
     }
 
-    /// What the joints of a segment have, for one lane.
     #[inline(always)]
-    fn load(&self, segment: u32, lane: usize, from: &mut Ends, to: &mut Ends) {
+    fn coverage(&self, beside: &BesideCell) -> Lanes {
+        match self.is_outline {
+            true => self
+                .brush
+                .coverages(&beside.places.on_outline(&beside.clump_px)),
+            false => self.brush.coverages(&beside.places),
+        }
+    }
+
+    /// Where some samples of a cell lie, segment by segment: most are of one.
+    #[inline(always)]
+    fn places(
+        &self,
+        samples: &LaneMask,
+        segments: &[u32; LANES],
+        way: &Lanes,
+        across: &Lanes,
+    ) -> BesideCell {
+        let mut numbers = [[0.0; LANES]; NUMBERS];
+        let mut left = *samples;
+        while let Some(lane) = OneByOne::of_bits(bits(&left)).next() {
+            let segment = segments[lane];
+            let mut own = left;
+            for k in 0..LANES {
+                own[k] &= select(segments[k] == segment, u32::MAX, 0);
+                left[k] &= !own[k];
+            }
+            let [from, to] = self.ends(segment);
+            for i in 0..NUMBERS {
+                let mut lanes = numbers[i];
+                for k in 0..LANES {
+                    let between = from[i] + way[k] * (to[i] - from[i]);
+                    lanes[k] = select(own[k] != 0, between, lanes[k]);
+                }
+                numbers[i] = lanes;
+            }
+        }
+        let mut beside = BesideCell::of_numbers(numbers);
+        beside.places.v = *across;
+        beside
+    }
+
+    /// What the joints of a segment have of [`BesideCell::numbers`]; nothing of the place across.
+    #[inline(always)]
+    fn ends(&self, segment: u32) -> [[f32; NUMBERS]; 2] {
         let drawing = self.scene.drawing;
         let segment = &self.scene.segments[segment as usize];
         let (joints, radii) = (segment.joints(), segment.radii(drawing, self.scene.strokes));
-        for (end, i) in [from, to].into_iter().zip(0..) {
+        let end = |i: usize| {
             let along = &drawing.brushwork.joints[joints[i]];
-            end.s[lane] = along.s;
-            end.whole[lane] = along.whole;
-            end.pixels[lane] = along.pixels;
-            end.radius_px[lane] = radii[i];
-            if self.is_outline {
-                end.clump_px[lane] = drawing.clump[joints[i]].radius;
-            }
-        }
-    }
-}
-
-/// Numbers on the way from those of first joints to those of second ones.
-#[inline(always)]
-fn between(way: &Lanes, from: &Lanes, to: &Lanes) -> Lanes {
-    let mut between = *from;
-    for k in 0..LANES {
-        between[k] += way[k] * (to[k] - from[k]);
-    }
-    between
-}
-
-/// What the first joints of segments have, or the second ones, as [`BrushPlaces`] has it; and the radius of the clump.
-struct Ends {
-    s: Lanes,
-    whole: Lanes,
-    pixels: Lanes,
-    radius_px: Lanes,
-    clump_px: Lanes,
-}
-
-impl Ends {
-    const ZERO: Self = Self {
-        s: [0.0; LANES],
-        whole: [0.0; LANES],
-        pixels: [0.0; LANES],
-        radius_px: [0.0; LANES],
-        clump_px: [0.0; LANES],
-    };
-
-    /// Makes a lane's the same as another's.
-    #[inline(always)]
-    fn copy(&mut self, from: usize, to: usize) {
-        for lanes in [
-            &mut self.s,
-            &mut self.whole,
-            &mut self.pixels,
-            &mut self.radius_px,
-            &mut self.clump_px,
-        ] {
-            lanes[to] = lanes[from];
-        }
+            let clump_px = match self.is_outline {
+                true => drawing.clump[joints[i]].radius,
+                false => 0.0,
+            };
+            [along.s, along.whole, 0.0, along.pixels, radii[i], clump_px]
+        };
+        [end(0), end(1)]
     }
 }
 

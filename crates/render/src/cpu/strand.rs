@@ -41,7 +41,7 @@ pub(super) struct StrandMasks {
     bare: Mask,
     row: Reached,
     /// Of strokes with brushes: their samples.
-    beside: Vec<Beside>,
+    beside: Beside,
     /// Strands whose outlines are left for [`StrandMasks::draw_outlines`].
     outlined: Vec<Outlined>,
     /// Of a strand's outlines from the lowest to the highest: how near any is up to there.
@@ -89,7 +89,7 @@ impl StrandMasks {
             strokes: Vec::new(),
             bare: NO_SAMPLES,
             row: Reached::default(),
-            beside: Vec::new(),
+            beside: Beside::new(),
             outlined: Vec::new(),
             nearest: Vec::new(),
         }

@@ -73,6 +73,12 @@ impl OneByOne {
     pub(super) fn of(range: &Range<usize>) -> Self {
         Self((1_u32 << range.end) - (1 << range.start))
     }
+
+    /// Those whose bits are set.
+    #[inline(always)]
+    pub(super) fn of_bits(bits: u32) -> Self {
+        Self(bits)
+    }
 }
 
 impl Iterator for OneByOne {
@@ -213,6 +219,9 @@ pub(super) type Plane = Box<Aligned<[Lanes; CELLS]>>;
 pub(super) fn plane() -> Plane {
     Box::new(Aligned([[0.0; LANES]; CELLS]))
 }
+
+/// Samples of a tile.
+pub(super) const SAMPLES: usize = CELLS * LANES;
 
 /// Rows of samples in a tile: for each row of stacks those of its four samples.
 const SAMPLE_ROWS: usize = ROWS * STACK;
