@@ -404,23 +404,23 @@ impl StrandBrush<'_> {
                     (count[k], more[k]) = whole_marks(at.whole[k] / own);
                     is_mixed |= more[k] > 0.0;
                 }
-                let mut with = |count: &[f32; N]| {
+                let (mut coverage, mut one_more) = ([0.0; N], [0.0; N]);
+                for coverage in [&mut coverage, &mut one_more] {
                     for k in 0..N {
                         let mark = most(at.whole[k], TINY) / count[k];
                         length[k] = mark * parts;
                         x[k] = (first + at.s[k] / mark) / parts;
                     }
-                    self.laid(at, &x, &length)
-                };
-                let mut coverage = with(&count);
-                if is_mixed {
+                    *coverage = self.laid(at, &x, &length);
+                    if !is_mixed {
+                        return *coverage;
+                    }
                     for count in &mut count {
                         *count += 1.0;
                     }
-                    let one_more = with(&count);
-                    for k in 0..N {
-                        coverage[k] = coverage[k] * (1.0 - more[k]) + one_more[k] * more[k];
-                    }
+                }
+                for k in 0..N {
+                    coverage[k] = coverage[k] * (1.0 - more[k]) + one_more[k] * more[k];
                 }
                 coverage
             }

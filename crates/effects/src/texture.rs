@@ -37,7 +37,7 @@ impl Texture {
     /// `repeats`: beyond an edge a picture goes on from the other one, in place of going on as at its edge.
     #[must_use]
     pub fn texel(&self, lookup: &Lookup, repeats: bool) -> Vec4<f32> {
-        let [x, y] = [lookup.at.x, lookup.at.y].map(|x| if x.is_finite() { x } else { 0.0 });
+        let [x, y] = [lookup.at.x, lookup.at.y].map(finite);
         let [x, y, z, w] = match self {
             Self::None | Self::File(_) => [0.0; 4],
             Self::Ramp(ramp) => {
@@ -83,6 +83,7 @@ impl Texels {
         }
     }
 
+    #[inline(always)]
     fn set(&mut self, index: usize, texel: Vec4<f32>) {
         let Vec4 { x, y, z, w } = texel;
         self.color.set(index, crate::wgsl::Vec3 { x, y, z });
@@ -123,15 +124,23 @@ impl Lookups {
     pub(crate) fn look_up(&self, textures: &[(Texture, bool)], texels: &mut Texels) {
         let first = self.texture[0];
         let is_one = self.texture.iter().all(|texture| *texture == first);
-        if let (true, Some((Texture::Ramp(ramp), _))) = (is_one, textures.get(first as usize))
-            && ramp.is_short()
-        {
-            texels.coverage = [1.0; BLOCK];
-            widest(
-                #[inline(always)]
-                || ramp.of_block(&self.x, &self.y, &mut texels.color),
-            );
-            return;
+        match textures.get(first as usize).filter(|_| is_one) {
+            Some((Texture::Ramp(ramp), _)) if ramp.is_short() => {
+                texels.coverage = [1.0; BLOCK];
+                widest(
+                    #[inline(always)]
+                    || ramp.of_block(&self.x, &self.y, &mut texels.color),
+                );
+                return;
+            }
+            Some((Texture::Image { image, .. }, repeats)) => {
+                widest(
+                    #[inline(always)]
+                    || self.look_up_in(image, *repeats, texels),
+                );
+                return;
+            }
+            _ => {}
         }
         for index in 0..BLOCK {
             let lookup = self.at(index);
@@ -140,4 +149,19 @@ impl Lookups {
             }
         }
     }
+    /// Looks up what each sample finds in a picture.
+    #[inline(always)]
+    fn look_up_in(&self, image: &Image, repeats: bool, texels: &mut Texels) {
+        for index in 0..BLOCK {
+            let place = [self.x[index], self.y[index]].map(finite);
+            let [x, y, z, w] = image.at(place, self.size[index], repeats);
+            texels.set(index, Vec4 { x, y, z, w });
+        }
+    }
+}
+
+/// A number of a place; 0 where it isn't finite.
+#[inline(always)]
+fn finite(x: f32) -> f32 {
+    if x.is_finite() { x } else { 0.0 }
 }

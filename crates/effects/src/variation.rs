@@ -1,5 +1,6 @@
 //! How a number varies along a strand, and from strand to strand.
 
+use crate::texture::{choose, least, most};
 use crate::wgsl::random_signed;
 use serde::Deserialize;
 
@@ -107,9 +108,39 @@ pub(crate) struct Varying {
 impl Varying {
     /// The value at `u` along a strand whose seed in the layer is `strand`.
     pub(crate) fn at(&self, u: f32, strand: u32) -> f32 {
-        let factor = 1.0 + self.variation.vary * random_signed(strand ^ self.seed, 0);
         let [min, max] = self.range;
-        (self.variation.at(u) * factor).clamp(min, max)
+        (self.variation.at(u) * self.factor(strand)).clamp(min, max)
+    }
+
+    /// How much larger it is on such a strand.
+    #[inline(always)]
+    fn factor(&self, strand: u32) -> f32 {
+        1.0 + self.variation.vary * random_signed(strand ^ self.seed, 0)
+    }
+
+    /// [`Self::at`] of many places at once, by loops that compile to vector instructions.
+    #[inline(always)]
+    pub(crate) fn at_all<const N: usize>(&self, u: &[f32; N], strand: &[u32; N]) -> [f32; N] {
+        let curve = &self.variation.curve;
+        let mut values = [curve[0].1; N];
+        for (piece, &(start, from)) in curve.iter().enumerate() {
+            let (end, to) = curve
+                .get(piece + 1)
+                .copied()
+                .unwrap_or((f32::INFINITY, from));
+            for k in 0..N {
+                let value = from + (to - from) * (u[k] - start) / (end - start);
+                // Of pieces that begin before a place the last one counts.
+                values[k] = choose(start <= u[k], value, values[k]);
+            }
+        }
+        let [min, max] = self.range;
+        let varies = self.variation.vary > 0.0;
+        for k in 0..N {
+            let factor = if varies { self.factor(strand[k]) } else { 1.0 };
+            values[k] = least(most(values[k] * factor, min), max);
+        }
+        values
     }
 
     /// The largest value on any strand.
@@ -146,6 +177,30 @@ mod tests {
         }
         let value = parse("(value: 4, vary: 0.5)").unwrap();
         assert_eq!((value.at(0.0), value.at(1.0), value.vary), (4.0, 4.0, 0.5));
+    }
+
+    #[test]
+    fn many_places_at_once_are_each_by_itself() {
+        let curves = [
+            "(value: 4, vary: 0.5)",
+            "(curve: [(0.2, 1), (0.4, 3), (0.4, 5), (1, 0)])",
+            "(curve: [(0, 7), (0, 2), (0.5, 9), (0.9, 9)], vary: 1)",
+        ];
+        for text in curves {
+            let varying = Varying {
+                index: 0,
+                seed: 5,
+                range: [0.0, 8.0],
+                variation: parse(text).unwrap(),
+            };
+            let u: [f32; 101] = std::array::from_fn(|k| k as f32 / 100.0);
+            let strand: [u32; 101] = std::array::from_fn(|k| 77 * k as u32);
+            let all = varying.at_all(&u, &strand);
+            for k in 0..101 {
+                let one = varying.at(u[k], strand[k]);
+                assert_eq!(all[k].to_bits(), one.to_bits(), "{text} at {}", u[k]);
+            }
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A program's parameters, of which some vary along a strand and from strand to strand.
 
 use crate::joints::{Input, InputSet, Joints};
+use crate::lanes::widest;
 use crate::param::{ParamKind, Value, Values};
 use crate::program::Parameters;
 use crate::samples::{BLOCK, SampleBlock};
@@ -100,9 +101,19 @@ impl<P: Parameters> Varied<P> {
         joints: &Joints,
         range: Range<usize>,
         seed: u32,
-        evaluate: impl FnMut(usize, &P::Params),
+        mut evaluate: impl FnMut(usize, &P::Params),
     ) {
-        self.for_each_at((&joints.u, &joints.seed), range, seed, evaluate);
+        if self.varying.is_empty() {
+            return range.for_each(|i| evaluate(i, &self.base));
+        }
+        let mut params = self.base.clone();
+        for i in range {
+            let (u, strand) = (joints.u[i], hash(seed ^ joints.seed[i]));
+            for varying in &self.varying {
+                P::set_number(&mut params, varying.index, varying.at(u, strand));
+            }
+            evaluate(i, &params);
+        }
     }
 
     /// [`Self::for_each`] of the samples of a block.
@@ -111,27 +122,25 @@ impl<P: Parameters> Varied<P> {
         &self,
         samples: &SampleBlock,
         seed: u32,
-        evaluate: impl FnMut(usize, &P::Params),
-    ) {
-        self.for_each_at((&samples.u, &samples.seed), 0..BLOCK, seed, evaluate);
-    }
-
-    #[inline]
-    fn for_each_at(
-        &self,
-        (u, seeds): (&[f32], &[u32]),
-        range: Range<usize>,
-        seed: u32,
         mut evaluate: impl FnMut(usize, &P::Params),
     ) {
-        if self.varying.is_empty() {
-            return range.for_each(|i| evaluate(i, &self.base));
+        let mut strand = samples.seed;
+        for strand in &mut strand {
+            *strand = hash(seed ^ *strand);
         }
+        let values = |varying: &Varying| {
+            let mut values = [0.0; BLOCK];
+            widest(
+                #[inline(always)]
+                || values = varying.at_all(&samples.u, &strand),
+            );
+            (varying.index, values)
+        };
+        let values: Vec<(usize, [f32; BLOCK])> = self.varying.iter().map(values).collect();
         let mut params = self.base.clone();
-        for i in range {
-            let (u, strand) = (u[i], hash(seed ^ seeds[i]));
-            for varying in &self.varying {
-                P::set_number(&mut params, varying.index, varying.at(u, strand));
+        for i in 0..BLOCK {
+            for (index, values) in &values {
+                P::set_number(&mut params, *index, values[i]);
             }
             evaluate(i, &params);
         }

@@ -57,9 +57,8 @@ impl Mark {
                 stride: width as u32 + 1,
                 size: [width, height].map(|side| side as f32),
             });
-            let half = |column: usize, row: usize| {
-                u32::from(texels[row * width + column][3].to_bits())
-            };
+            let half =
+                |column: usize, row: usize| u32::from(texels[row * width + column][3].to_bits());
             let (before, behind) = match repeats {
                 true => (width - 1, 0),
                 false => (0, width - 1),
@@ -136,7 +135,9 @@ impl Mark {
             across[k] = share;
             down[k] = below;
             let first = index(row).wrapping_mul(copies.stride[k]);
-            places[k] = copies.first[k].wrapping_add(first).wrapping_add(index(column));
+            places[k] = copies.first[k]
+                .wrapping_add(first)
+                .wrapping_add(index(column));
         }
         let (mut upper, mut lower) = ([0; N], [0; N]);
         for k in 0..N {

@@ -120,12 +120,14 @@ impl Image {
 
     /// The texel at a place, 0 to 1 from left to right and from top to bottom, blurred over `size` of the width: between the four
     /// nearest of the two copies nearest in size. Colour, and coverage.
+    #[inline(always)] // into loops that are compiled for other instructions than their crate
     #[must_use]
     pub fn at(&self, place: [f32; 2], size: f32, repeats: bool) -> [f32; 4] {
         self.blurred(size).at(place, repeats)
     }
 
     /// The picture blurred over `size` of its width, for many places.
+    #[inline(always)] // into loops that are compiled for other instructions than their crate
     #[must_use]
     pub fn blurred(&self, size: f32) -> Blurred<'_> {
         let last = (self.levels.len() - 1) as f32;

@@ -8,9 +8,9 @@ use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
 use super::strand::TileContext;
 use super::stroke::{NEARER, Placed, across};
 use super::tile::{
-    self, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, Plane, ROWS, Stack,
-    Target, WIDTH, add, any, both, cells, columns, id_plane, is_empty, least, lesser, overwrite,
-    plane, select, without,
+    Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, OneByOne, Plane, ROWS, Stack,
+    Target, WIDTH, add, any, bits, both, cells, columns, id_plane, is_empty, least, lesser,
+    overwrite, plane, select, without,
 };
 use super::{Frame, Worker};
 use crate::drawing::{Decal, Drawing, LayerStrokes, Order, shown_reach};
@@ -151,7 +151,15 @@ impl Worker {
             color: [plane(), plane(), plane()],
             places: None,
         });
-        let seen = planes.look(frame, target, shown);
+        let mut reached = [0; ROWS];
+        for &i in of_tile {
+            let bounds = &segment(i).bounds;
+            let columns = bounds.columns_in(scene.origin[0]);
+            for row in bounds.rows_in(scene.origin[1], scene.stack) {
+                reached[row] |= columns;
+            }
+        }
+        let seen = planes.look(frame, target, shown, &reached);
         let scene = TileContext {
             strokes: &parts.strokes,
             segments: list,
@@ -263,14 +271,14 @@ fn shade(
     lanes: &LaneMask,
     target: &mut Target,
 ) {
-    let mut left = tile::bits(lanes);
+    let mut left = bits(lanes);
     while left != 0 {
         let shows = what[left.trailing_zeros() as usize];
         let mut own = *lanes;
         for k in 0..LANES {
             own[k] &= select(what[k] == shows, u32::MAX, 0);
         }
-        left &= !tile::bits(&own);
+        left &= !bits(&own);
         let Some(surface) = frame.surface_of(shows).filter(|s| s.paint.is_none()) else {
             continue;
         };
@@ -303,9 +311,15 @@ fn shade(
 }
 
 impl Planes {
-    /// Finds what the samples of a tile show.
+    /// Finds what the samples of a tile show, in the columns of each row of stacks that decals may reach.
     #[inline(always)]
-    fn look(&mut self, frame: &Frame, target: &Target, shown: &Shown) -> Seen {
+    fn look(
+        &mut self,
+        frame: &Frame,
+        target: &Target,
+        shown: &Shown,
+        reached: &[u32; ROWS],
+    ) -> Seen {
         let mut seen = Seen {
             hair: NO_SAMPLES,
             surfaces: NO_SAMPLES,
@@ -314,9 +328,8 @@ impl Planes {
         };
         let (mut far_hair, mut far_surface) = ([f32::INFINITY; LANES], [f32::INFINITY; LANES]);
         let shown = shown.planes().filter(|_| frame.parts.decals.on_surfaces);
-        let mut last = (SHOWS_NOTHING, 0);
         for row in 0..ROWS {
-            for cell in cells(row, u32::MAX >> (32 - WIDTH)) {
+            for cell in cells(row, reached[row]) {
                 let strand = &target.strand[cell.index];
                 let (mut hair, mut surface) = ([0; LANES], [0; LANES]);
                 for k in 0..LANES {
@@ -325,12 +338,20 @@ impl Planes {
                 let mut marks = [0; LANES];
                 if let Some(shown) = shown {
                     let what = &shown.what[cell.index];
+                    let mut left = hair;
                     for k in 0..LANES {
-                        if hair[k] == 0 && what[k] != last.0 {
-                            let marks = frame.surface_of(what[k]).map_or(0, |s| s.marks);
-                            last = (what[k], marks);
+                        left[k] = select(what[k] != SHOWS_NOTHING, !hair[k], 0);
+                    }
+                    // Most samples of a cell are of one triangle.
+                    while let Some(lane) = OneByOne::of_bits(bits(&left)).next() {
+                        let own_marks = frame.surface_of(what[lane]).map_or(0, |s| s.marks);
+                        for k in 0..LANES {
+                            let own = select(what[k] == what[lane], left[k], 0);
+                            marks[k] |= own & own_marks;
+                            left[k] &= !own;
                         }
-                        marks[k] = select(hair[k] == 0, last.1, 0);
+                    }
+                    for k in 0..LANES {
                         surface[k] = select(marks[k] != 0, u32::MAX, 0);
                     }
                 }
