@@ -7,7 +7,7 @@
 //!
 //! Between half discs it is the hull of these, again convex.
 
-use super::tile::{LANES, Lanes, Mask, STACK, Stack, WIDTH, greater, lesser, select};
+use super::tile::{LANES, Lanes, Mask, ROWS, STACK, Stack, WIDTH, greater, lesser, select};
 use glam::{DVec2, Vec2};
 use std::ops::Range;
 use stroke_path::sweep::{FlatEnd, Sweep};
@@ -149,13 +149,14 @@ fn lowest(number: i32) -> u32 {
 /// Rows of stacks whose samples are worked on at once.
 pub(super) const ROWS_AT_ONCE: usize = LANES / STACK;
 
-/// Sets the bits of the samples in the tile at `origin` that the segment covers. Only `rows` are
-/// looked at, which begin and end at multiples of [`ROWS_AT_ONCE`].
+/// Sets the bits of the open samples in the tile at `origin` that the segment covers: `open` are columns of each row of stacks, and those that the
+/// segment may reach. Only `rows` are looked at, which begin and end at multiples of [`ROWS_AT_ONCE`].
 #[inline(always)]
 pub(super) fn cover(
     sweep: &Sweep,
     origin: DVec2,
     rows: &Range<usize>,
+    (open, reached): (&[u32; ROWS], u32),
     stack: &Stack,
     mask: &mut Mask,
 ) {
@@ -170,12 +171,19 @@ pub(super) fn cover(
         offset[k] = stack.x[k % STACK];
     }
     for first in rows.clone().step_by(ROWS_AT_ONCE) {
+        let open = &open[first..first + ROWS_AT_ONCE];
+        if open.iter().all(|open| open & reached == 0) {
+            continue;
+        }
         let mut y = [0.0; LANES];
         for k in 0..LANES {
             y[k] = ((first + k / STACK) * stack.height) as f32 + stack.y[k % STACK];
         }
         let words = &mut mask[first * STACK..][..LANES];
-        words.copy_from_slice(&outline.intervals(&y).columns(&offset));
+        let columns = outline.intervals(&y).columns(&offset);
+        for k in 0..LANES {
+            words[k] = columns[k] & open[k / STACK];
+        }
     }
 }
 

@@ -4,8 +4,8 @@ use super::rows::{self, ROWS_AT_ONCE};
 use super::segment::Shape;
 use super::strand::TileContext;
 use super::tile::{
-    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, STACK, Samples, Slope, any,
-    greater, lesser, overwrite, select,
+    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, Samples, Slope, any, greater,
+    lesser, overwrite, select,
 };
 use glam::DVec2;
 
@@ -35,7 +35,8 @@ impl Placed {
         for row in rows.clone() {
             reached |= open[row];
         }
-        if reached & segment.bounds.columns_in(origin[0]) == 0 {
+        let columns = segment.bounds.columns_in(origin[0]);
+        if reached & columns == 0 {
             return None;
         }
         let rows =
@@ -43,12 +44,14 @@ impl Placed {
         let shape = segment.shape(scene.drawing, scene.strokes)?;
         let origin = DVec2::new(origin[0] as f64, origin[1] as f64);
         let mut covered = NO_SAMPLES;
-        rows::cover(&shape.sweep, origin, &rows, stack, &mut covered);
-        for row in rows {
-            for sample in 0..STACK {
-                covered[row * STACK + sample] &= open[row];
-            }
-        }
+        rows::cover(
+            &shape.sweep,
+            origin,
+            &rows,
+            (open, columns),
+            stack,
+            &mut covered,
+        );
         // From double precision, so that long strokes stay exact in every tile.
         let corner = shape.sweep.local(origin).as_vec2();
         let axis = shape.sweep.axis();
