@@ -295,8 +295,8 @@ impl Parts {
                 let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
                 rows_of_triangles.clear();
                 for (triangle, i) in triangles.iter().zip(0..) {
-                    let columns = cells(triangle.bounds.x, tile::WIDTH);
-                    for band in cells(triangle.bounds.y, tile_height) {
+                    let columns = cells(triangle.bounds.x(), tile::WIDTH);
+                    for band in cells(triangle.bounds.y(), tile_height) {
                         let first = band * across;
                         let tiles = first + columns.start..first + columns.end;
                         rows_of_triangles.push((i, tiles));
@@ -405,7 +405,7 @@ impl Worker {
     #[inline(always)]
     fn sort_into_tiles(&mut self, frame: &Frame, band: usize) {
         let segments = &frame.parts.segments;
-        let columns = |i: u32| cells(segments.list()[i as usize].bounds.x, tile::WIDTH);
+        let columns = |i: u32| cells(segments.list()[i as usize].bounds.x(), tile::WIDTH);
         let tiles = (frame.drawing.size[0] as usize).div_ceil(tile::WIDTH);
         let of_band = segments.of_band(band).map(|i| (i, columns(i)));
         self.segments_of_tiles.fill(tiles, of_band);

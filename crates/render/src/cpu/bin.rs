@@ -10,13 +10,39 @@ pub(super) const MARGIN: f32 = 0.01;
 /// The pixels that something may reach: a range of columns and one of rows. By default none.
 ///
 /// In 16 bits, as pictures have at most [`MAX_SIZE`](super::MAX_SIZE) of them: what is drawn is long lists of these.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
-    pub(super) x: [u16; 2],
-    pub(super) y: [u16; 2],
+    /// Where it ends to the right and below, behind where it begins, all bits the other way round: what holds two has the greater ones of all four,
+    /// which is an instruction.
+    ends: [u16; 4],
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self::new([0, 0], [0, 0])
+    }
 }
 
 impl Bounds {
+    #[inline(always)]
+    fn new([left, right]: [u16; 2], [top, bottom]: [u16; 2]) -> Self {
+        Self {
+            ends: [!left, !top, right, bottom],
+        }
+    }
+
+    /// Columns.
+    #[inline(always)]
+    pub(super) fn x(&self) -> [u16; 2] {
+        [!self.ends[0], self.ends[2]]
+    }
+
+    /// Rows.
+    #[inline(always)]
+    pub(super) fn y(&self) -> [u16; 2] {
+        [!self.ends[1], self.ends[3]]
+    }
+
     /// The pixels of a picture of the given size that the box from `min` to `max` touches, if any.
     #[inline]
     pub(super) fn of_box(min: Vec2, max: Vec2, size: [u32; 2]) -> Option<Self> {
@@ -28,32 +54,29 @@ impl Bounds {
         let ends = ends.max(Vec4::ZERO);
         let ends = ends.min(Vec4::new(width, height, width, height));
         let [left, top, right, bottom] = ends.to_array().map(|end| nearest(end) as u16);
-        (left < right && top < bottom).then_some(Self {
-            x: [left, right],
-            y: [top, bottom],
-        })
+        (left < right && top < bottom).then_some(Self::new([left, right], [top, bottom]))
     }
 
     /// What holds these and others.
     #[inline(always)] // into kernels that are compiled for several instruction sets
     pub(super) fn around(&self, others: &Self) -> Self {
-        let range = |a: [u16; 2], b: [u16; 2]| [a[0].min(b[0]), a[1].max(b[1])];
-        Self {
-            x: range(self.x, others.x),
-            y: range(self.y, others.y),
+        let mut ends = self.ends;
+        for k in 0..4 {
+            ends[k] = ends[k].max(others.ends[k]);
         }
+        Self { ends }
     }
 
     /// The rows of stacks in the tile whose first pixel is `top`.
     #[inline(always)]
     pub(super) fn rows_in(&self, top: usize, stack: &Stack) -> Range<usize> {
-        stack.rows(clip(self.y, top, tile::ROWS * stack.height))
+        stack.rows(clip(self.y(), top, tile::ROWS * stack.height))
     }
 
     /// The columns in the tile whose first one is `left`, a bit for each.
     #[inline(always)]
     pub(super) fn columns_in(&self, left: usize) -> u32 {
-        let columns = clip(self.x, left, tile::WIDTH);
+        let columns = clip(self.x(), left, tile::WIDTH);
         u32::MAX << columns.start & u32::MAX >> (tile::WIDTH - columns.end)
     }
 }
@@ -171,7 +194,7 @@ mod tests {
     #[test]
     fn bounds_hold_the_box_and_stay_in_the_picture() {
         let of = |x0, y0, x1, y1| {
-            Bounds::of_box(Vec2::new(x0, y0), Vec2::new(x1, y1), [100, 50]).map(|b| (b.x, b.y))
+            Bounds::of_box(Vec2::new(x0, y0), Vec2::new(x1, y1), [100, 50]).map(|b| (b.x(), b.y()))
         };
         assert_eq!(of(1.5, 2.5, 3.5, 3.5), Some(([1, 4], [2, 4])));
         assert_eq!(of(-9.0, -9.0, 999.0, 999.0), Some(([0, 100], [0, 50])));

@@ -195,7 +195,7 @@ impl Segments {
             }
             let rows = list[..number]
                 .iter()
-                .map(|segment| segment.bounds.y)
+                .map(|segment| segment.bounds.y())
                 .zip(0..);
             group
                 .bands

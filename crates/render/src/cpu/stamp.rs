@@ -204,8 +204,8 @@ fn of_stretch<'a>(
                     Brush::Circle => Vec2::ZERO,
                     Brush::Semicircle => way,
                 },
-                columns: bounds.x,
-                rows: bounds.y,
+                columns: bounds.x(),
+                rows: bounds.y(),
             })
         })
 }

@@ -5,6 +5,7 @@
 //! stroke's nearest disc in the tile would show, its segments give depth and roundness, and what of that shows in the picture
 //! goes there; only that gets a colour.
 
+use super::bin::Bounds;
 use super::brush::{Beside, StrokeBrush};
 use super::instructions::Instructions;
 use super::reached::Reached;
@@ -682,27 +683,36 @@ impl TileContext<'_> {
     /// Replaces `parts` by the strands of a tile, in the order in which they are best drawn.
     #[inline(always)]
     pub(super) fn strands(&self, tile: &[u32], parts: &mut Vec<Part>) {
-        let segment = |i: u32| &self.segments[i as usize];
         parts.clear();
+        let mut rest = tile.iter().zip(0..);
+        let Some((&first, _)) = rest.next() else {
+            return;
+        };
         let mut start = 0;
-        for strand in tile.chunk_by(|&a, &b| segment(a).strand == segment(b).strand) {
-            let (mut inv_depth, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
-            let mut bounds = segment(strand[0]).bounds;
-            for &index in strand {
-                let segment = segment(index);
-                inv_depth = greater(segment.inv_depth, inv_depth);
-                biased = greater(segment.biased, biased);
-                bounds = bounds.around(&segment.bounds);
+        let first = &self.segments[first as usize];
+        let (mut strand, mut bounds) = (first.strand, first.bounds);
+        let (mut inv_depth, mut biased) = (first.inv_depth, first.biased);
+        let part = |segments: Range<usize>, inv_depth, biased, bounds: &Bounds| Part {
+            segments,
+            inv_depth,
+            biased,
+            rows: bounds.rows_in(self.origin[1], self.stack),
+            columns: bounds.columns_in(self.origin[0]),
+        };
+        for (&index, place) in rest {
+            let segment = &self.segments[index as usize];
+            if segment.strand != strand {
+                parts.push(part(start..place, inv_depth, biased, &bounds));
+                start = place;
+                (strand, bounds) = (segment.strand, segment.bounds);
+                (inv_depth, biased) = (segment.inv_depth, segment.biased);
+                continue;
             }
-            parts.push(Part {
-                segments: start..start + strand.len(),
-                inv_depth,
-                biased,
-                rows: bounds.rows_in(self.origin[1], self.stack),
-                columns: bounds.columns_in(self.origin[0]),
-            });
-            start += strand.len();
+            bounds = bounds.around(&segment.bounds);
+            inv_depth = greater(segment.inv_depth, inv_depth);
+            biased = greater(segment.biased, biased);
         }
+        parts.push(part(start..tile.len(), inv_depth, biased, &bounds));
         // What lies behind the nearer ones is then seen to be hidden. Shifted strokes of equal depth
         // need their strands' order.
         if self.drawing.order != Order::Shifted {

@@ -183,7 +183,7 @@ impl Triangle {
     #[inline(always)]
     fn cells(&self, tile: &Tile) -> [Range<usize>; 2] {
         let rows = self.bounds.rows_in(tile.origin[1], tile.stack);
-        let columns = clip(self.bounds.x, tile.origin[0], WIDTH);
+        let columns = clip(self.bounds.x(), tile.origin[0], WIDTH);
         let across = columns.start / CELL_WIDTH..columns.end.div_ceil(CELL_WIDTH);
         [rows, across]
     }
