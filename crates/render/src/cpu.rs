@@ -17,6 +17,8 @@ mod evaluate;
 pub(crate) mod instructions;
 mod light;
 mod mixed;
+mod offer;
+mod outlines;
 mod paint;
 mod paint_mesh;
 mod reached;

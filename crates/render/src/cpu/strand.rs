@@ -8,13 +8,14 @@
 use super::bin::Bounds;
 use super::brush::{Beside, StrokeBrush};
 use super::instructions::Instructions;
+use super::offer::{Offer, Roundness, paint, shade, tell, unasked};
+use super::outlines::Outlined;
 use super::reached::Reached;
 use super::segment::{Segment, Stroke};
 use super::shown::Shown;
-use super::stroke::{Depths, Nearest, Placed, Places, Ratios, Shaded, Unasked};
+use super::stroke::Placed;
 use super::tile::{
-    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, OneByOne, ROWS, Stack, Target, add, any, both,
-    cells, columns, greater, is_empty, lesser, overwrite, without,
+    Mask, NO_SAMPLES, OneByOne, ROWS, Stack, Target, add, both, greater, is_empty, without,
 };
 use crate::drawing::{Drawing, Order};
 use std::ops::Range;
@@ -35,32 +36,18 @@ pub(super) struct TileContext<'a> {
 /// The working memory of one strand.
 pub(super) struct StrandMasks {
     /// The strand's segments that cover something, in drawing order.
-    placed: Vec<Placed>,
+    pub(super) placed: Vec<Placed>,
     /// Its strokes, lowest first; the clump before them.
     strokes: Vec<Covered>,
     /// Where brushes left bare what strokes that are clipped to the clump reach; of drawings without brushes anything.
     bare: Mask,
-    row: Reached,
+    pub(super) row: Reached,
     /// Of strokes with brushes: their samples.
     beside: Beside,
-    /// Strands whose outlines are left for [`StrandMasks::draw_outlines`].
-    outlined: Vec<Outlined>,
+    /// Strands whose outlines are left for [`Self::draw_outlines`].
+    pub(super) outlined: Vec<Outlined>,
     /// Of a strand's outlines from the lowest to the highest: how near any is up to there.
-    nearest: Vec<[f32; 2]>,
-}
-
-/// Outlines that lie deeper than their clump by so many times the way from its middle to its edge are drawn after all clumps. Others would have them draw
-/// what they hide.
-const DEEP: f32 = 4.0;
-
-/// A strand whose outlines are still to be drawn.
-struct Outlined {
-    /// Their segments in drawing order, among the tile's.
-    segments: Range<usize>,
-    /// The columns of each row of stacks that the strand may reach.
-    reach: [u32; ROWS],
-    /// The samples that the clump covers: it is drawn as strokes that lie higher.
-    clump: Mask,
+    pub(super) nearest: Vec<[f32; 2]>,
 }
 
 /// A stroke in the tile.
@@ -71,16 +58,6 @@ struct Covered {
     segments: Range<usize>,
     /// The samples that it covers; then those of them that it gives its colour.
     samples: Mask,
-}
-
-/// How much deeper than its middle a stroke lies towards its edge.
-#[derive(Clone, Copy, PartialEq)]
-enum Roundness {
-    Flat,
-    /// By the square of distance over radius.
-    Clump,
-    /// By its eighth power.
-    Outline,
 }
 
 impl StrandMasks {
@@ -161,13 +138,7 @@ impl StrandMasks {
     #[inline(always)]
     fn place_stroke(&mut self, scene: &TileContext, stroke: &[u32], open: &[u32; ROWS]) {
         let first = self.placed.len();
-        let mut samples = NO_SAMPLES;
-        for &index in stroke {
-            if let Some(placed) = Placed::new(scene, index, open) {
-                add(&mut samples, &placed.covered);
-                self.placed.push(placed);
-            }
-        }
+        let samples = scene.place(stroke, open, &mut self.placed);
         if is_empty(&samples) {
             self.placed.truncate(first);
             return;
@@ -177,110 +148,6 @@ impl StrandMasks {
             segments: first..self.placed.len(),
             samples,
         });
-    }
-
-    /// Whether a strand's outlines show beside its clump alone, as that is drawn as strokes above them; the clump is placed. What is nearest is
-    /// the same in any order: so they can be drawn when all clumps are, which hide most of what lies deeper.
-    #[inline(always)]
-    fn are_outlines_beside(&self, scene: &TileContext) -> bool {
-        if scene.drawing.order == Order::Shifted || !scene.drawing.brushwork.is_empty() {
-            return false;
-        }
-        self.placed.iter().all(|placed| placed.drawn_as > 0)
-    }
-
-    /// Draws the outlines of the strands that were drawn, to be called after the last of a tile.
-    #[inline(always)]
-    pub(super) fn draw_outlines<const TELLS: bool>(
-        &mut self,
-        scene: &TileContext,
-        tile: &[u32],
-        target: &mut Target,
-        told: &mut Shown,
-    ) {
-        let outlined = std::mem::take(&mut self.outlined);
-        for strand in &outlined {
-            self.outline::<TELLS>(scene, &tile[strand.segments.clone()], strand, target, told);
-        }
-        self.outlined = outlined;
-        self.outlined.clear();
-    }
-
-    /// Draws the outlines of a strand, the highest first: where one and all lower ones are hidden it hides none of them.
-    #[inline(always)]
-    fn outline<const TELLS: bool>(
-        &mut self,
-        scene: &TileContext,
-        segments: &[u32],
-        strand: &Outlined,
-        target: &mut Target,
-        told: &mut Shown,
-    ) {
-        let segment = |i: u32| &scene.segments[i as usize];
-        let strokes = || segments.chunk_by(|&a, &b| segment(a).stroke == segment(b).stroke);
-        self.nearest.clear();
-        let mut nearest = [f32::NEG_INFINITY; 2];
-        for stroke in strokes() {
-            for &index in stroke {
-                let Segment {
-                    inv_depth, biased, ..
-                } = segment(index);
-                nearest = [
-                    greater(*inv_depth, nearest[0]),
-                    greater(*biased, nearest[1]),
-                ];
-            }
-            self.nearest.push(nearest);
-        }
-        let of_outline = match scene.drawing.order {
-            Order::Rounded => Roundness::Outline,
-            _ => Roundness::Flat,
-        };
-        let priority = u32::MAX - segment(segments[0]).strand;
-        let mut drawn = strand.clump;
-        for (stroke, nearest) in strokes().rev().zip(self.nearest.iter().rev()) {
-            let mut open = strand.reach;
-            target.close(&mut open, *nearest);
-            if open == [0; ROWS] {
-                continue;
-            }
-            self.placed.clear();
-            let mut samples = NO_SAMPLES;
-            for &index in stroke {
-                if let Some(placed) = Placed::new(scene, index, &open) {
-                    add(&mut samples, &placed.covered);
-                    self.placed.push(placed);
-                }
-            }
-            let samples = without(&samples, &drawn);
-            if is_empty(&samples) {
-                continue;
-            }
-            add(&mut drawn, &samples);
-            let mut shown = NO_SAMPLES;
-            let offer = Offer {
-                scene,
-                placed: &self.placed,
-                roundness: of_outline,
-                priority,
-            };
-            offer.make::<false>(&samples, &mut self.row, target, &mut shown, unasked);
-            target.show_stroke(&shown, true);
-            if !TELLS {
-                shade(&self.placed, &shown, &mut self.row, target);
-                continue;
-            }
-            tell::<true>(
-                &self.placed,
-                &shown,
-                &mut self.row,
-                #[inline(always)]
-                |cell, places, lanes| {
-                    paint(target, cell, &places.color, lanes);
-                    told.put_stroke(cell, places, lanes);
-                },
-            );
-        }
     }
 
     /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it. Where the strand is drawn as
@@ -510,162 +377,6 @@ impl StrandMasks {
     }
 }
 
-/// Nobody asks where samples that show lie.
-fn unasked(_: &mut Target, _: usize, _: &Places<true>, _: &LaneMask) {}
-
-/// A stroke that is held against what the samples show.
-struct Offer<'a> {
-    scene: &'a TileContext<'a>,
-    /// Its segments.
-    placed: &'a [Placed],
-    roundness: Roundness,
-    /// Decides among equal depths.
-    priority: u32,
-}
-
-impl Offer<'_> {
-    /// Puts the samples, which the segments cover, into the picture; those that show are added to `shown`. Where it `TELLS`, gives the axis
-    /// points of these.
-    #[inline(always)]
-    fn make<const TELLS: bool>(
-        &self,
-        samples: &Mask,
-        segments: &mut Reached,
-        target: &mut Target,
-        shown: &mut Mask,
-        mut give: impl FnMut(&mut Target, usize, &Places<true>, &LaneMask),
-    ) {
-        let (mut nearest, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
-        for placed in self.placed {
-            nearest = greater(placed.shape.inv_depth.greatest(), nearest);
-            biased = greater(placed.shape.inv_depth_biased.greatest(), biased);
-        }
-        for row in 0..ROWS {
-            let wanted = columns(samples, row);
-            if wanted == 0 {
-                continue;
-            }
-            segments.find(self.placed, row, wanted);
-            for cell in cells(row, wanted) {
-                let taken = target.may_show(cell, &cell.lanes(samples), nearest, biased);
-                if !any(&taken) {
-                    continue;
-                }
-                if TELLS {
-                    let mut places = Places::new();
-                    let depths = self.depths(segments, cell, &taken, &mut places);
-                    let wins = target.offer(cell, &taken, &depths, self.priority);
-                    cell.add_to(shown, &wins);
-                    give(target, cell.index, &places, &wins);
-                    continue;
-                }
-                let depths = match self.roundness {
-                    Roundness::Flat => self.depths(segments, cell, &taken, &mut Unasked),
-                    _ => self.depths(segments, cell, &taken, &mut Ratios::new()),
-                };
-                let wins = target.offer(cell, &taken, &depths, self.priority);
-                cell.add_to(shown, &wins);
-            }
-        }
-    }
-
-    /// The depths of some samples of a cell, by how far they are from the stroke's middle.
-    #[inline(always)]
-    fn depths(
-        &self,
-        segments: &mut Reached,
-        cell: Cell,
-        samples: &LaneMask,
-        nearest: &mut impl Nearest,
-    ) -> Depths {
-        let mut depths = Depths::new();
-        segments.measure(self.placed, cell, samples, &mut depths, nearest);
-        if self.roundness == Roundness::Flat {
-            return depths;
-        }
-        let mut part = *nearest.ratios();
-        for k in 0..LANES {
-            part[k] = lesser(part[k], 1.0);
-        }
-        if self.roundness == Roundness::Outline {
-            for k in 0..LANES {
-                let square = part[k] * part[k];
-                part[k] = square * square;
-            }
-        }
-        for k in 0..LANES {
-            let deeper_m = self.scene.drawing.edge_depth_m * part[k];
-            depths.inv_depth[k] = deeper(depths.inv_depth[k], deeper_m);
-            depths.biased[k] = deeper(depths.biased[k], deeper_m);
-        }
-        depths
-    }
-}
-
-/// The inverse depth of what lies so many metres deeper. There is nothing deeper than 0 or below.
-#[inline(always)]
-fn deeper(inv_depth: f32, metres: f32) -> f32 {
-    inv_depth / (1.0 + metres * greater(inv_depth, 0.0))
-}
-
-/// Gives the samples, which the stroke covers, its colour.
-#[inline(always)]
-fn shade(placed: &[Placed], samples: &Mask, segments: &mut Reached, target: &mut Target) {
-    let first = &placed[0].shape;
-    let is_one_color = placed
-        .iter()
-        .all(|Placed { shape, .. }| shape.is_one_color() && shape.color == first.color);
-    let color = first.color.map(|channel| [channel.start; LANES]);
-    for row in 0..ROWS {
-        let wanted = columns(samples, row);
-        if wanted == 0 {
-            continue;
-        }
-        if is_one_color {
-            for cell in cells(row, wanted) {
-                paint(target, cell.index, &color, &cell.lanes(samples));
-            }
-            continue;
-        }
-        segments.find(placed, row, wanted);
-        for cell in cells(row, wanted) {
-            let (mut stroke, lanes) = (Shaded::new(), cell.lanes(samples));
-            segments.find_nearest(placed, cell, &lanes, &mut stroke);
-            paint(target, cell.index, &stroke.color, &lanes);
-        }
-    }
-}
-
-/// Finds the axis points of the samples, which the segments cover, and gives them cell by cell. Where they are `COLORED`, with the colours
-/// there.
-#[inline(always)]
-fn tell<const COLORED: bool>(
-    placed: &[Placed],
-    samples: &Mask,
-    segments: &mut Reached,
-    mut give: impl FnMut(usize, &Places<COLORED>, &LaneMask),
-) {
-    for row in 0..ROWS {
-        let wanted = columns(samples, row);
-        if wanted == 0 {
-            continue;
-        }
-        segments.find(placed, row, wanted);
-        for cell in cells(row, wanted) {
-            let (mut places, lanes) = (Places::new(), cell.lanes(samples));
-            segments.find_nearest(placed, cell, &lanes, &mut places);
-            give(cell.index, &places, &lanes);
-        }
-    }
-}
-
-#[inline(always)]
-fn paint(target: &mut Target, cell: usize, color: &[Lanes; 3], samples: &LaneMask) {
-    for (plane, color) in target.color.iter_mut().zip(color) {
-        overwrite(&mut plane[cell], color, samples);
-    }
-}
-
 /// A strand's part of a tile.
 pub(super) struct Part {
     /// Its segments in drawing order, among the tile's.
@@ -680,6 +391,24 @@ pub(super) struct Part {
 }
 
 impl TileContext<'_> {
+    /// Adds those of some segments that cover any open samples, and gives these.
+    #[inline(always)]
+    pub(super) fn place(
+        &self,
+        segments: &[u32],
+        open: &[u32; ROWS],
+        placed: &mut Vec<Placed>,
+    ) -> Mask {
+        let mut samples = NO_SAMPLES;
+        for &index in segments {
+            if let Some(segment) = Placed::new(self, index, open) {
+                add(&mut samples, &segment.covered);
+                placed.push(segment);
+            }
+        }
+        samples
+    }
+
     /// Replaces `parts` by the strands of a tile, in the order in which they are best drawn.
     #[inline(always)]
     pub(super) fn strands(&self, tile: &[u32], parts: &mut Vec<Part>) {
@@ -718,26 +447,6 @@ impl TileContext<'_> {
         if self.drawing.order != Order::Shifted {
             parts.sort_by(|a, b| b.inv_depth.total_cmp(&a.inv_depth));
         }
-    }
-
-    /// Whether the lowest outline of a strand lies so much deeper than its clump that other strands hide most of it.
-    #[inline(always)]
-    fn are_deep(&self, outlines: &[u32], clump: &[u32]) -> bool {
-        let segment = |i: u32| &self.segments[i as usize];
-        let Some(&lowest) = outlines.first() else {
-            return false;
-        };
-        let (mut outline, mut nearest) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
-        for &i in outlines {
-            if segment(i).stroke != segment(lowest).stroke {
-                break;
-            }
-            outline = greater(segment(i).inv_depth, outline);
-        }
-        for &i in clump {
-            nearest = greater(segment(i).inv_depth, nearest);
-        }
-        outline < deeper(nearest, DEEP * self.drawing.edge_depth_m)
     }
 
     /// The columns of each row of stacks that the strand may reach where it is not sure, for a whole cell, to be hidden.

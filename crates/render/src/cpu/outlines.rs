@@ -1,0 +1,145 @@
+//! Outlines that lie deep behind their clumps: they are drawn once all strands of a tile are, which hide most of them.
+
+use super::offer::{Offer, Roundness, deeper, paint, shade, tell, unasked};
+use super::segment::Segment;
+use super::shown::Shown;
+use super::strand::{StrandMasks, TileContext};
+use super::tile::{Mask, NO_SAMPLES, ROWS, Target, add, greater, is_empty, without};
+use crate::drawing::Order;
+use std::ops::Range;
+
+/// Outlines that lie deeper than their clump by so many times the way from its middle to its edge are drawn after all clumps. Others would have them draw
+/// what they hide.
+const DEEP: f32 = 4.0;
+
+/// A strand whose outlines are still to be drawn.
+pub(super) struct Outlined {
+    /// Their segments in drawing order, among the tile's.
+    pub(super) segments: Range<usize>,
+    /// The columns of each row of stacks that the strand may reach.
+    pub(super) reach: [u32; ROWS],
+    /// The samples that the clump covers: it is drawn as strokes that lie higher.
+    pub(super) clump: Mask,
+}
+
+impl StrandMasks {
+    /// Whether a strand's outlines show beside its clump alone, as that is drawn as strokes above them; the clump is placed. What is nearest is
+    /// the same in any order: so they can be drawn when all clumps are, which hide most of what lies deeper.
+    #[inline(always)]
+    pub(super) fn are_outlines_beside(&self, scene: &TileContext) -> bool {
+        if scene.drawing.order == Order::Shifted || !scene.drawing.brushwork.is_empty() {
+            return false;
+        }
+        self.placed.iter().all(|placed| placed.drawn_as > 0)
+    }
+
+    /// Draws the outlines of the strands that were drawn, to be called after the last of a tile.
+    #[inline(always)]
+    pub(super) fn draw_outlines<const TELLS: bool>(
+        &mut self,
+        scene: &TileContext,
+        tile: &[u32],
+        target: &mut Target,
+        told: &mut Shown,
+    ) {
+        let outlined = std::mem::take(&mut self.outlined);
+        for strand in &outlined {
+            self.outline::<TELLS>(scene, &tile[strand.segments.clone()], strand, target, told);
+        }
+        self.outlined = outlined;
+        self.outlined.clear();
+    }
+
+    /// Draws the outlines of a strand, the highest first: where one and all lower ones are hidden it hides none of them.
+    #[inline(always)]
+    fn outline<const TELLS: bool>(
+        &mut self,
+        scene: &TileContext,
+        segments: &[u32],
+        strand: &Outlined,
+        target: &mut Target,
+        told: &mut Shown,
+    ) {
+        let segment = |i: u32| &scene.segments[i as usize];
+        let strokes = || segments.chunk_by(|&a, &b| segment(a).stroke == segment(b).stroke);
+        self.nearest.clear();
+        let mut nearest = [f32::NEG_INFINITY; 2];
+        for stroke in strokes() {
+            for &index in stroke {
+                let Segment {
+                    inv_depth, biased, ..
+                } = segment(index);
+                nearest = [
+                    greater(*inv_depth, nearest[0]),
+                    greater(*biased, nearest[1]),
+                ];
+            }
+            self.nearest.push(nearest);
+        }
+        let of_outline = match scene.drawing.order {
+            Order::Rounded => Roundness::Outline,
+            _ => Roundness::Flat,
+        };
+        let priority = u32::MAX - segment(segments[0]).strand;
+        let mut drawn = strand.clump;
+        for (stroke, nearest) in strokes().rev().zip(self.nearest.iter().rev()) {
+            let mut open = strand.reach;
+            target.close(&mut open, *nearest);
+            if open == [0; ROWS] {
+                continue;
+            }
+            self.placed.clear();
+            let samples = scene.place(stroke, &open, &mut self.placed);
+            let samples = without(&samples, &drawn);
+            if is_empty(&samples) {
+                continue;
+            }
+            add(&mut drawn, &samples);
+            let mut shown = NO_SAMPLES;
+            let offer = Offer {
+                scene,
+                placed: &self.placed,
+                roundness: of_outline,
+                priority,
+            };
+            offer.make::<false>(&samples, &mut self.row, target, &mut shown, unasked);
+            target.show_stroke(&shown, true);
+            if !TELLS {
+                shade(&self.placed, &shown, &mut self.row, target);
+                continue;
+            }
+            tell::<true>(
+                &self.placed,
+                &shown,
+                &mut self.row,
+                #[inline(always)]
+                |cell, places, lanes| {
+                    paint(target, cell, &places.color, lanes);
+                    told.put_stroke(cell, places, lanes);
+                },
+            );
+        }
+    }
+}
+
+impl TileContext<'_> {
+    /// Whether the lowest outline of a strand lies so much deeper than its clump that other strands hide most of it.
+    #[inline(always)]
+    pub(super) fn are_deep(&self, outlines: &[u32], clump: &[u32]) -> bool {
+        let segment = |i: u32| &self.segments[i as usize];
+        let Some(&lowest) = outlines.first() else {
+            return false;
+        };
+        let (mut outline, mut nearest) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
+        for &i in outlines {
+            if segment(i).stroke != segment(lowest).stroke {
+                break;
+            }
+            outline = greater(segment(i).inv_depth, outline);
+        }
+        for &i in clump {
+            nearest = greater(segment(i).inv_depth, nearest);
+        }
+        outline < deeper(nearest, DEEP * self.drawing.edge_depth_m)
+    }
+}
