@@ -29,14 +29,17 @@ impl effects::StrokeEffect for Toon {
     fn reads(params: &Params, input: SampleInput) -> bool {
         let detail = |choices: &[u32]| choices.contains(&params.detail);
         let has_rim = params.rim.w > 0.0;
+        let is_round = params.roundness != 0.0;
         match input {
-            SampleInput::Forward => detail(&[Params::DETAIL_WEIGHTED]),
+            SampleInput::Forward => is_round || detail(&[Params::DETAIL_WEIGHTED]),
             SampleInput::Depth => detail(&[Params::DETAIL_DEPTH]),
             SampleInput::HeadDepth => {
                 detail(&[Params::DETAIL_DEPTH]) && params.depth_from == Params::DEPTH_FROM_HEAD
             }
-            SampleInput::ViewDirection => detail(&[Params::DETAIL_FACING, Params::DETAIL_BLINN]),
-            SampleInput::Tube => has_rim || params.roundness != 0.0,
+            SampleInput::ViewDirection => {
+                is_round || detail(&[Params::DETAIL_FACING, Params::DETAIL_BLINN])
+            }
+            SampleInput::Tube => has_rim || is_round,
             SampleInput::W => has_rim || detail(&[Params::DETAIL_ACROSS]),
             _ => true,
         }
