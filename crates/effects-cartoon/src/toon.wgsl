@@ -78,28 +78,28 @@ fn raised(x: f32, exponent: f32) -> f32 {
     return select(power(x, exponent), 1.0, exponent <= 0.0);
 }
 
-/// The normal of what the eye sees of a lock whose side has the normal `side`. A round one that runs towards the eye or away from it shows its end,
-/// which faces the eye: a tube's normal points anywhere there, and would shade a whorl or a curl in quarters.
-fn seen_normal(at: Sample, side: vec3<f32>, params: Params) -> vec3<f32> {
+/// The lock's normal between its own and that of a round one. A round one that runs towards the eye or away from it shows its end, which faces the
+/// eye: its sides face anywhere there, and would shade a whorl or a curl in quarters.
+fn seen_normal(at: Sample, params: Params) -> vec3<f32> {
     if (params.roundness == 0.0) {
-        return side;
+        return at.normal;
     }
     let along = dot(at.forward, at.view_direction);
     let end_on = along * along * along * along;
-    return unit_or(mix(side, at.view_direction, vec3<f32>(end_on)), side);
+    let round = mix(at.tube, at.view_direction, vec3<f32>(end_on));
+    return rounded(at.normal, round, params.roundness);
 }
 
 fn place(at: Sample, params: Params) -> Lookup {
-    let side = rounded(at.normal, at.tube, params.roundness);
-    let normal = seen_normal(at, side, params);
+    let normal = seen_normal(at, params);
     var row = 0.0;
     switch params.detail {
         case 1u: { row = at.u; }
         case 2u: { row = 0.5 + 0.5 * at.w; }
         case 3u: { row = nearness(at, params); }
         case 4u: { row = raised(abs(dot(normal, at.view_direction)), params.exponent); }
-        case 5u: { row = blinn(at, side, params.exponent); }
-        case 6u: { row = weighted(at, side, params); }
+        case 5u: { row = blinn(at, normal, params.exponent); }
+        case 6u: { row = weighted(at, normal, params); }
         default: {}
     }
     var lit = max(dot(normal, at.light_direction), 0.0);

@@ -44,7 +44,7 @@ const WHOLE: f32 = 0.25;
 const FADE: f32 = 0.4;
 
 /// How much longer than `shortest` a strip is when it is whole, in parts of that.
-const LONGER: f32 = 0.5;
+const LONGER: f32 = 0.25;
 
 impl effects::StrokeEffect for Zigzag {
     type Program = Program;
@@ -65,13 +65,13 @@ impl effects::StrokeEffect for Zigzag {
                 .map(|strand| Highlight::of(params, hair, strand, group, groups))
                 .collect();
             if within_m > 0.0 {
-                merge::onto_one_line(hair.strands, &mut shining, within_m, hair.head_center);
+                merge::onto_one_line(hair.strands, &mut shining, within_m);
             }
             shining
         };
         let locks = locks::of(hair, within_m);
         let neighbors = Neighbors::of(hair, &locks);
-        let next: Vec<Option<usize>> = (0..locks.len()).map(|i| neighbors.next_around(i)).collect();
+        let next: Vec<Option<usize>> = (0..locks.len()).map(|i| neighbors.next_across(i)).collect();
         let strips: Vec<Strip> = (0..groups)
             .map(|group| Strip::of(params, hair, &locks, &next, &shining(group)))
             .collect();
@@ -240,10 +240,14 @@ fn brightness(params: &Params, hair: &Hair, strand: &HairStrand, u: f32) -> f32 
     power(facing.max(0.0), params.exponent)
 }
 
+/// The strand's direction to its tip.
+fn along(strand: &HairStrand, u: f32) -> Vec3 {
+    (strand.point(u + STRETCH) - strand.point(u - STRETCH)).normalize_or(Vec3::NEG_Y)
+}
+
 /// The strand's direction to its tip, and the normal away from the head across it.
 fn along_and_normal(hair: &Hair, strand: &HairStrand, u: f32) -> (Vec3, Vec3) {
-    let along = strand.point(u + STRETCH) - strand.point(u - STRETCH);
-    let along = along.normalize_or(Vec3::NEG_Y);
+    let along = along(strand, u);
     let out = (strand.point(u) - hair.head_center).reject_from_normalized(along);
     (along, out.normalize_or(along.any_orthonormal_vector()))
 }
@@ -268,7 +272,14 @@ fn share_and_length_of_link(
     let lesser = ends[0].amount.min(ends[1].amount);
     let within_m = params.merge * hair.head_height_m;
     let on_one_line = match within_m > 0.0 {
-        true => merge::on_one_line(from, to, within_m, hair.head_center),
+        true => {
+            let along = [0, 1].map(|end| along(strands[end], ends[end].place));
+            merge::on_one_line(
+                to - from,
+                (along[0] + along[1]).normalize_or_zero(),
+                within_m,
+            )
+        }
         false => 1.0,
     };
     let share = smooth(near) * smooth(lesser / WHOLE) * on_one_line;
@@ -347,16 +358,18 @@ impl Neighbors {
         }
     }
 
-    /// The strand that is next to strand `index` around the head, counterclockwise from above: the nearest of those that are more beside it
-    /// than above, below or behind it.
-    fn next_around(&self, index: usize) -> Option<usize> {
+    /// The strand that is next to strand `index` across the hair, of hair that hangs counterclockwise around the head: the nearest of those that are more
+    /// beside it than above, behind, or farther along it.
+    fn next_across(&self, index: usize) -> Option<usize> {
         let own = &self.all[index];
         let middle = own.points[1] - self.head_center;
-        let around = middle.cross(own.points[2] - own.points[0]).normalize_or(Vec3::X);
+        let across = middle
+            .cross(own.points[2] - own.points[0])
+            .normalize_or(Vec3::X);
         let distance = |other: &Beside| -> f32 {
             let pairs = own.points.iter().zip(&other.points);
             let apart = |way: Vec3| {
-                let beside = way.dot(around) * around;
+                let beside = way.dot(across) * across;
                 (beside + OFF_ROW * (way - beside)).length()
             };
             pairs.map(|(a, b)| apart(*b - *a)).sum()
@@ -365,7 +378,7 @@ impl Neighbors {
             let way: Vec3 = (own.points.iter().zip(&other.points))
                 .map(|(a, b)| *b - *a)
                 .sum();
-            2.0 * way.dot(around) > way.length() && way.length() > 0.0
+            2.0 * way.dot(across) > way.length() && way.length() > 0.0
         };
         self.grid.nearest(own.points[1], |other| {
             let beside = &self.all[other];
@@ -544,9 +557,9 @@ mod tests {
         assert!((0.6..2.0).contains(&shortest), "{shortest}");
     }
 
-    /// How long each strip of links is, head heights.
+    /// How long each strip of links is that one sees, head heights: a tenth of the width and less is a hairline.
     fn strips(paths: &[Vec<(Vec3, f32)>]) -> Vec<f32> {
-        let is_there = |path: &&Vec<(Vec3, f32)>| path.iter().any(|(_, weight)| *weight > 0.0);
+        let is_there = |path: &&Vec<(Vec3, f32)>| path.iter().any(|(_, weight)| *weight > 0.1);
         let there: Vec<_> = paths.iter().filter(is_there).collect();
         let goes_on =
             |from: &[(Vec3, f32)], to: &[(Vec3, f32)]| from[POINTS - 1].0.distance(to[0].0) < 1e-5;
