@@ -214,16 +214,21 @@ fn collar<const N: usize>(
         aside.collect()
     };
     let (below_fold, above_edge) = (towards(fold, edge), towards(edge, fold));
+    // Between the two the dress may bulge.
+    let wing: Vec<Vec3> = (fold.into_iter().zip(edge))
+        .map(|(fold, edge)| fold.midpoint(edge))
+        .collect();
     let (cloth, line) = (Cloth::Dress, Cloth::Line);
     band(
         &[
             (&base, Lie::At(-0.003)),
             (&fold, Lie::Over(0.006)),
             (&below_fold, Lie::Over(0.006)),
+            (&wing, Lie::Over(0.005)),
             (&above_edge, Lie::At(0.005)),
             (&edge, Lie::At(0.005)),
         ],
-        &[cloth, line, cloth, line, cloth],
+        &[cloth, line, cloth, cloth, line, cloth],
         Rows::Smooth,
         |p| dress.distance(p),
     )
@@ -237,7 +242,7 @@ fn folded_collar() -> Piece {
         around(0.036, 1.322, -0.014),
         around(0.040, 1.313, 0.006),
         around(0.027, 1.293, 0.040),
-        around(0.004, 1.282, 0.060),
+        around(0.016, 1.282, 0.055),
     ];
     let fold = [
         around(0.0, 1.350, -0.042),
