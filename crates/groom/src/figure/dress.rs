@@ -214,21 +214,17 @@ fn collar<const N: usize>(
         aside.collect()
     };
     let (below_fold, above_edge) = (towards(fold, edge), towards(edge, fold));
-    // Between the two the dress may bulge.
-    let wing: Vec<Vec3> = (fold.into_iter().zip(edge))
-        .map(|(fold, edge)| fold.midpoint(edge))
-        .collect();
     let (cloth, line) = (Cloth::Dress, Cloth::Line);
     band(
         &[
-            (&base, Lie::At(-0.003)),
+            // Deep enough that lines of what lies close below a surface aren't seen through it.
+            (&base, Lie::At(-0.008)),
             (&fold, Lie::Over(0.006)),
             (&below_fold, Lie::Over(0.006)),
-            (&wing, Lie::Over(0.005)),
             (&above_edge, Lie::At(0.005)),
             (&edge, Lie::At(0.005)),
         ],
-        &[cloth, line, cloth, cloth, line, cloth],
+        &[cloth, line, cloth, line, cloth],
         Rows::Smooth,
         |p| dress.distance(p),
     )
