@@ -114,6 +114,36 @@ mod tests {
         }
     }
 
+    /// A lock that runs to the eye, light from one side: left and right of it a tube's normal would shade it in halves, and its rim is where it was.
+    #[test]
+    fn the_end_of_a_lock_has_one_light() {
+        let seen = |side: f32, forward: [f32; 3]| {
+            let samples = Samples {
+                forward: vec![vec3(forward)],
+                normal: vec![vec3([0.0, 1.0, 0.0])],
+                tube: vec![vec3([side, 0.0, 0.0])],
+                light_direction: vec![vec3([0.6, 0.0, 0.8])],
+                ..sample(0.5)
+            };
+            let color = painted(&samples, &[("tones", PLACES), ("detail", "facing")]);
+            [color.x, color.y]
+        };
+        let from_its_end = [-1.0, 1.0].map(|side| seen(side, [0.0, 0.0, 1.0]));
+        assert_eq!(from_its_end[0], from_its_end[1]);
+        // Half the light that falls on what faces the eye, as roundness is a half.
+        let expected = 0.8 * 0.5_f32.sqrt();
+        assert!(
+            (from_its_end[0][0] - expected).abs() < 1e-4,
+            "{from_its_end:?}"
+        );
+        assert_eq!(from_its_end[0][1], 0.0);
+        let from_beside = [-1.0, 1.0].map(|side| seen(side, [0.0, -1.0, 0.0])[0]);
+        assert!(
+            from_beside[0] == 0.0 && from_beside[1] > 0.4,
+            "{from_beside:?}"
+        );
+    }
+
     #[test]
     fn depth_is_1_near_and_0_far_on_a_logarithmic_scale() {
         // Row 13: y = 1 - log(z / near) / log(far / near).

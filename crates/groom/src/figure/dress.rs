@@ -218,7 +218,7 @@ fn collar<const N: usize>(
     band(
         &[
             // Deep enough that lines of what lies close below a surface aren't seen through it.
-            (&base, Lie::At(-0.008)),
+            (&base, Lie::At(-0.006)),
             (&fold, Lie::Over(0.006)),
             (&below_fold, Lie::Over(0.006)),
             (&above_edge, Lie::At(0.005)),
