@@ -29,14 +29,17 @@ impl effects::StrokeEffect for Toon {
     fn reads(params: &Params, input: SampleInput) -> bool {
         let detail = |choices: &[u32]| choices.contains(&params.detail);
         let has_rim = params.rim.w > 0.0;
+        let is_round = params.roundness != 0.0;
         match input {
-            SampleInput::Forward => detail(&[Params::DETAIL_WEIGHTED]),
+            SampleInput::Forward => is_round || detail(&[Params::DETAIL_WEIGHTED]),
             SampleInput::Depth => detail(&[Params::DETAIL_DEPTH]),
             SampleInput::HeadDepth => {
                 detail(&[Params::DETAIL_DEPTH]) && params.depth_from == Params::DEPTH_FROM_HEAD
             }
-            SampleInput::ViewDirection => detail(&[Params::DETAIL_FACING, Params::DETAIL_BLINN]),
-            SampleInput::Tube => has_rim || params.roundness != 0.0,
+            SampleInput::ViewDirection => {
+                is_round || detail(&[Params::DETAIL_FACING, Params::DETAIL_BLINN])
+            }
+            SampleInput::Tube => has_rim || is_round,
             SampleInput::W => has_rim || detail(&[Params::DETAIL_ACROSS]),
             _ => true,
         }
@@ -109,6 +112,36 @@ mod tests {
             assert!((x - cosine.max(0.0)).abs() < 1.0 / 255.0, "{cosine}: {x}");
             assert_eq!(y, 0.0);
         }
+    }
+
+    /// A lock that runs to the eye, light from one side: left and right of it a tube's normal would shade it in halves, and its rim is where it was.
+    #[test]
+    fn the_end_of_a_lock_has_one_light() {
+        let seen = |side: f32, forward: [f32; 3]| {
+            let samples = Samples {
+                forward: vec![vec3(forward)],
+                normal: vec![vec3([0.0, 1.0, 0.0])],
+                tube: vec![vec3([side, 0.0, 0.0])],
+                light_direction: vec![vec3([0.6, 0.0, 0.8])],
+                ..sample(0.5)
+            };
+            let color = painted(&samples, &[("tones", PLACES), ("detail", "facing")]);
+            [color.x, color.y]
+        };
+        let from_its_end = [-1.0, 1.0].map(|side| seen(side, [0.0, 0.0, 1.0]));
+        assert_eq!(from_its_end[0], from_its_end[1]);
+        // Half the light that falls on what faces the eye, as roundness is a half.
+        let expected = 0.8 * 0.5_f32.sqrt();
+        assert!(
+            (from_its_end[0][0] - expected).abs() < 1e-4,
+            "{from_its_end:?}"
+        );
+        assert_eq!(from_its_end[0][1], 0.0);
+        let from_beside = [-1.0, 1.0].map(|side| seen(side, [0.0, -1.0, 0.0])[0]);
+        assert!(
+            from_beside[0] == 0.0 && from_beside[1] > 0.4,
+            "{from_beside:?}"
+        );
     }
 
     #[test]

@@ -78,6 +78,18 @@ fn raised(x: f32, exponent: f32) -> f32 {
     return select(power(x, exponent), 1.0, exponent <= 0.0);
 }
 
+/// How light falls on a lock with that normal. A round one that runs towards the eye or away from it shows its end, which faces the eye: its sides lie
+/// anywhere there, and would shade a whorl or a curl in quarters.
+fn light_on(at: Sample, normal: vec3<f32>, params: Params) -> f32 {
+    if (params.roundness == 0.0) {
+        return max(dot(normal, at.light_direction), 0.0);
+    }
+    let along = dot(at.forward, at.view_direction);
+    let end_on = along * along * along * along;
+    let round = mix(at.tube, at.view_direction, vec3<f32>(end_on));
+    return max(dot(rounded(at.normal, round, params.roundness), at.light_direction), 0.0);
+}
+
 fn place(at: Sample, params: Params) -> Lookup {
     let normal = rounded(at.normal, at.tube, params.roundness);
     var row = 0.0;
@@ -90,7 +102,7 @@ fn place(at: Sample, params: Params) -> Lookup {
         case 6u: { row = weighted(at, normal, params); }
         default: {}
     }
-    var lit = max(dot(normal, at.light_direction), 0.0);
+    var lit = light_on(at, normal, params);
     if (at.u < params.root_fade) {
         lit = max(lit, 1.0 - at.u / params.root_fade);
     }

@@ -43,6 +43,9 @@ const WHOLE: f32 = 0.25;
 /// The last part of `longest` over which a link grows from nothing.
 const FADE: f32 = 0.4;
 
+/// How much longer than `shortest` a strip is when it is whole, in parts of that.
+const LONGER: f32 = 0.25;
+
 impl effects::StrokeEffect for Zigzag {
     type Program = Program;
     const ID: &'static str = "hair.zigzag";
@@ -62,13 +65,13 @@ impl effects::StrokeEffect for Zigzag {
                 .map(|strand| Highlight::of(params, hair, strand, group, groups))
                 .collect();
             if within_m > 0.0 {
-                merge::onto_one_line(hair.strands, &mut shining, within_m, hair.head_center);
+                merge::onto_one_line(hair.strands, &mut shining, within_m);
             }
             shining
         };
         let locks = locks::of(hair, within_m);
         let neighbors = Neighbors::of(hair, &locks);
-        let next: Vec<Option<usize>> = (0..locks.len()).map(|i| neighbors.next_around(i)).collect();
+        let next: Vec<Option<usize>> = (0..locks.len()).map(|i| neighbors.next_across(i)).collect();
         let strips: Vec<Strip> = (0..groups)
             .map(|group| Strip::of(params, hair, &locks, &next, &shining(group)))
             .collect();
@@ -155,15 +158,16 @@ impl Strip {
         of_strands: &[Highlight],
     ) -> Self {
         let shining: Vec<Highlight> = locks.iter().map(|lock| lock.mean(of_strands)).collect();
-        let share = |(lock, next): (usize, &Option<usize>)| {
+        let share_and_length = |(lock, next): (usize, &Option<usize>)| {
             let Some(next) = *next else {
-                return 0.0;
+                return (0.0, 0.0);
             };
             let ends = [lock, next].map(|lock| shining[lock]);
             let strands = [lock, next].map(|lock| &hair.strands[locks[lock].strand]);
-            share_of_link(params, hair, strands, ends)
+            share_and_length_of_link(params, hair, strands, ends)
         };
-        let shares: Vec<f32> = next.iter().enumerate().map(share).collect();
+        let (mut shares, lengths): (Vec<f32>, Vec<f32>) =
+            next.iter().enumerate().map(share_and_length).unzip();
         // A strip runs out where it comes from none before or goes on to none.
         let mut from_before = vec![0.0_f32; locks.len()];
         for (next, share) in next.iter().zip(&shares) {
@@ -172,12 +176,46 @@ impl Strip {
             }
         }
         let ends = from_before.iter().zip(&shares);
+        let tapers = ends.map(|(before, after)| before.min(*after)).collect();
+        if params.shortest > 0.0 {
+            let whole = lengths_of_strips(next, &shares, &lengths);
+            for (share, length) in shares.iter_mut().zip(whole) {
+                *share *= smooth((length / params.shortest - 1.0) / LONGER);
+            }
+        }
         Self {
-            tapers: ends.map(|(before, after)| before.min(*after)).collect(),
             shining,
+            tapers,
             shares,
         }
     }
+}
+
+/// How long the strip is that each link belongs to, by the links' lengths and how much there is of each: what hangs on a link of which there is
+/// little counts little, so that no strip becomes longer at once.
+fn lengths_of_strips(next: &[Option<usize>], shares: &[f32], lengths: &[f32]) -> Vec<f32> {
+    let mut before = vec![0.0_f32; next.len()];
+    let mut from_here_on = vec![0.0_f32; next.len()];
+    for first in 0..next.len() {
+        let (mut at, mut share, mut up_to_here) = (first, 1.0, 0.0);
+        // No strip has more links than there are: one that goes all around ends there.
+        for _ in 0..next.len() {
+            let Some(to) = next[at].filter(|_| share > 0.0) else {
+                break;
+            };
+            from_here_on[first] += share * lengths[at];
+            up_to_here = shares[at] * (lengths[at] + up_to_here);
+            before[to] = before[to].max(up_to_here);
+            // Of the link itself all counts, of those after it what it leaves.
+            share *= shares[to];
+            at = to;
+        }
+    }
+    before
+        .iter()
+        .zip(from_here_on)
+        .map(|(before, after)| before + after)
+        .collect()
 }
 
 /// How brightly a strand shines at `u` of its way.
@@ -202,10 +240,14 @@ fn brightness(params: &Params, hair: &Hair, strand: &HairStrand, u: f32) -> f32 
     power(facing.max(0.0), params.exponent)
 }
 
+/// The strand's direction to its tip.
+fn along(strand: &HairStrand, u: f32) -> Vec3 {
+    (strand.point(u + STRETCH) - strand.point(u - STRETCH)).normalize_or(Vec3::NEG_Y)
+}
+
 /// The strand's direction to its tip, and the normal away from the head across it.
 fn along_and_normal(hair: &Hair, strand: &HairStrand, u: f32) -> (Vec3, Vec3) {
-    let along = strand.point(u + STRETCH) - strand.point(u - STRETCH);
-    let along = along.normalize_or(Vec3::NEG_Y);
+    let along = along(strand, u);
     let out = (strand.point(u) - hair.head_center).reject_from_normalized(along);
     (along, out.normalize_or(along.any_orthonormal_vector()))
 }
@@ -217,23 +259,31 @@ fn laid_on(params: &Params, hair: &Hair, strand: &HairStrand, place: f32) -> Vec
     strand.point(place) + lift_m * normal
 }
 
-/// How much there is of a link from one strand's highlight to another's.
-fn share_of_link(
+/// How much there is of a link from one strand's highlight to another's, and how long it is, head heights.
+fn share_and_length_of_link(
     params: &Params,
     hair: &Hair,
     strands: [&HairStrand; 2],
     ends: [Highlight; 2],
-) -> f32 {
+) -> (f32, f32) {
     let [from, to] = [0, 1].map(|end| laid_on(params, hair, strands[end], ends[end].place));
     let length = from.distance(to) / hair.head_height_m;
     let near = ((params.longest - length) / (FADE * params.longest).max(1e-6)).clamp(0.0, 1.0);
     let lesser = ends[0].amount.min(ends[1].amount);
     let within_m = params.merge * hair.head_height_m;
     let on_one_line = match within_m > 0.0 {
-        true => merge::on_one_line(from, to, within_m, hair.head_center),
+        true => {
+            let along = [0, 1].map(|end| along(strands[end], ends[end].place));
+            merge::on_one_line(
+                to - from,
+                (along[0] + along[1]).normalize_or_zero(),
+                within_m,
+            )
+        }
         false => 1.0,
     };
-    smooth(near) * smooth(lesser / WHOLE) * on_one_line
+    let share = smooth(near) * smooth(lesser / WHOLE) * on_one_line;
+    (share, length)
 }
 
 /// A link from one strand's highlight to another's of which there is so much, and of the two so much where the strip runs out: its points, and how much
@@ -308,16 +358,18 @@ impl Neighbors {
         }
     }
 
-    /// The strand that is next to strand `index` around the head, counterclockwise from above: the nearest of those that are more beside it
-    /// than above, below or behind it.
-    fn next_around(&self, index: usize) -> Option<usize> {
+    /// The strand that is next to strand `index` across the hair, of hair that hangs counterclockwise around the head: the nearest of those that are more
+    /// beside it than above, behind, or farther along it.
+    fn next_across(&self, index: usize) -> Option<usize> {
         let own = &self.all[index];
         let middle = own.points[1] - self.head_center;
-        let around = Vec3::Y.cross(middle).normalize_or(Vec3::X);
+        let across = middle
+            .cross(own.points[2] - own.points[0])
+            .normalize_or(Vec3::X);
         let distance = |other: &Beside| -> f32 {
             let pairs = own.points.iter().zip(&other.points);
             let apart = |way: Vec3| {
-                let beside = way.dot(around) * around;
+                let beside = way.dot(across) * across;
                 (beside + OFF_ROW * (way - beside)).length()
             };
             pairs.map(|(a, b)| apart(*b - *a)).sum()
@@ -326,7 +378,7 @@ impl Neighbors {
             let way: Vec3 = (own.points.iter().zip(&other.points))
                 .map(|(a, b)| *b - *a)
                 .sum();
-            2.0 * way.dot(around) > way.length() && way.length() > 0.0
+            2.0 * way.dot(across) > way.length() && way.length() > 0.0
         };
         self.grid.nearest(own.points[1], |other| {
             let beside = &self.all[other];
@@ -489,6 +541,39 @@ mod tests {
         assert!((0.3..=1.0).contains(&widest), "{widest}");
     }
 
+    /// As the light goes down behind the head strips become shorter, and none is there that is shorter than an author says.
+    #[test]
+    fn no_strip_is_shorter_than_an_author_says() {
+        let lights = |set: &[(&str, &str)]| {
+            let lengths = (0..60).flat_map(|i| {
+                let down = 0.05 * i as f32;
+                let light = Vec3::new(0.0, down.cos(), down.sin());
+                strips(&made(&cap(24), light, set))
+            });
+            lengths.fold(f32::INFINITY, f32::min)
+        };
+        assert!(lights(&[]) < 0.3, "{}", lights(&[]));
+        let shortest = lights(&[("shortest", "0.6")]);
+        assert!((0.6..2.0).contains(&shortest), "{shortest}");
+    }
+
+    /// How long each strip of links is that one sees, head heights: a tenth of the width and less is a hairline.
+    fn strips(paths: &[Vec<(Vec3, f32)>]) -> Vec<f32> {
+        let is_there = |path: &&Vec<(Vec3, f32)>| path.iter().any(|(_, weight)| *weight > 0.1);
+        let there: Vec<_> = paths.iter().filter(is_there).collect();
+        let goes_on =
+            |from: &[(Vec3, f32)], to: &[(Vec3, f32)]| from[POINTS - 1].0.distance(to[0].0) < 1e-5;
+        let is_first = |path: &&&Vec<(Vec3, f32)>| !there.iter().any(|other| goes_on(other, path));
+        let length = |first: &&Vec<(Vec3, f32)>| {
+            let next =
+                |path: &&Vec<(Vec3, f32)>| there.iter().copied().find(|other| goes_on(path, other));
+            let links = std::iter::successors(Some(*first), next).take(paths.len());
+            let lengths = links.map(|path| path[0].0.distance(path[POINTS - 1].0));
+            lengths.sum::<f32>() / 0.24
+        };
+        there.iter().filter(is_first).map(length).collect()
+    }
+
     /// Eight strands for each one: means of those beside each other are linked, as few as without them.
     #[test]
     fn strands_of_dense_hair_stand_for_those_around_them() {
@@ -522,7 +607,12 @@ mod tests {
             let angle = degrees.to_radians();
             Vec3::new(0.6 * angle.sin(), 0.8, 0.6 * angle.cos())
         };
-        for set in [("groups", "1"), ("groups", "2"), ("merge", "0.6")] {
+        for set in [
+            ("groups", "1"),
+            ("groups", "2"),
+            ("merge", "0.6"),
+            ("shortest", "0.4"),
+        ] {
             let at = |degrees: f32| made(&cap(24), light(degrees), &[set]);
             let farthest = |step: f32| {
                 let steps = (360.0 / step) as usize;

@@ -32,6 +32,9 @@ struct Params {
     /// Highlights of strands nearer to each other than this are drawn to one line: dense hair shines at many heights. 0 leaves each where it is.
     /// @unit head heights @constant @range 0..4 @default 0
     merge: f32,
+    /// Strips of light shorter than this are left out: no spots. They grow from nothing as they become longer.
+    /// @unit head heights @constant @range 0..4 @default 0
+    shortest: f32,
     /// How wide the highlight is, along the hair.
     /// @unit the layer's unit: 1/300 head height, or pixels @range 0..300 @default 26
     width: f32,

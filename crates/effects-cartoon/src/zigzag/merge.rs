@@ -2,8 +2,8 @@
 //!
 //! Where hair is dense, strands of one lock shine at different heights, as they turn away at different places. The source averages what is near
 //! (Shin, Haller, Mukundan, section 3.4.2); here each strand's highlight moves to where the highlights around it lie on average, in each frame anew,
-//! with weights that come and go without a jump. A strand that runs along the line, as hair swept to one side does, can't be moved onto it: where it shines
-//! away from the line it is left out, the more the farther.
+//! with weights that come and go without a jump. The line lies across the hair: of hair that is swept to one side it runs upright. A strand that can't reach
+//! it, as it is too short, is left out, the more the farther it is from it.
 
 use super::grid::Grid;
 use super::{FAINT, Highlight, PLACES, smooth};
@@ -16,17 +16,12 @@ const ROUNDS: usize = 3;
 /// Places of a strand that are farther from the middle than its nearest place hardly count from here on, in parts of the distance of `merge`.
 const SHARP: f32 = 0.2;
 
-/// What is farther than this above or below the line is left out, in parts of the distance of `merge`.
+/// What is farther than this from the line, along the hair, is left out, in parts of the distance of `merge`.
 const OFF_LINE: f32 = 0.35;
 
-/// Moves highlights of strands, as many, nearer than `within_m` to one another along their strands onto one line around the head, and leaves out those
+/// Moves highlights of strands, as many, nearer than `within_m` to one another along their strands onto one line across them, and leaves out those
 /// that stay away from it.
-pub(super) fn onto_one_line(
-    strands: &[HairStrand],
-    shining: &mut [Highlight],
-    within_m: f32,
-    head_center: Vec3,
-) {
+pub(super) fn onto_one_line(strands: &[HairStrand], shining: &mut [Highlight], within_m: f32) {
     for _ in 0..ROUNDS {
         let around = Around::of(strands, shining, within_m);
         let places: Vec<f32> = (strands.iter().zip(&*shining).enumerate())
@@ -39,8 +34,8 @@ pub(super) fn onto_one_line(
         }
     }
     let around = Around::of(strands, shining, within_m);
-    let shares: Vec<f32> = (0..shining.len())
-        .map(|i| 1.0 - smooth(around.off_line_m(i, head_center) / (OFF_LINE * within_m)))
+    let shares: Vec<f32> = (strands.iter().enumerate())
+        .map(|(i, strand)| 1.0 - smooth(around.off_line_m(i, strand) / (OFF_LINE * within_m)))
         .collect();
     for (highlight, share) in shining.iter_mut().zip(shares) {
         highlight.amount *= share;
@@ -83,25 +78,17 @@ impl<'a> Around<'a> {
         sum / weights
     }
 
-    /// How far highlight `i` is above or below the line of those around it, metres, along the head. On top of the head, where no line around it is above
-    /// another, that is nothing.
-    fn off_line_m(&self, i: usize, head_center: Vec3) -> f32 {
-        if self.shining[i].amount <= 0.0 {
-            return 0.0;
-        }
-        above_m(self.points[i], self.middle(i), head_center).abs()
+    /// How far highlight `i` of a strand is from the line of those around it, along the strand, metres.
+    fn off_line_m(&self, i: usize, strand: &HairStrand) -> f32 {
+        let along = super::along(strand, self.shining[i].place);
+        (self.points[i] - self.middle(i)).dot(along).abs()
     }
 }
 
-/// How far one point is above another along the head, metres.
-fn above_m(point: Vec3, other: Vec3, head_center: Vec3) -> f32 {
-    let out = (0.5 * (point + other) - head_center).normalize_or_zero();
-    (point - other).dot(out.cross(Vec3::Y.cross(out)))
-}
-
-/// How much there is of a link between highlights of two lines, of which one runs above the other: the less the farther they are apart.
-pub(super) fn on_one_line(from: Vec3, to: Vec3, within_m: f32, head_center: Vec3) -> f32 {
-    1.0 - smooth(above_m(from, to, head_center).abs() / (2.0 * OFF_LINE * within_m))
+/// How much there is of a link between highlights of two lines, of which one runs farther along the hair than the other: the less the farther they are
+/// apart.
+pub(super) fn on_one_line(way: Vec3, along: Vec3, within_m: f32) -> f32 {
+    1.0 - smooth(way.dot(along).abs() / (2.0 * OFF_LINE * within_m))
 }
 
 /// 1 for what is nearer than half of `within_m`, 0 from `within_m` on, without corners.
@@ -131,30 +118,33 @@ fn place_near(strand: &HairStrand, point: Vec3, own: f32, within_m: f32) -> f32 
 mod tests {
     use super::*;
 
-    /// Strands above one another run sideways along the front of a head, from 0.1 m below its middle to 0.1 m above, and all shine in their middle: what is
-    /// left of each.
-    fn left_of_sideways(within_m: f32) -> Vec<f32> {
-        let points: Vec<Vec<Vec3>> = (0..=40)
-            .map(|i| {
-                let y = 0.005 * i as f32 - 0.1;
-                let point = |k: usize| Vec3::new(0.01 * k as f32 - 0.05, y, 0.12);
-                (0..=10).map(point).collect()
-            })
-            .collect();
-        let strands = strands_of(&points);
+    /// What is left of the highlights of strands that all shine in their middle.
+    fn left_of(points: &[Vec<Vec3>], within_m: f32) -> Vec<f32> {
+        let strands = strands_of(points);
         let whole = Highlight {
             place: 0.5,
             amount: 1.0,
         };
         let mut shining = vec![whole; strands.len()];
-        onto_one_line(&strands, &mut shining, within_m, Vec3::ZERO);
+        onto_one_line(&strands, &mut shining, within_m);
         shining.iter().map(|highlight| highlight.amount).collect()
     }
 
-    /// They can't come together, so that those near their middle are the strip, and the others fade away from it.
+    /// Strands of so many metres along the front of a head, each so much farther along it than the one before and above it, from 0.1 m to one side of its
+    /// middle to 0.1 m to the other.
+    fn sideways(long_m: f32, farther_m: Vec3) -> Vec<Vec<Vec3>> {
+        let strand = |i: i32| {
+            let middle = (i - 20) as f32 * farther_m + 0.12 * Vec3::Z;
+            let point = |k: i32| middle + 0.1 * (k - 5) as f32 * long_m * Vec3::X;
+            (0..=10).map(point).collect()
+        };
+        (0..=40).map(strand).collect()
+    }
+
+    /// Short ones behind each other can't come together, so that those near their middle are the strip, and the others fade away from it.
     #[test]
-    fn strands_along_the_line_shine_near_it_alone() {
-        let left = left_of_sideways(0.2);
+    fn what_cannot_reach_the_line_shines_near_it_alone() {
+        let left = left_of(&sideways(0.01, 0.005 * Vec3::X), 0.2);
         assert!(left[20] > 0.99, "{left:?}");
         assert!((left[10] - left[30]).abs() < 1e-3);
         assert!(
@@ -175,15 +165,20 @@ mod tests {
         assert!(largest_step < 0.2, "a hard edge: {largest_step}");
     }
 
+    /// A strip lies across the hair: of hair swept to one side it runs upright, and nothing of it is lost.
     #[test]
-    fn what_lies_above_is_another_line() {
-        let at = |x: f32, y: f32| Vec3::new(x, y, 0.12);
-        let share = |to: Vec3| on_one_line(at(0.0, 0.0), to, 0.1, Vec3::ZERO);
-        assert!((above_m(at(0.02, 0.03), at(0.0, 0.0), Vec3::ZERO) - 0.03).abs() < 1e-3);
-        assert_eq!(share(at(0.0, 0.0)), 1.0);
-        assert!(share(at(0.06, 0.0)) > 0.999);
-        assert!(share(at(0.01, 0.08)) == 0.0 && share(at(0.01, -0.08)) == 0.0);
-        let half = share(at(0.0, 0.035));
+    fn swept_hair_has_a_strip_across_it() {
+        let left = left_of(&sideways(0.1, 0.005 * Vec3::Y), 0.2);
+        assert!(left.iter().all(|amount| *amount > 0.99), "{left:?}");
+    }
+
+    #[test]
+    fn what_lies_farther_along_the_hair_is_another_line() {
+        let share = |x: f32, y: f32| on_one_line(Vec3::new(x, y, 0.0), Vec3::NEG_Y, 0.1);
+        assert_eq!(share(0.0, 0.0), 1.0);
+        assert!(share(0.06, 0.0) > 0.999);
+        assert!(share(0.01, 0.08) == 0.0 && share(0.01, -0.08) == 0.0);
+        let half = share(0.0, 0.035);
         assert!((0.4..0.6).contains(&half), "{half}");
     }
 
@@ -212,7 +207,7 @@ mod tests {
         let mut shining: Vec<Highlight> = (highlights.iter())
             .map(|&(place, amount)| Highlight { place, amount })
             .collect();
-        onto_one_line(&strands, &mut shining, within_m, 0.1 * Vec3::NEG_Z);
+        onto_one_line(&strands, &mut shining, within_m);
         shining.iter().map(|highlight| highlight.place).collect()
     }
 

@@ -217,7 +217,8 @@ fn collar<const N: usize>(
     let (cloth, line) = (Cloth::Dress, Cloth::Line);
     band(
         &[
-            (&base, Lie::At(-0.003)),
+            // Deep enough that lines of what lies close below a surface aren't seen through it.
+            (&base, Lie::At(-0.006)),
             (&fold, Lie::Over(0.006)),
             (&below_fold, Lie::Over(0.006)),
             (&above_edge, Lie::At(0.005)),
@@ -237,7 +238,7 @@ fn folded_collar() -> Piece {
         around(0.036, 1.322, -0.014),
         around(0.040, 1.313, 0.006),
         around(0.027, 1.293, 0.040),
-        around(0.004, 1.282, 0.060),
+        around(0.016, 1.282, 0.055),
     ];
     let fold = [
         around(0.0, 1.350, -0.042),
