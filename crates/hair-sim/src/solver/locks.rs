@@ -31,7 +31,7 @@ use super::{
     stage::GAMMA,
 };
 use keeps::Keeps;
-use meeting::{Meeting, closest};
+use meeting::{Links, Meeting, closest};
 use pairs::Pairs;
 use ways::{PIECE, Ways};
 
@@ -65,6 +65,30 @@ struct Piece {
     radius: f64,
     /// The strand's own number, which hangs on nothing else.
     id: u32,
+}
+
+/// Pairs of links that may meet, lane by lane.
+struct Near {
+    count: usize,
+    /// First those of the strand with the smaller id.
+    links: [Links; 2],
+    /// How far they keep from each other, how far they go against their roots, and the mean way of these, in m.
+    keep: Lane,
+    goes: Lane,
+    shift: Vec3,
+    /// Pieces, and the links' numbers on them.
+    sides: [[(usize, usize); 2]; LANES],
+}
+
+impl Near {
+    const NONE: Self = Self {
+        count: 0,
+        links: [Links::NONE; 2],
+        keep: Lane::ZERO,
+        goes: Lane::ZERO,
+        shift: Vec3::ZERO,
+        sides: [[(0, 0); 2]; LANES],
+    };
 }
 
 /// The locks of a solver.
@@ -167,17 +191,19 @@ impl Locks {
         let mut keeps = Keeps::default();
         for pair in self.pairs.all() {
             let mut near = Vec::new();
+            let look = |own: usize, other: usize| {
+                let [one, two] = [own, other].map(|i| &self.pieces[i]);
+                let radii = one.radius + two.radius;
+                let apart = self.apart_at_rest(one, two);
+                if apart < radii + NEAR {
+                    near.push(([own, other], 0.0));
+                } else if apart * OF_REST < radii {
+                    near.push(([own, other], (apart * OF_REST) as f32));
+                }
+            };
+            let sweeps = &self.ways.sweeps;
             self.pairs
-                .pieces(pair, &self.ways.sweeps, &self.strands, |own, other| {
-                    let [one, two] = [own, other].map(|i| &self.pieces[i]);
-                    let radii = one.radius + two.radius;
-                    let apart = self.apart_at_rest(one, two);
-                    if apart < radii + NEAR {
-                        near.push(([own, other], 0.0));
-                    } else if apart * OF_REST < radii {
-                        near.push(([own, other], (apart * OF_REST) as f32));
-                    }
-                });
+                .pieces(pair, sweeps, &self.strands, |_, _| !0, look);
             keeps.add(*pair, &near, &self.strands);
         }
         keeps.sort(self.strands.len() as u32 - 1);
@@ -186,13 +212,17 @@ impl Locks {
 
     /// How far two pieces are from each other at the start.
     fn apart_at_rest(&self, one: &Piece, other: &Piece) -> f64 {
+        let mut its = Links::NONE;
+        for j in 0..LANES {
+            its.set(j, self.ways.link(other, j.min(other.links - 1)));
+        }
         let mut least = f64::INFINITY;
         for i in 0..one.links {
-            for j in 0..other.links {
-                let [link, facing] = self.facing((one, i), (other, j)).map(|link| link.1);
-                let ends = |link: meeting::Link| link.map(|point| point.before);
-                least = least.min(closest(ends(link), ends(facing)).apart.length());
-            }
+            let mut link = Links::NONE;
+            (0..LANES).for_each(|lane| link.set(lane, self.ways.link(one, i)));
+            let apart = closest([link.start, link.end], [its.start, its.end]).apart;
+            let apart = apart.length_squared().sqrt();
+            least = (0..LANES).fold(least, |least, j| least.min(apart[j]));
         }
         least
     }
@@ -236,9 +266,11 @@ impl Locks {
             T::run(
                 #[inline(always)]
                 || {
+                    let mut near = Near::NONE;
                     for pair in pairs {
-                        self.find_between(pair, planes);
+                        self.find_between::<T>(pair, &mut near, planes);
                     }
+                    self.meet::<T>(&mut near, planes);
                 },
             );
             return;
@@ -252,75 +284,100 @@ impl Locks {
         );
     }
 
+    /// Finds the links of a pair of strands that may meet, and the planes of those that do, as four have been found.
     #[inline(always)]
-    fn find_between(&self, pair: &[u32; 2], planes: &mut Vec<Plane>) {
+    fn find_between<T: Number>(&self, pair: &[u32; 2], near: &mut Near, planes: &mut Vec<Plane>) {
         let sweeps = &self.ways.sweeps;
         let keeps = self.keeps.between(pair, &self.strands);
-        self.pairs
-            .pieces(pair, sweeps, &self.strands, |own, other| {
+        self.pairs.pieces(
+            pair,
+            sweeps,
+            &self.strands,
+            #[inline(always)]
+            |own, from| keeps.kept(own, from),
+            #[inline(always)]
+            |own, other| {
                 let radii = self.pieces[own].radius + self.pieces[other].radius;
                 let keep = keeps.of(own, other).min(radii);
-                if keep == 0.0 {
-                    return;
-                }
                 let (sweep, its) = (&sweeps[own], &sweeps[other]);
                 let more = (keep - radii) as f32;
                 let Some(farther) = sweep.farther(its, more) else {
                     return;
                 };
-                let mut near = sweep.near(its, (more, farther));
-                while near != 0 {
-                    let link = near.trailing_zeros() as usize;
-                    near &= near - 1;
-                    let (i, j) = (link / PIECE, link % PIECE);
-                    self.meet((own, i), (other, j), keep, planes);
+                let mut links = sweep.near(its, (more, farther));
+                if links == 0 {
+                    return;
                 }
-            });
+                let goes = f64::from(sweep.own + its.own);
+                let [piece, its] = [&self.pieces[own], &self.pieces[other]];
+                let shift = (self.ways.shift(piece) + self.ways.shift(its)) * 0.5;
+                while links != 0 {
+                    let link = links.trailing_zeros() as usize;
+                    links &= links - 1;
+                    // In an order that hangs on nothing but the strands' own numbers.
+                    let mut sides = [(own, link / PIECE), (other, link % PIECE)];
+                    if piece.id > its.id {
+                        sides.swap(0, 1);
+                    }
+                    let lane = near.count;
+                    for side in 0..2 {
+                        let (piece, link) = sides[side];
+                        near.links[side].set(lane, self.ways.link(&self.pieces[piece], link));
+                    }
+                    (near.keep[lane], near.goes[lane]) = (keep, goes);
+                    near.shift.set(lane, shift);
+                    near.sides[lane] = sides;
+                    near.count += 1;
+                    if near.count == LANES {
+                        self.meet::<T>(near, planes);
+                    }
+                }
+            },
+        );
     }
 
-    /// Two links with the numbers of their strands, in an order that hangs on nothing but these.
+    /// Adds the planes before the particles of links that meet, among some that are near, and forgets these.
     #[inline(always)]
-    fn facing<'a>(
-        &self,
-        one: (&'a Piece, usize),
-        other: (&'a Piece, usize),
-    ) -> [(&'a Piece, meeting::Link, usize); 2] {
-        let is_first = one.0.id <= other.0.id;
-        let (one, other) = if is_first { (one, other) } else { (other, one) };
-        let facing =
-            |(piece, i): (&'a Piece, usize)| (piece, self.ways.link(piece, i), piece.first + i);
-        [facing(one), facing(other)]
+    fn meet<T: Number>(&self, near: &mut Near, planes: &mut Vec<Plane>) {
+        let count = std::mem::take(&mut near.count);
+        let meeting = Meeting::of(
+            &near.links[0].load::<T>(),
+            &near.links[1].load::<T>(),
+            (near.keep.load(), near.goes.load()),
+            (near.shift.load(), self.dt),
+        );
+        let Some(meeting) = meeting else {
+            return;
+        };
+        for lane in (0..count).filter(|&lane| meeting.meets[lane] > 0.0) {
+            self.add(&near.sides[lane], (&meeting, lane), planes);
+        }
     }
 
     /// Adds the planes before the particles of two links that meet.
-    #[inline(always)]
-    fn meet(
+    fn add(
         &self,
-        (own, i): (usize, usize),
-        (other, j): (usize, usize),
-        keep: f64,
+        sides: &[(usize, usize); 2],
+        (meeting, lane): (&Meeting, usize),
         planes: &mut Vec<Plane>,
     ) {
-        let goes = f64::from(self.ways.sweeps[own].own + self.ways.sweeps[other].own);
-        let [one, two] = self.facing((&self.pieces[own], i), (&self.pieces[other], j));
-        let shift = (self.ways.shift(one.0) + self.ways.shift(two.0)) * 0.5;
-        let Some(meeting) = Meeting::of(&one.1, &two.1, (keep, goes), (shift, self.dt)) else {
-            return;
-        };
-        let sides = [(&one, &two, meeting.normal), (&two, &one, -meeting.normal)];
-        for (side, (&(piece, _, link), facing, normal)) in sides.into_iter().enumerate() {
-            let (at, push) = (meeting.at[side], meeting.push[side]);
+        for side in [0, 1] {
+            let [(piece, link), facing] = [sides[side], sides[1 - side]];
+            let (piece, facing_piece) = (&self.pieces[piece], &self.pieces[facing.0]);
+            let link = piece.first + link;
+            let (at, push) = (meeting.at[side][lane], meeting.push[side][lane]);
+            let normal = meeting.normal.get(lane);
             // The root's end is held as it is.
             let [start, end] = [at < END && link > 0, at > 1.0 - END];
             let mut add = |k: usize, share: f64| {
                 planes.push(Plane {
                     particle: self.particles[piece.batch] + k * LANES + piece.lane,
-                    normal,
+                    normal: if side == 0 { normal } else { -normal },
                     depth: push / share,
-                    urgency: push / share + LACKING * meeting.lacks,
-                    past: meeting.past,
-                    flow: meeting.flow,
-                    whose: (facing.0.id, facing.2),
+                    urgency: push / share + LACKING * meeting.lacks[lane],
+                    past: meeting.past[lane],
+                    flow: meeting.flow.get(lane),
+                    whose: (facing_piece.id, facing_piece.first + facing.1),
                 });
             };
             // An end that is held alone holds the place where links touch.
@@ -418,9 +475,9 @@ mod tests {
             if pair[0] == pair[1] || keep == 0.0 {
                 continue;
             }
-            for (i, j) in (0..own.links).flat_map(|i| (0..other.links).map(move |j| (i, j))) {
-                locks.meet((one, i), (two, j), keep, &mut all);
-            }
+            let row = (1 << other.links) - 1;
+            let every = (0..own.links).fold(0, |all, i| all | row << (PIECE * i));
+            locks.meet::<Lane>([one, two], every, keep, &mut all);
         }
         let sorted = |planes: Vec<Plane>| {
             let mut keys: Vec<_> = planes

@@ -5,7 +5,6 @@
 use glam::{DVec3, Vec3A, Vec4};
 
 use crate::{
-    forces::mutual::Course,
     lanes::{LANES, Lane, Number, Vec3},
     surroundings::Surroundings,
     threads::join,
@@ -304,28 +303,22 @@ impl Ways {
         step.follow::<T>(0, (batches, states), points, (pieces, sweeps));
     }
 
-    /// A particle's way, by its number on the strand; the root's is 0.
+    /// Where a link's ends are, before and after, by its number on the piece.
     #[inline(always)]
-    pub(super) fn point(&self, piece: &Piece, k: usize) -> Course {
-        let [before, now] = &self.points[self.first[piece.batch] + k];
-        Course {
-            before: before.get(piece.lane),
-            now: now.get(piece.lane),
-        }
-    }
-
-    /// The ways of a link's ends, by its number on the piece.
-    #[inline(always)]
-    pub(super) fn link(&self, piece: &Piece, link: usize) -> [Course; 2] {
-        let start = piece.first + link;
-        [self.point(piece, start), self.point(piece, start + 1)]
+    pub(super) fn link(&self, piece: &Piece, link: usize) -> [[DVec3; 2]; 2] {
+        let from = self.first[piece.batch] + piece.first + link;
+        let [start, end] = [&self.points[from], &self.points[from + 1]];
+        [
+            [start[0].get(piece.lane), start[1].get(piece.lane)],
+            [end[0].get(piece.lane), end[1].get(piece.lane)],
+        ]
     }
 
     /// The way of a piece's root.
     #[inline(always)]
     pub(super) fn shift(&self, piece: &Piece) -> DVec3 {
-        let root = self.point(piece, 0);
-        root.now - root.before
+        let [before, now] = &self.points[self.first[piece.batch]];
+        now.get(piece.lane) - before.get(piece.lane)
     }
 }
 
