@@ -20,27 +20,27 @@ pub(super) const TOUCH: f64 = 0.02;
 /// Links nearer than this, in m, have no way out.
 const LEAST_APART: f64 = 1e-9;
 
-/// Links on their ways in a step: where their ends are at the start, root end first, and where these go, in m.
+/// Links on their ways in a step: where their ends are at the start, root end first, and where at its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Links<T = Lane> {
     pub start: Vec3<T>,
     pub end: Vec3<T>,
-    pub start_way: Vec3<T>,
-    pub end_way: Vec3<T>,
+    start_now: Vec3<T>,
+    end_now: Vec3<T>,
 }
 stored!(Links {
     start,
     end,
-    start_way,
-    end_way
+    start_now,
+    end_now
 });
 
 impl Links {
     pub(super) const NONE: Self = Self {
         start: Vec3::ZERO,
         end: Vec3::ZERO,
-        start_way: Vec3::ZERO,
-        end_way: Vec3::ZERO,
+        start_now: Vec3::ZERO,
+        end_now: Vec3::ZERO,
     };
 
     /// Sets one of them by its ends, before and after.
@@ -48,19 +48,23 @@ impl Links {
     pub(super) fn set(&mut self, lane: usize, [start, end]: [[DVec3; 2]; 2]) {
         self.start.set(lane, start[0]);
         self.end.set(lane, end[0]);
-        self.start_way.set(lane, start[1] - start[0]);
-        self.end_way.set(lane, end[1] - end[0]);
+        self.start_now.set(lane, start[1]);
+        self.end_now.set(lane, end[1]);
     }
 }
 
 impl<T: Number> Links<T> {
+    /// The ways of their ends.
+    #[inline(always)]
+    fn ways(&self) -> [Vec3<T>; 2] {
+        [self.start_now - self.start, self.end_now - self.end]
+    }
+
     /// Their ends at a share of the step.
     #[inline(always)]
     fn at_time(&self, t: T) -> [Vec3<T>; 2] {
-        [
-            self.start + self.start_way.scale(t),
-            self.end + self.end_way.scale(t),
-        ]
+        let [start, end] = self.ways();
+        [self.start + start.scale(t), self.end + end.scale(t)]
     }
 
     /// A place on them, by the share of them before it: where it is at the start, and its way.
@@ -73,6 +77,7 @@ impl<T: Number> Links<T> {
 }
 
 /// How links meet in a step.
+#[derive(Clone, Debug)]
 pub(super) struct Meeting {
     /// 1 where they do, else 0.
     pub meets: Lane,
@@ -102,8 +107,7 @@ impl Meeting {
     ) -> Option<Self> {
         let (zero, one, half) = (T::splat(0.0), T::splat(1.0), T::splat(0.5));
         // No two points of both come nearer by more than this.
-        let (a, b) = (link.start_way, link.end_way);
-        let (c, d) = (other.start_way, other.end_way);
+        let ([a, b], [c, d]) = (link.ways(), other.ways());
         let nearer = most((a - c).length_squared(), (a - d).length_squared());
         let nearer = most(nearer, (b - c).length_squared());
         let nearer = most(nearer, (b - d).length_squared()).sqrt();
