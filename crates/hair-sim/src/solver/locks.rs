@@ -29,7 +29,7 @@ use super::{
     stage::GAMMA,
 };
 use keeps::Keeps;
-use meeting::{Links, Meeting, closest};
+use meeting::{Links, Meeting, SLOW, closest};
 use pairs::Pairs;
 use ways::{PIECE, Ways};
 
@@ -331,11 +331,11 @@ impl Locks {
                     let [sweep, its] = [&self.ways.sweeps[own], &self.ways.sweeps[other]];
                     let radii = self.pieces[own].radius + self.pieces[other].radius;
                     let keep = keep.min(radii);
-                    let more = (keep - radii) as f32;
-                    let Some(farther) = sweep.farther(its, more) else {
+                    let (more, slow) = ((keep - radii) as f32, (SLOW * keep) as f32);
+                    let Some(farther) = sweep.farther(its, (more, slow)) else {
                         continue;
                     };
-                    let found = sweep.near(its, (more, farther));
+                    let found = sweep.near(its, (more, slow, farther));
                     if found != 0 {
                         self.meet_all::<T>([own, other], (found, keep), &mut links, (met, planes));
                     }

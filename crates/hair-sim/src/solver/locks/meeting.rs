@@ -17,6 +17,10 @@ const WITH_MEAN: f64 = 0.5;
 const MOST_LOOKS: usize = 12;
 pub(super) const TOUCH: f64 = 0.02;
 
+/// What acts in a step may bring links together that move against each other, or against their roots, by as much again. By this share of how far they
+/// keep apart they don't pass through each other, nor in the next step, which finds them nearer than they keep and has a plane.
+pub(super) const SLOW: f64 = 0.5;
+
 /// Links nearer than this, in m, have no way out.
 const LEAST_APART: f64 = 1e-9;
 
@@ -96,8 +100,9 @@ pub(super) struct Meeting {
 
 impl Meeting {
     /// Links that keep `keep` metres from each other meet where they come as near as that by their own motion in a step of `dt` seconds, or so near
-    /// that what acts in the step may bring them together: by as much again as they move against each other, or go against their roots (`own`,
-    /// in m, of both together), whichever is less, and by [`NEAR`]. `shift` is the mean way of both roots. None where none do.
+    /// that what acts in the step may bring them together: by as much again as they move against each other, or go against their
+    /// roots (`own`, in m, of both together), whichever is less, where that isn't [`SLOW`], and by [`NEAR`]. `shift` is the mean way of both roots.
+    /// None where none do.
     #[inline(always)]
     pub(super) fn of<T: Number>(
         link: &Links<T>,
@@ -112,7 +117,9 @@ impl Meeting {
         let nearer = most(nearer, (b - c).length_squared());
         let nearer = most(nearer, (b - d).length_squared()).sqrt();
         let touch = keep * T::splat(1.0 + TOUCH);
-        let reach = touch + T::splat(NEAR) + least(own, nearer);
+        let acts = least(own, nearer);
+        let acts = T::choose((keep * T::splat(SLOW)).less(acts), acts, zero);
+        let reach = touch + T::splat(NEAR) + acts;
         let start = closest([link.start, link.end], [other.start, other.end]);
         let distance = start.apart.length_squared().sqrt();
         // Along the way by steps in which they cannot meet, until they touch.
