@@ -256,3 +256,86 @@ pub(super) fn closest<T: Number>([a, b]: [Vec3<T>; 2], [c, d]: [Vec3<T>; 2]) -> 
         apart: between + along.scale(at) - other.scale(other_at),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::LANES;
+
+    /// Numbers from -1 to 1.
+    fn noise(seed: usize) -> f64 {
+        ((seed * 7919 + seed * seed * 31) % 2003) as f64 / 1001.0 - 1.0
+    }
+
+    fn place(seed: usize) -> DVec3 {
+        DVec3::from_array([0, 1, 2].map(|axis| noise(3 * seed + axis)))
+    }
+
+    /// Links of 2 cm: some across each other, some side by side, some folded up to a point.
+    fn links(seed: usize) -> Links {
+        let mut links = Links::NONE;
+        for lane in 0..LANES {
+            let seed = 64 * seed + 8 * lane;
+            let along = match seed / 8 % 5 {
+                0 => DVec3::ZERO,
+                1 | 2 => DVec3::X * 0.02,
+                _ => place(seed) * 0.02,
+            };
+            let (start, way) = (place(seed + 1) * 0.02, place(seed + 2) * 0.01);
+            let end = start + along;
+            let turn = place(seed + 3) * 1e-3 * noise(seed);
+            links.set(lane, [[start, start + way], [end, end + way + turn]]);
+        }
+        links
+    }
+
+    #[test]
+    fn no_places_on_two_links_are_nearer_than_the_closest() {
+        for seed in 0..300 {
+            let (link, other) = (links(2 * seed), links(2 * seed + 1));
+            let found = closest([link.start, link.end], [other.start, other.end]);
+            for lane in 0..LANES {
+                let on = |of: &Links, at: f64| of.start.get(lane).lerp(of.end.get(lane), at);
+                let (at, other_at) = (found.at[lane], found.other_at[lane]);
+                let apart = found.apart.get(lane);
+                assert!((apart - (on(&link, at) - on(&other, other_at))).length() < 1e-12);
+                for (i, j) in (0..=20).flat_map(|i| (0..=20).map(move |j| (i, j))) {
+                    let place = on(&link, f64::from(i) / 20.0);
+                    let its = on(&other, f64::from(j) / 20.0);
+                    assert!(apart.length() <= (place - its).length() + 1e-12);
+                }
+            }
+        }
+    }
+
+    /// Whether links meet is told by many looks along their ways, and they meet where they touch.
+    #[test]
+    fn links_meet_that_come_near_on_their_ways() {
+        let (keep, own) = (0.004, 0.003);
+        let (mut meet, mut pass) = (0, 0);
+        for seed in 0..300 {
+            let (link, other) = (links(2 * seed), links(2 * seed + 1));
+            let lanes = (Lane::splat(keep), Lane::splat(own));
+            let meeting = Meeting::of(&link, &other, lanes, (Vec3::ZERO, 1.0 / 60.0));
+            for lane in 0..LANES {
+                let looks = (0..=200).map(|i| {
+                    let t = Lane::splat(f64::from(i) / 200.0);
+                    let apart = closest(link.at_time(t), other.at_time(t)).apart;
+                    apart.get(lane).length()
+                });
+                let nearest = looks.fold(f64::INFINITY, f64::min);
+                let meets = (meeting.as_ref()).is_some_and(|meeting| meeting.meets[lane] > 0.0);
+                // What the looks may miss of ways of up to 2 cm against each other.
+                if nearest < keep - 2e-4 {
+                    assert!(meets, "{seed}, {lane}: {nearest}");
+                    meet += 1;
+                }
+                if nearest > keep * (1.0 + TOUCH) + NEAR + own {
+                    assert!(!meets, "{seed}, {lane}: {nearest}");
+                    pass += 1;
+                }
+            }
+        }
+        assert!(meet > 100 && pass > 100, "{meet}, {pass}");
+    }
+}
