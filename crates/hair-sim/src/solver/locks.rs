@@ -108,23 +108,12 @@ struct Met {
 }
 
 /// What a task finds in a step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Found {
     /// Pairs of pieces whose boxes meet, and how far they keep from each other, in m.
     near: Vec<([usize; 2], f64)>,
     met: Vec<Met>,
     planes: Vec<Plane>,
-}
-
-impl Found {
-    /// Nothing, with room for so much that lists hardly grow once hair moves.
-    fn nothing() -> Self {
-        Self {
-            near: Vec::with_capacity(16 * WORTH_A_TASK),
-            met: Vec::with_capacity(2 * WORTH_A_TASK),
-            planes: Vec::with_capacity(16 * WORTH_A_TASK),
-        }
-    }
 }
 
 /// The locks of a solver.
@@ -192,7 +181,7 @@ impl Locks {
             dt: 0.0,
             ways: Ways::new(batches, pieces.len()),
             pairs: Pairs::new(&strands),
-            found: (0..TASKS).map(|_| Found::nothing()).collect(),
+            found: vec![Found::default(); TASKS],
             holds: vec![None; particles[batches.len()]],
             pieces,
             strands,
@@ -266,8 +255,20 @@ impl Locks {
         self.pairs.find(&self.ways.sweeps, &self.strands);
         let mut found = std::mem::take(&mut self.found);
         let tasks = (self.pairs.all().len() / WORTH_A_TASK).clamp(1, TASKS);
+        // What one task has found another may find in the next step: with room for that, no list grows once hair has moved.
+        let most = |count: fn(&Found) -> usize| found.iter().map(count).max().unwrap_or(0);
+        let room = [
+            most(|found| found.near.len()),
+            most(|found| found.met.len()),
+            most(|found| found.planes.len()),
+        ];
         for Found { near, met, planes } in &mut found {
-            (near.clear(), met.clear(), planes.clear());
+            near.clear();
+            met.clear();
+            planes.clear();
+            near.reserve(room[0]);
+            met.reserve(room[1]);
+            planes.reserve(room[2]);
         }
         self.find_all::<T>(self.pairs.all(), &mut found[..tasks]);
         self.holds.fill(None);
@@ -490,7 +491,6 @@ mod tests {
         // In m/s: links that go slowly against each other, and those that go far.
         for (speed, least) in [(0.2, 50), (0.5, 500), (3.0, 5000)] {
             let found = hides_nothing(speed);
-            println!("{speed} m/s: {found} planes");
             assert!(found > least, "{speed} m/s: {found}");
         }
     }
@@ -524,7 +524,7 @@ mod tests {
         let (locks, _) = locks.as_mut().unwrap();
         let surroundings = Surroundings::default();
         locks.find::<Lane>(batches, &state.batches, &surroundings, 1.0 / 60.0);
-        let (mut all, mut near) = (Found::nothing(), Near::NONE);
+        let (mut all, mut near) = (Found::default(), Near::NONE);
         for (one, two) in (0..locks.pieces.len()).flat_map(|i| (0..i).map(move |j| (j, i))) {
             let [own, other] = [one, two].map(|i| &locks.pieces[i]);
             let strand = |piece| locks.strands.partition_point(|&first| first <= piece) - 1;
