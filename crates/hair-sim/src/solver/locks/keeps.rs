@@ -1,5 +1,7 @@
 //! How far pieces of strands keep from each other that are near each other at rest.
 
+use super::pairs::FOUR;
+
 /// Of pairs of pieces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Keeps {
@@ -7,8 +9,10 @@ pub(super) struct Keeps {
     pairs: Vec<([u32; 2], usize)>,
     /// Where the pairs of every strand with later ones begin; one more at the end.
     first: Vec<usize>,
-    /// Of such a pair, piece by piece of the one for every piece of the other, in m; infinite where they aren't near.
+    /// Of such a pair, for every piece of the one those of the other, by fours, in m; infinite where they aren't near.
     keeps: Vec<f32>,
+    /// Of every four of these, those that keep apart at all, as bits.
+    kept: Vec<u32>,
 }
 
 impl Keeps {
@@ -19,13 +23,16 @@ impl Keeps {
         }
         let from = self.keeps.len();
         let [one, other] = pair.map(|strand| strand as usize);
-        let count = strands[other + 1] - strands[other];
+        let count = (strands[other + 1] - strands[other]).next_multiple_of(FOUR);
         let all = (strands[one + 1] - strands[one]) * count;
         self.pairs.push((pair, from));
         self.keeps.resize(from + all, f32::INFINITY);
         for &([own, its], keep) in near {
             self.keeps[from + (own - strands[one]) * count + its - strands[other]] = keep;
         }
+        let kept =
+            |keeps: &[f32]| (0..FOUR).fold(0, |bits, i| bits | u32::from(keeps[i] > 0.0) << i);
+        self.kept.extend(self.keeps[from..].chunks(FOUR).map(kept));
     }
 
     /// Makes ready to be asked about so many strands.
@@ -41,10 +48,12 @@ impl Keeps {
         let [one, other] = pair.map(|strand| strand as usize);
         let pairs = &self.pairs[self.first[one]..self.first[one + 1]];
         let found = pairs.binary_search_by_key(&pair[1], |(pair, _)| pair[1]);
+        let from = found.map_or(self.keeps.len(), |found| pairs[found].1);
         Between {
-            keeps: found.map_or(&[], |found| &self.keeps[pairs[found].1..]),
+            keeps: &self.keeps[from..],
+            kept: &self.kept[from / FOUR..],
             first: [strands[one], strands[other]],
-            count: strands[other + 1] - strands[other],
+            count: (strands[other + 1] - strands[other]).next_multiple_of(FOUR),
         }
     }
 }
@@ -52,6 +61,7 @@ impl Keeps {
 /// Those of a pair of strands.
 pub(super) struct Between<'a> {
     keeps: &'a [f32],
+    kept: &'a [u32],
     first: [usize; 2],
     count: usize,
 }
@@ -64,5 +74,12 @@ impl Between<'_> {
         self.keeps
             .get(place)
             .map_or(f64::INFINITY, |&keep| f64::from(keep))
+    }
+
+    /// Which of four pieces, the first of which is the other's number `from`, a multiple of four, a piece keeps apart from, as bits.
+    #[inline(always)]
+    pub(super) fn kept(&self, own: usize, from: usize) -> u32 {
+        let place = (own - self.first[0]) * self.count + from;
+        self.kept.get(place / FOUR).map_or(!0, |&kept| kept)
     }
 }

@@ -4,6 +4,9 @@ use glam::Vec4;
 
 use super::ways::{Bounds, Sweep};
 
+/// Pieces whose boxes are looked at together.
+pub(super) const FOUR: usize = 4;
+
 /// The boxes of four pieces of a strand, coordinate by coordinate.
 #[derive(Clone, Copy, Debug)]
 struct Four {
@@ -12,8 +15,6 @@ struct Four {
 }
 
 impl Four {
-    const COUNT: usize = 4;
-
     fn new(sweeps: &[Sweep]) -> Self {
         let mut four = Self {
             low: [Vec4::INFINITY; 3],
@@ -56,7 +57,7 @@ impl Pairs {
     pub(super) fn new(strands: &[usize]) -> Self {
         let mut first = vec![0];
         for ends in strands.windows(2) {
-            first.push(first[first.len() - 1] + (ends[1] - ends[0]).div_ceil(Four::COUNT));
+            first.push(first[first.len() - 1] + (ends[1] - ends[0]).div_ceil(FOUR));
         }
         Self {
             sorted: Vec::with_capacity(strands.len()),
@@ -72,7 +73,7 @@ impl Pairs {
         self.sorted.clear();
         for (strand, ends) in (0..).zip(strands.windows(2)) {
             let pieces = &sweeps[ends[0]..ends[1]];
-            self.fours.extend(pieces.chunks(Four::COUNT).map(Four::new));
+            self.fours.extend(pieces.chunks(FOUR).map(Four::new));
             let bounds = pieces.iter().map(|sweep| sweep.bounds);
             let whole = bounds.fold(Bounds::NONE, |all, bounds| all.and(&bounds));
             self.sorted.push((strand, whole));
@@ -96,26 +97,31 @@ impl Pairs {
         &self.pairs
     }
 
-    /// Tells of all pieces of a pair of strands whose boxes meet, in order; `strands` are the first pieces of each.
+    /// Tells of all pieces of a pair of strands whose boxes meet, in order; `strands` are the first pieces of each. `among` says which of four of the
+    /// other's it is about, as bits, by the first's piece and where they begin on the other.
     #[inline(always)]
     pub(super) fn pieces(
         &self,
         pair: &[u32; 2],
         sweeps: &[Sweep],
         strands: &[usize],
+        among: impl Fn(usize, usize) -> u32,
         mut tell: impl FnMut(usize, usize),
     ) {
         let [one, other] = pair.map(|strand| strand as usize);
         let fours = &self.fours[self.first[other]..self.first[other + 1]];
         for own in strands[one]..strands[one + 1] {
-            let mut its = strands[other];
-            for four in fours {
-                let mut meet = four.meet(&sweeps[own].bounds);
+            for (number, four) in fours.iter().enumerate() {
+                let among = among(own, number * FOUR);
+                if among == 0 {
+                    continue;
+                }
+                let mut meet = four.meet(&sweeps[own].bounds) & among;
                 while meet != 0 {
-                    tell(own, its + meet.trailing_zeros() as usize);
+                    let its = number * FOUR + meet.trailing_zeros() as usize;
+                    tell(own, strands[other] + its);
                     meet &= meet - 1;
                 }
-                its += Four::COUNT;
             }
         }
     }

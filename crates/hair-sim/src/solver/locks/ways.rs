@@ -5,7 +5,6 @@
 use glam::{DVec3, Vec3A, Vec4};
 
 use crate::{
-    forces::mutual::Course,
     lanes::{LANES, Lane, Number, Vec3},
     surroundings::Surroundings,
     threads::join,
@@ -161,19 +160,21 @@ impl Sweep {
     };
 
     /// How much farther than half way through the step two pieces may meet that keep `more` metres besides their radii (less, where it is below
-    /// 0); None where they are too far from each other for that.
+    /// 0), where going by `slow` metres against each other is; None where they are too far from each other for that.
     #[inline(always)]
-    pub(super) fn farther(&self, other: &Self, more: f32) -> Option<f32> {
+    pub(super) fn farther(&self, other: &Self, (more, slow): (f32, f32)) -> Option<f32> {
         let square = (self.way - other.way).length_squared();
         let against = square.sqrt() * ROUNDED + self.spread + other.spread;
-        let farther = more + 0.5 * against + against.min(self.own + other.own);
+        let acts = against.min(self.own + other.own);
+        let acts = if acts > slow { acts } else { 0.0 };
+        let farther = more + 0.5 * against + acts;
         (self.mid.meets_within(&other.mid, farther)).then_some(farther)
     }
 
-    /// Which links of two pieces may meet, as bits, those of the other for every link of the first, where both keep `more` metres besides their radii
-    /// and may meet so much `farther` than half way through the step. It looks at both pieces as wholes first, then at balls around links.
+    /// Which links of two pieces may meet, as bits, those of the other for every link of the first, where both keep `more` metres besides their radii,
+    /// what is `slow` as for [`Sweep::farther`], and may meet so much `farther` than half way through the step. It looks at both pieces as wholes first, then at balls around links.
     #[inline(always)]
-    pub(super) fn near(&self, other: &Self, (more, farther): (f32, f32)) -> u32 {
+    pub(super) fn near(&self, other: &Self, (more, slow, farther): (f32, f32, f32)) -> u32 {
         let keep = Vec4::splat(self.keep + other.keep + farther);
         let around = other.reach + keep;
         if self.is_apart(other, keep[0]) {
@@ -193,7 +194,7 @@ impl Sweep {
             let at = PIECE * link;
             let its = near & (((1 << PIECE) - 1) << at);
             near &= !its;
-            found |= its & (self.near_link(link, other, more) << at);
+            found |= its & (self.near_link(link, other, (more, slow)) << at);
         }
         found
     }
@@ -217,11 +218,13 @@ impl Sweep {
     /// Which of the other's links may meet a link, as bits: of each link and the ball around the other, and between two planes at a right angle to where
     /// they seem to be nearest half way through the step, whatever rounding makes of that.
     #[inline(always)]
-    fn near_link(&self, link: usize, other: &Self, more: f32) -> u32 {
+    fn near_link(&self, link: usize, other: &Self, (more, slow): (f32, f32)) -> u32 {
         let own = Vec4::splat(self.own + other.own);
         let against = other.ways.minus(&self.ways.of(link)).length_squared();
         let against = against.sqrt() * ROUNDED + Vec4::splat(self.spreads[link]) + other.spreads;
-        let keep = Vec4::splat(self.keep + other.keep + more) + 0.5 * against + own.min(against);
+        let acts = own.min(against);
+        let acts = Vec4::select(acts.cmpgt(Vec4::splat(slow)), acts, Vec4::ZERO);
+        let keep = Vec4::splat(self.keep + other.keep + more) + 0.5 * against + acts;
 
         let (half, its_half) = (self.half.of(link), &other.half);
         let (per_square, its_per_square) = (Vec4::splat(self.per_square[link]), other.per_square);
@@ -304,28 +307,22 @@ impl Ways {
         step.follow::<T>(0, (batches, states), points, (pieces, sweeps));
     }
 
-    /// A particle's way, by its number on the strand; the root's is 0.
+    /// Where a link's ends are, before and after, by its number on the piece.
     #[inline(always)]
-    pub(super) fn point(&self, piece: &Piece, k: usize) -> Course {
-        let [before, now] = &self.points[self.first[piece.batch] + k];
-        Course {
-            before: before.get(piece.lane),
-            now: now.get(piece.lane),
-        }
-    }
-
-    /// The ways of a link's ends, by its number on the piece.
-    #[inline(always)]
-    pub(super) fn link(&self, piece: &Piece, link: usize) -> [Course; 2] {
-        let start = piece.first + link;
-        [self.point(piece, start), self.point(piece, start + 1)]
+    pub(super) fn link(&self, piece: &Piece, link: usize) -> [[DVec3; 2]; 2] {
+        let from = self.first[piece.batch] + piece.first + link;
+        let [start, end] = [&self.points[from], &self.points[from + 1]];
+        [
+            [start[0].get(piece.lane), start[1].get(piece.lane)],
+            [end[0].get(piece.lane), end[1].get(piece.lane)],
+        ]
     }
 
     /// The way of a piece's root.
     #[inline(always)]
     pub(super) fn shift(&self, piece: &Piece) -> DVec3 {
-        let root = self.point(piece, 0);
-        root.now - root.before
+        let [before, now] = &self.points[self.first[piece.batch]];
+        now.get(piece.lane) - before.get(piece.lane)
     }
 }
 
