@@ -180,3 +180,33 @@ impl<const N: usize> Blurred<'_, N> {
 fn mix(from: f32, to: f32, share: f32) -> f32 {
     from + (to - from) * share
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A picture of other numbers at every texel, whose sides are no powers of 2.
+    fn picture() -> Image {
+        let coverage: Vec<f32> = (0..37 * 21).map(|i| (i * 29 % 97) as f32 / 96.0).collect();
+        Image::of_coverage([37, 21], &coverage).unwrap()
+    }
+
+    proptest! {
+        /// Texels in fours are what the picture shows where it is looked up texel by texel.
+        #[test]
+        fn marks_are_the_coverage_of_their_picture(
+            x in -0.2..1.2_f32,
+            y in 0.5_f32..20.5,
+            texels in 1.0..60.0_f32,
+            repeats: bool,
+        ) {
+            let mark = Mark::new(picture(), repeats);
+            // Pictures that repeat do so across the stroke, too: no nearer to its edges than the middle of the coarsest texel.
+            let y = if repeats { 0.5 } else { y / 21.0 };
+            let [own] = mark.blurred(&[texels]).at([&[x], &[y]]);
+            let [.., expected] = mark.image.at([x, y], texels / 37.0, repeats);
+            prop_assert!((own - expected).abs() < 1e-6, "{own}, {expected}");
+        }
+    }
+}
