@@ -349,6 +349,15 @@ pub fn places(scenes: &[SceneFigures]) -> String {
                 of.intervals,
                 of.tiles,
             );
+            let (Some((tick, [x, y])), Some(pushed)) = (of.farthest, of.pushed) else {
+                continue;
+            };
+            let _ = writeln!(
+                text,
+                "  {order}: {:.4} in 1/384 s from tick {tick} in the tile at {x}, {y}; its strokes merely pushed by the {:.2} px that \
+                 they move would have a ratio of {:.2}",
+                of.largest[0], pushed.moved_px, pushed.ratio,
+            );
         }
     }
     text

@@ -56,19 +56,18 @@ impl Painter {
     }
 
     /// A part of the picture of [`Self::strokes`]' last frame: from column and row `corner` on, which may lie
-    /// outside, `size` pixels wide and high.
+    /// outside and between pixels, `size` pixels wide and high.
     ///
     /// # Errors
     ///
     /// When it can't be drawn.
-    pub fn part(&mut self, corner: [i32; 2], size: u32) -> Result<Picture, BenchError> {
+    pub fn part(&mut self, corner: Vec2, size: u32) -> Result<Picture, BenchError> {
         let part = &mut self.part;
         part.clone_from(&self.drawing);
         // Lines of what lies around reach into it.
         let margin = if part.passes.is_empty() { 0 } else { AROUND };
         part.size = [size + 2 * margin; 2];
-        let corner = corner.map(|place| (place - margin as i32) as f32);
-        let corner = Vec2::from(corner);
+        let corner = corner - margin as f32;
         let layers = part.layers.iter_mut().flat_map(|layer| &mut layer.discs);
         let clumps = part.clump.iter_mut().chain(&mut part.sides);
         for disc in clumps.chain(layers) {
