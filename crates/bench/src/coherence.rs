@@ -354,8 +354,8 @@ pub fn places(scenes: &[SceneFigures]) -> String {
             };
             let _ = writeln!(
                 text,
-                "  {order}: {:.4} in 1/384 s from tick {tick} in the tile at {x}, {y}; its strokes merely pushed by the {:.2} px that \
-                 they move would have a ratio of {:.2}",
+                "  {order}: {:.4} in 1/384 s from tick {tick} in the tile at {x}, {y}; its strokes merely moved as their strands, by up to \
+                 {:.2} px, would have a ratio of {:.2}",
                 of.largest[0], pushed.moved_px, pushed.ratio,
             );
         }

@@ -3,7 +3,8 @@
 use crate::BenchError;
 use glam::Vec2;
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Drawing, Frame, Order, Painting, Picture};
+use render::{Disc, Drawing, Frame, Order, Painting, Picture, Stretches};
+use std::ops::Range;
 
 /// Pixels around a part of a picture that are drawn besides, where lines are drawn of the whole.
 const AROUND: u32 = 8;
@@ -53,6 +54,17 @@ impl Painter {
     pub fn picture(&mut self, frame: &mut Frame, order: Order) -> Result<Picture, BenchError> {
         self.strokes(frame, order)?;
         self.draw()
+    }
+
+    /// Moves [`Self::strokes`]' last strokes, each joint's by its way in pixels, without any other change of theirs.
+    pub fn push(&mut self, ways: &[Vec2]) {
+        let drawing = &mut self.drawing;
+        let all = 0..drawing.clump.len();
+        push(&mut drawing.clump, &Stretches::Everywhere, &all, ways);
+        push(&mut drawing.sides, &drawing.side_stretches, &all, ways);
+        for layer in &mut drawing.layers {
+            push(&mut layer.discs, &layer.stretches, &layer.joints, ways);
+        }
     }
 
     /// A part of the picture of [`Self::strokes`]' last frame: from column and row `corner` on, which may lie
@@ -124,6 +136,25 @@ impl Painter {
         self.rasterizer
             .draw(&self.drawing)
             .map_err(|error| error.to_string().into())
+    }
+}
+
+/// Moves the discs of strokes that are drawn so on these joints, each by its joint's way.
+fn push(discs: &mut [Disc], stretches: &Stretches, joints: &Range<usize>, ways: &[Vec2]) {
+    match stretches {
+        Stretches::Everywhere => {
+            for (i, disc) in discs.iter_mut().enumerate() {
+                disc.center += ways[joints.start + i % joints.len()];
+            }
+        }
+        Stretches::Within(strokes) => {
+            for stretch in strokes.iter().flatten() {
+                let of_stretch = &mut discs[stretch.first..][..stretch.joints.len()];
+                for (disc, way) in of_stretch.iter_mut().zip(&ways[stretch.joints.clone()]) {
+                    disc.center += *way;
+                }
+            }
+        }
     }
 }
 

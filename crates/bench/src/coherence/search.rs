@@ -82,11 +82,11 @@ pub struct Continuity {
     pub pushed: Option<Pushed>,
 }
 
-/// A tile's strokes in one frame, pushed as far as they move in 1/384 s, without any change of theirs: what a picture that never jumps
-/// would score. It is 2 for wide shapes, and less where thin ones move by a good part of their own width.
+/// A tile's strokes in one frame, moved as their strands move in 1/384 s, without any change of size, colour or order: what a picture that
+/// never jumps would score. It is 2 for wide shapes, and less where thin ones move by a good part of their own width.
 #[derive(Clone, Copy, Debug)]
 pub struct Pushed {
-    /// How far, in pixels.
+    /// How far a joint moves at most, in pixels.
     pub moved_px: f64,
     /// The change over that of half the way.
     pub ratio: f64,
@@ -167,7 +167,8 @@ pub fn measure(
     Ok((found, motion))
 }
 
-/// What the tile would score by the speed of its strands alone; nothing where none is seen in it.
+/// What the tile would score by the speed of its strands alone; nothing where none has a joint in it or around it, from where strokes reach
+/// into it.
 fn pushed(
     scene: &mut Subject,
     painter: &mut Painter,
@@ -180,25 +181,24 @@ fn pushed(
     let mut frame = scene.animation.at(start + LONG)?;
     let after = Places::new(&frame, frame.paths.center.clone());
     let corner = Vec2::from(corner.map(|place| place as f32));
-    let lies_within = |joint: &usize| {
-        let within = after.center(*joint) - corner;
-        within.min_element() >= 0.0 && within.max_element() < TILE as f32
-    };
-    let joints = after.joints().filter(lies_within);
-    let moved: Vec<Vec2> = (joints)
-        .filter_map(|joint| after.moved_since(&before, joint))
+    let ways: Vec<Vec2> = (after.joints())
+        .map(|joint| after.moved_since(&before, joint).unwrap_or_default())
         .collect();
-    if moved.is_empty() {
-        return Ok(None);
-    }
-    let moved_px = moved.iter().sum::<Vec2>() / moved.len() as f32;
+    let (middle, reach) = (corner + 0.5 * TILE as f32, (TILE / 2 + AROUND) as f32);
+    let is_near = |joint: &usize| (after.center(*joint) - middle).abs().max_element() < reach;
+    let near = after.joints().filter(is_near);
+    let moved_px = near.map(|joint| ways[joint].length()).reduce(f32::max);
+    let half_back: Vec<Vec2> = ways.iter().map(|way| -0.5 * *way).collect();
     painter.strokes(&mut frame, order)?;
-    let mut tile_pushed = |share: f32| painter.part(corner + share * moved_px, TILE as u32);
-    let [whole, half, none] = [tile_pushed(1.0)?, tile_pushed(0.5)?, tile_pushed(0.0)?];
-    let change = |from: &Picture| difference(from, &none, 0, [TILE; 2]);
-    let ratio = ratio(change(&whole), change(&half));
-    Ok(ratio.map(|ratio| Pushed {
-        moved_px: f64::from(moved_px.length()),
+    let mut pictures = Vec::new();
+    for _ in 0..3 {
+        pictures.push(painter.part(corner, TILE as u32)?);
+        painter.push(&half_back);
+    }
+    let change = |to: usize| difference(&pictures[0], &pictures[to], 0, [TILE; 2]);
+    let pushed = ratio(change(2), change(1)).zip(moved_px);
+    Ok(pushed.map(|(ratio, moved_px)| Pushed {
+        moved_px: f64::from(moved_px),
         ratio,
     }))
 }
