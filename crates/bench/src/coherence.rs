@@ -349,6 +349,15 @@ pub fn places(scenes: &[SceneFigures]) -> String {
                 of.intervals,
                 of.tiles,
             );
+            let (Some((tick, [x, y])), Some(pushed)) = (of.farthest, of.pushed) else {
+                continue;
+            };
+            let _ = writeln!(
+                text,
+                "  {order}: {:.4} in 1/384 s from tick {tick} in the tile at {x}, {y}; its strokes merely moved as their strands, by up to \
+                 {:.2} px, would have a ratio of {:.2}",
+                of.largest[0], pushed.moved_px, pushed.ratio,
+            );
         }
     }
     text

@@ -3,7 +3,8 @@
 use crate::BenchError;
 use glam::Vec2;
 use render::cpu::{Evaluator, Rasterizer};
-use render::{Drawing, Frame, Order, Painting, Picture};
+use render::{Disc, Drawing, Frame, Order, Painting, Picture, Stretches};
+use std::ops::Range;
 
 /// Pixels around a part of a picture that are drawn besides, where lines are drawn of the whole.
 const AROUND: u32 = 8;
@@ -55,20 +56,30 @@ impl Painter {
         self.draw()
     }
 
+    /// Moves [`Self::strokes`]' last strokes, each joint's by its way in pixels, without any other change of theirs.
+    pub fn push(&mut self, ways: &[Vec2]) {
+        let drawing = &mut self.drawing;
+        let all = 0..drawing.clump.len();
+        push(&mut drawing.clump, &Stretches::Everywhere, &all, ways);
+        push(&mut drawing.sides, &drawing.side_stretches, &all, ways);
+        for layer in &mut drawing.layers {
+            push(&mut layer.discs, &layer.stretches, &layer.joints, ways);
+        }
+    }
+
     /// A part of the picture of [`Self::strokes`]' last frame: from column and row `corner` on, which may lie
-    /// outside, `size` pixels wide and high.
+    /// outside and between pixels, `size` pixels wide and high.
     ///
     /// # Errors
     ///
     /// When it can't be drawn.
-    pub fn part(&mut self, corner: [i32; 2], size: u32) -> Result<Picture, BenchError> {
+    pub fn part(&mut self, corner: Vec2, size: u32) -> Result<Picture, BenchError> {
         let part = &mut self.part;
         part.clone_from(&self.drawing);
         // Lines of what lies around reach into it.
         let margin = if part.passes.is_empty() { 0 } else { AROUND };
         part.size = [size + 2 * margin; 2];
-        let corner = corner.map(|place| (place - margin as i32) as f32);
-        let corner = Vec2::from(corner);
+        let corner = corner - margin as f32;
         let layers = part.layers.iter_mut().flat_map(|layer| &mut layer.discs);
         let clumps = part.clump.iter_mut().chain(&mut part.sides);
         for disc in clumps.chain(layers) {
@@ -125,6 +136,25 @@ impl Painter {
         self.rasterizer
             .draw(&self.drawing)
             .map_err(|error| error.to_string().into())
+    }
+}
+
+/// Moves the discs of strokes that are drawn so on these joints, each by its joint's way.
+fn push(discs: &mut [Disc], stretches: &Stretches, joints: &Range<usize>, ways: &[Vec2]) {
+    match stretches {
+        Stretches::Everywhere => {
+            for (i, disc) in discs.iter_mut().enumerate() {
+                disc.center += ways[joints.start + i % joints.len()];
+            }
+        }
+        Stretches::Within(strokes) => {
+            for stretch in strokes.iter().flatten() {
+                let of_stretch = &mut discs[stretch.first..][..stretch.joints.len()];
+                for (disc, way) in of_stretch.iter_mut().zip(&ways[stretch.joints.clone()]) {
+                    disc.center += *way;
+                }
+            }
+        }
     }
 }
 

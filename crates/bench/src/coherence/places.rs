@@ -41,6 +41,11 @@ impl Places {
         0..self.along.len()
     }
 
+    /// Where the joint of that number is.
+    pub fn center(&self, joint: usize) -> Vec2 {
+        self.centers[joint]
+    }
+
     /// How far the joint of that number has come since `before`, in pixels; nothing where the strand wasn't seen there.
     pub fn moved_since(&self, before: &Self, joint: usize) -> Option<Vec2> {
         let id = self.ids[joint]?;

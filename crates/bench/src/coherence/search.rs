@@ -11,7 +11,7 @@ use super::scenes::Subject;
 use super::tiles::{HairTiles, TILE, corner, difference};
 use crate::BenchError;
 use glam::Vec2;
-use render::Picture;
+use render::{Order, Picture};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Times between pictures, in ticks: 1/384 s and its half, and a tick.
@@ -76,6 +76,20 @@ pub struct Continuity {
     pub tiles: usize,
     /// Where a tile changes most in 1/768 s.
     pub worst: Option<Worst>,
+    /// Where one does in 1/384 s: the first tick, and the tile.
+    pub farthest: Option<(Tick, [usize; 2])>,
+    /// What [`Self::ratio`] would be by the speed alone.
+    pub pushed: Option<Pushed>,
+}
+
+/// A tile's strokes in one frame, moved as their strands move in 1/384 s, without any change of size, colour or order: what a picture that
+/// never jumps would score. It is 2 for wide shapes, and less where thin ones move by a good part of their own width.
+#[derive(Clone, Copy, Debug)]
+pub struct Pushed {
+    /// How far a joint moves at most, in pixels.
+    pub moved_px: f64,
+    /// The change over that of half the way.
+    pub ratio: f64,
 }
 
 /// Where most changes.
@@ -144,8 +158,49 @@ pub fn measure(
         }
         done();
     }
-    let found = found.into_iter().map(Found::finish);
-    Ok((found.collect(), motion))
+    let mut found: Vec<Continuity> = found.into_iter().map(Found::finish).collect();
+    for (of_order, (_, order)) in found.iter_mut().zip(scene.orders.clone()) {
+        if let Some((start, corner)) = of_order.farthest {
+            of_order.pushed = pushed(scene, &mut painters.many, order, start, corner)?;
+        }
+    }
+    Ok((found, motion))
+}
+
+/// What the tile would score by the speed of its strands alone; nothing where none has a joint in it or around it, from where strokes reach
+/// into it.
+fn pushed(
+    scene: &mut Subject,
+    painter: &mut Painter,
+    order: Order,
+    start: Tick,
+    corner: [usize; 2],
+) -> Result<Option<Pushed>, BenchError> {
+    let frame = scene.animation.at(start)?;
+    let before = Places::new(&frame, frame.paths.center.clone());
+    let mut frame = scene.animation.at(start + LONG)?;
+    let after = Places::new(&frame, frame.paths.center.clone());
+    let corner = Vec2::from(corner.map(|place| place as f32));
+    let ways: Vec<Vec2> = (after.joints())
+        .map(|joint| after.moved_since(&before, joint).unwrap_or_default())
+        .collect();
+    let (middle, reach) = (corner + 0.5 * TILE as f32, (TILE / 2 + AROUND) as f32);
+    let is_near = |joint: &usize| (after.center(*joint) - middle).abs().max_element() < reach;
+    let near = after.joints().filter(is_near);
+    let moved_px = near.map(|joint| ways[joint].length()).reduce(f32::max);
+    let half_back: Vec<Vec2> = ways.iter().map(|way| -0.5 * *way).collect();
+    painter.strokes(&mut frame, order)?;
+    let mut pictures = Vec::new();
+    for _ in 0..3 {
+        pictures.push(painter.part(corner, TILE as u32)?);
+        painter.push(&half_back);
+    }
+    let change = |to: usize| difference(&pictures[0], &pictures[to], 0, [TILE; 2]);
+    let pushed = ratio(change(2), change(1)).zip(moved_px);
+    Ok(pushed.map(|(ratio, moved_px)| Pushed {
+        moved_px: f64::from(moved_px),
+        ratio,
+    }))
 }
 
 /// How often [`measure`] calls `done`.
@@ -357,7 +412,8 @@ fn refine(
             painters.many.strokes(&mut frame, *order)?;
             let mut tiles = Vec::new();
             for &tile in &wanted.tiles {
-                let corner = corner(tile, size[0]).map(|place| place as i32 - AROUND as i32);
+                let corner = Vec2::from(corner(tile, size[0]).map(|place| place as f32));
+                let corner = corner - AROUND as f32;
                 let side = (TILE + 2 * AROUND) as u32;
                 tiles.push(painters.many.part(corner, side)?);
             }
@@ -419,6 +475,9 @@ impl Found {
                     continue;
                 }
                 *largest = change;
+                if step == LONG {
+                    self.continuity.farthest = Some((start, corner));
+                }
                 if step == SHORT {
                     self.continuity.worst = Some(Worst {
                         tick: start + first,
@@ -444,7 +503,6 @@ mod tests {
     use super::super::scenes::ORDERS;
     use super::super::strands::Strands;
     use super::*;
-    use render::Order;
 
     /// What an order's pictures of a scene of strands show in a time.
     fn measured(name: &str, window: std::ops::Range<Tick>, order: Order) -> Continuity {
@@ -494,6 +552,8 @@ mod tests {
         let [long, fine] = [found.ratio(), found.fine_ratio()].map(Option::unwrap);
         assert!(long < 1.9, "{long}");
         assert!(fine > 1.9, "{fine}");
+        let pushed = found.pushed.unwrap();
+        assert!((pushed.ratio - long).abs() < 0.05, "{pushed:?}, {long}");
         assert!(found.popped[0] > 1e-3, "{:?}", found.popped);
     }
 
@@ -504,6 +564,9 @@ mod tests {
             let found = measured("control-jumping", 132..144, order);
             let ratio = found.ratio().unwrap();
             assert!((0.95..1.05).contains(&ratio), "{order:?}: {ratio}");
+            // Its speed is not to blame.
+            let pushed = found.pushed.unwrap();
+            assert!(pushed.ratio > 1.9, "{order:?}: {pushed:?}");
             assert!(found.popped[0] > 0.5, "{:?}", found.popped);
             let worst = found.worst.unwrap();
             assert_eq!(worst.tick, 138);
