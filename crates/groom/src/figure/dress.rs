@@ -201,9 +201,9 @@ fn around(out: f32, y: f32, ahead: f32) -> Vec3 {
     Vec3::new(out, y, neck_axis(y) + ahead)
 }
 
-/// A collar from where it leaves the dress over its fold to its edge, with a line along both.
+/// A collar from where it leaves the dress, so deep below its surface, m, over its fold to its edge, with a line along both.
 fn collar<const N: usize>(
-    base: [Vec3; N],
+    (base, depth_m): ([Vec3; N], f32),
     fold: [Vec3; N],
     edge: [Vec3; N],
     dress: Dress,
@@ -217,8 +217,7 @@ fn collar<const N: usize>(
     let (cloth, line) = (Cloth::Dress, Cloth::Line);
     band(
         &[
-            // Deep enough that lines of what lies close below a surface aren't seen through it.
-            (&base, Lie::At(-0.006)),
+            (&base, Lie::At(-depth_m)),
             (&fold, Lie::Over(0.006)),
             (&below_fold, Lie::Over(0.006)),
             (&above_edge, Lie::At(0.005)),
@@ -256,7 +255,8 @@ fn folded_collar() -> Piece {
         around(0.055, 1.281, 0.053),
         around(0.025, 1.256, 0.076),
     ];
-    collar(base, fold, edge, Dress::Collar)
+    // Deep enough that lines of what lies close below a surface aren't seen through it.
+    collar((base, 0.006), fold, edge, Dress::Collar)
 }
 
 /// Folded over a jacket, from the back to the lapels beside the V.
@@ -282,7 +282,7 @@ fn jacket_collar() -> Piece {
         around(0.080, 1.268, 0.044),
         around(0.034, 1.206, 0.070),
     ];
-    collar(base, fold, edge, Dress::Jacket)
+    collar((base, 0.003), fold, edge, Dress::Jacket)
 }
 
 /// The row of a sailor's collar from which its stripe goes to the next.
