@@ -11,6 +11,7 @@
 
 mod bin;
 mod brush;
+mod context;
 mod cover;
 mod decals;
 mod evaluate;
@@ -49,6 +50,7 @@ use crate::picture::Picture;
 use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
 use bin::{Bins, Lists, cells};
+use context::{Part, TileContext};
 use decals::{DecalParts, Decals};
 use instructions::Instructions;
 use light::{BandLight, Light};
@@ -60,7 +62,7 @@ use segment::{Kind, Segment, Segments, Stroke};
 use shown::Shown;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-use strand::{Part, StrandMasks, TileContext};
+use strand::StrandMasks;
 use surface::Triangle;
 use texels::Pictures;
 use tile::{LaneMask, Stack, Sums, Target};

@@ -1,8 +1,8 @@
 //! What brushes leave of the strokes of a strand in a tile: the samples that they keep bare are taken away before anything is drawn.
 
+use super::context::TileContext;
 use super::reached::Reached;
 use super::segment::Stroke;
-use super::strand::TileContext;
 use super::stroke::{Placed, Places};
 use super::tile::{
     Cell, LANES, LaneMask, Lanes, Mask, OneByOne, ROWS, SAMPLES, Stack, bits, cells, columns,

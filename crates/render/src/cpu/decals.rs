@@ -3,9 +3,9 @@
 
 use super::bin::{Lists, cells as cells_across};
 use super::brush::StrokeBrush;
+use super::context::TileContext;
 use super::segment::{Kind, Segment, Segments, Stroke, strokes_in_order};
 use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
-use super::strand::TileContext;
 use super::stroke::{NEARER, Placed, across};
 use super::tile::{
     Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, OneByOne, Plane, ROWS, Stack,

@@ -1,7 +1,7 @@
 //! A stroke in a tile against what is there: where it shows, and in which colours.
 
+use super::context::TileContext;
 use super::reached::Reached;
-use super::strand::TileContext;
 use super::stroke::{Depths, Nearest, Placed, Places, Ratios, Shaded, Unasked};
 use super::tile::{
     Cell, LANES, LaneMask, Lanes, Mask, ROWS, Target, any, cells, columns, greater, lesser,

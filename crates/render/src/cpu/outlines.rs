@@ -1,9 +1,11 @@
 //! Outlines that lie deep behind their clumps: they are drawn once all strands of a tile are, which hide most of them.
 
+use super::context::TileContext;
 use super::offer::{Offer, Roundness, deeper, paint, shade, tell, unasked};
+use super::reached::Reached;
 use super::segment::Segment;
 use super::shown::Shown;
-use super::strand::{StrandMasks, TileContext};
+use super::stroke::Placed;
 use super::tile::{Mask, NO_SAMPLES, ROWS, Target, add, greater, is_empty, without};
 use crate::drawing::Order;
 use std::ops::Range;
@@ -22,41 +24,48 @@ pub(super) struct Outlined {
     pub(super) clump: Mask,
 }
 
-impl StrandMasks {
-    /// Whether a strand's outlines show beside its clump alone, as that is drawn as strokes above them; the clump is placed. What is nearest is
-    /// the same in any order: so they can be drawn when all clumps are, which hide most of what lies deeper.
+/// Those of a tile.
+#[derive(Default)]
+pub(super) struct Outlines {
+    strands: Vec<Outlined>,
+    /// Of a strand's outlines from the lowest to the highest: how near any is up to there.
+    nearest: Vec<[f32; 2]>,
+}
+
+impl Outlines {
+    /// Leaves a strand's for later.
     #[inline(always)]
-    pub(super) fn are_outlines_beside(&self, scene: &TileContext) -> bool {
-        if scene.drawing.order == Order::Shifted || !scene.drawing.brushwork.is_empty() {
-            return false;
-        }
-        self.placed.iter().all(|placed| placed.drawn_as > 0)
+    pub(super) fn push(&mut self, strand: Outlined) {
+        self.strands.push(strand);
     }
 
     /// Draws the outlines of the strands that were drawn, to be called after the last of a tile.
     #[inline(always)]
-    pub(super) fn draw_outlines<const TELLS: bool>(
+    pub(super) fn draw<const TELLS: bool>(
         &mut self,
         scene: &TileContext,
         tile: &[u32],
+        (placed, row): (&mut Vec<Placed>, &mut Reached),
         target: &mut Target,
         told: &mut Shown,
     ) {
-        let outlined = std::mem::take(&mut self.outlined);
-        for strand in &outlined {
-            self.outline::<TELLS>(scene, &tile[strand.segments.clone()], strand, target, told);
+        let strands = std::mem::take(&mut self.strands);
+        for strand in &strands {
+            let segments = &tile[strand.segments.clone()];
+            self.draw_strand::<TELLS>(scene, segments, strand, (placed, row), target, told);
         }
-        self.outlined = outlined;
-        self.outlined.clear();
+        self.strands = strands;
+        self.strands.clear();
     }
 
     /// Draws the outlines of a strand, the highest first: where one and all lower ones are hidden it hides none of them.
     #[inline(always)]
-    fn outline<const TELLS: bool>(
+    fn draw_strand<const TELLS: bool>(
         &mut self,
         scene: &TileContext,
         segments: &[u32],
         strand: &Outlined,
+        (placed, row): (&mut Vec<Placed>, &mut Reached),
         target: &mut Target,
         told: &mut Shown,
     ) {
@@ -88,8 +97,8 @@ impl StrandMasks {
             if open == [0; ROWS] {
                 continue;
             }
-            self.placed.clear();
-            let samples = scene.place(stroke, &open, &mut self.placed);
+            placed.clear();
+            let samples = Placed::add_all(scene, stroke, &open, placed);
             let samples = without(&samples, &drawn);
             if is_empty(&samples) {
                 continue;
@@ -98,20 +107,20 @@ impl StrandMasks {
             let mut shown = NO_SAMPLES;
             let offer = Offer {
                 scene,
-                placed: &self.placed,
+                placed,
                 roundness: of_outline,
                 priority,
             };
-            offer.make::<false>(&samples, &mut self.row, target, &mut shown, unasked);
+            offer.make::<false>(&samples, row, target, &mut shown, unasked);
             target.show_stroke(&shown, true);
             if !TELLS {
-                shade(&self.placed, &shown, &mut self.row, target);
+                shade(placed, &shown, row, target);
                 continue;
             }
             tell::<true>(
-                &self.placed,
+                placed,
                 &shown,
-                &mut self.row,
+                row,
                 #[inline(always)]
                 |cell, places, lanes| {
                     paint(target, cell, &places.color, lanes);
@@ -122,24 +131,22 @@ impl StrandMasks {
     }
 }
 
-impl TileContext<'_> {
-    /// Whether the lowest outline of a strand lies so much deeper than its clump that other strands hide most of it.
-    #[inline(always)]
-    pub(super) fn are_deep(&self, outlines: &[u32], clump: &[u32]) -> bool {
-        let segment = |i: u32| &self.segments[i as usize];
-        let Some(&lowest) = outlines.first() else {
-            return false;
-        };
-        let (mut outline, mut nearest) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
-        for &i in outlines {
-            if segment(i).stroke != segment(lowest).stroke {
-                break;
-            }
-            outline = greater(segment(i).inv_depth, outline);
+/// Whether the lowest outline of a strand lies so much deeper than its clump that other strands hide most of it.
+#[inline(always)]
+pub(super) fn are_deep(scene: &TileContext, outlines: &[u32], clump: &[u32]) -> bool {
+    let segment = |i: u32| &scene.segments[i as usize];
+    let Some(&lowest) = outlines.first() else {
+        return false;
+    };
+    let (mut outline, mut nearest) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
+    for &i in outlines {
+        if segment(i).stroke != segment(lowest).stroke {
+            break;
         }
-        for &i in clump {
-            nearest = greater(segment(i).inv_depth, nearest);
-        }
-        outline < deeper(nearest, DEEP * self.drawing.edge_depth_m)
+        outline = greater(segment(i).inv_depth, outline);
     }
+    for &i in clump {
+        nearest = greater(segment(i).inv_depth, nearest);
+    }
+    outline < deeper(nearest, DEEP * scene.drawing.edge_depth_m)
 }

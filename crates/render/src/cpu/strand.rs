@@ -5,49 +5,30 @@
 //! stroke's nearest disc in the tile would show, its segments give depth and roundness, and what of that shows in the picture
 //! goes there; only that gets a colour.
 
-use super::bin::Bounds;
 use super::brush::{Beside, StrokeBrush};
-use super::instructions::Instructions;
+use super::context::{Part, TileContext};
 use super::offer::{Offer, Roundness, paint, shade, tell, unasked};
-use super::outlines::Outlined;
+use super::outlines::{Outlined, Outlines, are_deep};
 use super::reached::Reached;
-use super::segment::{Segment, Stroke};
 use super::shown::Shown;
 use super::stroke::Placed;
-use super::tile::{
-    Mask, NO_SAMPLES, OneByOne, ROWS, Stack, Target, add, both, greater, is_empty, without,
-};
-use crate::drawing::{Drawing, Order};
+use super::tile::{Mask, NO_SAMPLES, ROWS, Target, add, both, is_empty, without};
+use crate::drawing::Order;
 use std::ops::Range;
-
-/// What stays the same from strand to strand.
-pub(super) struct TileContext<'a> {
-    pub(super) drawing: &'a Drawing,
-    pub(super) strokes: &'a [Stroke],
-    pub(super) segments: &'a [Segment],
-    /// The tile's upper left pixel.
-    pub(super) origin: [usize; 2],
-    /// The samples that are worked on.
-    pub(super) stack: &'a Stack,
-    /// What all of it is compiled for.
-    pub(super) instructions: Instructions,
-}
 
 /// The working memory of one strand.
 pub(super) struct StrandMasks {
     /// The strand's segments that cover something, in drawing order.
-    pub(super) placed: Vec<Placed>,
+    placed: Vec<Placed>,
     /// Its strokes, lowest first; the clump before them.
     strokes: Vec<Covered>,
     /// Where brushes left bare what strokes that are clipped to the clump reach; of drawings without brushes anything.
     bare: Mask,
-    pub(super) row: Reached,
+    row: Reached,
     /// Of strokes with brushes: their samples.
     beside: Beside,
-    /// Strands whose outlines are left for [`Self::draw_outlines`].
-    pub(super) outlined: Vec<Outlined>,
-    /// Of a strand's outlines from the lowest to the highest: how near any is up to there.
-    pub(super) nearest: Vec<[f32; 2]>,
+    /// Those that are left for [`Self::draw_outlines`].
+    outlines: Outlines,
 }
 
 /// A stroke in the tile.
@@ -68,8 +49,7 @@ impl StrandMasks {
             bare: NO_SAMPLES,
             row: Reached::default(),
             beside: Beside::new(),
-            outlined: Vec::new(),
-            nearest: Vec::new(),
+            outlines: Outlines::default(),
         }
     }
 
@@ -110,10 +90,10 @@ impl StrandMasks {
         let (clump, rest) = strand.split_at(strand.partition_point(|i| number(*i) == 0));
         let (outlines, above) = rest.split_at(rest.partition_point(is_outline));
         self.place_stroke(scene, clump, open);
-        let is_left = scene.are_deep(outlines, clump) && self.are_outlines_beside(scene);
+        let is_left = are_deep(scene, outlines, clump) && self.are_outlines_beside(scene);
         if is_left {
             let from = start + clump.len();
-            self.outlined.push(Outlined {
+            self.outlines.push(Outlined {
                 segments: from..from + outlines.len(),
                 reach: *open,
                 clump: self
@@ -138,7 +118,7 @@ impl StrandMasks {
     #[inline(always)]
     fn place_stroke(&mut self, scene: &TileContext, stroke: &[u32], open: &[u32; ROWS]) {
         let first = self.placed.len();
-        let samples = scene.place(stroke, open, &mut self.placed);
+        let samples = Placed::add_all(scene, stroke, open, &mut self.placed);
         if is_empty(&samples) {
             self.placed.truncate(first);
             return;
@@ -148,6 +128,29 @@ impl StrandMasks {
             segments: first..self.placed.len(),
             samples,
         });
+    }
+
+    /// Whether a strand's outlines show beside its clump alone, as that is drawn as strokes above them; the clump is placed. What is nearest is
+    /// the same in any order: so they can be drawn when all clumps are, which hide most of what lies deeper.
+    #[inline(always)]
+    fn are_outlines_beside(&self, scene: &TileContext) -> bool {
+        if scene.drawing.order == Order::Shifted || !scene.drawing.brushwork.is_empty() {
+            return false;
+        }
+        self.placed.iter().all(|placed| placed.drawn_as > 0)
+    }
+
+    /// Draws the outlines that were left of the strands of a tile, after the last of them.
+    #[inline(always)]
+    pub(super) fn draw_outlines<const TELLS: bool>(
+        &mut self,
+        scene: &TileContext,
+        tile: &[u32],
+        target: &mut Target,
+        told: &mut Shown,
+    ) {
+        let memory = (&mut self.placed, &mut self.row);
+        (self.outlines).draw::<TELLS>(scene, tile, memory, target, told);
     }
 
     /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it. Where the strand is drawn as
@@ -374,88 +377,5 @@ impl StrandMasks {
             let is_outline = place.is_some_and(|place| scene.strokes[place as usize].rank < 0);
             target.show_stroke(&shown, is_outline);
         }
-    }
-}
-
-/// A strand's part of a tile.
-pub(super) struct Part {
-    /// Its segments in drawing order, among the tile's.
-    pub(super) segments: Range<usize>,
-    /// No disc of it is nearer than these.
-    inv_depth: f32,
-    biased: f32,
-    /// Rows of stacks that it may reach.
-    rows: Range<usize>,
-    /// Columns that it may reach, a bit for each.
-    columns: u32,
-}
-
-impl TileContext<'_> {
-    /// Adds those of some segments that cover any open samples, and gives these.
-    #[inline(always)]
-    pub(super) fn place(
-        &self,
-        segments: &[u32],
-        open: &[u32; ROWS],
-        placed: &mut Vec<Placed>,
-    ) -> Mask {
-        let mut samples = NO_SAMPLES;
-        for &index in segments {
-            if let Some(segment) = Placed::new(self, index, open) {
-                add(&mut samples, &segment.covered);
-                placed.push(segment);
-            }
-        }
-        samples
-    }
-
-    /// Replaces `parts` by the strands of a tile, in the order in which they are best drawn.
-    #[inline(always)]
-    pub(super) fn strands(&self, tile: &[u32], parts: &mut Vec<Part>) {
-        parts.clear();
-        let mut rest = tile.iter().zip(0..);
-        let Some((&first, _)) = rest.next() else {
-            return;
-        };
-        let mut start = 0;
-        let first = &self.segments[first as usize];
-        let (mut strand, mut bounds) = (first.strand, first.bounds);
-        let (mut inv_depth, mut biased) = (first.inv_depth, first.biased);
-        let part = |segments: Range<usize>, inv_depth, biased, bounds: &Bounds| Part {
-            segments,
-            inv_depth,
-            biased,
-            rows: bounds.rows_in(self.origin[1], self.stack),
-            columns: bounds.columns_in(self.origin[0]),
-        };
-        for (&index, place) in rest {
-            let segment = &self.segments[index as usize];
-            if segment.strand != strand {
-                parts.push(part(start..place, inv_depth, biased, &bounds));
-                start = place;
-                (strand, bounds) = (segment.strand, segment.bounds);
-                (inv_depth, biased) = (segment.inv_depth, segment.biased);
-                continue;
-            }
-            bounds = bounds.around(&segment.bounds);
-            inv_depth = greater(segment.inv_depth, inv_depth);
-            biased = greater(segment.biased, biased);
-        }
-        parts.push(part(start..tile.len(), inv_depth, biased, &bounds));
-        // What lies behind the nearer ones is then seen to be hidden. Shifted strokes of equal depth
-        // need their strands' order.
-        if self.drawing.order != Order::Shifted {
-            parts.sort_by(|a, b| b.inv_depth.total_cmp(&a.inv_depth));
-        }
-    }
-
-    /// The columns of each row of stacks that the strand may reach where it is not sure, for a whole cell, to be hidden.
-    #[inline(always)]
-    fn open(&self, part: &Part, target: &Target) -> [u32; ROWS] {
-        let mut open = [0; ROWS];
-        for row in OneByOne::of(&part.rows) {
-            open[row] = part.columns & target.open(row, part.inv_depth, part.biased);
-        }
-        open
     }
 }

@@ -1,11 +1,11 @@
 //! One segment in one tile: which samples it covers, how near, in which colour.
 
+use super::context::TileContext;
 use super::rows::{self, ROWS_AT_ONCE};
 use super::segment::Shape;
-use super::strand::TileContext;
 use super::tile::{
-    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, Samples, Slope, any, greater,
-    lesser, overwrite, select,
+    Cell, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, ROWS, Samples, Slope, add, any,
+    greater, lesser, overwrite, select,
 };
 use glam::DVec2;
 
@@ -73,6 +73,24 @@ impl Placed {
             x: x.at_samples(stack),
             y: y.at_samples(stack),
         })
+    }
+
+    /// Adds those of some segments that cover any open samples to `placed`, and gives these.
+    #[inline(always)]
+    pub(super) fn add_all(
+        scene: &TileContext,
+        segments: &[u32],
+        open: &[u32; ROWS],
+        placed: &mut Vec<Self>,
+    ) -> Mask {
+        let mut samples = NO_SAMPLES;
+        for &index in segments {
+            if let Some(segment) = Self::new(scene, index, open) {
+                add(&mut samples, &segment.covered);
+                placed.push(segment);
+            }
+        }
+        samples
     }
 
     /// The samples of a cell in its frame.
