@@ -4,7 +4,7 @@
 //! sorted into bands of tile rows and these into tiles. Bands are drawn in parallel; every band sees its segments in the
 //! same order, so threads can't change a bit. In a tile (see `tile`) come first the surfaces, then
 //! strand after strand from the nearest on. Where a strand may show, its segments get their shapes (`segment`) and what they
-//! cover (`rows`); then comes the strand's own order (`strand`), and cell by cell, eight samples at once, its depth
+//! cover (`rows`); then comes the strand's own order (`strand`), and cell by cell, sixteen samples at once, its depth
 //! (`stroke`) against what is there, and the colour of what shows.
 //! Each stage of a tile is compiled for several instruction sets (`instructions`); what is called there is
 //! `inline(always)`, or it would be compiled without them. Stage by stage, as one function of all takes a compiler twice as long.
@@ -65,6 +65,7 @@ use std::sync::{Mutex, PoisonError};
 use strand::StrandMasks;
 use surface::Triangle;
 use texels::Pictures;
+pub(crate) use tile::STACK;
 use tile::{LaneMask, Stack, Sums, Target};
 
 /// Most threads of a rasteriser.
@@ -517,7 +518,7 @@ impl Worker {
         }
     }
 
-    /// Draws four samples of all pixels of a tile into the target. Where it `TELLS`, what they show is noted.
+    /// Draws the samples of all pixels of a tile that a stack holds into the target. Where it `TELLS`, what they show is noted.
     fn draw_stack<const TELLS: bool>(
         &mut self,
         frame: &Frame,

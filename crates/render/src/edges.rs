@@ -466,6 +466,7 @@ fn widen(row: &mut [u64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cpu::STACK;
     use crate::planes::{BandPlanes, Sample, Stacks};
 
     fn edges() -> Edges {
@@ -515,16 +516,17 @@ mod tests {
             columns: 1,
             row,
             rows: 1,
+            of_pixel: 1,
             count: 1,
         };
         for feature in planes.layout.declared.iter() {
             if feature.is_id() {
-                planes.put_ids(feature, &at, &[sample.id(feature); 4]);
+                planes.put_ids(feature, &at, &[sample.id(feature); STACK]);
                 continue;
             }
             for component in 0..feature.components() {
                 let number = sample.number(feature, component);
-                planes.put_numbers(feature, component, &at, &[number; 4]);
+                planes.put_numbers(feature, component, &at, &[number; STACK]);
             }
         }
     }

@@ -1,11 +1,12 @@
 //! What the samples of a picture tell: for each feature a plane of numbers.
 
+use crate::cpu::STACK;
 use crate::features::{Feature, Features, NO_ID};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Up to four samples of each pixel of a picture, with the features that are declared.
+/// Up to eight samples of each pixel of a picture, with the features that are declared.
 ///
 /// Sample k of all pixels is a picture of its own, shifted by less than a pixel: neighbours are a pixel away. Planes are kept row by
 /// row, in bands of rows that are drawn beside each other.
@@ -388,13 +389,14 @@ pub(crate) struct BandPlanes<'a> {
     pub(crate) numbers: &'a mut [f32],
 }
 
-/// Stacks of four samples beside each other: those of so many columns, from one on; each has `count` samples of each of so many pixels,
-/// one below the other, from a row of the band on.
+/// Stacks of samples beside each other: those of so many columns, from one on; each has `of_pixel` samples of each of so many pixels,
+/// one below the other, from a row of the band on, and the first `count` of a pixel's count.
 pub(crate) struct Stacks {
     pub(crate) column: usize,
     pub(crate) columns: usize,
     pub(crate) row: usize,
     pub(crate) rows: usize,
+    pub(crate) of_pixel: usize,
     pub(crate) count: usize,
 }
 
@@ -402,20 +404,23 @@ impl Stacks {
     /// Puts their values into the planes that begin at `plane`, one of so many of each sample, of so many numbers.
     #[inline(always)] // compiled for the rasteriser's instructions
     fn put<T: Copy>(&self, list: &mut [T], width: usize, planes: PlanePlace, values: &[T]) {
-        let (values, _) = values.as_chunks::<4>();
+        let (values, _) = values.as_chunks::<STACK>();
         let values = &values[..self.columns];
         let start = |picture: usize, below: usize| {
             let plane = (picture * planes.of_sample + planes.number) * planes.length;
             plane + (self.row + below) * width + self.column
         };
-        if self.count == 4 {
-            let rows = [0, 1, 2, 3].map(|picture| {
-                let start = start(picture, 0);
-                start..start + self.columns
-            });
-            if let Ok([a, b, c, d]) = list.get_disjoint_mut(rows) {
-                for i in 0..values.len() {
-                    [a[i], b[i], c[i], d[i]] = values[i];
+        if [self.of_pixel, self.count] == [4; 2] {
+            for below in 0..self.rows {
+                let rows = [0, 1, 2, 3].map(|picture| {
+                    let start = start(picture, below);
+                    start..start + self.columns
+                });
+                if let Ok([a, b, c, d]) = list.get_disjoint_mut(rows) {
+                    for i in 0..values.len() {
+                        let (pixels, _) = values[i].as_chunks::<4>();
+                        [a[i], b[i], c[i], d[i]] = pixels[below];
+                    }
                 }
             }
             return;
@@ -424,7 +429,7 @@ impl Stacks {
             for picture in 0..self.count {
                 let row = &mut list[start(picture, below)..][..self.columns];
                 for i in 0..values.len() {
-                    row[i] = values[i][below * self.count + picture];
+                    row[i] = values[i][below * self.of_pixel + picture];
                 }
             }
         }

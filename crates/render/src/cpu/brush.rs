@@ -44,13 +44,13 @@ impl Beside {
         }
     }
 
-    /// Eight of them from that one on; of those behind the last anything.
+    /// As many of them as a cell has, from that one on; of those behind the last anything.
     #[inline(always)]
-    fn eight(&self, first: usize) -> BesideCell {
+    fn from(&self, first: usize) -> BesideCell {
         let mut numbers = [[0.0; LANES]; NUMBERS];
         for (lanes, list) in numbers.iter_mut().zip(self.numbers.iter()) {
-            let (eights, _) = list.as_chunks::<LANES>();
-            *lanes = eights[first / LANES];
+            let (cells, _) = list.as_chunks::<LANES>();
+            *lanes = cells[first / LANES];
         }
         BesideCell::of_numbers(numbers)
     }
@@ -148,7 +148,7 @@ impl<'a> StrokeBrush<'a> {
             }
         }
         for first in (0..beside.samples.len()).step_by(LANES) {
-            let coverage = self.coverage(&beside.eight(first));
+            let coverage = self.coverage(&beside.from(first));
             for (k, &(cell, lane)) in beside.samples[first..].iter().take(LANES).enumerate() {
                 if coverage[k] <= self.parts[lane] {
                     cell.take_lane_from(samples, lane);

@@ -15,7 +15,7 @@ pub(crate) enum Instructions {
     /// Eight numbers at once.
     #[cfg(target_arch = "x86_64")]
     Avx2,
-    /// The same, and masks with a bit for each.
+    /// Sixteen, and masks with a bit for each.
     #[cfg(target_arch = "x86_64")]
     Avx512,
 }

@@ -1,4 +1,4 @@
-//! What painted samples are told of joints: mixed of two joints eight samples at a time, and finished for a block of them.
+//! What painted samples are told of joints: mixed of two joints a cell at a time, and finished for a block of them.
 
 use super::tile::{LANES, LaneMask, Lanes, OneByOne, greater, overwrite, select};
 use crate::painting::Painting;

@@ -1,4 +1,4 @@
-//! Pictures of which each sample tells what it shows: four samples of each pixel at a time.
+//! Pictures of which each sample tells what it shows: eight samples of each pixel at a time.
 
 use super::light::{BandLight, Light, Lines};
 use super::segment::{Kind, strokes_in_order};
@@ -160,7 +160,7 @@ impl Frame<'_> {
         first: usize,
     ) -> Result<(), DrawError> {
         let stack = &self.stacks[0];
-        let (count, band) = (stack.samples / stack.height, tile::height(self.stacks));
+        let (count, band) = (stack.samples, tile::height(self.stacks));
         let size = self.drawing.size;
         let room = planes.make_room(size, declared, [first, count], band);
         room.ok_or(DrawError::Memory(size[0], size[1]))

@@ -1,4 +1,4 @@
-//! What triangles need to be drawn in a tile, worked out for eight of them at once: most have some pixels each, and would take less time to be
+//! What triangles need to be drawn in a tile, worked out for some of them at once, as many as a cell has lanes: most have some pixels each, and would take less time to be
 //! drawn than to be looked at one by one.
 
 use super::surface::{Interpolated, Triangle};
@@ -8,7 +8,7 @@ use crate::drawing::Surface;
 /// A number of each triangle, in double precision.
 type Doubles = [f64; LANES];
 
-/// Up to eight triangles of a tile. What is behind the last one is anything.
+/// Some triangles of a tile, up to a cell's lanes. What is behind the last one is anything.
 pub(super) struct SetUp {
     /// Their numbers among all of a drawing.
     numbers: [u32; LANES],
@@ -276,7 +276,7 @@ mod tests {
         /// What keeps a mesh without cracks: no sample is outside of both triangles at an edge.
         #[test]
         fn an_edge_seen_from_its_other_triangle_is_its_exact_opposite(
-            ends in prop::array::uniform8((-1e9..1e9_f64, -1e9..1e9_f64, -50.0..50.0_f64, -50.0..50.0_f64)),
+            ends in prop::array::uniform16((-1e9..1e9_f64, -1e9..1e9_f64, -50.0..50.0_f64, -50.0..50.0_f64)),
         ) {
             let numbers = |of: fn((f64, f64, f64, f64)) -> f64| ends.map(of);
             let (x0, y0) = (numbers(|it| it.0), numbers(|it| it.1));
@@ -293,7 +293,7 @@ mod tests {
         /// In lanes triangles are what each is by itself.
         #[test]
         fn lanes_are_as_single_triangles(
-            corners in prop::array::uniform8(prop::array::uniform3(
+            corners in prop::array::uniform16(prop::array::uniform3(
                 (-10.0..300.0_f32, -10.0..300.0_f32, 0.1..9.0_f32, -1.0..1.0_f32)
             )),
         ) {

@@ -23,7 +23,7 @@ pub(super) struct Triangle {
     pub(super) nearest: f32,
 }
 
-/// Four samples of each pixel of a tile.
+/// Samples of a tile's pixels, as many of each as a stack holds.
 pub(super) struct Tile<'a> {
     /// Its first pixel.
     pub(super) origin: [usize; 2],
@@ -60,7 +60,7 @@ pub(super) fn draw_all<'a>(
     }
 }
 
-/// Draws triangles of one surface, eight at a time. Twice, for pictures that leave samples free and for all else, so that this doesn't pay for them.
+/// Draws triangles of one surface, some at a time. Twice, for pictures that leave samples free and for all else, so that this doesn't pay for them.
 #[inline(always)]
 fn draw_some<'a, const CUT: bool>(
     all: &[Triangle],

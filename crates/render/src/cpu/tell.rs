@@ -35,7 +35,8 @@ impl Worker {
                 columns: width,
                 row: top,
                 rows: stack.height.min(height - top),
-                count: stack.samples / stack.height,
+                of_pixel: stack.of_pixel,
+                count: stack.samples,
             };
             for feature in planes.layout.declared.iter() {
                 if feature.is_id() {

@@ -49,7 +49,7 @@ impl<'a> Texels<'a> {
         }
     }
 
-    /// Colour and coverage in the middle of the samples of a cell that are the pixel's of a lane, and no farther than the triangle's corners.
+    /// Colour and coverage in the middle of the samples of a cell that look pictures up together with a lane, and no farther than the triangle's corners.
     #[inline(always)]
     fn at(&self, cell: Cell, stack: &Stack, lane: usize) -> [f32; 4] {
         let [x, y] = [stack.middle[0][lane], stack.middle[1][lane]];
@@ -80,9 +80,9 @@ impl<'a> Texels<'a> {
         samples: &mut LaneMask,
     ) -> [[f32; LANES]; 3] {
         let mut colors = [[0.0; LANES]; 3];
-        let of_pixel = stack.of_pixel;
-        for first in (0..LANES).step_by(of_pixel) {
-            let lanes = first..first + of_pixel;
+        let (of_pixel, together) = (stack.of_pixel, stack.together());
+        for first in (0..LANES).step_by(together) {
+            let lanes = first..first + together;
             if samples[lanes.clone()].iter().all(|sample| *sample == 0) {
                 continue;
             }
@@ -150,7 +150,7 @@ impl<'a, 'b> Pictures<'a, 'b> {
         if self.is_empty() {
             return;
         }
-        let pixels = pixels(stack.of_pixel);
+        let pixels = pixels(stack.together());
         for (index, numbers) in self.numbers.iter().enumerate() {
             let strand = &target.strand[index];
             let mut left = [0; LANES];
@@ -187,13 +187,13 @@ impl<'a, 'b> Pictures<'a, 'b> {
     }
 }
 
-/// For each lane those of its pixel, which has a power of 2.
+/// For each lane those that look pictures up together with it, a power of 2.
 #[inline(always)]
-fn pixels(of_pixel: usize) -> [LaneMask; LANES] {
+fn pixels(together: usize) -> [LaneMask; LANES] {
     let mut pixels = [[0; LANES]; LANES];
     for (lane, pixel) in pixels.iter_mut().enumerate() {
         for k in 0..LANES {
-            pixel[k] = select(k ^ lane < of_pixel, u32::MAX, 0);
+            pixel[k] = select(k ^ lane < together, u32::MAX, 0);
         }
     }
     pixels

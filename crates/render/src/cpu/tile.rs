@@ -1,10 +1,10 @@
 //! A tile: the samples of a few pixels, as planes of numbers that vector instructions walk along.
 //!
-//! Four samples one below the other are a *stack* ([`Stack`]): four of a pixel's samples, or those of two or four
+//! Eight samples one below the other are a *stack* ([`Stack`]): eight of a pixel's samples, or those of two, four or eight
 //! pixels where a pixel has fewer. A tile is [`ROWS`] rows of [`WIDTH`] stacks, one pixel wide each; where
-//! a pixel has more than four samples, it is drawn four at a time. A *cell* is two stacks beside each other: eight
-//! numbers of a plane, and every loop over a cell's lanes compiles to vector instructions. A cell is two pixels wide and not eight,
-//! as strokes are thin: twice as many of its lanes have something to do.
+//! a pixel has more than eight samples, it is drawn eight at a time. A *cell* is two stacks beside each other: sixteen
+//! numbers of a plane, and every loop over a cell's lanes compiles to vector instructions, one of AVX-512 or two of AVX2. With four samples a pixel a cell is
+//! two pixels by two, as strokes are thin: more of its lanes have something to do than of four pixels beside each other.
 
 use super::stroke::Depths;
 use glam::Vec2;
@@ -13,11 +13,11 @@ use std::ops::{Deref, DerefMut, Range};
 /// Width of a tile in pixels.
 pub(super) const WIDTH: usize = 32;
 /// Height of a tile in stacks.
-pub(super) const ROWS: usize = 16;
+pub(super) const ROWS: usize = 8;
 /// Samples of a stack.
-pub(super) const STACK: usize = 4;
+pub(crate) const STACK: usize = 8;
 /// Numbers of a cell.
-pub(super) const LANES: usize = 8;
+pub(super) const LANES: usize = 16;
 
 /// Cells of a row.
 pub(super) const CELLS_ACROSS: usize = WIDTH * STACK / LANES;
@@ -144,46 +144,41 @@ pub(super) fn put(old: &mut [u32; LANES], new: &[u32; LANES], mask: &LaneMask) {
     *old = lanes;
 }
 
-/// Four samples that lie one below the other, in one pixel or in several.
+/// Samples that lie one below the other, in one pixel or in several.
 #[derive(Clone, Debug)]
 pub(super) struct Stack {
     /// The samples' places for each lane of a cell, from the cell's upper left corner, in pixels.
     pub(super) x: Lanes,
     pub(super) y: Lanes,
-    /// For each lane the middle of its pixel's samples that the stack holds.
+    /// For each lane the middle of those of its pixel's samples that look pictures up together.
     pub(super) middle: [Lanes; 2],
     /// How many samples of its pixels come before its own.
     pub(super) first: usize,
-    /// Pixels one below the other that it holds samples of: 1, 2 or 4.
+    /// Pixels one below the other that it holds samples of: 1, 2, 4 or 8.
     pub(super) height: usize,
     /// How many lanes one after the other are a pixel's.
     pub(super) of_pixel: usize,
-    /// How many of its samples count. Those behind are the first one again, so that they hide and are hidden as it is.
+    /// How many of a pixel's lanes count. Those behind are the pixel's first one again, so that they hide and are hidden as it is.
     pub(super) samples: usize,
 }
 
 impl Stack {
     /// The stacks that make up a pixel's samples, given from the pixel's corner, or those of several pixels.
     pub(super) fn of_pixel(samples: &[Vec2]) -> Vec<Self> {
-        let height = match samples.len() {
-            1 => 4,
-            2 => 2,
-            _ => 1,
-        };
-        let below = |pixel: usize| Vec2::new(0.0, pixel as f32);
-        let rows = (0..height).flat_map(|pixel| samples.iter().map(move |s| *s + below(pixel)));
-        let samples: Vec<Vec2> = rows.collect();
-        let of_pixel = STACK / height;
+        let of_pixel = samples.len().next_power_of_two().min(STACK);
+        let height = STACK / of_pixel;
         let stack = |(number, samples): (usize, &[Vec2])| {
+            let pixel = |k: usize| Vec2::new((k / STACK) as f32, (k % STACK / of_pixel) as f32);
             let middle = |k: usize| {
-                let first = k % STACK / of_pixel * of_pixel;
-                let own = &samples[first..(first + of_pixel).min(samples.len())];
-                own.iter().sum::<Vec2>() / own.len() as f32 + Vec2::new((k / STACK) as f32, 0.0)
+                let together = together(of_pixel);
+                let number = k % of_pixel / together;
+                let own = samples
+                    .chunks(together)
+                    .nth(number)
+                    .unwrap_or(&samples[..1]);
+                own.iter().sum::<Vec2>() / own.len() as f32 + pixel(k)
             };
-            let place = |k: usize| {
-                let sample = samples.get(k % STACK).unwrap_or(&samples[0]);
-                *sample + Vec2::new((k / STACK) as f32, 0.0)
-            };
+            let place = |k: usize| *samples.get(k % of_pixel).unwrap_or(&samples[0]) + pixel(k);
             Self {
                 x: std::array::from_fn(|k| place(k).x),
                 y: std::array::from_fn(|k| place(k).y),
@@ -197,7 +192,13 @@ impl Stack {
                 samples: samples.len(),
             }
         };
-        samples.chunks(STACK).enumerate().map(stack).collect()
+        samples.chunks(of_pixel).enumerate().map(stack).collect()
+    }
+
+    /// How many lanes one after the other look pictures up together.
+    #[inline(always)]
+    pub(super) fn together(&self) -> usize {
+        together(self.of_pixel)
     }
 
     /// The rows of stacks that hold some rows of pixels.
@@ -206,6 +207,12 @@ impl Stack {
         let shift = self.height.trailing_zeros(); // of a power of 2
         pixels.start >> shift..(pixels.end + self.height - 1) >> shift
     }
+}
+
+/// How many samples, of so many of a pixel, look pictures up together: four at most, as on graphics cards.
+#[inline(always)]
+fn together(of_pixel: usize) -> usize {
+    of_pixel.min(4)
 }
 
 /// Height of a tile in pixels, made of such stacks.
@@ -223,7 +230,7 @@ pub(super) fn plane() -> Plane {
 /// Samples of a tile.
 pub(super) const SAMPLES: usize = CELLS * LANES;
 
-/// Rows of samples in a tile: for each row of stacks those of its four samples.
+/// Rows of samples in a tile: for each row of stacks those of a stack's samples.
 const SAMPLE_ROWS: usize = ROWS * STACK;
 
 /// Some of a tile's samples: a word for each row of samples, in it a bit for each column.
@@ -277,8 +284,12 @@ pub(super) fn is_empty(mask: &Mask) -> bool {
 /// The columns of a row of stacks in which a sample is set.
 #[inline(always)]
 pub(super) fn columns(mask: &Mask, row: usize) -> u32 {
-    let [a, b, c, d] = words(mask, row);
-    a | b | c | d
+    let words = words(mask, row);
+    let mut columns = 0;
+    for k in 0..STACK {
+        columns |= words[k];
+    }
+    columns
 }
 
 /// The words of a row of stacks.
@@ -350,7 +361,7 @@ impl Cell {
     pub(super) fn take_from(&self, mask: &mut Mask, lanes: &LaneMask) {
         let words = &mut mask[self.row * STACK..][..STACK];
         for k in 0..STACK {
-            words[k] &= !((lanes[k] & 1 | lanes[k + STACK] & 2) << self.column);
+            words[k] &= !(columns_of(lanes, k) << self.column);
         }
     }
 
@@ -366,9 +377,19 @@ impl Cell {
     pub(super) fn add_to(&self, mask: &mut Mask, lanes: &LaneMask) {
         let words = &mut mask[self.row * STACK..][..STACK];
         for k in 0..STACK {
-            words[k] |= (lanes[k] & 1 | lanes[k + STACK] & 2) << self.column;
+            words[k] |= columns_of(lanes, k) << self.column;
         }
     }
+}
+
+/// The columns of a cell in which samples of that number in their stack are set, from its left one on.
+#[inline(always)]
+fn columns_of(lanes: &LaneMask, sample: usize) -> u32 {
+    let mut columns = 0;
+    for k in 0..CELL_WIDTH {
+        columns |= lanes[sample + k * STACK] & 1 << k;
+    }
+    columns
 }
 
 /// The cells of a row of stacks that hold one of some columns.
@@ -529,11 +550,11 @@ impl Target {
             let shows = is_opaque | (greater(*surface, *strand) > NOTHING);
             *surface = select(shows, 1.0, 0.0);
         }
-        if stack.samples < STACK {
+        if stack.samples < stack.of_pixel {
             for plane in self.color.iter_mut().chain([&mut self.surface]) {
                 for lanes in plane.iter_mut() {
                     for k in 0..LANES {
-                        lanes[k] = select(k % STACK < stack.samples, lanes[k], 0.0);
+                        lanes[k] = select(k % stack.of_pixel < stack.samples, lanes[k], 0.0);
                     }
                 }
             }
@@ -702,7 +723,8 @@ impl Sums {
         match stack.height {
             1 => self.add_pixels::<1>(target),
             2 => self.add_pixels::<2>(target),
-            _ => self.add_pixels::<4>(target),
+            4 => self.add_pixels::<4>(target),
+            _ => self.add_pixels::<8>(target),
         }
     }
 
@@ -803,25 +825,48 @@ mod tests {
 
     #[test]
     fn stacks_hold_every_sample_of_their_pixels_once() {
-        for samples in [1, 2, 3, 4, 5, 8, 16, 64] {
+        for samples in [1, 2, 3, 4, 5, 8, 9, 16, 64] {
             let positions = sample_positions(samples).unwrap();
             let stacks = Stack::of_pixel(&positions);
-            let height = stacks[0].height;
+            let Stack {
+                height, of_pixel, ..
+            } = stacks[0];
+            assert_eq!(height * of_pixel, STACK);
             let mut held = Vec::new();
             for stack in &stacks {
-                assert_eq!(stack.height, height);
-                held.extend((0..stack.samples).map(|k| Vec2::new(stack.x[k], stack.y[k])));
-                for k in 0..STACK {
-                    // The right stack is the left one, a pixel on.
-                    assert_eq!(stack.x[k] + 1.0, stack.x[k + STACK]);
-                    assert_eq!(stack.y[k], stack.y[k + STACK]);
+                assert_eq!([stack.height, stack.of_pixel], [height, of_pixel]);
+                let place = |lane: usize| Vec2::new(stack.x[lane], stack.y[lane]);
+                assert_eq!(stack.first, held.len());
+                held.extend((0..stack.samples).map(place));
+                for k in 0..LANES {
+                    let pixel = Vec2::new((k / STACK) as f32, (k % STACK / of_pixel) as f32);
+                    // Those that don't count are the pixel's first one.
+                    let sample = Some(k % of_pixel).filter(|sample| *sample < stack.samples);
+                    assert_eq!(
+                        place(k),
+                        place(sample.unwrap_or(0)) + pixel,
+                        "{samples}, {k}"
+                    );
                 }
             }
-            let below = (0..height).flat_map(|pixel| {
-                let shift = Vec2::new(0.0, pixel as f32);
-                positions.iter().map(move |position| *position + shift)
-            });
-            assert_eq!(held, below.collect::<Vec<_>>(), "{samples} samples");
+            assert_eq!(held, positions, "{samples} samples");
+        }
+    }
+
+    #[test]
+    fn pictures_are_looked_up_in_the_middle_of_four_samples_at_most() {
+        for samples in [1, 3, 4, 5, 8, 16] {
+            let positions = sample_positions(samples).unwrap();
+            for stack in Stack::of_pixel(&positions) {
+                let own = &positions[stack.first..][..stack.samples];
+                for (number, four) in own.chunks(4).enumerate() {
+                    let middle = four.iter().sum::<Vec2>() / four.len() as f32;
+                    let below = Vec2::new(1.0, (stack.height - 1) as f32);
+                    let last = LANES - stack.of_pixel + 4 * number;
+                    let found = Vec2::new(stack.middle[0][last], stack.middle[1][last]);
+                    assert_eq!(found, middle + below, "{samples} samples");
+                }
+            }
         }
     }
 
@@ -829,12 +874,13 @@ mod tests {
     fn a_cell_has_the_samples_of_two_columns() {
         let mut mask = NO_SAMPLES;
         mask[3 * STACK] = 1 << 6;
-        mask[3 * STACK + 2] = 1 << 7 | 1 << 31;
+        mask[3 * STACK + 5] = 1 << 7 | 1 << 31;
         let found: Vec<Cell> = cells(3, columns(&mask, 3)).collect();
         assert_eq!(found.iter().map(|c| c.column).collect::<Vec<_>>(), [6, 30]);
-        let all = u32::MAX;
-        assert_eq!(found[0].lanes(&mask), [all, 0, 0, 0, 0, 0, all, 0]);
-        assert_eq!(found[1].lanes(&mask), [0, 0, 0, 0, 0, 0, all, 0]);
+        // The left column's samples, and the right one's.
+        let lanes_of = |cell: &Cell| bits(&cell.lanes(&mask));
+        assert_eq!(lanes_of(&found[0]), 1 | 1 << (STACK + 5));
+        assert_eq!(lanes_of(&found[1]), 1 << (STACK + 5));
         let mut copy = NO_SAMPLES;
         for cell in found {
             cell.add_to(&mut copy, &cell.lanes(&mask));
