@@ -24,8 +24,23 @@ const ALONG_STRAND: u32 = 3u;
 const MOST_LOOKUPS: f32 = 4.0;
 const TINY_LENGTH: f32 = 1e-6;
 
-/// Whether a brush covers a sample beside a stroke of its layer, on the way from a disc to the next.
-fn brush_covers(brush: u32, disc: u32, way: f32, v: f32, sample: u32) -> bool {
+/// Which of four samples a brush covers, beside a stroke of its layer that reaches these: by the place of the first of them, on the way from a disc to the next.
+fn brush_covers(brush: u32, reached: vec4<bool>, discs_of: vec4<u32>, ways: vec4<f32>, vs: vec4<f32>, first_sample: u32) -> vec4<bool> {
+    if (!any(reached)) {
+        return vec4<bool>(false);
+    }
+    var k = 3u;
+    if (reached.x) {
+        k = 0u;
+    } else if (reached.y) {
+        k = 1u;
+    } else if (reached.z) {
+        k = 2u;
+    }
+    let disc = discs_of[k];
+    let way = ways[k];
+    let v = vs[k];
+
     let in_layer = disc - tables[brush + BRUSH_FIRST_DISC];
     let joints = max(tables[brush + BRUSH_JOINTS], 1u);
     let joint = tables[brush + BRUSH_FIRST_JOINT] + in_layer % joints;
@@ -42,8 +57,12 @@ fn brush_covers(brush: u32, disc: u32, way: f32, v: f32, sample: u32) -> bool {
         across = on_outline(v, radius, discs[joint].radius + way * (discs[joint + step].radius - discs[joint].radius));
     }
     let seed = hash((tables[brush + BRUSH_SEED] + in_layer / joints) ^ hash(tables[first + ALONG_STRAND]));
-    let part = select(scatter(seed, sample), 0.5, gpu_frame.samples == 1u);
-    return brush_coverage(brush, seed, along, across.x, across.y) > part;
+    let coverage = brush_coverage(brush, seed, along, across.x, across.y);
+    if (gpu_frame.samples == 1u) {
+        return vec4<bool>(coverage > 0.5);
+    }
+    let parts = vec4<f32>(scatter(seed, first_sample), scatter(seed, first_sample + 1u), scatter(seed, first_sample + 2u), scatter(seed, first_sample + 3u));
+    return vec4<f32>(coverage) > parts;
 }
 
 /// The place across an outline, whose stroke shows outside of a clump of this radius alone, and half the outline's width.

@@ -35,13 +35,10 @@ fn thin_decals(own: ptr<function, Decals>, record: u32, first_sample: u32) {
         return;
     }
     let brush = tables[record + DECAL_BRUSH];
-    let v = across((*own).side, (*own).ratio);
-    for (var k = 0u; k < 4u; k++) {
-        let at = *own;
-        if (at.number[k] > 0u && !brush_covers(brush, at.disc[k], at.way[k], v[k], first_sample + k)) {
-            (*own).number[k] = 0u;
-        }
-    }
+    let at = *own;
+    let none = vec4<u32>(0u);
+    let covers = brush_covers(brush, at.number > none, at.disc, at.way, across(at.side, at.ratio), first_sample);
+    (*own).number = select(none, at.number, covers);
 }
 
 /// For each sample the one that lies above.

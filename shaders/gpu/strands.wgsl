@@ -155,20 +155,16 @@ fn thin(stroke: ptr<function, Strand>, brush: u32, first_sample: u32) {
     if (brush == 0u) {
         return;
     }
-    let outer_v = across((*stroke).outer.side, (*stroke).outer.ratio);
-    let inner_v = across((*stroke).inner.side, (*stroke).inner.ratio);
-    for (var k = 0u; k < 4u; k++) {
-        let sample = first_sample + k;
-        let outer = (*stroke).outer;
-        if (outer.number[k] > 0u && !brush_covers(brush, outer.disc[k], outer.way[k], outer_v[k], sample)) {
-            (*stroke).outer.number[k] = 0u;
-        }
-        let inner = (*stroke).inner;
-        if (inner.number[k] > 0u && !brush_covers(brush, inner.disc[k], inner.way[k], inner_v[k], sample)) {
-            (*stroke).inner.number[k] = 0u;
-            (*stroke).bare[k] = true;
-        }
-    }
+    let none = vec4<u32>(0u);
+    let outer = (*stroke).outer;
+    let is_outer = outer.number > none;
+    let outer_covers = brush_covers(brush, is_outer, outer.disc, outer.way, across(outer.side, outer.ratio), first_sample);
+    (*stroke).outer.number = select(none, outer.number, outer_covers);
+    let inner = (*stroke).inner;
+    let is_inner = inner.number > none;
+    let inner_covers = brush_covers(brush, is_inner, inner.disc, inner.way, across(inner.side, inner.ratio), first_sample);
+    (*stroke).inner.number = select(none, inner.number, inner_covers);
+    (*stroke).bare |= is_inner & !inner_covers;
 }
 
 fn higher_paint(below: Paint, above: Paint) -> Paint {

@@ -2,6 +2,6 @@
 
 const BRUSHED: bool = false;
 
-fn brush_covers(brush: u32, disc: u32, way: f32, v: f32, sample: u32) -> bool {
-    return true;
+fn brush_covers(brush: u32, reached: vec4<bool>, discs_of: vec4<u32>, ways: vec4<f32>, vs: vec4<f32>, first_sample: u32) -> vec4<bool> {
+    return reached;
 }

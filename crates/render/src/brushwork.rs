@@ -7,8 +7,9 @@ use std::sync::Arc;
 /// What brushes leave of strokes. By default there are none, and strokes are whole.
 ///
 /// A sample that a stroke reaches is covered where the brush's coverage at its place exceeds the part ([`scatter`](crate::scatter)) that the strand
-/// has in that sample, of pictures with one sample a pixel one half. Its place is that of the axis point that gives it its colour. What isn't covered is as
-/// if the stroke weren't there: it shows what is beneath, and hides nothing. But strokes of ranks below 0 stay outlines: they don't show within the
+/// has in that sample, of pictures with one sample a pixel one half. Its place is that of the axis point that gives its colour to the first of the pixel's
+/// samples, of four that follow each other, which the stroke reaches: a brush is blurred over a pixel, so that it is as good as the place of each, and looked up a
+/// quarter as often. What isn't covered is as if the stroke weren't there: it shows what is beneath, and hides nothing. But strokes of ranks below 0 stay outlines: they don't show within the
 /// clump where one that is clipped to it is left bare, but in [`Order::Shifted`](crate::Order::Shifted), where each stroke is by itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Brushwork {

@@ -6,7 +6,7 @@ use super::segment::Stroke;
 use super::stroke::{Placed, Places};
 use super::tile::{
     Cell, LANES, LaneMask, Lanes, Mask, OneByOne, ROWS, SAMPLES, Stack, bits, cells, columns,
-    select,
+    lanes, select,
 };
 use crate::brushwork::BrushedLayer;
 use crate::drawing::scatter;
@@ -121,14 +121,17 @@ impl<'a> StrokeBrush<'a> {
         }
     }
 
-    /// Takes from the samples, which the segments of the stroke cover, those that it leaves bare.
+    /// Takes from the samples those that it leaves bare. They are some of those that the segments of the stroke cover: of each pixel's the
+    /// first one is looked up.
     #[inline(always)]
     pub(super) fn thin(
         &self,
         placed: &[Placed],
         (segments, beside): (&mut Reached, &mut Beside),
+        covered: &Mask,
         samples: &mut Mask,
     ) {
+        let together = self.scene.stack.together();
         beside.samples.clear();
         for row in 0..ROWS {
             let wanted = columns(samples, row);
@@ -137,7 +140,10 @@ impl<'a> StrokeBrush<'a> {
             }
             segments.find(placed, row, wanted);
             for cell in cells(row, wanted) {
-                let (mut places, lanes) = (Places::<false>::new(), cell.lanes(samples));
+                let asked = whole_groups(bits(&cell.lanes(samples)), together);
+                let first = first_of_groups(bits(&cell.lanes(covered)), together);
+                let mut places = Places::<false>::new();
+                let lanes = lanes(asked & first);
                 segments.find_nearest(placed, cell, &lanes, &mut places);
                 let across = places.across();
                 beside.add(
@@ -150,8 +156,11 @@ impl<'a> StrokeBrush<'a> {
         for first in (0..beside.samples.len()).step_by(LANES) {
             let coverage = self.coverage(&beside.from(first));
             for (k, &(cell, lane)) in beside.samples[first..].iter().take(LANES).enumerate() {
-                if coverage[k] <= self.parts[lane] {
-                    cell.take_lane_from(samples, lane);
+                let group = lane / together * together;
+                for lane in group..group + together {
+                    if coverage[k] <= self.parts[lane] {
+                        cell.take_lane_from(samples, lane);
+                    }
                 }
             }
         }
@@ -167,9 +176,15 @@ impl<'a> StrokeBrush<'a> {
         across: &Lanes,
     ) -> LaneMask {
         let coverage = self.coverage(&self.places(samples, segments, way, across));
+        let together = self.scene.stack.together();
+        let mut of_first = coverage;
+        for lane in OneByOne::of_bits(first_of_groups(bits(samples), together)) {
+            let group = lane / together * together;
+            of_first[group..group + together].fill(coverage[lane]);
+        }
         let mut bare = *samples;
         for k in 0..LANES {
-            bare[k] &= select(coverage[k] <= self.parts[k], u32::MAX, 0);
+            bare[k] &= select(of_first[k] <= self.parts[k], u32::MAX, 0);
         }
         bare
     }
@@ -235,6 +250,32 @@ impl<'a> StrokeBrush<'a> {
     }
 }
 
+/// The first lanes of groups of so many, 1, 2 or 4: those of a pixel that are looked up together.
+#[inline(always)]
+fn starts(together: usize) -> u32 {
+    u32::MAX / ((1 << together) - 1)
+}
+
+/// The first lane of each group among some lanes.
+#[inline(always)]
+fn first_of_groups(lanes: u32, together: usize) -> u32 {
+    let mut behind = 0;
+    for _ in 1..together {
+        behind = ((behind | lanes) << 1) & !starts(together);
+    }
+    lanes & !behind
+}
+
+/// All lanes of the groups that have one of some lanes.
+#[inline(always)]
+fn whole_groups(lanes: u32, together: usize) -> u32 {
+    let mut any = 0;
+    for k in 0..together {
+        any |= lanes >> k;
+    }
+    (any & starts(together)) * ((1 << together) - 1)
+}
+
 /// The part that a stroke of that seed has in each sample of a cell.
 #[inline(always)]
 fn parts(seed: u32, stack: &Stack) -> Lanes {
@@ -246,4 +287,38 @@ fn parts(seed: u32, stack: &Stack) -> Lanes {
         }
     }
     parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_are_looked_up_where_their_first_lane_is() {
+        for together in [1, 2, 4] {
+            for lanes in 0..1_u32 << LANES {
+                let is_set = |lane: &usize| lanes >> lane & 1 != 0;
+                let groups = (0..LANES).step_by(together);
+                let groups = groups.filter_map(|first| {
+                    let mut own = first..first + together;
+                    own.clone()
+                        .find(is_set)
+                        .map(|lane| (lane, own.by_ref().fold(0, |all, k| all | 1 << k)))
+                });
+                let (first, whole) = groups.fold((0, 0), |(first, whole), (lane, group)| {
+                    (first | 1 << lane, whole | group)
+                });
+                assert_eq!(
+                    first_of_groups(lanes, together),
+                    first,
+                    "{lanes:b}, {together}"
+                );
+                assert_eq!(
+                    whole_groups(lanes, together),
+                    whole,
+                    "{lanes:b}, {together}"
+                );
+            }
+        }
+    }
 }

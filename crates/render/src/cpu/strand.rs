@@ -173,6 +173,7 @@ impl StrandMasks {
         };
         let mut taken = NO_SAMPLES;
         for covered in self.strokes.iter_mut().rev() {
+            let reached = covered.samples;
             let Some(place) = covered.number.checked_sub(1) else {
                 continue;
             };
@@ -188,7 +189,8 @@ impl StrandMasks {
                 let brush = StrokeBrush::new(scene, layer, stroke, placed[0].index);
                 let wanted = without(&covered.samples, &taken);
                 let mut left = wanted;
-                brush.thin(placed, (&mut self.row, &mut self.beside), &mut left);
+                let memory = (&mut self.row, &mut self.beside);
+                brush.thin(placed, memory, &reached, &mut left);
                 let bare = without(&wanted, &left);
                 covered.samples = without(&covered.samples, &bare);
                 if stroke.rank >= 0 {

@@ -673,6 +673,16 @@ pub(super) fn bits(lanes: &LaneMask) -> u32 {
     bits
 }
 
+/// The lanes whose bits are set.
+#[inline(always)]
+pub(super) fn lanes(bits: u32) -> LaneMask {
+    let mut lanes = [0; LANES];
+    for k in 0..LANES {
+        lanes[k] = select(bits >> k & 1 != 0, u32::MAX, 0);
+    }
+    lanes
+}
+
 /// The least of a cell's numbers.
 #[inline(always)]
 pub(super) fn least(lanes: &Lanes) -> f32 {
