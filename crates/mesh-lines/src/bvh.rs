@@ -4,8 +4,8 @@ use crate::{
     Surface, View,
     tree::{Box3, Tree},
 };
-use glam::DVec3;
-use std::ops::ControlFlow;
+use glam::{DVec3, Vec3A};
+use std::ops::{ControlFlow, Range};
 
 /// A tree of boxes around the triangles of a mesh, which rays ask.
 #[derive(Clone, Debug)]
@@ -81,9 +81,9 @@ impl Bvh {
     /// Nothing slips through between two triangles with a common edge: a ray that meets the edge meets both. Triangles
     /// along the ray are not met.
     pub fn hits(&self, surface: &Surface, ray: &Ray, mut hit: impl FnMut(Hit) -> ControlFlow<()>) {
-        let inverse = ray.direction.recip();
+        let slabs = Slabs::of(ray, self.farthest_coordinate());
         self.0.visit(
-            |bounds| meets_box(ray, inverse, bounds),
+            |bounds| slabs.may_meet(bounds),
             |triangle| match meets(surface, triangle, ray) {
                 Some(found) => hit(found),
                 None => ControlFlow::Continue(()),
@@ -130,22 +130,67 @@ fn bounds(surface: &Surface, triangle: u32) -> Box3 {
     Box3::of(corners.map(|vertex| surface.positions()[vertex as usize]))
 }
 
-/// True if a ray may meet something in a box: never false where it does.
-fn meets_box(ray: &Ray, inverse: DVec3, bounds: &Box3) -> bool {
-    let low = (bounds.low.as_dvec3() - ray.origin) * inverse;
-    let high = (bounds.high.as_dvec3() - ray.origin) * inverse;
-    let mut enter = ray.from;
-    let mut leave = ray.to;
-    for axis in 0..3 {
-        // A ray within the plane of a side gives 0 x infinity: it is in no way beside the box there.
-        if low[axis].is_nan() || high[axis].is_nan() {
-            continue;
+/// What boxes are asked with whether a ray may meet something in them, for all three axes at once: in f32, and for boxes that are larger by more than
+/// f32 may be wrong by. So what lies in a box is never missed, and which triangles are met is [`meets`]'s to say.
+struct Slabs {
+    /// Where the ray starts, farther on than it does and less far on: seen so, boxes are larger.
+    start_high: Vec3A,
+    start_low: Vec3A,
+    inverse: Vec3A,
+    from: f32,
+    to: f32,
+}
+
+/// How wrong f32 may be about places, as a share of the largest coordinate: rounding the start, subtracting, dividing and multiplying are each
+/// wrong by no more than two of its last digits (2 to the power of -24), of what is at most twice as large.
+const MARGIN: f64 = 1.0 / (1 << 20) as f64;
+
+/// Beyond these lengths f32 may have no number for what is multiplied and divided.
+const LENGTHS: Range<f64> = 1e-30..1e30;
+
+impl Slabs {
+    /// Those of a ray, among boxes with coordinates up to the farthest one.
+    fn of(ray: &Ray, farthest: f64) -> Self {
+        let size = farthest.max(ray.origin.abs().max_element());
+        let speed = ray.direction.length();
+        if !(LENGTHS.contains(&size) && LENGTHS.contains(&speed)) {
+            return Self::EVERYWHERE;
         }
-        enter = enter.max(low[axis].min(high[axis]));
-        leave = leave.min(low[axis].max(high[axis]));
+        let margin = size * MARGIN;
+        // From one side of all boxes to the other it isn't farther than that.
+        let reach = ray.from.abs().max(ray.to.abs()).min(4.0 * size / speed);
+        // Along an axis on which it hardly moves it may as well move by the margin, and there is a number to divide by.
+        let least = margin / reach;
+        let moving = |speed: f64| speed.abs().max(least).copysign(speed);
+        let direction = DVec3::from(ray.direction.to_array().map(moving));
+        let in_f32 = |place: DVec3| Vec3A::from(place.as_vec3());
+        Self {
+            start_high: in_f32(ray.origin + 2.0 * margin),
+            start_low: in_f32(ray.origin - 2.0 * margin),
+            inverse: in_f32(direction.recip()),
+            from: (ray.from as f32).next_down(),
+            to: (ray.to as f32).next_up(),
+        }
     }
-    // The last digits of the products: Ize, Robust BVH ray traversal (2013).
-    enter * (1.0 - 1e-15) <= leave * (1.0 + 1e-15)
+
+    /// Any box may be met.
+    const EVERYWHERE: Self = Self {
+        start_high: Vec3A::ZERO,
+        start_low: Vec3A::ZERO,
+        inverse: Vec3A::ZERO,
+        from: f32::NEG_INFINITY,
+        to: f32::INFINITY,
+    };
+
+    /// True if the ray may meet something in a box.
+    #[inline]
+    fn may_meet(&self, bounds: &Box3) -> bool {
+        let low = (bounds.low - self.start_high) * self.inverse;
+        let high = (bounds.high - self.start_low) * self.inverse;
+        let enter = low.min(high).max_element().max(self.from);
+        let leave = low.max(high).min_element().min(self.to);
+        enter <= leave
+    }
 }
 
 /// By the signs of three volumes, each of which two triangles with a common edge have bit for bit alike but for the sign
