@@ -275,5 +275,33 @@ mod tests {
                 prop_assert_eq!(found, expected);
             }
         }
+
+        /// However large or small all is, and however slowly a ray moves along an axis. All numbers are whole ones times a power of two, so that which
+        /// triangles are met is exact.
+        #[test]
+        fn boxes_hide_nothing_that_is_met(
+            corners in prop::collection::vec(prop::array::uniform3(-4i8..4), 3..60),
+            rays in prop::collection::vec((prop::array::uniform6(-4i8..4), 0..120i32, -8.0..2.0, -1.0..8.0), 20),
+            size in -110..110i32,
+        ) {
+            let size = f64::from(size).exp2();
+            let at = |c: [i8; 3]| Vec3::from(c.map(|x| (f64::from(x) * size) as f32));
+            let positions: Vec<Vec3> = corners.into_iter().map(at).collect();
+            let triangles: Vec<[u32; 3]> = (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+            let topology = Topology::new(&positions, &triangles).unwrap();
+            let surface = Surface::new(&topology, &positions).unwrap();
+            let bvh = Bvh::new(&surface);
+            for ([a, b, c, d, e, f], slow, from, to) in rays {
+                let slow = f64::from(-slow).exp2();
+                let moving = |x: i8| if x == 0 { slow } else { f64::from(x) } * size;
+                let origin = at([a, b, c]).as_dvec3();
+                let ray = Ray { origin, direction: DVec3::from([d, e, f].map(moving)), from, to };
+                let expected: Vec<Hit> = (0..triangles.len() as u32).filter_map(|t| meets(&surface, t, &ray)).collect();
+                let mut found = Vec::new();
+                bvh.hits(&surface, &ray, |hit| { found.push(hit); ControlFlow::Continue(()) });
+                found.sort_by_key(|hit| hit.triangle);
+                prop_assert_eq!(found, expected);
+            }
+        }
     }
 }

@@ -195,9 +195,14 @@ impl FrameMaker {
                     frame.push_made_paths(motion, &sight, light, strands, paths, weights)
                 },
                 || {
-                    let seen = meshes.seen(&mut posed);
-                    let found = lines.find(object, posed.as_mut(), motion, time, &sight);
-                    (seen, found)
+                    meshes.pose(&mut posed);
+                    let followed = lines.follow(object, posed.as_mut(), motion, time, &sight);
+                    let posed = posed.as_ref();
+                    let (seen, found) = rayon::join(
+                        || meshes.seen(posed),
+                        || lines.find(object, posed, motion, time, &sight),
+                    );
+                    (seen, followed.and(found))
                 },
             );
             (frame.head, frame.lines) = (posed, lines);

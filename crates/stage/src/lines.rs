@@ -357,3 +357,47 @@ pub(crate) fn check(
     }
     Ok(PresetErrors::report(mistakes)?)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Files, Preset, Scene};
+    use effects::Registry;
+
+    /// Lines that no list draws are left out before it is asked what the eye sees of them: the strands are those of all.
+    #[test]
+    fn what_no_list_draws_is_not_wanted_and_makes_no_difference() {
+        for (kind, shortest) in [("contour", 0), ("crease", 40), ("border, crease", 100)] {
+            let text = format!(
+                "(version: 1, head: (shape: none), meshes: [(shape: gear), (shape: wings, at: (1, 0, 0))], \
+                 lines: [(name: \"rim\", of: \"gear\", kind: \"{kind}\", shortest: {shortest})], \
+                 layers: [(effect: \"line.ink\", on: \"rim\", params: (wobble: 0))])"
+            );
+            let mut registry = Registry::new();
+            effects_surface::register(&mut registry).unwrap();
+            let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+            let scene = Scene::load(&preset, &Files::default()).unwrap();
+            let (set, head) = (&scene.look().lines[0], scene.head());
+            let neck = scene.objects()[0].neck().unwrap();
+            let mesh = LineMesh::new(neck.rest(), set.crease(), head).unwrap();
+            let eye = head.center + head.height_m * Vec3::new(1.0, 1.5, 3.0);
+            let view = View::perspective(eye).unwrap();
+            let shortest_m = f64::from(set.section.shortest * head.unit_m());
+            let is_meant = |triangle| mesh.is_called(triangle, set.section.meshes());
+            let sets = vec![(0, set)];
+            let wanted = wanted(&mesh, &sets, false, head);
+            let seen = [
+                mesh.seen(&view, 1e-3, |_| true).unwrap(),
+                mesh.seen(&view, 1e-3, &wanted).unwrap(),
+            ];
+            let [all, some] = seen
+                .each_ref()
+                .map(|seen| seen.strands(set.kinds, &is_meant, 0.0, shortest_m, None));
+            assert!(!all.is_empty(), "{kind}");
+            assert_eq!(all, some, "{kind}");
+            let lines = &seen[0].lines;
+            let count = lines.iter().filter(|line| wanted(line)).count();
+            assert!(count < lines.len(), "{kind}: {count}");
+        }
+    }
+}

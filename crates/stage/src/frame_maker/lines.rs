@@ -55,8 +55,8 @@ impl ObjectLines {
         self.of_head.as_ref().is_some_and(HeadLines::is_growing)
     }
 
-    /// Finds what is seen of the lines of the object's head, which is `posed` where it is seen.
-    pub fn find(
+    /// Follows the lines of the object's head to this frame, but for the frame itself: through poses that it was in before. It is left in its own.
+    pub fn follow(
         &mut self,
         object: &Object,
         posed: Option<&mut PosedHead>,
@@ -87,9 +87,26 @@ impl ObjectLines {
             let model = posed.in_pose(neck, pose);
             lines.follow((neck, model, pose), sets, sight.camera(), rest_head, frame)?;
         }
-        let pose = motion.head_pose();
-        let model = (neck, posed.in_pose(neck, pose), pose);
-        lines.find(model, sets, sight.camera(), rest_head, now)
+        posed.in_pose(neck, motion.head_pose());
+        Ok(())
+    }
+
+    /// Finds what is seen of them in this frame, in which the head is `posed`.
+    pub fn find(
+        &mut self,
+        object: &Object,
+        posed: Option<&PosedHead>,
+        motion: &ObjectMotion,
+        time: LineTime,
+        sight: &Sight,
+    ) -> Result<(), StageError> {
+        let lines = self.of_head.as_mut().filter(|_| self.is_there);
+        let (Some(lines), Some(neck), Some(posed)) = (lines, object.neck(), posed) else {
+            return Ok(());
+        };
+        let model = (neck, posed.model(), motion.head_pose());
+        let (sets, head) = (&object.look().lines, object.hair().head);
+        lines.find(model, sets, sight.camera(), head, time.frame())
     }
 
     /// Appends what was found, list after list, and notes which joints each has.
