@@ -197,14 +197,14 @@ impl Slabs {
 /// (the idea of Woop, Benthin and Wald, *Watertight ray/triangle intersection*, 2013).
 fn meets(surface: &Surface, triangle: u32, ray: &Ray) -> Option<Hit> {
     let [a, b, c] = surface.corners(triangle).map(|corner| corner - ray.origin);
-    let volumes = [b.cross(c), c.cross(a), a.cross(b)].map(|normal| ray.direction.dot(normal));
-    let from_front = volumes.iter().all(|volume| *volume <= 0.0);
-    let from_back = volumes.iter().all(|volume| *volume >= 0.0);
+    let [u, v, w] = [b.cross(c), c.cross(a), a.cross(b)].map(|normal| ray.direction.dot(normal));
+    // All three at once: which of them has another sign no processor guesses.
+    let from_front = (u <= 0.0) & (v <= 0.0) & (w <= 0.0);
+    let from_back = (u >= 0.0) & (v >= 0.0) & (w >= 0.0);
     if from_front == from_back {
         // Missed, or along the triangle (all are 0).
         return None;
     }
-    let [u, v, w] = volumes;
     let point = (a * u + b * v + c * w) / (u + v + w);
     let distance = point.dot(ray.direction) / ray.direction.length_squared();
     (distance >= ray.from && distance < ray.to).then_some(Hit {
