@@ -242,8 +242,7 @@ impl HeadLines {
             Ok(sets.iter().map(strands).collect())
         };
         let meshes = self.meshes.par_iter_mut().zip(&mut self.followed);
-        let found: Result<Vec<Vec<(usize, Vec<LineStrand>)>>, MeshError> =
-            meshes.zip(sets).map(find).collect();
+        let found: Result<Vec<Vec<_>>, MeshError> = meshes.zip(sets).map(find).collect();
         for (index, strands) in found.map_err(fault)?.into_iter().flatten() {
             self.strands[index] = strands;
         }
