@@ -100,6 +100,9 @@ fn is_on_of(seed: u32, stretch: f32, gaps: f32, last: f32, left: f32) -> f32 {
 /// How much of the line's width there is, so many shortest stretches from the root of a strand of `whole` ones. It is on the paper or off it in each
 /// stretch as a whole.
 fn on_paper(along: f32, whole: f32, seed: u32, gaps: f32) -> f32 {
+    if (gaps <= 0.0) {
+        return 1.0;
+    }
     let last = floor(whole);
     let left = whole - last;
     let own = min(floor(along), last);

@@ -4,8 +4,8 @@ use crate::{
     Surface, View,
     tree::{Box3, Tree},
 };
-use glam::DVec3;
-use std::ops::ControlFlow;
+use glam::{DVec3, Vec3A};
+use std::ops::{ControlFlow, Range};
 
 /// A tree of boxes around the triangles of a mesh, which rays ask.
 #[derive(Clone, Debug)]
@@ -81,9 +81,9 @@ impl Bvh {
     /// Nothing slips through between two triangles with a common edge: a ray that meets the edge meets both. Triangles
     /// along the ray are not met.
     pub fn hits(&self, surface: &Surface, ray: &Ray, mut hit: impl FnMut(Hit) -> ControlFlow<()>) {
-        let inverse = ray.direction.recip();
+        let slabs = Slabs::of(ray, self.farthest_coordinate());
         self.0.visit(
-            |bounds| meets_box(ray, inverse, bounds),
+            |bounds| slabs.may_meet(bounds),
             |triangle| match meets(surface, triangle, ray) {
                 Some(found) => hit(found),
                 None => ControlFlow::Continue(()),
@@ -130,36 +130,81 @@ fn bounds(surface: &Surface, triangle: u32) -> Box3 {
     Box3::of(corners.map(|vertex| surface.positions()[vertex as usize]))
 }
 
-/// True if a ray may meet something in a box: never false where it does.
-fn meets_box(ray: &Ray, inverse: DVec3, bounds: &Box3) -> bool {
-    let low = (bounds.low.as_dvec3() - ray.origin) * inverse;
-    let high = (bounds.high.as_dvec3() - ray.origin) * inverse;
-    let mut enter = ray.from;
-    let mut leave = ray.to;
-    for axis in 0..3 {
-        // A ray within the plane of a side gives 0 x infinity: it is in no way beside the box there.
-        if low[axis].is_nan() || high[axis].is_nan() {
-            continue;
+/// What boxes are asked with whether a ray may meet something in them, for all three axes at once: in f32, and for boxes that are larger by more than
+/// f32 may be wrong by. So what lies in a box is never missed, and which triangles are met is [`meets`]'s to say.
+struct Slabs {
+    /// Where the ray starts, farther on than it does and less far on: seen so, boxes are larger.
+    start_high: Vec3A,
+    start_low: Vec3A,
+    inverse: Vec3A,
+    from: f32,
+    to: f32,
+}
+
+/// How wrong f32 may be about places, as a share of the largest coordinate: rounding the start, subtracting, dividing and multiplying are each
+/// wrong by no more than two of its last digits (2 to the power of -24), of what is at most twice as large.
+const MARGIN: f64 = 1.0 / (1 << 20) as f64;
+
+/// Beyond these lengths f32 may have no number for what is multiplied and divided.
+const LENGTHS: Range<f64> = 1e-30..1e30;
+
+impl Slabs {
+    /// Those of a ray, among boxes with coordinates up to the farthest one.
+    fn of(ray: &Ray, farthest: f64) -> Self {
+        let size = farthest.max(ray.origin.abs().max_element());
+        let speed = ray.direction.length();
+        if !(LENGTHS.contains(&size) && LENGTHS.contains(&speed)) {
+            return Self::EVERYWHERE;
         }
-        enter = enter.max(low[axis].min(high[axis]));
-        leave = leave.min(low[axis].max(high[axis]));
+        let margin = size * MARGIN;
+        // From one side of all boxes to the other it isn't farther than that.
+        let reach = ray.from.abs().max(ray.to.abs()).min(4.0 * size / speed);
+        // Along an axis on which it hardly moves it may as well move by the margin, and there is a number to divide by.
+        let least = margin / reach;
+        let moving = |speed: f64| speed.abs().max(least).copysign(speed);
+        let direction = DVec3::from(ray.direction.to_array().map(moving));
+        let in_f32 = |place: DVec3| Vec3A::from(place.as_vec3());
+        Self {
+            start_high: in_f32(ray.origin + 2.0 * margin),
+            start_low: in_f32(ray.origin - 2.0 * margin),
+            inverse: in_f32(direction.recip()),
+            from: (ray.from as f32).next_down(),
+            to: (ray.to as f32).next_up(),
+        }
     }
-    // The last digits of the products: Ize, Robust BVH ray traversal (2013).
-    enter * (1.0 - 1e-15) <= leave * (1.0 + 1e-15)
+
+    /// Any box may be met.
+    const EVERYWHERE: Self = Self {
+        start_high: Vec3A::ZERO,
+        start_low: Vec3A::ZERO,
+        inverse: Vec3A::ZERO,
+        from: f32::NEG_INFINITY,
+        to: f32::INFINITY,
+    };
+
+    /// True if the ray may meet something in a box.
+    #[inline]
+    fn may_meet(&self, bounds: &Box3) -> bool {
+        let low = (bounds.low - self.start_high) * self.inverse;
+        let high = (bounds.high - self.start_low) * self.inverse;
+        let enter = low.min(high).max_element().max(self.from);
+        let leave = low.max(high).min_element().min(self.to);
+        enter <= leave
+    }
 }
 
 /// By the signs of three volumes, each of which two triangles with a common edge have bit for bit alike but for the sign
 /// (the idea of Woop, Benthin and Wald, *Watertight ray/triangle intersection*, 2013).
 fn meets(surface: &Surface, triangle: u32, ray: &Ray) -> Option<Hit> {
     let [a, b, c] = surface.corners(triangle).map(|corner| corner - ray.origin);
-    let volumes = [b.cross(c), c.cross(a), a.cross(b)].map(|normal| ray.direction.dot(normal));
-    let from_front = volumes.iter().all(|volume| *volume <= 0.0);
-    let from_back = volumes.iter().all(|volume| *volume >= 0.0);
+    let [u, v, w] = [b.cross(c), c.cross(a), a.cross(b)].map(|normal| ray.direction.dot(normal));
+    // All three at once: which of them has another sign no processor guesses.
+    let from_front = (u <= 0.0) & (v <= 0.0) & (w <= 0.0);
+    let from_back = (u >= 0.0) & (v >= 0.0) & (w >= 0.0);
     if from_front == from_back {
         // Missed, or along the triangle (all are 0).
         return None;
     }
-    let [u, v, w] = volumes;
     let point = (a * u + b * v + c * w) / (u + v + w);
     let distance = point.dot(ray.direction) / ray.direction.length_squared();
     (distance >= ray.from && distance < ray.to).then_some(Hit {
@@ -223,6 +268,34 @@ mod tests {
             for numbers in rays {
                 let [a, b, c, d, e, f] = numbers.map(f64::from);
                 let ray = Ray { origin: DVec3::new(a, b, c), direction: DVec3::new(d, e, f), from: 0.0, to: f64::INFINITY };
+                let expected: Vec<Hit> = (0..triangles.len() as u32).filter_map(|t| meets(&surface, t, &ray)).collect();
+                let mut found = Vec::new();
+                bvh.hits(&surface, &ray, |hit| { found.push(hit); ControlFlow::Continue(()) });
+                found.sort_by_key(|hit| hit.triangle);
+                prop_assert_eq!(found, expected);
+            }
+        }
+
+        /// However large or small all is, and however slowly a ray moves along an axis. All numbers are whole ones times a power of two, so that which
+        /// triangles are met is exact.
+        #[test]
+        fn boxes_hide_nothing_that_is_met(
+            corners in prop::collection::vec(prop::array::uniform3(-4i8..4), 3..60),
+            rays in prop::collection::vec((prop::array::uniform6(-4i8..4), 0..120i32, -8.0..2.0, -1.0..8.0), 20),
+            size in -110..110i32,
+        ) {
+            let size = f64::from(size).exp2();
+            let at = |c: [i8; 3]| Vec3::from(c.map(|x| (f64::from(x) * size) as f32));
+            let positions: Vec<Vec3> = corners.into_iter().map(at).collect();
+            let triangles: Vec<[u32; 3]> = (0..positions.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+            let topology = Topology::new(&positions, &triangles).unwrap();
+            let surface = Surface::new(&topology, &positions).unwrap();
+            let bvh = Bvh::new(&surface);
+            for ([a, b, c, d, e, f], slow, from, to) in rays {
+                let slow = f64::from(-slow).exp2();
+                let moving = |x: i8| if x == 0 { slow } else { f64::from(x) } * size;
+                let origin = at([a, b, c]).as_dvec3();
+                let ray = Ray { origin, direction: DVec3::from([d, e, f].map(moving)), from, to };
                 let expected: Vec<Hit> = (0..triangles.len() as u32).filter_map(|t| meets(&surface, t, &ray)).collect();
                 let mut found = Vec::new();
                 bvh.hits(&surface, &ray, |hit| { found.push(hit); ControlFlow::Continue(()) });

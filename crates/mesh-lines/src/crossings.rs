@@ -4,18 +4,23 @@ use crate::{
     Beside, Kind, Line, Surface, View,
     tree::{Box3, Tree},
 };
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3A};
 use std::ops::ControlFlow;
 
 /// Rounding of a place in the image to f32, relative to its size.
 const ROUNDING: f32 = 1e-6;
 
-/// Of each line the places along it ([`Line::position`]) where it passes behind something that may hide it, in no order: where it crosses a contour,
+/// Of each line that is wanted the places along it ([`Line::position`]) where it passes behind something that may hide it, in no order: where it crosses a contour,
 /// a border, or an edge of which one triangle faces the eye and the other doesn't; unless the eye sees that clearly behind it. Folds inside of what is closed neither
 /// hide nor are seen.
 ///
 /// Pieces of lines that could cross are found by a tree of their boxes in the image: near to linear in pieces and crossings.
-pub(crate) fn crossings(surface: &Surface, lines: &[Line], view: &View) -> Vec<Vec<f64>> {
+pub(crate) fn crossings(
+    surface: &Surface,
+    lines: &[Line],
+    wanted: &[bool],
+    view: &View,
+) -> Vec<Vec<f64>> {
     let mut hiding = Vec::new();
     let mut boxes = Vec::new();
     for (number, line) in lines.iter().enumerate() {
@@ -27,7 +32,7 @@ pub(crate) fn crossings(surface: &Surface, lines: &[Line], view: &View) -> Vec<V
     }
     let tree = Tree::new(&boxes);
     let mut crossings = vec![Vec::new(); lines.len()];
-    for (number, line) in lines.iter().enumerate() {
+    for (number, line) in lines.iter().enumerate().filter(|(n, _)| wanted[*n]) {
         for segment in (0..line.segments.len()).filter(|&i| !line.segments[i].is_inside(surface)) {
             let [from, to] = line.ends(segment).map(|end| end.position);
             let here = image_box(view, from, to);
@@ -104,8 +109,8 @@ fn image_box(view: &View, from: DVec3, to: DVec3) -> Box3 {
         if cosine < 0.5 {
             // A long arc, or a segment beside the eye: anywhere.
             return Box3 {
-                low: Vec3::splat(-2.0),
-                high: Vec3::splat(2.0),
+                low: Vec3A::splat(-2.0),
+                high: Vec3A::splat(2.0),
             };
         }
         // How far an arc stands off its chord.
@@ -115,7 +120,7 @@ fn image_box(view: &View, from: DVec3, to: DVec3) -> Box3 {
     };
     let bounds = Box3::of([a.as_vec3(), b.as_vec3()]);
     let size = bounds.low.abs().max(bounds.high.abs()).max_element();
-    let margin = Vec3::splat(rises + size * ROUNDING);
+    let margin = Vec3A::splat(rises + size * ROUNDING);
     Box3 {
         low: bounds.low - margin,
         high: bounds.high + margin,

@@ -90,5 +90,5 @@ pub use surface::{Place, Surface};
 pub use topology::{Beside, Topology};
 pub use track::{Frame, Path, PathJoint, REACH_PX, Tracker};
 pub use view::View;
-pub use visibility::{Cut, Span, is_seen, visible};
+pub use visibility::{Cut, Span, is_seen, visible, visible_of};
 pub use walk::walk_to_zero;

@@ -1,6 +1,6 @@
 //! A tree of boxes, over triangles and over pieces of lines.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec3A};
 use std::ops::ControlFlow;
 
 /// No more leaves than these are looked through one by one.
@@ -8,21 +8,22 @@ const LEAF: usize = 4;
 /// In how many slices a box is cut to find where it is split best.
 const SLICES: usize = 12;
 
-/// A box whose sides are along the axes.
+/// A box whose sides are along the axes. Its corners are such that all three axes are compared at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Box3 {
-    pub(crate) low: Vec3,
-    pub(crate) high: Vec3,
+    pub(crate) low: Vec3A,
+    pub(crate) high: Vec3A,
 }
 
 impl Box3 {
     pub(crate) const EMPTY: Self = Self {
-        low: Vec3::INFINITY,
-        high: Vec3::NEG_INFINITY,
+        low: Vec3A::INFINITY,
+        high: Vec3A::NEG_INFINITY,
     };
 
     pub(crate) fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |all, point| Self {
+        let points = points.into_iter().map(Vec3A::from);
+        points.fold(Self::EMPTY, |all, point| Self {
             low: all.low.min(point),
             high: all.high.max(point),
         })
@@ -187,19 +188,11 @@ fn split(items: &mut [u32], boxes: &[Box3], centers: &[Vec3]) -> usize {
         *bounds = bounds.with(boxes[i as usize]);
         *count += 1;
     }
-    let cost = |part: &[(Box3, usize)]| {
-        let all = part.iter().fold((Box3::EMPTY, 0), |all, one| {
-            (all.0.with(one.0), all.1 + one.1)
-        });
-        if all.1 == 0 {
-            f64::INFINITY
-        } else {
-            all.0.half_area() * all.1 as f64
-        }
-    };
+    let firsts = costs(slices.iter());
+    let lasts = costs(slices.iter().rev());
     // The first and the last slice have an item each: there is always a finite cost.
     let cut = (1..SLICES)
-        .map(|cut| (cost(&slices[..cut]) + cost(&slices[cut..]), cut))
+        .map(|cut| (firsts[cut - 1] + lasts[SLICES - cut - 1], cut))
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map_or(1, |(_, cut)| cut);
     // In place, the first part's items to the front.
@@ -211,4 +204,18 @@ fn split(items: &mut [u32], boxes: &[Box3], centers: &[Vec3]) -> usize {
         }
     }
     first
+}
+
+/// What a part of the first slice costs, of the first two, and so on.
+fn costs<'s>(slices: impl Iterator<Item = &'s (Box3, usize)>) -> [f64; SLICES] {
+    let (mut bounds, mut count) = (Box3::EMPTY, 0);
+    let mut costs = [f64::INFINITY; SLICES];
+    for (cost, slice) in costs.iter_mut().zip(slices) {
+        bounds = bounds.with(slice.0);
+        count += slice.1;
+        if count > 0 {
+            *cost = bounds.half_area() * count as f64;
+        }
+    }
+    costs
 }

@@ -8,8 +8,11 @@
 //! or behind the crossing. So borders between what is seen and what isn't are moved to where rays change.
 
 use crate::{
-    Bvh, Kind, Line, MeshError, Ray, Surface, View, crossings::crossings, junctions::junctions,
-    line::check_lines, threads::map,
+    Bvh, Kind, Line, MeshError, Ray, Surface, View,
+    crossings::crossings,
+    junctions::junctions,
+    line::check_lines,
+    threads::{join as both, map},
 };
 use glam::DVec3;
 use std::ops::ControlFlow;
@@ -76,25 +79,53 @@ pub fn visible(
     lines: &[Line],
     shortest: f64,
 ) -> Result<Vec<Span>, MeshError> {
+    visible_of(surface, bvh, view, lines, |_| true, shortest)
+}
+
+/// The same of the lines that are `wanted` alone: those that nobody draws hide others, and what of them is seen need not be found.
+///
+/// # Errors
+///
+/// As of [`visible`].
+pub fn visible_of(
+    surface: &Surface,
+    bvh: &Bvh,
+    view: &View,
+    lines: &[Line],
+    wanted: impl Fn(&Line) -> bool,
+    shortest: f64,
+) -> Result<Vec<Span>, MeshError> {
     if !(shortest.is_finite() && shortest >= 0.0) {
         return Err(MeshError::Negative {
             what: "the shortest piece's length",
         });
     }
     check_lines(surface, lines)?;
-    let mut events = crossings(surface, lines, view);
-    for (events, junctions) in events.iter_mut().zip(junctions(surface, lines)) {
-        events.extend(junctions);
+    let wanted: Vec<bool> = lines.iter().map(wanted).collect();
+    let meetings = || {
+        let mut events = crossings(surface, lines, &wanted, view);
+        for (events, junctions) in events.iter_mut().zip(junctions(surface, lines)) {
+            events.extend(junctions);
+        }
+        events
+    };
+    let piercings = || {
+        map(lines, |number, line| match wanted[number] {
+            true => pierced(surface, bvh, line),
+            false => Vec::new(),
+        })
+    };
+    let (mut events, pierced) = both(meetings, piercings);
+    for (events, pierced) in events.iter_mut().zip(pierced) {
+        events.extend(pierced);
     }
     let rays = Rays::new(surface, bvh, view);
     let of_lines = map(lines, |number, line| {
-        if line.segments.is_empty() {
+        if line.segments.is_empty() || !wanted[number] {
             return Vec::new();
         }
         let lengths = line.image_lengths(view);
-        let mut events = events[number].clone();
-        events.extend(pierced(surface, bvh, line));
-        let pieces = pieces(surface, line, &events, &lengths);
+        let pieces = pieces(surface, line, &events[number], &lengths);
         let mut pieces = rays.decide(line, pieces, &lengths);
         join(&mut pieces, line);
         rays.settle(line, &mut pieces, &lengths, shortest);

@@ -3,7 +3,7 @@
 mod shapes;
 
 use glam::{DVec3, Vec3};
-use mesh_lines::{Bvh, Cut, Line, Span, View, is_seen, visible};
+use mesh_lines::{Bvh, Cut, Kind, Line, Span, View, is_seen, visible, visible_of};
 use shapes::{Shape, bumpy, cube, cup, eyes, sphere, torus};
 
 /// Length in the image of what two answers disagree about, and of all.
@@ -331,5 +331,26 @@ fn what_is_seen_ends_where_rays_change() {
         }
         assert!(ends > 50, "{name}: {ends}");
         assert_eq!(wrong, 0, "{name}: of {ends}");
+    }
+}
+
+/// Lines that nobody asks for go on to hide others.
+#[test]
+fn what_is_seen_of_some_lines_is_what_is_seen_of_them_among_all() {
+    let linked = cube(Vec3::splat(-0.7), Vec3::splat(0.5)).and(bumpy(16));
+    for shape in [cup(24, 12), linked] {
+        let (surface, bvh) = (shape.surface(), shape.bvh());
+        for eye in eyes(6, 3.0, 8.0) {
+            let view = View::perspective(eye.as_vec3()).unwrap();
+            let lines = shape.lines(&view);
+            let all = visible(&surface, &bvh, &view, &lines, 1e-3).unwrap();
+            for kind in [Kind::Contour, Kind::Crease, Kind::Border] {
+                let is_it = |line: &Line| line.kind == kind;
+                let some = visible_of(&surface, &bvh, &view, &lines, is_it, 1e-3).unwrap();
+                let mut expected = all.clone();
+                expected.retain(|span| is_it(&lines[span.line]));
+                assert_eq!(some, expected, "{eye} {kind:?}");
+            }
+        }
     }
 }

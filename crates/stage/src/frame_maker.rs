@@ -163,6 +163,10 @@ impl FrameMaker {
         let looks = scene.objects().iter().map(Object::look);
         let clips = Clips::of(looks.flat_map(|look| &look.layers))?;
         let (mut decals, mut layers_before) = (Vec::new(), 0);
+        let time = LineTime {
+            time_s: f64::from(motion.time_s()),
+            fps: f64::from(scene.fps()),
+        };
         for (index, object) in scene.objects().iter().enumerate() {
             match objects.get_mut(index) {
                 Some(frame) => frame.follow(object),
@@ -183,17 +187,27 @@ impl FrameMaker {
                 light: object.placement().own_light(light),
                 layers: &names,
             };
-            let mut posed = frame.head.take();
+            let (mut posed, mut lines) = (frame.head.take(), std::mem::take(&mut frame.lines));
             let weights = reads_weights.then_some(&mut *path_weights);
-            let (pushed, seen) = rayon::join(
+            let (pushed, (seen, found)) = rayon::join(
                 || {
                     frame.push_strands(motion, &sight, strands, paths)?;
                     frame.push_made_paths(motion, &sight, light, strands, paths, weights)
                 },
-                || meshes.seen(&mut posed),
+                || {
+                    meshes.pose(&mut posed);
+                    let followed = lines.follow(object, posed.as_mut(), motion, time, &sight);
+                    let posed = posed.as_ref();
+                    let (seen, found) = rayon::join(
+                        || meshes.seen(posed),
+                        || lines.find(object, posed, motion, time, &sight),
+                    );
+                    (seen, followed.and(found))
+                },
             );
-            frame.head = posed;
+            (frame.head, frame.lines) = (posed, lines);
             pushed?;
+            found?;
             frame.solid = seen.solid;
             surfaces.extend(seen.surfaces);
             if reads_material {
@@ -218,10 +232,6 @@ impl FrameMaker {
             decals.extend(layers.filter_map(of_layer));
             layers_before += look.layers.len();
         }
-        let time = LineTime {
-            time_s: f64::from(motion.time_s()),
-            fps: f64::from(scene.fps()),
-        };
         if has_marks {
             marks.resize(paths.len(), NO_MARK);
         }
@@ -233,14 +243,9 @@ impl FrameMaker {
             marks: has_marks.then_some(marks),
         };
         for (index, object) in scene.objects().iter().enumerate() {
-            let motion = motion.of(index, object);
             let own_camera = object.placement().own_camera(&camera);
             let sight = Sight::new(&own_camera, object, section.detail, shows_all);
-            let frame = &mut objects[index];
-            let posed = frame.head.as_mut();
-            frame
-                .lines
-                .push(object, posed, motion, time, &sight, &mut lists)?;
+            objects[index].lines.push(object, &sight, &mut lists)?;
         }
         if reads_weights {
             path_weights.resize(paths.len(), 1.0);

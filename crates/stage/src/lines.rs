@@ -22,7 +22,8 @@ use effects::preset::{LayerSpec, PresetError, PresetErrors, suggestion};
 use glam::Vec3;
 use marks::Followed;
 use mesh::LineMesh;
-use mesh_lines::{MeshError, View};
+use mesh_lines::{Kind, Line, MeshError, View};
+use rayon::prelude::*;
 use render::Head;
 use std::ops::Range;
 use stroke_path::Camera;
@@ -154,6 +155,7 @@ impl HeadLines {
     pub fn follow(
         &mut self,
         (neck, model, pose): (&Neck, &HeadModel, HeadPose),
+        sets: &[LineSet],
         camera: &Camera,
         head: Head,
         now: f64,
@@ -162,15 +164,19 @@ impl HeadLines {
         let seen_from = SeenFrom::of(camera, pose);
         let view = View::perspective(camera.eye()).map_err(fault)?;
         let pixel = seen_from.pixel;
-        for (mesh, followed) in self.meshes.iter_mut().zip(&mut self.followed) {
-            if let Some(followed) = followed {
-                mesh.pose(model).map_err(fault)?;
-                let seen = mesh.seen(&view, pixel).map_err(fault)?;
-                followed
-                    .step(&seen, height_px(&view, pixel, head))
-                    .map_err(fault)?;
-            }
-        }
+        let sets = sets_of_meshes(&self.mesh_of, sets, self.meshes.len());
+        let height_px = height_px(&view, pixel, head);
+        let follow = |((mesh, followed), sets): ((&mut LineMesh, &mut Option<Followed>), Sets)| {
+            let Some(followed) = followed else {
+                return Ok(());
+            };
+            mesh.pose(model)?;
+            let seen = mesh.seen(&view, pixel, wanted(mesh, &sets, true, head))?;
+            followed.step(&seen, height_px)
+        };
+        let meshes = self.meshes.par_iter_mut().zip(&mut self.followed);
+        let followed: Result<(), MeshError> = meshes.zip(sets).map(follow).collect();
+        followed.map_err(fault)?;
         (self.at, self.seen) = (Some(now), Some(seen_from));
         Ok(())
     }
@@ -190,9 +196,8 @@ impl HeadLines {
         camera: &Camera,
         head: Head,
         now: f64,
-    ) -> Result<&[Vec<LineStrand>], StageError> {
+    ) -> Result<(), StageError> {
         self.take_forms(neck, model, head)?;
-        let unit_m = head.unit_m();
         let seen_from = SeenFrom::of(camera, pose);
         // With another eye at the same time lines have no time to grow.
         let is_same_time = self.at.is_some_and(|at| (at - now).abs() <= SAME_FRAME);
@@ -200,45 +205,82 @@ impl HeadLines {
         let is_whole = (now - now.round()).abs() <= SAME_FRAME;
         let view = View::perspective(camera.eye()).map_err(fault)?;
         let pixel = seen_from.pixel;
-        for (number, mesh) in self.meshes.iter_mut().enumerate() {
-            mesh.pose(model).map_err(fault)?;
+        let sets = sets_of_meshes(&self.mesh_of, sets, self.meshes.len());
+        let height_px = height_px(&view, pixel, head);
+        // The strands of each list of a mesh.
+        let find = |((mesh, followed), sets): ((&mut LineMesh, &mut Option<Followed>), Sets)| {
+            mesh.pose(model)?;
             let mesh = &*mesh;
-            let seen = mesh.seen(&view, pixel).map_err(fault)?;
+            let is_followed = followed.is_some();
+            let seen = mesh.seen(&view, pixel, wanted(mesh, &sets, is_followed, head))?;
             let mut between;
-            let mut followed = self.followed[number].as_mut();
+            let mut followed = followed.as_mut();
             if !is_there {
                 if !is_whole {
                     between = followed.as_deref().cloned();
                     followed = between.as_mut();
                 }
                 if let Some(followed) = &mut followed {
-                    followed
-                        .step(&seen, height_px(&view, pixel, head))
-                        .map_err(fault)?;
+                    followed.step(&seen, height_px)?;
                     if is_same_time {
                         followed.finish();
                     }
                 }
             }
             let marks = followed.as_deref().map(Followed::marks);
-            for (index, set) in sets.iter().enumerate() {
-                if self.mesh_of[index] == number {
-                    let [halo_m, shortest_m] = [set.section.halo, set.section.shortest]
-                        .map(|units| f64::from(units * unit_m));
-                    let is_meant = |triangle| mesh.is_called(triangle, set.section.meshes());
-                    let marks = marks.as_ref().filter(|_| set.is_followed());
-                    let mut strands = seen.strands(set.kinds, &is_meant, halo_m, shortest_m, marks);
-                    if !set.has_marks() {
-                        strands.iter_mut().for_each(|strand| strand.marks.clear());
-                    }
-                    self.strands[index] = strands;
+            let strands = |(index, set): &(usize, &LineSet)| {
+                let [halo_m, shortest_m] = [set.section.halo, set.section.shortest]
+                    .map(|units| f64::from(units * head.unit_m()));
+                let is_meant = |triangle| mesh.is_called(triangle, set.section.meshes());
+                let marks = marks.as_ref().filter(|_| set.is_followed());
+                let mut strands = seen.strands(set.kinds, &is_meant, halo_m, shortest_m, marks);
+                if !set.has_marks() {
+                    strands.iter_mut().for_each(|strand| strand.marks.clear());
                 }
-            }
+                (*index, strands)
+            };
+            Ok(sets.iter().map(strands).collect())
+        };
+        let meshes = self.meshes.par_iter_mut().zip(&mut self.followed);
+        let found: Result<Vec<Vec<_>>, MeshError> = meshes.zip(sets).map(find).collect();
+        for (index, strands) in found.map_err(fault)?.into_iter().flatten() {
+            self.strands[index] = strands;
         }
         if is_whole {
             (self.at, self.seen) = (Some(now), Some(seen_from));
         }
-        Ok(&self.strands)
+        Ok(())
+    }
+
+    /// What was found last, for each list.
+    pub fn found(&self) -> &[Vec<LineStrand>] {
+        &self.strands
+    }
+}
+
+/// The lists of lines that are of one mesh, each with its place in the look.
+type Sets<'s> = Vec<(usize, &'s LineSet)>;
+
+/// Those of each of so many meshes.
+fn sets_of_meshes<'s>(mesh_of: &[usize], sets: &'s [LineSet], meshes: usize) -> Vec<Sets<'s>> {
+    let of_mesh = |mesh: usize| {
+        let sets = sets.iter().enumerate();
+        let own = sets.filter(|(index, _)| mesh_of[*index] == mesh);
+        own.collect()
+    };
+    (0..meshes).map(of_mesh).collect()
+}
+
+/// Whether it makes a difference what the eye sees of a line of a mesh: some list draws it, or it is a contour that is followed.
+fn wanted<'a>(
+    mesh: &'a LineMesh,
+    sets: &'a Sets,
+    is_followed: bool,
+    head: Head,
+) -> impl Fn(&Line) -> bool + 'a {
+    move |line| {
+        is_followed && line.kind == Kind::Contour
+            || (sets.iter()).any(|(_, set)| mesh.may_draw(set, line, head.unit_m()))
     }
 }
 
@@ -313,4 +355,48 @@ pub(crate) fn check(
         }
     }
     Ok(PresetErrors::report(mistakes)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Files, Preset, Scene};
+    use effects::Registry;
+
+    /// Lines that no list draws are left out before it is asked what the eye sees of them: the strands are those of all.
+    #[test]
+    fn what_no_list_draws_is_not_wanted_and_makes_no_difference() {
+        for (kind, shortest) in [("contour", 0), ("crease", 40), ("border, crease", 100)] {
+            let text = format!(
+                "(version: 1, head: (shape: none), meshes: [(shape: gear), (shape: wings, at: (1, 0, 0))], \
+                 lines: [(name: \"rim\", of: \"gear\", kind: \"{kind}\", shortest: {shortest})], \
+                 layers: [(effect: \"line.ink\", on: \"rim\", params: (wobble: 0))])"
+            );
+            let mut registry = Registry::new();
+            effects_surface::register(&mut registry).unwrap();
+            let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+            let scene = Scene::load(&preset, &Files::default()).unwrap();
+            let (set, head) = (&scene.look().lines[0], scene.head());
+            let neck = scene.objects()[0].neck().unwrap();
+            let mesh = LineMesh::new(neck.rest(), set.crease(), head).unwrap();
+            let eye = head.center + head.height_m * Vec3::new(1.0, 1.5, 3.0);
+            let view = View::perspective(eye).unwrap();
+            let shortest_m = f64::from(set.section.shortest * head.unit_m());
+            let is_meant = |triangle| mesh.is_called(triangle, set.section.meshes());
+            let sets = vec![(0, set)];
+            let wanted = wanted(&mesh, &sets, false, head);
+            let seen = [
+                mesh.seen(&view, 1e-3, |_| true).unwrap(),
+                mesh.seen(&view, 1e-3, &wanted).unwrap(),
+            ];
+            let [all, some] = seen
+                .each_ref()
+                .map(|seen| seen.strands(set.kinds, &is_meant, 0.0, shortest_m, None));
+            assert!(!all.is_empty(), "{kind}");
+            assert_eq!(all, some, "{kind}");
+            let lines = &seen[0].lines;
+            let count = lines.iter().filter(|line| wanted(line)).count();
+            assert!(count < lines.len(), "{kind}: {count}");
+        }
+    }
 }

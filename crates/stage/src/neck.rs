@@ -131,6 +131,11 @@ impl PosedHead {
         }
     }
 
+    /// The head in the pose that it was last taken to.
+    pub fn model(&self) -> &HeadModel {
+        &self.model
+    }
+
     /// The head of the same neck in this pose.
     pub fn in_pose(&mut self, neck: &Neck, pose: HeadPose) -> &HeadModel {
         if pose != self.pose {

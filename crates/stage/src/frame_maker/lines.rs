@@ -3,7 +3,6 @@
 use super::along;
 use crate::files::StageError;
 use crate::lines::{HeadLines, LineStrand};
-use crate::look::LineSet;
 use crate::motion::{ObjectMotion, held_time};
 use crate::neck::PosedHead;
 use crate::object::Object;
@@ -20,6 +19,8 @@ use stroke_path::{PathKind, Paths};
 pub(super) struct ObjectLines {
     /// Made where they are first drawn.
     of_head: Option<HeadLines>,
+    /// Whether they were looked for in the last frame: there is a head, and it has been seen.
+    is_there: bool,
     /// For each list of its look's lines their joints in the last frame, and for each of their layers once more.
     joints: Vec<(Range<usize>, Vec<Range<usize>>)>,
 }
@@ -54,26 +55,19 @@ impl ObjectLines {
         self.of_head.as_ref().is_some_and(HeadLines::is_growing)
     }
 
-    /// Appends what is seen of the lines of the object's head, list after list, and notes which joints each has.
-    pub fn push(
+    /// Follows the lines of the object's head to this frame, but for the frame itself: through poses that it was in before. It is left in its own.
+    pub fn follow(
         &mut self,
         object: &Object,
         posed: Option<&mut PosedHead>,
         motion: &ObjectMotion,
         time: LineTime,
         sight: &Sight,
-        lists: &mut LineLists,
     ) -> Result<(), StageError> {
-        self.joints.clear();
         let look = object.look();
         let sets = &look.lines;
-        if sets.is_empty() {
-            return Ok(());
-        }
-        let start = lists.paths.len();
-        let none = |set: &LineSet| (start..start, vec![start..start; set.layers.len()]);
-        let (Some(neck), Some(posed)) = (object.neck(), posed) else {
-            self.joints.extend(sets.iter().map(none));
+        self.is_there = !sets.is_empty() && object.neck().is_some() && posed.is_some();
+        let (Some(neck), Some(posed), true) = (object.neck(), posed, self.is_there) else {
             return Ok(());
         };
         let rest_head = object.hair().head;
@@ -91,11 +85,44 @@ impl ObjectLines {
                 continue;
             }
             let model = posed.in_pose(neck, pose);
-            lines.follow((neck, model, pose), sight.camera(), rest_head, frame)?;
+            lines.follow((neck, model, pose), sets, sight.camera(), rest_head, frame)?;
         }
-        let pose = motion.head_pose();
-        let model = (neck, posed.in_pose(neck, pose), pose);
-        let found = lines.find(model, sets, sight.camera(), rest_head, now)?;
+        posed.in_pose(neck, motion.head_pose());
+        Ok(())
+    }
+
+    /// Finds what is seen of them in this frame, in which the head is `posed`.
+    pub fn find(
+        &mut self,
+        object: &Object,
+        posed: Option<&PosedHead>,
+        motion: &ObjectMotion,
+        time: LineTime,
+        sight: &Sight,
+    ) -> Result<(), StageError> {
+        let lines = self.of_head.as_mut().filter(|_| self.is_there);
+        let (Some(lines), Some(neck), Some(posed)) = (lines, object.neck(), posed) else {
+            return Ok(());
+        };
+        let model = (neck, posed.model(), motion.head_pose());
+        let (sets, head) = (&object.look().lines, object.hair().head);
+        lines.find(model, sets, sight.camera(), head, time.frame())
+    }
+
+    /// Appends what was found, list after list, and notes which joints each has.
+    pub fn push(
+        &mut self,
+        object: &Object,
+        sight: &Sight,
+        lists: &mut LineLists,
+    ) -> Result<(), StageError> {
+        self.joints.clear();
+        let look = object.look();
+        let sets = &look.lines;
+        let found = self.of_head.as_ref().filter(|_| self.is_there);
+        let found = found.map(HeadLines::found).unwrap_or_default();
+        let found = found.iter().map(Vec::as_slice);
+        let found = found.chain(std::iter::repeat(&[][..]));
         for (set, found) in sets.iter().zip(found) {
             let start = lists.paths.len();
             let name = set.section.name.as_deref().unwrap_or_default();

@@ -4,7 +4,7 @@ use super::ball_around;
 use crate::head;
 use crate::head::layers::MeshLayers;
 use crate::motion::ObjectMotion;
-use crate::neck::PosedHead;
+use crate::neck::{Neck, PosedHead};
 use crate::object::Object;
 use crate::posture::Posture;
 use crate::reach::Sight;
@@ -30,8 +30,23 @@ pub(super) struct SeenMeshes {
 }
 
 impl ObjectMeshes<'_> {
-    /// Surfaces on the screen. `posed` is the head in its last pose, made where it is first seen.
-    pub fn seen(&self, posed: &mut Option<PosedHead>) -> SeenMeshes {
+    /// Takes the head to its pose where something of it can be seen. It is made where it is first seen.
+    pub fn pose(&self, posed: &mut Option<PosedHead>) {
+        if let Some(neck) = self.object.neck().filter(|neck| self.may_see(neck)) {
+            let posed = posed.get_or_insert_with(|| PosedHead::new(neck));
+            posed.in_pose(neck, self.motion.head_pose());
+        }
+    }
+
+    /// Whether something of a head can be seen.
+    fn may_see(&self, neck: &Neck) -> bool {
+        let paint = self.object.look().paint(self.object.hair().head);
+        let (center, radius) = neck.ball(self.motion.head_pose());
+        self.sight.may_see_ball(center, radius + paint.width_m)
+    }
+
+    /// Surfaces on the screen. `posed` is the head in its pose.
+    pub fn seen(&self, posed: Option<&PosedHead>) -> SeenMeshes {
         let Self { object, sight, .. } = self;
         let SeenMeshes {
             mut surfaces,
@@ -57,28 +72,24 @@ impl ObjectMeshes<'_> {
     }
 
     /// The head's; none where nothing of the head can be seen.
-    fn head(&self, posed: &mut Option<PosedHead>) -> SeenMeshes {
+    fn head(&self, posed: Option<&PosedHead>) -> SeenMeshes {
         const NOTHING: SeenMeshes = SeenMeshes {
             surfaces: Vec::new(),
             solid: None,
         };
         let Self { object, sight, .. } = self;
-        let Some(neck) = object.neck() else {
+        let neck = object.neck().filter(|neck| self.may_see(neck));
+        let (Some(neck), Some(posed)) = (neck, posed) else {
             return NOTHING;
         };
         let (head, look) = (object.hair().head, object.look());
         let (paint, pose) = (look.paint(head), self.motion.head_pose());
         let camera = sight.camera();
-        let (center, radius) = neck.ball(pose);
-        if !sight.may_see_ball(center, radius + paint.width_m) {
-            return NOTHING;
-        }
         let solid = match sight.shows_all() {
             true => None,
             false => neck.solid(pose, head, camera.eye(), camera.near_m()),
         };
-        let posed = posed.get_or_insert_with(|| PosedHead::new(neck));
-        let model = posed.in_pose(neck, pose);
+        let model = posed.model();
         let (meshes, layers) = (look.meshes(), self.layers);
         SeenMeshes {
             surfaces: head::surfaces(model, &paint, meshes, layers, camera, &self.light),

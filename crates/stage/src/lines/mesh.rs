@@ -3,12 +3,13 @@
 use super::strand::Seen;
 use crate::head::HeadModel;
 use crate::head::layers::{DRESS, SKIN, TIES};
+use crate::look::LineSet;
 use crate::names::Names;
 use crate::painted::PaintedMesh;
 use glam::Vec3;
 use mesh_lines::{
     Bvh, Line, MeshError, Surface, TURN_COSINE, Topology, View, borders, contours, creases, facing,
-    visible,
+    visible_of,
 };
 use render::Head;
 use std::collections::HashMap;
@@ -190,14 +191,28 @@ impl LineMesh {
         if is_still {
             return Ok(());
         }
-        let surface = Surface::new(&self.topology, &self.positions)?;
-        self.normals.clear();
-        self.normals.extend_from_slice(surface.normals());
-        self.bvh.refit(&surface);
+        // The tree asks for places alone: it can be fitted while there are no new normals yet.
+        let placed = Surface::with_normals(&self.topology, &self.positions, &self.normals)?;
+        let (surface, ()) = rayon::join(
+            || Surface::new(&self.topology, &self.positions),
+            || self.bvh.refit(&placed),
+        );
+        let surface = surface?;
         for point in self.fixed.iter_mut().flat_map(|line| &mut line.points) {
             point.position = surface.position(point.place.vertex(&surface));
         }
+        self.normals = surface.normals().to_vec();
         Ok(())
+    }
+
+    /// Whether a list draws some of a line, if the eye sees it.
+    pub fn may_draw(&self, set: &LineSet, line: &Line, unit_m: f32) -> bool {
+        let names = set.section.meshes();
+        // Seen from near its one end and farther from the other, no line is longer than twice what it is.
+        let longest_m = || 2.0 * length_m(line);
+        set.kinds.have(line.kind)
+            && longest_m() >= f64::from(set.section.shortest * unit_m)
+            && (line.segments.iter()).any(|segment| self.is_called(segment.triangle, names))
     }
 
     /// Whether a triangle is of what has one of these names.
@@ -206,13 +221,18 @@ impl LineMesh {
         part.iter().any(|own| names.have(own)) || names.have("")
     }
 
-    /// What an eye sees of its lines; a pixel is so long in the image ([`View`]).
-    pub fn seen(&self, view: &View, pixel: f64) -> Result<Seen<'_>, MeshError> {
+    /// What an eye sees of those of its lines that are `wanted`; a pixel is so long in the image ([`View`]).
+    pub fn seen(
+        &self,
+        view: &View,
+        pixel: f64,
+        wanted: impl Fn(&Line) -> bool,
+    ) -> Result<Seen<'_>, MeshError> {
         let surface = Surface::with_normals(&self.topology, &self.positions, &self.normals)?;
         let facing = facing(&surface, view);
         let mut lines = contours(&surface, view, &facing)?;
         lines.extend_from_slice(&self.fixed);
-        let spans = visible(&surface, &self.bvh, view, &lines, pixel)?;
+        let spans = visible_of(&surface, &self.bvh, view, &lines, wanted, pixel)?;
         Ok(Seen {
             surface,
             forms: &self.forms,
@@ -224,4 +244,13 @@ impl LineMesh {
             pixel,
         })
     }
+}
+
+/// How long a line is.
+fn length_m(line: &Line) -> f64 {
+    let lengths = (0..line.segments.len()).map(|segment| {
+        let [from, to] = line.ends(segment).map(|end| end.position);
+        from.distance(to)
+    });
+    lengths.sum()
 }

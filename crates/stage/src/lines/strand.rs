@@ -63,11 +63,7 @@ impl Seen<'_> {
         shortest_m: f64,
         marks: Option<&Marks>,
     ) -> Vec<LineStrand> {
-        let is_wanted = |(_, span): &(usize, &Span)| match self.lines[span.line].kind {
-            Kind::Contour => kinds.contour,
-            Kind::Crease => kinds.crease,
-            Kind::Border => kinds.border,
-        };
+        let is_wanted = |(_, span): &(usize, &Span)| kinds.have(self.lines[span.line].kind);
         let mut strands = Vec::new();
         // Spans come line by line.
         let mut measured = (usize::MAX, Rc::default());

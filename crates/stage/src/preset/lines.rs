@@ -4,6 +4,7 @@ use crate::names::Names;
 use crate::part::FilePart;
 use effects::preset::{Place, PresetError, Reader, suggestion};
 use effects::section;
+use mesh_lines::Kind;
 
 /// The most lists of lines of a preset.
 const MOST_LINES: usize = 64;
@@ -61,6 +62,17 @@ pub(crate) struct LineKinds {
     pub contour: bool,
     pub crease: bool,
     pub border: bool,
+}
+
+impl LineKinds {
+    /// Whether lines of a kind are among them.
+    pub(crate) fn have(self, kind: Kind) -> bool {
+        match kind {
+            Kind::Contour => self.contour,
+            Kind::Crease => self.crease,
+            Kind::Border => self.border,
+        }
+    }
 }
 
 impl NamedLines {
