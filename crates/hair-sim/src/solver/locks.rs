@@ -30,7 +30,7 @@ use super::{
 };
 use keeps::Keeps;
 use meeting::{Links, Meeting, SLOW, closest};
-use pairs::Pairs;
+use pairs::{Four, Pairs, ones};
 use ways::{PIECE, Ways};
 
 /// Links that come this near to touching, in m, get a plane.
@@ -107,11 +107,19 @@ struct Met {
     sides: [[Link; 2]; LANES],
 }
 
+/// Pieces that may meet: how far they keep from each other, infinite for as far as any, and how much farther than half way through the step they may
+/// meet, besides their radii; in m.
+#[derive(Clone, Copy, Debug)]
+struct NearPieces {
+    pieces: [usize; 2],
+    keep: f32,
+    farther: f32,
+}
+
 /// What a task finds in a step.
 #[derive(Clone, Debug, Default)]
 struct Found {
-    /// Pairs of pieces whose boxes meet, and how far they keep from each other, in m.
-    near: Vec<([usize; 2], f64)>,
+    near: Vec<NearPieces>,
     met: Vec<Met>,
     planes: Vec<Plane>,
 }
@@ -205,7 +213,7 @@ impl Locks {
         let mut keeps = Keeps::default();
         for pair in self.pairs.all() {
             let mut near = Vec::new();
-            let look = |own: usize, other: usize| {
+            let mut look = |own: usize, other: usize| {
                 let [one, two] = [own, other].map(|i| &self.pieces[i]);
                 let radii = one.radius + two.radius;
                 let apart = self.apart_at_rest(one, two);
@@ -216,11 +224,14 @@ impl Locks {
                 }
             };
             let sweeps = &self.ways.sweeps;
+            let tell = |own: usize, (_, first): (usize, usize), meet: u32, _: &Four| {
+                ones(meet).for_each(|other| look(own, first + other));
+            };
             self.pairs
-                .pieces(pair, sweeps, &self.strands, |_, _| !0, look);
+                .pieces(pair, sweeps, &self.strands, |_, _| !0, tell);
             keeps.add(*pair, &near, &self.strands);
         }
-        keeps.sort(self.strands.len() as u32 - 1);
+        keeps.index();
         self.keeps = keeps;
     }
 
@@ -312,8 +323,8 @@ impl Locks {
         );
     }
 
-    /// Finds the pieces of pairs of strands whose boxes meet.
-    fn pair_up<T: Number>(&self, pairs: &[[u32; 2]], near: &mut Vec<([usize; 2], f64)>) {
+    /// Finds the pieces of pairs of strands that may meet.
+    fn pair_up<T: Number>(&self, pairs: &[[u32; 2]], near: &mut Vec<NearPieces>) {
         T::run(
             #[inline(always)]
             || {
@@ -324,29 +335,39 @@ impl Locks {
                         &self.ways.sweeps,
                         &self.strands,
                         #[inline(always)]
-                        |own, from| keeps.kept(own, from),
+                        |own, four| keeps.kept(own, four),
                         #[inline(always)]
-                        |own, other| near.push(([own, other], keeps.of(own, other))),
+                        |own, (number, first), meet, four| {
+                            let keep = keeps.of(own, number);
+                            let (may_meet, farther) = four.near(&self.ways.sweeps[own], keep);
+                            near.extend(ones(meet & may_meet).map(|i| NearPieces {
+                                pieces: [own, first + i],
+                                keep: keep[i],
+                                farther: farther[i],
+                            }));
+                        },
                     );
                 }
             },
         );
     }
 
-    /// Finds the links of pieces whose boxes meet that may meet, and the planes of those that do, four by four.
+    /// Finds the links of such pieces that may meet, and the planes of those that do, four by four.
     fn find_among<T: Number>(&self, Found { near, met, planes }: &mut Found) {
         T::run(
             #[inline(always)]
             || {
                 let mut links = Near::NONE;
-                for &([own, other], keep) in &*near {
+                for &NearPieces {
+                    pieces: [own, other],
+                    keep,
+                    farther,
+                } in &*near
+                {
                     let [sweep, its] = [&self.ways.sweeps[own], &self.ways.sweeps[other]];
                     let radii = self.pieces[own].radius + self.pieces[other].radius;
-                    let keep = keep.min(radii);
+                    let keep = f64::from(keep).min(radii);
                     let (more, slow) = ((keep - radii) as f32, (SLOW * keep) as f32);
-                    let Some(farther) = sweep.farther(its, (more, slow)) else {
-                        continue;
-                    };
                     let found = sweep.near(its, (more, slow, farther));
                     if found != 0 {
                         self.meet_all::<T>([own, other], (found, keep), &mut links, (met, planes));
@@ -483,7 +504,7 @@ impl Locks {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{pairs::FOUR, *};
     use crate::{Params, Solver, Strands};
 
     #[test]
@@ -530,7 +551,9 @@ mod tests {
             let strand = |piece| locks.strands.partition_point(|&first| first <= piece) - 1;
             let pair = [strand(one), strand(two)];
             let keeps = (locks.keeps).between(&pair.map(|strand| strand as u32), &locks.strands);
-            let keep = keeps.of(one, two).min(own.radius + other.radius);
+            let its = two - locks.strands[pair[1]];
+            let keep = f64::from(keeps.of(one, its / FOUR)[its % FOUR]);
+            let keep = keep.min(own.radius + other.radius);
             if pair[0] == pair[1] || keep == 0.0 {
                 continue;
             }

@@ -1,16 +1,23 @@
 //! How far pieces of strands keep from each other that are near each other at rest.
 
+use glam::Vec4;
+
 use super::pairs::FOUR;
+
+/// No pair of strands.
+const FREE: [u32; 2] = [u32::MAX; 2];
 
 /// Of pairs of pieces.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Keeps {
-    /// Pairs of strands with pieces that are near, in order, and where those begin in the list of all.
+    /// Pairs of strands with pieces that are near, the earlier first, and where those begin in the list of all.
     pairs: Vec<([u32; 2], usize)>,
-    /// Where the pairs of every strand with later ones begin; one more at the end.
-    first: Vec<usize>,
+    /// The same as a table, in which a pair lies at the place that its numbers are hashed to, or at the first free one after that.
+    table: Vec<([u32; 2], usize)>,
+    /// Bits of a hash that aren't of a place.
+    shift: u32,
     /// Of such a pair, for every piece of the one those of the other, by fours, in m; infinite where they aren't near.
-    keeps: Vec<f32>,
+    keeps: Vec<Vec4>,
     /// Of every four of these, those that keep apart at all, as bits.
     kept: Vec<u32>,
 }
@@ -23,63 +30,107 @@ impl Keeps {
         }
         let from = self.keeps.len();
         let [one, other] = pair.map(|strand| strand as usize);
-        let count = (strands[other + 1] - strands[other]).next_multiple_of(FOUR);
-        let all = (strands[one + 1] - strands[one]) * count;
+        let fours = (strands[other + 1] - strands[other]).div_ceil(FOUR);
+        let all = (strands[one + 1] - strands[one]) * fours;
         self.pairs.push((pair, from));
-        self.keeps.resize(from + all, f32::INFINITY);
+        self.keeps.resize(from + all, Vec4::INFINITY);
         for &([own, its], keep) in near {
-            self.keeps[from + (own - strands[one]) * count + its - strands[other]] = keep;
+            let its = its - strands[other];
+            self.keeps[from + (own - strands[one]) * fours + its / FOUR][its % FOUR] = keep;
         }
-        let kept =
-            |keeps: &[f32]| (0..FOUR).fold(0, |bits, i| bits | u32::from(keeps[i] > 0.0) << i);
-        self.kept.extend(self.keeps[from..].chunks(FOUR).map(kept));
+        let kept = |keeps: &Vec4| keeps.cmpgt(Vec4::ZERO).bitmask();
+        self.kept.extend(self.keeps[from..].iter().map(kept));
     }
 
-    /// Makes ready to be asked about so many strands.
-    pub(super) fn sort(&mut self, strands: u32) {
-        self.pairs.sort_unstable_by_key(|&(pair, _)| pair);
-        let first = |strand: u32| self.pairs.partition_point(|(pair, _)| pair[0] < strand);
-        self.first = (0..=strands).map(first).collect();
+    /// Makes ready to be asked.
+    pub(super) fn index(&mut self) {
+        // Half of it is free at least, so that few places are looked at.
+        let bits = (2 * self.pairs.len()).max(2).next_power_of_two().ilog2();
+        self.shift = u64::BITS - bits;
+        self.table = vec![(FREE, self.keeps.len()); 1 << bits];
+        for i in 0..self.pairs.len() {
+            let place = self.place(self.pairs[i].0);
+            self.table[place] = self.pairs[i];
+        }
+    }
+
+    /// Where a pair of strands lies in the table, or would.
+    #[inline(always)]
+    fn place(&self, pair: [u32; 2]) -> usize {
+        let number = u64::from(pair[0]) << 32 | u64::from(pair[1]);
+        // Fibonacci hashing (Knuth, volume 3, 6.4).
+        let mut place = (number.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> self.shift) as usize;
+        while self.table[place].0 != pair && self.table[place].0 != FREE {
+            place = (place + 1) & (self.table.len() - 1);
+        }
+        place
     }
 
     /// Those of a pair of strands, the earlier first.
     #[inline(always)]
     pub(super) fn between(&self, pair: &[u32; 2], strands: &[usize]) -> Between<'_> {
+        let from = self.table[self.place(*pair)].1;
         let [one, other] = pair.map(|strand| strand as usize);
-        let pairs = &self.pairs[self.first[one]..self.first[one + 1]];
-        let found = pairs.binary_search_by_key(&pair[1], |(pair, _)| pair[1]);
-        let from = found.map_or(self.keeps.len(), |found| pairs[found].1);
         Between {
             keeps: &self.keeps[from..],
-            kept: &self.kept[from / FOUR..],
-            first: [strands[one], strands[other]],
-            count: (strands[other + 1] - strands[other]).next_multiple_of(FOUR),
+            kept: &self.kept[from..],
+            first: strands[one],
+            fours: (strands[other + 1] - strands[other]).div_ceil(FOUR),
         }
     }
 }
 
 /// Those of a pair of strands.
 pub(super) struct Between<'a> {
-    keeps: &'a [f32],
+    keeps: &'a [Vec4],
     kept: &'a [u32],
-    first: [usize; 2],
-    count: usize,
+    first: usize,
+    fours: usize,
 }
 
 impl Between<'_> {
-    /// How far two pieces keep from each other, in m: 0, not at all; infinite, as far as any.
+    /// How far a piece keeps from four of the other strand, of the fours the one of this number, in m: 0, not at all; infinite, as far as any.
     #[inline(always)]
-    pub(super) fn of(&self, own: usize, other: usize) -> f64 {
-        let place = (own - self.first[0]) * self.count + other - self.first[1];
-        self.keeps
-            .get(place)
-            .map_or(f64::INFINITY, |&keep| f64::from(keep))
+    pub(super) fn of(&self, own: usize, four: usize) -> Vec4 {
+        let place = (own - self.first) * self.fours + four;
+        self.keeps.get(place).map_or(Vec4::INFINITY, |&keeps| keeps)
     }
 
-    /// Which of four pieces, the first of which is the other's number `from`, a multiple of four, a piece keeps apart from, as bits.
+    /// Which of these it keeps apart from, as bits.
     #[inline(always)]
-    pub(super) fn kept(&self, own: usize, from: usize) -> u32 {
-        let place = (own - self.first[0]) * self.count + from;
-        self.kept.get(place / FOUR).map_or(!0, |&kept| kept)
+    pub(super) fn kept(&self, own: usize, four: usize) -> u32 {
+        let place = (own - self.first) * self.fours + four;
+        self.kept.get(place).map_or(!0, |&kept| kept)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_of_strands_are_found_again_and_no_others() {
+        for count in [0, 1, 2, 300] {
+            let strands: Vec<usize> = (0..=1000).map(|strand| strand * 6).collect();
+            let mut keeps = Keeps::default();
+            let pair = |i: usize| [i % 37, 100 + i];
+            for i in 0..count {
+                let near = pair(i).map(|strand| strand * 6 + 5);
+                let pair = pair(i).map(|strand| strand as u32);
+                keeps.add(pair, &[(near, i as f32)], &strands);
+            }
+            keeps.index();
+            for i in 0..count {
+                let [one, other] = pair(i);
+                let between = keeps.between(&[one as u32, other as u32], &strands);
+                let expected = Vec4::INFINITY.with_y(i as f32);
+                assert_eq!(between.of(one * 6 + 5, 1), expected);
+                assert_eq!(between.of(one * 6 + 4, 1), Vec4::INFINITY);
+                assert_eq!(between.kept(one * 6 + 5, 1), if i > 0 { 15 } else { 13 });
+                let between = keeps.between(&[one as u32 + 40, other as u32], &strands);
+                assert_eq!(between.of((one + 40) * 6 + 5, 1), Vec4::INFINITY);
+                assert_eq!(between.kept((one + 40) * 6 + 5, 1) & 15, 15);
+            }
+        }
     }
 }

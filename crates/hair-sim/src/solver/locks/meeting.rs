@@ -184,12 +184,12 @@ fn shared_way<T: Number>(one: T, other: T) -> T {
 }
 
 #[inline(always)]
-fn least<T: Number>(one: T, other: T) -> T {
+pub(super) fn least<T: Number>(one: T, other: T) -> T {
     T::choose(other.less(one), other, one)
 }
 
 #[inline(always)]
-fn most<T: Number>(one: T, other: T) -> T {
+pub(super) fn most<T: Number>(one: T, other: T) -> T {
     T::choose(one.less(other), other, one)
 }
 

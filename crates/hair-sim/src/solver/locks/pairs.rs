@@ -2,42 +2,96 @@
 
 use glam::Vec4;
 
-use super::ways::{Bounds, Sweep};
+use super::{
+    meeting::SLOW,
+    ways::{Bounds, ROUNDED, Sweep},
+};
 
 /// Pieces whose boxes are looked at together.
 pub(super) const FOUR: usize = 4;
 
-/// The boxes of four pieces of a strand, coordinate by coordinate.
+/// Four boxes, coordinate by coordinate.
 #[derive(Clone, Copy, Debug)]
-struct Four {
+struct Boxes {
     low: [Vec4; 3],
     high: [Vec4; 3],
+}
+
+impl Boxes {
+    const NONE: Self = Self {
+        low: [Vec4::INFINITY; 3],
+        high: [Vec4::NEG_INFINITY; 3],
+    };
+
+    fn set(&mut self, i: usize, bounds: &Bounds) {
+        for axis in 0..3 {
+            self.low[axis][i] = bounds.low[axis];
+            self.high[axis][i] = bounds.high[axis];
+        }
+    }
+
+    /// How far they are from a box along the axis where that is most.
+    #[inline(always)]
+    fn gaps(&self, bounds: &Bounds) -> Vec4 {
+        let gap = |axis: usize| {
+            let (low, high) = (self.low[axis], self.high[axis]);
+            (low - bounds.high[axis]).max(Vec4::splat(bounds.low[axis]) - high)
+        };
+        gap(0).max(gap(1)).max(gap(2))
+    }
+}
+
+/// Four pieces of a strand, as [`Sweep`] has them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Four {
+    bounds: Boxes,
+    mid: Boxes,
+    way: [Vec4; 3],
+    spread: Vec4,
+    own: Vec4,
+    radius: Vec4,
 }
 
 impl Four {
     fn new(sweeps: &[Sweep]) -> Self {
         let mut four = Self {
-            low: [Vec4::INFINITY; 3],
-            high: [Vec4::NEG_INFINITY; 3],
+            bounds: Boxes::NONE,
+            mid: Boxes::NONE,
+            way: [Vec4::ZERO; 3],
+            spread: Vec4::ZERO,
+            own: Vec4::ZERO,
+            radius: Vec4::ZERO,
         };
-        for (i, Sweep { bounds, .. }) in sweeps.iter().enumerate() {
+        for (i, sweep) in sweeps.iter().enumerate() {
+            four.bounds.set(i, &sweep.bounds);
+            four.mid.set(i, &sweep.mid);
             for axis in 0..3 {
-                four.low[axis][i] = bounds.low[axis];
-                four.high[axis][i] = bounds.high[axis];
+                four.way[axis][i] = sweep.way[axis];
             }
+            four.spread[i] = sweep.spread;
+            four.own[i] = sweep.own;
+            four.radius[i] = sweep.radius;
         }
         four
     }
 
-    /// Which of them a box meets, as bits.
+    /// Which of them a piece may meet, as bits, where it keeps `keep` metres from each, or as many as both radii; and how much farther they may meet
+    /// than half way through the step, besides their radii.
     #[inline(always)]
-    fn meet(&self, bounds: &Bounds) -> u32 {
-        let gap = |axis: usize| {
-            let (low, high) = (self.low[axis], self.high[axis]);
-            (low - bounds.high[axis]).max(Vec4::splat(bounds.low[axis]) - high)
+    pub(super) fn near(&self, sweep: &Sweep, keep: Vec4) -> (u32, Vec4) {
+        let square = |axis: usize| {
+            let against = self.way[axis] - sweep.way[axis];
+            against * against
         };
-        let gaps = gap(0).max(gap(1)).max(gap(2));
-        gaps.cmple(Vec4::ZERO).bitmask()
+        let against = (square(0) + square(1) + square(2)).sqrt() * ROUNDED;
+        let against = against + self.spread + sweep.spread;
+        let radii = self.radius + sweep.radius;
+        let keep = keep.min(radii);
+        let acts = against.min(self.own + sweep.own);
+        let acts = Vec4::select(acts.cmpgt(keep * SLOW as f32), acts, Vec4::ZERO);
+        let farther = keep - radii + against * 0.5 + acts;
+        let near = self.mid.gaps(&sweep.mid).cmple(farther);
+        (near.bitmask(), farther)
     }
 }
 
@@ -97,8 +151,9 @@ impl Pairs {
         &self.pairs
     }
 
-    /// Tells of all pieces of a pair of strands whose boxes meet, in order; `strands` are the first pieces of each. `among` says which of four of the
-    /// other's it is about, as bits, by the first's piece and where they begin on the other.
+    /// Tells of all pieces of a pair of strands whose boxes meet, in order: of the first's piece, and four of the other's by their number, where
+    /// they begin, which of them it is about, as bits, and what else is known of them. `strands` are the first pieces of each; `among` says which of
+    /// four of the other's it may be about.
     #[inline(always)]
     pub(super) fn pieces(
         &self,
@@ -106,23 +161,32 @@ impl Pairs {
         sweeps: &[Sweep],
         strands: &[usize],
         among: impl Fn(usize, usize) -> u32,
-        mut tell: impl FnMut(usize, usize),
+        mut tell: impl FnMut(usize, (usize, usize), u32, &Four),
     ) {
         let [one, other] = pair.map(|strand| strand as usize);
         let fours = &self.fours[self.first[other]..self.first[other + 1]];
         for own in strands[one]..strands[one + 1] {
             for (number, four) in fours.iter().enumerate() {
-                let among = among(own, number * FOUR);
+                let among = among(own, number);
                 if among == 0 {
                     continue;
                 }
-                let mut meet = four.meet(&sweeps[own].bounds) & among;
-                while meet != 0 {
-                    let its = number * FOUR + meet.trailing_zeros() as usize;
-                    tell(own, strands[other] + its);
-                    meet &= meet - 1;
+                let gaps = four.bounds.gaps(&sweeps[own].bounds);
+                let meet = gaps.cmple(Vec4::ZERO).bitmask() & among;
+                if meet != 0 {
+                    tell(own, (number, strands[other] + number * FOUR), meet, four);
                 }
             }
         }
     }
+}
+
+/// The numbers of bits.
+#[inline(always)]
+pub(super) fn ones(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let next = (bits != 0).then(|| bits.trailing_zeros() as usize);
+        bits &= bits.wrapping_sub(1);
+        next
+    })
 }

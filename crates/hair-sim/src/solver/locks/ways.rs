@@ -16,7 +16,7 @@ use super::{
         drive::roots,
     },
     NEAR, Piece,
-    meeting::TOUCH,
+    meeting::{TOUCH, least, most},
 };
 
 /// The most links of a piece.
@@ -28,7 +28,7 @@ const FARTHEST: f64 = 0.1;
 /// What single precision may change a coordinate by, as a share of it.
 const ROUNDING: f64 = 1.0 / (1 << 22) as f64;
 /// A factor on a length in single precision that makes up for it.
-const ROUNDED: f32 = 1.0 + 1e-6;
+pub(super) const ROUNDED: f32 = 1.0 + 1e-6;
 
 /// A box along the axes.
 #[derive(Clone, Copy, Debug)]
@@ -53,14 +53,8 @@ impl Bounds {
 
     #[inline(always)]
     pub(super) fn meets(&self, other: &Self) -> bool {
-        self.meets_within(other, 0.0)
-    }
-
-    /// Whether they meet where one is larger by so much on all sides.
-    #[inline(always)]
-    fn meets_within(&self, other: &Self, by: f32) -> bool {
         let gaps = (self.low - other.high).max(other.low - self.high);
-        gaps.cmple(Vec3A::splat(by)).all()
+        gaps.cmple(Vec3A::ZERO).all()
     }
 
     pub(super) fn larger_by(&self, by: f32) -> Self {
@@ -113,7 +107,7 @@ impl OfLinks {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sweep {
     pub bounds: Bounds,
-    mid: Bounds,
+    pub mid: Bounds,
     /// Bits of [`Sweep::near`] for links that the piece has, as the first and as the other. What it lacks of four is as its last.
     rows: u32,
     columns: u32,
@@ -130,10 +124,11 @@ pub(super) struct Sweep {
     /// The mean ways of the links, and how far those of their ends are from that.
     ways: OfLinks,
     spreads: Vec4,
-    /// The lock's radius, and what comes to it.
+    /// The lock's radius, by itself and with what comes to it.
+    pub radius: f32,
     keep: f32,
-    way: Vec3A,
-    spread: f32,
+    pub way: Vec3A,
+    pub spread: f32,
     /// How far it goes against its root, in m.
     pub own: f32,
 }
@@ -153,41 +148,30 @@ impl Sweep {
         per_square: Vec4::ZERO,
         ways: OfLinks::ZERO,
         spreads: Vec4::ZERO,
+        radius: 0.0,
         keep: 0.0,
         way: Vec3A::ZERO,
         spread: 0.0,
         own: 0.0,
     };
 
-    /// How much farther than half way through the step two pieces may meet that keep `more` metres besides their radii (less, where it is below
-    /// 0), where going by `slow` metres against each other is; None where they are too far from each other for that.
-    #[inline(always)]
-    pub(super) fn farther(&self, other: &Self, (more, slow): (f32, f32)) -> Option<f32> {
-        let square = (self.way - other.way).length_squared();
-        let against = square.sqrt() * ROUNDED + self.spread + other.spread;
-        let acts = against.min(self.own + other.own);
-        let acts = if acts > slow { acts } else { 0.0 };
-        let farther = more + 0.5 * against + acts;
-        (self.mid.meets_within(&other.mid, farther)).then_some(farther)
-    }
-
     /// Which links of two pieces may meet, as bits, those of the other for every link of the first, where both keep `more` metres besides their radii,
-    /// what is `slow` as for [`Sweep::farther`], and may meet so much `farther` than half way through the step. It looks at both pieces as wholes first, then at balls around links.
+    /// where going by `slow` metres against each other is slow, and
+    /// they may meet so much `farther` than half way through the step. It looks at both pieces as wholes first, then at balls around links.
     #[inline(always)]
     pub(super) fn near(&self, other: &Self, (more, slow, farther): (f32, f32, f32)) -> u32 {
         let keep = Vec4::splat(self.keep + other.keep + farther);
         let around = other.reach + keep;
-        if self.is_apart(other, keep[0]) {
+        let mut near = self.not_apart(other, keep[0]);
+        if near == 0 {
             return 0;
         }
-        let mut near = 0;
         for link in 0..PIECE {
             let between = other.center.minus(&self.center.of(link));
             let reach = around + Vec4::splat(self.reach[link]);
             let meets = between.length_squared().cmple(reach * reach);
-            near |= meets.bitmask() << (PIECE * link);
+            near &= meets.bitmask() << (PIECE * link) | !(0xf << (PIECE * link));
         }
-        near &= self.rows & other.columns;
         let mut found = 0;
         while near != 0 {
             let link = near.trailing_zeros() as usize / PIECE;
@@ -199,10 +183,10 @@ impl Sweep {
         found
     }
 
-    /// Whether pieces are farther from each other than `keep` m half way through the step: between two planes at a right angle to where strands that hang
-    /// side by side are nearest, whatever rounding makes of that.
+    /// Which links of two pieces may be nearer to each other than `keep` m half way through the step, as bits: those that aren't between two planes at a
+    /// right angle to where strands that hang side by side are nearest, whatever rounding makes of that.
     #[inline(always)]
-    fn is_apart(&self, other: &Self, keep: f32) -> bool {
+    fn not_apart(&self, other: &Self, keep: f32) -> u32 {
         let between = other.middle - self.middle;
         let along = self.along * self.along.dot(other.along).signum();
         let along = along + other.along;
@@ -210,9 +194,10 @@ impl Sweep {
         let toward = OfLinks([Vec4::splat(way.x), Vec4::splat(way.y), Vec4::splat(way.z)]);
         let far = toward.dot(&self.center) + toward.dot(&self.half).abs();
         let its = toward.dot(&other.center) - toward.dot(&other.half).abs();
-        let apart = its.min_element() - far.max_element();
-        let keep = keep + self.rounding + other.rounding;
-        apart > 0.0 && apart * apart > keep * keep * way.length_squared() * ROUNDED
+        let keep = (keep + self.rounding + other.rounding) * way.length() * ROUNDED;
+        let far = far + Vec4::splat(keep);
+        let apart = |link: usize| its.cmpgt(Vec4::splat(far[link])).bitmask() << (PIECE * link);
+        !(0..PIECE).fold(0, |bits, link| bits | apart(link)) & self.rows & other.columns
     }
 
     /// Which of the other's links may meet a link, as bits: of each link and the ball around the other, and between two planes at a right angle to where
@@ -394,13 +379,13 @@ impl Step<'_> {
             let now = root.load::<T>() + y + v * self.dt;
             *point = [before.store(), now.store()];
         }
-        let shift = root - state.root;
+        let shift = (root - state.root).load::<T>();
         // The first piece of every lane, which lie one after the other.
         let from: [usize; LANES + 1] =
             std::array::from_fn(|lane| pieces.partition_point(|piece| piece.lane < lane));
         for (number, first) in (0..batch.count()).step_by(PIECE).enumerate() {
             let links = &points[first..=(first + PIECE).min(batch.count())];
-            let swept = Swept::of(links, shift, self.origin);
+            let swept = Swept::of::<T>(links, shift, self.origin);
             for lane in 0..LANES {
                 let piece = from[lane] + number;
                 if piece < from[lane + 1] {
@@ -434,50 +419,54 @@ struct Swept {
 impl Swept {
     /// Of points whose roots go by `shift`, against an origin.
     #[inline(always)]
-    fn of(points: &[[Vec3; 2]], shift: Vec3, origin: DVec3) -> Self {
-        let origin = Vec3::splat(origin);
-        let [first, last] = [points[0], points[points.len() - 1]];
-        let way = (first[1] - first[0] + last[1] - last[0]) * 0.5;
+    fn of<T: Number>(points: &[[Vec3; 2]], shift: Vec3<T>, origin: DVec3) -> Self {
+        let (zero, half, quarter) = (T::splat(0.0), T::splat(0.5), T::splat(0.25));
+        let origin = Vec3::<T>::all(origin);
+        let load = |[before, now]: &[Vec3; 2]| [before.load::<T>(), now.load::<T>()];
+        let [first, last] = [load(&points[0]), load(&points[points.len() - 1])];
+        let way = (first[1] - first[0] + last[1] - last[0]).scale(half);
         let (mut low, mut high) = (first[0] - origin, first[0] - origin);
-        let middle = (first[0] + first[1]) * 0.5 - origin;
+        let middle = (first[0] + first[1]).scale(half) - origin;
         let (mut mid_low, mut mid_high) = (middle, middle);
-        let (mut own, mut spread, mut broken) = (Lane::ZERO, Lane::ZERO, Lane::ZERO);
-        for [before, now] in points {
-            let (from, to) = (*before - origin, *now - origin);
-            let mid = (from + to) * 0.5;
-            (low, high) = (least(least(low, from), to), most(most(high, from), to));
-            (mid_low, mid_high) = (least(mid_low, mid), most(mid_high, mid));
-            let goes = *now - *before;
-            own = own.max((goes - shift).length_squared());
-            spread = spread.max((goes - way).length_squared());
+        let (mut own, mut spread, mut broken) = (zero, zero, zero);
+        for point in points {
+            let [before, now] = load(point);
+            let (from, to) = (before - origin, now - origin);
+            let mid = (from + to).scale(half);
+            (low, high) = (low.least(from).least(to), high.most(from).most(to));
+            (mid_low, mid_high) = (mid_low.least(mid), mid_high.most(mid));
+            let goes = now - before;
+            own = most(own, (goes - shift).length_squared());
+            spread = most(spread, (goes - way).length_squared());
             // NaN where a way is not finite.
-            broken += goes.x * 0.0 + goes.y * 0.0 + goes.z * 0.0;
+            broken = broken + goes.x * zero + goes.y * zero + goes.z * zero;
         }
         let mut swept = Self {
-            low,
-            high,
-            mid_low,
-            mid_high,
+            low: low.store(),
+            high: high.store(),
+            mid_low: mid_low.store(),
+            mid_high: mid_high.store(),
             centers: [Vec3::ZERO; PIECE],
             halves: [Vec3::ZERO; PIECE],
             reaches: [Lane::ZERO; PIECE],
             ways: [Vec3::ZERO; PIECE],
             spreads: [Lane::ZERO; PIECE],
-            way,
-            spread: spread.sqrt(),
-            own: own.sqrt() + broken,
+            way: way.store(),
+            spread: spread.sqrt().store(),
+            own: (own.sqrt() + broken).store(),
         };
         for (i, ends) in points.windows(2).enumerate() {
-            let [[start, start_now], [end, end_now]] = [ends[0], ends[1]];
+            let [[start, start_now], [end, end_now]] = [load(&ends[0]), load(&ends[1])];
             let long = (end - start).length_squared();
-            let long = long.max((end_now - start_now).length_squared());
+            let long = most(long, (end_now - start_now).length_squared());
             let (start_mid, end_mid) = (start + start_now, end + end_now);
-            swept.centers[i] = (start_mid + end_mid) * 0.25 - origin;
-            swept.halves[i] = (end_mid - start_mid) * 0.25;
+            swept.centers[i] = ((start_mid + end_mid).scale(quarter) - origin).store();
+            swept.halves[i] = (end_mid - start_mid).scale(quarter).store();
             let (start_way, end_way) = (start_now - start, end_now - end);
-            swept.ways[i] = (start_way + end_way) * 0.5;
-            swept.spreads[i] = (end_way - start_way).length_squared().sqrt() * 0.5;
-            swept.reaches[i] = long.sqrt() * 0.5;
+            swept.ways[i] = (start_way + end_way).scale(half).store();
+            let spread = (end_way - start_way).length_squared().sqrt() * half;
+            swept.spreads[i] = spread.store();
+            swept.reaches[i] = (long.sqrt() * half).store();
         }
         swept
     }
@@ -501,6 +490,7 @@ impl Swept {
         let mut sweep = Sweep {
             bounds: around(low, high, keep + own + rounding),
             mid: around(mid_low, mid_high, keep + rounding),
+            radius: piece.radius as f32,
             keep: (keep + rounding) as f32,
             way: self.way.get(lane).as_vec3a(),
             spread: (spread + rounding) as f32,
@@ -535,14 +525,22 @@ impl Swept {
     }
 }
 
-#[inline(always)]
-fn least(one: Vec3, other: Vec3) -> Vec3 {
-    let (x, y, z) = (one.x.min(other.x), one.y.min(other.y), one.z.min(other.z));
-    Vec3::new(x, y, z)
-}
+impl<T: Number> Vec3<T> {
+    #[inline(always)]
+    fn least(self, other: Self) -> Self {
+        Self::new(
+            least(self.x, other.x),
+            least(self.y, other.y),
+            least(self.z, other.z),
+        )
+    }
 
-#[inline(always)]
-fn most(one: Vec3, other: Vec3) -> Vec3 {
-    let (x, y, z) = (one.x.max(other.x), one.y.max(other.y), one.z.max(other.z));
-    Vec3::new(x, y, z)
+    #[inline(always)]
+    fn most(self, other: Self) -> Self {
+        Self::new(
+            most(self.x, other.x),
+            most(self.y, other.y),
+            most(self.z, other.z),
+        )
+    }
 }
