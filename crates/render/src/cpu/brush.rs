@@ -46,7 +46,7 @@ impl Beside {
 
     /// As many of them as a cell has, from that one on; of those behind the last anything.
     #[inline(always)]
-    fn from(&self, first: usize) -> BesideCell {
+    fn cell_from(&self, first: usize) -> BesideCell {
         let mut numbers = [[0.0; LANES]; NUMBERS];
         for (lanes, list) in numbers.iter_mut().zip(self.numbers.iter()) {
             let (cells, _) = list.as_chunks::<LANES>();
@@ -154,7 +154,7 @@ impl<'a> StrokeBrush<'a> {
             }
         }
         for first in (0..beside.samples.len()).step_by(LANES) {
-            let coverage = self.coverage(&beside.from(first));
+            let coverage = self.coverage(&beside.cell_from(first));
             for (k, &(cell, lane)) in beside.samples[first..].iter().take(LANES).enumerate() {
                 let group = lane / together * together;
                 for lane in group..group + together {

@@ -888,9 +888,9 @@ mod tests {
         let found: Vec<Cell> = cells(3, columns(&mask, 3)).collect();
         assert_eq!(found.iter().map(|c| c.column).collect::<Vec<_>>(), [6, 30]);
         // The left column's samples, and the right one's.
-        let lanes_of = |cell: &Cell| bits(&cell.lanes(&mask));
-        assert_eq!(lanes_of(&found[0]), 1 | 1 << (STACK + 5));
-        assert_eq!(lanes_of(&found[1]), 1 << (STACK + 5));
+        assert_eq!(found[0].lanes(&mask), lanes(1 | 1 << (STACK + 5)));
+        assert_eq!(found[1].lanes(&mask), lanes(1 << (STACK + 5)));
+        assert_eq!(lanes(1 << 3)[3], u32::MAX);
         let mut copy = NO_SAMPLES;
         for cell in found {
             cell.add_to(&mut copy, &cell.lanes(&mask));
