@@ -17,12 +17,14 @@ mod decals;
 mod evaluate;
 pub(crate) mod instructions;
 mod light;
+mod lines;
 mod mixed;
 mod offer;
 mod outlines;
 mod paint;
 mod paint_mesh;
 mod reached;
+mod ribbon;
 mod rows;
 mod samples;
 mod seen;
@@ -53,15 +55,17 @@ use bin::{Bins, Lists, cells};
 use context::{Part, TileContext};
 use decals::{DecalParts, Decals};
 use instructions::Instructions;
-use light::{BandLight, Light};
+use light::Light;
+use lines::BandUnderLines;
 use mixed::JointRows;
 use paint::Painter;
 use paint_mesh::MeshPainter;
 use rayon::prelude::*;
+use ribbon::{Finder, Ribbon};
 use segment::{Kind, Segment, Segments, Stroke};
 use shown::Shown;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use strand::StrandMasks;
 use surface::Triangle;
 use texels::Pictures;
@@ -97,9 +101,10 @@ pub struct Rasterizer {
     instructions: Instructions,
     /// One for each thread, once it has drawn.
     workers: Vec<Mutex<Worker>>,
-    /// Samples of the last picture with passes, and their colours where these are not among them.
+    /// Of the last picture with passes its samples, or their colours and the outermost rows of each band.
     planes: SamplePlanes,
     light: Light,
+    rims: Vec<Ribbon>,
     /// The memory of a picture that was given back; else empty.
     spare: Vec<[f32; 4]>,
 }
@@ -143,6 +148,7 @@ impl Rasterizer {
             workers: Vec::new(),
             planes: SamplePlanes::default(),
             light: Light::default(),
+            rims: Vec::new(),
             spare: Vec::new(),
         })
     }
@@ -176,9 +182,8 @@ impl Rasterizer {
             parts,
             instructions,
             workers,
-            planes: _,
-            light: _,
             spare,
+            ..
         } = self;
         let mut draw = || {
             check::check(drawing)?;
@@ -205,11 +210,7 @@ impl Rasterizer {
                 .enumerate()
                 .with_max_len(1) // so that all threads end at one time
                 .for_each(|(band, pixels)| {
-                    let thread = rayon::current_thread_index().unwrap_or(0);
-                    // Its planes are cleared before use, so a panic elsewhere can't harm them.
-                    let mut worker = workers[thread]
-                        .lock()
-                        .unwrap_or_else(PoisonError::into_inner);
+                    let mut worker = own_worker(workers);
                     worker.draw_band(&frame, band, Output::Pixels(pixels));
                 });
             Ok(picture)
@@ -219,6 +220,15 @@ impl Rasterizer {
             None => draw(),
         }
     }
+}
+
+/// That of the thread.
+fn own_worker(workers: &[Mutex<Worker>]) -> MutexGuard<'_, Worker> {
+    let thread = rayon::current_thread_index().unwrap_or(0);
+    // Its memory is cleared before use, so a panic elsewhere can't harm it.
+    workers[thread]
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A picture to draw in, and what pixels that nothing covers are to be, where they aren't: it takes the spare pixels, where there are as many.
@@ -357,8 +367,10 @@ impl Frame<'_> {
 enum Output<'a> {
     /// Their means, as the band's pixels.
     Pixels(&'a mut [[f32; 4]]),
-    /// What the samples of one stack tell; with their means and colours, where these are asked for.
-    Samples(BandPlanes<'a>, Option<BandLight<'a>>),
+    /// What the samples of one stack tell.
+    Samples(BandPlanes<'a>),
+    /// Their means, and what lines over them need.
+    UnderLines(BandUnderLines<'a>),
 }
 
 /// A thread's own memory.
@@ -376,6 +388,9 @@ struct Worker {
     painter: Painter,
     meshes: MeshPainter,
     decals: Decals,
+    /// Where lines of the whole picture are found; empty where there are none.
+    ribbon: Ribbon,
+    finder: Finder,
 }
 
 impl Worker {
@@ -391,6 +406,8 @@ impl Worker {
             painter: Painter::default(),
             meshes: MeshPainter::default(),
             decals: Decals::default(),
+            ribbon: Ribbon::default(),
+            finder: Finder::default(),
         }
     }
 
@@ -402,7 +419,8 @@ impl Worker {
         );
         match output {
             Output::Pixels(pixels) => self.draw_pixels(frame, band, pixels),
-            Output::Samples(planes, light) => self.draw_samples(frame, band, planes, light),
+            Output::Samples(planes) => self.draw_samples(frame, band, planes),
+            Output::UnderLines(output) => self.draw_under_lines(frame, band, output),
         }
     }
 

@@ -4,13 +4,17 @@
 //! smooth. Lines lie on what is in front. They are grown by discs, whose rows are shifted words of 64 pixels, so that wide lines take
 //! hardly longer than thin ones.
 
+pub(crate) mod find;
+
 use crate::cpu::instructions::Instructions;
 use crate::features::{Feature, Features};
 use crate::planes::SamplePlanes;
 use effects::wgsl::random_signed;
 use effects::{Variation, strand_seed};
+use find::{Around, Rows, SOME, Scratch, marked};
 use portable_math::sin_cos_degrees_f32;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// What lines are drawn between.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,8 +58,82 @@ const LARGEST: f32 = 1024.0;
 /// Steps of a radius in a pixel.
 const STEPS: f32 = 4.0;
 
-/// Some pixels of a row, 64 in a word.
-pub(crate) type Bits = Vec<u64>;
+/// The pixels of one sample that lines cover, 64 of a row in a word.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Covered {
+    /// Of a row.
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Covered {
+    fn none([width, height]: [u32; 2]) -> Self {
+        let words = width.div_ceil(64) as usize;
+        Self {
+            words,
+            bits: vec![0; words * height as usize],
+        }
+    }
+
+    /// The words of a row.
+    pub(crate) fn row(&self, y: usize) -> &[u64] {
+        &self.bits[y * self.words..][..self.words]
+    }
+}
+
+/// Where lines begin in some rows of some samples, and how far they reach.
+#[derive(Default)]
+pub(crate) struct Beginnings {
+    rows: Vec<BeginningsOfRow>,
+    all: Vec<Beginning>,
+}
+
+/// One row of one sample.
+struct BeginningsOfRow {
+    sample: usize,
+    y: usize,
+    of_all: Range<usize>,
+}
+
+#[derive(Clone, Copy)]
+pub(crate) struct Beginning {
+    column: u16,
+    /// Radius that the line is grown by, in [`STEPS`].
+    class: u16,
+}
+
+const _: () = assert!(crate::cpu::MAX_SIZE <= u16::MAX as u32 && LARGEST * STEPS <= 65_535.0);
+
+impl Beginnings {
+    /// Adds a row of a sample, of the picture's samples that are drawn at once.
+    pub(crate) fn push(&mut self, sample: usize, y: usize, row: &[Beginning]) {
+        if !row.is_empty() {
+            let start = self.all.len();
+            self.all.extend_from_slice(row);
+            self.rows.push(BeginningsOfRow {
+                sample,
+                y,
+                of_all: start..self.all.len(),
+            });
+        }
+    }
+}
+
+/// What one sample shows where a line may begin.
+#[derive(Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) object: u32,
+    /// Of hair: its place along the strand and the strand, where [`Edges::features`] have them, else 0.
+    pub(crate) u: f32,
+    pub(crate) strand: u32,
+    /// The sample's place among all, 0 to 1.
+    pub(crate) share: f32,
+}
+
+/// A sample's [share](Place::share), by its number. A little less than the middle, so that half a pixel is none where there is one sample.
+pub(crate) fn share(sample: usize, samples: usize) -> f32 {
+    (sample as f32 + 0.499) / samples as f32
+}
 
 impl Edges {
     /// What samples must tell for it.
@@ -86,66 +164,99 @@ impl Edges {
         (0.5 * (widest - 1.0).max(0.0) + 1.0).min(LARGEST) as u32
     }
 
+    /// The ids that lines are found between, if it is ids.
+    pub(crate) fn ids(&self) -> Option<Feature> {
+        match self.channel {
+            EdgeChannel::Level => Some(Feature::Level),
+            EdgeChannel::Strand => Some(Feature::Strand),
+            EdgeChannel::Object => Some(Feature::Object),
+            EdgeChannel::Normal | EdgeChannel::Depth | EdgeChannel::Color => None,
+        }
+    }
+
+    /// What lines are found in by a filter of its components, if it is that.
+    pub(crate) fn filtered(&self) -> Option<Feature> {
+        match self.channel {
+            EdgeChannel::Normal => Some(Feature::Normal),
+            EdgeChannel::Color => Some(Feature::Color),
+            _ => None,
+        }
+    }
+
+    /// Marks where lines begin in a row of samples, of which `STEP` lie between one and its neighbour.
+    #[inline(always)] // compiled for the best instructions
+    pub(crate) fn mark<const STEP: usize>(
+        &self,
+        around: &Around,
+        scratch: &mut Scratch,
+        marks: &mut [u32],
+    ) {
+        match self.channel {
+            EdgeChannel::Level | EdgeChannel::Strand => {
+                find::ids::<STEP>(around, true, scratch, marks);
+            }
+            EdgeChannel::Object => find::ids::<STEP>(around, false, scratch, marks),
+            EdgeChannel::Depth => find::steps::<STEP>(around, self.step_m, scratch, marks),
+            EdgeChannel::Normal | EdgeChannel::Color => {
+                find::sobel::<STEP>(around, self.threshold * self.threshold, marks);
+            }
+        }
+    }
+
+    /// The line that begins at a mark; none where the sample has none.
+    pub(crate) fn beginning(&self, column: usize, place: &Place) -> Option<Beginning> {
+        let width = match place.object % 2 == 1 {
+            true => self.width_of_hair(place.u, place.strand),
+            false => self.widest(),
+        };
+        let class = class(width, place.share)?;
+        Some(Beginning {
+            column: column as u16,
+            class,
+        })
+    }
+
     /// Draws the lines into samples of a picture that has so many a pixel.
     pub(crate) fn draw(&self, planes: &mut SamplePlanes, samples: usize) {
-        let masks = self.covered(planes, samples);
-        planes.set_color(&masks, self.color);
+        let found = (0..planes.samples().len()).into_par_iter().map(|picture| {
+            let mut found = Beginnings::default();
+            self.find(planes, picture, samples, &mut found);
+            covered([&found], 0, planes.size())
+        });
+        let found: Vec<Covered> = found.collect();
+        planes.set_color(&found, self.color);
     }
 
-    /// The pixels that lines cover, for each row of each of the samples, of which a picture has so many a pixel.
-    pub(crate) fn covered(&self, planes: &SamplePlanes, samples: usize) -> Vec<Vec<Bits>> {
-        let first = planes.samples().start;
-        (0..planes.samples().len())
-            .into_par_iter()
-            .map(|picture| {
-                // A little less than the middle, so that half a pixel is none where there is one sample.
-                let share = ((first + picture) as f32 + 0.499) / samples as f32;
-                self.lines(planes, picture, share)
-            })
-            .collect()
-    }
-
-    /// The pixels of one sample that lines cover; `share` is the sample's place among all, 0 to 1.
-    fn lines(&self, planes: &SamplePlanes, picture: usize, share: f32) -> Vec<Bits> {
+    /// Finds where lines begin in one of the samples of a picture that has so many a pixel.
+    fn find(&self, planes: &SamplePlanes, picture: usize, samples: usize, found: &mut Beginnings) {
         let [width, height] = planes.size().map(|side| side as usize);
-        let words = width.div_ceil(64);
-        let mut lines = vec![vec![0; words]; height];
-        let mut differ = Differences::new(width);
-        let mut found = Vec::new();
-        let mut classes: Vec<(usize, Bits)> = Vec::new();
-        let mut grown = vec![0; words];
-        let widest = self.widest();
+        let share = share(planes.samples().start + picture, samples);
+        let instructions = Instructions::best();
+        let mut wide = WideRows::default();
+        let (mut scratch, mut row) = (Scratch::default(), Vec::new());
+        let mut marks = vec![0; width.next_multiple_of(SOME)];
         for y in 0..height {
-            self.find(planes, picture, y, &mut differ, &mut found);
-            classes.clear();
+            let around = wide.around(self, planes, picture, y);
+            instructions.run(
+                #[inline(always)]
+                || self.mark::<1>(&around, &mut scratch, &mut marks),
+            );
             let objects = planes.ids(picture, Feature::Object, y);
             // Empty where no width needs them.
             let along = planes.numbers(picture, Feature::U, 0, y);
             let strands = planes.ids(picture, Feature::Strand, y);
-            for &x in &found {
-                let width = match objects[x] % 2 == 1 {
-                    true => {
-                        let of = |strands: &[u32]| strands.get(x).copied().unwrap_or(0);
-                        self.width_of_hair(along.get(x).copied().unwrap_or(0.0), of(strands))
-                    }
-                    false => widest,
+            row.clear();
+            row.extend(marked(&marks).take_while(|x| *x < width).filter_map(|x| {
+                let place = Place {
+                    object: objects[x],
+                    u: along.get(x).copied().unwrap_or_default(),
+                    strand: strands.get(x).copied().unwrap_or_default(),
+                    share,
                 };
-                let Some(class) = class(width, share) else {
-                    continue;
-                };
-                let index = classes.iter().position(|(other, _)| *other == class);
-                let index = index.unwrap_or_else(|| {
-                    classes.push((class, vec![0; words]));
-                    classes.len() - 1
-                });
-                classes[index].1[x / 64] |= 1 << (x % 64);
-            }
-            for (class, bits) in &classes {
-                grown.copy_from_slice(bits);
-                grow(&mut grown, *class as f32 / STEPS, y, &mut lines);
-            }
+                self.beginning(x, &place)
+            }));
+            found.push(0, y, &row);
         }
-        lines
     }
 
     /// The width of a line on hair, pixels.
@@ -168,271 +279,121 @@ impl Edges {
         let widths = self.width_px.curve.iter().map(|(_, width)| *width);
         widths.fold(0.0, f32::max)
     }
-
-    /// Finds the columns of a row where a line begins; rows are asked for one after the other.
-    fn find(
-        &self,
-        planes: &SamplePlanes,
-        picture: usize,
-        y: usize,
-        differ: &mut Differences,
-        found: &mut Vec<usize>,
-    ) {
-        found.clear();
-        match self.channel {
-            EdgeChannel::Level => find_ids(planes, picture, Feature::Level, y, differ, found),
-            EdgeChannel::Strand => find_ids(planes, picture, Feature::Strand, y, differ, found),
-            EdgeChannel::Object => find_ids(planes, picture, Feature::Object, y, differ, found),
-            EdgeChannel::Depth => self.find_steps(planes, picture, y, differ, found),
-            EdgeChannel::Normal => self.find_sobel(planes, picture, Feature::Normal, y, found),
-            EdgeChannel::Color => self.find_sobel(planes, picture, Feature::Color, y, found),
-        }
-    }
-
-    fn find_steps(
-        &self,
-        planes: &SamplePlanes,
-        picture: usize,
-        y: usize,
-        differ: &mut Differences,
-        found: &mut Vec<usize>,
-    ) {
-        let last = planes.size()[1] as usize - 1;
-        let row = |y: usize| planes.numbers(picture, Feature::InvDepth, 0, y);
-        let rows = [row(y.saturating_sub(1)), row(y), row((y + 1).min(last))];
-        differ.instructions.run(
-            #[inline(always)]
-            || fill_steps(rows, self.step_m, &mut differ.farthest, &mut differ.all),
-        );
-        found.extend(nonzero(&differ.all));
-    }
-
-    fn find_sobel(
-        &self,
-        planes: &SamplePlanes,
-        picture: usize,
-        feature: Feature,
-        y: usize,
-        found: &mut Vec<usize>,
-    ) {
-        let [width, height] = planes.size().map(|side| side as usize);
-        let rows = [y.saturating_sub(1), y, (y + 1).min(height - 1)];
-        let threshold = self.threshold * self.threshold;
-        let channels = [0, 1, 2].map(|i| rows.map(|y| planes.numbers(picture, feature, i, y)));
-        found.extend((0..width).filter(|&x| {
-            let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
-            let squares = channels.iter().map(|[above, own, below]| {
-                let across = |row: &[f32]| row[right] - row[left];
-                let down = |x: usize| below[x] - above[x];
-                let h = across(above) + 2.0 * across(own) + across(below);
-                let v = down(left) + 2.0 * down(x) + down(right);
-                h * h + v * v
-            });
-            squares.sum::<f32>() > threshold
-        }));
-    }
 }
 
 /// The radius that a line of that width is grown by, in [`STEPS`]; nothing where the sample has no line.
-fn class(width: f32, share: f32) -> Option<usize> {
+fn class(width: f32, share: f32) -> Option<u16> {
     if width < 1.0 {
         return (share < width).then_some(0);
     }
     let radius = (0.5 * (width - 1.0) + share).min(LARGEST);
-    Some((radius * STEPS) as usize)
+    Some((radius * STEPS) as u16)
 }
 
-/// The row and those beside it.
-fn around(y: usize, planes: &SamplePlanes) -> std::ops::Range<usize> {
-    y.saturating_sub(1)..(y + 2).min(planes.size()[1] as usize)
+/// Rows of a picture with a column more on either side, as [`Rows`] are.
+#[derive(Default)]
+struct WideRows {
+    ids: [[Vec<u32>; 3]; 2],
+    numbers: [[Vec<u32>; 3]; 4],
 }
 
-/// Marks the pixels of the middle one of three rows of inverse depths that have one around them which is farther by more than a step. `farthest` is
-/// scratch, as long as they are.
-#[inline(always)] // compiled for the best instructions
-fn fill_steps(
-    [above, own, below]: [&[f32]; 3],
-    step_m: f32,
-    farthest: &mut [f32],
-    differ: &mut [u32],
-) {
-    let lesser = |a: f32, b: f32| if b < a { b } else { a };
-    let width = differ.len();
-    // Of one length, so that no place is checked.
-    let (above, own, below) = (&above[..width], &own[..width], &below[..width]);
-    let (farthest, differ) = (&mut farthest[..width], &mut differ[..width]);
-    for x in 0..width {
-        farthest[x] = lesser(lesser(above[x], own[x]), below[x]);
-    }
-    // Farther than own / (1 + own * step), in inverse depths; nothing is infinitely far. What is grows with the other's inverse depth, also
-    // in single precision, so that it is enough to ask of the farthest of nine.
-    let mark = |x: usize, farthest: f32| u32::from(farthest * (1.0 + own[x] * step_m) < own[x]);
-    let last = width - 1;
-    for x in 1..last {
-        let of_nine = lesser(lesser(farthest[x - 1], farthest[x]), farthest[x + 1]);
-        differ[x] = mark(x, of_nine);
-    }
-    let next = |x: usize, other: usize| lesser(farthest[x], farthest[other]);
-    differ[0] = mark(0, next(0, 1.min(last)));
-    differ[last] = mark(last, next(last, last.saturating_sub(1)));
-}
-
-/// Numbers that are looked at at once.
-const SOME: usize = 16;
-
-/// The columns of what isn't 0, most of which is.
-fn nonzero(differ: &[u32]) -> impl Iterator<Item = usize> {
-    let some = differ.chunks(SOME).enumerate();
-    let some = some.filter(|(_, numbers)| any(numbers) != 0);
-    some.flat_map(|(chunk, numbers)| {
-        let columns = (chunk * SOME..).zip(numbers);
-        columns.filter_map(|(x, number)| (*number != 0).then_some(x))
-    })
-}
-
-/// All bits of some numbers.
-#[inline(always)]
-fn any(numbers: &[u32]) -> u32 {
-    // Without branches where there are as many as there mostly are.
-    match <&[u32; SOME]>::try_from(numbers) {
-        Ok(numbers) => {
-            let mut all = 0;
-            for number in numbers {
-                all |= number;
-            }
-            all
-        }
-        Err(_) => numbers.iter().fold(0, |all, number| all | number),
-    }
-}
-
-/// Where ids of a picture differ, as rows of numbers that are 0 where they don't. Of nine pixels all are alike where no two beside each
-/// other differ in one of the three rows, nor those of the middle column.
-struct Differences {
-    /// From a pixel to the next one of its row: of the row before, of this row and of the one behind it.
-    across: [Vec<u32>; 3],
-    /// From a pixel to the one below it: of the row before, and of this row.
-    down: [Vec<u32>; 2],
-    /// In the nine pixels around one.
-    all: Vec<u32>,
-    /// Of depths: the farthest of each pixel and those above and below it.
-    farthest: Vec<f32>,
-    instructions: Instructions,
-}
-
-impl Differences {
-    fn new(width: usize) -> Self {
-        Self {
-            across: [0; 3].map(|_| vec![0; width]),
-            down: [0; 2].map(|_| vec![0; width]),
-            all: vec![0; width],
-            farthest: vec![0.0; width],
-            instructions: Instructions::best(),
-        }
-    }
-
-    /// Works out [`Self::all`] of row `y`, after that of the row before.
-    #[inline(always)] // compiled for the best instructions
-    fn advance(&mut self, planes: &SamplePlanes, picture: usize, feature: Feature, y: usize) {
-        let height = planes.size()[1] as usize;
-        let rows = |y: usize| [feature, Feature::Object].map(|id| planes.ids(picture, id, y));
-        let width = self.all.len();
-        self.across.rotate_left(1);
-        self.down.rotate_left(1);
-        if y == 0 {
-            self.across[0].fill(0);
-            self.down[0].fill(0);
-            fill_beside(&mut self.across[1], rows(0));
-        }
-        match y + 1 < height {
-            true => {
-                let (own, below) = (rows(y), rows(y + 1));
-                fill_beside(&mut self.across[2], below);
-                fill_differences(&mut self.down[1], own, below);
-            }
-            false => {
-                self.across[2].fill(0);
-                self.down[1].fill(0);
+impl WideRows {
+    /// What lines are found in around a row of a sample.
+    fn around(
+        &mut self,
+        edges: &Edges,
+        planes: &SamplePlanes,
+        picture: usize,
+        y: usize,
+    ) -> Around<'_> {
+        let last = planes.size()[1] as usize - 1;
+        let rows = [y.saturating_sub(1), y, (y + 1).min(last)];
+        let [objects, ids] = &mut self.ids;
+        let [inv_depths, components @ ..] = &mut self.numbers;
+        if let Some(feature) = edges.ids() {
+            for (i, y) in rows.into_iter().enumerate() {
+                widen_row(
+                    planes.ids(picture, Feature::Object, y),
+                    u32::from,
+                    &mut objects[i],
+                );
+                widen_row(planes.ids(picture, feature, y), u32::from, &mut ids[i]);
             }
         }
-        // Of one length, so that no place is checked.
-        let all = &mut self.all[..width];
-        let [a, b, c] = self.across.each_ref().map(|row| &row[..width]);
-        let [d, e] = self.down.each_ref().map(|row| &row[..width]);
-        all[0] = a[0] | b[0] | c[0] | d[0] | e[0];
-        for x in 1..width {
-            let left = a[x - 1] | b[x - 1] | c[x - 1];
-            all[x] = left | a[x] | b[x] | c[x] | d[x] | e[x];
+        for (i, y) in rows.into_iter().enumerate() {
+            let row = planes.numbers(picture, Feature::InvDepth, 0, y);
+            widen_row(row, f32::to_bits, &mut inv_depths[i]);
+        }
+        if let Some(feature) = edges.filtered() {
+            for (component, wide) in components.iter_mut().enumerate() {
+                for (i, y) in rows.into_iter().enumerate() {
+                    let row = planes.numbers(picture, feature, component, y);
+                    widen_row(row, f32::to_bits, &mut wide[i]);
+                }
+            }
+        }
+        Around {
+            objects: rows_of(objects),
+            ids: rows_of(ids),
+            inv_depths: rows_of(inv_depths),
+            components: components.each_ref().map(rows_of),
         }
     }
 }
 
-/// Where the pixels of a row of two ids differ from those to their right.
-#[inline(always)]
-fn fill_beside(differ: &mut [u32], [a, b]: [&[u32]; 2]) {
-    let last = differ.len() - 1;
-    fill_differences(&mut differ[..last], [a, b], [&a[1..], &b[1..]]);
-}
-
-/// Where one of two rows of ids differs from another.
-#[inline(always)]
-fn fill_differences(differ: &mut [u32], [a, b]: [&[u32]; 2], [c, d]: [&[u32]; 2]) {
-    let width = differ.len();
-    let (a, b, c, d) = (&a[..width], &b[..width], &c[..width], &d[..width]);
-    for x in 0..width {
-        differ[x] = (a[x] ^ c[x]) | (b[x] ^ d[x]);
+/// The words of a row with its outermost ones once more on either side, and as many behind as marks are looked at at once.
+fn widen_row<T: Copy>(row: &[T], word: impl Fn(T) -> u32, wide: &mut Vec<u32>) {
+    wide.clear();
+    if let ([first, ..], [.., last]) = (row, row) {
+        wide.push(word(*first));
+        wide.extend(row.iter().map(|it| word(*it)));
+        wide.resize(row.len().next_multiple_of(SOME) + 2, word(*last));
     }
 }
 
-/// Finds pixels beside others of another id that aren't in front of them. What is equally near belongs to the greater id.
-fn find_ids(
-    planes: &SamplePlanes,
-    picture: usize,
-    feature: Feature,
-    y: usize,
-    differ: &mut Differences,
-    found: &mut Vec<usize>,
-) {
-    struct Row<'a> {
-        ids: &'a [u32],
-        objects: &'a [u32],
-        depths: &'a [f32],
+fn rows_of([above, own, below]: &[Vec<u32>; 3]) -> Rows<'_> {
+    Rows { above, own, below }
+}
+
+/// The pixels that lines cover which begin there, of one of the samples of a picture of that size.
+pub(crate) fn covered<'a>(
+    found: impl IntoIterator<Item = &'a Beginnings>,
+    sample: usize,
+    size: [u32; 2],
+) -> Covered {
+    let mut covered = Covered::none(size);
+    // What of a row is to be grown by one radius, row by row of words; and the words of one radius.
+    let mut classes: Vec<u16> = Vec::new();
+    let (mut bits, mut grown) = (Vec::new(), Vec::new());
+    for found in found {
+        let rows = found.rows.iter().filter(|row| row.sample == sample);
+        for BeginningsOfRow { y, of_all, .. } in rows {
+            classes.clear();
+            bits.clear();
+            for Beginning { column, class } in &found.all[of_all.clone()] {
+                let known = classes.iter().position(|other| other == class);
+                let index = known.unwrap_or_else(|| {
+                    classes.push(*class);
+                    bits.resize(classes.len() * covered.words, 0_u64);
+                    classes.len() - 1
+                });
+                let x = usize::from(*column);
+                bits[index * covered.words + x / 64] |= 1 << (x % 64);
+            }
+            for (class, bits) in classes.iter().zip(bits.chunks(covered.words)) {
+                grown.clear();
+                grown.extend_from_slice(bits);
+                grow(&mut grown, f32::from(*class) / STEPS, *y, &mut covered);
+            }
+        }
     }
-    differ.instructions.run(
-        #[inline(always)]
-        || differ.advance(planes, picture, feature, y),
-    );
-    let mut candidates = nonzero(&differ.all).peekable();
-    if candidates.peek().is_none() {
-        return;
-    }
-    let rows = around(y, planes).map(|y| Row {
-        ids: planes.ids(picture, feature, y),
-        objects: planes.ids(picture, Feature::Object, y),
-        depths: planes.numbers(picture, Feature::InvDepth, 0, y),
-    });
-    let rows: Vec<Row> = rows.collect();
-    let own = &rows[y - around(y, planes).start];
-    let has_hair_alone = feature != Feature::Object;
-    let is_hair = |object: u32| object % 2 == 1;
-    let width = differ.all.len();
-    found.extend(candidates.filter(|&x| {
-        let key = |row: &Row, x: usize| (row.objects[x], row.ids[x]);
-        let (own_key, own_depth) = (key(own, x), own.depths[x]);
-        let columns = x.saturating_sub(1)..(x + 2).min(width);
-        rows.iter().any(|other| {
-            columns.clone().any(|x| {
-                let (other_key, other_depth) = (key(other, x), other.depths[x]);
-                let is_drawn = !has_hair_alone || is_hair(own_key.0) || is_hair(other_key.0);
-                let is_front = (own_depth, own_key) > (other_depth, other_key);
-                is_drawn && own_key != other_key && is_front
-            })
-        })
-    }));
+    covered
 }
 
 /// Adds to the lines of all rows what a row becomes when each pixel is a disc of that radius.
-fn grow(row: &mut [u64], radius: f32, y: usize, lines: &mut [Bits]) {
+fn grow(row: &mut [u64], radius: f32, y: usize, lines: &mut Covered) {
+    let words = row.len();
+    let height = lines.bits.len() / words;
     let reach = radius as usize;
     let mut done = 0;
     for down in (0..=reach).rev() {
@@ -443,9 +404,9 @@ fn grow(row: &mut [u64], radius: f32, y: usize, lines: &mut [Bits]) {
             done += 1;
         }
         let above = y.checked_sub(down);
-        let below = Some(y + down).filter(|y| down > 0 && *y < lines.len());
+        let below = Some(y + down).filter(|y| down > 0 && *y < height);
         for y in above.into_iter().chain(below) {
-            for (line, grown) in lines[y].iter_mut().zip(&*row) {
+            for (line, grown) in lines.bits[y * words..].iter_mut().zip(&*row) {
                 *line |= grown;
             }
         }
@@ -657,43 +618,6 @@ mod tests {
             };
             assert_eq!(drawn(with(0.79), &tones).len(), 16);
             assert_eq!(drawn(with(0.81), &tones).len(), 0);
-        }
-    }
-
-    #[test]
-    fn steps_are_those_of_pairs() {
-        let step_m = 0.1;
-        for [width, height] in [[1, 1], [1, 9], [9, 1], [2, 3], [17, 9], [70, 20]] {
-            let depth = |x: usize, y: usize| match (x * 7919 + y * 104_729) % 13 {
-                0 => 0.0, // nothing there
-                n => 1.0 + 0.04 * n as f32,
-            };
-            let rows: Vec<Vec<f32>> = (0..height)
-                .map(|y| (0..width).map(|x| depth(x, y)).collect())
-                .collect();
-            let (mut farthest, mut differ) = (vec![0.0; width], vec![7; width]);
-            let mut marked = 0;
-            for y in 0..height {
-                let around = [y.saturating_sub(1), y, (y + 1).min(height - 1)];
-                let some = around.map(|y| &rows[y][..]);
-                fill_steps(some, step_m, &mut farthest, &mut differ);
-                for x in 0..width {
-                    let own = rows[y][x];
-                    let columns = x.saturating_sub(1)..(x + 2).min(width);
-                    let is_farther = |other: f32| other * (1.0 + own * step_m) < own;
-                    let is_marked = some
-                        .iter()
-                        .any(|row| row[columns.clone()].iter().any(|&d| is_farther(d)));
-                    assert_eq!(
-                        differ[x],
-                        u32::from(is_marked),
-                        "{width} x {height}: {x}, {y}"
-                    );
-                    marked += usize::from(is_marked);
-                }
-            }
-            // Neither none nor all, where there is room for both.
-            assert!(width * height < 20 || (1..width * height).contains(&marked));
         }
     }
 

@@ -1,6 +1,7 @@
 //! What the samples of a picture tell: for each feature a plane of numbers.
 
 use crate::cpu::STACK;
+use crate::edges::Covered;
 use crate::features::{Feature, Features, NO_ID};
 use glam::Vec3;
 use rayon::prelude::*;
@@ -138,7 +139,7 @@ impl Layout {
 
     /// Where a feature's planes begin; none where it isn't declared.
     #[inline(always)] // compiled for the rasteriser's instructions
-    fn first(&self, feature: Feature) -> Option<usize> {
+    pub(crate) fn first(&self, feature: Feature) -> Option<usize> {
         let first = usize::from(self.first[feature as usize]);
         self.declared.has(feature).then_some(first)
     }
@@ -214,8 +215,8 @@ impl SamplePlanes {
         (self.layout.planes).map(|planes| planes * plane * self.count)
     }
 
-    /// Gives the samples that are set, 64 in a word for each row of each sample, a colour.
-    pub(crate) fn set_color(&mut self, set: &[Vec<Vec<u64>>], color: [f32; 3]) {
+    /// Gives the samples that lines cover a colour.
+    pub(crate) fn set_color(&mut self, set: &[Covered], color: [f32; 3]) {
         let [_, planes] = self.layout.planes;
         let Some(first) = self.layout.first(Feature::Color) else {
             return;
@@ -232,7 +233,7 @@ impl SamplePlanes {
                         let plane = picture * planes + first + component;
                         let start = (plane * band + y % band) * width;
                         let row = &mut numbers[start..start + width];
-                        for (bits, pixels) in rows[y].iter().zip(row.chunks_mut(64)) {
+                        for (bits, pixels) in rows.row(y).iter().zip(row.chunks_mut(64)) {
                             let mut left = *bits;
                             while left != 0 {
                                 let x = left.trailing_zeros() as usize;

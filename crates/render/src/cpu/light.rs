@@ -1,12 +1,12 @@
 //! The colours of a picture's samples as they were drawn, tile by tile, for lines that are drawn over them.
 
 use super::DrawError;
-use super::tile::{self, CELL_WIDTH, CELLS_ACROSS, Colors, LANES, STACK, Stack, Target, WIDTH};
+use super::tile::{
+    self, CELL_WIDTH, CELLS_ACROSS, Colors, LANES, STACK, Shows, Stack, Target, WIDTH,
+};
 use crate::drawing::Drawing;
-use crate::edges::Bits;
-use crate::features::Feature;
+use crate::edges::Covered;
 use crate::picture::Picture;
-use crate::planes::{Sample, SamplePlanes};
 use rayon::prelude::*;
 
 /// The light of all samples of a picture.
@@ -23,26 +23,25 @@ pub(super) struct Light {
 #[derive(Clone)]
 pub(super) struct TileLight {
     color: Colors,
+    /// The samples of each cell that show something, where a picture has no background.
+    shows: Shows,
     /// Whether there is anything in the tile; else `color` is anything.
     is_drawn: bool,
 }
 
-/// A band of a picture: its pixels and tiles.
-pub(super) struct BandLight<'a> {
-    pub(super) pixels: &'a mut [[f32; 4]],
-    pub(super) tiles: &'a mut [TileLight],
-}
-
-/// Samples that get a colour: for each sample of a pixel rows of pixels, 64 in a word.
+/// Samples that get a colour: the pixels of each.
 pub(super) struct Lines {
-    pub(super) set: Vec<Vec<Bits>>,
+    pub(super) set: Vec<Covered>,
     pub(super) color: [f32; 3],
 }
 
 impl TileLight {
     /// Keeps the light of a tile whose samples are summed up.
-    pub(super) fn keep(&mut self, target: &Target) {
+    pub(super) fn keep(&mut self, target: &Target, is_opaque: bool) {
         target.copy_colors(&mut self.color);
+        if !is_opaque {
+            target.copy_shows(&mut self.shows);
+        }
         self.is_drawn = true;
     }
 }
@@ -62,6 +61,7 @@ impl Light {
         room.map_err(|_| DrawError::Memory(width, height))?;
         let nothing = TileLight {
             color: tile::no_colors(),
+            shows: Shows::default(),
             is_drawn: false,
         };
         self.tiles.resize(tiles, nothing);
@@ -69,54 +69,42 @@ impl Light {
     }
 
     /// The tiles of each band.
-    pub(super) fn bands(&mut self) -> impl Iterator<Item = &mut [TileLight]> {
-        self.tiles.chunks_mut(self.across)
+    pub(super) fn bands(&mut self) -> impl IndexedParallelIterator<Item = &mut [TileLight]> {
+        self.tiles.par_chunks_mut(self.across)
     }
 
-    /// Draws lines, one after the other, over a picture's samples, and puts the means of those pixels that they are on into the picture.
+    /// Draws lines, one after the other, over a picture's samples, so many a pixel, and puts the means of those pixels that they are on into the picture.
     pub(super) fn draw_lines(
         &self,
         lines: &[Lines],
-        planes: &SamplePlanes,
+        samples: usize,
         background: Option<[f32; 3]>,
         picture: &mut Picture,
     ) {
         let width = picture.width as usize;
-        let samples = planes.samples().len();
-        let empty = background.map(|light| light.map(|light| light.clamp(0.0, 1.0)));
         let rows = picture.pixels.par_chunks_mut(width).enumerate();
         rows.for_each(|(y, pixels)| {
             for (word, pixels) in pixels.chunks_mut(64).enumerate() {
                 let sets = lines.iter().flat_map(|lines| &lines.set);
-                let mut left = sets.fold(0, |all, rows| all | rows[y][word]);
+                let mut left = sets.fold(0, |all, covered| all | covered.row(y)[word]);
                 while left != 0 {
                     let bit = left.trailing_zeros() as usize;
                     left &= left - 1;
                     let Some(pixel) = pixels.get_mut(bit) else {
                         continue; // beyond the picture
                     };
-                    let x = word * 64 + bit;
+                    let drawn = self.pixel(word * 64 + bit, y, background);
                     let mut sums = [0.0; 4];
                     for sample in 0..samples {
-                        let line = lines
-                            .iter()
-                            .rev()
-                            .find(|lines| lines.set[sample][y][word] >> bit & 1 != 0);
-                        let [red, green, blue, alpha] = match line {
+                        let is_on = |lines: &&Lines| lines.set[sample].row(y)[word] >> bit & 1 != 0;
+                        let value = match lines.iter().rev().find(is_on) {
                             Some(Lines {
                                 color: [red, green, blue],
                                 ..
                             }) => [*red, *green, *blue, 1.0],
-                            None => {
-                                let [red, green, blue] =
-                                    self.at(x, y, sample).or(empty).unwrap_or_default();
-                                let objects = planes.ids(sample, Feature::Object, y);
-                                let is_there =
-                                    background.is_some() || objects[x] != Sample::NOTHING.object;
-                                [red, green, blue, f32::from(u8::from(is_there))]
-                            }
+                            None => drawn.sample(sample),
                         };
-                        for (sum, value) in sums.iter_mut().zip([red, green, blue, alpha]) {
+                        for (sum, value) in sums.iter_mut().zip(value) {
                             *sum += value;
                         }
                     }
@@ -126,14 +114,46 @@ impl Light {
         });
     }
 
-    /// The colour of a pixel's sample, of that number; none where its tile is empty.
-    fn at(&self, x: usize, y: usize, sample: usize) -> Option<[f32; 3]> {
+    /// What is drawn in a pixel.
+    fn pixel(&self, x: usize, y: usize, background: Option<[f32; 3]>) -> DrawnPixel<'_> {
         let (row, below) = (y / self.height, y % self.height);
         let tile = &self.tiles[row / tile::ROWS * self.across + x / WIDTH];
         let (row, column) = (row % tile::ROWS, x % WIDTH);
-        let cell = row * CELLS_ACROSS + column / CELL_WIDTH;
-        let lane = column % CELL_WIDTH * STACK + below * (STACK / self.height) + sample;
-        let color = || tile.color.each_ref().map(|plane| plane[cell][lane % LANES]);
-        tile.is_drawn.then(color)
+        DrawnPixel {
+            tile: tile.is_drawn.then_some(tile),
+            cell: row * CELLS_ACROSS + column / CELL_WIDTH,
+            first_lane: column % CELL_WIDTH * STACK + below * (STACK / self.height),
+            background,
+        }
+    }
+}
+
+/// The samples of a pixel as they were drawn.
+struct DrawnPixel<'a> {
+    /// None where there is nothing.
+    tile: Option<&'a TileLight>,
+    cell: usize,
+    first_lane: usize,
+    background: Option<[f32; 3]>,
+}
+
+impl DrawnPixel<'_> {
+    /// The light of a sample, and its alpha.
+    fn sample(&self, sample: usize) -> [f32; 4] {
+        match self.tile {
+            Some(tile) => {
+                let lane = (self.first_lane + sample) % LANES;
+                let [red, green, blue] = tile.color.each_ref().map(|plane| plane[self.cell][lane]);
+                let is_there = self.background.is_some() || tile.shows.has(self.cell, lane);
+                [red, green, blue, f32::from(u8::from(is_there))]
+            }
+            None => match self.background {
+                Some(light) => {
+                    let [red, green, blue] = light.map(|light| light.clamp(0.0, 1.0));
+                    [red, green, blue, 1.0]
+                }
+                None => [0.0; 4],
+            },
+        }
     }
 }

@@ -1,17 +1,16 @@
 //! Pictures of which each sample tells what it shows: eight samples of each pixel at a time.
 
-use super::light::{BandLight, Light, Lines};
 use super::segment::{Kind, strokes_in_order};
 use super::tile;
-use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture, picture_for};
+use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture, own_worker};
 use crate::check;
 use crate::drawing::Drawing;
 use crate::edges::{EdgeChannel, Edges};
-use crate::features::{Feature, Features};
+use crate::features::Features;
 use crate::picture::Picture;
 use crate::planes::{BandPlanes, SamplePlanes};
 use rayon::prelude::*;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 impl Rasterizer {
     /// Draws the samples of a picture, each with the features that the drawing declares: up to four of every pixel at a time, which
@@ -67,7 +66,7 @@ impl Rasterizer {
                 };
                 frame.make_room(planes, drawing.features.declared, first)?;
                 first += planes.samples().len();
-                frame.draw_bands(workers, planes, None);
+                frame.draw_bands(workers, planes);
                 take(planes);
             }
             Ok(())
@@ -100,55 +99,6 @@ impl Rasterizer {
         drawn?;
         Ok(picture)
     }
-
-    /// The same where no pass asks for colours, and all samples of a pixel are drawn at once: means are taken as of any picture, and then once more
-    /// of the pixels that lines are on. So colours need not be among the planes, which all passes would go over.
-    fn draw_under_lines(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
-        let Self {
-            pool,
-            samples,
-            stacks,
-            parts,
-            instructions,
-            workers,
-            planes,
-            light,
-            spare,
-        } = self;
-        let mut draw = || {
-            check::check(drawing)?;
-            let (mut picture, to_fill) = picture_for(drawing, *samples, spare)?;
-            let strokes = strokes_in_order(drawing, Kind::Ordered);
-            parts.collect(drawing, &strokes, stacks);
-            let frame = Frame {
-                drawing,
-                strokes: &strokes,
-                parts,
-                samples: *samples,
-                stacks,
-                instructions: *instructions,
-                runs_of_joints: &runs_of_joints(drawing),
-                to_fill,
-            };
-            let declared = drawing.features.declared;
-            let declared = declared.without(Features::of(&[Feature::Color]));
-            frame.make_room(planes, declared, 0)?;
-            light.make_room(drawing, &stacks[0])?;
-            let bands = Some((&mut picture.pixels[..], &mut *light));
-            frame.draw_bands(workers, planes, bands);
-            let lines = drawing.passes.iter().map(|pass| Lines {
-                set: pass.covered(planes, *samples),
-                color: pass.color,
-            });
-            let lines: Vec<Lines> = lines.collect();
-            light.draw_lines(&lines, planes, drawing.background, &mut picture);
-            Ok(picture)
-        };
-        match pool {
-            Some(pool) => pool.install(draw),
-            None => draw(),
-        }
-    }
 }
 
 impl Frame<'_> {
@@ -166,19 +116,14 @@ impl Frame<'_> {
         room.ok_or(DrawError::Memory(size[0], size[1]))
     }
 
-    /// Draws the samples of its stack into planes with room for them; means and colours beside, where these are asked for.
-    fn draw_bands(
-        &self,
-        workers: &mut Vec<Mutex<Worker>>,
-        planes: &mut SamplePlanes,
-        beside: Option<(&mut [[f32; 4]], &mut Light)>,
-    ) {
+    /// Draws the samples of its stack into planes with room for them.
+    fn draw_bands(&self, workers: &mut Vec<Mutex<Worker>>, planes: &mut SamplePlanes) {
         workers.resize_with(rayon::current_num_threads(), || Mutex::new(Worker::new()));
         let (layout, count) = (planes.layout, planes.samples().len());
         let (width, band) = (self.drawing.size[0] as usize, tile::height(self.stacks));
         let [of_ids, of_numbers] = planes.of_band();
-        let ids = planes.ids.chunks_mut(of_ids);
-        let bands = ids.zip(planes.numbers.chunks_mut(of_numbers));
+        let ids = planes.ids.par_chunks_mut(of_ids);
+        let bands = ids.zip(planes.numbers.par_chunks_mut(of_numbers));
         let bands = bands.map(|(ids, numbers)| BandPlanes {
             width,
             layout,
@@ -187,31 +132,16 @@ impl Frame<'_> {
             ids,
             numbers,
         });
-        let mut lights: Vec<Option<BandLight>> = Vec::new();
-        if let Some((pixels, light)) = beside {
-            let pixels = pixels.chunks_mut(width * band);
-            lights.extend(
-                light
-                    .bands()
-                    .zip(pixels)
-                    .map(|(tiles, pixels)| Some(BandLight { pixels, tiles })),
-            );
-        }
-        let lights = lights.into_iter().chain(std::iter::repeat_with(|| None));
-        let bands: Vec<(BandPlanes, Option<BandLight>)> = bands.zip(lights).collect();
-        let bands = bands.into_par_iter().enumerate().with_max_len(1);
-        bands.for_each(|(band, (planes, light))| {
-            let thread = rayon::current_thread_index().unwrap_or(0);
-            let mut worker = workers[thread]
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner);
-            worker.draw_band(self, band, Output::Samples(planes, light));
+        let bands = bands.enumerate().with_max_len(1);
+        bands.for_each(|(band, planes)| {
+            let mut worker = own_worker(workers);
+            worker.draw_band(self, band, Output::Samples(planes));
         });
     }
 }
 
 /// For each joint of a checked drawing its run.
-fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
+pub(super) fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
     let mut runs_of_joints = vec![0; drawing.clump.len()];
     for (run, number) in drawing.runs.iter().zip(0..) {
         runs_of_joints[run.joints.clone()].fill(number);
@@ -221,13 +151,7 @@ fn runs_of_joints(drawing: &Drawing) -> Vec<u32> {
 
 impl Worker {
     /// Draws the samples of a band.
-    pub(super) fn draw_samples(
-        &mut self,
-        frame: &Frame,
-        band: usize,
-        mut planes: BandPlanes,
-        mut light: Option<BandLight>,
-    ) {
+    pub(super) fn draw_samples(&mut self, frame: &Frame, band: usize, mut planes: BandPlanes) {
         let [width, height] = frame.drawing.size.map(|side| side as usize);
         let tiles = width.div_ceil(tile::WIDTH);
         let top = band * tile::height(frame.stacks);
@@ -242,10 +166,7 @@ impl Worker {
                 nothing.end = left + size[0];
                 continue;
             }
-            planes.clear(nothing.clone(), height - top, frame.drawing.background);
-            if let Some(light) = &mut light {
-                frame.fill(light.pixels, nothing);
-            }
+            planes.clear(nothing, height - top, frame.drawing.background);
             nothing = left + size[0]..left + size[0];
             let scene = frame.tile_at([left, top]);
             self.find_strands(frame, &scene, tile);
@@ -255,16 +176,7 @@ impl Worker {
                 #[inline(always)]
                 || self.tell(frame, size, left, &mut planes),
             );
-            if let Some(light) = &mut light {
-                self.sums.clear(tile::height(frame.stacks));
-                self.add_up(frame, &frame.stacks[0]);
-                self.write_means(frame, light.pixels, left..left + size[0]);
-                light.tiles[tile].keep(&self.target);
-            }
         }
-        planes.clear(nothing.clone(), height - top, frame.drawing.background);
-        if let Some(light) = &mut light {
-            frame.fill(light.pixels, nothing);
-        }
+        planes.clear(nothing, height - top, frame.drawing.background);
     }
 }

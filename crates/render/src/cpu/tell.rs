@@ -1,5 +1,6 @@
 //! What the samples of a tile tell, feature by feature and row by row.
 
+use super::ribbon::Ribbon;
 use super::segment::Segment;
 use super::shown::{NOTHING, Planes, TRIANGLE};
 use super::tile::{self, CELLS_ACROSS, LANES, ROWS, select};
@@ -7,6 +8,7 @@ use super::{Frame, Worker};
 use crate::features::{Feature, NO_ID, normal_of_triangle, object_of_hair, object_of_mesh};
 use crate::planes::{BandPlanes, Sample, Stacks};
 use glam::Vec3;
+use std::ops::Range;
 
 /// Samples of a row of cells.
 const ROW: usize = CELLS_ACROSS * LANES;
@@ -38,9 +40,11 @@ impl Worker {
                 of_pixel: stack.of_pixel,
                 count: stack.samples,
             };
+            let what = row_of(&shown.what, row);
+            let owners = frame.owners(what);
             for feature in planes.layout.declared.iter() {
                 if feature.is_id() {
-                    let ids = frame.ids(feature, row_of(&shown.what, row));
+                    let ids = frame.ids(feature, what, &owners);
                     planes.put_ids(feature, &stacks, &ids);
                     continue;
                 }
@@ -53,6 +57,37 @@ impl Worker {
                 for component in 0..feature.components() {
                     let numbers = self.numbers(frame, shown, feature, component, row);
                     planes.put_numbers(feature, component, &stacks, &numbers);
+                }
+            }
+        }
+    }
+
+    /// The same for lines that are found in the band's ribbon, of a tile at those columns.
+    #[inline(always)]
+    pub(super) fn tell_ribbon(&self, frame: &Frame, columns: &Range<usize>, ribbon: &mut Ribbon) {
+        let Some(shown) = self.shown.planes() else {
+            return;
+        };
+        ribbon.draw(columns);
+        for row in 0..ribbon.rows().div_ceil(frame.stacks[0].height) {
+            let what = row_of(&shown.what, row);
+            let owners = frame.owners(what);
+            for feature in ribbon.asked().iter() {
+                if feature.is_id() {
+                    let ids = frame.ids(feature, what, &owners);
+                    ribbon.put((feature, 0), row, columns, &ids);
+                    continue;
+                }
+                if feature == Feature::Normal {
+                    let normals = self.normals(frame, shown, row);
+                    for (component, numbers) in normals.iter().enumerate() {
+                        ribbon.put((feature, component), row, columns, &bits(numbers));
+                    }
+                    continue;
+                }
+                for component in 0..feature.components() {
+                    let numbers = self.numbers(frame, shown, feature, component, row);
+                    ribbon.put((feature, component), row, columns, &bits(&numbers));
                 }
             }
         }
@@ -149,12 +184,43 @@ impl Worker {
     }
 }
 
+#[inline(always)]
+fn bits(numbers: &Row<f32>) -> Row<u32> {
+    let mut bits = [0; ROW];
+    for i in 0..ROW {
+        bits[i] = numbers[i].to_bits();
+    }
+    bits
+}
+
 /// The samples of a row of cells.
 #[inline(always)]
 fn row_of<T>(plane: &[[T; LANES]; ROWS * CELLS_ACROSS], row: usize) -> &Row<T> {
     let cells = &plane[row * CELLS_ACROSS..][..CELLS_ACROSS];
     let samples = cells.as_flattened().try_into();
     samples.unwrap_or_else(|_| unreachable!("a row is {CELLS_ACROSS} cells"))
+}
+
+/// What each of some numbers stands for; of the one number of `last` it is known.
+#[inline(always)]
+fn each_of(numbers: &Row<u32>, mut last: (u32, u32), of: impl Fn(u32) -> u32) -> Row<u32> {
+    let mut all = [0; ROW];
+    let (cells, _) = numbers.as_chunks::<LANES>();
+    let (of_cells, _) = all.as_chunks_mut::<LANES>();
+    // Samples beside each other mostly have the same.
+    for (numbers, all) in cells.iter().zip(of_cells) {
+        if all_are(numbers, last.0) {
+            *all = [last.1; LANES];
+            continue;
+        }
+        for k in 0..LANES {
+            if numbers[k] != last.0 {
+                last = (numbers[k], of(numbers[k]));
+            }
+            all[k] = last.1;
+        }
+    }
+    all
 }
 
 /// Whether all samples of a cell show this.
@@ -174,50 +240,62 @@ impl Frame<'_> {
         Some(self.strokes[stroke as usize].layer)
     }
 
-    /// An id of each of the samples that show this.
+    /// Whose the samples are that show this: [`NOTHING`], a surface's number with [`TRIANGLE`], or that of a run.
     #[inline(always)]
-    fn ids(&self, feature: Feature, what: &Row<u32>) -> Row<u32> {
-        let mut ids = [0; ROW];
-        let mut last = (NOTHING, Sample::NOTHING.id(feature));
-        let (cells, _) = what.as_chunks::<LANES>();
-        let (of_cells, _) = ids.as_chunks_mut::<LANES>();
-        // Samples beside each other mostly show the same.
-        for (what, ids) in cells.iter().zip(of_cells) {
-            if !all_are(what, last.0) {
-                for k in 0..LANES {
-                    if what[k] != last.0 {
-                        last = (what[k], self.id(feature, what[k]));
-                    }
-                    ids[k] = last.1;
-                }
-            } else {
-                *ids = [last.1; LANES];
+    fn owners(&self, what: &Row<u32>) -> Row<u32> {
+        let owner = |what: u32| {
+            if what < TRIANGLE {
+                let segment = &self.parts.segments.list()[what as usize];
+                return self.runs_of_joints[segment.joints()[0]];
             }
-        }
-        ids
+            if what == NOTHING {
+                return NOTHING;
+            }
+            let triangle = &self.parts.triangles[(what & !TRIANGLE) as usize];
+            triangle.surface | TRIANGLE
+        };
+        each_of(what, (NOTHING, NOTHING), owner)
     }
 
-    /// An id of what a sample shows.
-    fn id(&self, feature: Feature, what: u32) -> u32 {
-        if what == NOTHING {
+    /// An id of each of the samples that show this, and are of these owners.
+    #[inline(always)]
+    fn ids(&self, feature: Feature, what: &Row<u32>, owners: &Row<u32>) -> Row<u32> {
+        let nothing = (NOTHING, Sample::NOTHING.id(feature));
+        match feature {
+            Feature::Layer => each_of(what, nothing, |what| self.layer(what)),
+            _ => each_of(owners, nothing, |owner| self.id(feature, owner)),
+        }
+    }
+
+    /// The layer that a sample shows.
+    fn layer(&self, what: u32) -> u32 {
+        if what >= TRIANGLE {
+            return NO_ID;
+        }
+        let layer = self.layer_of(&self.parts.segments.list()[what as usize]);
+        layer.map_or(NO_ID, |layer| layer as u32)
+    }
+
+    /// An id of what an owner's samples show.
+    fn id(&self, feature: Feature, owner: u32) -> u32 {
+        if owner == NOTHING {
             return Sample::NOTHING.id(feature);
         }
-        if what & TRIANGLE != 0 {
-            let triangle = &self.parts.triangles[(what & !TRIANGLE) as usize];
-            let surface = &self.drawing.surfaces[triangle.surface as usize];
+        if owner & TRIANGLE != 0 {
             return match feature {
-                Feature::Object => object_of_mesh(surface.mesh),
+                Feature::Object => {
+                    let surface = &self.drawing.surfaces[(owner & !TRIANGLE) as usize];
+                    object_of_mesh(surface.mesh)
+                }
                 _ => NO_ID,
             };
         }
-        let segment = &self.parts.segments.list()[what as usize];
-        let run = self.runs_of_joints[segment.joints()[0]] as usize;
+        let run = owner as usize;
         let info = &self.drawing.features.runs[run];
         match feature {
             Feature::Object => object_of_hair(info.object),
             Feature::Strand => info.strand,
             Feature::Piece => self.drawing.runs[run].strand,
-            Feature::Layer => self.layer_of(segment).map_or(NO_ID, |layer| layer as u32),
             Feature::Level => info.level,
             _ => NO_ID,
         }

@@ -38,6 +38,22 @@ pub(super) fn no_colors() -> Colors {
     [[[0.0; LANES]; CELLS]; 3]
 }
 
+/// Which samples of a tile show anything: a bit for each lane of each cell.
+#[derive(Clone)]
+pub(super) struct Shows([u16; CELLS]);
+
+impl Default for Shows {
+    fn default() -> Self {
+        Self([0; CELLS])
+    }
+}
+
+impl Shows {
+    pub(super) fn has(&self, cell: usize, lane: usize) -> bool {
+        self.0[cell] >> lane & 1 != 0
+    }
+}
+
 /// Some of a cell's samples: all bits or none.
 pub(super) type LaneMask = [u32; LANES];
 
@@ -565,6 +581,16 @@ impl Target {
     pub(super) fn copy_colors(&self, colors: &mut Colors) {
         for (copy, plane) in colors.iter_mut().zip(&self.color) {
             copy.copy_from_slice(&plane[..]);
+        }
+    }
+
+    /// Notes which samples show anything, once they are summed up.
+    pub(super) fn copy_shows(&self, shows: &mut Shows) {
+        for (bits, alpha) in shows.0.iter_mut().zip(self.surface.iter()) {
+            *bits = 0;
+            for (k, alpha) in alpha.iter().enumerate() {
+                *bits |= u16::from(*alpha != 0.0) << k;
+            }
         }
     }
 
